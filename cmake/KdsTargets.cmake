@@ -1,0 +1,39 @@
+# What every target of the project shares.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+  set(ENV{CCACHE_SLOPPINESS} "pch_defines,time_macros")
+endif()
+
+add_library(kds_options INTERFACE)
+target_include_directories(kds_options INTERFACE "${PROJECT_SOURCE_DIR}")
+# The error bounds of the filters hold only if a*b+c is rounded twice, as written.
+target_compile_options(kds_options INTERFACE -ffp-contract=off)
+target_compile_options(kds_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wextra-semi)
+if(KDS_WERROR)
+  target_compile_options(kds_options INTERFACE -Werror)
+endif()
+if(KDS_SANITIZE)
+  target_compile_options(kds_options INTERFACE -fsanitize=${KDS_SANITIZE} -fno-omit-frame-pointer
+                                               -fno-sanitize-recover=all)
+  target_link_options(kds_options INTERFACE -fsanitize=${KDS_SANITIZE})
+endif()
+
+# kds_add_library(<folder name> SOURCES a.cpp ... HEADERS a.h ... PUBLIC deps ... PRIVATE deps ...)
+# One library per folder; each header is compiled alone by the target all_verify_interface_header_sets.
+function(kds_add_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
+  add_library(kds_${name} STATIC ${ARG_SOURCES})
+  add_library(kds::${name} ALIAS kds_${name})
+  target_sources(kds_${name} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${ARG_HEADERS})
+  set_target_properties(kds_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+  target_link_libraries(kds_${name} PUBLIC kds_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+endfunction()

@@ -1,0 +1,14 @@
+#pragma once
+// What a user gave us is at fault: one line that names the file, frame, bead or option and what was expected.
+// The program prints it and exits with code 2.
+
+#include <stdexcept>
+
+namespace kds {
+
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace kds

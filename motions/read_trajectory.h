@@ -1,0 +1,37 @@
+#pragma once
+// Reads one necklace: the format is told by the file's ending (.pdb .ent .cif .mmcif [.gz], .dcd, .xyz).
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "motions/trajectory.h"
+
+namespace kds {
+
+/// 0-based frames first, first+stride, ... below last.
+struct FrameRange {
+  std::size_t first = 0;
+  std::optional<std::size_t> last;  ///< excluded; none: to the end
+  std::size_t stride = 1;           ///< at least 1
+};
+
+enum class Selection {
+  automatic,  ///< backbone where residues are known, else all
+  backbone,   ///< N, CA, C of each residue that has all three
+  ca,
+  all,
+};
+
+struct ReadOptions {
+  std::optional<std::filesystem::path> topology;  ///< PDB or mmCIF that names the atoms of a DCD
+  Selection selection = Selection::automatic;
+  std::optional<std::string> chain;  ///< none: the first polymer chain
+  FrameRange frames;
+};
+
+/// Throws InputError naming the file and, where it applies, the frame, bead or option at fault.
+[[nodiscard]] Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions& options = {});
+
+}  // namespace kds
