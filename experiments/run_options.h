@@ -6,19 +6,20 @@
 #include <string>
 #include <vector>
 
+#include "kds/audit.h"
 #include "motions/read_trajectory.h"
 
 namespace kds {
 
 enum class KernelName { fast, filtered, exact };
-enum class AuditMode { none, frames, events };
 
 struct RunOptions {
   std::vector<std::filesystem::path> inputs;
-  std::vector<std::string> structures;  ///< of sorted, wrapped, power, in this order; empty: the input's default
+  std::vector<std::string>
+      structures;  ///< of sorted, wrapped, power, in this order; empty: the input's default
   std::string motion = "linear";
   KernelName kernel = KernelName::filtered;
-  ReadOptions reading;                  ///< --topology, --select, --chain, --frames
+  ReadOptions reading;  ///< --topology, --select, --chain, --frames
   std::string radius = "auto";
   AuditMode audit = AuditMode::none;
   std::optional<std::filesystem::path> dump;  ///< directory for the structures at every frame

@@ -11,15 +11,15 @@ namespace kds {
 using NamedCounts = std::vector<std::pair<std::string, std::uint64_t>>;  ///< in the order to print
 
 struct StructureReport {
-  std::string name;                 ///< sorted, wrapped, power
-  std::uint64_t events_total = 0;   ///< external events
-  NamedCounts events_by_kind;       ///< external kinds first, then internal ones, which the total leaves out
-  std::vector<std::uint64_t> events_per_step;   ///< external; one entry a motion step
+  std::string name;                ///< sorted, wrapped, power
+  std::uint64_t events_total = 0;  ///< external events
+  NamedCounts events_by_kind;      ///< external kinds first, then internal ones, which the total leaves out
+  std::vector<std::uint64_t> events_per_step;  ///< external; one entry a motion step
   std::uint64_t created = 0, never_failing = 0, cancelled = 0, failed = 0, peak = 0, per_bead_max = 0;
-  NamedCounts stages;               ///< how many certificates each stage of the cascade settled
-  double seconds = 0;               ///< on this structure and its certificates after the first build
+  NamedCounts stages;  ///< how many certificates each stage of the cascade settled
+  double seconds = 0;  ///< on this structure and its certificates after the first build
   double build_seconds = 0;
-  double static_seconds = 0;        ///< building the same structure statically at every frame (CGAL)
+  double static_seconds = 0;  ///< building the same structure statically at every frame (CGAL)
   std::uint64_t rebuilds = 0;
   std::uint64_t audits_run = 0, audits_failed = 0;
 };
@@ -29,10 +29,11 @@ struct RunReport {
   std::uint64_t beads = 0, frames = 0;
   int dimension = 3;
   double radius_min = 0, radius_max = 0;
-  std::vector<std::pair<std::string, std::string>> settings;  ///< motion, kernel, audit, select, chain, frames, radius, ...
+  std::vector<std::pair<std::string, std::string>>
+      settings;  ///< motion, kernel, audit, select, chain, frames, radius, ...
   std::vector<StructureReport> structures;
-  double engine_seconds = 0;        ///< queue and clock
-  std::uint64_t fingerprint = 0;    ///< printed as 16 hex digits
+  double engine_seconds = 0;      ///< queue and clock
+  std::uint64_t fingerprint = 0;  ///< printed as 16 hex digits
 };
 
 }  // namespace kds

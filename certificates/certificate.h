@@ -1,0 +1,40 @@
+#pragma once
+// What a certificate type must offer. It names a few beads and has one function of time, written once over a
+// MotionView: positive while the certificate holds. The function must be homogeneous in lengths (weights
+// count as squares) and must not depend on the origin. Everything else is derived: the floating-point filter
+// and its error bound, the exact isolation, the order of simultaneous failures.
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+
+#include "motions/motion_view.h"
+
+namespace kds {
+
+/// Names the function of a certificate among all of a run, whatever structure holds it. Certificates with the
+/// same identity have, up to a positive or negative factor, the same function. Ties between failure times are
+/// broken by it: type first, then beads.
+struct Identity {
+  std::uint32_t type = 0;
+  std::array<BeadId, 5> beads{};  ///< unused places hold the highest id
+
+  friend constexpr auto operator<=>(const Identity&, const Identity&) = default;
+};
+
+/// Types in the order in which simultaneous failures are handled.
+enum class CertificateType : std::uint32_t { precedes, orientation, power_test, bead_in_sphere };
+
+inline constexpr BeadId no_bead = 0xffffffffU;
+
+template <class C, class M>
+concept CertificateFor = Motion<M> && requires(const C& certificate, const DoubleView<M>& view) {
+  {
+    C {}
+    } -> std::same_as<C>;
+  { certificate.identity() } -> std::same_as<Identity>;
+  {certificate.beads};
+  { certificate.function(view).scaled[0] } -> std::convertible_to<double>;
+};
+
+}  // namespace kds

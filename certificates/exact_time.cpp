@@ -1,0 +1,149 @@
+#include "certificates/exact_time.h"
+
+#include <utility>
+
+namespace kds {
+
+namespace {
+
+// Bisections before a gcd is tried: cheaper while the times differ, wasted where they are equal.
+constexpr int separation_budget = 16;
+
+bool disjoint(const ExactTime& a, const ExactTime& b) {
+  if (a.is_dyadic() && b.is_dyadic()) return !(a.lower() == b.lower());
+  return a.upper() <= b.lower() || b.upper() <= a.lower();
+}
+
+// Whether the time is a root of g, which divides a polynomial that has no other root in the interval.
+bool is_root(const ExactPolynomial& g, const ExactTime& time) {
+  if (g.is_constant()) return false;
+  if (time.is_dyadic()) return g.sign_at(time.lower()) == 0;
+  return g.sign_at(time.lower()) * g.sign_at(time.upper()) < 0;
+}
+
+}  // namespace
+
+ExactTime::ExactTime(ExactPolynomial square_free, RootInterval interval)
+    : polynomial_(std::move(square_free)),
+      lower_(std::move(interval.lower)),
+      upper_(std::move(interval.upper)) {
+  if (!is_dyadic()) sign_lower_ = polynomial_.sign_at(lower_);
+}
+
+void ExactTime::refine() {
+  if (is_dyadic()) return;
+  Dyadic middle = Dyadic::midpoint(lower_, upper_);
+  const int sign = polynomial_.sign_at(middle);
+  if (sign == 0) {
+    lower_ = middle;
+    upper_ = std::move(middle);
+  } else if (sign == sign_lower_) {
+    lower_ = std::move(middle);
+  } else {
+    upper_ = std::move(middle);
+  }
+}
+
+void ExactTime::refine_to(unsigned bits) {
+  while (!is_dyadic() && (upper_.rational() - lower_.rational()) * Rational(Integer(1) << bits) > 1) refine();
+}
+
+int ExactTime::compare(ExactTime& a, ExactTime& b) {
+  for (int i = 0; i < separation_budget && !disjoint(a, b); ++i) {
+    if (a.is_dyadic() && b.is_dyadic()) return 0;
+    a.refine();
+    b.refine();
+  }
+  if (!disjoint(a, b)) {
+    if (a.is_dyadic() || b.is_dyadic()) {
+      if (a.is_dyadic() ? is_root(b.polynomial_, a) : is_root(a.polynomial_, b)) return 0;
+    } else {
+      // Common roots are the roots of g; the times are equal iff one lies in the overlap, where each has one
+      // root.
+      const ExactPolynomial g = ExactPolynomial::gcd(a.polynomial_, b.polynomial_);
+      const Dyadic& lower = a.lower_ < b.lower_ ? b.lower_ : a.lower_;
+      const Dyadic& upper = a.upper_ < b.upper_ ? a.upper_ : b.upper_;
+      if (!g.is_constant() && g.sign_at(lower) * g.sign_at(upper) < 0) return 0;
+    }
+    while (!disjoint(a, b)) {
+      a.refine();
+      b.refine();
+    }
+  }
+  if (a.upper_ <= b.lower_) return -1;
+  return 1;
+}
+
+int sign_after(const ExactPolynomial& function, ExactTime& time) {
+  if (function.is_zero()) return 0;
+  if (time.is_dyadic()) return function.sign_after(time.lower());
+  const auto sign_without_root = [&]() -> int {
+    const ExactPolynomial local = function.restricted(time.lower(), time.upper());
+    if (local.sign_variations() != 0) return 0;
+    for (const Integer& x : local.scaled()) {
+      if (x != 0) return x > 0 ? 1 : -1;
+    }
+    return 0;
+  };
+  for (int i = 0; i < separation_budget; ++i) {
+    if (const int sign = sign_without_root()) return sign;
+    time.refine();
+    if (time.is_dyadic()) return function.sign_after(time.lower());
+  }
+  const ExactPolynomial simple = function.square_free();
+  if (is_root(ExactPolynomial::gcd(time.polynomial(), simple), time)) {
+    // Narrow until the time is the only root around; then the upper end tells.
+    while (true) {
+      const ExactPolynomial local = simple.restricted(time.lower(), time.upper());
+      if (local.sign_variations() == 1) {
+        if (const int sign = function.sign_at(time.upper())) return sign;
+      }
+      time.refine();
+      if (time.is_dyadic()) return function.sign_after(time.lower());
+    }
+  }
+  while (true) {
+    if (const int sign = sign_without_root()) return sign;
+    time.refine();
+    if (time.is_dyadic()) return function.sign_after(time.lower());
+  }
+}
+
+std::optional<ExactTime> first_failure_after(const ExactPolynomial& function, ExactTime& now) {
+  if (function.is_zero() || function.sign_variations() == 0) return std::nullopt;
+  const ExactPolynomial simple = function.square_free();
+  const Dyadic end(1.0);
+  for (RootInterval& interval : isolate_roots(simple, now.lower(), end)) {
+    if (interval.lower == end) break;  // what happens at u = 1 is judged by the next step
+    ExactTime root(simple, std::move(interval));
+    if (ExactTime::compare(root, now) <= 0) continue;
+    if (sign_after(function, root) < 0) return root;
+  }
+  return std::nullopt;
+}
+
+Dyadic dyadic_between(ExactTime& a, ExactTime& b) {
+  if (ExactTime::compare(a, b) >= 0) return a.upper();  // caller's error; nothing lies between
+  while (!(a.upper() < b.lower())) {
+    if (a.upper() == b.lower() && !a.is_dyadic() && !b.is_dyadic()) return a.upper();
+    a.refine();
+    b.refine();
+  }
+  return Dyadic::midpoint(a.upper(), b.lower());
+}
+
+Dyadic next_on_grid(ExactTime& time, unsigned bits) {
+  // floor(x 2^bits) + 1
+  const auto after = [bits](const Dyadic& x) -> Integer {
+    const Integer scaled = x.numerator() << bits;
+    return (scaled >> x.exponent()) + 1;
+  };
+  while (!time.is_dyadic()) {
+    const Dyadic next(after(time.lower()), bits);
+    if (time.upper() <= next) return next;
+    time.refine();
+  }
+  return {after(time.lower()), bits};
+}
+
+}  // namespace kds

@@ -1,0 +1,49 @@
+#pragma once
+// An exact time in a step: a root of a polynomial with whole coefficients, or a dyadic number. Exact
+// throughout; narrowing its interval changes the representation, never the value.
+
+#include <optional>
+
+#include "certificates/exact_polynomial.h"
+
+namespace kds {
+
+class ExactTime {
+ public:
+  explicit ExactTime(Dyadic time) : lower_(time), upper_(std::move(time)) {}
+  /// The root of `square_free` in `interval`.
+  ExactTime(ExactPolynomial square_free, RootInterval interval);
+
+  [[nodiscard]] bool is_dyadic() const { return lower_ == upper_; }
+  [[nodiscard]] const Dyadic& lower() const { return lower_; }  ///< < the time, or equal if is_dyadic()
+  [[nodiscard]] const Dyadic& upper() const { return upper_; }  ///< > the time, or equal if is_dyadic()
+  [[nodiscard]] const ExactPolynomial& polynomial() const { return polynomial_; }  ///< unused if is_dyadic()
+
+  /// Halves the interval, or finds that the time is its middle.
+  void refine();
+  /// Narrows until the interval is at most 2^-bits long.
+  void refine_to(unsigned bits);
+
+  /// -1, 0, 1. Narrows both.
+  [[nodiscard]] static int compare(ExactTime& a, ExactTime& b);
+
+ private:
+  ExactPolynomial polynomial_;
+  Dyadic lower_, upper_;
+  int sign_lower_ = 0;
+};
+
+/// Sign of `function` on (time, time + delta), 0 only for the zero function. Narrows `time`.
+[[nodiscard]] int sign_after(const ExactPolynomial& function, ExactTime& time);
+
+/// The first time after `now`, before the end of the step, from which on `function` is negative; none if
+/// there is none. `function` must be positive just after `now`. Touching zero is no failure.
+[[nodiscard]] std::optional<ExactTime> first_failure_after(const ExactPolynomial& function, ExactTime& now);
+
+/// A dyadic strictly between two different times, a before b.
+[[nodiscard]] Dyadic dyadic_between(ExactTime& a, ExactTime& b);
+
+/// The first multiple of 2^-bits after `time`.
+[[nodiscard]] Dyadic next_on_grid(ExactTime& time, unsigned bits);
+
+}  // namespace kds

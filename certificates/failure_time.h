@@ -1,0 +1,31 @@
+#pragma once
+// When a certificate fails: a bracket in doubles, and which root of the certificate's function in it.
+//
+// Exact: the time is root number `ordinal` (from 0, each root once) of the function in [lower, upper];
+// together with the function this determines it. If lower < upper it lies strictly between. If `isolating`,
+// there is no other root in the bracket and the function changes from positive at lower to negative at upper,
+// both proved. The `fast` kernel gives lower == upper without any proof.
+
+#include <cstdint>
+
+namespace kds {
+
+struct FailureTime {
+  double lower = 0;
+  double upper = 0;
+  std::uint16_t ordinal = 0;
+  bool isolating = true;
+};
+
+/// What is to be known of a certificate at its birth. "Never" is a value, not a large number.
+struct Failure {
+  enum class Kind : std::uint8_t {
+    never,     ///< holds for the rest of the step
+    later,     ///< fails at `time`, before the end of the step
+    at_birth,  ///< does not hold just after the present time
+  };
+  Kind kind = Kind::never;
+  FailureTime time{};
+};
+
+}  // namespace kds

@@ -1,0 +1,52 @@
+#pragma once
+// The options of one command: a table that both the parser and the help are made from.
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kds {
+
+using Arguments = std::vector<std::string>;  ///< without the program's and the command's name
+
+struct OptionSpec {
+  std::string_view name;   ///< with its dashes
+  std::string_view value;  ///< how help names its value; empty: a flag
+  std::string_view help;   ///< one line, the default included
+};
+
+struct CommandSpec {
+  std::string_view name;     ///< kds run
+  std::string_view summary;  ///< one sentence
+  std::string_view operand;  ///< how help names what is not an option; empty: none is taken
+  std::string_view operand_help;
+  std::span<const OptionSpec> options;
+  std::string_view examples;  ///< one a line
+};
+
+/// Thrown where --help was given: main prints the text and exits with 0.
+struct HelpRequest {
+  std::string text;
+};
+
+class ParsedArguments {
+ public:
+  [[nodiscard]] const std::vector<std::string>& operands() const { return operands_; }
+  [[nodiscard]] bool has(std::string_view flag) const { return values_.contains(flag); }
+  [[nodiscard]] std::optional<std::string> value(std::string_view option) const;
+
+ private:
+  friend ParsedArguments parse_arguments(const CommandSpec&, const Arguments&);
+  std::vector<std::string> operands_;
+  std::map<std::string, std::string, std::less<>> values_;  ///< flags have an empty value
+};
+
+/// Throws InputError for an unknown option, one given twice, one without its value; HelpRequest for --help.
+[[nodiscard]] ParsedArguments parse_arguments(const CommandSpec& command, const Arguments& arguments);
+
+[[nodiscard]] std::string help_text(const CommandSpec& command);
+
+}  // namespace kds

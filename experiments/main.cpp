@@ -1,0 +1,80 @@
+// The kds program: finds the command, and turns what goes wrong into one line and an exit code.
+
+#include <fmt/format.h>
+
+#include <array>
+#include <exception>
+#include <new>
+#include <string_view>
+
+#include "experiments/command_line.h"
+#include "experiments/provenance.h"
+#include "experiments/replay_command.h"
+#include "experiments/run_command.h"
+#include "experiments/run_results.h"
+#include "experiments/text.h"
+#include "motions/input_error.h"
+
+namespace kds {
+namespace {
+
+struct Command {
+  std::string_view name, summary;
+  int (*run)(const Arguments&);
+};
+
+constexpr std::array kCommands{
+    Command{"run", "run kinetic structures over trajectories and report their events", run_command},
+    Command{"replay", "run a logged run again and compare", replay_command},
+};
+
+std::string program_help() {
+  std::string text =
+      "kds: kinetic data structures for deforming necklaces\n\n"
+      "usage: kds COMMAND [ARGUMENT]...\n\n";
+  for (const Command& command : kCommands)
+    text += fmt::format("  {:<10} {}\n", command.name, command.summary);
+  return text +
+         "\n  --help     print this, or the options of a command: kds run --help\n"
+         "  --version  print the version\n\n"
+         "exit codes: 0 done, 1 failed inside (a failed audit too), 2 wrong usage or input\n";
+}
+
+int run_program(const Arguments& arguments) {
+  if (arguments.empty()) throw InputError("no command given (see kds --help)");
+  const std::string& name = arguments.front();
+  if (name == "--help" || name == "-h") throw HelpRequest{program_help()};
+  if (name == "--version") throw HelpRequest{"kds " + program_version() + "\n"};
+  for (const Command& command : kCommands)
+    if (command.name == name) return command.run({arguments.begin() + 1, arguments.end()});
+  throw InputError(
+      fmt::format("unknown {} '{}' (see kds --help)", name.starts_with('-') ? "option" : "command", name));
+}
+
+int guarded(int argc, char** argv) {
+  try {
+    return run_program(Arguments(argv + (argc > 0 ? 1 : 0), argv + argc));
+  } catch (const HelpRequest& help) {
+    print_to_stdout(help.text);
+    return 0;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "kds: {}\n", one_line(error.what()));
+    return 2;
+  }
+}
+
+}  // namespace
+}  // namespace kds
+
+int main(int argc, char** argv) {
+  try {
+    return kds::guarded(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fputs("kds: out of memory\n", stderr);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "kds: {}\n", error.what());  // a failed audit tells in several lines how to repeat it
+  } catch (...) {
+    std::fputs("kds: unknown failure\n", stderr);
+  }
+  return 1;
+}

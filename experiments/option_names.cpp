@@ -1,0 +1,84 @@
+#include "experiments/option_names.h"
+
+#include <fmt/format.h>
+
+namespace kds {
+
+std::string_view name_of(KernelName kernel) {
+  switch (kernel) {
+    case KernelName::fast:
+      return "fast";
+    case KernelName::exact:
+      return "exact";
+    case KernelName::filtered:
+      break;
+  }
+  return "filtered";
+}
+
+std::string_view name_of(AuditMode audit) {
+  switch (audit) {
+    case AuditMode::frames:
+      return "frames";
+    case AuditMode::events:
+      return "events";
+    case AuditMode::none:
+      break;
+  }
+  return "none";
+}
+
+std::string_view name_of(Selection selection) {
+  switch (selection) {
+    case Selection::backbone:
+      return "backbone";
+    case Selection::ca:
+      return "ca";
+    case Selection::all:
+      return "all";
+    case Selection::automatic:
+      break;
+  }
+  return "automatic";
+}
+
+std::string name_of(const FrameRange& frames) {
+  return fmt::format("{}:{}:{}", frames.first, frames.last ? std::to_string(*frames.last) : "",
+                     frames.stride);
+}
+
+std::vector<std::pair<std::string, std::string>> option_settings(const RunOptions& options) {
+  const ReadOptions& reading = options.reading;
+  return {{"motion", options.motion},
+          {"kernel", std::string(name_of(options.kernel))},
+          {"audit", std::string(name_of(options.audit))},
+          {"topology", reading.topology ? reading.topology->string() : ""},
+          {"select", std::string(name_of(reading.selection))},
+          {"chain", reading.chain.value_or("")},
+          {"frames", name_of(reading.frames)},
+          {"radius", options.radius}};
+}
+
+std::vector<std::string> option_arguments(const RunOptions& options) {
+  std::vector<std::string> arguments;
+  for (const auto& input : options.inputs) arguments.push_back(std::filesystem::absolute(input).string());
+  const auto add = [&](std::string option, std::string value) {
+    arguments.push_back(std::move(option));
+    arguments.push_back(std::move(value));
+  };
+  if (!options.structures.empty()) add("--structures", fmt::format("{}", fmt::join(options.structures, ",")));
+  add("--motion", options.motion);
+  add("--kernel", std::string(name_of(options.kernel)));
+  add("--audit", std::string(name_of(options.audit)));
+  const ReadOptions& reading = options.reading;
+  if (reading.topology) add("--topology", std::filesystem::absolute(*reading.topology).string());
+  if (reading.selection != Selection::automatic) add("--select", std::string(name_of(reading.selection)));
+  if (reading.chain) add("--chain", *reading.chain);
+  add("--frames", name_of(reading.frames));
+  std::string radius = options.radius;
+  if (radius.starts_with("file:")) radius = "file:" + std::filesystem::absolute(radius.substr(5)).string();
+  add("--radius", radius);
+  return arguments;
+}
+
+}  // namespace kds

@@ -1,0 +1,80 @@
+#include "experiments/replay_log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "experiments/event_log_file.h"
+#include "experiments/load_scene.h"
+#include "experiments/parse_run_options.h"
+#include "experiments/report_of_session.h"
+#include "experiments/session.h"
+#include "motions/input_error.h"
+
+namespace kds {
+
+namespace {
+
+Change change_of(const EventLog::Entry& entry, const KineticStructure& structure, const std::string& where) {
+  const auto kinds = structure.kinds();
+  const auto kind =
+      std::find_if(kinds.begin(), kinds.end(), [&](const EventKind& k) { return k.name == entry.kind; });
+  if (kind == kinds.end())
+    throw InputError(fmt::format("{}: {} has no events of kind '{}'", where, entry.structure, entry.kind));
+  Change change{
+      static_cast<std::uint8_t>(kind - kinds.begin()), static_cast<std::uint8_t>(entry.ids.size()), {}};
+  if (entry.ids.size() > change.ids.size()) throw InputError(fmt::format("{}: too many beads", where));
+  std::copy(entry.ids.begin(), entry.ids.end(), change.ids.begin());
+  return change;
+}
+
+}  // namespace
+
+ReplayReport replay_log(const std::filesystem::path& path, const Progress& progress,
+                        const std::function<void(const std::string&)>& warn) {
+  const EventLog log = read_event_log(path);
+  const RunOptions options = parse_run_options(log.arguments);
+  const Scene scene = load_scene(options, warn);
+  if (scene.bead_count() != log.beads || scene.step_count() != log.steps) {
+    throw InputError(fmt::format("{}: the inputs have {} beads and {} steps, the log tells of {} and {}",
+                                 path.string(), scene.bead_count(), scene.step_count(), log.beads,
+                                 log.steps));
+  }
+  // Only the changes are made again: no certificate, no failure time. The ends of the run are audited.
+  const auto session =
+      make_session(scene, structures_to_run(options, scene), options.kernel, AuditMode::frames);
+  session->load(0);
+  Simulator& simulator = session->simulator();
+  const auto& structures = session->structures();
+
+  std::vector<std::vector<Simulator::Replayed>> steps(scene.step_count());
+  for (const EventLog::Entry& entry : log.entries) {
+    const std::string where = fmt::format("{}:{}", path.string(), entry.line);
+    const auto structure = std::find_if(structures.begin(), structures.end(),
+                                        [&](auto* s) { return s->name() == entry.structure; });
+    if (structure == structures.end())
+      throw InputError(fmt::format("{}: the run had no structure '{}'", where, entry.structure));
+    if (entry.step >= steps.size())
+      throw InputError(fmt::format("{}: step {} of {}", where, entry.step, steps.size()));
+    auto& step = steps[entry.step];
+    if (!step.empty() && entry.upper < step.back().lower)
+      throw InputError(fmt::format("{}: before the event above it", where));
+    step.push_back({static_cast<std::size_t>(structure - structures.begin()), entry.lower, entry.upper,
+                    change_of(entry, **structure, where), where});
+  }
+
+  simulator.build_for_replay();
+  for (std::size_t step = 0; step < steps.size(); ++step) {
+    session->load(step);
+    try {
+      simulator.replay_step(steps[step], step + 1 == steps.size());
+    } catch (const std::invalid_argument& reason) {
+      throw InputError(reason.what());
+    }
+    progress(step + 1, steps.size());
+  }
+  return {report_of(*session, scene, options), log.fingerprint, log.entries.size()};
+}
+
+}  // namespace kds

@@ -1,0 +1,75 @@
+#include "experiments/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/provenance.h"
+#include "experiments/text.h"
+
+namespace kds {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void add_counts(Json& object, const NamedCounts& counts) {
+  for (const auto& [name, value] : counts) object[name] = value;
+}
+
+Json structure_json(const StructureReport& structure) {
+  Json events{{"total", structure.events_total}};
+  add_counts(events, structure.events_by_kind);
+  Json stages = Json::object();
+  add_counts(stages, structure.stages);
+  return {{"events", events},
+          {"certificates",
+           {{"created", structure.created},
+            {"never_failing", structure.never_failing},
+            {"cancelled", structure.cancelled},
+            {"failed", structure.failed},
+            {"peak", structure.peak},
+            {"per_bead_max", structure.per_bead_max}}},
+          {"stages", stages},
+          {"seconds", structure.seconds},
+          {"build_seconds", structure.build_seconds},
+          {"static_seconds", structure.static_seconds},
+          {"rebuilds", structure.rebuilds},
+          {"audits", {{"run", structure.audits_run}, {"failed", structure.audits_failed}}}};
+}
+
+Json run_json(const RunReport& report) {
+  Json json;
+  json["input"] = {{"files", report.files},           {"beads", report.beads},
+                   {"frames", report.frames},         {"dimension", report.dimension},
+                   {"radius_min", report.radius_min}, {"radius_max", report.radius_max}};
+  json["settings"] = Json::object();
+  for (const auto& [name, value] : report.settings) json["settings"][name] = value;
+  json["structures"] = Json::object();
+  for (const StructureReport& structure : report.structures)
+    json["structures"][structure.name] = structure_json(structure);
+  json["engine"] = {{"seconds", report.engine_seconds}};
+  json["fingerprint"] = hex_digits(report.fingerprint);
+  json["version"] = program_version();
+  const Machine machine = this_machine();
+  json["machine"] = {
+      {"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}, {"compiler", machine.compiler}};
+  return json;
+}
+
+// File names need not be UTF-8, JSON must be.
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string report_json(const RunReport& report) { return text_of(run_json(report)); }
+
+std::string replay_json(const ReplayReport& replay, const std::filesystem::path& log) {
+  Json json = run_json(replay.run);
+  json["replay"] = {{"log", log.string()},
+                    {"events", replay.events},
+                    {"logged_fingerprint", hex_digits(replay.logged_fingerprint)},
+                    {"same", replay.same()}};
+  return text_of(json);
+}
+
+}  // namespace kds

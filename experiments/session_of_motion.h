@@ -1,0 +1,154 @@
+#pragma once
+// A session for one type of motion: the only place where the types of motion, kernel and structures meet.
+// Each motion is instantiated in a file of its own (sessions_*.cpp), for they take long to compile.
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/dump_files.h"
+#include "experiments/session.h"
+#include "motions/input_error.h"
+#include "structures/power_diagram.h"
+#include "structures/sorted_list.h"
+#include "structures/static_build.h"
+#include "structures/wrapped_hierarchy.h"
+
+namespace kds {
+
+/// Whether the structures in space are compiled for a motion.
+template <Motion M>
+inline constexpr bool has_space_structures = M::dimension == 3 && M::degree == 1;
+
+template <Motion M, Kernel K>
+class SessionOf final : public Session {
+ public:
+  SessionOf(const Scene& scene, const std::vector<std::string>& structures, AuditMode audits)
+      : scene_(scene), motion_(scene.bead_count()), simulator_(audits) {
+    for (const std::string& name : structures) add(name);
+  }
+
+  void load(std::size_t step) override { scene_.load(step, motion_); }
+
+  [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) override {
+    std::vector<DumpFile> files;
+    for (const auto& part : parts_) part.dump(frame, files);
+    return files;
+  }
+
+  void time_static_builds(std::size_t frame, std::vector<double>& seconds) const override {
+    seconds.resize(parts_.size(), 0);
+    for (std::size_t p = 0; p < parts_.size(); ++p) seconds[p] += parts_[p].time_static(frame);
+  }
+
+  [[nodiscard]] Simulator& simulator() override { return simulator_; }
+  [[nodiscard]] const std::vector<KineticStructure*>& structures() const override { return structures_; }
+
+ private:
+  /// What differs between structures outside the simulator.
+  struct Part {
+    std::function<void(std::size_t frame, std::vector<DumpFile>&)> dump;
+    std::function<double(std::size_t frame)> time_static;
+  };
+
+  template <class S>
+  S* own(std::unique_ptr<S> structure) {
+    S* observed = structure.get();
+    structures_.push_back(observed);
+    owned_.push_back(std::move(structure));
+    return observed;
+  }
+  void add(std::function<void(std::size_t, std::vector<DumpFile>&)> dump,
+           std::function<double(std::size_t)> time_static) {
+    parts_.push_back({std::move(dump), std::move(time_static)});
+  }
+
+  void add(const std::string& name) {
+    if (name == "sorted") {
+      auto* list = own(std::make_unique<SortedList<M, K>>(simulator_, motion_));
+      add([list](std::size_t, auto& files) { files.push_back(dump_sorted(list->order())); },
+          [this](std::size_t frame) { return seconds_to_sort(scene_.centers(frame)); });
+      return;
+    }
+    if (M::dimension != 3) {
+      throw InputError(fmt::format(
+          "--structures {}: needs points in space, this input has {} coordinate{}; sorted works here", name,
+          M::dimension, M::dimension == 1 ? "" : "s"));
+    }
+    if (!scene_.equal_radii()) {
+      throw InputError(
+          fmt::format("--structures {}: needs equal radii (or weights), which this input does not have; "
+                      "unequal ones are not supported yet",
+                      name));
+    }
+    if constexpr (has_space_structures<M>) {
+      if (name == "wrapped") return add_wrapped();
+      return add_power();
+    } else {
+      throw InputError(fmt::format(
+          "--structures {}: motions of degree {} in space are not supported yet, only linear ones; "
+          "sorted works here",
+          name, M::degree));
+    }
+  }
+
+  void add_wrapped() requires has_space_structures<M> {
+    auto* wrapped = own(std::make_unique<WrappedHierarchy<M, K>>(simulator_, motion_, scene_.necklaces()));
+    add(
+        [this, wrapped](std::size_t frame, auto& files) {
+          const Dyadic time(frame == 0 ? 0.0 : 1.0);
+          const Eigen::Matrix3Xd centers = scene_.centers(frame);
+          std::vector<WrappedNode> nodes;
+          for (NodeId id = 0; id < wrapped->tree().node_count(); ++id) {
+            const Basis basis = wrapped->basis_at(id, time);
+            nodes.push_back({wrapped->tree().range(id), basis, exact_sphere_of(basis, centers)});
+            nodes.back().sphere.radius += scene_.radii().front();
+          }
+          files.push_back(dump_wrapped(nodes));
+        },
+        [this, wrapped](std::size_t frame) {
+          return seconds_to_wrap(wrapped->tree(), scene_.centers(frame), scene_.weights(frame));
+        });
+  }
+
+  void add_power() requires has_space_structures<M> {
+    auto* power = own(std::make_unique<PowerDiagram<M, K>>(simulator_, motion_));
+    add(
+        [power](std::size_t frame, auto& files) {
+          const StaticTriangulation at_frame = power->at_frame(frame == 0);
+          files.push_back(dump_cells(at_frame.cells));
+          files.push_back(dump_hidden(at_frame.hidden));
+        },
+        [this](std::size_t frame) {
+          return seconds_to_triangulate(scene_.centers(frame), scene_.weights(frame));
+        });
+  }
+
+  const Scene& scene_;
+  M motion_;
+  Simulator simulator_;
+  std::vector<std::unique_ptr<KineticStructure>> owned_;
+  std::vector<Part> parts_;
+  std::vector<KineticStructure*> structures_;
+};
+
+template <Motion M>
+[[nodiscard]] std::unique_ptr<Session> make_session_of(const Scene& scene,
+                                                       const std::vector<std::string>& structures,
+                                                       KernelName kernel, AuditMode audits) {
+  switch (kernel) {
+    case KernelName::fast:
+      return std::make_unique<SessionOf<M, Fast>>(scene, structures, audits);
+    case KernelName::exact:
+      return std::make_unique<SessionOf<M, Exact>>(scene, structures, audits);
+    case KernelName::filtered:
+      break;
+  }
+  return std::make_unique<SessionOf<M, Filtered>>(scene, structures, audits);
+}
+
+}  // namespace kds

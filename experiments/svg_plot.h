@@ -1,0 +1,35 @@
+#pragma once
+// Curves and bars as SVG elements that can stand side by side in one page.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace kds {
+
+struct Curve {
+  std::string name;
+  std::vector<std::pair<double, double>> points;  ///< by increasing first coordinate
+};
+
+struct LinePlot {
+  std::string id;  ///< a word, its own within the page
+  std::string x_label, y_label;
+  bool staircase = false;  ///< a value holds until the next point
+  std::vector<Curve> curves;
+};
+
+struct BarPlot {
+  std::string id;
+  std::string y_label;
+  std::vector<std::pair<std::string, double>> bars;
+};
+
+[[nodiscard]] std::string svg_plot(const LinePlot& plot);
+[[nodiscard]] std::string svg_plot(const BarPlot& plot);
+
+/// The <svg> element alone, its ids and the references to them prefixed: two plots of one page must not share
+/// any.
+[[nodiscard]] std::string embeddable_svg(const std::string& document, const std::string& id);
+
+}  // namespace kds

@@ -1,0 +1,26 @@
+#pragma once
+// Small pieces of text that messages, tables and pages share. None of it asks the locale.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kds {
+
+/// 1234567 as 1,234,567.
+[[nodiscard]] std::string with_thousands(std::uint64_t value);
+
+/// Seconds or a ratio with about four figures; never an exponent.
+[[nodiscard]] std::string short_decimal(double value);
+
+/// A fingerprint as it is printed everywhere: 16 hex digits.
+[[nodiscard]] std::string hex_digits(std::uint64_t value);
+
+/// Control characters replaced by spaces, so that a message stays one line whatever name it quotes.
+[[nodiscard]] std::string one_line(std::string_view text);
+
+/// The parts between separators, empty ones too; an empty text has one empty part.
+[[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
+
+}  // namespace kds

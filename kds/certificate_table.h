@@ -1,0 +1,127 @@
+#pragma once
+// The certificates of one type that a structure holds. Those that never fail in the step are counted and
+// forgotten; the others get a slot here and an entry in the queue. No allocation per certificate once the
+// table has grown.
+
+#include <cstdint>
+#include <vector>
+
+#include "certificates/failure_search.h"
+#include "kds/kinetic_structure.h"
+#include "kds/simulator.h"
+
+namespace kds {
+
+/// A structure's hold on a certificate it created.
+enum class Guard : std::uint32_t {
+  never = 0xffffffffU,     ///< holds for the rest of the step; nothing is kept
+  violated = 0xfffffffeU,  ///< does not hold just after the present time; nothing is kept
+};                         // else: the slot
+[[nodiscard]] constexpr bool has_slot(Guard guard) { return guard < Guard::violated; }
+[[nodiscard]] constexpr std::uint32_t slot_of(Guard guard) { return static_cast<std::uint32_t>(guard); }
+
+template <class Certificate, Motion M, Kernel K>
+requires CertificateFor<Certificate, M>
+class CertificateTable final : public FailureSource {
+ public:
+  /// `number` tells the structure's tables apart in KineticStructure::fail.
+  CertificateTable(Simulator& simulator, KineticStructure& owner, std::size_t structure, unsigned number,
+                   const M& motion)
+      : simulator_(simulator), owner_(owner), structure_(structure), number_(number), motion_(motion) {
+    simulator.add_table(*this);
+  }
+
+  /// Guards the structure by `certificate` from now to the end of the step. `place` says where it stands in
+  /// the structure: it comes back with the failure and breaks ties of one function.
+  [[nodiscard]] Guard watch(const Certificate& certificate, std::uint32_t place,
+                            Birth birth = Birth::unknown) {
+    StructureStatistics& statistics = owner_.statistics;
+    ++statistics.certificates.created;
+    const Failure failure =
+        first_failure<K>(certificate, motion_, simulator_.now(), birth, statistics.stages);
+    if (failure.kind == Failure::Kind::at_birth) {
+      ++statistics.certificates.failed;
+      return Guard::violated;
+    }
+    statistics.certificates.peak = std::max(statistics.certificates.peak, ++statistics.certificates.alive);
+    if (failure.kind == Failure::Kind::never) {
+      ++statistics.certificates.never_failing;
+      return Guard::never;
+    }
+    std::uint32_t slot = 0;
+    if (free_.empty()) {
+      slot = static_cast<std::uint32_t>(entries_.size());
+      entries_.emplace_back();
+    } else {
+      slot = free_.back();
+      free_.pop_back();
+    }
+    entries_[slot] = {certificate, place, 0};
+    entries_[slot].handle = simulator_.schedule(failure.time, *this, slot);
+    return static_cast<Guard>(slot);
+  }
+
+  /// Gives up a certificate that has not failed.
+  void drop(Guard guard) {
+    if (guard == Guard::violated) return;
+    drop_never(1);
+    if (guard == Guard::never) return;
+    ++owner_.statistics.certificates.cancelled;
+    simulator_.cancel(entries_[slot_of(guard)].handle);
+    free_.push_back(slot_of(guard));
+  }
+
+  /// Gives up `count` certificates that never fail.
+  void drop_never(std::uint64_t count) { owner_.statistics.certificates.alive -= count; }
+
+  /// The failure time of a certificate in the queue.
+  [[nodiscard]] const FailureTime& time(std::uint32_t slot) const {
+    return simulator_.scheduled(entries_[slot].handle);
+  }
+  [[nodiscard]] const Certificate& certificate(std::uint32_t slot) const {
+    return entries_[slot].certificate;
+  }
+  [[nodiscard]] std::uint32_t place_in_structure(std::uint32_t slot) const { return entries_[slot].place; }
+
+  // The engine's side.
+  [[nodiscard]] ExactPolynomial exact_function(std::uint32_t slot) const override {
+    return kds::exact_function(entries_[slot].certificate, motion_);
+  }
+  [[nodiscard]] Identity identity(std::uint32_t slot) const override {
+    return entries_[slot].certificate.identity();
+  }
+  [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override {
+    return (static_cast<std::uint64_t>(structure_) << 36U) | (static_cast<std::uint64_t>(number_) << 32U) |
+           entries_[slot].place;
+  }
+  [[nodiscard]] unsigned number() const { return number_; }
+  [[nodiscard]] std::size_t structure() const override { return structure_; }
+  void fail(std::uint32_t slot) override {
+    ++owner_.statistics.certificates.failed;
+    --owner_.statistics.certificates.alive;
+    owner_.fail(number_, slot);
+  }
+  void retire(std::uint32_t slot) override { free_.push_back(slot); }
+  void clear() override {
+    entries_.clear();
+    free_.clear();
+    owner_.statistics.certificates.alive = 0;
+  }
+
+ private:
+  struct Entry {
+    Certificate certificate;
+    std::uint32_t place = 0;
+    QueueHandle handle = 0;
+  };
+
+  Simulator& simulator_;
+  KineticStructure& owner_;
+  std::size_t structure_;
+  unsigned number_;
+  const M& motion_;
+  std::vector<Entry> entries_;
+  std::vector<std::uint32_t> free_;
+};
+
+}  // namespace kds

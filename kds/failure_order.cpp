@@ -1,0 +1,60 @@
+#include "kds/failure_order.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace kds {
+
+namespace {
+
+// Carries a narrower exact interval back into the doubles. The time must stay the only root of its function.
+void narrow(FailureTime& time, const ExactTime& exact) {
+  if (!time.isolating || exact.is_dyadic()) return;
+  time.lower = std::max(time.lower, exact.lower().round_down());
+  time.upper = std::min(time.upper, exact.upper().round_up());
+}
+
+}  // namespace
+
+int FailureOrder::compare_times(ScheduledFailure& a, ScheduledFailure& b) {
+  if (a.time.upper < b.time.lower) return -1;
+  if (b.time.upper < a.time.lower) return 1;
+  if (a.tie != 0 && a.tie == b.tie) return 0;
+  const bool point_a = a.time.lower == a.time.upper;
+  const bool point_b = b.time.lower == b.time.upper;
+  if (point_a && point_b) return 0;
+  // A proper bracket's ends are not its time.
+  if (a.time.upper == b.time.lower) return -1;
+  if (b.time.upper == a.time.lower) return 1;
+  if (a.source->identity(a.slot) == b.source->identity(b.slot)) {
+    // Both hold until they fail, so both wait for the next sign change of one function.
+    ++counts_.by_identity;
+    return 0;
+  }
+  ++counts_.exact;
+  ExactTime exact_a = exact_time(a.source->exact_function(a.slot), a.time);
+  ExactTime exact_b = exact_time(b.source->exact_function(b.slot), b.time);
+  const int order = ExactTime::compare(exact_a, exact_b);
+  narrow(a.time, exact_a);
+  narrow(b.time, exact_b);
+  if (order == 0) {
+    ++counts_.ties;
+    if (a.tie == 0 && b.tie == 0)
+      a.tie = b.tie = next_tie_++;
+    else if (a.tie == 0)
+      a.tie = b.tie;
+    else if (b.tie == 0)
+      b.tie = a.tie;
+  }
+  return order;
+}
+
+bool FailureOrder::before_closely(ScheduledFailure& a, ScheduledFailure& b) {
+  if (const int order = compare_times(a, b)) return order < 0;
+  const auto key = [](const ScheduledFailure& f) {
+    return std::tuple(f.source->identity(f.slot), f.source->place(f.slot));
+  };
+  return key(a) < key(b);
+}
+
+}  // namespace kds

@@ -1,0 +1,55 @@
+#pragma once
+// The total order of failures within a step: exact time, then the certificate's identity, then its structure
+// and place there. Never an address or the order of creation, so every kernel and every run orders alike.
+
+#include <cstdint>
+#include <unordered_map>
+
+#include "certificates/certificate.h"
+#include "certificates/failure_time.h"
+#include "certificates/instant.h"
+
+namespace kds {
+
+/// A holder of certificates in the queue.
+class ScheduledSource : public CertificateSource {
+ public:
+  [[nodiscard]] virtual Identity identity(std::uint32_t slot) const = 0;
+  /// Breaks ties between certificates of one function: unique within a run for live certificates.
+  [[nodiscard]] virtual std::uint64_t place(std::uint32_t slot) const = 0;
+};
+
+struct ScheduledFailure {
+  FailureTime time;
+  std::uint32_t tie = 0;  ///< same non-zero number: known to be the same time
+  std::uint32_t slot = 0;
+  ScheduledSource* source = nullptr;
+};
+
+struct ComparisonCounts {
+  std::uint64_t by_identity = 0;  ///< overlapping brackets of one function: the same time
+  std::uint64_t exact = 0;        ///< overlapping brackets settled on integers
+  std::uint64_t ties = 0;         ///< of those, equal times of different functions
+};
+
+class FailureOrder {
+ public:
+  /// Strict: a before b, narrowing both where their brackets overlap.
+  [[nodiscard]] bool before(ScheduledFailure& a, ScheduledFailure& b) {
+    if (a.time.upper < b.time.lower) return true;
+    if (b.time.upper < a.time.lower) return false;
+    return before_closely(a, b);
+  }
+  /// -1, 0, 1 by time alone.
+  [[nodiscard]] int compare_times(ScheduledFailure& a, ScheduledFailure& b);
+
+  [[nodiscard]] const ComparisonCounts& counts() const { return counts_; }
+
+ private:
+  [[nodiscard]] bool before_closely(ScheduledFailure& a, ScheduledFailure& b);
+
+  ComparisonCounts counts_;
+  std::uint32_t next_tie_ = 1;
+};
+
+}  // namespace kds

@@ -1,0 +1,49 @@
+#pragma once
+// What the simulator asks of a kinetic structure. The structure keeps its certificates in CertificateTables,
+// which put failures into the common queue; when one fails it is told, repairs itself, and reports the change
+// it made.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "kds/change.h"
+#include "kds/statistics.h"
+#include "motions/exact_number.h"
+
+namespace kds {
+
+class KineticStructure {
+ public:
+  virtual ~KineticStructure() = default;
+
+  [[nodiscard]] virtual std::string_view name() const = 0;
+  /// The kinds of its events; Change::kind counts them.
+  [[nodiscard]] virtual std::span<const EventKind> kinds() const = 0;
+
+  /// Builds the structure for positions at the start of the motion's first step, and no certificate yet.
+  virtual void build() = 0;
+  /// The motion is that of the next step and the time its start: certificates anew, right just after u = 0.
+  virtual void start_step() = 0;
+  /// The certificate in `slot` of the table numbered `table` fails now; it is out of the queue already.
+  virtual void fail(unsigned table, std::uint32_t slot) = 0;
+  /// All failures at this very time are handled. Asked only if `unsettled` was set.
+  virtual void settle() {}
+  /// The step's end is reached: positions are those at u = 1. No certificate is left.
+  virtual void finish_step(bool last) { static_cast<void>(last); }
+
+  /// Makes a logged change again, without certificates (replay). Throws std::invalid_argument if it cannot be
+  /// made.
+  virtual void apply(const Change& change) = 0;
+
+  /// Compares with the structure built statically from exact positions at `time`, no failure time, or at an
+  /// end of the step. What differs, or nothing.
+  [[nodiscard]] virtual std::optional<std::string> audit(const Dyadic& time) = 0;
+
+  StructureStatistics statistics;
+  bool unsettled = false;
+};
+
+}  // namespace kds

@@ -1,0 +1,160 @@
+#include "kds/simulator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace kds {
+
+std::size_t Simulator::add(KineticStructure& structure) {
+  structures_.push_back(&structure);
+  structure.statistics.events_by_kind.assign(structure.kinds().size(), 0);
+  watch_.add_lane();
+  return structures_.size() - 1;
+}
+
+void Simulator::build() {
+  for (std::size_t s = 0; s < structures_.size(); ++s) {
+    watch_.charge(s + 1);
+    structures_[s]->build();
+    watch_.charge(Stopwatch::stopped);
+    structures_[s]->statistics.build_seconds = seconds_of(s);
+  }
+  watch_.reset();
+}
+
+void Simulator::run_step(bool last) {
+  begin_step();
+  for (std::size_t s = 0; s < structures_.size(); ++s) {
+    watch_.charge(s + 1);
+    structures_[s]->start_step();
+  }
+  settle();
+  run_events();
+  finish_step(last);
+}
+
+void Simulator::begin_step() {
+  now_ = Instant(0);
+  present_ = {};
+  for (KineticStructure* structure : structures_) structure->statistics.events_per_step.push_back(0);
+  if (audits_ != AuditMode::none && step_ == 0) audit(Dyadic(0.0));
+}
+
+void Simulator::finish_step(bool last) {
+  now_ = Instant(1);
+  present_ = {};
+  for (FailureSource* table : tables_) table->clear();
+  queue_.clear();
+  for (std::size_t s = 0; s < structures_.size(); ++s) {
+    watch_.charge(s + 1);
+    structures_[s]->finish_step(last);
+  }
+  watch_.charge(Stopwatch::stopped);
+  if (audits_ != AuditMode::none) audit(Dyadic(1.0));
+  ++step_;
+}
+
+void Simulator::build_for_replay() {
+  recording_ = false;
+  build();
+  recording_ = true;
+}
+
+void Simulator::replay_step(std::span<const Replayed> events, bool last) {
+  begin_step();
+  for (const Replayed& event : events) {
+    now_ = Instant(FailureTime{event.lower, event.upper, 0, false});
+    watch_.charge(event.structure + 1);
+    try {
+      structures_[event.structure]->apply(event.change);
+    } catch (const std::invalid_argument& reason) {
+      throw std::invalid_argument(event.where + ": " + reason.what());
+    }
+    record(event.structure, event.change);
+    watch_.charge(nobody);
+  }
+  finish_step(last);
+}
+
+void Simulator::run_events() {
+  const bool alone = structures_.size() == 1;  // then the engine's time is the structure's
+  watch_.charge(alone ? 1 : nobody);
+  while (true) {
+    advance(queue_.empty() ? nullptr : &queue_.top());
+    retire_present();
+    if (queue_.empty()) return;
+    present_ = queue_.top();
+    queue_.pop();
+    auto& source = static_cast<FailureSource&>(*present_.source);
+    now_ = Instant(present_.time, source, present_.slot);
+    if (!alone) watch_.charge(source.structure() + 1);
+    source.fail(present_.slot);
+    if (!alone) watch_.charge(nobody);
+  }
+}
+
+// Nothing more happens at the present time: structures settle, and between two times they can be audited.
+void Simulator::advance(ScheduledFailure* next) {
+  const bool waiting = audits_ == AuditMode::events || std::any_of(structures_.begin(), structures_.end(),
+                                                                   [](auto* s) { return s->unsettled; });
+  if (!waiting) return;
+  const auto later = [&] {
+    return next == nullptr || present_.source == nullptr || order_.compare_times(present_, *next) < 0;
+  };
+  if (!later()) return;
+  settle();
+  next = queue_.empty() ? nullptr : &queue_.top();
+  if (audits_ != AuditMode::events) return;
+  ExactTime then = next == nullptr ? ExactTime(Dyadic(1.0))
+                                   : exact_time(next->source->exact_function(next->slot), next->time);
+  if (ExactTime::compare(now_.exact(), then) < 0) audit(dyadic_between(now_.exact(), then));
+}
+
+void Simulator::settle() {
+  for (std::size_t s = 0; s < structures_.size(); ++s) {
+    if (!structures_[s]->unsettled) continue;
+    const std::size_t before = watch_.charge(s + 1);
+    structures_[s]->unsettled = false;
+    structures_[s]->settle();
+    watch_.charge(before);
+  }
+}
+
+void Simulator::retire_present() {
+  if (present_.source != nullptr) static_cast<FailureSource*>(present_.source)->retire(present_.slot);
+  present_ = {};
+}
+
+void Simulator::audit(const Dyadic& time) {
+  const std::size_t before = watch_.charge(Stopwatch::stopped);
+  for (KineticStructure* structure : structures_) {
+    ++structure->statistics.audits_run;
+    if (const auto difference = structure->audit(time)) {
+      ++structure->statistics.audits_failed;
+      throw AuditError(fmt::format("audit of {} failed in step {} at u = {} (between {} and {}): {}",
+                                   structure->name(), step_, time.rational().str(), time.round_down(),
+                                   time.round_up(), *difference));
+    }
+  }
+  watch_.charge(before);
+}
+
+QueueHandle Simulator::schedule(const FailureTime& time, FailureSource& source, std::uint32_t slot) {
+  return queue_.push([&](QueueHandle) { return ScheduledFailure{time, 0, slot, &source}; });
+}
+
+void Simulator::record(std::size_t structure, const Change& change) {
+  if (!recording_) return;
+  KineticStructure& s = *structures_[structure];
+  ++s.statistics.events_by_kind[change.kind];
+  if (s.kinds()[change.kind].external) ++s.statistics.events_per_step.back();
+  fingerprint_.add(static_cast<std::uint32_t>(step_), static_cast<std::uint32_t>(structure), change);
+  if (!listeners_.empty()) {
+    const LoggedEvent event{step_, now_.lower(), now_.upper(), structure, change};
+    for (EventListener* listener : listeners_) listener->on_event(s, event);
+  }
+}
+
+}  // namespace kds

@@ -1,0 +1,99 @@
+#pragma once
+// One clock and one queue for all structures of a run. Knows no geometry.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "certificates/instant.h"
+#include "kds/audit.h"
+#include "kds/event_log.h"
+#include "kds/event_queue.h"
+#include "kds/failure_order.h"
+#include "kds/fingerprint.h"
+#include "kds/kinetic_structure.h"
+#include "kds/stopwatch.h"
+
+namespace kds {
+
+/// The engine's side of a certificate table.
+class FailureSource : public ScheduledSource {
+ public:
+  /// The failure in `slot` is the present event.
+  virtual void fail(std::uint32_t slot) = 0;
+  /// Its time is past: the slot may be used again.
+  virtual void retire(std::uint32_t slot) = 0;
+  /// The step is over: forget all certificates.
+  virtual void clear() = 0;
+  [[nodiscard]] virtual std::size_t structure() const = 0;
+};
+
+class Simulator {
+ public:
+  explicit Simulator(AuditMode audits = AuditMode::none) : queue_(order_), audits_(audits) {}
+  Simulator(const Simulator&) = delete;
+  Simulator& operator=(const Simulator&) = delete;
+
+  /// Structures act in the order they are added. They must outlive the simulator's use.
+  std::size_t add(KineticStructure& structure);
+  void add_table(FailureSource& table) { tables_.push_back(&table); }
+  void listen(EventListener& listener) { listeners_.push_back(&listener); }
+
+  /// Builds all structures. The motion must be that of the first step.
+  void build();
+  /// Runs [0,1) of the motion's present step, the simulator's next, and reaches its end.
+  void run_step(bool last);
+
+  /// A logged event, to be made again; `where` names it in messages.
+  struct Replayed {
+    std::size_t structure;
+    double lower, upper;
+    Change change;
+    std::string where;
+  };
+  /// The same as build and run_step, but the changes come from a log: no certificate, no queue. Throws
+  /// std::invalid_argument, with the event's `where`, if a change cannot be made.
+  void build_for_replay();
+  void replay_step(std::span<const Replayed> events, bool last);
+
+  [[nodiscard]] std::size_t step() const { return step_; }
+  [[nodiscard]] const Instant& now() const { return now_; }
+
+  QueueHandle schedule(const FailureTime& time, FailureSource& source, std::uint32_t slot);
+  void cancel(QueueHandle handle) { queue_.erase(handle); }
+  [[nodiscard]] const FailureTime& scheduled(QueueHandle handle) { return queue_.at(handle).time; }
+  /// A structure reports what it did now.
+  void record(std::size_t structure, const Change& change);
+
+  [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_.value(); }
+  [[nodiscard]] const ComparisonCounts& comparisons() const { return order_.counts(); }
+  [[nodiscard]] double seconds() const { return watch_.seconds(nobody); }
+  [[nodiscard]] double seconds_of(std::size_t structure) const { return watch_.seconds(structure + 1); }
+
+ private:
+  static constexpr std::size_t nobody = 0;  // the stopwatch's lane of the engine; structures follow
+
+  void begin_step();
+  void finish_step(bool last);
+  void run_events();
+  void advance(ScheduledFailure* next);
+  void retire_present();
+  void settle();
+  void audit(const Dyadic& time);
+
+  FailureOrder order_;
+  EventQueue<ScheduledFailure, FailureOrder> queue_;
+  std::vector<KineticStructure*> structures_;
+  std::vector<FailureSource*> tables_;
+  std::vector<EventListener*> listeners_;
+  AuditMode audits_;
+  std::size_t step_ = 0;
+  Instant now_;
+  ScheduledFailure present_;  // the event that made it now; no source at the start of a step
+  Fingerprint fingerprint_;
+  Stopwatch watch_;
+  bool recording_ = true;  // false while a replayed structure builds itself
+};
+
+}  // namespace kds

@@ -1,0 +1,41 @@
+#pragma once
+// What a structure counted in a run.
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "certificates/stage_counts.h"
+
+namespace kds {
+
+struct CertificateCounts {
+  std::uint64_t created = 0;
+  std::uint64_t never_failing = 0;  ///< proved at birth to hold for the rest of their step
+  std::uint64_t cancelled = 0;      ///< would have failed, but the structure changed first
+  std::uint64_t failed = 0;
+  std::uint64_t alive = 0;
+  std::uint64_t peak = 0;          ///< most alive at once: compactness
+  std::uint64_t per_bead_max = 0;  ///< most that name one bead, at the starts of steps: locality
+};
+
+/// A kind of event by name. Internal events change bookkeeping only and are left out of totals.
+struct EventKind {
+  std::string_view name;
+  bool external = true;
+  bool counted_apart = false;  ///< not listed among the events (rebuilds)
+};
+
+struct StructureStatistics {
+  CertificateCounts certificates;
+  StageCounts stages;
+  std::vector<std::uint64_t> events_by_kind;   ///< in the structure's order of kinds
+  std::vector<std::uint64_t> events_per_step;  ///< external
+  std::uint64_t rebuilds = 0;
+  std::uint64_t audits_run = 0;
+  std::uint64_t audits_failed = 0;
+  double seconds = 0;  ///< on its certificates and events, after the first build
+  double build_seconds = 0;
+};
+
+}  // namespace kds

@@ -1,0 +1,213 @@
+#pragma once
+// A motion seen in a number type. A certificate's function is written once over a view:
+//
+//   DoubleView     rounded; remembers the size of what it was asked for, which scales the error bound
+//   MagnitudeView  the error bound's constants (magnitude.h); sees no motion at all
+//   IntegerView    exact: all coordinates times one power of two, weights times its square. Certificate
+//   functions
+//                  are homogeneous in lengths, so the common factor changes no sign
+//   MomentView     exact, at one dyadic time: polynomials of degree 0
+//
+// Every view answers with differences to a bead: certificates do not depend on the origin, and the filter is
+// much sharper for it.
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <span>
+
+#include "motions/bernstein.h"
+#include "motions/bezier_motion.h"
+#include "motions/exact_number.h"
+#include "motions/magnitude.h"
+
+namespace kds {
+
+template <class V>
+concept MotionView = requires(const V& view, BeadId i, BeadId j) {
+  typename V::Number;
+  { V::dimension } -> std::convertible_to<int>;
+  { V::degree } -> std::convertible_to<int>;
+  { view.difference(i, j) } -> std::same_as<BernsteinVector<typename V::Number, V::degree, V::dimension>>;
+  { view.weight_difference(i, j) } -> std::same_as<Bernstein<typename V::Number, V::degree>>;
+};
+
+template <Motion M>
+class DoubleView {
+ public:
+  using Number = double;
+  static constexpr int dimension = M::dimension;
+  static constexpr int degree = M::degree;
+
+  explicit DoubleView(const M& motion) : motion_(motion) {}
+
+  /// centre of i minus centre of j
+  [[nodiscard]] BernsteinVector<double, degree, dimension> difference(BeadId i, BeadId j) const {
+    BernsteinVector<double, degree, dimension> result;
+    for (int axis = 0; axis < dimension; ++axis) {
+      for (int k = 0; k <= degree; ++k) {
+        const double d = motion_.coordinate(i, k, axis) - motion_.coordinate(j, k, axis);
+        length_ = std::max(length_, std::abs(d));
+        result[static_cast<std::size_t>(axis)].scaled[static_cast<std::size_t>(k)] =
+            static_cast<double>(binomial(degree, k)) * d;
+      }
+    }
+    return result;
+  }
+  /// weight of i minus weight of j
+  [[nodiscard]] Bernstein<double, degree> weight_difference(BeadId i, BeadId j) const {
+    Bernstein<double, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      const double d = motion_.weight(i, k) - motion_.weight(j, k);
+      weight_ = std::max(weight_, std::abs(d));
+      result.scaled[static_cast<std::size_t>(k)] = static_cast<double>(binomial(degree, k)) * d;
+    }
+    return result;
+  }
+
+  /// M of the error bound: no difference answered so far is larger, and no weight difference than its square.
+  [[nodiscard]] double largest_length() const {
+    return weight_ <= length_ * length_ ? length_ : std::max(length_, std::sqrt(weight_));
+  }
+
+ private:
+  const M& motion_;
+  mutable double length_ = 0;
+  mutable double weight_ = 0;
+};
+
+template <int DimensionValue, int DegreeValue>
+class MagnitudeView {
+ public:
+  using Number = Magnitude;
+  static constexpr int dimension = DimensionValue;
+  static constexpr int degree = DegreeValue;
+
+  [[nodiscard]] BernsteinVector<Magnitude, degree, dimension> difference(BeadId, BeadId) const {
+    BernsteinVector<Magnitude, degree, dimension> result;
+    for (auto& coordinate : result) coordinate = polynomial(1);
+    return result;
+  }
+  [[nodiscard]] Bernstein<Magnitude, degree> weight_difference(BeadId, BeadId) const { return polynomial(2); }
+
+ private:
+  static Bernstein<Magnitude, degree> polynomial(int power) {
+    Bernstein<Magnitude, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      result.scaled[static_cast<std::size_t>(k)] =
+          Magnitude::constant(static_cast<double>(binomial(degree, k))) * Magnitude::input_difference(power);
+    }
+    return result;
+  }
+};
+
+/// The power of two that makes the control points of some beads whole: coordinates times 2^exponent, weights
+/// times 2^(2 exponent).
+template <Motion M>
+[[nodiscard]] int integer_scale(const M& motion, std::span<const BeadId> beads) {
+  int scale = -4096;  // below every double
+  for (const BeadId bead : beads) {
+    for (int k = 0; k <= M::degree; ++k) {
+      for (int axis = 0; axis < M::dimension; ++axis) {
+        const SplitDouble x = split(motion.coordinate(bead, k, axis));
+        if (x.mantissa != 0) scale = std::max(scale, -x.exponent);
+      }
+      const SplitDouble w = split(motion.weight(bead, k));
+      if (w.mantissa != 0) scale = std::max(scale, -(w.exponent >> 1));
+    }
+  }
+  return scale;
+}
+
+/// value * 2^shift, which must be whole.
+[[nodiscard]] inline Integer scaled_integer(double value, int shift) {
+  const SplitDouble parts = split(value);
+  if (parts.mantissa == 0) return 0;
+  return Integer(parts.mantissa) << static_cast<unsigned>(parts.exponent + shift);
+}
+
+template <Motion M>
+class IntegerView {
+ public:
+  using Number = Integer;
+  static constexpr int dimension = M::dimension;
+  static constexpr int degree = M::degree;
+
+  /// May be asked for these beads alone.
+  IntegerView(const M& motion, std::span<const BeadId> beads)
+      : motion_(motion), scale_(integer_scale(motion, beads)) {}
+
+  [[nodiscard]] BernsteinVector<Integer, degree, dimension> difference(BeadId i, BeadId j) const {
+    BernsteinVector<Integer, degree, dimension> result;
+    for (int axis = 0; axis < dimension; ++axis) {
+      for (int k = 0; k <= degree; ++k) {
+        result[static_cast<std::size_t>(axis)].scaled[static_cast<std::size_t>(k)] =
+            binomial(degree, k) * (scaled_integer(motion_.coordinate(i, k, axis), scale_) -
+                                   scaled_integer(motion_.coordinate(j, k, axis), scale_));
+      }
+    }
+    return result;
+  }
+  [[nodiscard]] Bernstein<Integer, degree> weight_difference(BeadId i, BeadId j) const {
+    Bernstein<Integer, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      result.scaled[static_cast<std::size_t>(k)] =
+          binomial(degree, k) * (scaled_integer(motion_.weight(i, k), 2 * scale_) -
+                                 scaled_integer(motion_.weight(j, k), 2 * scale_));
+    }
+    return result;
+  }
+
+ private:
+  const M& motion_;
+  int scale_;
+};
+
+template <Motion M>
+class MomentView {
+ public:
+  using Number = Integer;
+  static constexpr int dimension = M::dimension;
+  static constexpr int degree = 0;
+
+  /// The motion at `time` in [0,1]; may be asked for these beads alone.
+  MomentView(const M& motion, std::span<const BeadId> beads, const Dyadic& time)
+      : moving_(motion, beads), later_(time.numerator()), time_exponent_(time.exponent()) {
+    earlier_ = (Integer(1) << time_exponent_) - later_;
+  }
+
+  [[nodiscard]] BernsteinVector<Integer, 0, dimension> difference(BeadId i, BeadId j) const {
+    const auto moving = moving_.difference(i, j);
+    BernsteinVector<Integer, 0, dimension> result;
+    for (std::size_t axis = 0; axis < result.size(); ++axis) result[axis].scaled[0] = at_moment(moving[axis]);
+    return result;
+  }
+  [[nodiscard]] Bernstein<Integer, 0> weight_difference(BeadId i, BeadId j) const {
+    // Coordinates carry the time's denominator to the degree's power, weights must carry its square.
+    return {
+        {at_moment(moving_.weight_difference(i, j)) << (time_exponent_ * static_cast<unsigned>(M::degree))}};
+  }
+
+ private:
+  [[nodiscard]] Integer at_moment(const Bernstein<Integer, M::degree>& p) const {
+    Integer value = p.scaled[M::degree];
+    Integer power = 1;
+    for (int k = M::degree - 1; k >= 0; --k) {  // Horner in u, one more factor (1-u) a step
+      power *= earlier_;
+      value = value * later_ + p.scaled[static_cast<std::size_t>(k)] * power;
+    }
+    return value;
+  }
+
+  IntegerView<M> moving_;
+  Integer later_;    // u * 2^time_exponent
+  Integer earlier_;  // (1-u) * 2^time_exponent
+  unsigned time_exponent_;
+};
+
+static_assert(MotionView<DoubleView<BezierMotion<3, 1>>>);
+static_assert(MotionView<MagnitudeView<3, 1>>);
+static_assert(MotionView<IntegerView<BezierMotion<3, 1>>>);
+static_assert(MotionView<MomentView<BezierMotion<3, 1>>>);
+
+}  // namespace kds

@@ -1,0 +1,68 @@
+#pragma once
+// Where the beads are at one time of a step.
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "motions/bezier_motion.h"
+#include "motions/exact_number.h"
+
+namespace kds {
+
+/// The k-th control points; k = 0 and k = degree are the positions at the ends of the step, exactly.
+template <Motion M>
+[[nodiscard]] Eigen::Matrix3Xd control_points(const M& motion, int k) {
+  Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(motion.bead_count()));
+  for (BeadId b = 0; b < motion.bead_count(); ++b) {
+    for (int axis = 0; axis < M::dimension; ++axis) points(axis, b) = motion.coordinate(b, k, axis);
+  }
+  return points;
+}
+
+template <Motion M>
+[[nodiscard]] std::vector<double> control_weights(const M& motion, int k) {
+  std::vector<double> weights(motion.bead_count());
+  for (BeadId b = 0; b < motion.bead_count(); ++b) weights[b] = motion.weight(b, k);
+  return weights;
+}
+
+/// The positions at u in [0,1], each rounded a few times.
+template <Motion M>
+[[nodiscard]] Eigen::Matrix3Xd approximate_positions(const M& motion, double u) {
+  Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(motion.bead_count()));
+  for (BeadId b = 0; b < motion.bead_count(); ++b) {
+    for (int axis = 0; axis < M::dimension; ++axis) {
+      std::array<double, M::degree + 1> p;
+      for (int k = 0; k <= M::degree; ++k) p[static_cast<std::size_t>(k)] = motion.coordinate(b, k, axis);
+      for (std::size_t round = M::degree; round > 0; --round) {
+        for (std::size_t i = 0; i < round; ++i) p[i] = (1 - u) * p[i] + u * p[i + 1];
+      }
+      points(axis, b) = p[0];
+    }
+  }
+  return points;
+}
+
+/// Coordinates and, last, the weight of a bead at `time`. Exact.
+template <Motion M>
+[[nodiscard]] std::array<Rational, M::dimension + 1> exact_position(const M& motion, BeadId bead,
+                                                                    const Dyadic& time) {
+  const Rational u = time.rational();
+  const Rational v = 1 - u;
+  std::array<Rational, M::dimension + 1> position;
+  for (int axis = 0; axis <= M::dimension; ++axis) {
+    std::array<Rational, M::degree + 1> p;
+    for (int k = 0; k <= M::degree; ++k) {
+      p[static_cast<std::size_t>(k)] =
+          axis < M::dimension ? motion.coordinate(bead, k, axis) : motion.weight(bead, k);
+    }
+    for (std::size_t round = M::degree; round > 0; --round) {
+      for (std::size_t i = 0; i < round; ++i) p[i] = v * p[i] + u * p[i + 1];
+    }
+    position[static_cast<std::size_t>(axis)] = p[0];
+  }
+  return position;
+}
+
+}  // namespace kds

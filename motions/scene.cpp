@@ -1,0 +1,95 @@
+#include "motions/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "motions/input_error.h"
+
+namespace kds {
+
+Scene::Scene(std::span<const Trajectory> necklaces, std::vector<double> radii) : radii_(std::move(radii)) {
+  BeadId beads = 0;
+  const Trajectory* longest = nullptr;
+  for (const Trajectory& necklace : necklaces) {
+    if (longest == nullptr || necklace.frames.size() > longest->frames.size()) longest = &necklace;
+    const auto count = static_cast<BeadId>(necklace.bead_count());
+    necklaces_.push_back({beads, beads + count - 1});
+    beads += count;
+  }
+  if (longest == nullptr || longest->frames.size() < 2) {
+    throw InputError(fmt::format("{}: a run needs at least two frames, this input has {}",
+                                 longest == nullptr ? "no input" : longest->file,
+                                 longest == nullptr ? 0 : longest->frames.size()));
+  }
+  frame_count_ = longest->frames.size();
+  frames_.assign(frame_count_, Eigen::Matrix3Xd(3, static_cast<Eigen::Index>(beads)));
+  for (std::size_t n = 0; n < necklaces.size(); ++n) {
+    const auto& frames = necklaces[n].frames;
+    if (frames.size() != frame_count_ && frames.size() != 1) {
+      throw InputError(fmt::format(
+          "{}: {} frames, but {} has {}; necklaces of a run need equal frame counts (or one frame: at rest)",
+          necklaces[n].file, frames.size(), longest->file, frame_count_));
+    }
+    for (std::size_t k = 0; k < frame_count_; ++k) {
+      const auto& frame = frames[frames.size() == 1 ? 0 : k];
+      frames_[k].middleCols(necklaces_[n].first, frame.cols()) = frame;
+    }
+  }
+}
+
+Scene::Scene(Instance instance)
+    : dimension_(instance.dimension()),
+      degree_(instance.degree),
+      frame_count_(2),
+      instance_(std::move(instance)) {
+  const std::size_t points = instance_.point_count();
+  necklaces_.push_back({0, static_cast<BeadId>(points - 1)});
+  radii_.assign(points, 0);
+  if (instance_.weighted()) {
+    for (std::size_t p = 0; p < points; ++p)
+      radii_[p] = std::sqrt(std::max(0.0, instance_.control_point(p, 3, 0)));
+  }
+}
+
+bool Scene::equal_radii() const {
+  if (instance_.weighted()) {
+    for (BeadId b = 0; b < bead_count(); ++b) {
+      for (int k = 0; k <= degree_; ++k) {
+        if (weight(b, k) != weight(0, k)) return false;
+      }
+    }
+    return true;
+  }
+  return std::all_of(radii_.begin(), radii_.end(), [&](double r) { return r == radii_.front(); });
+}
+
+double Scene::coordinate(std::size_t step, BeadId bead, int k, int axis) const {
+  if (frames_.empty()) return instance_.control_point(bead, axis, k);
+  return frames_[step + static_cast<std::size_t>(k)](axis, bead);
+}
+
+double Scene::weight(BeadId bead, int k) const {
+  if (instance_.weighted()) return instance_.control_point(bead, 3, k);
+  return radii_[bead] * radii_[bead];
+}
+
+Eigen::Matrix3Xd Scene::centers(std::size_t frame) const {
+  if (!frames_.empty()) return frames_[frame];
+  Eigen::Matrix3Xd centers = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(bead_count()));
+  for (BeadId b = 0; b < bead_count(); ++b) {
+    for (int axis = 0; axis < dimension_; ++axis)
+      centers(axis, b) = instance_.control_point(b, axis, frame == 0 ? 0 : degree_);
+  }
+  return centers;
+}
+
+std::vector<double> Scene::weights(std::size_t frame) const {
+  std::vector<double> weights(bead_count());
+  for (BeadId b = 0; b < bead_count(); ++b) weights[b] = weight(b, frame == 0 ? 0 : degree_);
+  return weights;
+}
+
+}  // namespace kds

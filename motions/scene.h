@@ -1,0 +1,65 @@
+#pragma once
+// All beads of a run on one clock: sampled frames become motion steps (the discrete-step adapter), or an
+// instance file gives one step by itself. Beads are numbered necklace after necklace.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "motions/bead_range.h"
+#include "motions/bezier_motion.h"
+#include "motions/instance.h"
+#include "motions/trajectory.h"
+
+namespace kds {
+
+class Scene {
+ public:
+  /// Necklaces of equal frame counts; one of a single frame is at rest. `radii`: one a bead in scene order.
+  /// Throws InputError where the counts differ.
+  Scene(std::span<const Trajectory> necklaces, std::vector<double> radii);
+  explicit Scene(Instance instance);
+
+  [[nodiscard]] int dimension() const { return dimension_; }
+  [[nodiscard]] int degree() const { return degree_; }
+  [[nodiscard]] std::size_t bead_count() const { return radii_.size(); }
+  [[nodiscard]] std::size_t frame_count() const {
+    return frame_count_;
+  }  ///< an instance has two: u = 0 and u = 1
+  [[nodiscard]] std::size_t step_count() const { return frame_count_ - 1; }
+  [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
+  [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
+  [[nodiscard]] bool equal_radii() const;
+
+  /// Sets the motion of step k, between frames k and k+1. Both frames are met exactly, whatever the kind of
+  /// motion.
+  template <Motion M>
+  void load(std::size_t step, M& motion) const {
+    for (BeadId b = 0; b < bead_count(); ++b) {
+      for (int k = 0; k <= M::degree; ++k) {
+        for (int axis = 0; axis < M::dimension; ++axis)
+          motion.set_coordinate(b, k, axis, coordinate(step, b, k, axis));
+        motion.set_weight(b, k, weight(b, k));
+      }
+    }
+  }
+  /// Centres and weights at a frame.
+  [[nodiscard]] Eigen::Matrix3Xd centers(std::size_t frame) const;
+  [[nodiscard]] std::vector<double> weights(std::size_t frame) const;
+
+ private:
+  [[nodiscard]] double coordinate(std::size_t step, BeadId bead, int k, int axis) const;
+  [[nodiscard]] double weight(BeadId bead, int k) const;
+
+  int dimension_ = 3;
+  int degree_ = 1;
+  std::size_t frame_count_ = 0;
+  std::vector<BeadRange> necklaces_;
+  std::vector<double> radii_;
+  std::vector<Eigen::Matrix3Xd> frames_;  // of the whole scene; empty for an instance
+  Instance instance_;
+};
+
+}  // namespace kds

@@ -1,0 +1,35 @@
+#pragma once
+// Text files in, numbers out: a number must take up its field completely, or it is none.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kds {
+
+/// The whole file, unpacked if it is gzipped. Throws InputError naming the file.
+[[nodiscard]] std::string read_whole_file(const std::filesystem::path& path);
+
+/// The next line of `rest`, which moves on behind it; without line end, a CR before it left out.
+[[nodiscard]] std::string_view next_line(std::string_view& rest);
+
+/// The fields of a line, which blanks and tabs separate.
+[[nodiscard]] std::vector<std::string_view> split_fields(std::string_view line);
+
+[[nodiscard]] std::string_view trimmed(std::string_view field);
+
+/// A decimal number; "nan" and "inf" count as numbers here, one too large for a double does not.
+[[nodiscard]] std::optional<double> parse_double(std::string_view field);
+
+/// A whole number from 0 on.
+[[nodiscard]] std::optional<std::size_t> parse_count(std::string_view field);
+
+/// A field as it may stand in a message: short, in quotes, without control characters.
+[[nodiscard]] std::string in_quotes(std::string_view field);
+
+/// "1 atom", "2 atoms".
+[[nodiscard]] std::string counted(std::size_t count, std::string_view noun);
+
+}  // namespace kds

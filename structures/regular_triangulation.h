@@ -1,0 +1,95 @@
+#pragma once
+// The regular (weighted Delaunay) triangulation in space, dual of the power diagram. CGAL's
+// Regular_triangulation_3 is the structure of record; beside it stands an index mirror of its cells, flat and
+// fast to scan. The infinite vertex takes part like any other, as `infinite_bead`.
+//
+// A cell (a, b, c, d) has positive orientation; for an infinite cell the infinite vertex counts as a point
+// far outside the hull. Flips are combinatorial and look at no coordinates; the points are set when a step
+// ends.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "certificates/certificate.h"
+#include "motions/exact_number.h"
+
+namespace kds {
+
+inline constexpr BeadId infinite_bead = no_bead;
+using CellId = std::uint32_t;
+using CellBeads = std::array<BeadId, 4>;
+
+struct TriangulationCell {
+  CellBeads vertex{};
+  std::array<CellId, 4> neighbor{};  ///< neighbor[i] is across the facet opposite to vertex[i]
+};
+
+/// Position and weight of a bead at one time, exactly.
+struct ExactBead {
+  std::array<Rational, 3> center;
+  Rational weight;
+};
+
+/// Cells of a static triangulation, and beads without a cell of their own in the power diagram.
+struct StaticTriangulation {
+  std::vector<CellBeads> cells;  ///< positively oriented; infinite ones too where asked for
+  std::vector<BeadId> hidden;    ///< ascending
+  int dimension = 3;             ///< of the points' affine hull; no cells below 3
+};
+
+/// Built by CGAL from doubles with exact predicates; finite cells only, beads ascending, sorted.
+[[nodiscard]] StaticTriangulation static_triangulation(const Eigen::Matrix3Xd& centers,
+                                                       std::span<const double> weights);
+/// Built by CGAL with exact numbers. With `oriented`, infinite cells too, as they are; else as above.
+[[nodiscard]] StaticTriangulation static_triangulation(std::span<const ExactBead> beads, bool oriented);
+
+class RegularTriangulation {
+ public:
+  RegularTriangulation();
+  ~RegularTriangulation();
+  RegularTriangulation(const RegularTriangulation&) = delete;
+  RegularTriangulation& operator=(const RegularTriangulation&) = delete;
+
+  /// By CGAL from doubles; returns the hidden beads and the dimension, no cells.
+  StaticTriangulation build(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+  /// From oriented cells, infinite ones included; all beads are vertices. The points are those last set.
+  void assign(std::size_t beads, std::span<const CellBeads> oriented_cells);
+  void set_points(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+
+  /// Live cells and, among them, free slots: see is_live.
+  [[nodiscard]] std::span<const TriangulationCell> cells() const { return cells_; }
+  [[nodiscard]] bool is_live(CellId cell) const { return live_[cell] != 0; }
+  /// The place in its neighbour of the facet opposite to vertex i of `cell`.
+  [[nodiscard]] int mirror_index(CellId cell, int i) const;
+
+  /// Replaces `cell` and its neighbour across facet i by three cells around the edge of their apices.
+  std::array<CellId, 3> flip_facet(CellId cell, int i);
+  /// Replaces the three cells around the edge of vertices i and j of `cell` by two.
+  std::array<CellId, 2> flip_edge(CellId cell, int i, int j);
+  /// Whether the two beads (or one and infinity) are joined by an edge.
+  [[nodiscard]] bool is_edge(BeadId a, BeadId b) const;
+  /// The cell with these vertices in any order.
+  [[nodiscard]] std::optional<CellId> find_cell(const CellBeads& beads) const;
+
+  /// CGAL's own check of combinatorics, orientation and power tests at the points set.
+  [[nodiscard]] bool is_valid() const;
+  /// Whether all finite cells have positive orientation at the points set.
+  [[nodiscard]] bool all_cells_positive() const;
+  /// Finite cells, beads ascending, sorted.
+  [[nodiscard]] std::vector<CellBeads> finite_cells() const;
+
+ private:
+  struct Cgal;
+  void mirror_all();
+
+  std::unique_ptr<Cgal> cgal_;
+  std::vector<TriangulationCell> cells_;
+  std::vector<char> live_;
+};
+
+}  // namespace kds

@@ -1,0 +1,54 @@
+#include "structures/static_build.h"
+
+#include <CGAL/Min_sphere_of_points_d_traits_3.h>
+#include <CGAL/Min_sphere_of_spheres_d.h>
+#include <CGAL/Min_sphere_of_spheres_d_traits_3.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+namespace kds {
+
+namespace {
+
+template <class Work>
+double seconds_of(Work&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+double seconds_to_wrap(const NecklaceTree& tree, const Eigen::Matrix3Xd& centers,
+                       std::span<const double> weights) {
+  using Geometry = CGAL::Simple_cartesian<double>;
+  using Traits = CGAL::Min_sphere_of_spheres_d_traits_3<Geometry, double>;
+  using MinSphere = CGAL::Min_sphere_of_spheres_d<Traits>;
+  std::vector<Traits::Sphere> spheres;
+  spheres.reserve(weights.size());
+  for (std::size_t b = 0; b < weights.size(); ++b) {
+    const auto c = centers.col(static_cast<Eigen::Index>(b));
+    spheres.emplace_back(Geometry::Point_3(c.x(), c.y(), c.z()), std::sqrt(weights[b]));
+  }
+  double sum = 0;  // used, so that no build can be left out
+  const double seconds = seconds_of([&] {
+    for (NodeId node = 0; node < tree.node_count(); ++node) {
+      const BeadRange range = tree.range(node);
+      MinSphere sphere(spheres.begin() + range.first, spheres.begin() + range.last + 1);
+      sum += sphere.radius();
+    }
+  });
+  return std::isnan(sum) ? 0 : seconds;
+}
+
+double seconds_to_sort(const Eigen::Matrix3Xd& centers) {
+  std::vector<double> x(static_cast<std::size_t>(centers.cols()));
+  for (std::size_t b = 0; b < x.size(); ++b) x[b] = centers(0, static_cast<Eigen::Index>(b));
+  return seconds_of([&] { std::sort(x.begin(), x.end()); });
+}
+
+}  // namespace kds

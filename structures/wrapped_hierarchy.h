@@ -1,0 +1,391 @@
+#pragma once
+// Kinetic wrapped hierarchy in space, equal radii: at every internal node of the balanced tree over a
+// necklace the minimum enclosing sphere of all its beads, kept as a basis of at most four beads. Certificates
+// of a node: each other bead stays inside the sphere of the basis; each basis bead stays outside the sphere
+// of its fellows. When one fails, the new basis is found among the basis and the bead, just after the event.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "kds/certificate_table.h"
+#include "motions/positions.h"
+#include "structures/basis.h"
+#include "structures/bead_names.h"
+#include "structures/enclosing_sphere.h"
+#include "structures/necklace_tree.h"
+
+namespace kds {
+
+template <Motion M, Kernel K>
+class WrappedHierarchy final : public KineticStructure {
+  static_assert(M::dimension == 3);
+
+ public:
+  WrappedHierarchy(Simulator& simulator, const M& motion, std::span<const BeadRange> necklaces)
+      : simulator_(simulator),
+        motion_(motion),
+        tree_(necklaces),
+        index_(simulator.add(*this)),
+        of_pairs_(simulator, *this, index_, 0, motion),
+        of_triples_(simulator, *this, index_, 1, motion),
+        of_singles_(simulator, *this, index_, 2, motion),
+        of_quadruples_(simulator, *this, index_, 3, motion),
+        nodes_(tree_.node_count()) {}
+
+  enum Kind : std::uint8_t { enter, leave, pivot };
+
+  [[nodiscard]] std::string_view name() const override { return "wrapped"; }
+  /// Ids: the node's first and last bead, then its new basis.
+  [[nodiscard]] std::span<const EventKind> kinds() const override {
+    static constexpr std::array<EventKind, 3> kinds{{{"enter"}, {"leave"}, {"pivot"}}};
+    return kinds;
+  }
+
+  [[nodiscard]] const NecklaceTree& tree() const { return tree_; }
+  [[nodiscard]] const Basis& basis(NodeId node) const { return nodes_[node].basis; }
+
+  void build() override;
+  void start_step() override {
+    for (Node& node : nodes_) node.held = none, node.never_failing = 0;
+    held_.clear();
+    free_.clear();
+    for (NodeId node = 0; node < nodes_.size(); ++node) guard_node(node, nodes_[node].basis);
+    count_certificates_per_bead();
+  }
+  void fail(unsigned table, std::uint32_t slot) override;
+  void apply(const Change& change) override;
+  [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
+
+  /// The bases at a frame, none with a bead to spare even where the frame is degenerate.
+  [[nodiscard]] Basis basis_at(NodeId node, const Dyadic& time) const;
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffffU;
+  static constexpr int most_repairs = 64;  // of one node at one time, in `fast`
+
+  struct Node {
+    Basis basis;
+    std::uint32_t held = none;        // its certificates in the queue, a list in held_
+    std::uint32_t never_failing = 0;  // how many more it has
+  };
+  struct Held {
+    Guard guard;
+    std::uint32_t next;
+    std::uint8_t table;
+  };
+
+  /// The sign of a certificate just after now. That of the failing one is known, and so is its function's
+  /// elsewhere.
+  struct JustAfter {
+    WrappedHierarchy& self;
+    template <class Certificate>
+    int operator()(const Certificate& c) const {
+      if (self.present_ && c.identity() == self.present_->identity) {
+        return positive_side(c) == self.present_->positive_side ? -1 : 1;
+      }
+      return sign_just_after<K>(c, self.motion_, self.simulator_.now(), self.statistics.stages);
+    }
+  };
+  struct AtTime {
+    const M& motion;
+    const Dyadic& time;
+    template <class Certificate>
+    int operator()(const Certificate& c) const {
+      return c.function(MomentView<M>(motion, c.beads, time)).scaled[0].sign();
+    }
+  };
+  struct Present {
+    Identity identity;
+    bool positive_side;  // which side of zero its certificate wants
+  };
+
+  template <int Size>
+  static bool positive_side(const BeadInSphere<Size>& c) {
+    return c.inside;
+  }
+  static bool positive_side(const PowerTest& c) { return c.sign > 0; }
+  static bool positive_side(const Orientation& c) { return c.sign > 0; }
+
+  /// The bead that a certificate of a node with this basis is about.
+  template <int Size>
+  static BeadId bead_of(const BeadInSphere<Size>& c, const Basis&) {
+    return c.beads[Size];
+  }
+  static BeadId bead_of(const PowerTest& c, const Basis& basis) {
+    return *std::find_if(c.beads.begin(), c.beads.end(), [&](BeadId b) { return !basis.contains(b); });
+  }
+
+  auto& table_of(const BeadInSphere<1>&) { return of_singles_; }
+  auto& table_of(const BeadInSphere<2>&) { return of_pairs_; }
+  auto& table_of(const BeadInSphere<3>&) { return of_triples_; }
+  auto& table_of(const PowerTest&) { return of_quadruples_; }
+  template <class Visit>
+  void visit_table(unsigned table, Visit&& visit) {
+    switch (table) {
+      case 0:
+        return visit(of_pairs_);
+      case 1:
+        return visit(of_triples_);
+      case 2:
+        return visit(of_singles_);
+      default:
+        return visit(of_quadruples_);
+    }
+  }
+
+  /// Guards a node, repairing its basis while a certificate is violated already; logs the change from
+  /// `before`.
+  void guard_node(NodeId node, const Basis& before);
+  /// Guards the node's present basis; the first bead whose certificate is violated, if any.
+  [[nodiscard]] std::optional<BeadId> watch_node(NodeId node);
+  template <class Certificate>
+  [[nodiscard]] bool hold(NodeId node, const Certificate& certificate);
+  void drop_node(NodeId node);
+  /// The basis of the node's basis and `bead`, which escaped or is to spare.
+  [[nodiscard]] bool repair(NodeId node, BeadId bead);
+  void record(NodeId node, const Basis& before);
+  void count_certificates_per_bead();
+
+  Simulator& simulator_;
+  const M& motion_;
+  NecklaceTree tree_;
+  std::size_t index_;
+  CertificateTable<BeadInSphere<2>, M, K> of_pairs_;
+  CertificateTable<BeadInSphere<3>, M, K> of_triples_;
+  CertificateTable<BeadInSphere<1>, M, K> of_singles_;
+  CertificateTable<PowerTest, M, K> of_quadruples_;
+  std::vector<Node> nodes_;
+  std::vector<Held> held_;
+  std::vector<std::uint32_t> free_;
+  std::optional<Present> present_;
+};
+
+template <Motion M, Kernel K>
+void WrappedHierarchy<M, K>::build() {
+  const Eigen::Matrix3Xd centers = control_points(motion_, 0);
+  JustAfter decide{*this};
+  for (NodeId id = 0; id < nodes_.size(); ++id) {
+    const BeadRange range = tree_.range(id);
+    nodes_[id].basis =
+        likely_basis(range.first, range.last, Basis(std::array{range.first, range.last}), centers);
+    // Verified, and put right where double was wrong, for the moment after the start.
+    bool settled = false;
+    for (int i = 0; !settled && (i < most_repairs || !std::same_as<K, Fast>); ++i) {
+      settled = true;
+      if (!is_proper(nodes_[id].basis, decide)) {
+        settled = !repair(id, no_bead);
+        continue;
+      }
+      const int orientation = orientation_of(nodes_[id].basis, decide);
+      for (BeadId b = range.first; b <= range.last; ++b) {
+        if (nodes_[id].basis.contains(b) || is_inside(nodes_[id].basis, b, orientation, decide)) continue;
+        settled = !repair(id, b);
+        break;
+      }
+    }
+  }
+}
+
+template <Motion M, Kernel K>
+bool WrappedHierarchy<M, K>::repair(NodeId id, BeadId bead) {
+  Basis& basis = nodes_[id].basis;
+  std::array<BeadId, Basis::max_size + 1> among{};
+  std::size_t count = basis.size;
+  std::copy(basis.begin(), basis.end(), among.begin());
+  if (bead != no_bead && !basis.contains(bead)) among[count++] = bead;
+  JustAfter decide{*this};
+  const auto next = basis_among(std::span(among).first(count), decide);
+  if (!next) {
+    if constexpr (!std::same_as<K, Fast>)
+      throw std::logic_error("no basis among beads " + bead_names(std::span(among).first(count)));
+    return false;
+  }
+  if (*next == basis) return false;
+  basis = *next;
+  return true;
+}
+
+template <Motion M, Kernel K>
+template <class Certificate>
+bool WrappedHierarchy<M, K>::hold(NodeId id, const Certificate& certificate) {
+  auto& table = table_of(certificate);
+  const bool own_root = present_ && certificate.identity() == present_->identity;
+  if (own_root && positive_side(certificate) == present_->positive_side) return false;  // it has just failed
+  const Guard guard = table.watch(certificate, id, own_root ? Birth::at_own_root : Birth::unknown);
+  if (guard == Guard::violated) return false;
+  if (guard == Guard::never) {
+    ++nodes_[id].never_failing;
+    return true;
+  }
+  std::uint32_t place = 0;
+  if (free_.empty()) {
+    place = static_cast<std::uint32_t>(held_.size());
+    held_.emplace_back();
+  } else {
+    place = free_.back();
+    free_.pop_back();
+  }
+  held_[place] = {guard, nodes_[id].held, static_cast<std::uint8_t>(table.number())};
+  nodes_[id].held = place;
+  return true;
+}
+
+template <Motion M, Kernel K>
+std::optional<BeadId> WrappedHierarchy<M, K>::watch_node(NodeId id) {
+  const Basis basis = nodes_[id].basis;
+  JustAfter decide{*this};
+  // Beads that leave first: outside their proper domain the other certificates say nothing. Two beads never
+  // part.
+  if (basis.size >= 3) {
+    for (const BeadId b : basis) {
+      if (!visit_membership(without(basis, b), b, false, 0, [&](const auto& c) { return hold(id, c); }))
+        return b;
+    }
+  }
+  const int orientation = orientation_of(basis, decide);
+  const BeadRange range = tree_.range(id);
+  for (BeadId b = range.first; b <= range.last; ++b) {
+    if (basis.contains(b)) continue;
+    if (!visit_membership(basis, b, true, orientation, [&](const auto& c) { return hold(id, c); })) return b;
+  }
+  return std::nullopt;
+}
+
+template <Motion M, Kernel K>
+void WrappedHierarchy<M, K>::guard_node(NodeId id, const Basis& before) {
+  for (int repairs = 0;; ++repairs) {
+    const std::optional<BeadId> violated = watch_node(id);
+    if (!violated) break;
+    // `fast` lives with a contradiction until the next event of the node or the next step.
+    if (std::same_as<K, Fast> && repairs >= most_repairs) break;
+    drop_node(id);
+    if (!repair(id, *violated)) {
+      if constexpr (!std::same_as<K, Fast>) {
+        throw std::logic_error("a basis is violated and right at once, at bead " + std::to_string(*violated));
+      }
+      ++statistics.rebuilds;
+      break;
+    }
+  }
+  if (!(nodes_[id].basis == before)) record(id, before);
+}
+
+template <Motion M, Kernel K>
+void WrappedHierarchy<M, K>::drop_node(NodeId id) {
+  Node& node = nodes_[id];
+  of_pairs_.drop_never(node.never_failing);
+  node.never_failing = 0;
+  for (std::uint32_t place = node.held; place != none; place = held_[place].next) {
+    visit_table(held_[place].table, [&](auto& table) { table.drop(held_[place].guard); });
+    free_.push_back(place);
+  }
+  node.held = none;
+}
+
+template <Motion M, Kernel K>
+void WrappedHierarchy<M, K>::fail(unsigned table, std::uint32_t slot) {
+  NodeId id = 0;
+  BeadId bead = 0;
+  visit_table(table, [&](auto& t) {
+    const auto& certificate = t.certificate(slot);
+    id = t.place_in_structure(slot);
+    bead = bead_of(certificate, nodes_[id].basis);
+    present_ = Present{certificate.identity(), positive_side(certificate)};
+  });
+  for (std::uint32_t place = nodes_[id].held; place != none; place = held_[place].next) {
+    Held& held = held_[place];
+    if (held.table == table && held.guard == static_cast<Guard>(slot))
+      held.guard = Guard::violated;  // gone already
+  }
+  drop_node(id);
+  const Basis before = nodes_[id].basis;
+  if (!repair(id, bead)) {
+    if constexpr (!std::same_as<K, Fast>) throw std::logic_error("a failed certificate changes no basis");
+    ++statistics.rebuilds;
+    const BeadRange range = tree_.range(id);
+    nodes_[id].basis = likely_basis(range.first, range.last, before,
+                                    approximate_positions(motion_, simulator_.now().upper()));
+  }
+  guard_node(id, before);
+  present_.reset();
+}
+
+template <Motion M, Kernel K>
+void WrappedHierarchy<M, K>::record(NodeId id, const Basis& before) {
+  const Basis& after = nodes_[id].basis;
+  const auto misses = [](const Basis& basis, const Basis& of) {
+    return std::any_of(of.begin(), of.end(), [&](BeadId b) { return !basis.contains(b); });
+  };
+  const bool entered = misses(before, after);
+  const bool left = misses(after, before);
+  Change change{entered && left ? pivot
+                : entered       ? enter
+                                : leave,
+                static_cast<std::uint8_t>(2 + after.size),
+                {tree_.range(id).first, tree_.range(id).last}};
+  std::copy(after.begin(), after.end(), change.ids.begin() + 2);
+  simulator_.record(index_, change);
+}
+
+template <Motion M, Kernel K>
+void WrappedHierarchy<M, K>::apply(const Change& change) {
+  const auto node = tree_.find({change.ids[0], change.ids[1]});
+  if (!node) throw std::invalid_argument("the hierarchy has no such node");
+  const Basis basis(std::span(change.ids).subspan(2, change.size - 2U));
+  for (const BeadId b : basis) {
+    if (b < change.ids[0] || b > change.ids[1])
+      throw std::invalid_argument("a basis bead is not of its node");
+  }
+  nodes_[*node].basis = basis;
+}
+
+template <Motion M, Kernel K>
+Basis WrappedHierarchy<M, K>::basis_at(NodeId id, const Dyadic& time) const {
+  const Basis& basis = nodes_[id].basis;
+  AtTime decide{motion_, time};
+  if (is_proper(basis, decide)) return basis;
+  return basis_among(std::span(basis.beads).first(basis.size), decide).value_or(basis);
+}
+
+/// The sphere of a basis that encloses all beads and has no bead to spare is the minimum enclosing one, and
+/// the only one: checking both on integers is as good as building it.
+template <Motion M, Kernel K>
+std::optional<std::string> WrappedHierarchy<M, K>::audit(const Dyadic& time) {
+  AtTime decide{motion_, time};
+  for (NodeId id = 0; id < nodes_.size(); ++id) {
+    const Basis basis = basis_at(id, time);
+    const BeadRange range = tree_.range(id);
+    const std::string where = "node " + std::to_string(range.first) + "-" + std::to_string(range.last) +
+                              " with basis " + bead_names(std::span(basis.beads).first(basis.size));
+    if (!is_proper(basis, decide)) return where + ": a basis bead is to spare";
+    const int orientation = orientation_of(basis, decide);
+    for (BeadId b = range.first; b <= range.last; ++b) {
+      if (!basis.contains(b) && !is_inside(basis, b, orientation, decide))
+        return where + ": bead " + std::to_string(b) + " sticks out";
+    }
+  }
+  return std::nullopt;
+}
+
+template <Motion M, Kernel K>
+void WrappedHierarchy<M, K>::count_certificates_per_bead() {
+  std::vector<std::uint64_t> count(motion_.bead_count(), 0);
+  for (NodeId id = 0; id < nodes_.size(); ++id) {
+    const BeadRange range = tree_.range(id);
+    const Basis& basis = nodes_[id].basis;
+    const std::uint64_t inside = range.last - range.first + 1U - basis.size;
+    for (BeadId b = range.first; b <= range.last; ++b) count[b] += 1;
+    for (const BeadId b : basis) count[b] += inside - 1 + (basis.size >= 3 ? basis.size : 0U);
+  }
+  for (const std::uint64_t c : count) {
+    statistics.certificates.per_bead_max = std::max(statistics.certificates.per_bead_max, c);
+  }
+}
+
+}  // namespace kds

@@ -1,0 +1,19 @@
+#pragma once
+// Starts the real program and waits for it.
+
+#include <string>
+#include <vector>
+
+namespace kds::test {
+
+struct ProgramRun {
+  int code = -1;  ///< -1: ended by a signal
+  std::string out, err;
+};
+
+[[nodiscard]] ProgramRun run_program(std::vector<std::string> arguments);
+
+/// A file of the data folder.
+[[nodiscard]] std::string data_file(const std::string& name);
+
+}  // namespace kds::test

@@ -1,0 +1,46 @@
+#pragma once
+// A small run, made up, with every kind of figure a report shows.
+
+#include "experiments/run_report.h"
+
+namespace kds::test {
+
+inline RunReport sample_report() {
+  StructureReport wrapped;
+  wrapped.name = "wrapped";
+  wrapped.events_total = 6;
+  wrapped.events_by_kind = {{"enter", 3}, {"leave", 2}, {"pivot", 1}};
+  wrapped.events_per_step = {1, 2, 3};
+  wrapped.created = 1234567;
+  wrapped.never_failing = 1234000;
+  wrapped.cancelled = 500;
+  wrapped.failed = 67;
+  wrapped.peak = 89;
+  wrapped.per_bead_max = 11;
+  wrapped.stages = {{"coefficients", 1000000}, {"isolation", 234567}};
+  wrapped.seconds = 0.5;
+  wrapped.build_seconds = 0.25;
+  wrapped.static_seconds = 2;
+  wrapped.audits_run = 4;
+
+  StructureReport power;
+  power.name = "power";
+  power.events_total = 30;
+  power.events_by_kind = {{"2-3", 17}, {"3-2", 13}, {"wander", 5}};
+  power.events_per_step = {10, 0, 20};
+  power.stages = {{"coefficients", 40}, {"exact", 2}};
+  power.rebuilds = 1;
+
+  RunReport report;
+  report.files = {"chain.pdb"};
+  report.beads = 36;
+  report.frames = 4;
+  report.radius_min = report.radius_max = 1.5;
+  report.settings = {{"motion", "linear"}, {"kernel", "filtered"}};
+  report.structures = {wrapped, power};
+  report.engine_seconds = 0.125;
+  report.fingerprint = 0xabcdef;
+  return report;
+}
+
+}  // namespace kds::test

@@ -1,0 +1,38 @@
+#pragma once
+// The files that `--dump` writes, read into plain tables: only their form is judged here.
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace oracle {
+
+using Cell = std::array<unsigned, 4>;
+
+struct Node {
+  unsigned first = 0, last = 0;
+  std::vector<unsigned> basis;
+  std::array<double, 3> centre{};
+  double radius = 0;
+};
+
+/// A file of another form than the contract says.
+struct FormError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+[[nodiscard]] std::filesystem::path dump_file(const std::filesystem::path& dir, std::size_t frame,
+                                              const std::string& what);
+
+[[nodiscard]] std::vector<Cell> read_cells(const std::filesystem::path& path);
+[[nodiscard]] std::vector<unsigned> read_hidden(const std::filesystem::path& path);
+[[nodiscard]] std::vector<Node> read_nodes(const std::filesystem::path& path);
+
+void write_cells(const std::filesystem::path& path, const std::vector<Cell>& cells);
+void write_hidden(const std::filesystem::path& path, const std::vector<unsigned>& hidden);
+void write_nodes(const std::filesystem::path& path, const std::vector<Node>& nodes);
+
+}  // namespace oracle

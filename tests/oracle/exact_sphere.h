@@ -1,0 +1,47 @@
+#pragma once
+// Smallest enclosing spheres in exact numbers, two ways: a proof for beads of equal radii, CGAL for all.
+
+#include <CGAL/Exact_rational.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dump.h"
+#include "scene.h"
+
+namespace oracle {
+
+using Rational = CGAL::Exact_rational;
+
+/// a + b sqrt(d), d >= 0.
+struct RootNumber {
+  Rational a = 0, b = 0, d = 0;
+};
+
+[[nodiscard]] CGAL::Sign compare(const RootNumber& x, const RootNumber& y);
+[[nodiscard]] double to_double(const RootNumber& x);
+
+struct ExactSphere {
+  std::array<double, 3> centre{};  ///< rounded
+  double radius = 0;               ///< rounded
+  RootNumber exact_radius;
+  std::vector<unsigned> support;  ///< ascending
+};
+
+/// CGAL's smallest sphere around the given balls. Its LP algorithm: the default heuristic misses beads of
+/// cospherical sets.
+[[nodiscard]] ExactSphere cgal_sphere(const Frame& frame, const std::vector<unsigned>& beads);
+
+struct Proof {
+  ExactSphere sphere;  ///< through the basis; without its exact radius
+  std::optional<std::string>
+      objection;  ///< why it is not the node's smallest sphere, or the basis not minimal
+};
+
+/// For beads of equal radii: the basis centres are affinely independent, the centre lies strictly inside
+/// their hull and no centre of the node lies outside their circumsphere. That is all it takes.
+[[nodiscard]] Proof prove_sphere(const Frame& frame, const Node& node);
+
+}  // namespace oracle
