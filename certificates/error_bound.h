@@ -8,8 +8,14 @@
 // carried itself, at most 2^-122 of the least bound; the constants are inflated by more than that. Outside
 // this range the filter says nothing.
 //
-// `value` bounds the error of any value of the polynomial evaluated at one double, `local` that of Bernstein
-// coefficients on any part of [0,1] that at most `subdivisions` subdivisions lead to.
+// From these follow two bounds for the plain Bernstein coefficients c, whose division by binomials rounds
+// once more: any value at a double errs by at most uniform * M^h + value_rounding(n) * max|c|, and the
+// coefficients on any part of [0,1] that at most `subdivisions` subdivisions lead to by uniform * M^h +
+// local_rounding(n) * max|c|.
+//
+// One subdivision is n rounds of (1-t) a + t b. A round errs by at most 4u max|c| (two products, one sum,
+// 1-t), and t itself, (m-a)/(b-a) rounded three times, by 4u, which moves a coefficient by at most 2n * 4u
+// max|c|. Together 12 u n max|c|; evaluation at a double is one subdivision.
 
 #include <array>
 #include <cmath>
@@ -19,14 +25,19 @@
 
 namespace kds {
 
+inline constexpr int subdivisions = 32;
+[[nodiscard]] constexpr double value_rounding(int degree) {
+  return 12 * Magnitude::unit_roundoff * (1 + 0x1p-30) * degree;
+}
+[[nodiscard]] constexpr double local_rounding(int degree) {
+  return (subdivisions + 2) * value_rounding(degree);
+}
+
 template <int Degree>
 struct ErrorBound {
-  static constexpr int subdivisions = 32;
-
   int power = 0;  ///< h
   std::array<double, static_cast<std::size_t>(Degree) + 1> coefficient{};
-  double value = 0;
-  double local = 0;
+  double uniform = 0;
 
   /// M^h, or a NaN that fails every comparison where the bound is not proved.
   [[nodiscard]] double scale(double largest_length) const {
@@ -45,24 +56,13 @@ derive_error_bound() {
   constexpr double u = Magnitude::unit_roundoff;
 
   ErrorBound<degree> bound;
-  double size = 0;     // of Bernstein coefficients
-  double uniform = 0;  // error of Bernstein coefficients, hence of all values
   for (std::size_t k = 0; k < magnitudes.scaled.size(); ++k) {
     const Magnitude& m = magnitudes.scaled[k];
     const auto choose = static_cast<double>(binomial(degree, static_cast<int>(k)));
     bound.power = m.power;
     bound.coefficient[k] = m.error * inflation;
-    size = std::max(size, (m.bound + m.error) / choose);
-    uniform =
-        std::max(uniform, (m.error + u * (m.bound + m.error)) / choose);  // one more rounding: the division
+    bound.uniform = std::max(bound.uniform, (m.error + u * (m.bound + m.error)) / choose * inflation);
   }
-  // One subdivision is `degree` rounds of (1-t) a + t b. A round errs by at most 4u times the largest
-  // coefficient (two products, one sum, 1-t), and t itself, (m-a)/(b-a) rounded three times, by 4u, which
-  // moves a coefficient by at most 2 degree * size * 4u. Together 12 u degree size; evaluation at a double is
-  // one subdivision.
-  const double once = 12 * u * degree * size;
-  bound.value = (uniform + once) * inflation;
-  bound.local = (uniform + (ErrorBound<degree>::subdivisions + 2) * once) * inflation;
   return bound;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "certificates/modular_gcd.h"
+
 namespace kds {
 
 namespace {
@@ -44,6 +46,7 @@ Coefficients pseudo_remainder(Coefficients a, const Coefficients& b) {
 Coefficients polynomial_gcd(Coefficients a, Coefficients b) {
   drop_leading_zeros(a);
   drop_leading_zeros(b);
+  if (certainly_coprime(a, b)) return {Integer(1)};
   make_primitive(a);
   make_primitive(b);
   if (a.size() < b.size()) std::swap(a, b);
@@ -184,6 +187,7 @@ ExactPolynomial ExactPolynomial::square_free() const {
   if (c.size() <= 2) return ExactPolynomial(std::move(c));
   Coefficients derivative(c.size() - 1);
   for (std::size_t k = 1; k < c.size(); ++k) derivative[k - 1] = c[k] * k;
+  if (certainly_coprime(c, derivative)) return ExactPolynomial(std::move(c));
   const Coefficients repeated = polynomial_gcd(c, std::move(derivative));
   if (repeated.size() > 1) {
     c = exact_quotient(std::move(c), repeated);

@@ -44,8 +44,12 @@ void ExactTime::refine() {
   }
 }
 
-void ExactTime::refine_to(unsigned bits) {
-  while (!is_dyadic() && (upper_.rational() - lower_.rational()) * Rational(Integer(1) << bits) > 1) refine();
+bool ExactTime::narrow_to(const Dyadic& lower, const Dyadic& upper) {
+  if (is_dyadic() || lower < lower_ || upper_ < upper) return false;
+  if (polynomial_.sign_at(lower) != sign_lower_ || polynomial_.sign_at(upper) != -sign_lower_) return false;
+  lower_ = lower;
+  upper_ = upper;
+  return true;
 }
 
 int ExactTime::compare(ExactTime& a, ExactTime& b) {
@@ -60,7 +64,7 @@ int ExactTime::compare(ExactTime& a, ExactTime& b) {
     } else {
       // Common roots are the roots of g; the times are equal iff one lies in the overlap, where each has one
       // root.
-      const ExactPolynomial g = ExactPolynomial::gcd(a.polynomial_, b.polynomial_);
+      const ExactPolynomial g = ExactPolynomial::gcd(a.polynomial_, b.polynomial_).square_free();
       const Dyadic& lower = a.lower_ < b.lower_ ? b.lower_ : a.lower_;
       const Dyadic& upper = a.upper_ < b.upper_ ? a.upper_ : b.upper_;
       if (!g.is_constant() && g.sign_at(lower) * g.sign_at(upper) < 0) return 0;
@@ -109,15 +113,17 @@ int sign_after(const ExactPolynomial& function, ExactTime& time) {
   }
 }
 
-std::optional<ExactTime> first_failure_after(const ExactPolynomial& function, ExactTime& now) {
+std::optional<ExactTime> first_failure_after(const ExactPolynomial& function, const ExactTime& now) {
   if (function.is_zero() || function.sign_variations() == 0) return std::nullopt;
-  const ExactPolynomial simple = function.square_free();
   const Dyadic end(1.0);
-  for (RootInterval& interval : isolate_roots(simple, now.lower(), end)) {
-    if (interval.lower == end) break;  // what happens at u = 1 is judged by the next step
-    ExactTime root(simple, std::move(interval));
-    if (ExactTime::compare(root, now) <= 0) continue;
-    if (sign_after(function, root) < 0) return root;
+  const bool from_root = now.is_dyadic() && function.sign_at(now.upper()) == 0;
+  const ExactPolynomial simple = function.square_free();
+  auto roots = isolate_roots(simple, now.upper(), end);
+  for (auto root = roots.begin() + (from_root ? 1 : 0); root != roots.end(); ++root) {
+    if (root->lower == end) break;  // what happens at u = 1 is judged by the next step
+    const bool point = root->lower == root->upper;
+    const int after = point ? function.sign_after(root->upper) : function.sign_at(root->upper);
+    if (after < 0) return ExactTime(simple, std::move(*root));
   }
   return std::nullopt;
 }

@@ -11,8 +11,8 @@ namespace kds {
 class ExactTime {
  public:
   explicit ExactTime(Dyadic time) : lower_(time), upper_(std::move(time)) {}
-  /// The root of `square_free` in `interval`.
-  ExactTime(ExactPolynomial square_free, RootInterval interval);
+  /// The root of `polynomial` in `interval`: the only one there, and the polynomial changes sign at it.
+  ExactTime(ExactPolynomial polynomial, RootInterval interval);
 
   [[nodiscard]] bool is_dyadic() const { return lower_ == upper_; }
   [[nodiscard]] const Dyadic& lower() const { return lower_; }  ///< < the time, or equal if is_dyadic()
@@ -21,8 +21,8 @@ class ExactTime {
 
   /// Halves the interval, or finds that the time is its middle.
   void refine();
-  /// Narrows until the interval is at most 2^-bits long.
-  void refine_to(unsigned bits);
+  /// The same to a narrower interval that holds the time, if it does; else nothing. Ends must not be roots.
+  bool narrow_to(const Dyadic& lower, const Dyadic& upper);
 
   /// -1, 0, 1. Narrows both.
   [[nodiscard]] static int compare(ExactTime& a, ExactTime& b);
@@ -33,12 +33,15 @@ class ExactTime {
   int sign_lower_ = 0;
 };
 
-/// Sign of `function` on (time, time + delta), 0 only for the zero function. Narrows `time`.
+/// Sign of `function` on (time, time + delta), 0 only for the zero function. Narrows `time` until `function`
+/// has no root between it and time.upper().
 [[nodiscard]] int sign_after(const ExactPolynomial& function, ExactTime& time);
 
 /// The first time after `now`, before the end of the step, from which on `function` is negative; none if
-/// there is none. `function` must be positive just after `now`. Touching zero is no failure.
-[[nodiscard]] std::optional<ExactTime> first_failure_after(const ExactPolynomial& function, ExactTime& now);
+/// there is none. `function` must be positive just after `now`, by sign_after, which narrowed `now` for this.
+/// Touching zero is no failure.
+[[nodiscard]] std::optional<ExactTime> first_failure_after(const ExactPolynomial& function,
+                                                           const ExactTime& now);
 
 /// A dyadic strictly between two different times, a before b.
 [[nodiscard]] Dyadic dyadic_between(ExactTime& a, ExactTime& b);

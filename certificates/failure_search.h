@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "certificates/bounded_polynomial.h"
 #include "certificates/certificate.h"
@@ -40,6 +40,23 @@ template <class Certificate, Motion M>
 
 namespace detail {
 
+/// A certificate's function in double with its errors, and whether all its coefficients are certainly
+/// positive.
+template <int Degree>
+struct Bounded {
+  BoundedPolynomial<Degree> function;
+  bool positive;
+};
+
+template <int Degree>
+void finish(Bounded<Degree>& bounded, double uniform_error) {
+  double largest = 0;
+  for (const double c : bounded.function.bernstein) largest = std::max(largest, std::abs(c));
+  bounded.function.value_error = uniform_error + value_rounding(Degree) * largest;
+  bounded.function.local_error = uniform_error + local_rounding(Degree) * largest;
+}
+
+/// By the certificate type's own filter.
 template <class Certificate, Motion M>
 [[nodiscard, gnu::noinline]] auto bounded_function(const Certificate& certificate, const M& motion) {
   const DoubleView<M> view(motion);
@@ -47,19 +64,65 @@ template <class Certificate, Motion M>
   constexpr int degree = decltype(function)::degree;
   const auto& bound = error_bound<Certificate, M>;
   const double scale = bound.scale(view.largest_length());
-  BoundedPolynomial<degree> result{{}, bound.value * scale, bound.local * scale};
-  bool positive = true;
+  Bounded<degree> result{{{}, 0, 0}, true};
   for (std::size_t k = 0; k <= degree; ++k) {
-    positive &= function.scaled[k] > bound.coefficient[k] * scale;
-    result.bernstein[k] = function.scaled[k] / static_cast<double>(binomial(degree, static_cast<int>(k)));
+    result.positive &= function.scaled[k] > bound.coefficient[k] * scale;
+    result.function.bernstein[k] =
+        function.scaled[k] / static_cast<double>(binomial(degree, static_cast<int>(k)));
   }
-  return std::pair(result, positive);
+  finish(result, bound.uniform * scale);
+  return result;
+}
+
+/// With errors followed operation by operation.
+template <class Certificate, Motion M>
+[[nodiscard, gnu::noinline]] auto tracked_function(const Certificate& certificate, const M& motion) {
+  const auto function = certificate.function(TrackedView<M>(motion));
+  constexpr int degree = decltype(function)::degree;
+  Bounded<degree> result{{{}, 0, 0}, true};
+  double uniform = 0;
+  for (std::size_t k = 0; k <= degree; ++k) {
+    const auto choose = static_cast<double>(binomial(degree, static_cast<int>(k)));
+    const TrackedDouble& c = function.scaled[k];
+    // One more rounding for the division; a NaN is kept, and proves nothing.
+    const double error =
+        (c.error + TrackedDouble::unit_roundoff * std::abs(c.value)) * TrackedDouble::inflation +
+        TrackedDouble::lost_to_underflow;
+    result.positive &= c.value > error;
+    result.function.bernstein[k] = c.value / choose;
+    if (!(error <= uniform)) uniform = error;
+  }
+  finish(result, uniform);
+  return result;
+}
+
+/// Settles a certificate in double, or nothing.
+template <int Degree>
+[[nodiscard]] std::optional<Failure> settle(const Bounded<Degree>& bounded, const Instant& now, Birth birth) {
+  if (bounded.positive) return Failure{};
+  const BoundedPolynomial<Degree>& function = bounded.function;
+  // Positive from the present time on? At its own root the bracket holds no other one, and its upper end
+  // tells.
+  const bool starts_positive = birth == Birth::at_own_root
+                                   ? now.isolating() && function.certain_sign_at(now.upper()) > 0
+                                   : function.certain_sign_on(now.lower(), now.upper()) > 0;
+  if (!starts_positive) return std::nullopt;
+  const auto result = function.first_descent(now.upper());
+  switch (result.verdict) {
+    case Verdict::never:
+      return Failure{};
+    case Verdict::found:
+      return Failure{Failure::Kind::later, {result.bracket.lower, result.bracket.upper, 0, true}};
+    case Verdict::undecided:
+      break;
+  }
+  return std::nullopt;
 }
 
 template <class Certificate, Motion M>
 [[nodiscard]] Failure fast_first_failure(const Certificate& certificate, const M& motion, const Instant& now,
                                          Birth birth, StageCounts& stages) {
-  auto [function, positive] = bounded_function(certificate, motion);
+  auto function = bounded_function(certificate, motion).function;
   function.value_error = function.local_error = 0;
   for (const double c : function.bernstein) {
     if (!std::isfinite(c)) return {};  // nothing can be said; the structure's frame check will see to it
@@ -98,23 +161,14 @@ requires CertificateFor<Certificate, M>
     return detail::fast_first_failure(certificate, motion, now, birth, stages);
   } else {
     if constexpr (std::same_as<K, Filtered>) {
-      const auto [function, positive] = detail::bounded_function(certificate, motion);
-      if (positive) {
-        ++stages.coefficients;
-        return {};
+      const auto bounded = detail::bounded_function(certificate, motion);
+      if (const auto failure = detail::settle(bounded, now, birth)) {
+        ++(bounded.positive ? stages.coefficients : stages.isolation);
+        return *failure;
       }
-      // Positive from the present time on? At its own root the bracket holds no other one, and its upper end
-      // tells.
-      const bool starts_positive = birth == Birth::at_own_root
-                                       ? now.isolating() && function.certain_sign_at(now.upper()) > 0
-                                       : function.certain_sign_on(now.lower(), now.upper()) > 0;
-      if (starts_positive) {
-        const auto result = function.first_descent(now.upper());
-        if (result.verdict != Verdict::undecided) ++stages.isolation;
-        if (result.verdict == Verdict::never) return {};
-        if (result.verdict == Verdict::found) {
-          return {Failure::Kind::later, {result.bracket.lower, result.bracket.upper, 0, true}};
-        }
+      if (const auto failure = detail::settle(detail::tracked_function(certificate, motion), now, birth)) {
+        ++stages.refined;
+        return *failure;
       }
     }
     return exact_first_failure(exact_function(certificate, motion), now, stages);
@@ -126,16 +180,19 @@ template <Kernel K, class Certificate, Motion M>
 requires CertificateFor<Certificate, M>
 [[nodiscard]] int sign_just_after(const Certificate& certificate, const M& motion, const Instant& now,
                                   StageCounts& stages) {
-  if constexpr (!std::same_as<K, Exact>) {
-    const auto [function, positive] = detail::bounded_function(certificate, motion);
-    if constexpr (std::same_as<K, Fast>) {
-      const double value = function.value_at(now.upper());
-      return value > 0 ? 1 : value < 0 ? -1 : 0;
-    } else {
-      if (const int sign = function.certain_sign_on(now.lower(), now.upper())) {
-        ++stages.signs_double;
-        return sign;
-      }
+  if constexpr (std::same_as<K, Fast>) {
+    const double value = detail::bounded_function(certificate, motion).function.value_at(now.upper());
+    return value > 0 ? 1 : value < 0 ? -1 : 0;
+  }
+  if constexpr (std::same_as<K, Filtered>) {
+    const auto sign_of = [&now](const auto& bounded) {
+      return bounded.function.certain_sign_on(now.lower(), now.upper());
+    };
+    int sign = sign_of(detail::bounded_function(certificate, motion));
+    if (sign == 0) sign = sign_of(detail::tracked_function(certificate, motion));
+    if (sign != 0) {
+      ++stages.signs_double;
+      return sign;
     }
   }
   const ExactPolynomial function = exact_function(certificate, motion);

@@ -8,7 +8,7 @@ namespace kds {
 struct StageCounts {
   std::uint64_t coefficients = 0;  ///< all Bernstein coefficients certainly positive: never fails
   std::uint64_t isolation = 0;     ///< subdivision in double: never fails, or a bracket with one proved root
-  std::uint64_t refined = 0;           ///< the same with errors followed operation by operation
+  std::uint64_t refined = 0;       ///< the same with errors followed operation by operation
   std::uint64_t exact = 0;         ///< integers
   std::uint64_t identically_zero = 0;  ///< integers, and the function is the zero polynomial: never fails
   std::uint64_t signs_double = 0;      ///< signs just after a time, settled in double

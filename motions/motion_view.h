@@ -2,6 +2,7 @@
 // A motion seen in a number type. A certificate's function is written once over a view:
 //
 //   DoubleView     rounded; remembers the size of what it was asked for, which scales the error bound
+//   TrackedView    rounded, with an error bound of its own (tracked_double.h)
 //   MagnitudeView  the error bound's constants (magnitude.h); sees no motion at all
 //   IntegerView    exact: all coordinates times one power of two, weights times its square. Certificate
 //   functions
@@ -20,6 +21,7 @@
 #include "motions/bezier_motion.h"
 #include "motions/exact_number.h"
 #include "motions/magnitude.h"
+#include "motions/tracked_double.h"
 
 namespace kds {
 
@@ -74,6 +76,45 @@ class DoubleView {
   const M& motion_;
   mutable double length_ = 0;
   mutable double weight_ = 0;
+};
+
+template <Motion M>
+class TrackedView {
+ public:
+  using Number = TrackedDouble;
+  static constexpr int dimension = M::dimension;
+  static constexpr int degree = M::degree;
+
+  explicit TrackedView(const M& motion) : motion_(motion) {}
+
+  [[nodiscard]] BernsteinVector<TrackedDouble, degree, dimension> difference(BeadId i, BeadId j) const {
+    BernsteinVector<TrackedDouble, degree, dimension> result;
+    for (int axis = 0; axis < dimension; ++axis) {
+      for (int k = 0; k <= degree; ++k) {
+        result[static_cast<std::size_t>(axis)].scaled[static_cast<std::size_t>(k)] =
+            chosen(k, motion_.coordinate(i, k, axis), motion_.coordinate(j, k, axis));
+      }
+    }
+    return result;
+  }
+  [[nodiscard]] Bernstein<TrackedDouble, degree> weight_difference(BeadId i, BeadId j) const {
+    Bernstein<TrackedDouble, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      result.scaled[static_cast<std::size_t>(k)] = chosen(k, motion_.weight(i, k), motion_.weight(j, k));
+    }
+    return result;
+  }
+
+ private:
+  /// C(degree, k) (a - b)
+  static TrackedDouble chosen(int k, double a, double b) {
+    TrackedDouble difference{a, 0};
+    difference -= TrackedDouble{b, 0};
+    if (k == 0 || k == degree) return difference;
+    return TrackedDouble{static_cast<double>(binomial(degree, k)), 0} * difference;
+  }
+
+  const M& motion_;
 };
 
 template <int DimensionValue, int DegreeValue>
@@ -206,6 +247,7 @@ class MomentView {
 };
 
 static_assert(MotionView<DoubleView<BezierMotion<3, 1>>>);
+static_assert(MotionView<TrackedView<BezierMotion<3, 1>>>);
 static_assert(MotionView<MagnitudeView<3, 1>>);
 static_assert(MotionView<IntegerView<BezierMotion<3, 1>>>);
 static_assert(MotionView<MomentView<BezierMotion<3, 1>>>);
