@@ -147,7 +147,11 @@ Dyadic next_on_grid(ExactTime& time, unsigned bits) {
   while (!time.is_dyadic()) {
     const Dyadic next(after(time.lower()), bits);
     if (time.upper() <= next) return next;
-    time.refine();
+    if (time.polynomial().sign_at(next) == 0) {  // halving may miss a time on the grid for ever
+      time = ExactTime(next);
+    } else {
+      time.refine();
+    }
   }
   return {after(time.lower()), bits};
 }

@@ -43,15 +43,15 @@ class SortedList final : public KineticStructure {
 
   void start_step() override {
     guards_.assign(order_.empty() ? 0 : order_.size() - 1, Guard::violated);
-    for (std::size_t i = 0; i < guards_.size(); ++i) watch(i);
-    statistics.certificates.per_bead_max = std::max<std::uint64_t>(statistics.certificates.per_bead_max,
-                                                                   std::min<std::size_t>(2, guards_.size()));
+    for (std::size_t i = guards_.size(); i-- > 0;) unguarded_.push_back(i);
+    guard_all();
+    auto& most = statistics.certificates.per_bead_max;
+    most = std::max<std::uint64_t>(most, std::min<std::size_t>(2, guards_.size()));
   }
 
   void fail(unsigned, std::uint32_t slot) override {
-    const std::size_t i = table_.place_in_structure(slot);
-    guards_[i] = Guard::violated;  // it is gone already
-    interchange(i);
+    interchange(table_.place_in_structure(slot));
+    guard_all();
   }
 
   void apply(const Change& change) override {
@@ -74,21 +74,28 @@ class SortedList final : public KineticStructure {
   }
 
  private:
-  /// Guards the pair at i and i+1, or trades its places at once if it is already out of order just after now.
-  void watch(std::size_t i, Birth birth = Birth::unknown) {
-    guards_[i] = table_.watch({{order_[i], order_[i + 1]}}, static_cast<std::uint32_t>(i), birth);
-    if (guards_[i] == Guard::violated) interchange(i);
+  /// Guards the pairs that wait for it; one that is out of order just after now trades places at once.
+  void guard_all() {
+    while (!unguarded_.empty()) {
+      const std::size_t i = unguarded_.back();
+      unguarded_.pop_back();
+      if (guards_[i] == Guard::violated) guards_[i] = watch(i, Birth::unknown);
+      if (guards_[i] == Guard::violated) interchange(i);
+    }
   }
-
+  [[nodiscard]] Guard watch(std::size_t i, Birth birth) {
+    return table_.watch({{order_[i], order_[i + 1]}}, static_cast<std::uint32_t>(i), birth);
+  }
   void interchange(std::size_t i) {
-    const Change change{0, 2, {order_[i], order_[i + 1]}};
-    simulator_.record(index_, change);
+    simulator_.record(index_, Change{0, 2, {order_[i], order_[i + 1]}});
     std::swap(order_[i], order_[i + 1]);
-    if (i > 0) table_.drop(guards_[i - 1]);
-    if (i + 1 < guards_.size()) table_.drop(guards_[i + 1]);
-    watch(i, Birth::at_own_root);
-    if (i > 0) watch(i - 1);
-    if (i + 1 < guards_.size()) watch(i + 1);
+    guards_[i] = watch(i, Birth::at_own_root);
+    for (const std::size_t beside : {i - 1, i + 1}) {  // i - 1 wraps round at 0
+      if (beside >= guards_.size()) continue;
+      table_.drop(guards_[beside]);
+      guards_[beside] = Guard::violated;
+      unguarded_.push_back(beside);
+    }
   }
 
   Simulator& simulator_;
@@ -96,7 +103,8 @@ class SortedList final : public KineticStructure {
   std::size_t index_;
   CertificateTable<Precedes, M, K> table_;
   std::vector<BeadId> order_;
-  std::vector<Guard> guards_;  // of the pair at i and i+1
+  std::vector<Guard> guards_;  // of the pair at i and i+1; violated: none yet
+  std::vector<std::size_t> unguarded_;
 };
 
 }  // namespace kds

@@ -17,7 +17,8 @@ inline RunReport sample_report() {
   wrapped.failed = 67;
   wrapped.peak = 89;
   wrapped.per_bead_max = 11;
-  wrapped.stages = {{"coefficients", 1000000}, {"isolation", 234567}};
+  wrapped.stages = {
+      {"coefficients", 1000000}, {"isolation", 234567}, {"signs_double", 77}, {"largest_bits", 54}};
   wrapped.seconds = 0.5;
   wrapped.build_seconds = 0.25;
   wrapped.static_seconds = 2;

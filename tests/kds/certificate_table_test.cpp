@@ -1,0 +1,285 @@
+#include "kds/certificate_table.h"
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <functional>
+#include <random>
+
+#include "certificates/precedes.h"
+
+namespace kds {
+namespace {
+
+using Line = BezierMotion<1, 1>;
+
+template <class K>
+class Owner final : public KineticStructure {
+ public:
+  Owner(Simulator& simulator, const Line& motion)
+      : unused(simulator, *this, 0, 3, motion), table(simulator, *this, simulator.add(*this), 5, motion) {}
+
+  [[nodiscard]] std::string_view name() const override { return "owner"; }
+  [[nodiscard]] std::span<const EventKind> kinds() const override {
+    static constexpr std::array<EventKind, 1> kinds{{{"event"}}};
+    return kinds;
+  }
+  void build() override {}
+  void start_step() override { on_start(); }
+  void fail(unsigned number, std::uint32_t slot) override {
+    EXPECT_EQ(number, 5U);
+    failed.push_back(table.place_in_structure(slot));
+    if (on_fail) on_fail(slot);
+  }
+  void apply(const Change&) override {}
+  [[nodiscard]] std::optional<std::string> audit(const Dyadic&) override { return std::nullopt; }
+
+  std::function<void()> on_start;
+  std::function<void(std::uint32_t)> on_fail;
+  std::vector<std::uint32_t> failed;
+  CertificateTable<Precedes, Line, K> unused;
+  CertificateTable<Precedes, Line, K> table;
+};
+
+// Bead i stands at i; beads 10 + i move from 100 to -100 + i.
+Line sweeping() {
+  Line motion(20);
+  for (BeadId i = 0; i < 10; ++i) {
+    motion.set_coordinate(i, 0, 0, i);
+    motion.set_coordinate(i, 1, 0, i);
+    motion.set_coordinate(10 + i, 0, 0, 100);
+    motion.set_coordinate(10 + i, 1, 0, -100 + static_cast<double>(i));
+  }
+  return motion;
+}
+
+template <class K>
+class CertificateTableTest : public testing::Test {
+ protected:
+  void run(std::function<void()> start, std::function<void(std::uint32_t)> fail = {}) {
+    owner.on_start = std::move(start);
+    owner.on_fail = std::move(fail);
+    simulator.build();
+    simulator.run_step(true);
+  }
+  [[nodiscard]] const CertificateCounts& counts() const { return owner.statistics.certificates; }
+  void expect_sum() const {
+    EXPECT_EQ(counts().created, counts().never_failing + counts().cancelled + counts().failed);
+  }
+
+  Line motion = sweeping();
+  Simulator simulator;
+  Owner<K> owner{simulator, motion};
+};
+
+using Kernels = testing::Types<Fast, Filtered, Exact>;
+TYPED_TEST_SUITE(CertificateTableTest, Kernels);
+
+TYPED_TEST(CertificateTableTest, ForgetsWhatNeverFails) {
+  this->run([this] {
+    EXPECT_EQ(this->owner.table.watch({{0, 1}}, 7), Guard::never);
+    EXPECT_EQ(this->counts().alive, 1U);
+  });
+  EXPECT_EQ(this->counts().created, 1U);
+  EXPECT_EQ(this->counts().never_failing, 1U);
+  EXPECT_EQ(this->counts().peak, 1U);
+  EXPECT_EQ(this->counts().failed, 0U);
+  EXPECT_EQ(this->counts().alive, 0U);
+  this->expect_sum();
+}
+
+TYPED_TEST(CertificateTableTest, KeepsNothingOfWhatIsViolatedAtBirth) {
+  this->run([this] {
+    EXPECT_EQ(this->owner.table.watch({{1, 0}}, 7), Guard::violated);
+    EXPECT_EQ(this->counts().alive, 0U);
+    this->owner.table.drop(Guard::violated);  // nothing to give up
+    EXPECT_EQ(this->counts().alive, 0U);
+  });
+  EXPECT_EQ(this->counts().created, 1U);
+  EXPECT_EQ(this->counts().failed, 1U);
+  EXPECT_EQ(this->counts().peak, 0U);
+  EXPECT_TRUE(this->owner.failed.empty());
+  this->expect_sum();
+}
+
+TYPED_TEST(CertificateTableTest, TellsTheOwnerOfFailures) {
+  this->run([this] {
+    const Guard guard = this->owner.table.watch({{3, 12}}, 70);
+    ASSERT_TRUE(has_slot(guard));
+    const std::uint32_t slot = slot_of(guard);
+    EXPECT_EQ(this->owner.table.certificate(slot).beads, (std::array<BeadId, 2>{3, 12}));
+    EXPECT_EQ(this->owner.table.place_in_structure(slot), 70U);
+    EXPECT_EQ(this->owner.table.identity(slot), (Precedes{{12, 3}}).identity());
+    // 100 - 198 u = 3
+    EXPECT_NEAR(this->owner.table.time(slot).lower, 97.0 / 198, 1e-9);
+    EXPECT_NEAR(this->owner.table.time(slot).upper, 97.0 / 198, 1e-9);
+    EXPECT_EQ(this->counts().alive, 1U);
+  });
+  EXPECT_THAT(this->owner.failed, testing::ElementsAre(70));
+  EXPECT_EQ(this->counts().failed, 1U);
+  EXPECT_EQ(this->counts().alive, 0U);
+  this->expect_sum();
+}
+
+TYPED_TEST(CertificateTableTest, FailuresAreOutOfTheCountWhenTheOwnerIsTold) {
+  this->run(
+      [this] {
+        (void)this->owner.table.watch({{3, 12}}, 0);
+      },
+      [this](std::uint32_t) {
+        EXPECT_EQ(this->counts().failed, 1U);
+        EXPECT_EQ(this->counts().alive, 0U);
+      });
+  EXPECT_EQ(this->owner.failed.size(), 1U);
+}
+
+TYPED_TEST(CertificateTableTest, DroppedOnesDoNotFail) {
+  this->run([this] {
+    const Guard a = this->owner.table.watch({{3, 12}}, 1);
+    const Guard b = this->owner.table.watch({{4, 12}}, 2);
+    const Guard never = this->owner.table.watch({{4, 5}}, 3);
+    const Guard never_too = this->owner.table.watch({{5, 6}}, 3);
+    EXPECT_EQ(this->counts().alive, 4U);
+    this->owner.table.drop(a);
+    EXPECT_EQ(this->counts().alive, 3U);
+    this->owner.table.drop(never);
+    EXPECT_EQ(this->counts().alive, 2U);
+    EXPECT_EQ(this->counts().cancelled, 1U);
+    this->owner.table.drop_never(1);
+    EXPECT_EQ(this->counts().alive, 1U);
+    (void)b;
+    (void)never_too;
+  });
+  EXPECT_THAT(this->owner.failed, testing::ElementsAre(2));
+  EXPECT_EQ(this->counts().created, 4U);
+  EXPECT_EQ(this->counts().never_failing, 2U);
+  EXPECT_EQ(this->counts().cancelled, 1U);
+  EXPECT_EQ(this->counts().failed, 1U);
+  EXPECT_EQ(this->counts().peak, 4U);
+  this->expect_sum();
+}
+
+TYPED_TEST(CertificateTableTest, SlotsAreUsedAgain) {
+  this->run([this] {
+    const Guard a = this->owner.table.watch({{3, 12}}, 1);
+    const Guard b = this->owner.table.watch({{4, 12}}, 2);
+    this->owner.table.drop(a);
+    const Guard c = this->owner.table.watch({{5, 12}}, 3);
+    EXPECT_EQ(slot_of(c), slot_of(a));
+    EXPECT_NE(slot_of(c), slot_of(b));
+    EXPECT_EQ(this->owner.table.certificate(slot_of(c)).beads[0], 5U);
+    EXPECT_EQ(this->owner.table.place_in_structure(slot_of(b)), 2U);
+  });
+  EXPECT_THAT(this->owner.failed, testing::ElementsAre(3, 2));
+}
+
+// The present event's function must stay known while it is present.
+TYPED_TEST(CertificateTableTest, TheFailingSlotIsNotUsedAgainAtOnce) {
+  std::vector<std::uint32_t> slots;
+  this->run(
+      [this] {
+        (void)this->owner.table.watch({{9, 12}}, 9);
+      },
+      [&](std::uint32_t slot) {
+        slots.push_back(slot);
+        const BeadId next = 9 - static_cast<BeadId>(this->owner.failed.size());
+        if (next > 4) {
+          const Guard guard = this->owner.table.watch({{next, 12}}, next);
+          EXPECT_TRUE(has_slot(guard));
+          EXPECT_NE(slot_of(guard), slot);
+        }
+      });
+  EXPECT_THAT(this->owner.failed, testing::ElementsAre(9, 8, 7, 6, 5));
+  // But after it: two slots do for all.
+  EXPECT_EQ(*std::max_element(slots.begin(), slots.end()), 1U);
+}
+
+TYPED_TEST(CertificateTableTest, PlacesTellStructuresTablesAndPlacesApart) {
+  this->run([this] {
+    const Guard a = this->owner.table.watch({{3, 12}}, 0xffffffffU);
+    const Guard b = this->owner.unused.watch({{3, 12}}, 0xffffffffU);
+    EXPECT_NE(this->owner.table.place(slot_of(a)), this->owner.unused.place(slot_of(b)));
+    EXPECT_EQ(this->owner.table.place(slot_of(a)) & 0xffffffffU, 0xffffffffU);
+    this->owner.unused.drop(b);
+  });
+  Simulator two;
+  Owner<TypeParam> first(two, this->motion);
+  Owner<TypeParam> second(two, this->motion);
+  first.on_start = [&] { (void)first.table.watch({{3, 12}}, 4); };
+  second.on_start = [&] {
+    const Guard guard = second.table.watch({{3, 12}}, 4);
+    EXPECT_NE(first.table.place(0), second.table.place(slot_of(guard)));
+    EXPECT_EQ(first.table.structure(), 0U);
+    EXPECT_EQ(second.table.structure(), 1U);
+  };
+  two.build();
+  two.run_step(true);
+  EXPECT_EQ(first.failed.size(), 1U);
+  EXPECT_EQ(second.failed.size(), 1U);
+}
+
+TYPED_TEST(CertificateTableTest, TheNextStepStartsWithEmptyTables) {
+  std::vector<std::uint32_t> slots;
+  this->owner.on_start = [&] {
+    EXPECT_EQ(this->counts().alive, 0U);
+    slots.push_back(slot_of(this->owner.table.watch({{3, 12}}, 0)));
+    (void)this->owner.table.watch({{0, 1}}, 0);
+  };
+  this->simulator.build();
+  this->simulator.run_step(false);
+  this->simulator.run_step(true);
+  EXPECT_THAT(slots, testing::ElementsAre(0, 0));
+  EXPECT_EQ(this->owner.failed.size(), 2U);
+  EXPECT_EQ(this->counts().peak, 2U);
+  this->expect_sum();
+}
+
+TYPED_TEST(CertificateTableTest, EveryStageIsCounted) {
+  this->run([this] {
+    for (BeadId i = 0; i + 1 < 10; ++i) (void)this->owner.table.watch({{i, i + 1}}, i);
+    for (BeadId i = 0; i < 10; ++i) (void)this->owner.table.watch({{i, 12}}, i);
+  });
+  const StageCounts& stages = this->owner.statistics.stages;
+  EXPECT_EQ(stages.coefficients + stages.isolation + stages.refined + stages.exact + stages.identically_zero,
+            19U);
+}
+
+// Anything at random; only the books are checked.
+TYPED_TEST(CertificateTableTest, TheBooksBalance) {
+  std::mt19937 random(5);
+  std::uint64_t peak = 0;
+  std::vector<Guard> live;
+  const auto act = [&] {
+    for (int i = 0; i < 4; ++i) {
+      const auto left = static_cast<BeadId>(random() % 20);
+      const auto right = static_cast<BeadId>((left + 1 + random() % 19) % 20);
+      const Guard guard =
+          this->owner.table.watch({{left, right}}, static_cast<std::uint32_t>(random() % 1000));
+      if (guard != Guard::violated) live.push_back(guard);
+    }
+    peak = std::max<std::uint64_t>(peak, live.size());
+    if (live.size() > 2 && random() % 3 != 0) {
+      const std::size_t chosen = random() % live.size();
+      this->owner.table.drop(live[chosen]);
+      live.erase(live.begin() + static_cast<std::ptrdiff_t>(chosen));
+    }
+    EXPECT_EQ(this->counts().alive, live.size());
+  };
+  int budget = 400;
+  this->run(
+      [&] {
+        for (int i = 0; i < 50; ++i) act();
+      },
+      [&](std::uint32_t slot) {
+        const auto gone = std::find(live.begin(), live.end(), static_cast<Guard>(slot));
+        ASSERT_NE(gone, live.end());
+        live.erase(gone);
+        if (budget-- > 0) act();
+      });
+  EXPECT_GT(this->owner.failed.size(), 30U);
+  EXPECT_EQ(this->counts().peak, peak);
+  this->expect_sum();
+}
+
+}  // namespace
+}  // namespace kds

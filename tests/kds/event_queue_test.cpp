@@ -1,0 +1,222 @@
+#include "kds/event_queue.h"
+
+#include <gmock/gmock.h>
+
+#include <map>
+#include <memory>
+#include <random>
+#include <set>
+
+#include "tests/support/linear_queue.h"
+
+namespace kds {
+namespace {
+
+using test::LinearQueue;
+
+struct Key {
+  int value = 0;
+  std::unique_ptr<int> ballast = std::make_unique<int>(0);  // keys can only be moved, and a lost one shows
+};
+
+struct Order {
+  std::size_t comparisons = 0;
+  bool before(Key& a, Key& b) {
+    ++comparisons;
+    return a.value + *a.ballast < b.value + *b.ballast;
+  }
+};
+
+// Both are to behave alike.
+template <class Queue>
+class EventQueueTest : public testing::Test {
+ protected:
+  QueueHandle push(int value) {
+    return queue.push([&](QueueHandle) { return Key{value}; });
+  }
+  std::vector<int> pop_all() {
+    std::vector<int> values;
+    for (; !queue.empty(); queue.pop()) values.push_back(queue.top().value);
+    return values;
+  }
+
+  Order order;
+  Queue queue{order};
+};
+
+using Queues = testing::Types<EventQueue<Key, Order>, LinearQueue<Key, Order>>;
+TYPED_TEST_SUITE(EventQueueTest, Queues);
+
+TYPED_TEST(EventQueueTest, StartsEmpty) {
+  EXPECT_TRUE(this->queue.empty());
+  EXPECT_EQ(this->queue.size(), 0U);
+}
+
+TYPED_TEST(EventQueueTest, PopsInOrder) {
+  for (const int value : {5, 1, 4, 1, 5, 9, 2, 6, 5, 3, 5, 8, 9, 7, 9}) this->push(value);
+  EXPECT_EQ(this->queue.size(), 15U);
+  EXPECT_THAT(this->pop_all(), testing::ElementsAre(1, 1, 2, 3, 4, 5, 5, 5, 5, 6, 7, 8, 9, 9, 9));
+}
+
+TYPED_TEST(EventQueueTest, TellsTheHandleToTheKeyThatIsMade) {
+  QueueHandle told = 77;
+  const QueueHandle handle = this->queue.push([&](QueueHandle h) {
+    told = h;
+    return Key{3};
+  });
+  EXPECT_EQ(told, handle);
+  EXPECT_EQ(this->queue.top_handle(), handle);
+}
+
+TYPED_TEST(EventQueueTest, FindsEveryEntryByItsHandle) {
+  std::map<QueueHandle, int> held;
+  for (int value = 100; value-- > 0;) {
+    held[this->push(value)] = value;
+    for (const auto& [handle, expected] : held) ASSERT_EQ(this->queue.at(handle).value, expected);
+  }
+  EXPECT_EQ(held.size(), 100U);  // no handle twice
+}
+
+TYPED_TEST(EventQueueTest, ErasesAnyEntry) {
+  for (std::size_t erased = 0; erased < 30; ++erased) {
+    std::vector<QueueHandle> handles;
+    for (int i = 0; i < 30; ++i) handles.push_back(this->push(7 * i % 30));
+    this->queue.erase(handles[erased]);
+    std::vector<int> expected;
+    for (int i = 0; i < 30; ++i) {
+      if (i != 7 * static_cast<int>(erased) % 30) expected.push_back(i);
+    }
+    ASSERT_EQ(this->pop_all(), expected);
+  }
+}
+
+// The entry that fills the hole comes from another branch: it may have to rise, not sink.
+TYPED_TEST(EventQueueTest, ErasingLetsTheFillerRise) {
+  std::vector<QueueHandle> handles;
+  // A 4-ary heap, level by level: under 10 all is large, under 1 small.
+  for (const int value : {0, 10, 1, 1, 1, 20, 20, 20, 20, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4})
+    handles.push_back(this->push(value));
+  this->queue.erase(handles[5]);
+  EXPECT_THAT(this->pop_all(),
+              testing::ElementsAre(0, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 10, 20, 20, 20));
+}
+
+TYPED_TEST(EventQueueTest, UsesHandlesAgain) {
+  std::set<QueueHandle> handles;
+  for (int round = 0; round < 100; ++round) {
+    const QueueHandle a = this->push(round);
+    const QueueHandle b = this->push(-round);
+    handles.insert({a, b});
+    this->queue.erase(a);
+    this->queue.pop();
+  }
+  EXPECT_EQ(handles.size(), 2U);
+}
+
+TYPED_TEST(EventQueueTest, ClearForgetsAllAndFreesHandles) {
+  std::set<QueueHandle> handles;
+  for (int round = 0; round < 10; ++round) {
+    for (int i = 0; i < 20; ++i) handles.insert(this->push(20 - i));
+    this->queue.clear();
+    EXPECT_TRUE(this->queue.empty());
+    EXPECT_EQ(this->queue.size(), 0U);
+  }
+  EXPECT_EQ(handles.size(), 20U);
+  this->push(3);
+  this->push(2);
+  EXPECT_THAT(this->pop_all(), testing::ElementsAre(2, 3));
+}
+
+TYPED_TEST(EventQueueTest, KeepsEntriesOfEqualKeys) {
+  std::set<QueueHandle> left;
+  for (int i = 0; i < 50; ++i) left.insert(this->push(4));
+  for (int i = 0; i < 20; ++i) {
+    const QueueHandle handle = *std::next(left.begin(), 7 * i % static_cast<int>(left.size()));
+    this->queue.erase(handle);
+    left.erase(handle);
+  }
+  while (!this->queue.empty()) {
+    EXPECT_EQ(left.erase(this->queue.top_handle()), 1U);
+    this->queue.pop();
+  }
+  EXPECT_TRUE(left.empty());
+}
+
+// As FailureOrder narrows brackets: keys change under the queue's hands, their order does not.
+TYPED_TEST(EventQueueTest, LetsKeysBeWrittenTo) {
+  std::vector<QueueHandle> handles;
+  for (int i = 0; i < 40; ++i) handles.push_back(this->push(10 * (11 * i % 40)));
+  for (int i = 0; i < 40; ++i) *this->queue.at(handles[static_cast<std::size_t>(i)]).ballast = i % 5;
+  std::vector<int> expected;
+  for (int i = 0; i < 40; ++i) expected.push_back(10 * i);
+  EXPECT_EQ(this->pop_all(), expected);
+}
+
+TYPED_TEST(EventQueueTest, AgreesWithAMultimap) {
+  // The list is slow: fewer entries at a time.
+  constexpr bool linear = std::same_as<TypeParam, LinearQueue<Key, Order>>;
+  std::mt19937 random(20240705);
+  std::multimap<int, QueueHandle> reference;
+  std::map<QueueHandle, std::multimap<int, QueueHandle>::iterator> held;
+  const auto below = [&](std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+  };
+  const auto forget = [&](QueueHandle handle) {
+    reference.erase(held.at(handle));
+    held.erase(handle);
+  };
+  std::size_t target = 0;
+  for (int operation = 0; operation < 100000; ++operation) {
+    if (operation % 500 == 0) target = below(linear ? 20 : 400);
+    const std::size_t choice = below(100);
+    if (reference.empty() || choice < (reference.size() < target ? 70U : 30U)) {
+      const int value = static_cast<int>(below(operation % 2000 < 1000 ? 10 : 1000000));
+      const QueueHandle handle = this->push(value);
+      ASSERT_EQ(held.count(handle), 0U) << "handle of a live entry given again";
+      held[handle] = reference.emplace(value, handle);
+    } else if (choice < 85) {
+      const QueueHandle handle = this->queue.top_handle();
+      ASSERT_EQ(this->queue.top().value, reference.begin()->first);
+      ASSERT_EQ(held.at(handle)->first, reference.begin()->first);
+      forget(handle);
+      this->queue.pop();
+    } else if (choice < 99 || operation % 50 != 0) {
+      const QueueHandle handle =
+          std::next(reference.begin(), static_cast<long>(below(reference.size())))->second;
+      ASSERT_EQ(this->queue.at(handle).value, held.at(handle)->first);
+      forget(handle);
+      this->queue.erase(handle);
+    } else {
+      this->queue.clear();
+      reference.clear();
+      held.clear();
+    }
+    ASSERT_EQ(this->queue.size(), reference.size());
+    ASSERT_EQ(this->queue.empty(), reference.empty());
+  }
+}
+
+// The header's cost table.
+TEST(EventQueueCost, GrowsWithTheLogarithm) {
+  Order order;
+  EventQueue<Key, Order> queue(order);
+  std::mt19937 random(1);
+  std::vector<QueueHandle> handles;
+  for (int i = 0; i < 4096; ++i) {
+    const int value = static_cast<int>(random() % 1000000);
+    const std::size_t before = order.comparisons;
+    handles.push_back(queue.push([&](QueueHandle) { return Key{value}; }));
+    ASSERT_LE(order.comparisons - before, 7U);  // log4(4096) = 6
+  }
+  for (std::size_t i = 0; i < 4000; ++i) {
+    const std::size_t before = order.comparisons;
+    queue.erase(handles[i]);
+    ASSERT_LE(order.comparisons - before, 29U);  // a step of a filler that sinks compares four times
+    const std::size_t unchanged = order.comparisons;
+    ASSERT_GE(queue.top().value, 0);
+    ASSERT_EQ(order.comparisons, unchanged);
+  }
+}
+
+}  // namespace
+}  // namespace kds

@@ -1,0 +1,85 @@
+#include "kds/fingerprint.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace kds {
+namespace {
+
+struct Event {
+  std::uint32_t step = 0;
+  std::uint32_t structure = 0;
+  Change change;
+};
+
+std::uint64_t fingerprint(std::initializer_list<Event> events) {
+  Fingerprint print;
+  for (const Event& e : events) print.add(e.step, e.structure, e.change);
+  return print.value();
+}
+
+TEST(Fingerprint, IsTheSameOfTheSameHistory) {
+  const Event a{0, 0, {1, 2, {3, 4}}};
+  const Event b{1, 0, {0, 3, {5, 6, 7}}};
+  EXPECT_EQ(fingerprint({a, b}), fingerprint({a, b}));
+  EXPECT_EQ(Fingerprint().value(), Fingerprint().value());
+}
+
+TEST(Fingerprint, DependsOnEveryPartOfAnEvent) {
+  const Event plain{0, 0, {1, 2, {3, 4}}};
+  std::set<std::uint64_t> prints{Fingerprint().value(), fingerprint({plain})};
+  Event other = plain;
+  other.step = 1;
+  prints.insert(fingerprint({other}));
+  other = plain;
+  other.structure = 1;
+  prints.insert(fingerprint({other}));
+  other = plain;
+  other.change.kind = 0;
+  prints.insert(fingerprint({other}));
+  for (const std::size_t place : {0U, 1U}) {
+    for (const BeadId bead : {0U, 5U, 0x80000000U, 0xffffffffU}) {
+      other = plain;
+      other.change.ids[place] = bead;
+      prints.insert(fingerprint({other}));
+    }
+  }
+  other = plain;
+  other.change.size = 1;
+  prints.insert(fingerprint({other}));
+  other.change.size = 3;
+  prints.insert(fingerprint({other}));
+  EXPECT_EQ(prints.size(), 2U + 3U + 8U + 2U);
+}
+
+TEST(Fingerprint, DependsOnTheOrderOfEvents) {
+  const Event a{0, 0, {0, 2, {1, 2}}};
+  const Event b{0, 0, {0, 2, {2, 3}}};
+  EXPECT_NE(fingerprint({a, b}), fingerprint({b, a}));
+  EXPECT_NE(fingerprint({a, a}), fingerprint({a}));
+}
+
+TEST(Fingerprint, LeavesOutUnusedIds) {
+  Event a{0, 0, {0, 2, {1, 2}}};
+  Event b = a;
+  b.change.ids[2] = 9;
+  EXPECT_EQ(fingerprint({a}), fingerprint({b}));
+}
+
+TEST(Fingerprint, DiffersForManyShortHistories) {
+  std::set<std::uint64_t> prints;
+  for (BeadId i = 0; i < 100; ++i) {
+    for (BeadId j = 0; j < 100; ++j) prints.insert(fingerprint({{0, 0, {0, 2, {i, j}}}}));
+  }
+  EXPECT_EQ(prints.size(), 10000U);
+}
+
+// On every machine the same. Changes only with the definition of the hash.
+TEST(Fingerprint, Golden) {
+  EXPECT_EQ(Fingerprint().value(), 0xc3817c016ba4ff30ULL);
+  EXPECT_EQ(fingerprint({{3, 1, {2, 5, {10, 20, 30, 40, 0xffffffffU}}}}), 0x96e1e86f59a4a322ULL);
+}
+
+}  // namespace
+}  // namespace kds

@@ -1,0 +1,32 @@
+# Runs `kds run` with its dumps written and its frames audited, and lets check_dumps judge them:
+#
+#   cmake -DKDS=<program> -DCHECK=<check_dumps> -DSCRATCH=<directory of its own> "-DRUN=<arguments of kds run>"
+#         "-DINPUT=<the same input in the words of check_dumps>" -P dump_and_check.cmake
+cmake_minimum_required(VERSION 3.25)
+
+foreach(needed KDS CHECK SCRATCH RUN INPUT)
+  if(NOT DEFINED ${needed} OR "${${needed}}" STREQUAL "")
+    message(FATAL_ERROR "-D${needed}=... is missing")
+  endif()
+endforeach()
+
+function(must_succeed)
+  string(JOIN " " line ${ARGN})
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+  message("${line}\n${errors}${output}")
+  if(NOT result STREQUAL "0")
+    file(REMOVE_RECURSE "${SCRATCH}")
+    message(FATAL_ERROR "${line}\nended with ${result}")
+  endif()
+  set(said "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE "${SCRATCH}")
+file(MAKE_DIRECTORY "${SCRATCH}")
+must_succeed("${KDS}" run ${RUN} --audit frames --dump "${SCRATCH}" --quiet)
+must_succeed("${CHECK}" --dump "${SCRATCH}" ${INPUT})
+file(REMOVE_RECURSE "${SCRATCH}")
+# A check of nothing would succeed too.
+if(NOT said MATCHES "^[1-9][0-9]* frames, [1-9][0-9]* cells, [1-9][0-9]* nodes .* 0 mismatches\n$")
+  message(FATAL_ERROR "check_dumps looked at no frames, no cells or no nodes:\n${said}")
+endif()

@@ -1,0 +1,411 @@
+#include "structures/power_diagram.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "tests/support/cgal_triangulation.h"
+#include "tests/support/exact_checks.h"
+#include "tests/support/moving_beads.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+
+template <class K>
+using PowerRig = Rig<PowerDiagram<Space, K>, Space>;
+
+/// The final cells at u = 1, checked by the definition and against CGAL over the rationals.
+template <class K>
+void expect_right_at_the_end(PowerRig<K>& rig) {
+  const StaticTriangulation end = rig.structure.at_frame(false);
+  const auto points = exact_points(rig.motion, Dyadic(1.0));
+  const CgalCells cgal = cgal_regular_cells(points);
+  ASSERT_TRUE(cgal.valid);
+  EXPECT_EQ(points.size() - end.hidden.size(), cgal.visible);
+  EXPECT_EQ(end.cells.empty(), cgal.cells.empty());
+  EXPECT_EQ(not_regular(points, end.cells), std::nullopt);
+}
+
+/// Looks at every `stride`-th audit between events of the first step with its own eyes. (Later steps may
+/// start from a flat frame, which `at_frame` answers for.)
+template <class K>
+Witness::Look definition(PowerRig<K>& rig, int stride) {
+  return [&rig, stride, count = 0](const Dyadic& time) mutable -> std::optional<std::string> {
+    if (rig.simulator.step() != 0 || time == Dyadic(0.0) || time == Dyadic(1.0) || count++ % stride != 0)
+      return std::nullopt;
+    return not_regular(exact_points(rig.motion, time), rig.structure.at_frame(false).cells);
+  };
+}
+
+/// Runs with audits between all events. Clean refusals (InputError) are allowed and returned as true.
+template <class K>
+bool run_audited(const std::vector<Space>& steps, bool look = true) {
+  PowerRig<K> rig(steps.front(), AuditMode::events);
+  Witness witness(
+      rig.simulator, look ? definition(rig, 1) : [](const Dyadic&) { return std::nullopt; });
+  try {
+    rig.run(steps);
+  } catch (const InputError&) {
+    return true;
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << error.what();
+    return false;
+  }
+  expect_right_at_the_end(rig);
+  EXPECT_TRUE(books_balance(rig.structure.statistics));
+  return false;
+}
+
+std::string to_text(const std::vector<Points>& frames) { return testing::PrintToString(frames); }
+
+// General position: the instances of data/kinetic and the counts of CGAL's kinetic package.
+
+struct Count {
+  std::string name;
+  std::uint64_t events;
+};
+void PrintTo(const Count& count, std::ostream* out) { *out << count.name; }
+
+class PowerInstance : public testing::TestWithParam<Count> {};
+
+TEST_P(PowerInstance, HasTheEventsOfCgal) {
+  const Space motion = instance_motion<Space>(GetParam().name);
+  PowerRig<Filtered> rig(motion, AuditMode::frames);
+  rig.run();
+  EXPECT_EQ(rig.external_events(), GetParam().events);
+  EXPECT_EQ(rig.structure.statistics.rebuilds, 0U);
+  EXPECT_EQ(rig.history.events.size(), GetParam().events);
+  const auto& kinds = rig.structure.statistics.events_by_kind;
+  EXPECT_EQ(kinds[0] + kinds[1], GetParam().events);
+  EXPECT_TRUE(books_balance(rig.structure.statistics));
+  expect_right_at_the_end(rig);
+
+  PowerRig<Filtered> replayed(motion, AuditMode::frames);
+  ASSERT_NO_THROW(replayed.replay({motion}, rig.history));
+  EXPECT_EQ(replayed.simulator.fingerprint(), rig.simulator.fingerprint());
+  EXPECT_EQ(replayed.structure.at_frame(false).cells, rig.structure.at_frame(false).cells);
+}
+
+INSTANTIATE_TEST_SUITE_P(Data, PowerInstance,
+                         testing::Values(Count{"d3_n20_linear", 234}, Count{"d3_n50_linear", 1453},
+                                         Count{"d3_n100_linear", 4225}, Count{"d3_n200_linear", 11286}),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(PowerDiagram, AuditsPassBetweenAllEvents) {
+  for (const auto& [name, stride] : {std::pair("d3_n20_linear", 5), std::pair("d3_n50_linear", 200)}) {
+    PowerRig<Filtered> rig(instance_motion<Space>(name), AuditMode::events);
+    Witness witness(rig.simulator, definition(rig, stride));
+    ASSERT_NO_THROW(rig.run()) << name;
+    EXPECT_EQ(rig.structure.statistics.audits_run,
+              rig.external_events() + 3);  // and before the first, and the ends
+  }
+}
+
+TEST(PowerDiagram, KernelsAgree) {
+  const Space motion = instance_motion<Space>("d3_n20_linear");
+  PowerRig<Filtered> filtered(motion);
+  filtered.run();
+  PowerRig<Exact> exact(motion);
+  exact.run();
+  PowerRig<Fast> fast(motion);
+  fast.run();
+  EXPECT_EQ(exact.simulator.fingerprint(), filtered.simulator.fingerprint());
+  EXPECT_EQ(fast.simulator.fingerprint(), filtered.simulator.fingerprint());
+  const auto& counts = filtered.structure.statistics.certificates;
+  EXPECT_EQ(exact.structure.statistics.certificates.created, counts.created);
+  EXPECT_EQ(exact.structure.statistics.certificates.never_failing, counts.never_failing);
+  EXPECT_EQ(exact.structure.statistics.certificates.peak, counts.peak);
+}
+
+TEST(PowerDiagram, KernelsAgreeOnRealTrajectories) {
+  const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 4, 2);
+  PowerRig<Filtered> filtered(steps.front(), AuditMode::frames);
+  filtered.run(steps);
+  PowerRig<Fast> fast(steps.front());
+  fast.run(steps);
+  EXPECT_GT(filtered.external_events(), 0U);
+  EXPECT_EQ(filtered.structure.statistics.rebuilds, 0U);
+  EXPECT_EQ(fast.simulator.fingerprint(), filtered.simulator.fingerprint());
+  expect_right_at_the_end(filtered);
+}
+
+// Flips as logged: made on a set of cells by hand they lead from CGAL's cells at u = 0 to those at u = 1.
+TEST(PowerDiagram, LoggedFlipsTurnTheFirstCellsIntoTheLast) {
+  const Space motion = instance_motion<Space>("d3_n20_linear");
+  PowerRig<Filtered> rig(motion);
+  rig.run();
+  using Cells = std::set<CellBeads>;
+  const auto start = cgal_regular_cells(exact_points(motion, Dyadic(0.0))).cells;
+  Cells cells(start.begin(), start.end());
+  const auto cell = [](std::initializer_list<BeadId> beads) {
+    CellBeads sorted{};
+    std::copy(beads.begin(), beads.end(), sorted.begin());
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
+  };
+  const auto finite = [](const CellBeads& c) { return c[3] != infinite_bead; };
+  for (const LoggedEvent& e : rig.history.events) {
+    const auto& id = e.change.ids;
+    ASSERT_EQ(e.change.size, 5);
+    EXPECT_TRUE(id[0] < id[1] && id[1] < id[2] && id[3] < id[4]);
+    const std::array<CellBeads, 2> two{cell({id[0], id[1], id[2], id[3]}),
+                                       cell({id[0], id[1], id[2], id[4]})};
+    const std::array<CellBeads, 3> three{cell({id[0], id[1], id[3], id[4]}),
+                                         cell({id[0], id[2], id[3], id[4]}),
+                                         cell({id[1], id[2], id[3], id[4]})};
+    const bool to_edge = rig.structure.kinds()[e.change.kind].name == "2-3";
+    ASSERT_TRUE(to_edge || rig.structure.kinds()[e.change.kind].name == "3-2");
+    for (const CellBeads& c : two) {
+      if (finite(c)) {
+        EXPECT_EQ(to_edge ? cells.erase(c) : cells.insert(c).second, 1U);
+      }
+    }
+    for (const CellBeads& c : three) {
+      if (finite(c)) {
+        EXPECT_EQ(to_edge ? cells.insert(c).second : cells.erase(c), 1U);
+      }
+    }
+  }
+  EXPECT_EQ(std::vector(cells.begin(), cells.end()),
+            cgal_regular_cells(exact_points(motion, Dyadic(1.0))).cells);
+}
+
+// Scenes by hand.
+
+TEST(PowerDiagram, NeedsFourBeads) {
+  PowerRig<Filtered> rig(moving({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}));
+  EXPECT_THROW(rig.run(), InputError);
+}
+
+TEST(PowerDiagram, FourBeads) {
+  const Points start{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  PowerRig<Filtered> still(moving(start, start), AuditMode::events);
+  ASSERT_NO_THROW(still.run());
+  EXPECT_EQ(still.history.events.size(), 0U);
+  EXPECT_THAT(still.structure.at_frame(false).cells, testing::ElementsAre(CellBeads{0, 1, 2, 3}));
+  // The tetrahedron turns inside out: through a triangle with a bead inside; through a square; through both
+  // at once.
+  EXPECT_FALSE(run_audited<Filtered>({moving(start, {{1, 1, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})}));
+  EXPECT_FALSE(run_audited<Filtered>({moving({{1, 0, 1}, {-1, 0, 1}, {0, 1, -1}, {0, -1, -1}},
+                                             {{1, 0, -1}, {-1, 0, -1}, {0, 1, 2}, {0, -1, 2}})}));
+  EXPECT_FALSE(run_audited<Filtered>({moving(start, {{0, 0, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}})}));
+  for (const Space& motion : {moving(start, {{1, 1, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})}) {
+    EXPECT_FALSE(run_audited<Exact>({motion}));
+  }
+}
+
+TEST(PowerDiagram, FiveBeads) {
+  // One bead goes through a triangle: 2-3, and out again on the other side: hull events.
+  const Points base{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 5}};
+  Points from = base, to = base;
+  from.push_back({0, 0, -1});
+  to.push_back({0, 0, 1});
+  EXPECT_FALSE(run_audited<Filtered>({moving(from, to)}));
+  from.back() = {1, 0, -7};
+  to.back() = {1, 2, 17};
+  EXPECT_FALSE(run_audited<Filtered>({moving(from, to)}));
+  // Cospherical for ever: an octahedron that loses a bead, turned by a quarter in its plane.
+  EXPECT_FALSE(run_audited<Filtered>({moving({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
+                                             {{0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}})}));
+}
+
+TEST(PowerDiagram, CoplanarAtTheStart) {
+  const Points flat{{0, 0, 0}, {4, 0, 0}, {0, 5, 0}, {6, 7, 0}, {2, 3, 0}, {-3, 2, 0}};
+  Points lifted = flat;
+  for (std::size_t b = 0; b < lifted.size(); ++b) lifted[b][2] = static_cast<double>(b * b % 5);
+  PowerRig<Filtered> rig(moving(flat, lifted), AuditMode::events);
+  Witness witness(rig.simulator, definition(rig, 1));
+  ASSERT_NO_THROW(rig.simulator.build());
+  EXPECT_TRUE(rig.structure.at_frame(true).cells.empty()) << "cells of a frame that is flat";
+  ASSERT_NO_THROW(rig.simulator.run_step(true));
+  EXPECT_TRUE(books_balance(rig.structure.statistics));
+  expect_right_at_the_end(rig);
+}
+
+TEST(PowerDiagram, CoplanarAtTheStartThenFarFromIt) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 30; ++round) {
+    Points flat = random_grid_points(random, 7, 20);
+    for (auto& p : flat) p[2] = p[0];
+    const Points to = random_grid_points(random, 7, 20);
+    SCOPED_TRACE(to_text({flat, to}));
+    run_audited<Filtered>({moving(flat, to)});
+    if (HasFailure()) return;
+  }
+}
+
+TEST(PowerDiagram, CoplanarAtTheEndOrInBetween) {
+  const Points solid{{0, 0, 1}, {4, 0, 2}, {0, 5, 5}, {6, 7, 3}, {2, 3, 4}, {-3, 2, 7}};
+  Points flat = solid, mirrored = solid;
+  for (auto& p : flat) p[2] = 0;
+  for (auto& p : mirrored) p[2] = -p[2];
+  EXPECT_FALSE(run_audited<Filtered>({moving(solid, flat)}));
+  EXPECT_FALSE(run_audited<Filtered>({moving(solid, mirrored)}));
+  EXPECT_FALSE(run_audited<Filtered>(through({solid, flat, mirrored})));
+  EXPECT_FALSE(run_audited<Filtered>(through({solid, flat, solid})));
+}
+
+TEST(PowerDiagram, CoplanarAllTheTimeIsRefused) {
+  const Points flat{{0, 0, 0}, {4, 0, 0}, {0, 5, 0}, {6, 7, 0}, {2, 3, 0}};
+  const Points other{{1, 0, 0}, {4, 2, 0}, {0, 5, 0}, {6, 8, 0}, {2, 1, 0}};
+  PowerRig<Filtered> rig(moving(flat, other));
+  EXPECT_THROW(rig.run(), InputError);
+  // After a step in space.
+  Points solid = flat;
+  solid[2][2] = 1;
+  PowerRig<Filtered> later(moving(solid, flat));
+  EXPECT_THROW(later.run(through({solid, flat, other})), InputError);
+}
+
+TEST(PowerDiagram, BeadsThatMeet) {
+  const Points base{{0, 0, 0}, {5, 0, 1}, {0, 6, 0}, {1, 0, 7}, {6, 5, 4}};
+  const auto with = [&](std::initializer_list<std::array<double, 3>> more) {
+    Points points = base;
+    points.insert(points.end(), more);
+    return points;
+  };
+  // In between, at the end, at a frame and back, at a frame and through, from the start.
+  EXPECT_FALSE(run_audited<Filtered>({moving(with({{1, 1, 1}, {3, 3, 3}}), with({{3, 3, 3}, {1, 1, 1}}))}));
+  EXPECT_FALSE(run_audited<Filtered>({moving(with({{1, 1, 1}, {3, 3, 3}}), with({{2, 2, 2}, {2, 2, 2}}))}));
+  EXPECT_FALSE(run_audited<Filtered>(
+      through({with({{1, 1, 1}, {3, 3, 3}}), with({{2, 2, 2}, {2, 2, 2}}), with({{1, 1, 1}, {3, 3, 3}})})));
+  EXPECT_FALSE(run_audited<Filtered>(
+      through({with({{1, 1, 1}, {3, 3, 3}}), with({{2, 2, 2}, {2, 2, 2}}), with({{3, 3, 3}, {1, 1, 1}})})));
+  const std::vector<Space> parting{moving(with({{2, 2, 2}, {2, 2, 2}}), with({{3, 3, 3}, {1, 1, 1}}))};
+  EXPECT_FALSE(run_audited<Filtered>(parting));
+  PowerRig<Filtered> rig(parting.front());
+  rig.simulator.build();
+  EXPECT_EQ(rig.structure.at_frame(true).hidden.size(), 1U) << "one of two beads in one place at the start";
+}
+
+TEST(PowerDiagram, BeadsInOnePlaceForGoodAreRefused) {
+  const Points points{{0, 0, 0}, {5, 0, 1}, {0, 6, 0}, {1, 0, 7}, {6, 5, 4}, {6, 5, 4}};
+  PowerRig<Filtered> rig(moving(points, points));
+  EXPECT_THROW(rig.run(), InputError);
+}
+
+// Degenerate input.
+
+class DegeneratePower : public testing::TestWithParam<const char*> {
+ protected:
+  Space motion = instance_motion<Space>(std::string("degenerate_d3_n64_") + GetParam());
+};
+
+TEST_P(DegeneratePower, AuditsPassBetweenAllEvents) {
+  PowerRig<Filtered> rig(motion, AuditMode::events);
+  Witness witness(rig.simulator, definition(rig, 40));
+  ASSERT_NO_THROW(rig.run());
+  EXPECT_TRUE(books_balance(rig.structure.statistics));
+  expect_right_at_the_end(rig);
+  const std::string name = GetParam();
+  if (name == "static" || name == "rigid" || name == "gridrigid" || name == "gridscale" ||
+      name == "converge") {
+    EXPECT_EQ(rig.external_events(), 0U);
+  }
+  if (name == "half") {
+    EXPECT_EQ(rig.external_events(), 1263U);
+  }
+  if (name == "converge") {
+    EXPECT_EQ(rig.structure.at_frame(false).hidden.size(), 63U);
+    EXPECT_TRUE(rig.structure.at_frame(false).cells.empty());
+  }
+}
+
+TEST_P(DegeneratePower, FastEndsAndIsRightAtTheFrameItEndsIn) {
+  PowerRig<Fast> rig(motion);
+  ASSERT_NO_THROW(rig.run());
+}
+
+INSTANTIATE_TEST_SUITE_P(Data, DegeneratePower,
+                         testing::Values("static", "half", "rigid", "gridrigid", "gridscale", "converge",
+                                         "gridrand", "gridint", "swap"),
+                         [](const auto& test) { return test.param; });
+
+TEST(PowerDiagram, RandomMotionsFullOfTies) {
+  std::mt19937 random(11);
+  int refused = 0, ran = 0;
+  for (int round = 0; round < 250; ++round) {
+    const std::size_t beads = 4 + random() % 7;
+    const int range = 2 + static_cast<int>(random() % 4);
+    const Points from = random_grid_points(random, beads, range);
+    const Points to = random_grid_points(random, beads, range);
+    SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
+    ++(run_audited<Filtered>({moving(from, to)}) ? refused : ran);
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(ran, 200);
+}
+
+TEST(PowerDiagram, RandomFramesFullOfTies) {
+  std::mt19937 random(12);
+  for (int round = 0; round < 60; ++round) {
+    const std::size_t beads = 5 + random() % 6;
+    std::vector<Points> frames;
+    for (int k = 0; k < 4; ++k)
+      frames.push_back(k > 0 && random() % 4 == 0 ? frames.back() : random_grid_points(random, beads, 3));
+    SCOPED_TRACE(text_of("round ", round, ": ", to_text(frames)));
+    run_audited<Filtered>(through(frames));
+    if (HasFailure()) return;
+  }
+}
+
+TEST(PowerDiagram, ExactAgreesOnMotionsFullOfTies) {
+  std::mt19937 random(13);
+  for (int round = 0; round < 25; ++round) {
+    const Points from = random_grid_points(random, 7, 4);
+    const Points to = random_grid_points(random, 7, 4);
+    SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
+    PowerRig<Filtered> filtered(moving(from, to));
+    PowerRig<Exact> exact(moving(from, to));
+    try {
+      filtered.run();
+      exact.run();
+    } catch (const InputError&) {
+      continue;
+    }
+    EXPECT_EQ(exact.simulator.fingerprint(), filtered.simulator.fingerprint());
+    if (HasFailure()) return;
+  }
+}
+
+TEST(PowerDiagram, FastAlwaysEnds) {
+  std::mt19937 random(14);
+  for (int round = 0; round < 200; ++round) {
+    const Points from = random_grid_points(random, 8, 3);
+    const Points to = random_grid_points(random, 8, 3);
+    SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
+    PowerRig<Fast> rig(moving(from, to));
+    try {
+      rig.run();
+    } catch (const InputError&) {
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << error.what();
+      return;
+    }
+  }
+}
+
+TEST(PowerDiagram, ATranslationGivesNoEvent) {
+  const Space first = trajectory_steps("villin_hp36_300K.dcd", 0, 1).front();
+  std::vector<Points> frames(11, Points(first.bead_count()));
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    for (BeadId b = 0; b < first.bead_count(); ++b) {
+      // Whole multiples of 2^-12: a sum is not rounded.
+      for (int axis = 0; axis < 3; ++axis) {
+        frames[k][b][static_cast<std::size_t>(axis)] =
+            std::round(first.coordinate(b, 0, axis) * 4096) / 4096 + static_cast<double>(k) * (0.5 + axis);
+      }
+    }
+  }
+  PowerRig<Filtered> rig(moving(frames[0], frames[1]), AuditMode::frames);
+  rig.run(through(frames));
+  EXPECT_EQ(rig.history.events.size(), 0U);
+  EXPECT_EQ(rig.structure.statistics.certificates.failed, 0U);
+  EXPECT_EQ(rig.structure.statistics.certificates.never_failing,
+            rig.structure.statistics.certificates.created);
+}
+
+}  // namespace
+}  // namespace kds

@@ -1,0 +1,357 @@
+#include "structures/regular_triangulation.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "structures/sorted_cells.h"
+#include "structures/static_build.h"
+#include "tests/support/exact_checks.h"
+#include "tests/support/moving_beads.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+CellBeads sorted(CellBeads beads) {
+  std::sort(beads.begin(), beads.end());
+  return beads;
+}
+
+std::vector<CellId> live_cells(const RegularTriangulation& triangulation) {
+  std::vector<CellId> live;
+  for (CellId cell = 0; cell < triangulation.cells().size(); ++cell) {
+    if (triangulation.is_live(cell)) live.push_back(cell);
+  }
+  return live;
+}
+
+/// All cells, infinite ones too, beads ascending.
+std::set<CellBeads> all_cells(const RegularTriangulation& triangulation) {
+  std::set<CellBeads> cells;
+  for (const CellId cell : live_cells(triangulation))
+    cells.insert(sorted(triangulation.cells()[cell].vertex));
+  return cells;
+}
+
+int parity(CellBeads from, const CellBeads& to) {
+  int sign = 1;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (from[i] == to[i]) continue;
+    const auto place = std::find(from.begin() + static_cast<std::ptrdiff_t>(i), from.end(), to[i]);
+    std::swap(from[i], *place);
+    sign = -sign;
+  }
+  return sign;
+}
+
+/// The mirror by itself, and against what CGAL can be asked for.
+void check_mirror(const RegularTriangulation& triangulation, std::size_t beads) {
+  const auto cells = triangulation.cells();
+  std::set<std::pair<BeadId, BeadId>> edges;
+  std::vector<CellBeads> finite;
+  const auto live = live_cells(triangulation);
+  EXPECT_EQ(all_cells(triangulation).size(), live.size());
+  for (const CellId cell : live) {
+    const TriangulationCell& c = cells[cell];
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < i; ++j) {
+        ASSERT_NE(c.vertex[at(i)], c.vertex[at(j)]);
+        edges.insert(std::minmax(c.vertex[at(i)], c.vertex[at(j)]));
+      }
+      const CellId n = c.neighbor[at(i)];
+      ASSERT_LT(n, cells.size());
+      ASSERT_TRUE(triangulation.is_live(n));
+      ASSERT_NE(n, cell);
+      const int back = triangulation.mirror_index(cell, i);
+      ASSERT_LT(back, 4);
+      ASSERT_EQ(cells[n].neighbor[at(back)], cell);
+      // The neighbour is this cell with one bead exchanged, and turns the other way for it.
+      CellBeads exchanged = c.vertex;
+      exchanged[at(i)] = cells[n].vertex[at(back)];
+      ASSERT_NE(exchanged[at(i)], c.vertex[at(i)]);
+      ASSERT_EQ(sorted(exchanged), sorted(cells[n].vertex));
+      ASSERT_EQ(parity(exchanged, cells[n].vertex), -1);
+    }
+    ASSERT_EQ(triangulation.find_cell(c.vertex), cell);
+    ASSERT_EQ(triangulation.find_cell(sorted(c.vertex)), cell);
+    if (std::find(c.vertex.begin(), c.vertex.end(), infinite_bead) == c.vertex.end())
+      finite.push_back(c.vertex);
+  }
+  sort_cells(finite);
+  ASSERT_EQ(finite, triangulation.finite_cells());
+  for (BeadId a = 0; a <= beads; ++a) {
+    for (BeadId b = 0; b < a; ++b) {
+      const BeadId bead = a == beads ? infinite_bead : a;
+      ASSERT_EQ(triangulation.is_edge(b, bead), edges.count({b, bead}) == 1) << b << " " << bead;
+      ASSERT_EQ(triangulation.is_edge(bead, b), edges.count({b, bead}) == 1);
+    }
+  }
+}
+
+struct Cloud {
+  explicit Cloud(std::size_t beads, unsigned seed = 1, double weight = 0) : weights(beads, weight) {
+    std::mt19937 random(seed);
+    const Points points = random_grid_points(random, beads, 1000000);
+    centers = control_points(moving(points, points), 0);
+  }
+  Eigen::Matrix3Xd centers;
+  std::vector<double> weights;
+};
+
+std::vector<ExactBead> exact_beads(const Cloud& cloud) {
+  std::vector<ExactBead> beads;
+  for (Eigen::Index b = 0; b < cloud.centers.cols(); ++b) {
+    const auto c = cloud.centers.col(b);
+    beads.push_back({{c.x(), c.y(), c.z()}, cloud.weights[static_cast<std::size_t>(b)]});
+  }
+  return beads;
+}
+
+TEST(RegularTriangulation, BuildsAndMirrors) {
+  for (const std::size_t beads : {4U, 5U, 8U, 40U}) {
+    const Cloud cloud(beads);
+    RegularTriangulation triangulation;
+    const StaticTriangulation built = triangulation.build(cloud.centers, cloud.weights);
+    EXPECT_EQ(built.dimension, 3);
+    EXPECT_TRUE(built.hidden.empty());
+    check_mirror(triangulation, beads);
+    EXPECT_TRUE(triangulation.is_valid());
+    EXPECT_TRUE(triangulation.all_cells_positive());
+    EXPECT_EQ(triangulation.finite_cells(), static_triangulation(cloud.centers, cloud.weights).cells);
+    EXPECT_EQ(triangulation.finite_cells(), static_triangulation(exact_beads(cloud), false).cells);
+  }
+}
+
+TEST(RegularTriangulation, BuildsAnew) {
+  RegularTriangulation triangulation;
+  for (const std::size_t beads : {30U, 6U, 50U}) {
+    const Cloud cloud(beads, static_cast<unsigned>(beads));
+    (void)triangulation.build(cloud.centers, cloud.weights);
+    check_mirror(triangulation, beads);
+    EXPECT_TRUE(triangulation.is_valid());
+  }
+}
+
+TEST(RegularTriangulation, TellsDimensionAndHiddenBeads) {
+  RegularTriangulation triangulation;
+  Cloud cloud(6);
+  cloud.centers.row(2).setZero();
+  EXPECT_EQ(triangulation.build(cloud.centers, cloud.weights).dimension, 2);
+  EXPECT_EQ(static_triangulation(cloud.centers, cloud.weights).dimension, 2);
+  EXPECT_TRUE(static_triangulation(cloud.centers, cloud.weights).cells.empty());
+  EXPECT_EQ(static_triangulation(exact_beads(cloud), true).dimension, 2);
+  cloud = Cloud(6);
+  cloud.centers.col(4) = cloud.centers.col(1);
+  EXPECT_EQ(triangulation.build(cloud.centers, cloud.weights).hidden.size(), 1U);
+  // A small ball deep inside a large one.
+  cloud = Cloud(6);
+  cloud.weights[5] = 1e12;
+  cloud.centers.col(2) = cloud.centers.col(5) + Eigen::Vector3d(1, 0, 0);
+  for (const auto& hidden : {triangulation.build(cloud.centers, cloud.weights).hidden,
+                             static_triangulation(cloud.centers, cloud.weights).hidden,
+                             static_triangulation(exact_beads(cloud), false).hidden}) {
+    EXPECT_THAT(hidden, testing::Contains(2U));
+  }
+  EXPECT_EQ(triangulation.find_cell({0, 1, 2, 3}), std::nullopt);
+  EXPECT_EQ(triangulation.find_cell({0, 1, 3, 77}), std::nullopt);
+}
+
+TEST(RegularTriangulation, AssignsOrientedCells) {
+  for (const std::size_t beads : {4U, 5U, 20U}) {
+    const Cloud cloud(beads, 5);
+    const StaticTriangulation exact = static_triangulation(exact_beads(cloud), true);
+    RegularTriangulation triangulation;
+    triangulation.assign(beads, exact.cells);
+    EXPECT_EQ(live_cells(triangulation).size(), exact.cells.size());
+    check_mirror(triangulation, beads);
+    triangulation.set_points(cloud.centers, cloud.weights);
+    EXPECT_TRUE(triangulation.is_valid());
+    EXPECT_TRUE(triangulation.all_cells_positive());
+    RegularTriangulation built;
+    (void)built.build(cloud.centers, cloud.weights);
+    EXPECT_EQ(all_cells(triangulation), all_cells(built));
+    // Over another one, whose points stay.
+    (void)built.build(Cloud(beads, 6).centers, cloud.weights);
+    built.set_points(cloud.centers, cloud.weights);
+    built.assign(beads, exact.cells);
+    EXPECT_TRUE(built.is_valid());
+    check_mirror(built, beads);
+  }
+}
+
+TEST(RegularTriangulation, RefusesCellsThatDoNotCloseUp) {
+  auto cells = static_triangulation(exact_beads(Cloud(8)), true).cells;
+  cells.pop_back();
+  RegularTriangulation triangulation;
+  EXPECT_THROW(triangulation.assign(8, cells), std::logic_error);
+}
+
+// The points decide: turned inside out, or moved through a facet.
+TEST(RegularTriangulation, ValidityFollowsThePoints) {
+  const Points before{
+      {3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 5}, {0, 0, -5}};  // two cells and no edge 3-4
+  Points after = before;
+  after[3][2] = 1;
+  after[4][2] = -1;  // now the edge 3-4 is there
+  const std::vector<double> weights(5, 0.25);
+  const auto centers = [](const Points& points) { return control_points(moving(points, points), 0); };
+  RegularTriangulation triangulation;
+  (void)triangulation.build(centers(before), weights);
+  ASSERT_FALSE(triangulation.is_edge(3, 4));
+  ASSERT_EQ(triangulation.finite_cells().size(), 2U);
+  triangulation.set_points(centers(after), weights);
+  EXPECT_FALSE(triangulation.is_valid());
+  EXPECT_TRUE(triangulation.all_cells_positive());
+  const auto cell = triangulation.find_cell({0, 1, 2, 3});
+  ASSERT_TRUE(cell);
+  const auto& v = triangulation.cells()[*cell].vertex;
+  const auto made =
+      triangulation.flip_facet(*cell, static_cast<int>(std::find(v.begin(), v.end(), 3U) - v.begin()));
+  EXPECT_TRUE(triangulation.is_valid());
+  EXPECT_TRUE(triangulation.is_edge(3, 4));
+  EXPECT_EQ(triangulation.finite_cells(), static_triangulation(centers(after), weights).cells);
+  check_mirror(triangulation, 5);
+  for (const CellId id : made) EXPECT_TRUE(triangulation.is_live(id));
+  triangulation.set_points(centers(before), weights);
+  EXPECT_FALSE(triangulation.is_valid());
+  Points mirrored = after;
+  for (auto& p : mirrored) p[0] = -p[0];
+  triangulation.set_points(centers(mirrored), weights);
+  EXPECT_FALSE(triangulation.all_cells_positive());
+}
+
+// Mutate, validate, repeat.
+
+/// The other bead across a facet.
+BeadId apex(const RegularTriangulation& t, CellId cell, int i) {
+  return t.cells()[t.cells()[cell].neighbor[at(i)]].vertex[at(t.mirror_index(cell, i))];
+}
+
+struct Flip {
+  bool to_edge;
+  std::array<BeadId, 3> facet;
+  std::array<BeadId, 2> edge;
+};
+
+bool has_facet(const RegularTriangulation& t, const std::array<BeadId, 3>& facet) {
+  for (const CellId cell : live_cells(t)) {
+    const auto& v = t.cells()[cell].vertex;
+    if (std::all_of(facet.begin(), facet.end(),
+                    [&](BeadId b) { return std::find(v.begin(), v.end(), b) != v.end(); }))
+      return true;
+  }
+  return false;
+}
+
+int place(const RegularTriangulation& t, CellId cell, BeadId bead) {
+  const auto& v = t.cells()[cell].vertex;
+  return static_cast<int>(std::find(v.begin(), v.end(), bead) - v.begin());
+}
+
+/// Makes a flip and checks the cells it says it made.
+void make(RegularTriangulation& t, const Flip& flip) {
+  const auto& [a, b, c] = flip.facet;
+  const auto& [d, e] = flip.edge;
+  if (flip.to_edge) {
+    const auto cell = t.find_cell({a, b, c, d});
+    ASSERT_TRUE(cell);
+    const auto made = t.flip_facet(*cell, place(t, *cell, d));
+    std::set<CellBeads> beads;
+    for (const CellId id : made) beads.insert(sorted(t.cells()[id].vertex));
+    ASSERT_EQ(beads, (std::set<CellBeads>{sorted({a, b, d, e}), sorted({a, c, d, e}), sorted({b, c, d, e})}));
+    for (const CellId id : made) ASSERT_TRUE(t.is_live(id));
+  } else {
+    const auto cell = t.find_cell({a, b, d, e});
+    ASSERT_TRUE(cell);
+    const auto made = t.flip_edge(*cell, place(t, *cell, d), place(t, *cell, e));
+    std::set<CellBeads> beads;
+    for (const CellId id : made) beads.insert(sorted(t.cells()[id].vertex));
+    ASSERT_EQ(beads, (std::set<CellBeads>{sorted({a, b, c, d}), sorted({a, b, c, e})}));
+    for (const CellId id : made) ASSERT_TRUE(t.is_live(id));
+    ASSERT_FALSE(t.is_live(*cell) && std::find(made.begin(), made.end(), *cell) == made.end());
+  }
+}
+
+class RandomFlips : public testing::TestWithParam<unsigned> {};
+
+TEST_P(RandomFlips, ForthAndBack) {
+  const std::size_t beads = 6 + GetParam() % 3 * 5;
+  const Cloud cloud(beads, GetParam(), 4);
+  RegularTriangulation t;
+  (void)t.build(cloud.centers, cloud.weights);
+  const auto start = all_cells(t);
+  std::mt19937 random(GetParam() + 100);
+  std::vector<Flip> done;
+  std::size_t slots = t.cells().size();
+  for (int attempt = 0; attempt < 3000 && done.size() < 150; ++attempt) {
+    const auto live = live_cells(t);
+    const CellId cell = live[random() % live.size()];
+    const int i = static_cast<int>(random() % 4);
+    const auto v = t.cells()[cell].vertex;
+    const BeadId d = v[at(i)], e = apex(t, cell, i);
+    std::array<BeadId, 3> facet{};
+    for (int k = 0, n = 0; k < 4; ++k) {
+      if (k != i) facet[at(n++)] = v[at(k)];
+    }
+    Flip flip{true, facet, {d, e}};
+    if (random() % 2 == 0) {
+      if (t.is_edge(d, e)) continue;
+    } else {
+      // An edge of the facet with three cells: x, y of the facet, around them d, e and the third.
+      const std::size_t third = random() % 3;
+      const BeadId x = facet[(third + 1) % 3], y = facet[(third + 2) % 3], z = facet[third];
+      if (!t.find_cell({x, y, d, e}) || has_facet(t, {z, d, e})) continue;
+      flip = {false, {z, d, e}, {x, y}};
+    }
+    make(t, flip);
+    if (HasFatalFailure()) return;
+    check_mirror(t, beads);
+    if (HasFatalFailure()) return;
+    done.push_back(flip);
+  }
+  EXPECT_GT(done.size(), 20U);
+  EXPECT_TRUE(std::any_of(done.begin(), done.end(), [](const Flip& f) { return !f.to_edge; }));
+  for (; !done.empty(); done.pop_back()) {
+    Flip back = done.back();
+    back.to_edge = !back.to_edge;
+    make(t, back);
+    if (HasFatalFailure()) return;
+  }
+  check_mirror(t, beads);
+  EXPECT_EQ(all_cells(t), start);
+  EXPECT_TRUE(t.is_valid());
+  EXPECT_LE(t.cells().size(), slots + 151);  // slots of cells that went are used again
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomFlips, testing::Range(0U, 12U));
+
+TEST(RegularTriangulation, SlotsAreUsedAgain) {
+  const Points points{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 5}, {0, 0, -5}};
+  RegularTriangulation t;
+  (void)t.build(control_points(moving(points, points), 0), std::vector<double>(5, 0));
+  const std::size_t slots = t.cells().size();
+  for (int round = 0; round < 20; ++round) {
+    make(t, {true, {0, 1, 2}, {3, 4}});
+    make(t, {false, {0, 1, 2}, {3, 4}});
+    check_mirror(t, 5);
+  }
+  EXPECT_EQ(t.cells().size(), slots + 1);
+}
+
+TEST(StaticBuild, TakesTime) {
+  const Cloud cloud(300);
+  const std::vector<BeadRange> necklaces{{0, 299}};
+  EXPECT_GT(seconds_to_triangulate(cloud.centers, cloud.weights), 0);
+  EXPECT_GT(seconds_to_wrap(NecklaceTree(necklaces), cloud.centers, cloud.weights), 0);
+  EXPECT_GT(seconds_to_sort(cloud.centers), 0);
+}
+
+}  // namespace
+}  // namespace kds

@@ -1,0 +1,159 @@
+#pragma once
+// Motions for tests of structures, and what it takes to run a structure on them and look at it on the way.
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kds/simulator.h"
+#include "motions/read_trajectory.h"
+#include "motions/scene.h"
+
+namespace kds::test {
+
+using Space = BezierMotion<3, 1>;
+using Points = std::vector<std::array<double, 3>>;
+
+inline std::filesystem::path data(const std::string& name) {
+  return std::filesystem::path(KDS_DATA_DIR) / name;
+}
+
+/// One linear step. Beads of one weight: which, is all the same.
+inline Space moving(const Points& from, const Points& to, double weight = 0) {
+  Space motion(from.size());
+  for (BeadId b = 0; b < from.size(); ++b) {
+    for (int axis = 0; axis < 3; ++axis) {
+      motion.set_coordinate(b, 0, axis, from[b][static_cast<std::size_t>(axis)]);
+      motion.set_coordinate(b, 1, axis, to[b][static_cast<std::size_t>(axis)]);
+    }
+    for (int k = 0; k <= 1; ++k) motion.set_weight(b, k, weight);
+  }
+  return motion;
+}
+
+/// The steps between frames.
+inline std::vector<Space> through(const std::vector<Points>& frames) {
+  std::vector<Space> steps;
+  for (std::size_t k = 0; k + 1 < frames.size(); ++k) steps.push_back(moving(frames[k], frames[k + 1]));
+  return steps;
+}
+
+/// Steps of frames [first, last] of a trajectory, strided, all its atoms.
+inline std::vector<Space> trajectory_steps(const std::string& name, std::size_t first, std::size_t last,
+                                           std::size_t stride = 1) {
+  ReadOptions options;
+  options.frames = {first, last + 1, stride};
+  const Trajectory trajectory = read_trajectory(data("trajectories/" + name), options);
+  const Scene scene(std::span(&trajectory, 1), std::vector<double>(trajectory.bead_count(), 1.5));
+  std::vector<Space> steps(scene.step_count(), Space(scene.bead_count()));
+  for (std::size_t k = 0; k < steps.size(); ++k) scene.load(k, steps[k]);
+  return steps;
+}
+
+/// The one step of an instance file in data/kinetic.
+template <Motion M>
+M instance_motion(const std::string& name) {
+  const Scene scene(read_instance(data("kinetic/" + name + ".txt")));
+  M motion(scene.bead_count());
+  scene.load(0, motion);
+  return motion;
+}
+
+/// Whole coordinates in [0, range): the smaller the range, the more ties.
+inline Points random_grid_points(std::mt19937& random, std::size_t beads, int range) {
+  Points points(beads);
+  for (auto& point : points) {
+    for (double& x : point) x = static_cast<double>(random() % static_cast<unsigned>(range));
+  }
+  return points;
+}
+
+/// Everything that was recorded.
+struct History final : EventListener {
+  std::vector<LoggedEvent> events;
+  void on_event(const KineticStructure&, const LoggedEvent& event) override { events.push_back(event); }
+  [[nodiscard]] std::vector<LoggedEvent> of_step(std::size_t step) const {
+    std::vector<LoggedEvent> some;
+    for (const LoggedEvent& e : events) {
+      if (e.step == step) some.push_back(e);
+    }
+    return some;
+  }
+};
+
+/// A structure that only looks at the others whenever they are audited.
+class Witness final : public KineticStructure {
+ public:
+  using Look = std::function<std::optional<std::string>(const Dyadic&)>;
+
+  Witness(Simulator& simulator, Look look) : look_(std::move(look)) { (void)simulator.add(*this); }
+
+  [[nodiscard]] std::string_view name() const override { return "witness"; }
+  [[nodiscard]] std::span<const EventKind> kinds() const override { return {}; }
+  void build() override {}
+  void start_step() override {}
+  void fail(unsigned, std::uint32_t) override {}
+  void apply(const Change&) override {}
+  [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override { return look_(time); }
+
+ private:
+  Look look_;
+};
+
+/// A structure on its own simulator.
+template <class Structure, Motion M>
+class Rig {
+ public:
+  template <class... Extra>
+  explicit Rig(const M& first, AuditMode audits = AuditMode::none, const Extra&... extra)
+      : motion(first), simulator(audits), structure(simulator, motion, extra...) {
+    simulator.listen(history);
+  }
+
+  void run(const std::vector<M>& steps) {
+    motion = steps.front();
+    simulator.build();
+    for (std::size_t k = 0; k < steps.size(); ++k) step(steps[k], k + 1 == steps.size());
+  }
+  void run() { run({M(motion)}); }
+  void step(const M& next, bool last) {
+    motion = next;
+    simulator.run_step(last);
+  }
+  /// The same changes from another run's history, without certificates.
+  void replay(const std::vector<M>& steps, const History& log) {
+    motion = steps.front();
+    simulator.build_for_replay();
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      motion = steps[k];
+      std::vector<Simulator::Replayed> events;
+      for (const LoggedEvent& e : log.of_step(k))
+        events.push_back({e.structure, e.lower, e.upper, e.change, ""});
+      simulator.replay_step(events, k + 1 == steps.size());
+    }
+  }
+
+  [[nodiscard]] std::uint64_t external_events() const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t events : structure.statistics.events_per_step) sum += events;
+    return sum;
+  }
+
+  M motion;
+  Simulator simulator;
+  History history;
+  Structure structure;
+};
+
+/// created = never failing + cancelled + failed.
+inline bool books_balance(const StructureStatistics& statistics) {
+  const CertificateCounts& c = statistics.certificates;
+  return c.created == c.never_failing + c.cancelled + c.failed && c.alive == 0;
+}
+
+}  // namespace kds::test

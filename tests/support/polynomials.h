@@ -1,0 +1,188 @@
+#pragma once
+// Random polynomials in scaled Bernstein form with whole coefficients, made to be hard to isolate.
+
+#include <cstdint>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "motions/exact_number.h"
+
+namespace kds::test {
+
+using Scaled = std::vector<Integer>;
+using Random = std::mt19937_64;
+
+inline int pick(Random& random, int low, int high) {
+  return std::uniform_int_distribution<int>(low, high)(random);
+}
+
+inline Scaled product(const Scaled& a, const Scaled& b) {
+  Scaled c(a.size() + b.size() - 1);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) c[i + j] += a[i] * b[j];
+  }
+  return c;
+}
+
+/// q u - p, with the root p/q.
+inline Scaled linear(const Integer& p, const Integer& q) { return {Integer(-p), Integer(q - p)}; }
+
+/// a u^2 + b u + c.
+inline Scaled quadratic(const Integer& a, const Integer& b, const Integer& c) {
+  return {c, Integer(b + 2 * c), Integer(a + b + c)};
+}
+
+/// A linear factor whose root is special more often than not.
+inline Scaled random_linear(Random& random) {
+  switch (pick(random, 0, 7)) {
+    case 0:
+      return linear(0, 1);
+    case 1:
+      return linear(1, 1);
+    case 2:
+      return linear(1, 2);
+    case 3: {  // few bits
+      const int bits = pick(random, 1, 6);
+      return linear(pick(random, 0, 1 << bits), Integer(1) << bits);
+    }
+    case 4: {  // a double's worth of bits, at times more
+      const auto bits = static_cast<unsigned>(pick(random, 10, 70));
+      return linear((Integer(random()) << 6) >> (70 - bits), Integer(1) << bits);
+    }
+    case 5: {  // no dyadic number
+      const int q = 2 * pick(random, 1, 20) + 1;
+      return linear(pick(random, -q, 2 * q), q);
+    }
+    case 6:  // outside
+      return linear(pick(random, -30, 30), pick(random, 1, 9));
+    default: {
+      const int q = pick(random, 2, 1000);
+      return linear(pick(random, 1, q - 1), q);
+    }
+  }
+}
+
+/// A quadratic factor: irrational roots, two of them 2^-30 or 2^-60 apart, or none.
+inline Scaled random_quadratic(Random& random) {
+  switch (pick(random, 0, 3)) {
+    case 0: {  // (q u - p)^2 q' - 2^-shift : close irrational roots about p/q
+      const Integer q = pick(random, 2, 50);
+      const Integer p = pick(random, 0, static_cast<int>(q));
+      const unsigned shift = random() % 2 ? 60 : 120;
+      const Integer s = Integer(1) << shift;
+      return quadratic(q * q * s, -2 * p * q * s, p * p * s - pick(random, 1, 3));
+    }
+    case 1: {  // the same without a real root
+      const Integer q = pick(random, 2, 50);
+      const Integer p = pick(random, 0, static_cast<int>(q));
+      const Integer s = Integer(1) << static_cast<unsigned>(pick(random, 0, 100));
+      return quadratic(q * q * s, -2 * p * q * s, p * p * s + pick(random, 1, 3));
+    }
+    case 2:
+      return quadratic(pick(random, 1, 30), pick(random, -60, 10), pick(random, -10, 30));
+    default:
+      return quadratic(2 * pick(random, 1, 9), 0, -pick(random, 1, 9));
+  }
+}
+
+/// Two rational roots 2^-60 apart, or a rational one that close to a dyadic one.
+inline Scaled close_pair(Random& random) {
+  const Integer s = Integer(1) << 60;
+  const Integer q = pick(random, 1, 12);
+  const Integer p = pick(random, 0, static_cast<int>(q));
+  return product(linear(p, q), linear(p * s + pick(random, -1, 1), q * s));
+}
+
+inline Scaled random_coefficients(Random& random, int degree, unsigned bits) {
+  Scaled p;
+  for (int k = 0; k <= degree; ++k) {
+    Integer x = random();
+    x = bits < 64 ? Integer(x >> (64 - bits)) : Integer(x << (bits - 64));
+    p.push_back(random() % 2 ? x : Integer(-x));
+  }
+  return p;
+}
+
+/// Roots 1/(n+1), ..., n/(n+1).
+inline Scaled wilkinson(int n) {
+  Scaled p{1};
+  for (int i = 1; i <= n; ++i) p = product(p, linear(i, n + 1));
+  return p;
+}
+
+/// Degree at most 18; `factors` of two polynomials in common are what makes times equal.
+inline Scaled random_polynomial(Random& random) {
+  Scaled p{Integer(random() % 2 ? 1 : -1)};
+  const auto degree_left = [&] { return 19 - static_cast<int>(p.size()); };
+  switch (pick(random, 0, 11)) {
+    case 0:
+      return random_coefficients(random, pick(random, 1, 18), static_cast<unsigned>(pick(random, 1, 300)));
+    case 1:  // many small coefficients, zeros among them
+      return random_coefficients(random, pick(random, 1, 18), 1);
+    case 2:
+      return Scaled(static_cast<std::size_t>(pick(random, 1, 8)), 0);
+    case 3:
+      p = {Integer(pick(random, -2, 2))};
+      break;
+    case 4:
+      p = product(p, wilkinson(pick(random, 2, 10)));
+      break;
+    default:
+      break;
+  }
+  const int factors = pick(random, 0, 5);
+  for (int i = 0; i < factors && degree_left() >= 6; ++i) {
+    const Scaled factor = random() % 3 == 0   ? random_quadratic(random)
+                          : random() % 4 == 0 ? close_pair(random)
+                                              : random_linear(random);
+    const int power = random() % 3 == 0 ? pick(random, 2, 3) : 1;
+    for (int j = 0; j < power && degree_left() >= 2; ++j) p = product(p, factor);
+  }
+  if (degree_left() > 3 && random() % 4 == 0) {
+    p = product(p,
+                random_coefficients(random, pick(random, 1, 3), static_cast<unsigned>(pick(random, 1, 60))));
+  }
+  while (degree_left() > 0 && random() % 4 == 0) p = product(p, {1, 1});  // the same, of a higher degree
+  if (random() % 8 == 0) {
+    for (Integer& x : p) x <<= 1100;
+  }
+  return p;
+}
+
+/// A polynomial that shares a factor with p.
+inline Scaled relative_of(const Scaled& p, Random& random) {
+  Scaled q = p;
+  if (random() % 2) {
+    for (Integer& x : q) x = -3 * x;
+  }
+  if (q.size() < 16) q = product(q, random() % 2 ? random_linear(random) : random_quadratic(random));
+  return q;
+}
+
+/// A dyadic in [0,1], often a special one.
+inline Dyadic random_dyadic(Random& random) {
+  switch (pick(random, 0, 4)) {
+    case 0:
+      return Dyadic(0.0);
+    case 1:
+      return Dyadic(0.5);
+    case 2: {
+      const int bits = pick(random, 1, 6);
+      return Dyadic(Integer(pick(random, 0, 1 << bits)), static_cast<unsigned>(bits));
+    }
+    default: {
+      const auto bits = static_cast<unsigned>(pick(random, 20, 64));
+      return Dyadic(Integer(random()) >> (64 - bits), bits);
+    }
+  }
+}
+
+inline std::string describe(std::span<const Integer> p) {
+  std::string text = "{";
+  for (const Integer& x : p) text += (text.size() > 1 ? ", " : "") + x.str();
+  return text + "}";
+}
+
+}  // namespace kds::test
