@@ -25,8 +25,6 @@ struct Identity {
 /// Types in the order in which simultaneous failures are handled.
 enum class CertificateType : std::uint32_t { precedes, orientation, power_test, bead_in_sphere };
 
-inline constexpr BeadId no_bead = 0xffffffffU;
-
 template <class C, class M>
 concept CertificateFor = Motion<M> && requires(const C& certificate, const DoubleView<M>& view) {
   {

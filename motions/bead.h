@@ -7,4 +7,7 @@ namespace kds {
 
 using BeadId = std::uint32_t;
 
+/// No bead of any scene: after all others in every order.
+inline constexpr BeadId no_bead = 0xffffffffU;
+
 }  // namespace kds

@@ -30,6 +30,7 @@ std::vector<std::size_t> select_frames(const std::string& file, const FrameRange
     warnings.push_back(message);
   }
   if (held.whole == 0) throw InputError(fmt::format("{}: the file holds no frame", file));
+  if (held.whole == 1 && !held.ends_inside) return {0};  // at rest, whatever frames others take
   if (range.first >= held.whole)
     throw InputError(fmt::format("--frames: frame {} is asked for, {} holds {}", range.first, file,
                                  counted(held.whole, "frame")));

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "certificates/certificate.h"
+#include "motions/bead.h"
 
 namespace kds {
 

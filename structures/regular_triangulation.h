@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "certificates/certificate.h"
+#include "motions/bead.h"
 #include "motions/exact_number.h"
 
 namespace kds {

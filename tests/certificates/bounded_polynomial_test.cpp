@@ -140,6 +140,32 @@ TYPED_TEST(BoundedPolynomials, VerdictsHoldWithinTheError) {
   }
 }
 
+// The rounding claimed for values at doubles.
+TYPED_TEST(BoundedPolynomials, ValuesErrAsLittleAsClaimed) {
+  Random random(408);
+  double share = 0;
+  for (int i = 0; i < 300; ++i) {
+    typename TestFixture::Coefficients c;
+    std::vector<Integer> scaled;
+    double largest = 0;
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      c[k] = uniform(random);
+      largest = std::max(largest, std::abs(c[k]));
+      const Dyadic x(c[k]);
+      scaled.push_back(binomial(TypeParam::value, static_cast<int>(k)) *
+                       (x.numerator() << (200 - x.exponent())));
+    }
+    const double u = uniform(random, 0, 1);
+    const BoundedPolynomial<TypeParam::value> p{c, 0, 0};
+    const Rational exact_value = sturm::value(sturm::from_scaled(scaled), rational(u)) / (Integer(1) << 200);
+    const Rational error = abs(rational(p.value_at(u)) - exact_value);
+    const Rational claimed = rational(value_rounding(TypeParam::value) * largest);
+    EXPECT_LE(error, claimed);
+    share = std::max(share, Rational(error / claimed).template convert_to<double>());
+  }
+  EXPECT_GT(share, 0.001);
+}
+
 // Doubtful coefficients between certain ones: their signs may alternate.
 TYPED_TEST(BoundedPolynomials, DoubtfulCoefficientsProveNothing) {
   Random random(403);

@@ -54,6 +54,11 @@ TEST(FrameRange, FramesThatAreNotThere) {
       {"stride"});
 }
 
+TEST(FrameRange, OneFrameIsAtRest) {
+  EXPECT_EQ(select("10:60:2", {1, false}), Frames{0});
+  test::expect_refused([] { (void)select("10:60", {1, true}); }, {"inside frame 1"});
+}
+
 TEST(FrameRange, FileThatEndsInsideAFrame) {
   test::expect_refused(
       [] {

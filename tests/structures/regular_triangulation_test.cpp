@@ -152,8 +152,13 @@ TEST(RegularTriangulation, TellsDimensionAndHiddenBeads) {
   EXPECT_EQ(triangulation.build(cloud.centers, cloud.weights).hidden.size(), 1U);
   // A small ball deep inside a large one.
   cloud = Cloud(6);
-  cloud.weights[5] = 1e12;
-  cloud.centers.col(2) = cloud.centers.col(5) + Eigen::Vector3d(1, 0, 0);
+  cloud.centers.col(0) = Eigen::Vector3d(-9, -9, -9);
+  cloud.centers.col(1) = Eigen::Vector3d(9, 0, 0);
+  cloud.centers.col(2) = Eigen::Vector3d(1, 0, 0);
+  cloud.centers.col(3) = Eigen::Vector3d(0, 9, 0);
+  cloud.centers.col(4) = Eigen::Vector3d(0, 0, 9);
+  cloud.centers.col(5) = Eigen::Vector3d(0, 0, 0);
+  cloud.weights[5] = 25;
   for (const auto& hidden : {triangulation.build(cloud.centers, cloud.weights).hidden,
                              static_triangulation(cloud.centers, cloud.weights).hidden,
                              static_triangulation(exact_beads(cloud), false).hidden}) {

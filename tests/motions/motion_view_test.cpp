@@ -1,0 +1,167 @@
+#include "motions/motion_view.h"
+
+#include <gtest/gtest.h>
+
+#include "motions/positions.h"
+#include "tests/support/random_motion.h"
+#include "tests/support/sturm.h"
+
+namespace kds {
+namespace {
+
+namespace sturm = test::sturm;
+
+Rational power_of_two(int exponent) {
+  const Rational power(Integer(1) << static_cast<unsigned>(std::abs(exponent)));
+  return exponent < 0 ? Rational(1 / power) : power;
+}
+
+// A control point as a rational, coordinates and then the weight.
+template <Motion M>
+Rational control(const M& motion, BeadId bead, int k, int axis) {
+  return Dyadic(axis < M::dimension ? motion.coordinate(bead, k, axis) : motion.weight(bead, k)).rational();
+}
+
+template <Motion M>
+void expect_exact(const M& motion, const Dyadic& time) {
+  std::array<BeadId, 3> beads{0, 1, 2};
+  const IntegerView<M> whole(motion, beads);
+  const MomentView<M> moment(motion, beads, time);
+  const Rational scale = power_of_two(integer_scale(motion, beads));
+  // Times from which the moment's numbers are scaled: (denominator)^degree for lengths, its square for
+  // weights.
+  Rational later = 1;
+  for (int k = 0; k < M::degree; ++k) later *= power_of_two(static_cast<int>(time.exponent()));
+
+  for (const auto& [i, j] : {std::pair<BeadId, BeadId>{0, 1}, {2, 0}, {1, 1}}) {
+    const auto centers = whole.difference(i, j);
+    const auto weights = whole.weight_difference(i, j);
+    const auto there = moment.difference(i, j);
+    const auto heavy = moment.weight_difference(i, j);
+    const auto pi = exact_position(motion, i, time);
+    const auto pj = exact_position(motion, j, time);
+    for (int axis = 0; axis <= M::dimension; ++axis) {
+      const bool weight = axis == M::dimension;
+      const Rational factor = weight ? Rational(scale * scale) : scale;
+      const auto& polynomial = weight ? weights : centers[static_cast<std::size_t>(axis)];
+      for (int k = 0; k <= M::degree; ++k) {
+        const Rational difference = control(motion, i, k, axis) - control(motion, j, k, axis);
+        EXPECT_EQ(Rational(polynomial.scaled[static_cast<std::size_t>(k)]),
+                  binomial(M::degree, k) * factor * difference);
+      }
+      const Rational at_time = pi[static_cast<std::size_t>(axis)] - pj[static_cast<std::size_t>(axis)];
+      const auto& value = weight ? heavy : there[static_cast<std::size_t>(axis)];
+      EXPECT_EQ(Rational(value.scaled[0]), at_time * factor * (weight ? Rational(later * later) : later));
+      // and both are the polynomial's value there
+      EXPECT_EQ(sturm::value(sturm::from_scaled(polynomial.scaled), time.rational()), at_time * factor);
+    }
+  }
+}
+
+TEST(MotionViews, ExactOnesAreScaledCopies) {
+  test::Random random(41);
+  for (int i = 0; i < 40; ++i) {
+    for (const test::MotionKind kind : test::all_motion_kinds) {
+      const Dyadic time = test::random_dyadic(random);
+      SCOPED_TRACE("seed 41, round " + std::to_string(i) + ", kind " +
+                   std::to_string(static_cast<int>(kind)));
+      expect_exact(test::random_motion<BezierMotion<3, 1>>(random, 3, kind), time);
+      expect_exact(test::random_motion<BezierMotion<2, 2>>(random, 3, kind), time);
+      expect_exact(test::random_motion<BezierMotion<1, 3>>(random, 3, kind), time);
+      if (testing::Test::HasFailure()) return;
+    }
+  }
+}
+
+TEST(MotionViews, ExactOnesKnowNoLimits) {
+  test::Random random(42);
+  for (const int exponent : {-1074, -1060, -1000, -500, 500, 1000, 1022}) {
+    for (const int weight_exponent : {-1074, -1001, -1000, 0, 1000, 1001}) {
+      auto motion = test::random_motion<BezierMotion<3, 1>>(random, 3, test::MotionKind::generic);
+      for (BeadId b = 0; b < 3; ++b) {
+        for (int k = 0; k <= 1; ++k) {
+          for (int axis = 0; axis < 3; ++axis) {
+            if (axis == 2 && b == 1) continue;  // one stays ordinary
+            motion.set_coordinate(b, k, axis, std::ldexp(motion.coordinate(b, k, axis), exponent));
+          }
+          motion.set_weight(b, k, std::ldexp(motion.weight(b, k), weight_exponent));
+        }
+      }
+      expect_exact(motion, test::random_dyadic(random));
+    }
+  }
+}
+
+TEST(MotionViews, MomentsAtTheEndsAreTheFrames) {
+  test::Random random(43);
+  const auto motion = test::random_motion<BezierMotion<3, 3>>(random, 3, test::MotionKind::generic);
+  for (const double u : {0.0, 1.0}) {
+    const int k = u == 0 ? 0 : 3;
+    for (BeadId b = 0; b < 3; ++b) {
+      const auto position = exact_position(motion, b, Dyadic(u));
+      for (int axis = 0; axis <= 3; ++axis)
+        EXPECT_EQ(position[static_cast<std::size_t>(axis)], control(motion, b, k, axis));
+    }
+    EXPECT_EQ(approximate_positions(motion, u), control_points(motion, k));
+  }
+  expect_exact(motion, Dyadic(0.0));
+  expect_exact(motion, Dyadic(1.0));
+}
+
+TEST(MotionViews, WholeNumbersNeedNoScale) {
+  BezierMotion<2, 1> motion(2);
+  const std::array<BeadId, 2> beads{0, 1};
+  EXPECT_LT(integer_scale(motion, beads), 0);  // all zero
+  motion.set_coordinate(0, 0, 0, 3);
+  EXPECT_EQ(integer_scale(motion, beads), 0);
+  motion.set_coordinate(1, 1, 1, 0.125);
+  EXPECT_EQ(integer_scale(motion, beads), 3);
+  motion.set_weight(1, 0, 0x1p-7);  // weights are scaled by the square
+  EXPECT_EQ(integer_scale(motion, beads), 4);
+  motion.set_weight(1, 0, 0x1p-8);
+  EXPECT_EQ(integer_scale(motion, beads), 4);
+}
+
+// The view of doubles remembers the largest thing that it answered.
+TEST(DoubleView, KnowsTheLargestLength) {
+  BezierMotion<2, 1> motion(3);
+  motion.set_coordinate(1, 1, 1, -5);
+  motion.set_coordinate(2, 0, 0, 9);
+  const DoubleView<BezierMotion<2, 1>> view(motion);
+  EXPECT_EQ(view.largest_length(), 0);
+  (void)view.difference(0, 1);
+  EXPECT_EQ(view.largest_length(), 5);
+  motion.set_weight(0, 1, 24);
+  (void)view.weight_difference(0, 1);
+  EXPECT_EQ(view.largest_length(), 5);
+  motion.set_weight(0, 1, -49);
+  (void)view.weight_difference(0, 1);
+  EXPECT_EQ(view.largest_length(), 7);
+  (void)view.difference(2, 1);
+  EXPECT_EQ(view.largest_length(), 9);
+}
+
+TEST(MotionViews, InDoubleTheyAreNearTheExactOne) {
+  test::Random random(44);
+  for (int i = 0; i < 200; ++i) {
+    const auto kind = test::all_motion_kinds[random() % test::all_motion_kinds.size()];
+    const auto motion = test::random_motion<BezierMotion<3, 3>>(random, 2, kind);
+    const auto rounded = DoubleView<BezierMotion<3, 3>>(motion).difference(1, 0);
+    const auto tracked = TrackedView<BezierMotion<3, 3>>(motion).difference(1, 0);
+    const auto weights = TrackedView<BezierMotion<3, 3>>(motion).weight_difference(1, 0);
+    for (int axis = 0; axis <= 3; ++axis) {
+      for (int k = 0; k <= 3; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        const Rational exact = binomial(3, k) * (control(motion, 1, k, axis) - control(motion, 0, k, axis));
+        const TrackedDouble& t =
+            axis == 3 ? weights.scaled[at] : tracked[static_cast<std::size_t>(axis)].scaled[at];
+        EXPECT_LE(abs(Dyadic(t.value).rational() - exact),
+                  Dyadic(t.error).rational() * Dyadic(TrackedDouble::inflation).rational());
+        EXPECT_TRUE(axis == 3 || t.value == rounded[static_cast<std::size_t>(axis)].scaled[at]);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kds

@@ -1,0 +1,150 @@
+#include "motions/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "motions/input_error.h"
+
+namespace kds {
+namespace {
+
+Trajectory random_trajectory(std::mt19937_64& random, const std::string& file, int beads,
+                             std::size_t frames) {
+  Trajectory trajectory;
+  trajectory.file = file;
+  for (std::size_t k = 0; k < frames; ++k) {
+    Eigen::Matrix3Xd frame(3, beads);
+    for (Eigen::Index i = 0; i < frame.size(); ++i)
+      frame(i) = std::uniform_real_distribution<double>(-9, 9)(random);
+    trajectory.frames.push_back(frame);
+  }
+  return trajectory;
+}
+
+TEST(Scene, PutsNecklacesOneAfterAnother) {
+  std::mt19937_64 random(51);
+  const std::vector<Trajectory> necklaces{random_trajectory(random, "a", 4, 3),
+                                          random_trajectory(random, "b", 1, 3),
+                                          random_trajectory(random, "c", 2, 3)};
+  const Scene scene(necklaces, {1, 1, 1, 1, 2, 3, 3});
+  EXPECT_EQ(scene.dimension(), 3);
+  EXPECT_EQ(scene.degree(), 1);
+  EXPECT_EQ(scene.bead_count(), 7U);
+  EXPECT_EQ(scene.frame_count(), 3U);
+  EXPECT_EQ(scene.step_count(), 2U);
+  EXPECT_FALSE(scene.equal_radii());
+  EXPECT_EQ(scene.necklaces(), (std::vector<BeadRange>{{0, 3}, {4, 4}, {5, 6}}));
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(scene.centers(k).leftCols(4), necklaces[0].frames[k]);
+    EXPECT_EQ(scene.centers(k).col(4), necklaces[1].frames[k].col(0));
+    EXPECT_EQ(scene.centers(k).rightCols(2), necklaces[2].frames[k]);
+    EXPECT_EQ(scene.weights(k), (std::vector<double>{1, 1, 1, 1, 4, 9, 9}));
+  }
+}
+
+TEST(Scene, AStepEndsWhereTheNextBegins) {
+  std::mt19937_64 random(52);
+  const std::vector<Trajectory> necklaces{random_trajectory(random, "a", 5, 4)};
+  const Scene scene(necklaces, std::vector<double>(5, 0.3));
+  EXPECT_TRUE(scene.equal_radii());
+  BezierMotion<3, 1> motion(5);
+  for (std::size_t step = 0; step < scene.step_count(); ++step) {
+    scene.load(step, motion);
+    for (BeadId b = 0; b < 5; ++b) {
+      for (int k = 0; k <= 1; ++k) {
+        for (int axis = 0; axis < 3; ++axis)
+          EXPECT_EQ(motion.coordinate(b, k, axis),
+                    necklaces[0].frames[step + static_cast<std::size_t>(k)](axis, b));
+        EXPECT_EQ(motion.weight(b, k), 0.3 * 0.3);
+      }
+    }
+  }
+}
+
+TEST(Scene, ANecklaceOfOneFrameIsAtRest) {
+  std::mt19937_64 random(53);
+  for (const bool rest_first : {false, true}) {
+    std::vector<Trajectory> necklaces{random_trajectory(random, "moving", 2, 3),
+                                      random_trajectory(random, "at rest", 3, 1)};
+    if (rest_first) std::swap(necklaces[0], necklaces[1]);
+    const Scene scene(necklaces, std::vector<double>(5, 1));
+    EXPECT_EQ(scene.frame_count(), 3U);
+    const BeadRange rest = scene.necklaces()[rest_first ? 0 : 1];
+    const auto& frame = necklaces[rest_first ? 0 : 1].frames[0];
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(scene.centers(k).middleCols(rest.first, 3), frame);
+  }
+}
+
+void expect_refused(const std::vector<Trajectory>& necklaces, std::initializer_list<std::string> parts) {
+  try {
+    const Scene scene(necklaces, {});
+    FAIL() << "nothing was refused";
+  } catch (const InputError& error) {
+    for (const std::string& part : parts)
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << part << " in: " << error.what();
+  }
+}
+
+TEST(Scene, RefusesUnequalFrameCounts) {
+  std::mt19937_64 random(54);
+  expect_refused({random_trajectory(random, "long.dcd", 2, 5), random_trajectory(random, "short.dcd", 2, 4)},
+                 {"short.dcd", "long.dcd", "4 frames", "5"});
+  expect_refused({random_trajectory(random, "short.dcd", 2, 2), random_trajectory(random, "long.dcd", 2, 5)},
+                 {"short.dcd", "long.dcd"});
+  expect_refused({random_trajectory(random, "still.pdb", 2, 1)}, {"still.pdb", "two frames"});
+  expect_refused({random_trajectory(random, "a.pdb", 2, 1), random_trajectory(random, "b.pdb", 2, 1)},
+                 {"two frames"});
+  expect_refused({}, {"no input"});
+}
+
+Instance instance(int columns, int degree, std::vector<double> control_points) {
+  Instance made;
+  made.columns = columns;
+  made.degree = degree;
+  made.control_points = std::move(control_points);
+  return made;
+}
+
+TEST(Scene, AnInstanceIsOneStep) {
+  // Two points in space with weights, degree 2: x, y, z, w with three control points each.
+  const Scene scene(instance(4, 2, {0, 1, 2, 3,  4,  5,  6,  7,  8,  4, 5, 9,  //
+                                    9, 8, 7, -6, -5, -4, 30, 20, 10, 1, 2, -3}));
+  EXPECT_EQ(scene.dimension(), 3);
+  EXPECT_EQ(scene.degree(), 2);
+  EXPECT_EQ(scene.bead_count(), 2U);
+  EXPECT_EQ(scene.frame_count(), 2U);
+  EXPECT_EQ(scene.necklaces(), (std::vector<BeadRange>{{0, 1}}));
+  EXPECT_EQ(scene.radii(), (std::vector<double>{2, 1}));
+  EXPECT_FALSE(scene.equal_radii());
+  BezierMotion<3, 2> motion(2);
+  scene.load(0, motion);
+  EXPECT_EQ(motion.coordinate(0, 1, 0), 1);
+  EXPECT_EQ(motion.coordinate(0, 2, 2), 8);
+  EXPECT_EQ(motion.coordinate(1, 1, 1), -5);
+  EXPECT_EQ(motion.weight(0, 2), 9);
+  EXPECT_EQ(motion.weight(1, 2), -3);
+  EXPECT_EQ(scene.centers(0).col(1), Eigen::Vector3d(9, -6, 30));
+  EXPECT_EQ(scene.centers(1).col(1), Eigen::Vector3d(7, -4, 10));
+  EXPECT_EQ(scene.weights(0), (std::vector<double>{4, 1}));
+  EXPECT_EQ(scene.weights(1), (std::vector<double>{9, -3}));
+}
+
+TEST(Scene, AnInstanceWithoutWeightsHasPoints) {
+  const Scene plane(instance(2, 1, {0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(plane.dimension(), 2);
+  EXPECT_EQ(plane.radii(), (std::vector<double>{0, 0}));
+  EXPECT_TRUE(plane.equal_radii());
+  EXPECT_EQ(plane.centers(1).col(0), Eigen::Vector3d(1, 3, 0));
+  const Scene line(instance(1, 1, {0, 1, 2, 3}));
+  EXPECT_EQ(line.dimension(), 1);
+  EXPECT_EQ(line.bead_count(), 2U);
+}
+
+TEST(Scene, RadiiAreEqualOnlyIfWeightsStaySo) {
+  EXPECT_TRUE(Scene(instance(4, 1, {0, 1, 0, 1, 0, 1, 4, 4, 2, 3, 2, 3, 2, 3, 4, 4})).equal_radii());
+  EXPECT_FALSE(Scene(instance(4, 1, {0, 1, 0, 1, 0, 1, 4, 4, 2, 3, 2, 3, 2, 3, 4, 5})).equal_radii());
+}
+
+}  // namespace
+}  // namespace kds

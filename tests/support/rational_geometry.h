@@ -1,0 +1,114 @@
+#pragma once
+// Points, determinants and linear systems over rationals, by elimination: what certificates are judged by.
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "motions/positions.h"
+
+namespace kds::test {
+
+using RationalPoint = std::array<Rational, 3>;
+using Matrix = std::vector<std::vector<Rational>>;
+
+inline int sign(const Rational& x) { return (x > 0) - (x < 0); }
+
+inline Rational determinant_of(Matrix m) {
+  Rational result = 1;
+  for (std::size_t column = 0; column < m.size(); ++column) {
+    std::size_t pivot = column;
+    while (pivot < m.size() && m[pivot][column] == 0) ++pivot;
+    if (pivot == m.size()) return 0;
+    if (pivot != column) {
+      std::swap(m[pivot], m[column]);
+      result = -result;
+    }
+    result *= m[column][column];
+    for (std::size_t row = column + 1; row < m.size(); ++row) {
+      const Rational factor = m[row][column] / m[column][column];
+      for (std::size_t k = column; k < m.size(); ++k) m[row][k] -= factor * m[column][k];
+    }
+  }
+  return result;
+}
+
+/// x with m x = b by Cramer's rule; none if m is singular.
+inline std::optional<std::vector<Rational>> solve(const Matrix& m, const std::vector<Rational>& b) {
+  const Rational whole = determinant_of(m);
+  if (whole == 0) return std::nullopt;
+  std::vector<Rational> x;
+  for (std::size_t column = 0; column < m.size(); ++column) {
+    Matrix replaced = m;
+    for (std::size_t row = 0; row < m.size(); ++row) replaced[row][column] = b[row];
+    x.push_back(determinant_of(replaced) / whole);
+  }
+  return x;
+}
+
+inline Rational dot(const RationalPoint& a, const RationalPoint& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline RationalPoint minus(const RationalPoint& a, const RationalPoint& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// Barycentric coordinates of the centre of the smallest sphere through the points, in their affine hull;
+/// none if they are affinely dependent.
+inline std::optional<std::vector<Rational>> circumcenter(std::span<const RationalPoint> points) {
+  // sum_i l_i = 1 and |c - p_0|^2 = |c - p_k|^2, that is 2 (p_k - p_0) . (c - p_0) = |p_k - p_0|^2
+  const std::size_t n = points.size();
+  Matrix m(n, std::vector<Rational>(n, 1));
+  std::vector<Rational> b(n, 1);
+  for (std::size_t k = 1; k < n; ++k) {
+    const RationalPoint d = minus(points[k], points[0]);
+    for (std::size_t i = 0; i < n; ++i) m[k][i] = 2 * dot(d, minus(points[i], points[0]));
+    b[k] = dot(d, d);
+  }
+  return solve(m, b);
+}
+
+inline RationalPoint combination(std::span<const RationalPoint> points,
+                                 const std::vector<Rational>& weights) {
+  RationalPoint sum{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += weights[i] * points[i][axis];
+  }
+  return sum;
+}
+
+/// Sign of a certificate's function at a time, from the exact position then.
+template <class Certificate, Motion M>
+int sign_at(const Certificate& certificate, const M& motion, const Dyadic& time) {
+  const auto function = certificate.function(MomentView<M>(motion, certificate.beads, time));
+  static_assert(decltype(function)::degree == 0);
+  return (function.scaled[0] > 0) - (function.scaled[0] < 0);
+}
+
+template <Motion M>
+RationalPoint point_at(const M& motion, BeadId bead, const Dyadic& time) {
+  const auto position = exact_position(motion, bead, time);
+  RationalPoint point{};
+  for (int axis = 0; axis < M::dimension; ++axis)
+    point[static_cast<std::size_t>(axis)] = position[static_cast<std::size_t>(axis)];
+  return point;
+}
+
+/// Beads at rest.
+inline BezierMotion<3, 1> at_rest(std::span<const std::array<double, 3>> points,
+                                  std::span<const double> weights = {}) {
+  BezierMotion<3, 1> motion(points.size());
+  for (BeadId b = 0; b < points.size(); ++b) {
+    for (int k = 0; k <= 1; ++k) {
+      for (int axis = 0; axis < 3; ++axis)
+        motion.set_coordinate(b, k, axis, points[b][static_cast<std::size_t>(axis)]);
+      if (!weights.empty()) motion.set_weight(b, k, weights[b]);
+    }
+  }
+  return motion;
+}
+
+}  // namespace kds::test
