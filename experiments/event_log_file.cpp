@@ -52,6 +52,12 @@ class Fields {
   std::string where_;
 };
 
+// get() would turn -1 and 1e300 into some number too.
+std::size_t whole_number(const nlohmann::json& value) {
+  if (!value.is_number_unsigned()) throw nlohmann::json::type_error::create(302, "no whole number", &value);
+  return value.get<std::size_t>();
+}
+
 }  // namespace
 
 EventLogWriter::EventLogWriter(const std::filesystem::path& path, const RunOptions& options,
@@ -61,8 +67,11 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const RunOptio
                                       {"arguments", option_arguments(options)},
                                       {"beads", scene.bead_count()},
                                       {"steps", scene.step_count()}};
-  file_.stream() << first_line << '\n'
-                 << header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+  try {
+    file_.stream() << first_line << '\n' << header.dump() << '\n';
+  } catch (const nlohmann::json::type_error&) {
+    throw InputError("--log: a name among the arguments is not UTF-8, so that no log can tell of it");
+  }
 }
 
 void EventLogWriter::on_event(const KineticStructure& structure, const LoggedEvent& event) {
@@ -90,8 +99,8 @@ EventLog read_event_log(const std::filesystem::path& path) {
   const auto header = nlohmann::json::parse(line, nullptr, false);
   try {
     log.arguments = header.at("arguments").get<std::vector<std::string>>();
-    log.beads = header.at("beads").get<std::size_t>();
-    log.steps = header.at("steps").get<std::size_t>();
+    log.beads = whole_number(header.at("beads"));
+    log.steps = whole_number(header.at("steps"));
   } catch (const nlohmann::json::exception&) {
     throw InputError(
         fmt::format("{}:2: expected the run's arguments, beads and steps as JSON", path.string()));
@@ -102,6 +111,9 @@ EventLog read_event_log(const std::filesystem::path& path) {
     if (line.starts_with("end ")) {
       fields.word("end");
       const auto events = fields.number<std::size_t>("the number of events");
+      if (line.size() - line.rfind(' ') != 17) {
+        throw InputError(fmt::format("{}: expected 16 digits of the fingerprint at the line's end", where));
+      }
       log.fingerprint = fields.number<std::uint64_t>("the fingerprint", 16);
       if (events != log.entries.size()) {
         throw InputError(

@@ -1,8 +1,12 @@
 // The kds program: finds the command, and turns what goes wrong into one line and an exit code.
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <string_view>
@@ -51,6 +55,9 @@ int run_program(const Arguments& arguments) {
       fmt::format("unknown {} '{}' (see kds --help)", name.starts_with('-') ? "option" : "command", name));
 }
 
+// Without a throw: standard error may be closed.
+void complain(const std::string& message) { std::fputs(fmt::format("kds: {}\n", message).c_str(), stderr); }
+
 int guarded(int argc, char** argv) {
   try {
     return run_program(Arguments(argv + (argc > 0 ? 1 : 0), argv + argc));
@@ -58,23 +65,32 @@ int guarded(int argc, char** argv) {
     print_to_stdout(help.text);
     return 0;
   } catch (const InputError& error) {
-    fmt::print(stderr, "kds: {}\n", one_line(error.what()));
+    complain(one_line(error.what()));
     return 2;
   }
+}
+
+// A standard stream that is closed would lend its number to the next file, and messages end up in there: let
+// it fail instead. A file that grows beyond a limit is an error, not the end.
+void prepare_process() {
+  for (const int stream : {0, 1, 2})
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) static_cast<void>(::open("/dev/null", O_RDONLY));
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace
 }  // namespace kds
 
 int main(int argc, char** argv) {
+  kds::prepare_process();
   try {
     return kds::guarded(argc, argv);
   } catch (const std::bad_alloc&) {
-    std::fputs("kds: out of memory\n", stderr);
+    kds::complain("out of memory");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "kds: {}\n", error.what());  // a failed audit tells in several lines how to repeat it
+    kds::complain(error.what());  // a failed audit tells in several lines how to repeat it
   } catch (...) {
-    std::fputs("kds: unknown failure\n", stderr);
+    kds::complain("unknown failure");
   }
   return 1;
 }

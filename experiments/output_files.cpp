@@ -85,6 +85,7 @@ AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)) {
     temporary_ = make_temporary(directory_of(path_));
     if (temporary_.empty())
       throw InputError(fmt::format("{}: cannot write: {}", path_.string(), reason(errno)));
+    unfinished_.emplace(temporary_.string());
   }
   stream_.open(temporary_.empty() ? path_ : temporary_, std::ios::binary);
   stream_.imbue(std::locale::classic());
@@ -108,6 +109,7 @@ void AtomicFile::commit() {
   fs::rename(temporary_, path_, error);
   if (error) throw InputError(fmt::format("{}: cannot write: {}", path_.string(), error.message()));
   temporary_.clear();
+  unfinished_.reset();
 }
 
 void write_file_atomically(const fs::path& path, std::string_view content) {

@@ -3,8 +3,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <ostream>
 #include <string_view>
+
+#include "experiments/unfinished_file.h"
 
 namespace kds {
 
@@ -18,7 +21,8 @@ void ensure_writable_file(const std::filesystem::path& path, std::string_view op
 /// Throws InputError naming the path.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
-/// The same for content that comes piece by piece. Without commit() nothing is left.
+/// The same for content that comes piece by piece. Without commit() nothing is left, not even if the
+/// program is interrupted.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
@@ -31,6 +35,7 @@ class AtomicFile {
 
  private:
   std::filesystem::path path_, temporary_;  ///< no temporary: a device or pipe, written straight
+  std::optional<UnfinishedFile> unfinished_;
   std::ofstream stream_;
 };
 

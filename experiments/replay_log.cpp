@@ -10,6 +10,7 @@
 #include "experiments/parse_run_options.h"
 #include "experiments/report_of_session.h"
 #include "experiments/session.h"
+#include "kds/audit.h"
 #include "motions/input_error.h"
 
 namespace kds {
@@ -29,21 +30,33 @@ Change change_of(const EventLog::Entry& entry, const KineticStructure& structure
   return change;
 }
 
+RunOptions options_of(const EventLog& log, const std::filesystem::path& path) {
+  const std::string where = path.string() + ":2: the run's arguments: ";
+  try {
+    return parse_run_options(log.arguments);
+  } catch (const InputError& error) {
+    throw InputError(where + error.what());
+  } catch (const HelpRequest&) {
+    throw InputError(where + "they ask for help, not for a run");
+  }
+}
+
 }  // namespace
 
 ReplayReport replay_log(const std::filesystem::path& path, const Progress& progress,
                         const std::function<void(const std::string&)>& warn) {
   const EventLog log = read_event_log(path);
-  const RunOptions options = parse_run_options(log.arguments);
+  const RunOptions options = options_of(log, path);
   const Scene scene = load_scene(options, warn);
   if (scene.bead_count() != log.beads || scene.step_count() != log.steps) {
     throw InputError(fmt::format("{}: the inputs have {} beads and {} steps, the log tells of {} and {}",
                                  path.string(), scene.bead_count(), scene.step_count(), log.beads,
                                  log.steps));
   }
-  // Only the changes are made again: no certificate, no failure time. The ends of the run are audited.
-  const auto session =
-      make_session(scene, structures_to_run(options, scene), options.kernel, AuditMode::frames);
+  // Only the changes are made again: no certificate, no failure time. Frames are audited, unless the run
+  // itself promised nothing.
+  const AuditMode audits = options.kernel == KernelName::fast ? AuditMode::none : AuditMode::frames;
+  const auto session = make_session(scene, structures_to_run(options, scene), options.kernel, audits);
   session->load(0);
   Simulator& simulator = session->simulator();
   const auto& structures = session->structures();
@@ -71,6 +84,9 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
       simulator.replay_step(steps[step], step + 1 == steps.size());
     } catch (const std::invalid_argument& reason) {
       throw InputError(reason.what());
+    } catch (const AuditError& error) {
+      throw InputError(
+          fmt::format("{}: its events do not lead to the right structures: {}", path.string(), error.what()));
     }
     progress(step + 1, steps.size());
   }

@@ -22,6 +22,8 @@ namespace fs = std::filesystem;
 void check_exists(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) throw InputError(fmt::format("{}: no such file", path.string()));
+  if (fs::is_directory(path, error))
+    throw InputError(fmt::format("{}: is a directory, expected a file", path.string()));
 }
 
 bool same_file(const fs::path& a, const fs::path& b) {

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "experiments/text.h"
 
 namespace kds {
 
 void print_warning(ProgressBar& bar, const std::string& warning) {
   bar.erase();
-  fmt::print(stderr, "kds: warning: {}\n", one_line(warning));
+  std::fputs(fmt::format("kds: warning: {}\n", one_line(warning)).c_str(), stderr);
 }
 
 }  // namespace kds

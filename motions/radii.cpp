@@ -76,9 +76,7 @@ std::vector<double> radii_from_file(const std::string& file, std::size_t beads) 
   return radii;
 }
 
-}  // namespace
-
-std::vector<double> bead_radii(const std::string& policy, std::span<const Trajectory> necklaces) {
+std::vector<double> radii_by(const std::string& policy, std::span<const Trajectory> necklaces) {
   const std::size_t beads = bead_count(necklaces);
   constexpr std::string_view from_file = "file:";
   if (policy == "auto") return std::vector<double>(beads, automatic_radius(necklaces));
@@ -92,6 +90,19 @@ std::vector<double> bead_radii(const std::string& policy, std::span<const Trajec
   if (!std::isfinite(*radius) || *radius <= 0)
     throw InputError(fmt::format("--radius: expected a positive finite number, found {}", in_quotes(policy)));
   return std::vector<double>(beads, *radius);
+}
+
+}  // namespace
+
+std::vector<double> bead_radii(const std::string& policy, std::span<const Trajectory> necklaces) {
+  std::vector<double> radii = radii_by(policy, necklaces);
+  for (const double radius : radii)
+    if (!std::isfinite(radius * radius))
+      throw InputError(
+          fmt::format("--radius: {} gives {}, whose square (the weight) is beyond all numbers; "
+                      "give a smaller one",
+                      policy, radius));
+  return radii;
 }
 
 }  // namespace kds

@@ -210,7 +210,7 @@ TYPED_TEST(BoundedPolynomials, CloseAndMultipleRootsAreNotMisjudged) {
 }
 
 TYPED_TEST(BoundedPolynomials, TheFirstOfManyDescentsIsFound) {
-  if (TypeParam::value < 3) GTEST_SKIP();
+  if (TypeParam::value < 3) return;
   Random random(405);
   for (int i = 0; i < 100 && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE("seed 405, case " + std::to_string(i));

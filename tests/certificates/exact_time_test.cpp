@@ -230,7 +230,7 @@ TEST(FirstFailureAfter, KnownCases) {
   EXPECT_FALSE(first({-1, 1}, 0.75)) << "the root is past";
   EXPECT_TRUE(is(first({1, -3, 3, -1}, 0), 0.5)) << "(1-2u)^3 fails";
   EXPECT_FALSE(first({-1, 0}, 1)) << "nothing follows u = 1";
-  EXPECT_FALSE(first({-1, 2, 0}, 1));
+  EXPECT_FALSE(first({1, -2, 0}, 1));
   // u (1-2u)(4u-1): positive on (1/4, 1/2)
   const Scaled three = test::product(test::product({0, 1}, {1, -1}), {-1, 3});
   EXPECT_TRUE(is(first(three, 0.25), 0.5));

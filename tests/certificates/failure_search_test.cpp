@@ -121,7 +121,7 @@ constexpr int rounds(int linear) {
 
 TYPED_TEST(FailureSearch, KernelsAndSturmAgree) {
   test::Random random(301);
-  for (int i = 0; i < rounds<TypeParam>(25); ++i) {
+  for (int i = 0; i < rounds<TypeParam>(15); ++i) {
     for (const MotionKind kind : test::all_motion_kinds) {
       const auto motion = test::random_motion<typename TypeParam::M>(random, TypeParam::beads, kind);
       const auto certificate = test::random_certificate<typename TypeParam::C>(random);
@@ -138,7 +138,7 @@ TYPED_TEST(FailureSearch, KernelsAndSturmAgree) {
 
 TYPED_TEST(FailureSearch, AgreesAtOtherCertificatesTimes) {
   test::Random random(302);
-  for (int i = 0; i < rounds<TypeParam>(40); ++i) {
+  for (int i = 0; i < rounds<TypeParam>(30); ++i) {
     for (const MotionKind kind : {MotionKind::generic, MotionKind::grid, MotionKind::cospherical}) {
       const std::size_t beads = TypeParam::beads;
       const auto motion = test::random_motion<typename TypeParam::M>(random, beads + 1, kind);
@@ -156,7 +156,7 @@ TYPED_TEST(FailureSearch, AgreesAtOtherCertificatesTimes) {
 
 TYPED_TEST(FailureSearch, ScaleChangesNothing) {
   test::Random random(303);
-  for (int i = 0; i < rounds<TypeParam>(12); ++i) {
+  for (int i = 0; i < rounds<TypeParam>(7); ++i) {
     for (const int exponent : {-1000, -300, -215, -210, -150, 150, 300, 1000}) {
       const auto kind = random() % 2 ? MotionKind::generic : MotionKind::grid;
       auto motion = test::random_motion<typename TypeParam::M>(random, TypeParam::beads, kind);
@@ -185,7 +185,7 @@ TYPED_TEST(FailureSearch, UnderflowNeverMisleads) {
   test::Random random(304);
   const typename TypeParam::M any(TypeParam::beads);
   const auto power = error_bound<typename TypeParam::C, typename TypeParam::M>.power;
-  for (int i = 0; i < rounds<TypeParam>(150); ++i) {
+  for (int i = 0; i < rounds<TypeParam>(90); ++i) {
     auto motion = test::random_motion<typename TypeParam::M>(
         random, TypeParam::beads, random() % 2 ? MotionKind::generic : MotionKind::grid);
     test::scale(motion, -test::pick(random, 1040 / power, 1076 / power));

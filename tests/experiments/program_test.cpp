@@ -54,6 +54,9 @@ TEST(Program, RefusesWrongUsage) {
   expect_refused({"run", kSmall, "--fly"}, {"unknown option '--fly'"});
   expect_refused({"run", kSmall, "--kernel", "slow"}, {"--kernel", "slow"});
   expect_refused({"run", kSmall, "--structures", "contacts"}, {"not available yet"});
+  expect_refused({"run", kSmall, "--motion", "hermite"}, {"--motion", "hermite", "not available yet"});
+  expect_refused({"run", kSmall, "--motion", "lifted"}, {"--motion", "lifted", "not available yet"});
+  expect_refused({"run", kSmall, "--frames", "0:1"}, {"--frames", "instance"});
   expect_refused({"replay"}, {"one LOG"});
   expect_refused({"replay", kSmall, kSmall}, {"one LOG"});
 }
@@ -64,6 +67,7 @@ TEST(Program, RefusesMissingFiles) {
   expect_refused({"run", missing}, {"missing.pdb"});
   expect_refused({"run", kSmall, missing}, {"missing.pdb"});
   expect_refused({"run", directory.file("a.dcd", ""), "--topology", missing}, {"missing.pdb"});
+  expect_refused({"run", directory.path().string()}, {"is a directory"});
   expect_refused({"replay", missing}, {"missing.pdb"});
   expect_refused({"run", missing, "--out", (directory / "report").string()}, {"missing.pdb"});
   EXPECT_FALSE(std::filesystem::exists(directory / "report"));
@@ -103,6 +107,16 @@ TEST(Program, RefusesBrokenFiles) {
   expect_refused({"run", directory.file("what.bin", "?")}, {"what.bin"});
 }
 
+TEST(Program, RefusesRadiiWhoseSquareIsNoNumber) {
+  const ScratchDirectory directory;
+  const std::string wide =
+      directory.file("wide.xyz", xyz({"0 0 0", "1e200 0 0"}) + xyz({"0 0 0", "0 1e200 0"}));
+  expect_refused({"run", wide, "--structures", "wrapped"}, {"--radius", "auto", "beyond all numbers"});
+  expect_refused({"run", wide, "--structures", "wrapped", "--radius", "1e300"}, {"--radius", "1e300"});
+  EXPECT_EQ(run_program({"run", wide, "--structures", "wrapped", "--radius", "1", "--audit", "events"}).code,
+            0);
+}
+
 TEST(Program, RefusesATrajectoryThatEndsInsideAFrame) {
   const ScratchDirectory directory;
   std::string bytes = content_of(data_file("trajectories/villin_hp36_300K.dcd"));
@@ -118,18 +132,112 @@ TEST(Program, RefusesAnEmptySelection) {
       {"nobody"});
 }
 
-TEST(Program, OneBeadAndTwoInOnePlaceRunOrAreRefused) {
+TEST(Program, OneBeadIsAHierarchyButNoDiagram) {
   const ScratchDirectory directory;
   const std::string one = directory.file("one.xyz", xyz({"0 0 0"}) + xyz({"1 0 0"}));
+  expect_refused({"run", one, "--radius", "1"}, {"power", "at least 4 beads"});
+  expect_refused({"run", one, "--structures", "wrapped"}, {"--radius", "auto"});
+  const ProgramRun run = run_program(
+      {"run", one, "--structures", "wrapped", "--radius", "1", "--audit", "events", "--json", "-"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(Json::parse(run.out)["structures"]["wrapped"]["events"]["total"], 0);
+}
+
+TEST(Program, TwoBeadsInOnePlaceAreAHierarchyButHiddenInTheDiagram) {
+  const ScratchDirectory directory;
   const std::string twins =
       directory.file("twins.xyz", xyz({"0 0 0", "0 0 0", "1 1 0", "2 0 1", "3 1 1"}) +
                                       xyz({"0 0 0", "0 0 0", "1 1 1", "2 0 1", "3 2 1"}));
-  for (const std::string& input : {one, twins}) {
-    const ProgramRun run = run_program({"run", input, "--radius", "0.5", "--audit", "frames"});
-    if (run.code == 0) continue;
-    EXPECT_EQ(run.code, 2) << run.err;  // what is not solved ends in one clear line
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  const ProgramRun wrapped = run_program({"run", twins, "--structures", "wrapped", "--audit", "events"});
+  EXPECT_EQ(wrapped.code, 0) << wrapped.err;
+  const ProgramRun power = run_program({"run", twins, "--structures", "power", "--audit", "events"});
+  if (power.code == 0) return;  // hidden beads are supported
+  expect_refused({"run", twins, "--structures", "power", "--audit", "events"}, {"bead", "hidden"});
+}
+
+TEST(Program, BeadsThatStayInOnePlaneAreRefusedByTheDiagramInSpace) {
+  const ScratchDirectory directory;
+  const std::string flat = directory.file("flat.xyz", xyz({"0 0 0", "1 0 0", "2 1 0", "3 0 0", "4 1 0"}) +
+                                                          xyz({"0 1 0", "1 0 0", "2 2 0", "3 0 0", "4 2 0"}));
+  expect_refused({"run", flat, "--structures", "power"}, {"plane"});
+  EXPECT_EQ(run_program({"run", flat, "--structures", "wrapped", "--audit", "events"}).code, 0);
+}
+
+std::uint64_t events_of(const std::string& instance, const std::string& structure) {
+  const ProgramRun run = run_program({"run", data_file("kinetic/" + instance + ".txt"), "--json", "-"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  if (run.code != 0) return 0;
+  const Json summary = Json::parse(run.out);
+  EXPECT_EQ(summary["structures"].size(), 1U);
+  EXPECT_EQ(summary["structures"][structure]["rebuilds"], 0);
+  return summary["structures"][structure]["events"]["total"].get<std::uint64_t>();
+}
+
+TEST(Program, CountsTheKnownEventsOfInstances) {
+  EXPECT_EQ(events_of("d1_n20_linear", "sorted"), 97U);
+  EXPECT_EQ(events_of("d1_n50_linear", "sorted"), 671U);
+  EXPECT_EQ(events_of("d1_n100_linear", "sorted"), 2743U);
+  EXPECT_EQ(events_of("d1_n200_linear", "sorted"), 10183U);
+  EXPECT_EQ(events_of("d1_n500_linear", "sorted"), 64078U);
+  EXPECT_EQ(events_of("d1_n20_degree2", "sorted"), 171U);
+  EXPECT_EQ(events_of("d1_n50_degree2", "sorted"), 896U);
+  EXPECT_EQ(events_of("d1_n100_degree2", "sorted"), 3735U);
+  EXPECT_EQ(events_of("d1_n20_degree3", "sorted"), 213U);
+  EXPECT_EQ(events_of("d1_n50_degree3", "sorted"), 1254U);
+  EXPECT_EQ(events_of("d1_n100_degree3", "sorted"), 4791U);
+  EXPECT_EQ(events_of("d3_n20_linear", "power"), 234U);
+  EXPECT_EQ(events_of("d3_n50_linear", "power"), 1453U);
+  EXPECT_EQ(events_of("d3_n100_linear", "power"), 4225U);
+  EXPECT_EQ(events_of("d3_n200_linear", "power"), 11286U);
+}
+
+std::string fingerprint_of(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "run");
+  arguments.insert(arguments.end(), {"--json", "-"});
+  const ProgramRun run = run_program(arguments);
+  EXPECT_EQ(run.code, 0) << run.err;
+  return run.code == 0 ? Json::parse(run.out)["fingerprint"].get<std::string>() : "";
+}
+
+TEST(Program, GivesOneFingerprintForAllRunsAndExactKernels) {
+  const std::string villin = data_file("trajectories/villin_hp36_300K.dcd");
+  const std::vector<std::vector<std::string>> runs{
+      {kSmall},
+      {data_file("kinetic/d3_n20_linear.txt"), "--structures", "sorted,wrapped,power"},
+      {data_file("kinetic/degenerate_d3_n64_swap.txt"), "--structures", "wrapped,power"},
+      {villin, "--frames", "0:3"}};
+  for (std::vector<std::string> run : runs) {
+    const std::string fingerprint = fingerprint_of(run);
+    EXPECT_EQ(fingerprint_of(run), fingerprint) << run.front();
+    run.insert(run.end(), {"--kernel", "exact"});
+    EXPECT_EQ(fingerprint_of(run), fingerprint) << run.front();
   }
+}
+
+TEST(Program, RunsSeveralNecklacesOnOneClock) {
+  const std::string moving = data_file("trajectories/villin_hp36_300K.dcd");
+  const std::string resting = data_file("trajectories/villin_hp36_300K.pdb");
+  const ScratchDirectory directory;
+  const std::string beads = xyz({"30 0 0", "31 0 0", "31 1 0", "32 1 1"});
+  const std::string other =
+      directory.file("other.xyz", beads + xyz({"30 0 0", "31 1 0", "31 1 1", "32 0 1"}));
+  const std::string three = directory.file("three.xyz", beads + beads + beads);
+
+  for (const std::vector<std::string>& inputs :
+       {std::vector<std::string>{moving, other}, {moving, resting}, {resting, other}}) {
+    std::vector<std::string> arguments{"run", "--frames", "0:2", "--audit", "events", "--json", "-"};
+    arguments.insert(arguments.begin() + 1, inputs.begin(), inputs.end());
+    const ProgramRun run = run_program(arguments);
+    ASSERT_EQ(run.code, 0) << run.err;
+    const Json summary = Json::parse(run.out);
+    EXPECT_EQ(summary["input"]["files"].size(), 2U);
+    EXPECT_EQ(summary["input"]["beads"], inputs.back() == resting ? 216 : 112);
+    EXPECT_EQ(summary["input"]["frames"], 2);
+    EXPECT_EQ(summary["structures"].size(), 2U);
+  }
+  expect_refused({"run", three, other}, {"other.xyz", "three.xyz", "equal frame counts"});
+  expect_refused({"run", resting, resting}, {"two frames"});
+  expect_refused({"run", kSmall, other}, {"d1_n20_linear.txt", "alone"});
 }
 
 TEST(Program, StandardOutputHoldsWhatWasAskedFor) {
@@ -177,12 +285,68 @@ TEST(Program, ReplaysItsLog) {
   expect_refused({"replay", directory.file("other.log", "not a log\n")}, {"other.log"});
 }
 
+TEST(Program, ReplaysRunsWithoutGuarantees) {
+  const ScratchDirectory directory;
+  const std::string log = (directory / "events.log").string();
+  ASSERT_EQ(run_program({"run", data_file("kinetic/degenerate_d3_n64_swap.txt"), "--structures",
+                         "wrapped,power", "--kernel", "fast", "--log", log, "--quiet"})
+                .code,
+            0);
+  EXPECT_THAT(run_program({"replay", log}).out, HasSubstr("fingerprint same"));
+}
+
+TEST(Program, ANameThatIsNoTextCannotBeLogged) {
+  const ScratchDirectory directory;
+  const std::string input = directory.file("odd\xff.xyz", xyz({"0 0 0", "1 0 0"}) + xyz({"0 0 0", "2 0 0"}));
+  const std::vector<std::string> arguments{"run", input, "--structures", "sorted"};
+  EXPECT_EQ(run_program(arguments).code, 0);
+  std::vector<std::string> logged = arguments;
+  logged.insert(logged.end(), {"--log", (directory / "events.log").string()});
+  expect_refused(logged, {"--log", "UTF-8"});
+  EXPECT_EQ(directory.entries(), 1U);
+}
+
 TEST(Program, AClosedOrFullOutputIsAFailure) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   const ProgramRun run = run_program({"run", kSmall, "--quiet", "--json", "/dev/full"});
   EXPECT_EQ(run.code, 2);
   EXPECT_THAT(run.err, HasSubstr("/dev/full"));
   EXPECT_THAT(run.err, Not(HasSubstr("terminate")));
+}
+
+TEST(Program, StandardStreamsMayBeClosed) {
+  const ScratchDirectory directory;
+  const std::string log = (directory / "events.log").string();
+  EXPECT_EQ(run_shell("\"$0\" run nowhere.pdb 2>&-").code, 2);
+  EXPECT_EQ(run_shell("\"$0\" run \"$1\" >&-", {kSmall}).code, 1);
+  EXPECT_EQ(run_shell("\"$0\" run \"$1\" >&- 2>&-", {kSmall}).code, 1);
+  EXPECT_EQ(run_shell("\"$0\" run \"$1\" --quiet --log \"$2\" <&- >&- 2>&-", {kSmall, log}).code, 0);
+  EXPECT_TRUE(content_of(log).starts_with("kds event log"));
+}
+
+TEST(Program, AFileThatMayNotGrowIsAFailureWithoutATrace) {
+  const ScratchDirectory directory;
+  const std::string log = (directory / "events.log").string();
+  const ProgramRun run = run_shell("ulimit -f 8; \"$0\" run \"$1\" --quiet --log \"$2\"",
+                                   {data_file("kinetic/d1_n200_linear.txt"), log});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("events.log: cannot write"));
+  EXPECT_EQ(directory.entries(), 0U);
+}
+
+TEST(Program, AnInterruptedRunLeavesNothingBehind) {
+  for (const char* signal : {"TERM", "HUP"}) {
+    const ScratchDirectory directory;
+    // Waits for the log in the making, and ends the program then.
+    const ProgramRun run = run_shell(
+        "\"$0\" run \"$1\" --log \"$2/events.log\" --audit events & "
+        "i=0; while [ -z \"$(ls -A \"$2\")\" ] && [ $i -lt 200 ]; do sleep 0.05; i=$((i+1)); done; "
+        "ls -A \"$2\"; kill -$3 $!; wait $!",
+        {data_file("trajectories/villin_hp36_300K.dcd"), directory.path().string(), signal});
+    EXPECT_GT(run.code, 128) << run.err;
+    EXPECT_THAT(run.out, HasSubstr(".part"));
+    EXPECT_EQ(directory.entries(), 0U);
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 namespace kds::test {
 namespace {
@@ -21,9 +22,7 @@ std::string drain(std::FILE* file) {
   return text;
 }
 
-}  // namespace
-
-ProgramRun run_program(std::vector<std::string> arguments) {
+ProgramRun spawn(std::vector<std::string> words) {
   std::FILE* out = std::tmpfile();
   std::FILE* err = std::tmpfile();
   if (out == nullptr || err == nullptr) throw std::runtime_error("no temporary file");
@@ -33,14 +32,13 @@ ProgramRun run_program(std::vector<std::string> arguments) {
   posix_spawn_file_actions_adddup2(&actions, ::fileno(out), 1);
   posix_spawn_file_actions_adddup2(&actions, ::fileno(err), 2);
 
-  std::string program = KDS_PROGRAM;
-  std::vector<char*> pointers{program.data()};
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   pid_t child = 0;
-  const int failed = ::posix_spawn(&child, KDS_PROGRAM, &actions, nullptr, pointers.data(), environ);
+  const int failed = ::posix_spawn(&child, pointers.front(), &actions, nullptr, pointers.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) throw std::runtime_error("cannot start " KDS_PROGRAM);
+  if (failed != 0) throw std::runtime_error("cannot start " + words.front());
 
   int status = 0;
   ::waitpid(child, &status, 0);
@@ -49,6 +47,18 @@ ProgramRun run_program(std::vector<std::string> arguments) {
   run.out = drain(out);
   run.err = drain(err);
   return run;
+}
+
+}  // namespace
+
+ProgramRun run_program(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), KDS_PROGRAM);
+  return spawn(std::move(arguments));
+}
+
+ProgramRun run_shell(const std::string& line, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"/bin/sh", "-c", line, KDS_PROGRAM});
+  return spawn(std::move(arguments));
 }
 
 std::string data_file(const std::string& name) { return std::string(KDS_DATA_DIR) + "/" + name; }

@@ -13,6 +13,9 @@ struct ProgramRun {
 
 [[nodiscard]] ProgramRun run_program(std::vector<std::string> arguments);
 
+/// A command line of the shell, in which $0 is the program and $1, $2, ... the arguments.
+[[nodiscard]] ProgramRun run_shell(const std::string& line, std::vector<std::string> arguments = {});
+
 /// A file of the data folder.
 [[nodiscard]] std::string data_file(const std::string& name);
 

@@ -172,6 +172,91 @@ TEST(PowerDiagram, LoggedFlipsTurnTheFirstCellsIntoTheLast) {
             cgal_regular_cells(exact_points(motion, Dyadic(1.0))).cells);
 }
 
+// Certificates are born at their own root all the time; the double stages must settle them.
+TEST(PowerDiagram, TheExactStageIsRareInGeneralPosition) {
+  PowerRig<Filtered> rig(instance_motion<Space>("d3_n50_linear"));
+  rig.run();
+  const StageCounts& stages = rig.structure.statistics.stages;
+  EXPECT_LT(stages.exact, rig.structure.statistics.certificates.created / 100);
+  EXPECT_LT(stages.signs_exact, 100U);
+}
+
+TEST(PowerDiagram, CountsCertificatesPerBead) {
+  const Points start{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  PowerRig<Filtered> rig(moving(start, start));
+  rig.run();
+  // Four facets of the one cell, each with infinity for a fifth, and six between infinite cells.
+  EXPECT_EQ(rig.structure.statistics.certificates.created, 10U);
+  EXPECT_EQ(rig.structure.statistics.certificates.peak, 10U);
+  EXPECT_EQ(rig.structure.statistics.certificates.per_bead_max, 10U);
+}
+
+// The audit must be able to fail: every flip that can be made of a right diagram makes it wrong.
+TEST(PowerDiagram, AuditsNoticeEveryWrongFlip) {
+  const Space motion = instance_motion<Space>("d3_n20_linear");
+  PowerRig<Filtered> rig(motion, AuditMode::frames);
+  rig.run();
+  EXPECT_EQ(rig.structure.audit(Dyadic(1.0)), std::nullopt);
+  int tried = 0;
+  for (const LoggedEvent& e : rig.history.events) {
+    const bool to_edge = rig.structure.kinds()[e.change.kind].name == "2-3";
+    for (const bool forth : {to_edge, !to_edge}) {
+      Change change = e.change;
+      change.kind = forth ? PowerDiagram<Space, Filtered>::flip23 : PowerDiagram<Space, Filtered>::flip32;
+      Change back = e.change;
+      back.kind = forth ? PowerDiagram<Space, Filtered>::flip32 : PowerDiagram<Space, Filtered>::flip23;
+      // Only what leaves a triangulation: no second edge between two beads, no second facet of three.
+      const auto together = [cells = rig.structure.at_frame(false).cells](std::span<const BeadId> beads) {
+        return std::any_of(cells.begin(), cells.end(), [&](const CellBeads& cell) {
+          return std::all_of(beads.begin(), beads.end(),
+                             [&](BeadId b) { return std::find(cell.begin(), cell.end(), b) != cell.end(); });
+        });
+      };
+      const std::span ids(e.change.ids);
+      if (std::count(ids.begin(), ids.begin() + 5, infinite_bead) != 0) continue;
+      if (forth ? together(ids.subspan(3, 2)) : together(ids.first(3))) continue;
+      try {
+        rig.structure.apply(change);
+      } catch (const std::invalid_argument&) {
+        continue;
+      }
+      ++tried;
+      EXPECT_NE(rig.structure.audit(Dyadic(1.0)), std::nullopt);
+      EXPECT_NE(rig.structure.audit(Dyadic(1023, 10)), std::nullopt);
+      rig.structure.apply(back);
+      EXPECT_EQ(rig.structure.audit(Dyadic(1.0)), std::nullopt);
+    }
+  }
+  EXPECT_GT(tried, 10);
+  EXPECT_NE(rig.structure.audit(Dyadic(0.0)), std::nullopt);
+  EXPECT_NE(rig.structure.audit(Dyadic(0.5)), std::nullopt);
+}
+
+TEST(PowerDiagram, RefusesChangesThatCannotBe) {
+  const Points points{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 5}, {0, 0, -5}};
+  PowerRig<Filtered> rig(moving(points, points));
+  rig.run();
+  using Diagram = PowerDiagram<Space, Filtered>;
+  EXPECT_THROW(rig.structure.apply({Diagram::flip23, 5, {0, 1, 3, 2, 4}}),
+               std::invalid_argument);  // another apex
+  EXPECT_THROW(rig.structure.apply({Diagram::flip23, 5, {0, 3, 4, 1, 2}}),
+               std::invalid_argument);  // no such cell
+  EXPECT_THROW(rig.structure.apply({Diagram::flip32, 5, {0, 1, 2, 3, 4}}), std::invalid_argument);
+  EXPECT_THROW(rig.structure.apply({Diagram::flip23, 5, {0, 1, 9, 3, 4}}), std::invalid_argument);
+  rig.structure.apply({Diagram::flip23, 5, {0, 1, 2, 3, 4}});
+  EXPECT_THROW(rig.structure.apply({Diagram::flip23, 5, {0, 1, 2, 3, 4}}), std::invalid_argument);
+  rig.structure.apply({Diagram::flip32, 5, {0, 1, 2, 3, 4}});
+}
+
+// A log may have been edited: the diagram must stay a triangulation.
+TEST(PowerDiagram, RefusesASecondEdgeBetweenTwoBeads) {
+  const Points points{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 1}, {0, 0, -1}};  // three cells around 3-4
+  PowerRig<Filtered> rig(moving(points, points));
+  rig.run();
+  EXPECT_THROW(rig.structure.apply({PowerDiagram<Space, Filtered>::flip23, 5, {0, 3, 4, 1, 2}}),
+               std::invalid_argument);
+}
+
 // Scenes by hand.
 
 TEST(PowerDiagram, NeedsFourBeads) {
@@ -284,6 +369,26 @@ TEST(PowerDiagram, BeadsInOnePlaceForGoodAreRefused) {
   const Points points{{0, 0, 0}, {5, 0, 1}, {0, 6, 0}, {1, 0, 7}, {6, 5, 4}, {6, 5, 4}};
   PowerRig<Filtered> rig(moving(points, points));
   EXPECT_THROW(rig.run(), InputError);
+}
+
+// Two beads pass each other along an edge of the hull, on a line with its ends for ever: certificates that
+// are zero all the time see no fold.
+TEST(PowerDiagram, BeadsThatTradePlacesAlongAnEdgeOfTheHull) {
+  EXPECT_FALSE(
+      run_audited<Filtered>({moving({{1, 0, 1}, {1, 1, 0}, {1, 1, 1}, {1, 1, 0}, {1, 0, 1}, {0, 0, 0}},
+                                    {{1, 0, 1}, {1, 1, 0}, {1, 1, 0}, {1, 0, 1}, {1, 1, 0}, {0, 1, 1}})}));
+}
+
+// A cell that is flat at a frame and stays so for the step after it, as repeated frames have it.
+TEST(PowerDiagram, FlatCellsDoNotOutliveTheirFrame) {
+  const Points solid{{0, 0, 0}, {6, 0, 1}, {0, 6, 2}, {6, 6, 5}, {3, 3, 9}, {2, 3, -7}};
+  Points square = solid;
+  for (std::size_t b = 0; b < 4; ++b) square[b][2] = 0;
+  for (const double height : {9.0, 2.0, 0.5}) {
+    square[4][2] = height;
+    run_audited<Filtered>(through({solid, square, square, solid}));
+    run_audited<Filtered>(through({solid, square, square, square}));
+  }
 }
 
 // Degenerate input.

@@ -165,6 +165,17 @@ TEST(SortedList, DoesNothingForATranslation) {
   EXPECT_EQ(rig.structure.statistics.certificates.never_failing, 49U);
 }
 
+TEST(SortedList, AuditsNoticeEveryWrongOrder) {
+  SortedRig<Line, Filtered> rig(moving_on_a_line({0, 1, 2, 3}, {0, 1, 2, 3}));
+  rig.run();
+  for (BeadId b = 0; b < 3; ++b) {
+    EXPECT_EQ(rig.structure.audit(Dyadic(0.5)), std::nullopt);
+    rig.structure.apply({0, 2, {b, b + 1}});
+    for (const double time : {0.0, 0.5, 1.0}) EXPECT_NE(rig.structure.audit(Dyadic(time)), std::nullopt);
+    rig.structure.apply({0, 2, {b + 1, b}});
+  }
+}
+
 TEST(SortedList, RefusesChangesThatCannotBe) {
   SortedRig<Line, Filtered> rig(moving_on_a_line({0, 1, 2}, {0, 1, 2}));
   rig.run();
