@@ -31,6 +31,8 @@ struct BeadInSphere {
     return identity;
   }
 
+  [[nodiscard]] bool side() const { return inside; }
+
   template <MotionView View>
   [[nodiscard]] auto function(const View& view) const {
     const auto value = inward(view);

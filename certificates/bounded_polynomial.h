@@ -66,6 +66,7 @@ struct BoundedPolynomial {
   struct Segment {
     double lower, upper;
     Coefficients c;
+    int depth = 0;  // subdivisions that led here: the error bound allows for so many
   };
 
   enum class Shape : std::uint8_t { positive, one_descent, unclear };
@@ -76,18 +77,16 @@ struct BoundedPolynomial {
 
 template <int Degree>
 auto BoundedPolynomial<Degree>::shape_of(const Coefficients& c) const -> Shape {
-  // +...+ ?...? -...- has exactly one sign variation whatever the doubtful ones are: one root, by Descartes.
-  std::size_t i = 0;
-  while (i <= Degree && c[i] > local_error) ++i;
-  if (i > Degree) return Shape::positive;
-  if (i == 0) return Shape::unclear;
-  std::size_t j = Degree;
-  while (j > i && c[j] < -local_error) --j;
-  if (!(c[Degree] < -local_error)) return Shape::unclear;
-  for (std::size_t k = i; k <= j; ++k) {
-    if (!(std::abs(c[k]) <= local_error) && j != i) return Shape::unclear;
-  }
-  return Shape::one_descent;
+  // +...+ ? -...-, with one doubtful coefficient or none, has exactly one sign variation whatever that one
+  // is: one root, by Descartes.
+  std::size_t positive = 0;
+  while (positive <= Degree && c[positive] > local_error) ++positive;
+  if (positive > Degree) return Shape::positive;
+  std::size_t negative = 0;
+  while (negative <= Degree && c[Degree - negative] < -local_error) ++negative;
+  const bool doubtful = positive + negative == Degree && !std::isnan(c[positive]);
+  const bool one_descent = positive > 0 && negative > 0 && (doubtful || positive + negative > Degree);
+  return one_descent ? Shape::one_descent : Shape::unclear;
 }
 
 template <int Degree>
@@ -103,6 +102,7 @@ void BoundedPolynomial<Degree>::split(const Segment& whole, double middle, Segme
   left.lower = whole.lower;
   left.upper = right.lower = middle;
   right.upper = whole.upper;
+  left.depth = right.depth = whole.depth + 1;
 }
 
 template <int Degree>
@@ -155,7 +155,7 @@ auto BoundedPolynomial<Degree>::first_descent(double from) const -> Result {
   constexpr int max_segments = 200;
   std::array<Segment, max_depth + 2> stack;
   int top = 0;
-  stack[0] = {0, 1, bernstein};
+  stack[0] = {0, 1, bernstein, 0};
   if (from > 0) {
     Segment before;
     const Segment whole = stack[0];
@@ -173,7 +173,7 @@ auto BoundedPolynomial<Degree>::first_descent(double from) const -> Result {
       case Shape::unclear:
         break;
     }
-    if (top >= max_depth || !(segment.c[0] > local_error)) break;
+    if (segment.depth >= max_depth || !(segment.c[0] > local_error)) break;
     // A root at the middle itself would never be settled: look aside for a certain sign.
     const double length = segment.upper - segment.lower;
     bool certain = false;

@@ -31,6 +31,9 @@ concept CertificateFor = Motion<M> && requires(const C& certificate, const Doubl
     C {}
     } -> std::same_as<C>;
   { certificate.identity() } -> std::same_as<Identity>;
+  {
+    certificate.side()
+    } -> std::same_as<bool>;  // differs between a function and its negative of one identity
   {certificate.beads};
   { certificate.function(view).scaled[0] } -> std::convertible_to<double>;
 };

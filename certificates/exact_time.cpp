@@ -59,6 +59,7 @@ int ExactTime::compare(ExactTime& a, ExactTime& b) {
     b.refine();
   }
   if (!disjoint(a, b)) {
+    if (a.is_dyadic() && b.is_dyadic()) return 0;
     if (a.is_dyadic() || b.is_dyadic()) {
       if (a.is_dyadic() ? is_root(b.polynomial_, a) : is_root(a.polynomial_, b)) return 0;
     } else {
@@ -118,12 +119,12 @@ std::optional<ExactTime> first_failure_after(const ExactPolynomial& function, co
   const Dyadic end(1.0);
   const bool from_root = now.is_dyadic() && function.sign_at(now.upper()) == 0;
   const ExactPolynomial simple = function.square_free();
+  if (!(now.upper() < end)) return std::nullopt;
   auto roots = isolate_roots(simple, now.upper(), end);
   for (auto root = roots.begin() + (from_root ? 1 : 0); root != roots.end(); ++root) {
     if (root->lower == end) break;  // what happens at u = 1 is judged by the next step
-    const bool point = root->lower == root->upper;
-    const int after = point ? function.sign_after(root->upper) : function.sign_at(root->upper);
-    if (after < 0) return ExactTime(simple, std::move(*root));
+    ExactTime time(simple, std::move(*root));
+    if (sign_after(function, time) < 0) return time;
   }
   return std::nullopt;
 }

@@ -90,7 +90,7 @@ template <class Certificate, Motion M>
         TrackedDouble::lost_to_underflow;
     result.positive &= c.value > error;
     result.function.bernstein[k] = c.value / choose;
-    if (!(error <= uniform)) uniform = error;
+    uniform = error <= uniform || std::isnan(uniform) ? uniform : error;
   }
   finish(result, uniform);
   return result;

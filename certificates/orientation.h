@@ -24,6 +24,8 @@ struct Orientation {
             {beads[0], beads[1], beads[2], beads[3], no_bead}};
   }
 
+  [[nodiscard]] bool side() const { return sign > 0; }
+
   template <MotionView View>
   [[nodiscard]] auto function(const View& view) const {
     const auto value = determinant(view.difference(beads[1], beads[0]), view.difference(beads[2], beads[0]),

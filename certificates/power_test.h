@@ -25,6 +25,8 @@ struct PowerTest {
     return {static_cast<std::uint32_t>(CertificateType::power_test), beads};
   }
 
+  [[nodiscard]] bool side() const { return sign > 0; }
+
   template <MotionView View>
   [[nodiscard]] auto function(const View& view) const {
     using Number = typename View::Number;

@@ -13,6 +13,8 @@ struct Precedes {
     return {static_cast<std::uint32_t>(CertificateType::precedes), {low, high, no_bead, no_bead, no_bead}};
   }
 
+  [[nodiscard]] bool side() const { return beads[0] < beads[1]; }
+
   template <MotionView View>
   [[nodiscard]] auto function(const View& view) const {
     return view.difference(beads[1], beads[0])[0];

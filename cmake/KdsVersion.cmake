@@ -8,5 +8,7 @@ if(Git_FOUND)
   if(NOT failed)
     set(KDS_COMMIT "${KDS_DESCRIBE}")
   endif()
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/.git/HEAD")
+  if(EXISTS "${PROJECT_SOURCE_DIR}/.git/logs/HEAD")   # changes with every commit
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/.git/logs/HEAD")
+  endif()
 endif()

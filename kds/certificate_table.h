@@ -100,6 +100,7 @@ class CertificateTable final : public FailureSource {
   [[nodiscard]] Identity identity(std::uint32_t slot) const override {
     return entries_[slot].certificate.identity();
   }
+  [[nodiscard]] bool side(std::uint32_t slot) const override { return entries_[slot].certificate.side(); }
   [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override {
     return (static_cast<std::uint64_t>(structure_) << 36U) | (static_cast<std::uint64_t>(number_) << 32U) |
            entries_[slot].place;

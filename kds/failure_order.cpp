@@ -26,8 +26,9 @@ int FailureOrder::compare_times(ScheduledFailure& a, ScheduledFailure& b) {
   // A proper bracket's ends are not its time.
   if (a.time.upper == b.time.lower) return -1;
   if (b.time.upper == a.time.lower) return 1;
-  if (a.source->identity(a.slot) == b.source->identity(b.slot)) {
-    // Both hold until they fail, so both wait for the next sign change of one function.
+  if (a.source->identity(a.slot) == b.source->identity(b.slot) &&
+      a.source->side(a.slot) == b.source->side(b.slot)) {
+    // Both hold until they fail, so both wait for the next descent of one function.
     ++counts_.by_identity;
     return 0;
   }

@@ -15,6 +15,8 @@ namespace kds {
 class ScheduledSource : public CertificateSource {
  public:
   [[nodiscard]] virtual Identity identity(std::uint32_t slot) const = 0;
+  /// Which sign of its identity's function the certificate wants.
+  [[nodiscard]] virtual bool side(std::uint32_t) const { return true; }
   /// Breaks ties between certificates of one function: unique within a run for live certificates.
   [[nodiscard]] virtual std::uint64_t place(std::uint32_t slot) const = 0;
 };

@@ -12,9 +12,9 @@ namespace kds {
 
 struct Instance {
   std::string file;
-  int columns = 0;                      ///< 1..4
-  int degree = 0;                       ///< of every column, at least 1
-  std::vector<double> control_points;   ///< [point][column][0..degree]
+  int columns = 0;                     ///< 1..4
+  int degree = 0;                      ///< of every column, at least 1
+  std::vector<double> control_points;  ///< [point][column][0..degree]
 
   [[nodiscard]] int dimension() const { return columns < 3 ? columns : 3; }
   [[nodiscard]] bool weighted() const { return columns == 4; }

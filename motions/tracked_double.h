@@ -13,7 +13,7 @@ namespace kds {
 struct TrackedDouble {
   static constexpr double unit_roundoff = 0x1p-53;
   static constexpr double lost_to_underflow = 0x1p-1073;
-  static constexpr double inflation = 1 + 0x1p-40;  // for up to 2^12 operations in a row
+  static constexpr double inflation = 1 + 0x1p-40;  // for up to 2^10 operations in a row
 
   double value = 0;
   double error = 0;

@@ -40,6 +40,7 @@ class PowerDiagram final : public KineticStructure {
         orientations_(simulator, *this, index_, 1, motion) {}
 
   enum Kind : std::uint8_t { flip23, flip32, rebuild };
+  static constexpr unsigned finest_grid = 200;  // binary places of a rebuild's time
 
   [[nodiscard]] std::string_view name() const override { return "power"; }
   /// Ids of a flip: the triangle's three beads, then the edge's two, each ascending. Ids of a rebuild: its
@@ -55,13 +56,17 @@ class PowerDiagram final : public KineticStructure {
                        std::to_string(motion_.bead_count()));
     }
     build_from_control_points(0);
-    if (!hidden_.empty() || dimension_ < 3) rebuild_at_first_time_that_works();
   }
 
   void start_step() override {
     rebuilds_in_step_ = 0;
-    if (!hidden_.empty() || dimension_ < 3) rebuild_at_first_time_that_works();
-    watch_all();
+    guards_.clear();  // those of the step before are gone
+    if (!hidden_.empty() || dimension_ < 3 || (flat_ && !flat_cells_open())) {
+      rebuild_at_first_time_that_works();
+    } else {
+      watch_all();
+    }
+    flat_ = false;
     count_certificates_per_bead();
   }
 
@@ -86,9 +91,11 @@ class PowerDiagram final : public KineticStructure {
 
   void finish_step(bool last) override {
     triangulation_.set_points(control_points(motion_, M::degree), control_weights(motion_, M::degree));
-    flat_ = !triangulation_.all_cells_positive();
-    if (flat_ &&
-        (last || std::same_as<K, Fast>)) {  // end as CGAL builds it; on the way, flat cells open again
+    const int least = triangulation_.least_orientation();
+    if (least < 0 && !std::same_as<K, Fast>)
+      throw std::logic_error("a cell of the power diagram is inverted");
+    flat_ = least == 0;
+    if (least < 0 || (flat_ && last)) {  // end as CGAL builds it; on the way, flat cells open again
       build_from_control_points(M::degree);
       ++statistics.rebuilds;
       flat_ = false;
@@ -97,12 +104,17 @@ class PowerDiagram final : public KineticStructure {
 
   void apply(const Change& change) override {
     if (change.kind == rebuild) {
+      if (change.size < 1 || change.ids[0] > finest_grid)
+        throw std::invalid_argument("this is no time of a rebuild");
       Integer numerator = 0;
       for (std::size_t i = change.size; i-- > 1;) numerator = (numerator << 32U) + change.ids[i];
-      if (!assign_static(Dyadic(numerator, change.ids[0])))
+      const Dyadic time(numerator, change.ids[0]);
+      if (!(time < Dyadic(1.0)) || !assign_static(time)) {
         throw std::invalid_argument("no diagram can be built at this time");
+      }
       return;
     }
+    if (change.size != 5) throw std::invalid_argument("a flip has five beads");
     const auto& id = change.ids;
     const auto cell = triangulation_.find_cell(change.kind == flip23 ? CellBeads{id[0], id[1], id[2], id[3]}
                                                                      : CellBeads{id[0], id[1], id[3], id[4]});
@@ -110,6 +122,7 @@ class PowerDiagram final : public KineticStructure {
     if (change.kind == flip23) {
       const int facet = place_of(*cell, id[3]);
       if (apex(*cell, facet) != id[4]) throw std::invalid_argument("the facet has another apex");
+      if (triangulation_.is_edge(id[3], id[4])) throw std::invalid_argument("the beads are joined already");
       triangulation_.flip_facet(*cell, facet);
     } else {
       if (!triangulation_.find_cell({id[0], id[2], id[3], id[4]}) ||
@@ -174,6 +187,15 @@ class PowerDiagram final : public KineticStructure {
   void drop_all();
   [[nodiscard]] bool nothing_fails_until(const Dyadic& time);
   void record_rebuild(const Dyadic& time);
+
+  /// Whether the cells that are flat at the start of the step are positive just after.
+  [[nodiscard]] bool flat_cells_open() {
+    for (CellId cell = 0; cell < triangulation_.cells().size(); ++cell) {
+      if (triangulation_.is_live(cell) && !positive_just_after(triangulation_.cells()[cell].vertex))
+        return false;
+    }
+    return true;
+  }
 
   // Facets.
 
@@ -319,7 +341,7 @@ void PowerDiagram<M, K>::flip_to_edge(CellId cell, int facet) {
       return;
     }
   }
-  if (hull && triangulation_.is_edge(d, e)) {
+  if ((hull || std::same_as<K, Fast>)&&triangulation_.is_edge(d, e)) {
     unsettled = true;
     return;
   }
@@ -445,7 +467,6 @@ bool PowerDiagram<M, K>::nothing_fails_until(const Dyadic& time) {
 
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::rebuild_at_first_time_that_works() {
-  constexpr unsigned finest_grid = 200;
   drop_all();
   present_ = {};
   for (unsigned bits = 8; bits <= finest_grid; bits += bits < 32 ? 4 : 12) {

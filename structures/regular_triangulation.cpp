@@ -129,7 +129,12 @@ StaticTriangulation RegularTriangulation::build(const Eigen::Matrix3Xd& centers,
   cgal_->vertex.assign(weights.size(), {});
   for (const auto v : triangulation.finite_vertex_handles()) cgal_->vertex[v->info()] = v;
   StaticTriangulation result{{}, hidden_beads(triangulation, weights.size()), triangulation.dimension()};
-  if (result.dimension == 3) mirror_all();
+  if (result.dimension == 3) {
+    mirror_all();
+  } else {
+    cells_.clear();
+    live_.clear();
+  }
   return result;
 }
 
@@ -250,14 +255,14 @@ std::optional<CellId> RegularTriangulation::find_cell(const CellBeads& beads) co
 
 bool RegularTriangulation::is_valid() const { return cgal_->triangulation.is_valid(); }
 
-bool RegularTriangulation::all_cells_positive() const {
+int RegularTriangulation::least_orientation() const {
+  int least = 1;
   for (const auto c : cgal_->triangulation.finite_cell_handles()) {
-    if (CGAL::orientation(c->vertex(0)->point().point(), c->vertex(1)->point().point(),
-                          c->vertex(2)->point().point(), c->vertex(3)->point().point()) != CGAL::POSITIVE) {
-      return false;
-    }
+    least =
+        std::min<int>(least, CGAL::orientation(c->vertex(0)->point().point(), c->vertex(1)->point().point(),
+                                               c->vertex(2)->point().point(), c->vertex(3)->point().point()));
   }
-  return true;
+  return least;
 }
 
 std::vector<CellBeads> RegularTriangulation::finite_cells() const {

@@ -78,8 +78,8 @@ class RegularTriangulation {
 
   /// CGAL's own check of combinatorics, orientation and power tests at the points set.
   [[nodiscard]] bool is_valid() const;
-  /// Whether all finite cells have positive orientation at the points set.
-  [[nodiscard]] bool all_cells_positive() const;
+  /// The least orientation of a finite cell at the points set: 1, or 0 for a flat, -1 for an inverted one.
+  [[nodiscard]] int least_orientation() const;
   /// Finite cells, beads ascending, sorted.
   [[nodiscard]] std::vector<CellBeads> finite_cells() const;
 

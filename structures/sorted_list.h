@@ -50,7 +50,7 @@ class SortedList final : public KineticStructure {
   }
 
   void fail(unsigned, std::uint32_t slot) override {
-    interchange(table_.place_in_structure(slot));
+    interchange(table_.place_in_structure(slot), Birth::at_own_root);
     guard_all();
   }
 
@@ -80,16 +80,16 @@ class SortedList final : public KineticStructure {
       const std::size_t i = unguarded_.back();
       unguarded_.pop_back();
       if (guards_[i] == Guard::violated) guards_[i] = watch(i, Birth::unknown);
-      if (guards_[i] == Guard::violated) interchange(i);
+      if (guards_[i] == Guard::violated) interchange(i, Birth::unknown);
     }
   }
   [[nodiscard]] Guard watch(std::size_t i, Birth birth) {
     return table_.watch({{order_[i], order_[i + 1]}}, static_cast<std::uint32_t>(i), birth);
   }
-  void interchange(std::size_t i) {
+  void interchange(std::size_t i, Birth birth) {
     simulator_.record(index_, Change{0, 2, {order_[i], order_[i + 1]}});
     std::swap(order_[i], order_[i + 1]);
-    guards_[i] = watch(i, Birth::at_own_root);
+    guards_[i] = watch(i, birth);
     for (const std::size_t beside : {i - 1, i + 1}) {  // i - 1 wraps round at 0
       if (beside >= guards_.size()) continue;
       table_.drop(guards_[beside]);

@@ -1,5 +1,6 @@
 #pragma once
-// What a user would do instead: build the structure anew at every frame with CGAL, in double. For comparing times.
+// What a user would do instead: build the structure anew at every frame with CGAL, in double. For comparing
+// times.
 
 #include <Eigen/Core>
 #include <span>
@@ -8,8 +9,10 @@
 
 namespace kds {
 
-/// Seconds that CGAL takes for the minimum enclosing sphere at every node (Min_sphere_of_spheres_d, its defaults).
-[[nodiscard]] double seconds_to_wrap(const NecklaceTree& tree, const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+/// Seconds that CGAL takes for the minimum enclosing sphere at every node (Min_sphere_of_spheres_d, its
+/// defaults).
+[[nodiscard]] double seconds_to_wrap(const NecklaceTree& tree, const Eigen::Matrix3Xd& centers,
+                                     std::span<const double> weights);
 
 /// Seconds that CGAL takes for the regular triangulation (Regular_triangulation_3 with exact predicates).
 [[nodiscard]] double seconds_to_triangulate(const Eigen::Matrix3Xd& centers, std::span<const double> weights);

@@ -87,7 +87,7 @@ class WrappedHierarchy final : public KineticStructure {
     template <class Certificate>
     int operator()(const Certificate& c) const {
       if (self.present_ && c.identity() == self.present_->identity) {
-        return positive_side(c) == self.present_->positive_side ? -1 : 1;
+        return c.side() == self.present_->side ? -1 : 1;
       }
       return sign_just_after<K>(c, self.motion_, self.simulator_.now(), self.statistics.stages);
     }
@@ -102,15 +102,8 @@ class WrappedHierarchy final : public KineticStructure {
   };
   struct Present {
     Identity identity;
-    bool positive_side;  // which side of zero its certificate wants
+    bool side;  // which side of zero its certificate wants
   };
-
-  template <int Size>
-  static bool positive_side(const BeadInSphere<Size>& c) {
-    return c.inside;
-  }
-  static bool positive_side(const PowerTest& c) { return c.sign > 0; }
-  static bool positive_side(const Orientation& c) { return c.sign > 0; }
 
   /// The bead that a certificate of a node with this basis is about.
   template <int Size>
@@ -139,6 +132,14 @@ class WrappedHierarchy final : public KineticStructure {
     }
   }
 
+  [[nodiscard]] bool move_together(BeadId a, BeadId b) const {
+    for (int k = 0; k <= M::degree; ++k) {
+      for (int axis = 0; axis < M::dimension; ++axis) {
+        if (motion_.coordinate(a, k, axis) != motion_.coordinate(b, k, axis)) return false;
+      }
+    }
+    return true;
+  }
   /// Guards a node, repairing its basis while a certificate is violated already; logs the change from
   /// `before`.
   void guard_node(NodeId node, const Basis& before);
@@ -216,7 +217,7 @@ template <class Certificate>
 bool WrappedHierarchy<M, K>::hold(NodeId id, const Certificate& certificate) {
   auto& table = table_of(certificate);
   const bool own_root = present_ && certificate.identity() == present_->identity;
-  if (own_root && positive_side(certificate) == present_->positive_side) return false;  // it has just failed
+  if (own_root && certificate.side() == present_->side) return false;  // it has just failed
   const Guard guard = table.watch(certificate, id, own_root ? Birth::at_own_root : Birth::unknown);
   if (guard == Guard::violated) return false;
   if (guard == Guard::never) {
@@ -240,12 +241,16 @@ template <Motion M, Kernel K>
 std::optional<BeadId> WrappedHierarchy<M, K>::watch_node(NodeId id) {
   const Basis basis = nodes_[id].basis;
   JustAfter decide{*this};
-  // Beads that leave first: outside their proper domain the other certificates say nothing. Two beads never
-  // part.
+  // Beads that leave first: outside their proper domain the other certificates say nothing. Nor do they where
+  // a bead is to spare all the time, its function zero. Two beads never part, but they may be one all the
+  // time.
+  if (basis.size == 2 && move_together(basis.beads[0], basis.beads[1])) return basis.beads[1];
   if (basis.size >= 3) {
+    const std::uint64_t zeros = statistics.stages.identically_zero;
     for (const BeadId b : basis) {
-      if (!visit_membership(without(basis, b), b, false, 0, [&](const auto& c) { return hold(id, c); }))
-        return b;
+      const bool held =
+          visit_membership(without(basis, b), b, false, 0, [&](const auto& c) { return hold(id, c); });
+      if (!held || statistics.stages.identically_zero != zeros) return b;
     }
   }
   const int orientation = orientation_of(basis, decide);
@@ -296,7 +301,7 @@ void WrappedHierarchy<M, K>::fail(unsigned table, std::uint32_t slot) {
     const auto& certificate = t.certificate(slot);
     id = t.place_in_structure(slot);
     bead = bead_of(certificate, nodes_[id].basis);
-    present_ = Present{certificate.identity(), positive_side(certificate)};
+    present_ = Present{certificate.identity(), certificate.side()};
   });
   for (std::uint32_t place = nodes_[id].held; place != none; place = held_[place].next) {
     Held& held = held_[place];
@@ -305,8 +310,9 @@ void WrappedHierarchy<M, K>::fail(unsigned table, std::uint32_t slot) {
   }
   drop_node(id);
   const Basis before = nodes_[id].basis;
-  if (!repair(id, bead)) {
-    if constexpr (!std::same_as<K, Fast>) throw std::logic_error("a failed certificate changes no basis");
+  // Where all basis beads meet, its orientation turns with the power test: then the basis stays and is
+  // guarded anew.
+  if (!repair(id, bead) && std::same_as<K, Fast>) {
     ++statistics.rebuilds;
     const BeadRange range = tree_.range(id);
     nodes_[id].basis = likely_basis(range.first, range.last, before,
@@ -335,6 +341,8 @@ void WrappedHierarchy<M, K>::record(NodeId id, const Basis& before) {
 
 template <Motion M, Kernel K>
 void WrappedHierarchy<M, K>::apply(const Change& change) {
+  if (change.size < 3 || change.size > 2 + Basis::max_size)
+    throw std::invalid_argument("a basis has one to four beads");
   const auto node = tree_.find({change.ids[0], change.ids[1]});
   if (!node) throw std::invalid_argument("the hierarchy has no such node");
   const Basis basis(std::span(change.ids).subspan(2, change.size - 2U));

@@ -182,43 +182,82 @@ TEST(Stages, SignsAreSettledInDoubleWhereTheyCanBe) {
   EXPECT_EQ(stages.signs_exact, 1U);
 }
 
-// A bracket of doubles with several roots names one of them by its number.
-TEST(FailureTimes, NumberTheRootsOfABracket) {
-  // Roots 1/2 and 1/2 +- 2^-70: closer than doubles.
+// Values in double are noise there; the sign is known.
+TEST(Births, NearATripleRoot) {
+  const auto motion = curve<3>({27, -63, 147, -343});  // (3-10u)^3
+  for (int i = -300; i < 300; ++i) {
+    const double u = 0.3 + i * 0x1p-27;
+    const bool before = 10 * Dyadic(u).rational() < 3;
+    StageCounts stages;
+    EXPECT_EQ((sign_just_after<Filtered>(ahead, motion, Instant(u), stages)), before ? 1 : -1);
+    EXPECT_EQ(static_cast<int>(first<Filtered>(motion, u, stages).kind),
+              static_cast<int>(before ? Kind::later : Kind::at_birth));
+  }
+}
+
+// The present time is 3/10, known to lie in (1/4, 3/4); what is positive at 3/4 may have failed on the way.
+TEST(Births, InAWideBracket) {
+  test::Functions functions;
+  const auto slot = functions.add(ExactPolynomial(std::vector<Integer>{3, -7}));
+  const Instant now({0.25, 0.75, 0, true}, functions, slot);
+  const auto motion = curve<2>({24, -26, 24});  // roots 4/10 and 6/10
+  StageCounts stages;
+  const Failure failure = first_failure<Filtered>(ahead, motion, now, Birth::unknown, stages);
+  ASSERT_EQ(static_cast<int>(failure.kind), static_cast<int>(Kind::later));
+  EXPECT_NEAR(failure.time.lower, 0.4, 1e-9);
+}
+
+TEST(Births, AtAnOwnRootThatIsNotAlone) {
+  const auto motion = curve<3>({315, -395, 395, -315});  // roots 3/10, 5/10, 7/10
+  test::Functions functions;
+  const auto slot = functions.add(exact_function(ahead, motion));
+  StageCounts stages;
+  for (const std::uint16_t ordinal : {0, 1, 2}) {
+    const Instant now({0.25, 0.75, ordinal, false}, functions, slot);
+    const Precedes& certificate = ordinal == 1 ? ahead : behind;
+    const Failure failure = first_failure<Filtered>(certificate, motion, now, Birth::at_own_root, stages);
+    ASSERT_EQ(static_cast<int>(failure.kind), static_cast<int>(ordinal == 2 ? Kind::never : Kind::later));
+    if (ordinal < 2) {
+      EXPECT_NEAR(failure.time.lower, ordinal == 0 ? 0.5 : 0.7, 1e-9);
+    }
+  }
+}
+
+// Three roots (2^70 + 2k) / 2^71, closer than doubles: a bracket of doubles names one of them by its number.
+void expect_numbered(std::array<int, 3> roots) {
   const Integer s = Integer(1) << 70;
-  const auto near = [&](int side) {
-    return std::vector<Integer>{Integer(-(s + 2 * side)), Integer(s - 2 * side)};
-  };
   std::vector<Integer> p{1};
-  for (const int side : {-1, 0, 1}) {
+  for (const int k : roots) {
     std::vector<Integer> next(p.size() + 1);
-    const auto factor = near(side);
     for (std::size_t i = 0; i < p.size(); ++i) {
-      next[i] -= p[i] * factor[0];
-      next[i + 1] -= p[i] * factor[1];
+      next[i] += p[i] * (s + 2 * k);
+      next[i + 1] -= p[i] * (s - 2 * k);
     }
     p = next;
   }
-  ExactPolynomial function(p);
   StageCounts stages;
   test::Functions functions;
   Instant now(0);
-  for (int event = 0; event < 3; ++event) {
-    SCOPED_TRACE(event);
+  for (const int k : roots) {
+    SCOPED_TRACE(k);
+    const ExactPolynomial function(p);
     const Failure failure = exact_first_failure(function, now, stages);
     ASSERT_EQ(static_cast<int>(failure.kind), static_cast<int>(Kind::later));
-    EXPECT_EQ(failure.time.isolating, false);
+    EXPECT_FALSE(failure.time.isolating);
     EXPECT_TRUE(failure.time.lower <= 0.5 && failure.time.upper >= 0.5);
     ExactTime time = exact_time(function, failure.time);
-    const Dyadic root(s + 2 * (event - 1), 71);
-    ExactTime expected(root);
+    ExactTime expected(Dyadic(s + 2 * k, 71));
     EXPECT_EQ(ExactTime::compare(time, expected), 0);
     now = Instant(failure.time, functions, functions.add(function));
-    std::vector<Integer> negated = function.scaled();
-    for (Integer& x : negated) x = -x;
-    function = ExactPolynomial(negated);
+    for (Integer& x : p) x = -x;
   }
-  EXPECT_EQ(exact_first_failure(function, now, stages).kind, Kind::never);
+  EXPECT_EQ(static_cast<int>(exact_first_failure(ExactPolynomial(p), now, stages).kind),
+            static_cast<int>(Kind::never));
+}
+
+TEST(FailureTimes, NumberTheRootsOfABracket) {
+  expect_numbered({-1, 0, 1});  // the middle one is a double
+  expect_numbered({1, 2, 3});   // positive before, negative after all three: still not isolated
 }
 
 TEST(FailureTimes, WithoutTheirRootAreRefused) {

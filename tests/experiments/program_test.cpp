@@ -225,7 +225,7 @@ TEST(Program, RunsSeveralNecklacesOnOneClock) {
 
   for (const std::vector<std::string>& inputs :
        {std::vector<std::string>{moving, other}, {moving, resting}, {resting, other}}) {
-    std::vector<std::string> arguments{"run", "--frames", "0:2", "--audit", "events", "--json", "-"};
+    std::vector<std::string> arguments{"run", "--frames", "0:2", "--audit", "frames", "--json", "-"};
     arguments.insert(arguments.begin() + 1, inputs.begin(), inputs.end());
     const ProgramRun run = run_program(arguments);
     ASSERT_EQ(run.code, 0) << run.err;

@@ -93,12 +93,12 @@ TYPED_TEST(EventQueueTest, ErasesAnyEntry) {
 // The entry that fills the hole comes from another branch: it may have to rise, not sink.
 TYPED_TEST(EventQueueTest, ErasingLetsTheFillerRise) {
   std::vector<QueueHandle> handles;
-  // A 4-ary heap, level by level: under 10 all is large, under 1 small.
-  for (const int value : {0, 10, 1, 1, 1, 20, 20, 20, 20, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4})
+  // A 4-ary heap, level by level: all under 10 is large, and the last entry, 4, is far from there.
+  for (const int value : {0, 10, 1, 2, 3, 20, 21, 22, 23, 30, 31, 32, 33, 40, 41, 42, 43, 50, 51, 52, 4})
     handles.push_back(this->push(value));
   this->queue.erase(handles[5]);
-  EXPECT_THAT(this->pop_all(),
-              testing::ElementsAre(0, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 10, 20, 20, 20));
+  EXPECT_THAT(this->pop_all(), testing::ElementsAre(0, 1, 2, 3, 4, 10, 21, 22, 23, 30, 31, 32, 33, 40, 41, 42,
+                                                    43, 50, 51, 52));
 }
 
 TYPED_TEST(EventQueueTest, UsesHandlesAgain) {

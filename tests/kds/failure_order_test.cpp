@@ -87,19 +87,22 @@ TEST_F(FailureOrderTest, NarrowingKeepsTheTimeInTheBracket) {
 }
 
 TEST_F(FailureOrderTest, ABracketOfSeveralRootsIsNotNarrowed) {
-  // Roots 1/4, 1/2, 3/4; the failure at 3/4 is root number 2 of the whole step.
-  const auto a = source.add(times(times(falling(1, 4), falling(1, 2)), falling(3, 4)), named(1));
+  // Roots 1/5, 2/5, 4/5; the failure at 4/5 is root number 2 of the whole step.
+  const auto a = source.add(times(times(falling(1, 5), falling(2, 5)), falling(4, 5)), named(1));
   const auto b = source.add(falling(5, 7), named(2));
-  ScheduledFailure fa{{0, 1, 2, false}, 0, a, &source};
-  ScheduledFailure fb = at(0.5, 0.9, b);
-  EXPECT_TRUE(order.before(fb, fa));
-  EXPECT_FALSE(order.before(fa, fb));
-  EXPECT_EQ(fa.time.lower, 0);
-  EXPECT_EQ(fa.time.upper, 1);
+  ScheduledFailure last{{0, 1, 2, false}, 0, a, &source};
   ScheduledFailure first{{0, 1, 0, false}, 0, a, &source};
-  EXPECT_TRUE(order.before(first, fb));
-  EXPECT_FALSE(order.before(fb, first));
-  // The two times of one function are held by certificates of different signs, never at once: no test.
+  ScheduledFailure other = at(0.5, 0.9, b);
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_TRUE(order.before(other, last));
+    EXPECT_FALSE(order.before(last, other));
+    EXPECT_TRUE(order.before(first, other));
+    EXPECT_FALSE(order.before(other, first));
+  }
+  for (const ScheduledFailure& failure : {first, last}) {
+    EXPECT_EQ(failure.time.lower, 0);  // in a narrower one it would have another number
+    EXPECT_EQ(failure.time.upper, 1);
+  }
 }
 
 TEST_F(FailureOrderTest, TiesAreBrokenByTypeThenBeadsThenPlace) {
@@ -153,16 +156,20 @@ TEST_F(FailureOrderTest, TieNumbersSpareTheSecondComparison) {
 
 // A tie found in one place must not make equal what is tied elsewhere.
 TEST_F(FailureOrderTest, TieNumbersOfDifferentTimesDiffer) {
-  ScheduledFailure a = exactly(source.add(falling_at_root_of_one_over(2), named(1)));
-  ScheduledFailure b = exactly(source.add(times(falling_at_root_of_one_over(2), falling(8, 7)), named(2)));
-  ScheduledFailure c = at(0.5, 0.9, source.add(falling_at_root_of_one_over(3), named(3)));
-  ScheduledFailure d =
-      at(0.5, 0.9, source.add(times(falling_at_root_of_one_over(3), falling(8, 7)), named(4)));
+  // Brackets that are not narrowed, so that they overlap whatever is known.
+  const auto wide = [&](const Coefficients& function, BeadId bead) {
+    return ScheduledFailure{{0.5, 0.9, 0, false}, 0, source.add(function, named(bead)), &source};
+  };
+  ScheduledFailure a = wide(falling_at_root_of_one_over(2), 1);
+  ScheduledFailure b = wide(times(falling_at_root_of_one_over(2), falling(8, 7)), 2);
+  ScheduledFailure c = wide(falling_at_root_of_one_over(3), 3);
+  ScheduledFailure d = wide(times(falling_at_root_of_one_over(3), falling(8, 7)), 4);
   EXPECT_EQ(order.compare_times(a, b), 0);
   EXPECT_EQ(order.compare_times(c, d), 0);
   EXPECT_EQ(order.compare_times(c, a), -1);
   EXPECT_EQ(order.compare_times(a, c), 1);
   EXPECT_EQ(order.compare_times(b, d), 1);
+  EXPECT_EQ(order.compare_times(b, a), 0);
 }
 
 TEST_F(FailureOrderTest, PointTimes) {

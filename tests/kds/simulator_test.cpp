@@ -383,6 +383,19 @@ TEST_F(AuditedTest, AuditsComeAfterSettlingAndBeforeWhatItSchedules) {
   EXPECT_LT(a.audits[2], Rational(1001, 3000));
 }
 
+TEST_F(AuditedTest, AuditsComeBeforeWhatSettlingSchedulesIntoAnEmptyQueue) {
+  a.on_start = [&] { a.schedule("1/3", falling(1, 3), 1, [&] { a.unsettled = true; }); };
+  a.on_settle = [&] {
+    for (BeadId b = 0; b < 100; ++b) a.schedule("soon", falling(1001 + b, 3000), b);
+  };
+  simulator.build();
+  simulator.run_step(true);
+  ASSERT_EQ(a.audits.size(), 104U);
+  EXPECT_GT(a.audits[2], Rational(1, 3));
+  EXPECT_LT(a.audits[2], Rational(1001, 3000));
+  EXPECT_GT(a.audits[3], Rational(1001, 3000));
+}
+
 TEST_F(AuditedTest, AStepWithoutEventsIsAuditedInside) {
   simulator.build();
   simulator.run_step(false);

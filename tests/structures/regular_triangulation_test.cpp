@@ -123,7 +123,7 @@ TEST(RegularTriangulation, BuildsAndMirrors) {
     EXPECT_TRUE(built.hidden.empty());
     check_mirror(triangulation, beads);
     EXPECT_TRUE(triangulation.is_valid());
-    EXPECT_TRUE(triangulation.all_cells_positive());
+    EXPECT_EQ(triangulation.least_orientation(), 1);
     EXPECT_EQ(triangulation.finite_cells(), static_triangulation(cloud.centers, cloud.weights).cells);
     EXPECT_EQ(triangulation.finite_cells(), static_triangulation(exact_beads(cloud), false).cells);
   }
@@ -178,7 +178,7 @@ TEST(RegularTriangulation, AssignsOrientedCells) {
     check_mirror(triangulation, beads);
     triangulation.set_points(cloud.centers, cloud.weights);
     EXPECT_TRUE(triangulation.is_valid());
-    EXPECT_TRUE(triangulation.all_cells_positive());
+    EXPECT_EQ(triangulation.least_orientation(), 1);
     RegularTriangulation built;
     (void)built.build(cloud.centers, cloud.weights);
     EXPECT_EQ(all_cells(triangulation), all_cells(built));
@@ -213,7 +213,7 @@ TEST(RegularTriangulation, ValidityFollowsThePoints) {
   ASSERT_EQ(triangulation.finite_cells().size(), 2U);
   triangulation.set_points(centers(after), weights);
   EXPECT_FALSE(triangulation.is_valid());
-  EXPECT_TRUE(triangulation.all_cells_positive());
+  EXPECT_EQ(triangulation.least_orientation(), 1);
   const auto cell = triangulation.find_cell({0, 1, 2, 3});
   ASSERT_TRUE(cell);
   const auto& v = triangulation.cells()[*cell].vertex;
@@ -229,7 +229,7 @@ TEST(RegularTriangulation, ValidityFollowsThePoints) {
   Points mirrored = after;
   for (auto& p : mirrored) p[0] = -p[0];
   triangulation.set_points(centers(mirrored), weights);
-  EXPECT_FALSE(triangulation.all_cells_positive());
+  EXPECT_LT(triangulation.least_orientation(), 1);
 }
 
 // Mutate, validate, repeat.

@@ -72,9 +72,8 @@ void expect_consistent_log(const WrappedRig<K>& rig, std::map<std::pair<BeadId, 
     const bool entered =
         std::any_of(after.begin(), after.end(), [&](BeadId b) { return !before.contains(b); });
     const bool left = std::any_of(before.begin(), before.end(), [&](BeadId b) { return !after.contains(b); });
-    EXPECT_EQ(rig.structure.kinds()[e.change.kind].name, entered && left ? "pivot"
-                                                         : entered       ? "enter"
-                                                                         : "leave");
+    const std::string_view kind = entered && left ? "pivot" : entered ? "enter" : "leave";
+    EXPECT_EQ(rig.structure.kinds()[e.change.kind].name, kind);
     ++kinds[e.change.kind];
     before = after;
   }

@@ -5,7 +5,9 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
