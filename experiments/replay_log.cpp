@@ -82,7 +82,7 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
     session->load(step);
     try {
       simulator.replay_step(steps[step], step + 1 == steps.size());
-    } catch (const std::invalid_argument& reason) {
+    } catch (const std::logic_error& reason) {  // changes that do not fit
       throw InputError(reason.what());
     } catch (const AuditError& error) {
       throw InputError(

@@ -83,6 +83,9 @@ void Simulator::run_events() {
   watch_.charge(alone ? 1 : nobody);
   while (true) {
     advance(queue_.empty() ? nullptr : &queue_.top());
+    const bool tied =
+        present_.source != nullptr && !queue_.empty() && order_.compare_times(present_, queue_.top()) == 0;
+    if (!tied) ++moment_;
     retire_present();
     if (queue_.empty()) return;
     present_ = queue_.top();

@@ -59,6 +59,8 @@ class Simulator {
 
   [[nodiscard]] std::size_t step() const { return step_; }
   [[nodiscard]] const Instant& now() const { return now_; }
+  /// Counts different times: events at the very same time share a moment.
+  [[nodiscard]] std::uint64_t moment() const { return moment_; }
 
   QueueHandle schedule(const FailureTime& time, FailureSource& source, std::uint32_t slot);
   void cancel(QueueHandle handle) { queue_.erase(handle); }
@@ -91,6 +93,7 @@ class Simulator {
   std::size_t step_ = 0;
   Instant now_;
   ScheduledFailure present_;  // the event that made it now; no source at the start of a step
+  std::uint64_t moment_ = 0;
   Fingerprint fingerprint_;
   Stopwatch watch_;
   bool recording_ = true;  // false while a replayed structure builds itself

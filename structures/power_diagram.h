@@ -77,7 +77,16 @@ class PowerDiagram final : public KineticStructure {
     const int facet = static_cast<int>(place % 4);
     forget(cell, facet);
     if (unsettled) return;  // a rebuild is due
-    present_ = table == 0 ? power_tests_.identity(slot) : orientations_.identity(slot);
+    const Identity identity = table == 0 ? power_tests_.identity(slot) : orientations_.identity(slot);
+    // Different changes at one time, the hull among them: what its flips leave infinite cannot be checked.
+    const bool hull = table == 1;
+    const bool tied = simulator_.moment() == last_moment_ && identity != last_identity_;
+    unsettled = tied && (hull || last_hull_);
+    last_hull_ = hull || (tied && last_hull_);
+    last_moment_ = simulator_.moment();
+    last_identity_ = identity;
+    if (unsettled) return;
+    present_ = identity;
     repair(cell, facet);
   }
 
@@ -266,6 +275,9 @@ class PowerDiagram final : public KineticStructure {
   bool flat_ = false;  // some cell is flat at the frame just reached
   int rebuilds_in_step_ = 0;
   Identity present_;  // of the certificate that fails now
+  Identity last_identity_;
+  std::uint64_t last_moment_ = 0;
+  bool last_hull_ = false;
 };
 
 template <Motion M, Kernel K>

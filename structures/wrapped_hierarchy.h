@@ -142,7 +142,7 @@ class WrappedHierarchy final : public KineticStructure {
   }
   /// Guards a node, repairing its basis while a certificate is violated already; logs the change from
   /// `before`.
-  void guard_node(NodeId node, const Basis& before);
+  void guard_node(NodeId node, Basis before);
   /// Guards the node's present basis; the first bead whose certificate is violated, if any.
   [[nodiscard]] std::optional<BeadId> watch_node(NodeId node);
   template <class Certificate>
@@ -263,7 +263,7 @@ std::optional<BeadId> WrappedHierarchy<M, K>::watch_node(NodeId id) {
 }
 
 template <Motion M, Kernel K>
-void WrappedHierarchy<M, K>::guard_node(NodeId id, const Basis& before) {
+void WrappedHierarchy<M, K>::guard_node(NodeId id, Basis before) {
   for (int repairs = 0;; ++repairs) {
     const std::optional<BeadId> violated = watch_node(id);
     if (!violated) break;

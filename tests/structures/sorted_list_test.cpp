@@ -243,6 +243,17 @@ INSTANTIATE_TEST_SUITE_P(Data, SortedInstance,
                                          Instance1{"d1_n100_degree3", 4791}),
                          [](const auto& test) { return test.param.name; });
 
+// Certificates are born at their own root with every event; the double stages must settle them.
+TEST(SortedList, TheExactStageIsRareInGeneralPosition) {
+  const auto check = [](const auto& motion) {
+    Rig<SortedList<std::decay_t<decltype(motion)>, Filtered>, std::decay_t<decltype(motion)>> rig(motion);
+    rig.run();
+    EXPECT_LT(rig.structure.statistics.stages.exact, rig.structure.statistics.certificates.created / 100);
+  };
+  check(instance_motion<Line>("d1_n100_linear"));
+  check(instance_motion<BezierMotion<1, 3>>("d1_n100_degree3"));
+}
+
 // A structure over one axis of a motion in space.
 TEST(SortedList, SortsAlongTheFirstAxis) {
   const auto motion = instance_motion<Space>("degenerate_d3_n64_gridint");
