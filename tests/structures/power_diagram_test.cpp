@@ -433,7 +433,7 @@ INSTANTIATE_TEST_SUITE_P(Data, DegeneratePower,
 TEST(PowerDiagram, RandomMotionsFullOfTies) {
   std::mt19937 random(11);
   int refused = 0, ran = 0;
-  for (int round = 0; round < 250; ++round) {
+  for (int round = 0; round < 240; ++round) {
     const std::size_t beads = 4 + random() % 7;
     const int range = 2 + static_cast<int>(random() % 4);
     const Points from = random_grid_points(random, beads, range);
