@@ -25,17 +25,22 @@ struct Identity {
 /// Types in the order in which simultaneous failures are handled.
 enum class CertificateType : std::uint32_t { precedes, orientation, power_test, bead_in_sphere };
 
-template <class C, class M>
-concept CertificateFor = Motion<M> && requires(const C& certificate, const DoubleView<M>& view) {
+/// A function of a few beads' motions.
+template <class F, class M>
+concept FunctionOfBeads = Motion<M> && requires(const F& f, const DoubleView<M>& view) {
   {
-    C {}
-    } -> std::same_as<C>;
+    F {}
+    } -> std::same_as<F>;
+  {f.beads};
+  { f.function(view).scaled[0] } -> std::convertible_to<double>;
+};
+
+template <class C, class M>
+concept CertificateFor = FunctionOfBeads<C, M> && requires(const C& certificate) {
   { certificate.identity() } -> std::same_as<Identity>;
   {
     certificate.side()
     } -> std::same_as<bool>;  // differs between a function and its negative of one identity
-  {certificate.beads};
-  { certificate.function(view).scaled[0] } -> std::convertible_to<double>;
 };
 
 }  // namespace kds

@@ -11,6 +11,13 @@ template <class P, class Q>
   return a0 * b1 - a1 * b0;
 }
 
+/// Cross product.
+template <class Number, int A, int B>
+[[nodiscard]] constexpr BernsteinVector<Number, A + B, 3> cross(const BernsteinVector<Number, A, 3>& a,
+                                                                const BernsteinVector<Number, B, 3>& b) {
+  return {minor(a[1], a[2], b[1], b[2]), minor(a[2], a[0], b[2], b[0]), minor(a[0], a[1], b[0], b[1])};
+}
+
 /// Determinant of the three rows.
 template <class Number, int Degree>
 [[nodiscard]] constexpr auto determinant(const BernsteinVector<Number, Degree, 3>& a,

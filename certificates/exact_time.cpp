@@ -21,6 +21,16 @@ bool is_root(const ExactPolynomial& g, const ExactTime& time) {
   return g.sign_at(time.lower()) * g.sign_at(time.upper()) < 0;
 }
 
+// The sign of `function` in the time's interval if it has no root there, by Descartes' rule; else 0.
+int sign_all_over(const ExactPolynomial& function, const ExactTime& time) {
+  const ExactPolynomial local = function.restricted(time.lower(), time.upper());
+  if (local.sign_variations() != 0) return 0;
+  for (const Integer& x : local.scaled()) {
+    if (x != 0) return x > 0 ? 1 : -1;
+  }
+  return 0;
+}
+
 }  // namespace
 
 ExactTime::ExactTime(ExactPolynomial square_free, RootInterval interval)
@@ -79,19 +89,22 @@ int ExactTime::compare(ExactTime& a, ExactTime& b) {
   return 1;
 }
 
+int sign_at(const ExactPolynomial& function, ExactTime& time) {
+  if (function.is_zero()) return 0;
+  for (int i = 0; i < separation_budget && !time.is_dyadic(); ++i) {
+    if (const int sign = sign_all_over(function, time)) return sign;
+    time.refine();
+  }
+  if (time.is_dyadic()) return function.sign_at(time.lower());
+  if (is_root(ExactPolynomial::gcd(time.polynomial(), function.square_free()), time)) return 0;
+  return sign_after(function, time);
+}
+
 int sign_after(const ExactPolynomial& function, ExactTime& time) {
   if (function.is_zero()) return 0;
   if (time.is_dyadic()) return function.sign_after(time.lower());
-  const auto sign_without_root = [&]() -> int {
-    const ExactPolynomial local = function.restricted(time.lower(), time.upper());
-    if (local.sign_variations() != 0) return 0;
-    for (const Integer& x : local.scaled()) {
-      if (x != 0) return x > 0 ? 1 : -1;
-    }
-    return 0;
-  };
   for (int i = 0; i < separation_budget; ++i) {
-    if (const int sign = sign_without_root()) return sign;
+    if (const int sign = sign_all_over(function, time)) return sign;
     time.refine();
     if (time.is_dyadic()) return function.sign_after(time.lower());
   }
@@ -108,7 +121,7 @@ int sign_after(const ExactPolynomial& function, ExactTime& time) {
     }
   }
   while (true) {
-    if (const int sign = sign_without_root()) return sign;
+    if (const int sign = sign_all_over(function, time)) return sign;
     time.refine();
     if (time.is_dyadic()) return function.sign_after(time.lower());
   }

@@ -33,6 +33,9 @@ class ExactTime {
   int sign_lower_ = 0;
 };
 
+/// Sign of `function` at the time itself. Narrows `time`.
+[[nodiscard]] int sign_at(const ExactPolynomial& function, ExactTime& time);
+
 /// Sign of `function` on (time, time + delta), 0 only for the zero function. Narrows `time` until `function`
 /// has no root between it and time.upper().
 [[nodiscard]] int sign_after(const ExactPolynomial& function, ExactTime& time);

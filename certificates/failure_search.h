@@ -175,30 +175,48 @@ requires CertificateFor<Certificate, M>
   }
 }
 
-/// The sign of the certificate's function just after now: 1, -1, or 0 if it is zero for the whole step.
-template <Kernel K, class Certificate, Motion M>
-requires CertificateFor<Certificate, M>
-[[nodiscard]] int sign_just_after(const Certificate& certificate, const M& motion, const Instant& now,
-                                  StageCounts& stages) {
+namespace detail {
+
+/// A sign that doubles find alike all around now, else the one that `exact_sign` finds in integers.
+template <Kernel K, class Function, Motion M>
+requires FunctionOfBeads<Function, M>
+[[nodiscard]] int sign_around(const Function& function, const M& motion, const Instant& now,
+                              StageCounts& stages, int (*exact_sign)(const ExactPolynomial&, ExactTime&)) {
   if constexpr (std::same_as<K, Fast>) {
-    const double value = detail::bounded_function(certificate, motion).function.value_at(now.upper());
+    const double value = bounded_function(function, motion).function.value_at(now.upper());
     return value > 0 ? 1 : value < 0 ? -1 : 0;
   }
   if constexpr (std::same_as<K, Filtered>) {
     const auto sign_of = [&now](const auto& bounded) {
       return bounded.function.certain_sign_on(now.lower(), now.upper());
     };
-    int sign = sign_of(detail::bounded_function(certificate, motion));
-    if (sign == 0) sign = sign_of(detail::tracked_function(certificate, motion));
+    int sign = sign_of(bounded_function(function, motion));
+    if (sign == 0) sign = sign_of(tracked_function(function, motion));
     if (sign != 0) {
       ++stages.signs_double;
       return sign;
     }
   }
-  const ExactPolynomial function = exact_function(certificate, motion);
+  const ExactPolynomial exact = exact_function(function, motion);
   ++stages.signs_exact;
-  stages.largest_bits = std::max<std::uint64_t>(stages.largest_bits, function.largest_bit_length());
-  return sign_after(function, now.exact());
+  stages.largest_bits = std::max<std::uint64_t>(stages.largest_bits, exact.largest_bit_length());
+  return exact_sign(exact, now.exact());
+}
+
+}  // namespace detail
+
+/// The sign of a function of beads now: 1, 0 or -1.
+template <Kernel K, class Function, Motion M>
+[[nodiscard]] int sign_now(const Function& function, const M& motion, const Instant& now,
+                           StageCounts& stages) {
+  return detail::sign_around<K>(function, motion, now, stages, sign_at);
+}
+
+/// The sign just after now: 1, -1, or 0 if the function is zero for the whole step.
+template <Kernel K, class Function, Motion M>
+[[nodiscard]] int sign_just_after(const Function& function, const M& motion, const Instant& now,
+                                  StageCounts& stages) {
+  return detail::sign_around<K>(function, motion, now, stages, sign_after);
 }
 
 }  // namespace kds

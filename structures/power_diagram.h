@@ -5,8 +5,9 @@
 //
 // When it fails, the Radon partition of the five beads decides the flip. In general position the cells
 // themselves tell which it is: 3-2 if an edge of the facet has just three cells, all among the five beads,
-// else 2-3. What general position does not guarantee is checked: the new cells must be positive just after
-// the event. Where that fails, or a certificate is violated at its birth, the diagram is rebuilt at a time
+// else 2-3. What general position does not guarantee is checked: finite new cells must be positive just after
+// the event, and on the hull the triangles that go and those that come must turn the same way in their common
+// plane now. Where that fails, or a certificate is violated at its birth, the diagram is rebuilt at a time
 // after the event so near that nothing is skipped, and the rebuild is counted.
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 
 #include "certificates/orientation.h"
 #include "certificates/power_test.h"
+#include "certificates/same_turn.h"
 #include "kds/certificate_table.h"
 #include "motions/input_error.h"
 #include "motions/positions.h"
@@ -77,17 +79,9 @@ class PowerDiagram final : public KineticStructure {
     const int facet = static_cast<int>(place % 4);
     forget(cell, facet);
     if (unsettled) return;  // a rebuild is due
-    const Identity identity = table == 0 ? power_tests_.identity(slot) : orientations_.identity(slot);
-    // Different changes at one time, the hull among them: what its flips leave infinite cannot be checked.
-    const bool hull = table == 1;
-    const bool tied = simulator_.moment() == last_moment_ && identity != last_identity_;
-    unsettled = tied && (hull || last_hull_);
-    last_hull_ = hull || (tied && last_hull_);
-    last_moment_ = simulator_.moment();
-    last_identity_ = identity;
-    if (unsettled) return;
-    present_ = identity;
+    present_ = table == 0 ? power_tests_.identity(slot) : orientations_.identity(slot);
     repair(cell, facet);
+    present_ = {};
   }
 
   void settle() override {
@@ -258,6 +252,22 @@ class PowerDiagram final : public KineticStructure {
 
   void repair(CellId cell, int facet);
   [[nodiscard]] bool positive_just_after(const CellBeads& cell);
+  [[nodiscard]] bool can_replace(std::span<const CellBeads> old, std::span<const CellBeads> made);
+  /// The cell with e in place i instead: its orientation is that of the cell if e is on the same side.
+  [[nodiscard]] static CellBeads with(CellBeads cell, int i, BeadId e) {
+    cell[static_cast<std::size_t>(i)] = e;
+    return cell;
+  }
+  /// The finite facet of an infinite cell, counterclockwise from outside; none of a finite cell.
+  [[nodiscard]] static std::optional<std::array<BeadId, 3>> hull_triangle(const CellBeads& v) {
+    const auto place = std::find(v.begin(), v.end(), infinite_bead) - v.begin();
+    if (place == 4) return std::nullopt;
+    if (place == 3) return std::array{v[0], v[1], v[2]};
+    std::array<BeadId, 3> triangle{v[0], v[1], v[2]};
+    triangle[static_cast<std::size_t>(place)] = v[3];
+    std::swap(triangle[0], triangle[1]);  // one exchange made good by another
+    return triangle;
+  }
   void flip_to_edge(CellId cell, int facet);
   void flip_to_facet(CellId cell, int facet, int other);
   template <std::size_t N>
@@ -275,9 +285,6 @@ class PowerDiagram final : public KineticStructure {
   bool flat_ = false;  // some cell is flat at the frame just reached
   int rebuilds_in_step_ = 0;
   Identity present_;  // of the certificate that fails now
-  Identity last_identity_;
-  std::uint64_t last_moment_ = 0;
-  bool last_hull_ = false;
 };
 
 template <Motion M, Kernel K>
@@ -325,7 +332,6 @@ void PowerDiagram<M, K>::repair(CellId cell, int facet) {
   } else {
     unsettled = true;  // a bead would vanish: equal weights do that only where beads meet
   }
-  present_ = {};
 }
 
 /// Whether a finite cell, in this order of vertices, has positive orientation just after now.
@@ -337,23 +343,36 @@ bool PowerDiagram<M, K>::positive_just_after(const CellBeads& cell) {
   return sign_just_after<K>(orientation, motion_, simulator_.now(), statistics.stages) > 0;
 }
 
+/// Whether the new cells are right just after now, given that the old ones were just before.
+template <Motion M, Kernel K>
+bool PowerDiagram<M, K>::can_replace(std::span<const CellBeads> old, std::span<const CellBeads> made) {
+  std::vector<std::array<BeadId, 3>> hull;
+  for (const auto cells : {old, made}) {
+    for (const CellBeads& cell : cells) {
+      if (const auto triangle = hull_triangle(cell)) hull.push_back(*triangle);
+    }
+  }
+  for (std::size_t t = 1; t < hull.size(); ++t) {
+    const auto& a = hull[0];
+    const auto& b = hull[t];
+    const SameTurn turn{{a[0], a[1], a[2], b[0], b[1], b[2]}};
+    if (sign_now<K>(turn, motion_, simulator_.now(), statistics.stages) <= 0) return false;
+  }
+  return std::all_of(made.begin(), made.end(), [this](const CellBeads& c) { return positive_just_after(c); });
+}
+
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::flip_to_edge(CellId cell, int facet) {
   const CellBeads v = triangulation_.cells()[cell].vertex;
   const BeadId d = v[static_cast<std::size_t>(facet)];
   const BeadId e = apex(cell, facet);
-  bool hull = e == infinite_bead;
-  for (int k = 0; k < 4; ++k) {
-    CellBeads made = v;
-    hull |= made[static_cast<std::size_t>(k)] == infinite_bead;
-    if (k == facet) continue;
-    made[static_cast<std::size_t>(k)] = e;  // the cell of d, e and an edge of the facet keeps its orientation
-    if (!positive_just_after(made)) {
-      unsettled = true;
-      return;
-    }
+  const CellId other = neighbor(cell, facet);
+  std::array<CellBeads, 3> new_cells{};
+  for (int k = 0, next = 0; k < 4; ++k) {
+    if (k != facet) new_cells[static_cast<std::size_t>(next++)] = with(v, k, e);
   }
-  if ((hull || std::same_as<K, Fast>)&&triangulation_.is_edge(d, e)) {
+  const std::array<CellBeads, 2> old_cells{v, triangulation_.cells()[other].vertex};
+  if (triangulation_.is_edge(d, e) || !can_replace(old_cells, new_cells)) {
     unsettled = true;
     return;
   }
@@ -367,7 +386,6 @@ void PowerDiagram<M, K>::flip_to_edge(CellId cell, int facet) {
   change.ids[3] = std::min(d, e);
   change.ids[4] = std::max(d, e);
 
-  const CellId other = neighbor(cell, facet);
   for (int i = 0; i < 4; ++i) {
     if (i != facet) drop(cell, i);
     if (neighbor(other, i) != cell) drop(other, i);
@@ -391,13 +409,12 @@ void PowerDiagram<M, K>::flip_to_facet(CellId cell, int facet, int other_vertex)
   for (int k = 0; k < 4; ++k) {
     if (k != facet && k != other_vertex) edge[found++] = k;
   }
-  for (const int k : edge) {
-    CellBeads made = v;
-    made[static_cast<std::size_t>(k)] = e;
-    if (!positive_just_after(made)) {
-      unsettled = true;
-      return;
-    }
+  const std::array<CellId, 3> old{cell, neighbor(cell, facet), neighbor(cell, other_vertex)};
+  std::array<CellBeads, 3> old_cells{};
+  for (std::size_t o = 0; o < 3; ++o) old_cells[o] = triangulation_.cells()[old[o]].vertex;
+  if (!can_replace(old_cells, std::array{with(v, edge[0], e), with(v, edge[1], e)})) {
+    unsettled = true;
+    return;
   }
 
   Change change{flip32, 5, {c, d, e}};
@@ -407,7 +424,6 @@ void PowerDiagram<M, K>::flip_to_facet(CellId cell, int facet, int other_vertex)
   change.ids[3] = low;
   change.ids[4] = high;
 
-  const std::array<CellId, 3> old{cell, neighbor(cell, facet), neighbor(cell, other_vertex)};
   for (const CellId o : old) {
     for (int i = 0; i < 4; ++i) drop(o, i);  // the second drop of an inner facet finds it gone
   }
@@ -536,8 +552,10 @@ std::optional<std::string> PowerDiagram<M, K>::audit(const Dyadic& time) {
   for (CellId cell = 0; cell < triangulation_.cells().size() && !difference; ++cell) {
     const CellBeads& v = triangulation_.cells()[cell].vertex;
     if (!triangulation_.is_live(cell) || std::find(v.begin(), v.end(), infinite_bead) != v.end()) continue;
-    const int sign = Orientation(v, 1).function(MomentView<M>(motion_, v, time)).scaled[0].sign();
-    if (sign < 0 || (sign == 0 && !frame))
+    const Orientation orientation(v, 1);
+    const int sign = orientation.function(MomentView<M>(motion_, v, time)).scaled[0].sign();
+    // A cell may be flat for a moment without any event, where its orientation has a double root.
+    if (sign < 0 || (sign == 0 && !frame && exact_function(orientation, motion_).sign_after(time) <= 0))
       difference = "the cell of beads " + bead_names(v) + " is " + (sign < 0 ? "inverted" : "flat");
   }
   for_all_facets([&](CellId cell, int i) {

@@ -29,13 +29,15 @@ void expect_right_at_the_end(PowerRig<K>& rig) {
 }
 
 /// Looks at every `stride`-th audit between events of the first step with its own eyes. (Later steps may
-/// start from a flat frame, which `at_frame` answers for.)
+/// start from a flat frame, which `at_frame` answers for.) It looks a moment later: cells may be flat at a
+/// single moment without an event.
 template <class K>
 Witness::Look definition(PowerRig<K>& rig, int stride) {
   return [&rig, stride, count = 0](const Dyadic& time) mutable -> std::optional<std::string> {
     if (rig.simulator.step() != 0 || time == Dyadic(0.0) || time == Dyadic(1.0) || count++ % stride != 0)
       return std::nullopt;
-    return not_regular(exact_points(rig.motion, time), rig.structure.at_frame(false).cells);
+    const Dyadic later((time.numerator() << 100U) + 1, time.exponent() + 100);
+    return not_regular(exact_points(rig.motion, later), rig.structure.at_frame(false).cells);
   };
 }
 
@@ -373,9 +375,7 @@ TEST(PowerDiagram, BeadsInOnePlaceForGoodAreRefused) {
 
 // Two beads pass each other along an edge of the hull, on a line with its ends for ever: certificates that
 // are zero all the time see no fold.
-// Known gap: beads that stay on one line of the hull and meet there. Their certificates are zero all the
-// time, and the diagram after the meeting is wrong until the step ends.
-TEST(PowerDiagram, DISABLED_BeadsThatTradePlacesAlongAnEdgeOfTheHull) {
+TEST(PowerDiagram, BeadsThatTradePlacesAlongAnEdgeOfTheHull) {
   EXPECT_FALSE(
       run_audited<Filtered>({moving({{1, 0, 1}, {1, 1, 0}, {1, 1, 1}, {1, 1, 0}, {1, 0, 1}, {0, 0, 0}},
                                     {{1, 0, 1}, {1, 1, 0}, {1, 1, 0}, {1, 0, 1}, {1, 1, 0}, {0, 1, 1}})}));
@@ -431,14 +431,13 @@ INSTANTIATE_TEST_SUITE_P(Data, DegeneratePower,
                          [](const auto& test) { return test.param; });
 
 TEST(PowerDiagram, RandomMotionsFullOfTies) {
-  std::mt19937 random(11);
+  std::mt19937 random(getenv("S") ? atoi(getenv("S")) : 11);
   int refused = 0, ran = 0;
-  for (int round = 0; round < 240; ++round) {
+  for (int round = 0; round < (getenv("R") ? atoi(getenv("R")) : 250); ++round) {
     const std::size_t beads = 4 + random() % 7;
     const int range = 2 + static_cast<int>(random() % 4);
     const Points from = random_grid_points(random, beads, range);
     const Points to = random_grid_points(random, beads, range);
-    if (round == 192) continue;  // the known gap above
     SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
     ++(run_audited<Filtered>({moving(from, to)}) ? refused : ran);
     if (HasFailure()) return;
