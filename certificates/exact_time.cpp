@@ -127,7 +127,8 @@ int sign_after(const ExactPolynomial& function, ExactTime& time) {
   }
 }
 
-std::optional<ExactTime> first_failure_after(const ExactPolynomial& function, const ExactTime& now) {
+std::optional<ExactFailure> first_failure_after(const ExactPolynomial& function, const ExactTime& now,
+                                                Touches touches) {
   if (function.is_zero() || function.sign_variations() == 0) return std::nullopt;
   const Dyadic end(1.0);
   const bool from_root = now.is_dyadic() && function.sign_at(now.upper()) == 0;
@@ -137,7 +138,8 @@ std::optional<ExactTime> first_failure_after(const ExactPolynomial& function, co
   for (auto root = roots.begin() + (from_root ? 1 : 0); root != roots.end(); ++root) {
     if (root->lower == end) break;  // what happens at u = 1 is judged by the next step
     ExactTime time(simple, std::move(*root));
-    if (sign_after(function, time) < 0) return time;
+    const bool touch = sign_after(function, time) > 0;
+    if (!touch || touches == Touches::reported) return ExactFailure{std::move(time), touch};
   }
   return std::nullopt;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "certificates/exact_polynomial.h"
+#include "certificates/failure_time.h"
 
 namespace kds {
 
@@ -40,11 +41,16 @@ class ExactTime {
 /// has no root between it and time.upper().
 [[nodiscard]] int sign_after(const ExactPolynomial& function, ExactTime& time);
 
-/// The first time after `now`, before the end of the step, from which on `function` is negative; none if
-/// there is none. `function` must be positive just after `now`, by sign_after, which narrowed `now` for this.
-/// Touching zero is no failure.
-[[nodiscard]] std::optional<ExactTime> first_failure_after(const ExactPolynomial& function,
-                                                           const ExactTime& now);
+struct ExactFailure {
+  ExactTime time;
+  bool touch = false;
+};
+/// The first time after `now`, before the end of the step, from which on `function` is negative, or, if they
+/// are reported, at which it touches zero; none if there is none. `function` must be positive just after
+/// `now`, by sign_after, which narrowed `now` for this.
+[[nodiscard]] std::optional<ExactFailure> first_failure_after(const ExactPolynomial& function,
+                                                              const ExactTime& now,
+                                                              Touches touches = Touches::ignored);
 
 /// A dyadic strictly between two different times, a before b.
 [[nodiscard]] Dyadic dyadic_between(ExactTime& a, ExactTime& b);

@@ -51,13 +51,15 @@ void narrow(ExactTime& time) {
 
 }  // namespace
 
-Failure to_failure(const ExactPolynomial& function, ExactTime& root) {
+Failure to_failure(const ExactPolynomial& function, ExactFailure& failure) {
+  ExactTime& root = failure.time;
+  const bool touch = failure.touch;
   const Dyadic before = root.lower();
   const Dyadic after = root.upper();
   narrow(root);
   const double lower = root.lower().round_down();
   const double upper = root.upper().round_up();
-  if (lower == upper) return {Failure::Kind::later, {lower, upper, 0, false}};
+  if (lower == upper) return {Failure::Kind::later, {lower, upper, 0, false, touch}};
 
   const Dyadic from(lower);
   const Dyadic to(upper);
@@ -74,19 +76,20 @@ Failure to_failure(const ExactPolynomial& function, ExactTime& root) {
     if (ExactTime::compare(candidate, root) == 0) break;
     ++ordinal;
   }
-  return {Failure::Kind::later, {lower, upper, ordinal, isolating}};
+  return {Failure::Kind::later, {lower, upper, ordinal, isolating, touch}};
 }
 
-Failure exact_first_failure(const ExactPolynomial& function, const Instant& now, StageCounts& stages) {
+Failure exact_first_failure(const ExactPolynomial& function, const Instant& now, StageCounts& stages,
+                            Touches touches) {
   if (function.is_zero()) {
     ++stages.identically_zero;
-    return {};
+    return {Failure::Kind::zero, {}};
   }
   ++stages.exact;
   stages.largest_bits = std::max<std::uint64_t>(stages.largest_bits, function.largest_bit_length());
   ExactTime& time = now.exact();
   if (sign_after(function, time) < 0) return {Failure::Kind::at_birth, {now.lower(), now.upper(), 0, false}};
-  std::optional<ExactTime> root = first_failure_after(function, time);
+  std::optional<ExactFailure> root = first_failure_after(function, time, touches);
   if (!root) return {};
   return to_failure(function, *root);
 }

@@ -32,11 +32,11 @@ template <class Certificate, Motion M>
 }
 
 /// The exact failure as a bracket in doubles.
-[[nodiscard]] Failure to_failure(const ExactPolynomial& function, ExactTime& root);
+[[nodiscard]] Failure to_failure(const ExactPolynomial& function, ExactFailure& root);
 
 /// The exact stage alone.
 [[nodiscard]] Failure exact_first_failure(const ExactPolynomial& function, const Instant& now,
-                                          StageCounts& stages);
+                                          StageCounts& stages, Touches touches = Touches::ignored);
 
 namespace detail {
 
@@ -52,6 +52,8 @@ template <int Degree>
 void finish(Bounded<Degree>& bounded, double uniform_error) {
   double largest = 0;
   for (const double c : bounded.function.bernstein) largest = std::max(largest, std::abs(c));
+  // Roundings are relative down to here only.
+  if (largest < 0x1p-900) uniform_error = std::nan("");
   bounded.function.value_error = uniform_error + value_rounding(Degree) * largest;
   bounded.function.local_error = uniform_error + local_rounding(Degree) * largest;
 }
@@ -156,7 +158,7 @@ template <class Certificate, Motion M>
 template <Kernel K, class Certificate, Motion M>
 requires CertificateFor<Certificate, M>
 [[nodiscard]] Failure first_failure(const Certificate& certificate, const M& motion, const Instant& now,
-                                    Birth birth, StageCounts& stages) {
+                                    Birth birth, StageCounts& stages, Touches touches = Touches::ignored) {
   if constexpr (std::same_as<K, Fast>) {
     return detail::fast_first_failure(certificate, motion, now, birth, stages);
   } else {
@@ -171,7 +173,8 @@ requires CertificateFor<Certificate, M>
         return *failure;
       }
     }
-    return exact_first_failure(exact_function(certificate, motion), now, stages);
+    // Whatever touches zero comes here: doubles prove signs, and a zero has none.
+    return exact_first_failure(exact_function(certificate, motion), now, stages, touches);
   }
 }
 

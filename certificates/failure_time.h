@@ -15,13 +15,19 @@ struct FailureTime {
   double upper = 0;
   std::uint16_t ordinal = 0;
   bool isolating = true;
+  bool touch = false;  ///< the function only touches zero there: no failure, see Touches
 };
+
+/// Whether a function that touches zero without changing sign is worth an event. It is no failure. But a
+/// structure may want to look at itself at such a moment, which general position does not know.
+enum class Touches : std::uint8_t { ignored, reported };
 
 /// What is to be known of a certificate at its birth. "Never" is a value, not a large number.
 struct Failure {
   enum class Kind : std::uint8_t {
     never,     ///< holds for the rest of the step
-    later,     ///< fails at `time`, before the end of the step
+    zero,      ///< the function is zero for the whole step: never fails either
+    later,     ///< fails at `time`, before the end of the step, or touches zero then
     at_birth,  ///< does not hold just after the present time
   };
   Kind kind = Kind::never;

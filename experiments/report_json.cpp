@@ -25,6 +25,7 @@ Json structure_json(const StructureReport& structure) {
             {"never_failing", structure.never_failing},
             {"cancelled", structure.cancelled},
             {"failed", structure.failed},
+            {"touched", structure.touched},
             {"peak", structure.peak},
             {"per_bead_max", structure.per_bead_max}}},
           {"stages", stages},
@@ -45,7 +46,9 @@ Json run_json(const RunReport& report) {
   json["structures"] = Json::object();
   for (const StructureReport& structure : report.structures)
     json["structures"][structure.name] = structure_json(structure);
-  json["engine"] = {{"seconds", report.engine_seconds}};
+  Json comparisons = Json::object();
+  add_counts(comparisons, report.comparisons);
+  json["engine"] = {{"seconds", report.engine_seconds}, {"close_comparisons", comparisons}};
   json["fingerprint"] = hex_digits(report.fingerprint);
   json["version"] = program_version();
   const Machine machine = this_machine();

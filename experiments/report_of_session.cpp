@@ -28,6 +28,7 @@ StructureReport report_of(const KineticStructure& structure, double seconds) {
   report.never_failing = s.certificates.never_failing;
   report.cancelled = s.certificates.cancelled;
   report.failed = s.certificates.failed;
+  report.touched = s.certificates.touched;
   report.peak = s.certificates.peak;
   report.per_bead_max = s.certificates.per_bead_max;
   report.stages = {{"coefficients", s.stages.coefficients},
@@ -62,6 +63,9 @@ RunReport report_of(Session& session, const Scene& scene, const RunOptions& opti
     report.structures.push_back(report_of(*session.structures()[s], session.simulator().seconds_of(s)));
   }
   report.engine_seconds = session.simulator().seconds();
+  const ComparisonCounts& comparisons = session.simulator().comparisons();
+  report.comparisons = {
+      {"same_function", comparisons.by_identity}, {"exact", comparisons.exact}, {"ties", comparisons.ties}};
   report.fingerprint = session.simulator().fingerprint();
   return report;
 }

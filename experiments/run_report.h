@@ -15,7 +15,8 @@ struct StructureReport {
   std::uint64_t events_total = 0;  ///< external events
   NamedCounts events_by_kind;      ///< external kinds first, then internal ones, which the total leaves out
   std::vector<std::uint64_t> events_per_step;  ///< external; one entry a motion step
-  std::uint64_t created = 0, never_failing = 0, cancelled = 0, failed = 0, peak = 0, per_bead_max = 0;
+  std::uint64_t created = 0, never_failing = 0, cancelled = 0, failed = 0, touched = 0, peak = 0,
+                per_bead_max = 0;
   NamedCounts stages;  ///< how many certificates each stage of the cascade settled
   double seconds = 0;  ///< on this structure and its certificates after the first build
   double build_seconds = 0;
@@ -33,6 +34,7 @@ struct RunReport {
       settings;  ///< motion, kernel, audit, select, chain, frames, radius, ...
   std::vector<StructureReport> structures;
   double engine_seconds = 0;      ///< queue and clock
+  NamedCounts comparisons;        ///< of failure times whose brackets overlap, by what settled them
   std::uint64_t fingerprint = 0;  ///< printed as 16 hex digits
 };
 

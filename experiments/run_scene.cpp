@@ -6,9 +6,12 @@
 
 #include "experiments/event_log_file.h"
 #include "experiments/load_scene.h"
+#include "experiments/option_names.h"
 #include "experiments/output_files.h"
 #include "experiments/report_of_session.h"
 #include "experiments/session.h"
+#include "experiments/text.h"
+#include "kds/audit.h"
 
 namespace kds {
 
@@ -37,7 +40,12 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   if (options.dump) write_dump(*options.dump, 0, *session);
   for (std::size_t step = 0; step < scene.step_count(); ++step) {
     session->load(step);
-    session->simulator().run_step(step + 1 == scene.step_count());
+    try {
+      session->simulator().run_step(step + 1 == scene.step_count());
+    } catch (const AuditError& error) {
+      throw AuditError(fmt::format("{}\nto see it again: kds run {}", error.what(),
+                                   shell_words(option_arguments(options))));
+    }
     if (options.dump) write_dump(*options.dump, step + 1, *session);
     progress(step + 1, scene.step_count());
   }

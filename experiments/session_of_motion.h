@@ -1,6 +1,5 @@
 #pragma once
 // A session for one type of motion: the only place where the types of motion, kernel and structures meet.
-// Each motion is instantiated in a file of its own (sessions_*.cpp), for they take long to compile.
 
 #include <fmt/format.h>
 
@@ -11,7 +10,7 @@
 #include <vector>
 
 #include "experiments/dump_files.h"
-#include "experiments/session.h"
+#include "experiments/make_session_of.h"
 #include "motions/input_error.h"
 #include "structures/power_diagram.h"
 #include "structures/sorted_list.h"
@@ -111,7 +110,7 @@ class SessionOf final : public Session {
           files.push_back(dump_wrapped(nodes));
         },
         [this, wrapped](std::size_t frame) {
-          return seconds_to_wrap(wrapped->tree(), scene_.centers(frame), scene_.weights(frame));
+          return seconds_to_wrap(wrapped->tree(), scene_.centers(frame), scene_.radii());
         });
   }
 
@@ -137,9 +136,8 @@ class SessionOf final : public Session {
 };
 
 template <Motion M>
-[[nodiscard]] std::unique_ptr<Session> make_session_of(const Scene& scene,
-                                                       const std::vector<std::string>& structures,
-                                                       KernelName kernel, AuditMode audits) {
+std::unique_ptr<Session> make_session_of(const Scene& scene, const std::vector<std::string>& structures,
+                                         KernelName kernel, AuditMode audits) {
   switch (kernel) {
     case KernelName::fast:
       return std::make_unique<SessionOf<M, Fast>>(scene, structures, audits);

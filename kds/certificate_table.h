@@ -15,7 +15,8 @@ namespace kds {
 /// A structure's hold on a certificate it created.
 enum class Guard : std::uint32_t {
   never = 0xffffffffU,     ///< holds for the rest of the step; nothing is kept
-  violated = 0xfffffffeU,  ///< does not hold just after the present time; nothing is kept
+  zero = 0xfffffffeU,      ///< its function is zero for the whole step: as `never`
+  violated = 0xfffffffdU,  ///< does not hold just after the present time; nothing is kept
 };                         // else: the slot
 [[nodiscard]] constexpr bool has_slot(Guard guard) { return guard < Guard::violated; }
 [[nodiscard]] constexpr std::uint32_t slot_of(Guard guard) { return static_cast<std::uint32_t>(guard); }
@@ -26,8 +27,13 @@ class CertificateTable final : public FailureSource {
  public:
   /// `number` tells the structure's tables apart in KineticStructure::fail.
   CertificateTable(Simulator& simulator, KineticStructure& owner, std::size_t structure, unsigned number,
-                   const M& motion)
-      : simulator_(simulator), owner_(owner), structure_(structure), number_(number), motion_(motion) {
+                   const M& motion, Touches touches = Touches::ignored)
+      : simulator_(simulator),
+        owner_(owner),
+        structure_(structure),
+        number_(number),
+        motion_(motion),
+        touches_(touches) {
     simulator.add_table(*this);
   }
 
@@ -48,15 +54,15 @@ class CertificateTable final : public FailureSource {
       }
     }
     const Failure failure =
-        first_failure<K>(certificate, motion_, simulator_.now(), birth, statistics.stages);
+        first_failure<K>(certificate, motion_, simulator_.now(), birth, statistics.stages, touches_);
     if (failure.kind == Failure::Kind::at_birth) {
       ++statistics.certificates.failed;
       return Guard::violated;
     }
     statistics.certificates.peak = std::max(statistics.certificates.peak, ++statistics.certificates.alive);
-    if (failure.kind == Failure::Kind::never) {
+    if (failure.kind != Failure::Kind::later) {
       ++statistics.certificates.never_failing;
-      return Guard::never;
+      return failure.kind == Failure::Kind::zero ? Guard::zero : Guard::never;
     }
     std::uint32_t slot = 0;
     if (free_.empty()) {
@@ -66,7 +72,7 @@ class CertificateTable final : public FailureSource {
       slot = free_.back();
       free_.pop_back();
     }
-    entries_[slot] = {certificate, place, 0};
+    entries_[slot] = {certificate, place, 0, failure.time.touch};
     entries_[slot].handle = simulator_.schedule(failure.time, *this, slot);
     return static_cast<Guard>(slot);
   }
@@ -75,7 +81,7 @@ class CertificateTable final : public FailureSource {
   void drop(Guard guard) {
     if (guard == Guard::violated) return;
     drop_never(1);
-    if (guard == Guard::never) return;
+    if (!has_slot(guard)) return;
     ++owner_.statistics.certificates.cancelled;
     simulator_.cancel(entries_[slot_of(guard)].handle);
     free_.push_back(slot_of(guard));
@@ -91,6 +97,8 @@ class CertificateTable final : public FailureSource {
   [[nodiscard]] const Certificate& certificate(std::uint32_t slot) const {
     return entries_[slot].certificate;
   }
+  /// The certificate does not fail, it touches zero, if it is this that the table reports.
+  [[nodiscard]] bool touches(std::uint32_t slot) const { return entries_[slot].touch; }
   [[nodiscard]] std::uint32_t place_in_structure(std::uint32_t slot) const { return entries_[slot].place; }
 
   // The engine's side.
@@ -108,7 +116,7 @@ class CertificateTable final : public FailureSource {
   [[nodiscard]] unsigned number() const { return number_; }
   [[nodiscard]] std::size_t structure() const override { return structure_; }
   void fail(std::uint32_t slot) override {
-    ++owner_.statistics.certificates.failed;
+    ++(touches(slot) ? owner_.statistics.certificates.touched : owner_.statistics.certificates.failed);
     --owner_.statistics.certificates.alive;
     owner_.fail(number_, slot);
   }
@@ -125,6 +133,7 @@ class CertificateTable final : public FailureSource {
     Certificate certificate;
     std::uint32_t place = 0;
     QueueHandle handle = 0;
+    bool touch = false;
   };
 
   Simulator& simulator_;
@@ -132,6 +141,7 @@ class CertificateTable final : public FailureSource {
   std::size_t structure_;
   unsigned number_;
   const M& motion_;
+  Touches touches_;
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> free_;
   std::uint64_t created_in_step_ = 0;

@@ -14,6 +14,7 @@ struct CertificateCounts {
   std::uint64_t never_failing = 0;  ///< proved at birth to hold for the rest of their step
   std::uint64_t cancelled = 0;      ///< would have failed, but the structure changed first
   std::uint64_t failed = 0;
+  std::uint64_t touched = 0;  ///< touched zero without failing, where a structure asked for it
   std::uint64_t alive = 0;
   std::uint64_t peak = 0;          ///< most alive at once: compactness
   std::uint64_t per_bead_max = 0;  ///< most that name one bead, at the starts of steps: locality
@@ -34,8 +35,7 @@ struct StructureStatistics {
   std::uint64_t rebuilds = 0;
   std::uint64_t audits_run = 0;
   std::uint64_t audits_failed = 0;
-  double seconds = 0;  ///< on its certificates and events, after the first build
-  double build_seconds = 0;
+  double build_seconds = 0;  ///< of the first build
 };
 
 }  // namespace kds

@@ -4,9 +4,8 @@
 //   DoubleView     rounded; remembers the size of what it was asked for, which scales the error bound
 //   TrackedView    rounded, with an error bound of its own (tracked_double.h)
 //   MagnitudeView  the error bound's constants (magnitude.h); sees no motion at all
-//   IntegerView    exact: all coordinates times one power of two, weights times its square. Certificate
-//   functions
-//                  are homogeneous in lengths, so the common factor changes no sign
+//   IntegerView    exact: all coordinates times one power of two, weights times its square. Functions of
+//                  certificates are homogeneous in lengths, so the common factor changes no sign
 //   MomentView     exact, at one dyadic time: polynomials of degree 0
 //
 // Every view answers with differences to a bead: certificates do not depend on the origin, and the filter is

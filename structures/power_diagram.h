@@ -18,14 +18,12 @@
 #include <string>
 #include <vector>
 
-#include "certificates/orientation.h"
-#include "certificates/power_test.h"
-#include "certificates/same_turn.h"
 #include "kds/certificate_table.h"
 #include "motions/input_error.h"
 #include "motions/positions.h"
-#include "structures/bead_names.h"
+#include "structures/facet_certificate.h"
 #include "structures/regular_triangulation.h"
+#include "structures/triangulation_fault.h"
 
 namespace kds {
 
@@ -38,8 +36,8 @@ class PowerDiagram final : public KineticStructure {
       : simulator_(simulator),
         motion_(motion),
         index_(simulator.add(*this)),
-        power_tests_(simulator, *this, index_, 0, motion),
-        orientations_(simulator, *this, index_, 1, motion) {}
+        power_tests_(simulator, *this, index_, 0, motion, Touches::reported),
+        orientations_(simulator, *this, index_, 1, motion, Touches::reported) {}
 
   enum Kind : std::uint8_t { flip23, flip32, rebuild };
   static constexpr unsigned finest_grid = 200;  // binary places of a rebuild's time
@@ -63,7 +61,7 @@ class PowerDiagram final : public KineticStructure {
   void start_step() override {
     rebuilds_in_step_ = 0;
     guards_.clear();  // those of the step before are gone
-    if (!hidden_.empty() || dimension_ < 3 || (flat_ && !flat_cells_open())) {
+    if (!hidden_.empty() || dimension_ < 3 || (flat_ && is_wrong_just_after())) {
       rebuild_at_first_time_that_works();
     } else {
       watch_all();
@@ -77,14 +75,29 @@ class PowerDiagram final : public KineticStructure {
         table == 0 ? power_tests_.place_in_structure(slot) : orientations_.place_in_structure(slot);
     const CellId cell = place / 4;
     const int facet = static_cast<int>(place % 4);
+    const bool touch = table == 0 ? power_tests_.touches(slot) : orientations_.touches(slot);
+    if (touch) suspect(Doubt::unclear);
+    if (FacetGuard& held = guard(cell, facet); held.about == About::cell) {
+      held.guard = Guard::violated;
+      if (!touch) return suspect(Doubt::wrong);  // cospherical cells turn over: no flip tells how to go on
+      held.guard = watched(Orientation(triangulation_.cells()[cell].vertex, 1), cell, facet);
+      return;
+    }
     forget(cell, facet);
-    if (unsettled) return;  // a rebuild is due
+    if (doubt_ == Doubt::wrong) return;
+    if (touch) return watch(cell, facet);
     present_ = table == 0 ? power_tests_.identity(slot) : orientations_.identity(slot);
+    if (simulator_.moment() == last_moment_ && present_ != last_identity_) suspect(Doubt::unclear);
+    last_moment_ = simulator_.moment();
+    last_identity_ = present_;
     repair(cell, facet);
     present_ = {};
   }
 
   void settle() override {
+    const bool wrong = doubt_ == Doubt::wrong || is_wrong_just_after();
+    settled();
+    if (!wrong) return;
     if constexpr (std::same_as<K, Fast>) {
       rebuild_roughly();
     } else {
@@ -147,9 +160,33 @@ class PowerDiagram final : public KineticStructure {
   }
 
  private:
+  /// In general position an event changes one flip's beads and nothing else. Where more happens at once, or a
+  /// certificate touches zero, the diagram is checked after it, and rebuilt if it is wrong: cells can turn
+  /// over unseen only at such moments.
+  enum class Doubt : std::uint8_t { none, unclear, wrong };
+  void suspect(Doubt doubt) {
+    doubt_ = std::max(doubt_, doubt);
+    unsettled = true;
+  }
+  void settled() {
+    doubt_ = Doubt::none;
+    unsettled = false;
+  }
+  [[nodiscard]] bool is_wrong_just_after() {
+    if constexpr (std::same_as<K, Fast>) return false;
+    const auto sign = [this](const auto& function) {
+      return sign_just_after<K>(function, motion_, simulator_.now(), statistics.stages);
+    };
+    return triangulation_fault(triangulation_, bead_count(), false, sign).has_value();
+  }
+  [[nodiscard]] BeadId bead_count() const { return static_cast<BeadId>(motion_.bead_count()); }
+
+  /// What a facet's guard is about. Where a power test is zero for the whole step, five beads cospherical, it
+  /// would not see the facet's cells turn over: then each side guards its own cell's orientation instead.
+  enum class About : std::uint8_t { power, hull, cell };
   struct FacetGuard {
     Guard guard = Guard::violated;
-    bool orientation = false;
+    About about = About::power;
   };
 
   // Building.
@@ -191,15 +228,6 @@ class PowerDiagram final : public KineticStructure {
   [[nodiscard]] bool nothing_fails_until(const Dyadic& time);
   void record_rebuild(const Dyadic& time);
 
-  /// Whether the cells that are flat at the start of the step are positive just after.
-  [[nodiscard]] bool flat_cells_open() {
-    for (CellId cell = 0; cell < triangulation_.cells().size(); ++cell) {
-      if (triangulation_.is_live(cell) && !positive_just_after(triangulation_.cells()[cell].vertex))
-        return false;
-    }
-    return true;
-  }
-
   // Facets.
 
   [[nodiscard]] int place_of(CellId cell, BeadId bead) const {
@@ -212,27 +240,27 @@ class PowerDiagram final : public KineticStructure {
   [[nodiscard]] CellId neighbor(CellId cell, int i) const {
     return triangulation_.cells()[cell].neighbor[static_cast<std::size_t>(i)];
   }
-  /// The bead across facet i.
+  /// The same facet as the cell beyond it has it.
+  [[nodiscard]] std::pair<CellId, int> across(CellId cell, int i) const {
+    return {neighbor(cell, i), triangulation_.mirror_index(cell, i)};
+  }
+  /// The bead beyond facet i.
   [[nodiscard]] BeadId apex(CellId cell, int i) const {
-    return vertex(neighbor(cell, i), triangulation_.mirror_index(cell, i));
+    const auto [other, k] = across(cell, i);
+    return vertex(other, k);
   }
   FacetGuard& guard(CellId cell, int i) { return guards_[cell][static_cast<std::size_t>(i)]; }
   void set_guard(CellId cell, int i, FacetGuard value) {
     guard(cell, i) = value;
-    guard(neighbor(cell, i), triangulation_.mirror_index(cell, i)) = value;
+    const auto [other, k] = across(cell, i);
+    guard(other, k) = value;
   }
-  void forget(CellId cell, int i) { set_guard(cell, i, {Guard::violated, false}); }
+  void forget(CellId cell, int i) { set_guard(cell, i, {}); }
 
   void watch(CellId cell, int i);
-  void drop(CellId cell, int i) {
-    const FacetGuard g = guard(cell, i);
-    if (g.orientation) {
-      orientations_.drop(g.guard);
-    } else {
-      power_tests_.drop(g.guard);
-    }
-    forget(cell, i);
-  }
+  template <class Certificate>
+  [[nodiscard]] Guard watched(const Certificate& certificate, CellId cell, int i);
+  void drop(CellId cell, int i);
   void watch_all() {
     guards_.assign(triangulation_.cells().size(), {});
     for_all_facets([this](CellId cell, int i) { watch(cell, i); });
@@ -251,22 +279,11 @@ class PowerDiagram final : public KineticStructure {
   // Flips.
 
   void repair(CellId cell, int facet);
-  [[nodiscard]] bool positive_just_after(const CellBeads& cell);
   [[nodiscard]] bool can_replace(std::span<const CellBeads> old, std::span<const CellBeads> made);
   /// The cell with e in place i instead: its orientation is that of the cell if e is on the same side.
   [[nodiscard]] static CellBeads with(CellBeads cell, int i, BeadId e) {
     cell[static_cast<std::size_t>(i)] = e;
     return cell;
-  }
-  /// The finite facet of an infinite cell, counterclockwise from outside; none of a finite cell.
-  [[nodiscard]] static std::optional<std::array<BeadId, 3>> hull_triangle(const CellBeads& v) {
-    const auto place = std::find(v.begin(), v.end(), infinite_bead) - v.begin();
-    if (place == 4) return std::nullopt;
-    if (place == 3) return std::array{v[0], v[1], v[2]};
-    std::array<BeadId, 3> triangle{v[0], v[1], v[2]};
-    triangle[static_cast<std::size_t>(place)] = v[3];
-    std::swap(triangle[0], triangle[1]);  // one exchange made good by another
-    return triangle;
   }
   void flip_to_edge(CellId cell, int facet);
   void flip_to_facet(CellId cell, int facet, int other);
@@ -284,31 +301,61 @@ class PowerDiagram final : public KineticStructure {
   int dimension_ = 3;
   bool flat_ = false;  // some cell is flat at the frame just reached
   int rebuilds_in_step_ = 0;
+  Doubt doubt_ = Doubt::none;
   Identity present_;  // of the certificate that fails now
+  Identity last_identity_;
+  std::uint64_t last_moment_ = 0;
 };
 
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::watch(CellId cell, int i) {
-  const CellBeads& v = triangulation_.cells()[cell].vertex;
-  const std::array<BeadId, 5> five{v[0], v[1], v[2], v[3], apex(cell, i)};
+  const FacetGuard facet = with_facet_certificate(
+      triangulation_.cells()[cell].vertex, apex(cell, i),
+      [&]<class Certificate>(const Certificate& certificate) {
+        return FacetGuard{watched(certificate, cell, i),
+                          std::same_as<Certificate, PowerTest> ? About::power : About::hull};
+      });
+  if (facet.guard != Guard::zero || facet.about == About::hull) return set_guard(cell, i, facet);
+  power_tests_.drop(facet.guard);
+  for (const auto& [own, k] : {std::pair(cell, i), across(cell, i)})
+    guard(own, k) = {watched(Orientation(triangulation_.cells()[own].vertex, 1), own, k), About::cell};
+}
+
+template <Motion M, Kernel K>
+template <class Certificate>
+Guard PowerDiagram<M, K>::watched(const Certificate& certificate, CellId cell, int i) {
   const std::uint32_t place = 4 * cell + static_cast<std::uint32_t>(i);
-  const auto infinite = std::find(five.begin(), five.end(), infinite_bead);
-  const auto birth = [this](const Identity& identity) {
-    return identity == present_ ? Birth::at_own_root : Birth::unknown;
-  };
-  FacetGuard g;
-  if (infinite == five.end()) {
-    const PowerTest test(five, 1);
-    g = {power_tests_.watch(test, place, birth(test.identity())), false};
+  const Birth birth = certificate.identity() == present_ ? Birth::at_own_root : Birth::unknown;
+  Guard guard = Guard::violated;
+  if constexpr (std::same_as<Certificate, PowerTest>) {
+    guard = power_tests_.watch(certificate, place, birth);
   } else {
-    // A row (0,0,0,1) at place k: expand the power test's determinant along it.
-    std::array<BeadId, 4> four{};
-    std::copy(infinite + 1, five.end(), std::copy(five.begin(), infinite, four.begin()));
-    const Orientation orientation(four, (infinite - five.begin()) % 2 == 0 ? 1 : -1);
-    g = {orientations_.watch(orientation, place, birth(orientation.identity())), true};
+    guard = orientations_.watch(certificate, place, birth);
   }
-  if (g.guard == Guard::violated) unsettled = true;
-  set_guard(cell, i, g);
+  if (guard == Guard::violated) suspect(Doubt::wrong);
+  return guard;
+}
+
+/// Gives up a facet's guard. One of other beads that fails right now as well would have meant another change.
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::drop(CellId cell, int i) {
+  const auto give_up = [&](auto& table, Guard guard) {
+    if (has_slot(guard) && table.time(slot_of(guard)).lower <= simulator_.now().upper() &&
+        table.identity(slot_of(guard)) != present_)
+      suspect(Doubt::unclear);
+    table.drop(guard);
+  };
+  const FacetGuard facet = guard(cell, i);
+  if (facet.about == About::power) {
+    give_up(power_tests_, facet.guard);
+  } else {
+    give_up(orientations_, facet.guard);
+  }
+  if (facet.about == About::cell) {
+    const auto [other, k] = across(cell, i);
+    give_up(orientations_, guard(other, k).guard);
+  }
+  forget(cell, i);
 }
 
 template <Motion M, Kernel K>
@@ -330,35 +377,37 @@ void PowerDiagram<M, K>::repair(CellId cell, int facet) {
   } else if (edges == 1) {
     flip_to_facet(cell, facet, removed);
   } else {
-    unsettled = true;  // a bead would vanish: equal weights do that only where beads meet
+    suspect(Doubt::wrong);  // a bead would vanish: equal weights do that only where beads meet
   }
 }
 
-/// Whether a finite cell, in this order of vertices, has positive orientation just after now.
-template <Motion M, Kernel K>
-bool PowerDiagram<M, K>::positive_just_after(const CellBeads& cell) {
-  if (std::find(cell.begin(), cell.end(), infinite_bead) != cell.end()) return true;
-  const Orientation orientation(cell, 1);
-  if (orientation.identity() == present_) return true;  // flat right now, and opening: that is the event
-  return sign_just_after<K>(orientation, motion_, simulator_.now(), statistics.stages) > 0;
-}
-
-/// Whether the new cells are right just after now, given that the old ones were just before.
+/// Whether new cells may take the place of old ones.
 template <Motion M, Kernel K>
 bool PowerDiagram<M, K>::can_replace(std::span<const CellBeads> old, std::span<const CellBeads> made) {
+  const Instant& now = simulator_.now();
   std::vector<std::array<BeadId, 3>> hull;
   for (const auto cells : {old, made}) {
     for (const CellBeads& cell : cells) {
-      if (const auto triangle = hull_triangle(cell)) hull.push_back(*triangle);
+      if (const auto triangle = hull_triangle(cell)) {
+        hull.push_back(*triangle);
+        continue;
+      }
+      const Orientation orientation(cell, 1);
+      if (orientation.identity() == present_) continue;  // it vanishes or opens: that is the event
+      if (sign_now<K>(orientation, motion_, now, statistics.stages) > 0) continue;
+      suspect(Doubt::unclear);
+      if (cells.data() == made.data() &&
+          sign_just_after<K>(orientation, motion_, now, statistics.stages) <= 0)
+        return false;
     }
   }
   for (std::size_t t = 1; t < hull.size(); ++t) {
     const auto& a = hull[0];
     const auto& b = hull[t];
     const SameTurn turn{{a[0], a[1], a[2], b[0], b[1], b[2]}};
-    if (sign_now<K>(turn, motion_, simulator_.now(), statistics.stages) <= 0) return false;
+    if (sign_now<K>(turn, motion_, now, statistics.stages) <= 0) return false;
   }
-  return std::all_of(made.begin(), made.end(), [this](const CellBeads& c) { return positive_just_after(c); });
+  return true;
 }
 
 template <Motion M, Kernel K>
@@ -373,7 +422,7 @@ void PowerDiagram<M, K>::flip_to_edge(CellId cell, int facet) {
   }
   const std::array<CellBeads, 2> old_cells{v, triangulation_.cells()[other].vertex};
   if (triangulation_.is_edge(d, e) || !can_replace(old_cells, new_cells)) {
-    unsettled = true;
+    suspect(Doubt::wrong);
     return;
   }
 
@@ -413,7 +462,7 @@ void PowerDiagram<M, K>::flip_to_facet(CellId cell, int facet, int other_vertex)
   std::array<CellBeads, 3> old_cells{};
   for (std::size_t o = 0; o < 3; ++o) old_cells[o] = triangulation_.cells()[old[o]].vertex;
   if (!can_replace(old_cells, std::array{with(v, edge[0], e), with(v, edge[1], e)})) {
-    unsettled = true;
+    suspect(Doubt::wrong);
     return;
   }
 
@@ -485,10 +534,14 @@ bool PowerDiagram<M, K>::nothing_fails_until(const Dyadic& time) {
     ExactTime failure = exact_time(table.exact_function(slot_of(guard)), table.time(slot_of(guard)));
     return ExactTime::compare(limit, failure) < 0;
   };
+  const auto facet_later = [&](FacetGuard g) {
+    return g.about == About::power ? later(power_tests_, g.guard) : later(orientations_, g.guard);
+  };
   bool all_later = true;
   for_all_facets([&](CellId cell, int i) {
-    const FacetGuard g = guard(cell, i);
-    if (all_later) all_later = g.orientation ? later(orientations_, g.guard) : later(power_tests_, g.guard);
+    const auto [other, k] = across(cell, i);
+    all_later = all_later && facet_later(guard(cell, i)) &&
+                (guard(cell, i).about != About::cell || facet_later(guard(other, k)));
   });
   return all_later;
 }
@@ -500,15 +553,16 @@ void PowerDiagram<M, K>::rebuild_at_first_time_that_works() {
   for (unsigned bits = 8; bits <= finest_grid; bits += bits < 32 ? 4 : 12) {
     const Dyadic time = next_on_grid(simulator_.now().exact(), bits);
     if (!(time < Dyadic(1.0)) || !assign_static(time)) continue;
-    unsettled = false;
+    settled();
     watch_all();
-    if (!unsettled && nothing_fails_until(time)) {
+    if (doubt_ != Doubt::wrong && nothing_fails_until(time)) {
+      settled();
       record_rebuild(time);
       return;
     }
     drop_all();
   }
-  unsettled = false;
+  settled();
   if (!hidden_.empty()) {
     throw InputError("bead " + std::to_string(hidden_.front()) + " is hidden in the power diagram in step " +
                      std::to_string(simulator_.step()) +
@@ -527,7 +581,7 @@ void PowerDiagram<M, K>::rebuild_roughly() {
   const Dyadic time(std::min(1.0, simulator_.now().upper() + 0x1p-16));
   if (!assign_static(time)) return;
   watch_all();
-  unsettled = false;
+  settled();
   record_rebuild(time);
 }
 
@@ -546,37 +600,13 @@ std::optional<std::string> PowerDiagram<M, K>::audit(const Dyadic& time) {
   } else if (!start && !end) {
     if (exact_static(time, false).cells == triangulation_.finite_cells()) return std::nullopt;
   }
-  // Degenerate positions have several regular triangulations: check ours against all it must satisfy.
-  std::optional<std::string> difference;
+  // Degenerate positions have several regular triangulations: ours must satisfy the definition. Between
+  // events what is zero at this very moment only is judged by its sign just after.
   const bool frame = start || end;
-  for (CellId cell = 0; cell < triangulation_.cells().size() && !difference; ++cell) {
-    const CellBeads& v = triangulation_.cells()[cell].vertex;
-    if (!triangulation_.is_live(cell) || std::find(v.begin(), v.end(), infinite_bead) != v.end()) continue;
-    const Orientation orientation(v, 1);
-    const int sign = orientation.function(MomentView<M>(motion_, v, time)).scaled[0].sign();
-    // A cell may be flat for a moment without any event, where its orientation has a double root.
-    if (sign < 0 || (sign == 0 && !frame && exact_function(orientation, motion_).sign_after(time) <= 0))
-      difference = "the cell of beads " + bead_names(v) + " is " + (sign < 0 ? "inverted" : "flat");
-  }
-  for_all_facets([&](CellId cell, int i) {
-    if (difference) return;
-    const CellBeads& v = triangulation_.cells()[cell].vertex;
-    std::array<BeadId, 5> five{v[0], v[1], v[2], v[3], apex(cell, i)};
-    const auto infinite = std::find(five.begin(), five.end(), infinite_bead);
-    int sign = 0;
-    if (infinite == five.end()) {
-      sign = PowerTest(five, 1).function(MomentView<M>(motion_, five, time)).scaled[0].sign();
-    } else {
-      std::array<BeadId, 4> four{};
-      std::copy(infinite + 1, five.end(), std::copy(five.begin(), infinite, four.begin()));
-      sign = Orientation(four, (infinite - five.begin()) % 2 == 0 ? 1 : -1)
-                 .function(MomentView<M>(motion_, four, time))
-                 .scaled[0]
-                 .sign();
-    }
-    if (sign < 0) difference = "the facet between beads " + bead_names(five) + " fails its test";
+  return triangulation_fault(triangulation_, bead_count(), frame, [&](const auto& function) {
+    const int sign = function.function(MomentView<M>(motion_, function.beads, time)).scaled[0].sign();
+    return sign != 0 || frame ? sign : exact_function(function, motion_).sign_after(time);
   });
-  return difference;
 }
 
 }  // namespace kds

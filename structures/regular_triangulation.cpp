@@ -13,7 +13,6 @@
 #include <stdexcept>
 
 #include "structures/sorted_cells.h"
-#include "structures/static_build.h"
 
 namespace kds {
 

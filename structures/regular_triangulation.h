@@ -48,6 +48,9 @@ struct StaticTriangulation {
 /// Built by CGAL with exact numbers. With `oriented`, infinite cells too, as they are; else as above.
 [[nodiscard]] StaticTriangulation static_triangulation(std::span<const ExactBead> beads, bool oriented);
 
+/// Seconds that CGAL takes for the same from doubles, which is what a user would do at every frame instead.
+[[nodiscard]] double seconds_to_triangulate(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+
 class RegularTriangulation {
  public:
   RegularTriangulation();

@@ -24,15 +24,15 @@ double seconds_of(Work&& work) {
 }  // namespace
 
 double seconds_to_wrap(const NecklaceTree& tree, const Eigen::Matrix3Xd& centers,
-                       std::span<const double> weights) {
+                       std::span<const double> radii) {
   using Geometry = CGAL::Simple_cartesian<double>;
   using Traits = CGAL::Min_sphere_of_spheres_d_traits_3<Geometry, double>;
   using MinSphere = CGAL::Min_sphere_of_spheres_d<Traits>;
   std::vector<Traits::Sphere> spheres;
-  spheres.reserve(weights.size());
-  for (std::size_t b = 0; b < weights.size(); ++b) {
+  spheres.reserve(radii.size());
+  for (std::size_t b = 0; b < radii.size(); ++b) {
     const auto c = centers.col(static_cast<Eigen::Index>(b));
-    spheres.emplace_back(Geometry::Point_3(c.x(), c.y(), c.z()), std::sqrt(weights[b]));
+    spheres.emplace_back(Geometry::Point_3(c.x(), c.y(), c.z()), radii[b]);
   }
   double sum = 0;  // used, so that no build can be left out
   const double seconds = seconds_of([&] {

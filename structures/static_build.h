@@ -12,10 +12,7 @@ namespace kds {
 /// Seconds that CGAL takes for the minimum enclosing sphere at every node (Min_sphere_of_spheres_d, its
 /// defaults).
 [[nodiscard]] double seconds_to_wrap(const NecklaceTree& tree, const Eigen::Matrix3Xd& centers,
-                                     std::span<const double> weights);
-
-/// Seconds that CGAL takes for the regular triangulation (Regular_triangulation_3 with exact predicates).
-[[nodiscard]] double seconds_to_triangulate(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+                                     std::span<const double> radii);
 
 /// Seconds to sort the beads along the first axis.
 [[nodiscard]] double seconds_to_sort(const Eigen::Matrix3Xd& centers);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -32,10 +31,10 @@ class WrappedHierarchy final : public KineticStructure {
         motion_(motion),
         tree_(necklaces),
         index_(simulator.add(*this)),
-        of_pairs_(simulator, *this, index_, 0, motion),
-        of_triples_(simulator, *this, index_, 1, motion),
-        of_singles_(simulator, *this, index_, 2, motion),
-        of_quadruples_(simulator, *this, index_, 3, motion),
+        of_singles_(simulator, *this, index_, 1, motion),
+        of_pairs_(simulator, *this, index_, 2, motion),
+        of_triples_(simulator, *this, index_, 3, motion),
+        of_quadruples_(simulator, *this, index_, 4, motion),
         nodes_(tree_.node_count()) {}
 
   enum Kind : std::uint8_t { enter, leave, pivot };
@@ -121,12 +120,12 @@ class WrappedHierarchy final : public KineticStructure {
   template <class Visit>
   void visit_table(unsigned table, Visit&& visit) {
     switch (table) {
-      case 0:
-        return visit(of_pairs_);
       case 1:
-        return visit(of_triples_);
-      case 2:
         return visit(of_singles_);
+      case 2:
+        return visit(of_pairs_);
+      case 3:
+        return visit(of_triples_);
       default:
         return visit(of_quadruples_);
     }
@@ -146,7 +145,7 @@ class WrappedHierarchy final : public KineticStructure {
   /// Guards the node's present basis; the first bead whose certificate is violated, if any.
   [[nodiscard]] std::optional<BeadId> watch_node(NodeId node);
   template <class Certificate>
-  [[nodiscard]] bool hold(NodeId node, const Certificate& certificate);
+  [[nodiscard]] Guard hold(NodeId node, const Certificate& certificate);
   void drop_node(NodeId node);
   /// The basis of the node's basis and `bead`, which escaped or is to spare.
   [[nodiscard]] bool repair(NodeId node, BeadId bead);
@@ -157,9 +156,10 @@ class WrappedHierarchy final : public KineticStructure {
   const M& motion_;
   NecklaceTree tree_;
   std::size_t index_;
+  // Tables are numbered by the size of the basis.
+  CertificateTable<BeadInSphere<1>, M, K> of_singles_;
   CertificateTable<BeadInSphere<2>, M, K> of_pairs_;
   CertificateTable<BeadInSphere<3>, M, K> of_triples_;
-  CertificateTable<BeadInSphere<1>, M, K> of_singles_;
   CertificateTable<PowerTest, M, K> of_quadruples_;
   std::vector<Node> nodes_;
   std::vector<Held> held_;
@@ -214,15 +214,15 @@ bool WrappedHierarchy<M, K>::repair(NodeId id, BeadId bead) {
 
 template <Motion M, Kernel K>
 template <class Certificate>
-bool WrappedHierarchy<M, K>::hold(NodeId id, const Certificate& certificate) {
+Guard WrappedHierarchy<M, K>::hold(NodeId id, const Certificate& certificate) {
   auto& table = table_of(certificate);
   const bool own_root = present_ && certificate.identity() == present_->identity;
-  if (own_root && certificate.side() == present_->side) return false;  // it has just failed
+  if (own_root && certificate.side() == present_->side) return Guard::violated;  // it has just failed
   const Guard guard = table.watch(certificate, id, own_root ? Birth::at_own_root : Birth::unknown);
-  if (guard == Guard::violated) return false;
-  if (guard == Guard::never) {
+  if (guard == Guard::violated) return guard;
+  if (!has_slot(guard)) {
     ++nodes_[id].never_failing;
-    return true;
+    return guard;
   }
   std::uint32_t place = 0;
   if (free_.empty()) {
@@ -234,7 +234,7 @@ bool WrappedHierarchy<M, K>::hold(NodeId id, const Certificate& certificate) {
   }
   held_[place] = {guard, nodes_[id].held, static_cast<std::uint8_t>(table.number())};
   nodes_[id].held = place;
-  return true;
+  return guard;
 }
 
 template <Motion M, Kernel K>
@@ -246,18 +246,19 @@ std::optional<BeadId> WrappedHierarchy<M, K>::watch_node(NodeId id) {
   // time.
   if (basis.size == 2 && move_together(basis.beads[0], basis.beads[1])) return basis.beads[1];
   if (basis.size >= 3) {
-    const std::uint64_t zeros = statistics.stages.identically_zero;
     for (const BeadId b : basis) {
-      const bool held =
+      const Guard guard =
           visit_membership(without(basis, b), b, false, 0, [&](const auto& c) { return hold(id, c); });
-      if (!held || statistics.stages.identically_zero != zeros) return b;
+      if (guard == Guard::violated || guard == Guard::zero) return b;
     }
   }
   const int orientation = orientation_of(basis, decide);
   const BeadRange range = tree_.range(id);
   for (BeadId b = range.first; b <= range.last; ++b) {
     if (basis.contains(b)) continue;
-    if (!visit_membership(basis, b, true, orientation, [&](const auto& c) { return hold(id, c); })) return b;
+    const Guard guard =
+        visit_membership(basis, b, true, orientation, [&](const auto& c) { return hold(id, c); });
+    if (guard == Guard::violated) return b;
   }
   return std::nullopt;
 }

@@ -10,6 +10,7 @@
 
 #include "experiments/session.h"
 #include "motions/instance.h"
+#include "structures/regular_triangulation.h"
 #include "structures/static_build.h"
 
 namespace {

@@ -73,8 +73,8 @@ TEST(Births, TouchingIsNoFailure) {
 
 TEST(Births, ZeroForeverNeverFails) {
   for (const double now : {0.0, 0.375}) {
-    EXPECT_EQ(agreed(curve<1>({0, 0}), now).kind, Kind::never);
-    EXPECT_EQ(agreed(curve<3>({0, 0, 0, 0}), now, behind).kind, Kind::never);
+    EXPECT_EQ(agreed(curve<1>({0, 0}), now).kind, Kind::zero);
+    EXPECT_EQ(agreed(curve<3>({0, 0, 0, 0}), now, behind).kind, Kind::zero);
   }
   StageCounts stages;
   EXPECT_EQ((sign_just_after<Filtered>(ahead, curve<1>({0, 0}), Instant(0), stages)), 0);
@@ -159,7 +159,7 @@ TEST(Stages, NothingIsToldApartFromZero) {
   }
   EXPECT_EQ(
       (first_failure<Filtered>(Orientation({0, 1, 2, 3}, 1), flat, Instant(0), Birth::unknown, stages).kind),
-      Kind::never);
+      Kind::zero);
   EXPECT_EQ(stages.identically_zero, 1U);
   EXPECT_EQ(stages.exact, 0U);
 }

@@ -197,23 +197,54 @@ TEST(FirstFailureAfter, IsTheFirstRootFromWhichItIsNegative) {
       touches += sturm::multiplicity(*root.sequence, root.judged, power) % 2 == 0;
     }
     EXPECT_GE(sign_after(ExactPolynomial(f), now.ours), 0);  // also narrows `now`, as is asked for
-    std::optional<ExactTime> found = first_failure_after(ExactPolynomial(f), now.ours);
+    const auto found = first_failure_after(ExactPolynomial(f), now.ours);
     ASSERT_EQ(found.has_value(), expected.has_value());
     if (!found) continue;
     ++failures;
-    EXPECT_EQ(ExactTime::compare(*found, expected->ours), 0);
-    expected->ours = *found;
+    EXPECT_FALSE(found->touch);
+    ExactTime time = found->time;
+    EXPECT_EQ(ExactTime::compare(time, expected->ours), 0);
+    expected->ours = time;
     expect_enclosed(*expected);
   }
   EXPECT_GT(failures, 150);
   EXPECT_GT(touches, 30);
 }
 
+TEST(FirstFailureAfter, ReportsTouchesWhereAsked) {
+  const ExactPolynomial p({1, -2, 1, 0});  // (1-u) (1-2u)^2 in scaled form: touches at 1/2
+  ExactTime start{Dyadic(0.0)};
+  ASSERT_EQ(sign_after(p, start), 1);
+  EXPECT_FALSE(first_failure_after(p, start).has_value());
+  auto touch = first_failure_after(p, start, Touches::reported);
+  ASSERT_TRUE(touch.has_value());
+  EXPECT_TRUE(touch->touch);
+  ExactTime half{Dyadic(0.5)};
+  EXPECT_EQ(ExactTime::compare(touch->time, half), 0);
+  EXPECT_FALSE(first_failure_after(p, touch->time, Touches::reported).has_value());
+  EXPECT_EQ(sign_at(p, half), 0);
+  EXPECT_EQ(sign_after(p, half), 1);
+}
+
+TEST(SignAt, IsZeroExactlyAtTheRoots) {
+  const ExactPolynomial p({1, -4, 1});  // 1 - 6u + 6u^2: roots (3 -+ sqrt 3) / 6
+  auto roots = isolate_roots(p, Dyadic(0.0), Dyadic(1.0));
+  ASSERT_EQ(roots.size(), 2U);
+  for (int i = 0; i < 2; ++i) {
+    ExactTime root(p, roots[static_cast<std::size_t>(i)]);
+    EXPECT_EQ(sign_at(p, root), 0);
+    EXPECT_EQ(sign_at(ExactPolynomial({2, -7, -2, 1}), root), 0);         // p times 2 - u
+    EXPECT_EQ(sign_at(ExactPolynomial({1, -1}), root), i == 0 ? 1 : -1);  // 1 - 2u
+    EXPECT_EQ(sign_at(ExactPolynomial(std::vector<Integer>{0, 0}), root), 0);
+  }
+}
+
 TEST(FirstFailureAfter, KnownCases) {
   const auto first = [](const Scaled& p, double now) {
     ExactTime time{Dyadic(now)};
     EXPECT_GE(sign_after(ExactPolynomial(p), time), 0);
-    return first_failure_after(ExactPolynomial(p), time);
+    const auto failure = first_failure_after(ExactPolynomial(p), time);
+    return failure ? std::optional(failure->time) : std::nullopt;
   };
   const auto is = [](std::optional<ExactTime> time, double u) {
     ExactTime expected{Dyadic(u)};

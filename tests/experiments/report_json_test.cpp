@@ -35,6 +35,7 @@ TEST(ReportJson, HasTheShapeOfTheContract) {
   EXPECT_EQ(json["input"]["radius_max"], 1.5);
   EXPECT_EQ(json["settings"]["kernel"], "filtered");
   EXPECT_EQ(json["engine"]["seconds"], 0.125);
+  EXPECT_EQ(json["engine"]["close_comparisons"], (Json{{"exact", 7}, {"ties", 2}}));
   EXPECT_EQ(json["fingerprint"], "0000000000abcdef");
   EXPECT_FALSE(json["version"].get<std::string>().empty());
 }
@@ -48,8 +49,9 @@ TEST(ReportJson, KeepsTheOrderOfStructuresAndKinds) {
   EXPECT_THAT(keys(structures["power"]["events"]), ElementsAre("total", "2-3", "3-2", "wander"));
   EXPECT_EQ(structures["power"]["events"]["total"], 30);
   EXPECT_EQ(structures["power"]["rebuilds"], 1);
-  EXPECT_THAT(keys(structures["wrapped"]["certificates"]),
-              ElementsAre("created", "never_failing", "cancelled", "failed", "peak", "per_bead_max"));
+  EXPECT_THAT(
+      keys(structures["wrapped"]["certificates"]),
+      ElementsAre("created", "never_failing", "cancelled", "failed", "touched", "peak", "per_bead_max"));
   EXPECT_EQ(structures["wrapped"]["certificates"]["never_failing"], 1234000);
   EXPECT_EQ(structures["wrapped"]["stages"]["isolation"], 234567);
   EXPECT_EQ(structures["wrapped"]["audits"], (Json{{"run", 4}, {"failed", 0}}));

@@ -39,5 +39,10 @@ TEST(Text, SplitsWithEmptyParts) {
   EXPECT_EQ(split("", ','), std::vector<std::string>{""});
 }
 
+TEST(Text, ShellWordsReadBack) {
+  EXPECT_EQ(shell_words({"a.xyz", "--radius", "element:fit"}), "a.xyz --radius element:fit");
+  EXPECT_EQ(shell_words({"my file", "", "it's"}), R"('my file' '' 'it'\''s')");
+}
+
 }  // namespace
 }  // namespace kds

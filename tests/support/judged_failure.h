@@ -34,7 +34,7 @@ struct JudgedFailure {
 inline JudgedFailure judged_failure(const ExactPolynomial& function, const JudgedTime& now) {
   sturm::Polynomial f = sturm::from_scaled(function.scaled());
   sturm::normalize(f);
-  if (f.empty()) return {};
+  if (f.empty()) return {Failure::Kind::zero, {}};
   if (sturm::sign_after(f, *now.sequence, now.root) < 0) return {Failure::Kind::at_birth, now};
   const auto sequence = std::make_shared<const sturm::Sequence>(f);
   for (const sturm::Root& root : sturm::roots_on(*sequence, 0, 1)) {

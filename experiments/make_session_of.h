@@ -1,0 +1,18 @@
+#pragma once
+// A session for one type of motion. Each is compiled in a file of its own, made from session_instance.cpp.in.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiments/session.h"
+#include "motions/bezier_motion.h"
+
+namespace kds {
+
+template <Motion M>
+[[nodiscard]] std::unique_ptr<Session> make_session_of(const Scene& scene,
+                                                       const std::vector<std::string>& structures,
+                                                       KernelName kernel, AuditMode audits);
+
+}  // namespace kds
