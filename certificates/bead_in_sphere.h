@@ -34,14 +34,7 @@ struct BeadInSphere {
   [[nodiscard]] bool side() const { return inside; }
 
   template <MotionView View>
-  [[nodiscard]] auto function(const View& view) const {
-    const auto value = inward(view);
-    return inside ? value : -value;
-  }
-
- private:
-  template <MotionView View>
-  [[nodiscard]] auto inward(const View& view) const {
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, Size + 1>& beads) {
     if constexpr (Size == 1) {
       const auto d = view.difference(beads[1], beads[0]);
       return -dot(d, d);

@@ -2,7 +2,9 @@
 // What a certificate type must offer. It names a few beads and has one function of time, written once over a
 // MotionView: positive while the certificate holds. The function must be homogeneous in lengths (weights
 // count as squares) and must not depend on the origin. Everything else is derived: the floating-point filter
-// and its error bound, the exact isolation, the order of simultaneous failures.
+// and its error bound, four certificates at once, the exact isolation, the order of simultaneous failures.
+//
+// The function is a static `formula(view, beads)`, or its negative where side() is false.
 
 #include <array>
 #include <concepts>
@@ -31,9 +33,19 @@ concept FunctionOfBeads = Motion<M> && requires(const F& f, const DoubleView<M>&
   {
     F {}
     } -> std::same_as<F>;
-  {f.beads};
-  { f.function(view).scaled[0] } -> std::convertible_to<double>;
+  { F::formula(view, f.beads).scaled[0] } -> std::convertible_to<double>;
 };
+
+/// The function itself, in the view's numbers.
+template <class F, MotionView View>
+[[nodiscard]] auto function_of(const F& f, const View& view) {
+  const auto value = F::formula(view, f.beads);
+  if constexpr (requires { f.side(); }) {
+    return f.side() ? value : -value;
+  } else {
+    return value;
+  }
+}
 
 template <class C, class M>
 concept CertificateFor = FunctionOfBeads<C, M> && requires(const C& certificate) {

@@ -18,7 +18,7 @@ struct SameTurn {
   std::array<BeadId, 6> beads{};  ///< three of the one triangle in their order, three of the other
 
   template <MotionView View>
-  [[nodiscard]] auto function(const View& view) const {
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 6>& beads) {
     return dot(normal(view, beads[0], beads[1], beads[2]), normal(view, beads[3], beads[4], beads[5]));
   }
 };
@@ -29,7 +29,7 @@ struct CentroidLeftOf {
   std::array<BeadId, 5> beads{};  ///< three of the triangle in their order, two of the line
 
   template <MotionView View>
-  [[nodiscard]] auto function(const View& view) const {
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 5>& beads) {
     const auto& [a, b, c, p, q] = beads;
     auto from_p = view.difference(a, p);  // three times the centroid, seen from p
     for (const BeadId other : {b, c}) {

@@ -10,7 +10,7 @@
 //
 // From these follow two bounds for the plain Bernstein coefficients c, whose division by binomials rounds
 // once more: any value at a double errs by at most uniform * M^h + value_rounding(n) * max|c|, and the
-// coefficients on any part of [0,1] that at most `subdivisions` subdivisions lead to by uniform * M^h +
+// coefficients on any part of [0,1], which two subdivisions lead to, by uniform * M^h +
 // local_rounding(n) * max|c|.
 //
 // One subdivision is n rounds of (1-t) a + t b. A round errs by at most 4u max|c| (two products, one sum,
@@ -25,7 +25,7 @@
 
 namespace kds {
 
-inline constexpr int subdivisions = 32;
+inline constexpr int subdivisions = 2;  // one cuts off what is after the part, one what is before
 [[nodiscard]] constexpr double value_rounding(int degree) {
   return 12 * Magnitude::unit_roundoff * (1 + 0x1p-30) * degree;
 }
@@ -48,9 +48,9 @@ struct ErrorBound {
 };
 
 template <class Certificate, class M>
-ErrorBound<decltype(Certificate{}.function(DoubleView<M>(std::declval<const M&>())))::degree>
+ErrorBound<decltype(function_of(Certificate{}, DoubleView<M>(std::declval<const M&>())))::degree>
 derive_error_bound() {
-  const auto magnitudes = Certificate{}.function(MagnitudeView<M::dimension, M::degree>{});
+  const auto magnitudes = function_of(Certificate{}, MagnitudeView<M::dimension, M::degree>{});
   constexpr int degree = decltype(magnitudes)::degree;
   constexpr double inflation = 1 + 0x1p-30;
   constexpr double u = Magnitude::unit_roundoff;

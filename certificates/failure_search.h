@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <optional>
+#include <span>
 
 #include "certificates/bounded_polynomial.h"
 #include "certificates/certificate.h"
@@ -12,6 +14,7 @@
 #include "certificates/failure_time.h"
 #include "certificates/instant.h"
 #include "certificates/kernel.h"
+#include "certificates/settle_lanes.h"
 #include "certificates/stage_counts.h"
 
 namespace kds {
@@ -28,7 +31,7 @@ enum class Birth {
 // Rarely called and large: one copy for all kernels.
 template <class Certificate, Motion M>
 [[nodiscard, gnu::noinline]] ExactPolynomial exact_function(const Certificate& certificate, const M& motion) {
-  return ExactPolynomial(certificate.function(IntegerView<M>(motion, certificate.beads)));
+  return ExactPolynomial(function_of(certificate, IntegerView<M>(motion, certificate.beads)));
 }
 
 /// The exact failure as a bracket in doubles.
@@ -62,7 +65,7 @@ void finish(Bounded<Degree>& bounded, double uniform_error) {
 template <class Certificate, Motion M>
 [[nodiscard, gnu::noinline]] auto bounded_function(const Certificate& certificate, const M& motion) {
   const DoubleView<M> view(motion);
-  const auto function = certificate.function(view);
+  const auto function = function_of(certificate, view);
   constexpr int degree = decltype(function)::degree;
   const auto& bound = error_bound<Certificate, M>;
   const double scale = bound.scale(view.largest_length());
@@ -79,7 +82,7 @@ template <class Certificate, Motion M>
 /// With errors followed operation by operation.
 template <class Certificate, Motion M>
 [[nodiscard, gnu::noinline]] auto tracked_function(const Certificate& certificate, const M& motion) {
-  const auto function = certificate.function(TrackedView<M>(motion));
+  const auto function = function_of(certificate, TrackedView<M>(motion));
   constexpr int degree = decltype(function)::degree;
   Bounded<degree> result{{{}, 0, 0}, true};
   double uniform = 0;
@@ -98,17 +101,21 @@ template <class Certificate, Motion M>
   return result;
 }
 
+/// Certainly positive from the present time on. At its own root the bracket holds no other one, and its upper
+/// end tells.
+template <int Degree>
+[[nodiscard]] bool starts_positive(const BoundedPolynomial<Degree>& function, const Instant& now,
+                                   Birth birth) {
+  return birth == Birth::at_own_root ? now.isolating() && function.certain_sign_at(now.upper()) > 0
+                                     : function.certain_sign_on(now.lower(), now.upper()) > 0;
+}
+
 /// Settles a certificate in double, or nothing.
 template <int Degree>
 [[nodiscard]] std::optional<Failure> settle(const Bounded<Degree>& bounded, const Instant& now, Birth birth) {
   if (bounded.positive) return Failure{};
   const BoundedPolynomial<Degree>& function = bounded.function;
-  // Positive from the present time on? At its own root the bracket holds no other one, and its upper end
-  // tells.
-  const bool starts_positive = birth == Birth::at_own_root
-                                   ? now.isolating() && function.certain_sign_at(now.upper()) > 0
-                                   : function.certain_sign_on(now.lower(), now.upper()) > 0;
-  if (!starts_positive) return std::nullopt;
+  if (!starts_positive(function, now, birth)) return std::nullopt;
   const auto result = function.first_descent(now.upper());
   switch (result.verdict) {
     case Verdict::never:
@@ -154,28 +161,87 @@ template <class Certificate, Motion M>
 
 }  // namespace detail
 
+namespace detail {
+
+/// The stages after the certificate type's own filter.
+template <class Certificate, Motion M>
+[[nodiscard]] Failure careful_first_failure(const Certificate& certificate, const M& motion,
+                                            const Instant& now, Birth birth, StageCounts& stages,
+                                            Touches touches) {
+  if (const auto failure = settle(tracked_function(certificate, motion), now, birth)) {
+    ++stages.refined;
+    return *failure;
+  }
+  // Whatever touches zero comes here: doubles prove signs, and a zero has none.
+  return exact_first_failure(exact_function(certificate, motion), now, stages, touches);
+}
+
+/// Up to four certificates at once.
+template <class Certificate, Motion M>
+void filtered_first_failures(std::span<const Certificate> certificates, const M& motion, const Instant& now,
+                             std::span<const Birth> births, StageCounts& stages, Touches touches,
+                             std::span<Failure> failures) {
+  constexpr int degree = decltype(function_of(Certificate{}, DoubleView<M>(motion)))::degree;
+  typename LanesView<M, bead_places<Certificate>>::Tuples tuples;
+  Lanes sides;
+  LanesNow lanes_now{now.lower(), now.upper(), now.isolating(), 0};
+  for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+    const std::size_t i = std::min(lane, certificates.size() - 1);
+    tuples[lane] = certificates[i].beads;
+    sides.v[lane] = certificates[i].side() ? 1 : -1;
+    if (births[i] == Birth::at_own_root) lanes_now.at_own_root |= 1U << lane;
+  }
+  LanesOutcome<degree> outcome;
+  settle_lanes<Certificate>(motion, tuples, sides, lanes_now, outcome);
+  LanesDescent<degree>& descent = outcome.descent;
+  LanesSearch search{outcome.positive | outcome.never, outcome.found};
+  if (Lanes::any(outcome.unclear)) isolate_lanes(descent, now.upper(), outcome.unclear, search);
+  if (Lanes::any(search.found)) narrow_lanes(descent, search.found);
+  for (std::size_t lane = 0; lane < certificates.size(); ++lane) {
+    if (search.never[lane] != 0) {
+      ++(outcome.positive[lane] != 0 ? stages.coefficients : stages.isolation);
+      failures[lane] = {};
+    } else if (search.found[lane] != 0) {
+      ++stages.isolation;
+      failures[lane] = {Failure::Kind::later, {descent.lower.v[lane], descent.upper.v[lane], 0, true}};
+    } else {
+      failures[lane] = careful_first_failure(certificates[lane], motion, now, births[lane], stages, touches);
+    }
+  }
+}
+
+}  // namespace detail
+
+/// When each of these certificates, born now, fails for the first time in the motion's step.
+template <Kernel K, class Certificate, Motion M>
+requires CertificateFor<Certificate, M>
+void first_failures(std::span<const Certificate> certificates, const M& motion, const Instant& now,
+                    std::span<const Birth> births, StageCounts& stages, Touches touches,
+                    std::span<Failure> failures) {
+  if constexpr (std::same_as<K, Filtered>) {
+    for (std::size_t i = 0; i < certificates.size(); i += Lanes::width) {
+      const std::size_t count = std::min(Lanes::width, certificates.size() - i);
+      detail::filtered_first_failures(certificates.subspan(i, count), motion, now, births.subspan(i, count),
+                                      stages, touches, failures.subspan(i, count));
+    }
+  } else {
+    for (std::size_t i = 0; i < certificates.size(); ++i) {
+      failures[i] = std::same_as<K, Fast>
+                        ? detail::fast_first_failure(certificates[i], motion, now, births[i], stages)
+                        : exact_first_failure(exact_function(certificates[i], motion), now, stages, touches);
+    }
+  }
+}
+
 /// When `certificate`, born now, fails for the first time in the motion's step.
 template <Kernel K, class Certificate, Motion M>
 requires CertificateFor<Certificate, M>
 [[nodiscard]] Failure first_failure(const Certificate& certificate, const M& motion, const Instant& now,
                                     Birth birth, StageCounts& stages, Touches touches = Touches::ignored) {
-  if constexpr (std::same_as<K, Fast>) {
-    return detail::fast_first_failure(certificate, motion, now, birth, stages);
-  } else {
-    if constexpr (std::same_as<K, Filtered>) {
-      const auto bounded = detail::bounded_function(certificate, motion);
-      if (const auto failure = detail::settle(bounded, now, birth)) {
-        ++(bounded.positive ? stages.coefficients : stages.isolation);
-        return *failure;
-      }
-      if (const auto failure = detail::settle(detail::tracked_function(certificate, motion), now, birth)) {
-        ++stages.refined;
-        return *failure;
-      }
-    }
-    // Whatever touches zero comes here: doubles prove signs, and a zero has none.
-    return exact_first_failure(exact_function(certificate, motion), now, stages, touches);
-  }
+  Failure failure;
+  first_failures<K>(std::span(&certificate, 1), motion, now, std::span(&birth, 1), stages, touches,
+                    std::span(&failure, 1));
+  return failure;
 }
 
 namespace detail {

@@ -27,10 +27,9 @@ struct Orientation {
   [[nodiscard]] bool side() const { return sign > 0; }
 
   template <MotionView View>
-  [[nodiscard]] auto function(const View& view) const {
-    const auto value = determinant(view.difference(beads[1], beads[0]), view.difference(beads[2], beads[0]),
-                                   view.difference(beads[3], beads[0]));
-    return sign > 0 ? value : -value;
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 4>& beads) {
+    return determinant(view.difference(beads[1], beads[0]), view.difference(beads[2], beads[0]),
+                       view.difference(beads[3], beads[0]));
   }
 };
 

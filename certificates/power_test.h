@@ -28,7 +28,7 @@ struct PowerTest {
   [[nodiscard]] bool side() const { return sign > 0; }
 
   template <MotionView View>
-  [[nodiscard]] auto function(const View& view) const {
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 5>& beads) {
     using Number = typename View::Number;
     std::array<BernsteinVector<Number, View::degree, 3>, 4> rows;
     std::array<Bernstein<Number, 2 * View::degree>, 4> lifted;
@@ -37,8 +37,7 @@ struct PowerTest {
       lifted[i] =
           dot(rows[i], rows[i]) - elevate<2 * View::degree>(view.weight_difference(beads[i + 1], beads[0]));
     }
-    const auto value = determinant(rows, lifted);
-    return sign > 0 ? value : -value;
+    return determinant(rows, lifted);
   }
 };
 

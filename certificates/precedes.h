@@ -2,21 +2,27 @@
 // "Bead left lies before bead right along the first axis." Exact; degree k for centres of degree k.
 
 #include "certificates/certificate.h"
+#include "certificates/sorted_beads.h"
 
 namespace kds {
 
 struct Precedes {
-  std::array<BeadId, 2> beads{};  ///< left, right
+  std::array<BeadId, 2> beads{};  ///< ascending
+  int sign = 1;
+
+  Precedes() = default;
+  /// Holds while the first bead lies before the second.
+  Precedes(std::array<BeadId, 2> in_order) : beads(in_order), sign(sort_beads(beads)) {}
 
   [[nodiscard]] Identity identity() const {
-    const auto [low, high] = std::minmax(beads[0], beads[1]);
-    return {static_cast<std::uint32_t>(CertificateType::precedes), {low, high, no_bead, no_bead, no_bead}};
+    return {static_cast<std::uint32_t>(CertificateType::precedes),
+            {beads[0], beads[1], no_bead, no_bead, no_bead}};
   }
 
-  [[nodiscard]] bool side() const { return beads[0] < beads[1]; }
+  [[nodiscard]] bool side() const { return sign > 0; }
 
   template <MotionView View>
-  [[nodiscard]] auto function(const View& view) const {
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 2>& beads) {
     return view.difference(beads[1], beads[0])[0];
   }
 };

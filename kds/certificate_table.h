@@ -3,7 +3,10 @@
 // forgotten; the others get a slot here and an entry in the queue. No allocation per certificate once the
 // table has grown.
 
+#include <algorithm>
+#include <concepts>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "certificates/failure_search.h"
@@ -37,44 +40,24 @@ class CertificateTable final : public FailureSource {
     simulator.add_table(*this);
   }
 
-  /// Guards the structure by `certificate` from now to the end of the step. `place` says where it stands in
-  /// the structure: it comes back with the failure and breaks ties of one function.
+  /// Guards the structure by certificates from now to the end of the step. `places` say where they stand in
+  /// the structure: they come back with failures and break ties of one function.
+  void watch(std::span<const Certificate> certificates, std::span<const std::uint32_t> places,
+             std::span<const Birth> births, std::span<Guard> guards) {
+    failures_.assign(certificates.size(), {});
+    if (looks_at(certificates.size())) {
+      first_failures<K>(certificates, motion_, simulator_.now(), births, owner_.statistics.stages, touches_,
+                        std::span(failures_));
+    }
+    for (std::size_t i = 0; i < certificates.size(); ++i)
+      guards[i] = hold(certificates[i], places[i], failures_[i]);
+  }
+  /// The same for one.
   [[nodiscard]] Guard watch(const Certificate& certificate, std::uint32_t place,
                             Birth birth = Birth::unknown) {
-    StructureStatistics& statistics = owner_.statistics;
-    ++statistics.certificates.created;
-    if constexpr (std::same_as<K, Fast>) {
-      // Doubles may contradict themselves without end: after so many certificates in a step none is looked at
-      // any more.
-      if (++created_in_step_ > 1'000'000 + 100'000 * motion_.bead_count()) {
-        statistics.certificates.peak =
-            std::max(statistics.certificates.peak, ++statistics.certificates.alive);
-        ++statistics.certificates.never_failing;
-        return Guard::never;
-      }
-    }
-    const Failure failure =
-        first_failure<K>(certificate, motion_, simulator_.now(), birth, statistics.stages, touches_);
-    if (failure.kind == Failure::Kind::at_birth) {
-      ++statistics.certificates.failed;
-      return Guard::violated;
-    }
-    statistics.certificates.peak = std::max(statistics.certificates.peak, ++statistics.certificates.alive);
-    if (failure.kind != Failure::Kind::later) {
-      ++statistics.certificates.never_failing;
-      return failure.kind == Failure::Kind::zero ? Guard::zero : Guard::never;
-    }
-    std::uint32_t slot = 0;
-    if (free_.empty()) {
-      slot = static_cast<std::uint32_t>(entries_.size());
-      entries_.emplace_back();
-    } else {
-      slot = free_.back();
-      free_.pop_back();
-    }
-    entries_[slot] = {certificate, place, 0, failure.time.touch};
-    entries_[slot].handle = simulator_.schedule(failure.time, *this, slot);
-    return static_cast<Guard>(slot);
+    Guard guard;
+    watch(std::span(&certificate, 1), std::span(&place, 1), std::span(&birth, 1), std::span(&guard, 1));
+    return guard;
   }
 
   /// Gives up a certificate that has not failed.
@@ -136,6 +119,39 @@ class CertificateTable final : public FailureSource {
     bool touch = false;
   };
 
+  /// Doubles may contradict themselves without end: after so many certificates in a step, `fast` looks at
+  /// none any more.
+  [[nodiscard]] bool looks_at(std::size_t count) {
+    if constexpr (!std::same_as<K, Fast>) return true;
+    created_in_step_ += count;
+    return created_in_step_ <= 1'000'000 + 100'000 * motion_.bead_count();
+  }
+
+  [[nodiscard]] Guard hold(const Certificate& certificate, std::uint32_t place, const Failure& failure) {
+    CertificateCounts& counts = owner_.statistics.certificates;
+    ++counts.created;
+    if (failure.kind == Failure::Kind::at_birth) {
+      ++counts.failed;
+      return Guard::violated;
+    }
+    counts.peak = std::max(counts.peak, ++counts.alive);
+    if (failure.kind != Failure::Kind::later) {
+      ++counts.never_failing;
+      return failure.kind == Failure::Kind::zero ? Guard::zero : Guard::never;
+    }
+    std::uint32_t slot = 0;
+    if (free_.empty()) {
+      slot = static_cast<std::uint32_t>(entries_.size());
+      entries_.emplace_back();
+    } else {
+      slot = free_.back();
+      free_.pop_back();
+    }
+    entries_[slot] = {certificate, place, 0, failure.time.touch};
+    entries_[slot].handle = simulator_.schedule(failure.time, *this, slot);
+    return static_cast<Guard>(slot);
+  }
+
   Simulator& simulator_;
   KineticStructure& owner_;
   std::size_t structure_;
@@ -144,6 +160,7 @@ class CertificateTable final : public FailureSource {
   Touches touches_;
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> free_;
+  std::vector<Failure> failures_;
   std::uint64_t created_in_step_ = 0;
 };
 

@@ -80,12 +80,14 @@ class PowerDiagram final : public KineticStructure {
     if (FacetGuard& held = guard(cell, facet); held.about == About::cell) {
       held.guard = Guard::violated;
       if (!touch) return suspect(Doubt::wrong);  // cospherical cells turn over: no flip tells how to go on
-      held.guard = watched(Orientation(triangulation_.cells()[cell].vertex, 1), cell, facet);
-      return;
+      return watch_cell(cell, facet);
     }
     forget(cell, facet);
     if (doubt_ == Doubt::wrong) return;
-    if (touch) return watch(cell, facet);
+    if (touch) {
+      enqueue(cell, facet);
+      return watch_enqueued();
+    }
     present_ = table == 0 ? power_tests_.identity(slot) : orientations_.identity(slot);
     if (simulator_.moment() == last_moment_ && present_ != last_identity_) suspect(Doubt::unclear);
     last_moment_ = simulator_.moment();
@@ -163,6 +165,26 @@ class PowerDiagram final : public KineticStructure {
   /// In general position an event changes one flip's beads and nothing else. Where more happens at once, or a
   /// certificate touches zero, the diagram is checked after it, and rebuilt if it is wrong: cells can turn
   /// over unseen only at such moments.
+  /// Certificates to be watched together.
+  template <class Certificate>
+  struct Batch {
+    std::vector<Certificate> certificates;
+    std::vector<std::uint32_t> places;
+    std::vector<Birth> births;
+    std::vector<Guard> guards;
+
+    void add(const Certificate& certificate, std::uint32_t place, Birth birth) {
+      certificates.push_back(certificate);
+      places.push_back(place);
+      births.push_back(birth);
+    }
+    void clear() {
+      certificates.clear();
+      places.clear();
+      births.clear();
+    }
+  };
+
   enum class Doubt : std::uint8_t { none, unclear, wrong };
   void suspect(Doubt doubt) {
     doubt_ = std::max(doubt_, doubt);
@@ -257,13 +279,23 @@ class PowerDiagram final : public KineticStructure {
   }
   void forget(CellId cell, int i) { set_guard(cell, i, {}); }
 
-  void watch(CellId cell, int i);
+  static std::uint32_t place(CellId cell, int i) { return 4 * cell + static_cast<std::uint32_t>(i); }
   template <class Certificate>
-  [[nodiscard]] Guard watched(const Certificate& certificate, CellId cell, int i);
+  [[nodiscard]] Birth birth_of(const Certificate& certificate) const {
+    return certificate.identity() == present_ ? Birth::at_own_root : Birth::unknown;
+  }
+  auto& batch_of(const PowerTest&) { return power_batch_; }
+  auto& batch_of(const Orientation&) { return hull_batch_; }
+  /// Facets are guarded together: enqueue some, then watch them.
+  void enqueue(CellId cell, int i);
+  void watch_enqueued();
+  void watch_cells_beside(CellId cell, int i);
+  void watch_cell(CellId cell, int i);
   void drop(CellId cell, int i);
   void watch_all() {
     guards_.assign(triangulation_.cells().size(), {});
-    for_all_facets([this](CellId cell, int i) { watch(cell, i); });
+    for_all_facets([this](CellId cell, int i) { enqueue(cell, i); });
+    watch_enqueued();
   }
   template <class Visit>
   void for_all_facets(Visit visit) const {
@@ -295,6 +327,8 @@ class PowerDiagram final : public KineticStructure {
   std::size_t index_;
   CertificateTable<PowerTest, M, K> power_tests_;
   CertificateTable<Orientation, M, K> orientations_;
+  Batch<PowerTest> power_batch_;
+  Batch<Orientation> hull_batch_;
   RegularTriangulation triangulation_;
   std::vector<std::array<FacetGuard, 4>> guards_;
   std::vector<BeadId> hidden_;
@@ -308,32 +342,43 @@ class PowerDiagram final : public KineticStructure {
 };
 
 template <Motion M, Kernel K>
-void PowerDiagram<M, K>::watch(CellId cell, int i) {
-  const FacetGuard facet = with_facet_certificate(
-      triangulation_.cells()[cell].vertex, apex(cell, i),
-      [&]<class Certificate>(const Certificate& certificate) {
-        return FacetGuard{watched(certificate, cell, i),
-                          std::same_as<Certificate, PowerTest> ? About::power : About::hull};
-      });
-  if (facet.guard != Guard::zero || facet.about == About::hull) return set_guard(cell, i, facet);
-  power_tests_.drop(facet.guard);
-  for (const auto& [own, k] : {std::pair(cell, i), across(cell, i)})
-    guard(own, k) = {watched(Orientation(triangulation_.cells()[own].vertex, 1), own, k), About::cell};
+void PowerDiagram<M, K>::enqueue(CellId cell, int i) {
+  with_facet_certificate(triangulation_.cells()[cell].vertex, apex(cell, i),
+                         [&]<class Certificate>(const Certificate& certificate) {
+                           batch_of(certificate).add(certificate, place(cell, i), birth_of(certificate));
+                         });
 }
 
 template <Motion M, Kernel K>
-template <class Certificate>
-Guard PowerDiagram<M, K>::watched(const Certificate& certificate, CellId cell, int i) {
-  const std::uint32_t place = 4 * cell + static_cast<std::uint32_t>(i);
-  const Birth birth = certificate.identity() == present_ ? Birth::at_own_root : Birth::unknown;
-  Guard guard = Guard::violated;
-  if constexpr (std::same_as<Certificate, PowerTest>) {
-    guard = power_tests_.watch(certificate, place, birth);
-  } else {
-    guard = orientations_.watch(certificate, place, birth);
-  }
-  if (guard == Guard::violated) suspect(Doubt::wrong);
-  return guard;
+void PowerDiagram<M, K>::watch_enqueued() {
+  const auto watch = [this](auto& table, auto& batch, About about) {
+    batch.guards.resize(batch.certificates.size());
+    table.watch(batch.certificates, batch.places, batch.births, batch.guards);
+    for (std::size_t b = 0; b < batch.guards.size(); ++b) {
+      const CellId cell = batch.places[b] / 4;
+      const int i = static_cast<int>(batch.places[b] % 4);
+      if (batch.guards[b] == Guard::violated) suspect(Doubt::wrong);
+      set_guard(cell, i, {batch.guards[b], about});
+      if (batch.guards[b] == Guard::zero && about == About::power) watch_cells_beside(cell, i);
+    }
+    batch.clear();
+  };
+  watch(power_tests_, power_batch_, About::power);
+  watch(orientations_, hull_batch_, About::hull);
+}
+
+/// Where a power test is zero for the whole step.
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::watch_cells_beside(CellId cell, int i) {
+  power_tests_.drop(guard(cell, i).guard);
+  for (const auto& [own, k] : {std::pair(cell, i), across(cell, i)}) watch_cell(own, k);
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::watch_cell(CellId cell, int i) {
+  const Orientation orientation(triangulation_.cells()[cell].vertex, 1);
+  guard(cell, i) = {orientations_.watch(orientation, place(cell, i), birth_of(orientation)), About::cell};
+  if (guard(cell, i).guard == Guard::violated) suspect(Doubt::wrong);
 }
 
 /// Gives up a facet's guard. One of other beads that fails right now as well would have meant another change.
@@ -489,9 +534,10 @@ void PowerDiagram<M, K>::watch_around(const std::array<CellId, N>& cells) {
     for (int i = 0; i < 4; ++i) {
       // A facet between two new cells is met twice.
       const auto before = cells.begin() + static_cast<std::ptrdiff_t>(c);
-      if (std::find(cells.begin(), before, neighbor(cells[c], i)) == before) watch(cells[c], i);
+      if (std::find(cells.begin(), before, neighbor(cells[c], i)) == before) enqueue(cells[c], i);
     }
   }
+  watch_enqueued();
 }
 
 template <Motion M, Kernel K>
@@ -604,7 +650,7 @@ std::optional<std::string> PowerDiagram<M, K>::audit(const Dyadic& time) {
   // events what is zero at this very moment only is judged by its sign just after.
   const bool frame = start || end;
   return triangulation_fault(triangulation_, bead_count(), frame, [&](const auto& function) {
-    const int sign = function.function(MomentView<M>(motion_, function.beads, time)).scaled[0].sign();
+    const int sign = function_of(function, MomentView<M>(motion_, function.beads, time)).scaled[0].sign();
     return sign != 0 || frame ? sign : exact_function(function, motion_).sign_after(time);
   });
 }

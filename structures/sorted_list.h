@@ -65,7 +65,7 @@ class SortedList final : public KineticStructure {
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override {
     for (std::size_t i = 0; i + 1 < order_.size(); ++i) {
       const Precedes pair{{order_[i], order_[i + 1]}};
-      if (pair.function(MomentView<M>(motion_, pair.beads, time)).scaled[0] < 0) {
+      if (function_of(pair, MomentView<M>(motion_, pair.beads, time)).scaled[0] < 0) {
         return "beads " + std::to_string(order_[i]) + " and " + std::to_string(order_[i + 1]) +
                " are out of order";
       }

@@ -96,7 +96,7 @@ class WrappedHierarchy final : public KineticStructure {
     const Dyadic& time;
     template <class Certificate>
     int operator()(const Certificate& c) const {
-      return c.function(MomentView<M>(motion, c.beads, time)).scaled[0].sign();
+      return function_of(c, MomentView<M>(motion, c.beads, time)).scaled[0].sign();
     }
   };
   struct Present {

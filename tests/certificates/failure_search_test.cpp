@@ -115,7 +115,7 @@ TYPED_TEST_SUITE(FailureSearch, Subjects);
 // Fewer for types of high degree, where the judge is slow.
 template <class S>
 constexpr int rounds(int linear) {
-  using Function = decltype(typename S::C{}.function(MagnitudeView<S::M::dimension, S::M::degree>{}));
+  using Function = decltype(function_of(typename S::C{}, MagnitudeView<S::M::dimension, S::M::degree>{}));
   return Function::degree <= 6 ? linear : linear / (2 * Function::degree) + 1;
 }
 

@@ -19,7 +19,7 @@ struct Decide {
   Dyadic time{0.0};
   template <class Certificate>
   int operator()(const Certificate& c) const {
-    return c.function(MomentView<Space>(motion, c.beads, time)).scaled[0].sign();
+    return function_of(c, MomentView<Space>(motion, c.beads, time)).scaled[0].sign();
   }
 };
 static_assert(SignDecider<Decide>);

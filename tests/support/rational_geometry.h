@@ -83,7 +83,7 @@ inline RationalPoint combination(std::span<const RationalPoint> points,
 /// Sign of a certificate's function at a time, from the exact position then.
 template <class Certificate, Motion M>
 int sign_at(const Certificate& certificate, const M& motion, const Dyadic& time) {
-  const auto function = certificate.function(MomentView<M>(motion, certificate.beads, time));
+  const auto function = function_of(certificate, MomentView<M>(motion, certificate.beads, time));
   static_assert(decltype(function)::degree == 0);
   return (function.scaled[0] > 0) - (function.scaled[0] < 0);
 }

@@ -1,0 +1,75 @@
+#pragma once
+// The first descent of four polynomials at once: walks along each from the left, by a step that doubles while
+// all coefficients on it are positive and halves while they show nothing, until one holds a single root. No
+// allocation, bounded work; what it cannot prove it says so.
+
+#include "certificates/narrow_lanes.h"
+
+namespace kds {
+
+/// What coefficients with errors say of a polynomial on their interval.
+struct LanesShape {
+  Lanes::Mask positive;     ///< all over it
+  Lanes::Mask one_descent;  ///< positive at its start, negative at its end, one root between
+};
+
+template <std::size_t N>
+[[gnu::always_inline]] inline LanesShape shape_of(const std::array<Lanes, N>& c, const Lanes& error) {
+  Lanes::Mask before = c[0] > error;
+  Lanes::Mask after = c[N - 1] < -error;
+  const Lanes::Mask descends = before & after;
+  Lanes::Mask certain = -(before + after);
+  for (std::size_t k = 1; k < N; ++k) {
+    before &= c[k] > error;
+    after &= c[N - 1 - k] < -error;
+    certain -= before + after;
+  }
+  // + ... + ? - ... - with one doubtful coefficient or none has exactly one sign variation whatever that one
+  // is: one root, by Descartes.
+  constexpr long enough = N - 1;
+  return {before, descends & (certain >= Lanes::Mask{enough, enough, enough, enough})};
+}
+
+/// In place: the polynomial on [0, u] from that on [0, 1].
+template <std::size_t N>
+[[gnu::always_inline]] inline void casteljau_left(std::array<Lanes, N>& c, const Lanes& u) {
+  const Lanes v = Lanes(1.0) - u;
+  for (std::size_t round = 1; round < N; ++round) {
+    for (std::size_t i = N - 1; i >= round; --i) c[i] = v * c[i - 1] + u * c[i];
+  }
+}
+
+struct LanesSearch {
+  Lanes::Mask never{};  ///< positive to the end
+  Lanes::Mask found{};  ///< isolated
+};
+
+/// Searches the wanted lanes after `from`, where they are certainly positive.
+template <int Degree>
+[[KDS_LANES_TARGETS]] void isolate_lanes(LanesDescent<Degree>& descent, double from,
+                                         const Lanes::Mask& wanted, LanesSearch& result) {
+  constexpr int most_steps = 100;
+  Lanes::Mask searching = wanted;
+  Lanes lower(from);
+  Lanes step((1 - from) * 0.5);
+  for (int count = 0; count < most_steps && Lanes::any(searching); ++count) {
+    const Lanes upper = Lanes::min(lower + step, Lanes(1.0));
+    LanesCoefficients<Degree> part = descent.bernstein;
+    casteljau_left(part, upper);
+    casteljau(part, lower / upper);
+    const LanesShape shape = shape_of(part, descent.local_error);
+    const Lanes::Mask found = searching & shape.one_descent;
+    const Lanes::Mask never = searching & shape.positive & (upper >= Lanes(1.0));
+    for (std::size_t k = 0; k < part.size(); ++k)
+      descent.part[k] = Lanes::choose(found, part[k], descent.part[k]);
+    descent.lower = Lanes::choose(found, lower, descent.lower);
+    descent.upper = Lanes::choose(found, upper, descent.upper);
+    result.found |= found;
+    result.never |= never;
+    lower = Lanes::choose(shape.positive, upper, lower);
+    step = Lanes::choose(shape.positive, step + step, step * Lanes(0.5));
+    searching &= ~(found | never) & (step > Lanes(0x1p-30)) & (lower < Lanes(1.0));
+  }
+}
+
+}  // namespace kds

@@ -1,0 +1,69 @@
+#pragma once
+// Four doubles that go through the same operations side by side, rounded each like any double. Functions
+// marked KDS_LANES_TARGETS are compiled twice, with and without AVX2, and the right one is taken when the
+// program starts; both give the same bits.
+
+#include <array>
+#include <cstddef>
+
+namespace kds {
+
+// Everything called from such a function must be inlined into it: code compiled for other targets passes
+// vectors in other ways.
+#if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__)
+#define KDS_LANES_TARGETS gnu::target_clones("avx2", "default"), gnu::flatten, gnu::noinline
+#else
+#define KDS_LANES_TARGETS gnu::noinline
+#endif
+
+class Lanes {
+ public:
+  static constexpr std::size_t width = 4;
+  using Vector = double __attribute__((vector_size(32)));
+  using Mask = decltype(Vector{} < Vector{});  // of whole numbers: -1 where true, else 0
+
+  Vector v{};
+
+  Lanes() = default;
+  [[gnu::always_inline]] Lanes(Vector vector) : v(vector) {}
+  [[gnu::always_inline]] explicit Lanes(double all) : v{all, all, all, all} {}
+
+  [[gnu::always_inline]] Lanes& operator+=(const Lanes& o) {
+    v += o.v;
+    return *this;
+  }
+  [[gnu::always_inline]] Lanes& operator-=(const Lanes& o) {
+    v -= o.v;
+    return *this;
+  }
+  [[gnu::always_inline]] friend Lanes operator+(const Lanes& a, const Lanes& b) { return a.v + b.v; }
+  [[gnu::always_inline]] friend Lanes operator-(const Lanes& a, const Lanes& b) { return a.v - b.v; }
+  [[gnu::always_inline]] friend Lanes operator*(const Lanes& a, const Lanes& b) { return a.v * b.v; }
+  [[gnu::always_inline]] friend Lanes operator/(const Lanes& a, const Lanes& b) { return a.v / b.v; }
+  [[gnu::always_inline]] friend Lanes operator-(const Lanes& a) { return -a.v; }
+  [[gnu::always_inline]] friend Mask operator<(const Lanes& a, const Lanes& b) { return a.v < b.v; }
+  [[gnu::always_inline]] friend Mask operator>(const Lanes& a, const Lanes& b) { return a.v > b.v; }
+  [[gnu::always_inline]] friend Mask operator<=(const Lanes& a, const Lanes& b) { return a.v <= b.v; }
+  [[gnu::always_inline]] friend Mask operator>=(const Lanes& a, const Lanes& b) { return a.v >= b.v; }
+
+  /// a where the mask is true, else b.
+  [[gnu::always_inline]] static Lanes choose(const Mask& mask, const Lanes& a, const Lanes& b) {
+    return mask ? a.v : b.v;
+  }
+  /// As std::max: a where it is not below b, a NaN in a too.
+  [[gnu::always_inline]] static Lanes max(const Lanes& a, const Lanes& b) { return choose(a < b, b, a); }
+  [[gnu::always_inline]] static Lanes min(const Lanes& a, const Lanes& b) { return choose(b < a, b, a); }
+  [[gnu::always_inline]] static Lanes abs(const Lanes& a) {
+    const Mask magnitude{0x7fffffffffffffffLL, 0x7fffffffffffffffLL, 0x7fffffffffffffffLL,
+                         0x7fffffffffffffffLL};
+    return reinterpret_cast<Vector>(reinterpret_cast<Mask>(a.v) & magnitude);
+  }
+  [[gnu::always_inline]] static bool any(const Mask& mask) {
+    return ((mask[0] | mask[1]) | (mask[2] | mask[3])) != 0;
+  }
+  [[gnu::always_inline]] static bool all(const Mask& mask) {
+    return ((mask[0] & mask[1]) & (mask[2] & mask[3])) != 0;
+  }
+};
+
+}  // namespace kds

@@ -1,0 +1,71 @@
+#pragma once
+// Four tuples of beads of one motion, seen at once (motion_view.h). A formula over this view names beads by
+// their place in the tuple: 0, 1, 2 ...
+
+#include <array>
+
+#include "motions/bernstein.h"
+#include "motions/bezier_motion.h"
+#include "motions/lanes.h"
+
+namespace kds {
+
+template <Motion M, std::size_t Places>
+class LanesView {
+ public:
+  using Number = Lanes;
+  static constexpr int dimension = M::dimension;
+  static constexpr int degree = M::degree;
+  using Tuples = std::array<std::array<BeadId, Places>, Lanes::width>;
+
+  [[gnu::always_inline]] LanesView(const M& motion, const Tuples& t) {
+    for (std::size_t place = 0; place < Places; ++place) {
+      for (int k = 0; k <= degree; ++k) {
+        for (int axis = 0; axis < dimension; ++axis) {
+          control_[place][static_cast<std::size_t>(k)][static_cast<std::size_t>(axis)] =
+              Lanes::Vector{motion.coordinate(t[0][place], k, axis), motion.coordinate(t[1][place], k, axis),
+                            motion.coordinate(t[2][place], k, axis), motion.coordinate(t[3][place], k, axis)};
+        }
+        control_[place][static_cast<std::size_t>(k)][dimension] =
+            Lanes::Vector{motion.weight(t[0][place], k), motion.weight(t[1][place], k),
+                          motion.weight(t[2][place], k), motion.weight(t[3][place], k)};
+      }
+    }
+  }
+
+  [[nodiscard, gnu::always_inline]] BernsteinVector<Lanes, degree, dimension> difference(BeadId i,
+                                                                                         BeadId j) const {
+    BernsteinVector<Lanes, degree, dimension> result;
+    for (int axis = 0; axis < dimension; ++axis)
+      result[static_cast<std::size_t>(axis)] = difference(i, j, axis, length_);
+    return result;
+  }
+  [[nodiscard, gnu::always_inline]] Bernstein<Lanes, degree> weight_difference(BeadId i, BeadId j) const {
+    return difference(i, j, dimension, weight_);
+  }
+
+  /// M itself, where no weight difference exceeds its square; else a NaN.
+  [[nodiscard, gnu::always_inline]] Lanes largest_length() const {
+    return Lanes::choose(weight_ <= length_ * length_, length_, Lanes(__builtin_nan("")));
+  }
+
+ private:
+  [[gnu::always_inline]] Bernstein<Lanes, degree> difference(BeadId i, BeadId j, int axis,
+                                                             Lanes& largest) const {
+    Bernstein<Lanes, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      const auto place = static_cast<std::size_t>(k);
+      const Lanes d = control_[i][place][static_cast<std::size_t>(axis)] -
+                      control_[j][place][static_cast<std::size_t>(axis)];
+      largest = Lanes::max(largest, Lanes::abs(d));
+      result.scaled[place] = Lanes(static_cast<double>(binomial(degree, k))) * d;
+    }
+    return result;
+  }
+
+  std::array<std::array<std::array<Lanes, dimension + 1>, degree + 1>, Places> control_;
+  mutable Lanes length_;
+  mutable Lanes weight_;
+};
+
+}  // namespace kds
