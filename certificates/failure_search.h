@@ -7,6 +7,7 @@
 #include <concepts>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "certificates/bounded_polynomial.h"
 #include "certificates/certificate.h"
@@ -176,20 +177,28 @@ template <class Certificate, Motion M>
   return exact_first_failure(exact_function(certificate, motion), now, stages, touches);
 }
 
+/// Up to four certificates side by side; the last one fills what is left.
+template <Motion M, class Certificate>
+[[nodiscard]] auto in_lanes(std::span<const Certificate> certificates) {
+  std::pair<typename LanesView<M, bead_places<Certificate>>::Tuples, Lanes> lanes;
+  for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+    const Certificate& certificate = certificates[std::min(lane, certificates.size() - 1)];
+    lanes.first[lane] = certificate.beads;
+    lanes.second.v[lane] = certificate.side() ? 1 : -1;
+  }
+  return lanes;
+}
+
 /// Up to four certificates at once.
 template <class Certificate, Motion M>
 void filtered_first_failures(std::span<const Certificate> certificates, const M& motion, const Instant& now,
                              std::span<const Birth> births, StageCounts& stages, Touches touches,
                              std::span<Failure> failures) {
   constexpr int degree = decltype(function_of(Certificate{}, DoubleView<M>(motion)))::degree;
-  typename LanesView<M, bead_places<Certificate>>::Tuples tuples;
-  Lanes sides;
+  const auto [tuples, sides] = in_lanes<M>(certificates);
   LanesNow lanes_now{now.lower(), now.upper(), now.isolating(), 0};
-  for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
-    const std::size_t i = std::min(lane, certificates.size() - 1);
-    tuples[lane] = certificates[i].beads;
-    sides.v[lane] = certificates[i].side() ? 1 : -1;
-    if (births[i] == Birth::at_own_root) lanes_now.at_own_root |= 1U << lane;
+  for (std::size_t lane = 0; lane < births.size(); ++lane) {
+    if (births[lane] == Birth::at_own_root) lanes_now.at_own_root |= 1U << lane;
   }
   LanesOutcome<degree> outcome;
   settle_lanes<Certificate>(motion, tuples, sides, lanes_now, outcome);
@@ -286,6 +295,25 @@ template <Kernel K, class Function, Motion M>
 [[nodiscard]] int sign_just_after(const Function& function, const M& motion, const Instant& now,
                                   StageCounts& stages) {
   return detail::sign_around<K>(function, motion, now, stages, sign_after);
+}
+
+/// Whether up to four functions are all positive now. In doubles at once where that will do.
+template <Kernel K, class Function, Motion M>
+[[nodiscard]] bool all_positive_now(std::span<const Function> functions, const M& motion, const Instant& now,
+                                    StageCounts& stages) {
+  if (functions.empty()) return true;
+  if constexpr (std::same_as<K, Filtered>) {
+    LanesDescent<decltype(function_of(Function{}, DoubleView<M>(motion)))::degree> work;
+    bool all_positive = false;
+    const auto [tuples, sides] = detail::in_lanes<M>(functions);
+    positive_lanes<Function>(motion, tuples, sides, now.lower(), now.upper(), work, all_positive);
+    if (all_positive) {
+      stages.signs_double += functions.size();
+      return true;
+    }
+  }
+  return std::all_of(functions.begin(), functions.end(),
+                     [&](const Function& f) { return sign_now<K>(f, motion, now, stages) > 0; });
 }
 
 }  // namespace kds

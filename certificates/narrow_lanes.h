@@ -66,8 +66,8 @@ template <std::size_t N>
     low = Lanes::choose(before, t, low);
     high = Lanes::choose(before, high, t);
     Lanes next = t - value / slope;
-    next = Lanes::choose((next > low) & (next < high), next, Lanes(0.5) * (low + high));
-    const Lanes::Mask far = Lanes::abs(next - t) > Lanes(0x1p-36);
+    next = Lanes::choose((next >= low) & (next <= high), next, Lanes(0.5) * (low + high));
+    const Lanes::Mask far = Lanes::abs(next - t) > Lanes(0x1p-22);  // the next step is far shorter
     t = Lanes::choose(moving, next, t);  // one that has arrived stays: more steps would bisect it away
     moving &= far;
   }

@@ -35,63 +35,90 @@ struct LanesOutcome {
 template <class Certificate>
 inline constexpr std::size_t bead_places = std::tuple_size_v<decltype(Certificate{}.beads)>;
 
+namespace detail {
+
+/// The functions of four certificates with their errors; true where all coefficients are certainly positive.
 /// `sides`: 1 or -1, by which a lane's formula is multiplied.
 template <class Certificate, Motion M, int Degree>
-[[KDS_LANES_TARGETS]] void settle_lanes(const M& motion,
-                                        const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
-                                        const Lanes& sides, const LanesNow& now, LanesOutcome<Degree>& out) {
+[[gnu::always_inline]] inline Lanes::Mask bound_lanes(
+    const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
+    const Lanes& sides, LanesDescent<Degree>& lanes) {
   decltype(Certificate{}.beads) places{};
   for (std::size_t p = 0; p < places.size(); ++p) places[p] = static_cast<BeadId>(p);
   const LanesView<M, bead_places<Certificate>> view(motion, tuples);
   const auto function = Certificate::formula(view, places);
   const auto& bound = error_bound<Certificate, M>;
 
+  const Lanes unknown(__builtin_nan(""));
   const Lanes length = view.largest_length();
   Lanes scale(1.0);
   for (int i = 0; i < bound.power; ++i) scale = scale * length;
-  scale =
-      Lanes::choose((scale >= Lanes(0x1p-900)) & (scale <= Lanes(0x1p900)), scale, Lanes(__builtin_nan("")));
+  scale = Lanes::choose((scale >= Lanes(0x1p-900)) & (scale <= Lanes(0x1p900)), scale, unknown);
 
-  auto& c = out.descent.bernstein;
   Lanes::Mask positive = scale >= Lanes(0.0);
   Lanes largest(0.0);
   for (std::size_t k = 0; k <= Degree; ++k) {
-    const Lanes signed_value = sides * function.scaled[k];
-    positive &= signed_value > Lanes(bound.coefficient[k]) * scale;
-    c[k] = signed_value / Lanes(static_cast<double>(binomial(Degree, static_cast<int>(k))));
-    largest = Lanes::max(largest, Lanes::abs(c[k]));
+    const Lanes value = sides * function.scaled[k];
+    positive &= value > Lanes(bound.coefficient[k]) * scale;
+    lanes.bernstein[k] = value / Lanes(static_cast<double>(binomial(Degree, static_cast<int>(k))));
+    largest = Lanes::max(largest, Lanes::abs(lanes.bernstein[k]));
   }
-  out.positive = positive;
-  if (Lanes::all(positive)) return;
+  const Lanes uniform = Lanes::choose(largest >= Lanes(0x1p-900), Lanes(bound.uniform) * scale, unknown);
+  lanes.value_error = uniform + Lanes(value_rounding(Degree)) * largest;
+  lanes.local_error = uniform + Lanes(local_rounding(Degree)) * largest;
+  return positive;
+}
 
-  const Lanes uniform =
-      Lanes::choose(largest >= Lanes(0x1p-900), Lanes(bound.uniform) * scale, Lanes(__builtin_nan("")));
-  out.descent.value_error = uniform + Lanes(value_rounding(Degree)) * largest;
-  out.descent.local_error = uniform + Lanes(local_rounding(Degree)) * largest;
+/// How much less than at its upper end a function may be elsewhere in the present bracket.
+template <int Degree>
+[[gnu::always_inline]] inline Lanes fall_within(const LanesDescent<Degree>& lanes, double lower,
+                                                double upper) {
+  if (!(lower < upper)) return Lanes(0.0);
+  // |p'| <= Degree * steepest; coefficients err by value_error each.
+  Lanes steepest(0.0);
+  for (std::size_t k = 0; k < Degree; ++k)
+    steepest = Lanes::max(steepest, Lanes::abs(lanes.bernstein[k + 1] - lanes.bernstein[k]));
+  return Lanes(static_cast<double>(Degree)) * (steepest + Lanes(2.0) * lanes.value_error) *
+         Lanes((upper - lower) * (1 + 0x1p-40));
+}
 
-  // The part after now.
-  auto right = c;
+}  // namespace detail
+
+/// What the four certificates do from now on.
+template <class Certificate, Motion M, int Degree>
+[[KDS_LANES_TARGETS]] void settle_lanes(const M& motion,
+                                        const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
+                                        const Lanes& sides, const LanesNow& now, LanesOutcome<Degree>& out) {
+  out.positive = detail::bound_lanes<Certificate>(motion, tuples, sides, out.descent);
+  if (Lanes::all(out.positive)) return;
+  auto right = out.descent.bernstein;  // the part after now
   if (now.upper > 0) casteljau(right, Lanes(now.upper));
-  Lanes reach(0.0);  // how much less the function may be elsewhere in the present bracket
-  if (now.lower < now.upper) {
-    Lanes steepest(0.0);
-    for (std::size_t k = 0; k < Degree; ++k) steepest = Lanes::max(steepest, Lanes::abs(c[k + 1] - c[k]));
-    reach = Lanes(static_cast<double>(Degree)) * (steepest + Lanes(2.0) * out.descent.value_error) *
-            Lanes((now.upper - now.lower) * (1 + 0x1p-40));
-  }
+  // At its own root the bracket holds no other one, and its upper end tells.
   Lanes::Mask at_own_root{};
   for (unsigned lane = 0; lane < Lanes::width; ++lane)
     at_own_root[lane] = (now.at_own_root >> lane & 1U) != 0 ? -1 : 0;
-  reach = Lanes::choose(at_own_root, Lanes(now.isolating ? 0.0 : __builtin_inf()), reach);
-  const Lanes::Mask starts_positive = right[0] > out.descent.local_error + reach;
-
+  const Lanes fall = Lanes::choose(at_own_root, Lanes(now.isolating ? 0.0 : __builtin_inf()),
+                                   detail::fall_within(out.descent, now.lower, now.upper));
+  const Lanes::Mask starts_positive = right[0] > out.descent.local_error + fall;
   const LanesShape shape = shape_of(right, out.descent.local_error);
-  out.never = shape.positive & starts_positive & ~positive;
+  out.never = shape.positive & starts_positive & ~out.positive;
   out.found = shape.one_descent & starts_positive;
   out.unclear = starts_positive & ~(shape.positive | shape.one_descent);
   out.descent.part = right;
   out.descent.lower = Lanes(now.upper);
   out.descent.upper = Lanes(1.0);
+}
+
+/// Whether four functions are certainly positive all over [lower, upper].
+template <class Function, Motion M, int Degree>
+[[KDS_LANES_TARGETS]] void positive_lanes(const M& motion,
+                                          const typename LanesView<M, bead_places<Function>>::Tuples& tuples,
+                                          const Lanes& sides, double lower, double upper,
+                                          LanesDescent<Degree>& work, bool& all_positive) {
+  static_cast<void>(detail::bound_lanes<Function>(motion, tuples, sides, work));
+  work.part = work.bernstein;
+  const Lanes value = casteljau(work.part, Lanes(upper));
+  all_positive = Lanes::all(value > work.value_error + detail::fall_within(work, lower, upper));
 }
 
 }  // namespace kds

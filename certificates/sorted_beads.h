@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <utility>
 
 #include "motions/bead.h"
 
@@ -13,14 +12,19 @@ namespace kds {
 /// Sorts ascending; 1 if an even number of exchanges did it, else -1.
 template <std::size_t N>
 [[nodiscard]] constexpr int sort_beads(std::array<BeadId, N>& beads) {
-  int sign = 1;
-  for (std::size_t i = 1; i < N; ++i) {
-    for (std::size_t j = i; j > 0 && beads[j] < beads[j - 1]; --j) {
-      std::swap(beads[j], beads[j - 1]);
-      sign = -sign;
+  // By rank, without branches: this runs for every certificate.
+  std::array<std::size_t, N> rank{};
+  unsigned inversions = 0;
+  for (std::size_t j = 1; j < N; ++j) {
+    for (std::size_t i = 0; i < j; ++i) {
+      const bool inverted = beads[j] < beads[i];
+      inversions += inverted ? 1 : 0;
+      rank[inverted ? i : j] += 1;
     }
   }
-  return sign;
+  const std::array<BeadId, N> before = beads;
+  for (std::size_t i = 0; i < N; ++i) beads[rank[i]] = before[i];
+  return inversions % 2 == 0 ? 1 : -1;
 }
 
 }  // namespace kds

@@ -10,6 +10,7 @@
 #include "experiments/report_json.h"
 #include "experiments/run_results.h"
 #include "experiments/table.h"
+#include "experiments/taken_paths.h"
 #include "experiments/text.h"
 #include "experiments/warnings.h"
 #include "motions/input_error.h"
@@ -50,6 +51,9 @@ int replay_command(const Arguments& arguments) {
 
   Destinations destinations{std::nullopt, parsed.value("--json"), parsed.has("--quiet")};
   if (const auto out = parsed.value("--out")) destinations.out = *out;
+  TakenPaths paths;
+  paths.add("the log", log);
+  paths.write(destinations);
   check_destinations(destinations);
 
   ProgressBar bar(!destinations.quiet);

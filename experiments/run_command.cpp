@@ -11,6 +11,7 @@
 #include "experiments/run_results.h"
 #include "experiments/run_scene.h"
 #include "experiments/table.h"
+#include "experiments/taken_paths.h"
 #include "experiments/warnings.h"
 #include "motions/input_error.h"
 
@@ -26,33 +27,20 @@ void check_exists(const fs::path& path) {
     throw InputError(fmt::format("{}: is a directory, expected a file", path.string()));
 }
 
-bool same_file(const fs::path& a, const fs::path& b) {
-  std::error_code error;
-  return fs::equivalent(a, b, error) ||
-         fs::absolute(a, error).lexically_normal() == fs::absolute(b, error).lexically_normal();
-}
-
-// A result must not replace what it was computed from, nor another result.
-void check_apart(const RunOptions& options) {
-  std::vector<std::pair<std::string, fs::path>> taken;
-  for (const fs::path& input : options.inputs) taken.emplace_back("an input", input);
-  if (options.reading.topology) taken.emplace_back("--topology", *options.reading.topology);
-  const auto take = [&taken](const std::string& option, const fs::path& path) {
-    std::error_code error;
-    if (fs::exists(path, error) && fs::is_character_file(path, error)) return;  // /dev/null is for all
-    for (const auto& [owner, other] : taken)
-      if (same_file(path, other))
-        throw InputError(fmt::format("{} {}: is the file of {}", option, path.string(), owner));
-    taken.emplace_back(option, path);
-  };
-  if (options.json && *options.json != "-") take("--json", *options.json);
-  if (options.log) take("--log", *options.log);
+void check_apart(const RunOptions& options, const Destinations& destinations) {
+  TakenPaths paths;
+  for (const fs::path& input : options.inputs) paths.add("an input", input);
+  if (options.reading.topology) paths.add("--topology", *options.reading.topology);
+  constexpr std::string_view file = "file:";
+  if (options.radius.starts_with(file)) paths.add("--radius", options.radius.substr(file.size()));
+  paths.write(destinations);
+  if (options.log) paths.write("--log", *options.log);
 }
 
 void check_before_run(const RunOptions& options, const Destinations& destinations) {
   for (const fs::path& input : options.inputs) check_exists(input);
   if (options.reading.topology) check_exists(*options.reading.topology);
-  check_apart(options);
+  check_apart(options, destinations);
   check_destinations(destinations);
   if (options.log) ensure_writable_file(*options.log, "--log");
   if (options.dump) ensure_directory(*options.dump, "--dump");

@@ -27,8 +27,9 @@ int FailureOrder::compare_times(ScheduledFailure& a, ScheduledFailure& b) {
   if (a.time.upper == b.time.lower) return -1;
   if (b.time.upper == a.time.lower) return 1;
   if (a.source->identity(a.slot) == b.source->identity(b.slot) &&
-      a.source->side(a.slot) == b.source->side(b.slot) && a.time.touch == b.time.touch) {
-    // Both hold until they fail, so both wait for the next descent of one function, or for its next touch.
+      a.source->side(a.slot) == b.source->side(b.slot) && !a.time.touch && !b.time.touch) {
+    // Both hold until they fail, so both wait for the next descent of one function. (After a touch the same
+    // certificate may wait for its next root already.)
     ++counts_.by_identity;
     return 0;
   }

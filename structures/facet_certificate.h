@@ -14,13 +14,13 @@ namespace kds {
 /// Calls `use` with the certificate of the facet between a cell and the one with this apex beyond it.
 template <class Use>
 decltype(auto) with_facet_certificate(const CellBeads& cell, BeadId apex, Use use) {
-  const std::array<BeadId, 5> five{cell[0], cell[1], cell[2], cell[3], apex};
-  const auto infinite = std::find(five.begin(), five.end(), infinite_bead);
-  if (infinite == five.end()) return use(PowerTest(five, 1));
-  // A row (0,0,0,1) at the place of infinity: expand the power test's determinant along it.
-  std::array<BeadId, 4> four{};
-  std::copy(infinite + 1, five.end(), std::copy(five.begin(), infinite, four.begin()));
-  return use(Orientation(four, (infinite - five.begin()) % 2 == 0 ? 1 : -1));
+  const PowerTest test({cell[0], cell[1], cell[2], cell[3], apex}, 1);
+  if (test.beads[4] != infinite_bead) return use(test);
+  // Sorted, infinity is last: a row (0,0,0,1) there leaves the determinant of the others.
+  Orientation orientation;
+  std::copy(test.beads.begin(), test.beads.end() - 1, orientation.beads.begin());
+  orientation.sign = test.sign;
+  return use(orientation);
 }
 
 }  // namespace kds

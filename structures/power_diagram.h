@@ -1,7 +1,6 @@
 #pragma once
-// Kinetic power diagram in space, equal weights: CGAL's regular triangulation flipped while time runs. One
-// certificate a facet: the power test of its two cells, or, where the infinite vertex is among the five, the
-// orientation of the other four (the hull is locally convex there).
+// Kinetic power diagram in space, equal weights: CGAL's regular triangulation flipped while time runs. Each
+// facet has its certificate (facet_certificate.h).
 //
 // When it fails, the Radon partition of the five beads decides the flip. In general position the cells
 // themselves tell which it is: 3-2 if an edge of the facet has just three cells, all among the five beads,
@@ -71,10 +70,10 @@ class PowerDiagram final : public KineticStructure {
   }
 
   void fail(unsigned table, std::uint32_t slot) override {
-    const std::uint32_t place =
+    const FacetId place =
         table == 0 ? power_tests_.place_in_structure(slot) : orientations_.place_in_structure(slot);
-    const CellId cell = place / 4;
-    const int facet = static_cast<int>(place % 4);
+    const CellId cell = cell_of(place);
+    const int facet = index_of(place);
     const bool touch = table == 0 ? power_tests_.touches(slot) : orientations_.touches(slot);
     if (touch) suspect(Doubt::unclear);
     if (FacetGuard& held = guard(cell, facet); held.about == About::cell) {
@@ -147,6 +146,8 @@ class PowerDiagram final : public KineticStructure {
           !triangulation_.find_cell({id[1], id[2], id[3], id[4]})) {
         throw std::invalid_argument("the edge has other cells");
       }
+      if (triangulation_.is_facet(id[0], id[1], id[2]))
+        throw std::invalid_argument("the facet stands already");
       triangulation_.flip_edge(*cell, place_of(*cell, id[3]), place_of(*cell, id[4]));
     }
   }
@@ -232,13 +233,10 @@ class PowerDiagram final : public KineticStructure {
 
   bool assign_static(const Dyadic& time) {
     const StaticTriangulation built = exact_static(time, true);
-    if (built.dimension < 3 || !built.hidden.empty()) {
-      hidden_ = built.hidden;
-      return false;
-    }
+    hidden_ = built.hidden;
+    dimension_ = built.dimension;
+    if (dimension_ < 3 || !hidden_.empty()) return false;
     triangulation_.assign(motion_.bead_count(), built.cells);
-    hidden_.clear();
-    dimension_ = 3;
     return true;
   }
 
@@ -259,17 +257,15 @@ class PowerDiagram final : public KineticStructure {
   [[nodiscard]] BeadId vertex(CellId cell, int i) const {
     return triangulation_.cells()[cell].vertex[static_cast<std::size_t>(i)];
   }
-  [[nodiscard]] CellId neighbor(CellId cell, int i) const {
-    return triangulation_.cells()[cell].neighbor[static_cast<std::size_t>(i)];
-  }
+  [[nodiscard]] CellId neighbor(CellId cell, int i) const { return cell_of(triangulation_.beyond(cell, i)); }
   /// The same facet as the cell beyond it has it.
   [[nodiscard]] std::pair<CellId, int> across(CellId cell, int i) const {
-    return {neighbor(cell, i), triangulation_.mirror_index(cell, i)};
+    const FacetId beyond = triangulation_.beyond(cell, i);
+    return {cell_of(beyond), index_of(beyond)};
   }
   /// The bead beyond facet i.
   [[nodiscard]] BeadId apex(CellId cell, int i) const {
-    const auto [other, k] = across(cell, i);
-    return vertex(other, k);
+    return triangulation_.apex(triangulation_.beyond(cell, i));
   }
   FacetGuard& guard(CellId cell, int i) { return guards_[cell][static_cast<std::size_t>(i)]; }
   void set_guard(CellId cell, int i, FacetGuard value) {
@@ -279,7 +275,6 @@ class PowerDiagram final : public KineticStructure {
   }
   void forget(CellId cell, int i) { set_guard(cell, i, {}); }
 
-  static std::uint32_t place(CellId cell, int i) { return 4 * cell + static_cast<std::uint32_t>(i); }
   template <class Certificate>
   [[nodiscard]] Birth birth_of(const Certificate& certificate) const {
     return certificate.identity() == present_ ? Birth::at_own_root : Birth::unknown;
@@ -345,7 +340,7 @@ template <Motion M, Kernel K>
 void PowerDiagram<M, K>::enqueue(CellId cell, int i) {
   with_facet_certificate(triangulation_.cells()[cell].vertex, apex(cell, i),
                          [&]<class Certificate>(const Certificate& certificate) {
-                           batch_of(certificate).add(certificate, place(cell, i), birth_of(certificate));
+                           batch_of(certificate).add(certificate, facet_id(cell, i), birth_of(certificate));
                          });
 }
 
@@ -355,8 +350,8 @@ void PowerDiagram<M, K>::watch_enqueued() {
     batch.guards.resize(batch.certificates.size());
     table.watch(batch.certificates, batch.places, batch.births, batch.guards);
     for (std::size_t b = 0; b < batch.guards.size(); ++b) {
-      const CellId cell = batch.places[b] / 4;
-      const int i = static_cast<int>(batch.places[b] % 4);
+      const CellId cell = cell_of(batch.places[b]);
+      const int i = index_of(batch.places[b]);
       if (batch.guards[b] == Guard::violated) suspect(Doubt::wrong);
       set_guard(cell, i, {batch.guards[b], about});
       if (batch.guards[b] == Guard::zero && about == About::power) watch_cells_beside(cell, i);
@@ -377,7 +372,7 @@ void PowerDiagram<M, K>::watch_cells_beside(CellId cell, int i) {
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::watch_cell(CellId cell, int i) {
   const Orientation orientation(triangulation_.cells()[cell].vertex, 1);
-  guard(cell, i) = {orientations_.watch(orientation, place(cell, i), birth_of(orientation)), About::cell};
+  guard(cell, i) = {orientations_.watch(orientation, facet_id(cell, i), birth_of(orientation)), About::cell};
   if (guard(cell, i).guard == Guard::violated) suspect(Doubt::wrong);
 }
 
@@ -430,20 +425,25 @@ void PowerDiagram<M, K>::repair(CellId cell, int facet) {
 template <Motion M, Kernel K>
 bool PowerDiagram<M, K>::can_replace(std::span<const CellBeads> old, std::span<const CellBeads> made) {
   const Instant& now = simulator_.now();
+  std::array<Orientation, 3> finite;
+  std::size_t count = 0;
+  for (const CellBeads& cell : made) {
+    const Orientation orientation(cell, 1);
+    if (orientation.beads[3] == infinite_bead) continue;
+    if (orientation.identity() == present_) continue;  // flat now, and opening: that is the event
+    finite[count++] = orientation;
+  }
+  if (!all_positive_now<K>(std::span<const Orientation>(finite.data(), count), motion_, now,
+                           statistics.stages)) {
+    suspect(Doubt::unclear);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (sign_just_after<K>(finite[i], motion_, now, statistics.stages) <= 0) return false;
+    }
+  }
   std::vector<std::array<BeadId, 3>> hull;
   for (const auto cells : {old, made}) {
     for (const CellBeads& cell : cells) {
-      if (const auto triangle = hull_triangle(cell)) {
-        hull.push_back(*triangle);
-        continue;
-      }
-      const Orientation orientation(cell, 1);
-      if (orientation.identity() == present_) continue;  // it vanishes or opens: that is the event
-      if (sign_now<K>(orientation, motion_, now, statistics.stages) > 0) continue;
-      suspect(Doubt::unclear);
-      if (cells.data() == made.data() &&
-          sign_just_after<K>(orientation, motion_, now, statistics.stages) <= 0)
-        return false;
+      if (const auto triangle = hull_triangle(cell)) hull.push_back(*triangle);
     }
   }
   for (std::size_t t = 1; t < hull.size(); ++t) {
@@ -466,7 +466,9 @@ void PowerDiagram<M, K>::flip_to_edge(CellId cell, int facet) {
     if (k != facet) new_cells[static_cast<std::size_t>(next++)] = with(v, k, e);
   }
   const std::array<CellBeads, 2> old_cells{v, triangulation_.cells()[other].vertex};
-  if (triangulation_.is_edge(d, e) || !can_replace(old_cells, new_cells)) {
+  // In exact geometry new cells that are positive have no edge that stands already.
+  const bool doubtful = std::same_as<K, Fast> || present_.beads[4] == no_bead;
+  if ((doubtful && triangulation_.is_edge(d, e)) || !can_replace(old_cells, new_cells)) {
     suspect(Doubt::wrong);
     return;
   }
@@ -506,7 +508,8 @@ void PowerDiagram<M, K>::flip_to_facet(CellId cell, int facet, int other_vertex)
   const std::array<CellId, 3> old{cell, neighbor(cell, facet), neighbor(cell, other_vertex)};
   std::array<CellBeads, 3> old_cells{};
   for (std::size_t o = 0; o < 3; ++o) old_cells[o] = triangulation_.cells()[old[o]].vertex;
-  if (!can_replace(old_cells, std::array{with(v, edge[0], e), with(v, edge[1], e)})) {
+  if ((std::same_as<K, Fast> && triangulation_.is_facet(c, d, e)) ||
+      !can_replace(old_cells, std::array{with(v, edge[0], e), with(v, edge[1], e)})) {
     suspect(Doubt::wrong);
     return;
   }
@@ -558,7 +561,7 @@ void PowerDiagram<M, K>::count_certificates_per_bead() {
 
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::drop_all() {
-  if (guards_.size() != triangulation_.cells().size()) return;
+  if (guards_.empty()) return;
   for_all_facets([this](CellId cell, int i) { drop(cell, i); });
 }
 
@@ -614,8 +617,13 @@ void PowerDiagram<M, K>::rebuild_at_first_time_that_works() {
                      std::to_string(simulator_.step()) +
                      " (it stays in one place with another bead); hidden beads are not supported yet");
   }
-  throw InputError("all beads stay in one plane in step " + std::to_string(simulator_.step()) +
-                   "; the power diagram in space needs four that do not");
+  if (dimension_ < 3) {
+    throw InputError("all beads stay in one plane in step " + std::to_string(simulator_.step()) +
+                     "; the power diagram in space needs four that do not");
+  }
+  throw InputError("step " + std::to_string(simulator_.step()) + " at u = " +
+                   std::to_string(simulator_.now().upper()) + ": events of the power diagram within 2^-" +
+                   std::to_string(finest_grid) + " of the step, closer than it can be rebuilt between");
 }
 
 template <Motion M, Kernel K>
@@ -624,8 +632,8 @@ void PowerDiagram<M, K>::rebuild_roughly() {
   if (++rebuilds_in_step_ > most_in_a_step) return;
   drop_all();
   present_ = {};
-  const Dyadic time(std::min(1.0, simulator_.now().upper() + 0x1p-16));
-  if (!assign_static(time)) return;
+  const Dyadic time(simulator_.now().upper() + 0x1p-16);
+  if (!(time < Dyadic(1.0)) || !assign_static(time)) return watch_all();  // as it is
   watch_all();
   settled();
   record_rebuild(time);
@@ -637,6 +645,7 @@ template <Motion M, Kernel K>
 std::optional<std::string> PowerDiagram<M, K>::audit(const Dyadic& time) {
   const bool start = time == Dyadic(0.0);
   const bool end = time == Dyadic(1.0);
+  if (dimension_ < 3) return std::nullopt;  // at a frame only, where the answer is CGAL's (at_frame)
   if ((start || end) && !flat_ && dimension_ == 3) {
     const int k = start ? 0 : M::degree;
     const StaticTriangulation built =
@@ -649,7 +658,7 @@ std::optional<std::string> PowerDiagram<M, K>::audit(const Dyadic& time) {
   // Degenerate positions have several regular triangulations: ours must satisfy the definition. Between
   // events what is zero at this very moment only is judged by its sign just after.
   const bool frame = start || end;
-  return triangulation_fault(triangulation_, bead_count(), frame, [&](const auto& function) {
+  return triangulation_fault(triangulation_, bead_count(), flat_, [&](const auto& function) {
     const int sign = function_of(function, MomentView<M>(motion_, function.beads, time)).scaled[0].sign();
     return sign != 0 || frame ? sign : exact_function(function, motion_).sign_after(time);
   });

@@ -110,8 +110,9 @@ struct RegularTriangulation::Cgal {
     for (int i = 0; i < 4; ++i) {
       copy.vertex[static_cast<std::size_t>(i)] = c->vertex(i)->info();
       const auto n = c->neighbor(i);
-      copy.neighbor[static_cast<std::size_t>(i)] = n->info();
-      cells[n->info()].neighbor[static_cast<std::size_t>(n->index(c))] = c->info();
+      const int back = n->index(c);
+      copy.beyond[static_cast<std::size_t>(i)] = facet_id(n->info(), back);
+      cells[n->info()].beyond[static_cast<std::size_t>(back)] = facet_id(c->info(), i);
     }
   }
 };
@@ -201,11 +202,6 @@ void RegularTriangulation::set_points(const Eigen::Matrix3Xd& centers, std::span
   }
 }
 
-int RegularTriangulation::mirror_index(CellId cell, int i) const {
-  const auto& back = cells_[cells_[cell].neighbor[static_cast<std::size_t>(i)]].neighbor;
-  return static_cast<int>(std::find(back.begin(), back.end(), cell) - back.begin());
-}
-
 std::array<CellId, 3> RegularTriangulation::flip_facet(CellId cell, int i) {
   const auto c = cgal_->cell[cell];
   const auto n = c->neighbor(i);
@@ -239,6 +235,13 @@ std::array<CellId, 2> RegularTriangulation::flip_edge(CellId cell, int i, int j)
 
 bool RegularTriangulation::is_edge(BeadId a, BeadId b) const {
   return cgal_->triangulation.tds().is_edge(cgal_->handle(a), cgal_->handle(b));
+}
+
+bool RegularTriangulation::is_facet(BeadId a, BeadId b, BeadId c) const {
+  Triangulation::Cell_handle cell;
+  int i = 0, j = 0, k = 0;
+  return cgal_->triangulation.tds().is_facet(cgal_->handle(a), cgal_->handle(b), cgal_->handle(c), cell, i, j,
+                                             k);
 }
 
 std::optional<CellId> RegularTriangulation::find_cell(const CellBeads& beads) const {

@@ -24,9 +24,15 @@ inline constexpr BeadId infinite_bead = no_bead;
 using CellId = std::uint32_t;
 using CellBeads = std::array<BeadId, 4>;
 
+/// The facet opposite to vertex i of a cell, as that cell has it: 4 cell + i.
+using FacetId = std::uint32_t;
+[[nodiscard]] constexpr FacetId facet_id(CellId cell, int i) { return 4 * cell + static_cast<FacetId>(i); }
+[[nodiscard]] constexpr CellId cell_of(FacetId facet) { return facet / 4; }
+[[nodiscard]] constexpr int index_of(FacetId facet) { return static_cast<int>(facet % 4); }
+
 struct TriangulationCell {
   CellBeads vertex{};
-  std::array<CellId, 4> neighbor{};  ///< neighbor[i] is across the facet opposite to vertex[i]
+  std::array<FacetId, 4> beyond{};  ///< the same facets as the neighbours have them
 };
 
 /// Position and weight of a bead at one time, exactly.
@@ -67,15 +73,20 @@ class RegularTriangulation {
   /// Live cells and, among them, free slots: see is_live.
   [[nodiscard]] std::span<const TriangulationCell> cells() const { return cells_; }
   [[nodiscard]] bool is_live(CellId cell) const { return live_[cell] != 0; }
-  /// The place in its neighbour of the facet opposite to vertex i of `cell`.
-  [[nodiscard]] int mirror_index(CellId cell, int i) const;
+  /// Facet i of `cell` as its neighbour there has it.
+  [[nodiscard]] FacetId beyond(CellId cell, int i) const {
+    return cells_[cell].beyond[static_cast<std::size_t>(i)];
+  }
+  /// The bead opposite to a facet.
+  [[nodiscard]] BeadId apex(FacetId facet) const { return cells_[cell_of(facet)].vertex[facet % 4]; }
 
   /// Replaces `cell` and its neighbour across facet i by three cells around the edge of their apices.
   std::array<CellId, 3> flip_facet(CellId cell, int i);
   /// Replaces the three cells around the edge of vertices i and j of `cell` by two.
   std::array<CellId, 2> flip_edge(CellId cell, int i, int j);
-  /// Whether the two beads (or one and infinity) are joined by an edge.
+  /// Whether the beads, infinity among them, are joined by an edge or a triangle.
   [[nodiscard]] bool is_edge(BeadId a, BeadId b) const;
+  [[nodiscard]] bool is_facet(BeadId a, BeadId b, BeadId c) const;
   /// The cell with these vertices in any order.
   [[nodiscard]] std::optional<CellId> find_cell(const CellBeads& beads) const;
 

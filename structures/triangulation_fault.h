@@ -2,9 +2,9 @@
 // Whether a triangulation is regular, by the definition and by exact signs alone: sound in degenerate
 // positions, where several are right and comparing with a static build would not do.
 //
-// All finite cells are positive, all facets regular, the hull's triangles have no bead outside. Then the
-// triangles cover the hull's boundary equally often everywhere, and the cells its inside as often; once, if
-// the centroid of one triangle lies in no other.
+// All beads are vertices, all finite cells positive, all facets regular, the hull's triangles have no bead
+// outside. Then the triangles cover the hull's boundary equally often everywhere, and the cells its inside as
+// often; once, if the centroid of one triangle lies in no other. (The cells close up: flips keep that.)
 
 #include <algorithm>
 #include <array>
@@ -37,6 +37,7 @@ template <class Sign>
 [[nodiscard]] std::optional<std::string> triangulation_fault(const RegularTriangulation& triangulation,
                                                              BeadId beads, bool flat_cells, Sign sign) {
   std::vector<std::array<BeadId, 3>> hull;
+  std::vector<char> is_vertex(beads, 0);
   for (CellId cell = 0; cell < triangulation.cells().size(); ++cell) {
     if (!triangulation.is_live(cell)) continue;
     const CellBeads& v = triangulation.cells()[cell].vertex;
@@ -44,16 +45,20 @@ template <class Sign>
       hull.push_back(*triangle);
     } else if (const int s = sign(Orientation(v, 1)); s < 0 || (s == 0 && !flat_cells)) {
       return "the cell of beads " + bead_names(v) + " is " + (s < 0 ? "inverted" : "flat");
+    } else {
+      for (const BeadId b : v) is_vertex[b] = 1;
     }
     for (int i = 0; i < 4; ++i) {
-      const CellId other = triangulation.cells()[cell].neighbor[static_cast<std::size_t>(i)];
-      if (other < cell) continue;
-      const BeadId apex =
-          triangulation.cells()[other].vertex[static_cast<std::size_t>(triangulation.mirror_index(cell, i))];
+      const FacetId beyond = triangulation.beyond(cell, i);
+      if (cell_of(beyond) < cell) continue;
+      const BeadId apex = triangulation.apex(beyond);
       if (with_facet_certificate(v, apex, sign) < 0)
         return "the facet between the cell of beads " + bead_names(v) + " and bead " +
                bead_names(std::array{apex}) + " fails its test";
     }
+  }
+  for (BeadId bead = 0; bead < beads; ++bead) {
+    if (is_vertex[bead] == 0) return "bead " + std::to_string(bead) + " has no cell";
   }
   for (const auto& [a, b, c] : hull) {
     for (BeadId bead = 0; bead < beads; ++bead) {

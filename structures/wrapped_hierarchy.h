@@ -33,7 +33,7 @@ class WrappedHierarchy final : public KineticStructure {
         index_(simulator.add(*this)),
         of_singles_(simulator, *this, index_, 1, motion),
         of_pairs_(simulator, *this, index_, 2, motion),
-        of_triples_(simulator, *this, index_, 3, motion),
+        of_triples_(simulator, *this, index_, 3, motion, Touches::reported),
         of_quadruples_(simulator, *this, index_, 4, motion),
         nodes_(tree_.node_count()) {}
 
@@ -298,9 +298,12 @@ template <Motion M, Kernel K>
 void WrappedHierarchy<M, K>::fail(unsigned table, std::uint32_t slot) {
   NodeId id = 0;
   BeadId bead = 0;
+  bool touch = false;
   visit_table(table, [&](auto& t) {
     const auto& certificate = t.certificate(slot);
     id = t.place_in_structure(slot);
+    touch = t.touches(slot);
+    if (touch) return;
     bead = bead_of(certificate, nodes_[id].basis);
     present_ = Present{certificate.identity(), certificate.side()};
   });
@@ -311,9 +314,9 @@ void WrappedHierarchy<M, K>::fail(unsigned table, std::uint32_t slot) {
   }
   drop_node(id);
   const Basis before = nodes_[id].basis;
-  // Where all basis beads meet, its orientation turns with the power test: then the basis stays and is
-  // guarded anew.
-  if (!repair(id, bead) && std::same_as<K, Fast>) {
+  // A basis of four may turn over without one of its beads leaving: where all meet, or where each touches the
+  // sphere of the others. Then it stays and is guarded anew, for the power tests turn with it.
+  if (!touch && !repair(id, bead) && std::same_as<K, Fast>) {
     ++statistics.rebuilds;
     const BeadRange range = tree_.range(id);
     nodes_[id].basis = likely_basis(range.first, range.last, before,

@@ -92,6 +92,19 @@ TEST(Program, NeverOverwritesItsInput) {
   expect_refused({"run", input, "--json", input}, {"--json", "input"});
   expect_refused({"run", input, "--log", (directory / "." / "two.xyz").string()}, {"--log", "input"});
   EXPECT_EQ(content_of(input), before);
+  const std::string radii = directory.file("radii.txt", "0.5\n");
+  expect_refused({"run", input, "--radius", "file:" + radii, "--json", radii}, {"--json", "--radius"});
+  EXPECT_EQ(content_of(radii), "0.5\n");
+}
+
+TEST(Program, ResultsDoNotReplaceEachOther) {
+  const ScratchDirectory directory;
+  const std::string out = (directory / "out").string();
+  expect_refused({"run", kSmall, "--out", out, "--json", out + "/events.csv"}, {"--json", "--out"});
+  expect_refused({"run", kSmall, "--out", out, "--log", out + "/report.html"}, {"--log", "--out"});
+  const std::string log = (directory / "events.log").string();
+  ASSERT_EQ(run_program({"run", kSmall, "--log", log, "--quiet"}).code, 0);
+  expect_refused({"replay", log, "--json", log}, {"--json", "the log"});
 }
 
 TEST(Program, RefusesBrokenFiles) {
@@ -161,6 +174,16 @@ TEST(Program, BeadsThatStayInOnePlaneAreRefusedByTheDiagramInSpace) {
                                                           xyz({"0 1 0", "1 0 0", "2 2 0", "3 0 0", "4 2 0"}));
   expect_refused({"run", flat, "--structures", "power"}, {"plane"});
   EXPECT_EQ(run_program({"run", flat, "--structures", "wrapped", "--audit", "events"}).code, 0);
+}
+
+// A bead that comes from so far that all its events lie within 2^-200 of the step.
+TEST(Program, EventsTooCloseToRebuildBetweenAreNamed) {
+  const ScratchDirectory directory;
+  const std::string far = directory.file(
+      "far.xyz", xyz({"1e80 0.3 0.2", "0 0 0", "1 0 0", "0 1 0", "1 1 0", "0 0 1", "1 0 1", "0 1 1"}) +
+                     xyz({"-1e80 0.3 0.2", "0 0 0", "1 0 0", "0 1 0", "1 1 0", "0 0 1", "1 0 1", "0 1 1"}));
+  const ProgramRun run = run_program({"run", far, "--structures", "power", "--radius", "0.1"});
+  EXPECT_THAT(run.err, Not(HasSubstr("plane")));
 }
 
 std::uint64_t events_of(const std::string& instance, const std::string& structure) {

@@ -65,13 +65,12 @@ void check_mirror(const RegularTriangulation& triangulation, std::size_t beads) 
         ASSERT_NE(c.vertex[at(i)], c.vertex[at(j)]);
         edges.insert(std::minmax(c.vertex[at(i)], c.vertex[at(j)]));
       }
-      const CellId n = c.neighbor[at(i)];
+      const CellId n = cell_of(c.beyond[at(i)]);
       ASSERT_LT(n, cells.size());
       ASSERT_TRUE(triangulation.is_live(n));
       ASSERT_NE(n, cell);
-      const int back = triangulation.mirror_index(cell, i);
-      ASSERT_LT(back, 4);
-      ASSERT_EQ(cells[n].neighbor[at(back)], cell);
+      const int back = index_of(c.beyond[at(i)]);
+      ASSERT_EQ(cells[n].beyond[at(back)], facet_id(cell, i));
       // The neighbour is this cell with one bead exchanged, and turns the other way for it.
       CellBeads exchanged = c.vertex;
       exchanged[at(i)] = cells[n].vertex[at(back)];
@@ -235,9 +234,7 @@ TEST(RegularTriangulation, ValidityFollowsThePoints) {
 // Mutate, validate, repeat.
 
 /// The other bead across a facet.
-BeadId apex(const RegularTriangulation& t, CellId cell, int i) {
-  return t.cells()[t.cells()[cell].neighbor[at(i)]].vertex[at(t.mirror_index(cell, i))];
-}
+BeadId apex(const RegularTriangulation& t, CellId cell, int i) { return t.apex(t.beyond(cell, i)); }
 
 struct Flip {
   bool to_edge;

@@ -177,6 +177,13 @@ TEST(WrappedHierarchy, AFourBeadBasisPassesThroughAPlane) {
   run_audited({moving(bent(-1, {{0, 0, 0}}), bent(4, {{0, 0, 0}}))});
 }
 
+// Halfway the four basis beads lie in one plane and each touches the others' sphere: no certificate changes
+// sign, and yet the basis turns over.
+TEST(WrappedHierarchy, ABasisTurnsOverByTouchingAlone) {
+  run_audited({moving({{2, 2, 0}, {0, 2, 0}, {2, 0, 0}, {2, 2, 2}, {2, 0, 2}, {0, 0, 0}, {0, 0, 2}},
+                      {{0, 0, 2}, {2, 0, 2}, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 2}, {2, 2, 0}})});
+}
+
 TEST(WrappedHierarchy, BeadsInOnePlace) {
   const Points together(6, {1, 2, 3});
   const Points apart{{0, 0, 0}, {3, 1, 0}, {0, 4, 1}, {2, 0, 5}, {1, 1, 1}, {3, 3, 3}};

@@ -1,0 +1,38 @@
+#include "experiments/taken_paths.h"
+
+#include <fmt/format.h>
+
+#include "motions/input_error.h"
+
+namespace kds {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error) || fs::weakly_canonical(a, error).lexically_normal() ==
+                                            fs::weakly_canonical(b, error).lexically_normal();
+}
+
+}  // namespace
+
+void TakenPaths::write(const std::string& option, const fs::path& path) {
+  std::error_code error;
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) return;
+  for (const auto& [owner, other] : taken_)
+    if (same_file(path, other))
+      throw InputError(fmt::format("{} {}: is the file of {}", option, path.string(), owner));
+  add(option, path);
+}
+
+void TakenPaths::write(const Destinations& destinations) {
+  if (destinations.out) {
+    for (const char* name : {"summary.json", "events.csv", "report.html"})
+      write("--out", *destinations.out / name);
+  }
+  if (destinations.json && *destinations.json != "-") write("--json", *destinations.json);
+}
+
+}  // namespace kds
