@@ -24,12 +24,7 @@ struct BeadInSphere {
   std::array<BeadId, Size + 1> beads{};  ///< the basis, ascending; then the bead
   bool inside = true;
 
-  [[nodiscard]] Identity identity() const {
-    Identity identity{static_cast<std::uint32_t>(CertificateType::bead_in_sphere),
-                      {no_bead, no_bead, no_bead, no_bead, no_bead}};
-    for (std::size_t i = 0; i < beads.size(); ++i) identity.beads[i] = beads[i];
-    return identity;
-  }
+  [[nodiscard]] Identity identity() const { return identity_of(CertificateType::bead_in_sphere, beads); }
 
   [[nodiscard]] bool side() const { return inside; }
 

@@ -47,6 +47,15 @@ template <class F, MotionView View>
   }
 }
 
+/// The identity of a certificate that keeps its beads in one order.
+template <std::size_t N>
+[[nodiscard]] constexpr Identity identity_of(CertificateType type, const std::array<BeadId, N>& beads) {
+  static_assert(N <= 5);
+  Identity identity{static_cast<std::uint32_t>(type), {no_bead, no_bead, no_bead, no_bead, no_bead}};
+  for (std::size_t i = 0; i < N; ++i) identity.beads[i] = beads[i];
+  return identity;
+}
+
 template <class C, class M>
 concept CertificateFor = FunctionOfBeads<C, M> && requires(const C& certificate) {
   { certificate.identity() } -> std::same_as<Identity>;

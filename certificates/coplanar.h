@@ -1,6 +1,8 @@
 #pragma once
-// Functions of beads that lie in one plane at the time asked for. Not certificates: questions about one
-// moment. Exact; degree 4k for centres of degree k.
+// Questions about faces of a hull at one moment, not certificates: of triangles in space, of edges in the
+// plane. Exact; degree 4k in space and 2k in the plane for centres of degree k.
+
+#include <array>
 
 #include "certificates/certificate.h"
 #include "certificates/determinant.h"
@@ -13,30 +15,44 @@ template <MotionView View>
   return cross(view.difference(b, a), view.difference(c, a));
 }
 
-/// Positive if two triangles turn the same way, zero if one of them is flat.
+/// For two faces in one plane (on one line): positive if they turn (run) the same way, zero if one is flat (a
+/// point). A face with itself: zero iff it is flat, wherever.
+template <int Dimension>
 struct SameTurn {
-  std::array<BeadId, 6> beads{};  ///< three of the one triangle in their order, three of the other
+  static constexpr std::size_t face = Dimension;
+  std::array<BeadId, 2 * face> beads{};  ///< of the one face in their order, then of the other
 
   template <MotionView View>
-  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 6>& beads) {
-    return dot(normal(view, beads[0], beads[1], beads[2]), normal(view, beads[3], beads[4], beads[5]));
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 2 * face>& b) {
+    if constexpr (Dimension == 2) {
+      return dot(view.difference(b[1], b[0]), view.difference(b[3], b[2]));
+    } else {
+      return dot(normal(view, b[0], b[1], b[2]), normal(view, b[3], b[4], b[5]));
+    }
   }
 };
 
-/// Positive if the centroid of a triangle lies to the left of the directed line of two beads, seen from the
-/// tip of the triangle's normal; zero if on it.
-struct CentroidLeftOf {
-  std::array<BeadId, 5> beads{};  ///< three of the triangle in their order, two of the line
+/// In space: positive if the centroid of a triangle lies to the left of the directed line of two beads in its
+/// plane, seen from the tip of its normal; zero if on the line. In the plane: positive if the middle of an
+/// edge lies beyond a bead on its line, in the edge's direction.
+template <int Dimension>
+struct CentroidInside {
+  static constexpr std::size_t face = Dimension;
+  std::array<BeadId, 2 * face - 1> beads{};  ///< of the face in their order, then the line's (the bead)
 
   template <MotionView View>
-  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 5>& beads) {
-    const auto& [a, b, c, p, q] = beads;
-    auto from_p = view.difference(a, p);  // three times the centroid, seen from p
-    for (const BeadId other : {b, c}) {
-      const auto d = view.difference(other, p);
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 2 * face - 1>& b) {
+    const BeadId p = b[face];
+    auto from_p = view.difference(b[0], p);  // `face` times the centroid, seen from p
+    for (std::size_t i = 1; i < face; ++i) {
+      const auto d = view.difference(b[i], p);
       for (std::size_t axis = 0; axis < from_p.size(); ++axis) from_p[axis] += d[axis];
     }
-    return dot(normal(view, a, b, c), cross(view.difference(q, p), from_p));
+    if constexpr (Dimension == 2) {
+      return dot(view.difference(b[1], b[0]), from_p);
+    } else {
+      return dot(normal(view, b[0], b[1], b[2]), cross(view.difference(b[4], p), from_p));
+    }
   }
 };
 

@@ -27,6 +27,14 @@ template <class Number, int Degree>
          minor(b[0], b[1], c[0], c[1]) * a[2];
 }
 
+/// Determinant of three rows (x, y, l), where l has its own degree.
+template <class Number, int Degree, int Last>
+[[nodiscard]] constexpr auto determinant(const std::array<BernsteinVector<Number, Degree, 2>, 3>& row,
+                                         const std::array<Bernstein<Number, Last>, 3>& l) {
+  const auto xy = [&](int i, int j) { return minor(row[i][0], row[i][1], row[j][0], row[j][1]); };
+  return xy(0, 1) * l[2] - xy(0, 2) * l[1] + xy(1, 2) * l[0];
+}
+
 /// Determinant of four rows (x, y, z, l), where l has its own degree.
 template <class Number, int Degree, int Last>
 [[nodiscard]] constexpr auto determinant(const std::array<BernsteinVector<Number, Degree, 3>, 4>& row,

@@ -1,7 +1,8 @@
 #pragma once
-// Orientation in space: for beads p, q, r, s the sign of det[q-p, r-p, s-p], positive if s is on the side of
-// the plane p, q, r from which they turn counterclockwise (CGAL's convention). Antisymmetric in its beads;
-// zero iff they are coplanar. Exact; degree 3k for centres of degree k.
+// Orientation. In the plane: for beads p, q, r the sign of det[q-p, r-p], positive if they turn
+// counterclockwise. In space: for p, q, r, s the sign of det[q-p, r-p, s-p], positive if s is on the side of
+// the plane p, q, r from which they turn counterclockwise (CGAL's conventions). Antisymmetric in its beads;
+// zero iff they lie on one line (plane). Exact; degree 2k (3k) for centres of degree k.
 
 #include "certificates/certificate.h"
 #include "certificates/determinant.h"
@@ -9,27 +10,33 @@
 
 namespace kds {
 
+template <int Dimension>
 struct Orientation {
-  std::array<BeadId, 4> beads{};  ///< ascending
+  static_assert(Dimension == 2 || Dimension == 3);
+  static constexpr std::size_t size = Dimension + 1;
+
+  std::array<BeadId, size> beads{};  ///< ascending
   int sign = 1;
 
   Orientation() = default;
   /// Holds while `sign_wanted` times the orientation of the beads in this order is positive.
-  Orientation(std::array<BeadId, 4> in_order, int sign_wanted) : beads(in_order) {
+  Orientation(std::array<BeadId, size> in_order, int sign_wanted) : beads(in_order) {
     sign = sign_wanted * sort_beads(beads);
   }
 
-  [[nodiscard]] Identity identity() const {
-    return {static_cast<std::uint32_t>(CertificateType::orientation),
-            {beads[0], beads[1], beads[2], beads[3], no_bead}};
-  }
+  [[nodiscard]] Identity identity() const { return identity_of(CertificateType::orientation, beads); }
 
   [[nodiscard]] bool side() const { return sign > 0; }
 
   template <MotionView View>
-  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 4>& beads) {
-    return determinant(view.difference(beads[1], beads[0]), view.difference(beads[2], beads[0]),
-                       view.difference(beads[3], beads[0]));
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, size>& beads) {
+    const auto a = view.difference(beads[1], beads[0]);
+    const auto b = view.difference(beads[2], beads[0]);
+    if constexpr (Dimension == 2) {
+      return minor(a[0], a[1], b[0], b[1]);
+    } else {
+      return determinant(a, b, view.difference(beads[3], beads[0]));
+    }
   }
 };
 

@@ -14,10 +14,7 @@ struct Precedes {
   /// Holds while the first bead lies before the second.
   Precedes(std::array<BeadId, 2> in_order) : beads(in_order), sign(sort_beads(beads)) {}
 
-  [[nodiscard]] Identity identity() const {
-    return {static_cast<std::uint32_t>(CertificateType::precedes),
-            {beads[0], beads[1], no_bead, no_bead, no_bead}};
-  }
+  [[nodiscard]] Identity identity() const { return identity_of(CertificateType::precedes, beads); }
 
   [[nodiscard]] bool side() const { return sign > 0; }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <string_view>
 
 namespace kds {
 
@@ -11,6 +12,13 @@ namespace {
 std::string bead_lines(std::span<const BeadId> beads) {
   std::string text = "bead\n";
   for (const BeadId b : beads) fmt::format_to(std::back_inserter(text), "{}\n", b);
+  return text;
+}
+
+template <class Cell>
+std::string cell_lines(std::string_view header, std::span<const Cell> cells) {
+  std::string text = fmt::format("{}\n", header);
+  for (const Cell& c : cells) fmt::format_to(std::back_inserter(text), "{}\n", fmt::join(c, ","));
   return text;
 }
 
@@ -27,11 +35,9 @@ DumpFile dump_wrapped(std::span<const WrappedNode> nodes) {
   return {"wrapped.csv", std::move(text)};
 }
 
-DumpFile dump_cells(std::span<const CellBeads> cells) {
-  std::string text = "a,b,c,d\n";
-  for (const CellBeads& c : cells)
-    fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", c[0], c[1], c[2], c[3]);
-  return {"power.csv", std::move(text)};
+DumpFile dump_cells(std::span<const CellBeads<2>> cells) { return {"power.csv", cell_lines("a,b,c", cells)}; }
+DumpFile dump_cells(std::span<const CellBeads<3>> cells) {
+  return {"power.csv", cell_lines("a,b,c,d", cells)};
 }
 
 DumpFile dump_hidden(std::span<const BeadId> hidden) { return {"hidden.csv", bead_lines(hidden)}; }

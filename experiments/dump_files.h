@@ -18,7 +18,8 @@ struct WrappedNode {
 };
 
 [[nodiscard]] DumpFile dump_wrapped(std::span<const WrappedNode> nodes);  ///< first,last,basis,x,y,z,radius
-[[nodiscard]] DumpFile dump_cells(std::span<const CellBeads> cells);      ///< a,b,c,d
+[[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<2>> cells);   ///< a,b,c
+[[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<3>> cells);   ///< a,b,c,d
 [[nodiscard]] DumpFile dump_hidden(std::span<const BeadId> hidden);       ///< bead
 [[nodiscard]] DumpFile dump_sorted(std::span<const BeadId> order);        ///< bead
 

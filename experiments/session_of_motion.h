@@ -19,9 +19,10 @@
 
 namespace kds {
 
-/// Whether the structures in space are compiled for a motion.
 template <Motion M>
-inline constexpr bool has_space_structures = M::dimension == 3 && M::degree == 1;
+inline constexpr bool has_wrapped = M::dimension == 3;
+template <Motion M>
+inline constexpr bool has_power = M::dimension >= 2;
 
 template <Motion M, Kernel K>
 class SessionOf final : public Session {
@@ -73,10 +74,11 @@ class SessionOf final : public Session {
           [this](std::size_t frame) { return seconds_to_sort(scene_.centers(frame)); });
       return;
     }
-    if (M::dimension != 3) {
-      throw InputError(fmt::format(
-          "--structures {}: needs points in space, this input has {} coordinate{}; sorted works here", name,
-          M::dimension, M::dimension == 1 ? "" : "s"));
+    const bool supported = name == "wrapped" ? has_wrapped<M> : has_power<M>;
+    if (!supported) {
+      throw InputError(fmt::format("--structures {}: needs {}, this input has {} coordinate{}", name,
+                                   name == "wrapped" ? "points in space" : "points in the plane or in space",
+                                   M::dimension, M::dimension == 1 ? "" : "s"));
     }
     if (!scene_.equal_radii()) {
       throw InputError(
@@ -84,18 +86,15 @@ class SessionOf final : public Session {
                       "unequal ones are not supported yet",
                       name));
     }
-    if constexpr (has_space_structures<M>) {
-      if (name == "wrapped") return add_wrapped();
-      return add_power();
-    } else {
-      throw InputError(fmt::format(
-          "--structures {}: motions of degree {} in space are not supported yet, only linear ones; "
-          "sorted works here",
-          name, M::degree));
+    if constexpr (has_wrapped<M>) {
+      if (name == "wrapped") add_wrapped();
+    }
+    if constexpr (has_power<M>) {
+      if (name == "power") add_power();
     }
   }
 
-  void add_wrapped() requires has_space_structures<M> {
+  void add_wrapped() requires has_wrapped<M> {
     auto* wrapped = own(std::make_unique<WrappedHierarchy<M, K>>(simulator_, motion_, scene_.necklaces()));
     add(
         [this, wrapped](std::size_t frame, auto& files) {
@@ -114,16 +113,16 @@ class SessionOf final : public Session {
         });
   }
 
-  void add_power() requires has_space_structures<M> {
+  void add_power() requires has_power<M> {
     auto* power = own(std::make_unique<PowerDiagram<M, K>>(simulator_, motion_));
     add(
         [power](std::size_t frame, auto& files) {
-          const StaticTriangulation at_frame = power->at_frame(frame == 0);
+          const auto at_frame = power->at_frame(frame == 0);
           files.push_back(dump_cells(at_frame.cells));
           files.push_back(dump_hidden(at_frame.hidden));
         },
         [this](std::size_t frame) {
-          return seconds_to_triangulate(scene_.centers(frame), scene_.weights(frame));
+          return seconds_to_triangulate<M::dimension>(scene_.centers(frame), scene_.weights(frame));
         });
   }
 

@@ -44,8 +44,8 @@ struct Basis {
 
 /// Decides the sign of any certificate at whatever time it stands for: 1, 0, -1.
 template <class D>
-concept SignDecider = requires(D& decide, const BeadInSphere<3>& a, const PowerTest& b,
-                               const Orientation& c) {
+concept SignDecider = requires(D& decide, const BeadInSphere<3>& a, const PowerTest<3>& b,
+                               const Orientation<3>& c) {
   { decide(a) } -> std::convertible_to<int>;
   { decide(b) } -> std::convertible_to<int>;
   { decide(c) } -> std::convertible_to<int>;
@@ -64,13 +64,13 @@ auto visit_membership(const Basis& basis, BeadId bead, bool inside, int orientat
     case 3:
       return visit(BeadInSphere<3>{{b[0], b[1], b[2], bead}, inside});
     default:
-      return visit(PowerTest({b[0], b[1], b[2], b[3], bead}, inside ? -orientation : orientation));
+      return visit(PowerTest<3>({b[0], b[1], b[2], b[3], bead}, inside ? -orientation : orientation));
   }
 }
 
 template <SignDecider Decide>
 [[nodiscard]] int orientation_of(const Basis& basis, Decide& decide) {
-  return basis.size == 4 ? decide(Orientation(basis.beads, 1)) : 0;
+  return basis.size == 4 ? decide(Orientation<3>(basis.beads, 1)) : 0;
 }
 
 [[nodiscard]] inline Basis without(const Basis& basis, BeadId bead) {

@@ -1,9 +1,8 @@
 #pragma once
-// What guards a facet of a regular triangulation: the power test of its two cells' five beads, or, where the
-// infinite vertex is among them, the orientation of the other four (the hull is locally convex there).
+// What guards a facet of a regular triangulation: the power test of its two cells' beads, or, where the
+// infinite vertex is among them, the orientation of the others (the hull is locally convex there).
 
 #include <algorithm>
-#include <array>
 
 #include "certificates/orientation.h"
 #include "certificates/power_test.h"
@@ -12,12 +11,16 @@
 namespace kds {
 
 /// Calls `use` with the certificate of the facet between a cell and the one with this apex beyond it.
-template <class Use>
-decltype(auto) with_facet_certificate(const CellBeads& cell, BeadId apex, Use use) {
-  const PowerTest test({cell[0], cell[1], cell[2], cell[3], apex}, 1);
-  if (test.beads[4] != infinite_bead) return use(test);
-  // Sorted, infinity is last: a row (0,0,0,1) there leaves the determinant of the others.
-  Orientation orientation;
+template <std::size_t N, class Use>
+decltype(auto) with_facet_certificate(const std::array<BeadId, N>& cell, BeadId apex, Use use) {
+  constexpr int dimension = static_cast<int>(N) - 1;
+  std::array<BeadId, N + 1> beads{};
+  std::copy(cell.begin(), cell.end(), beads.begin());
+  beads.back() = apex;
+  const PowerTest<dimension> test(beads, 1);
+  if (test.beads.back() != infinite_bead) return use(test);
+  // Sorted, infinity is last: a row (0, ..., 0, 1) there leaves the determinant of the others.
+  Orientation<dimension> orientation;
   std::copy(test.beads.begin(), test.beads.end() - 1, orientation.beads.begin());
   orientation.sign = test.sign;
   return use(orientation);

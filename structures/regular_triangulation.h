@@ -1,11 +1,11 @@
 #pragma once
-// The regular (weighted Delaunay) triangulation in space, dual of the power diagram. CGAL's
-// Regular_triangulation_3 is the structure of record; beside it stands an index mirror of its cells, flat and
-// fast to scan. The infinite vertex takes part like any other, as `infinite_bead`.
+// The regular (weighted Delaunay) triangulation in the plane or in space, dual of the power diagram. CGAL's
+// Regular_triangulation_2 and _3 are the structures of record; beside them stands an index mirror of the
+// cells, flat and fast to scan. The infinite vertex takes part like any other, as `infinite_bead`.
 //
-// A cell (a, b, c, d) has positive orientation; for an infinite cell the infinite vertex counts as a point
-// far outside the hull. Flips are combinatorial and look at no coordinates; the points are set when a step
-// ends.
+// A cell is a triangle or tetrahedron of positive orientation; in an infinite one the infinite vertex counts
+// as a point far outside the hull. Flips are combinatorial and look at no coordinates; the points are set
+// when a step ends. Centres have three rows; in the plane the third is not looked at.
 
 #include <Eigen/Core>
 #include <array>
@@ -22,7 +22,8 @@ namespace kds {
 
 inline constexpr BeadId infinite_bead = no_bead;
 using CellId = std::uint32_t;
-using CellBeads = std::array<BeadId, 4>;
+template <int Dimension>
+using CellBeads = std::array<BeadId, static_cast<std::size_t>(Dimension) + 1>;
 
 /// The facet opposite to vertex i of a cell, as that cell has it: 4 cell + i.
 using FacetId = std::uint32_t;
@@ -30,9 +31,11 @@ using FacetId = std::uint32_t;
 [[nodiscard]] constexpr CellId cell_of(FacetId facet) { return facet / 4; }
 [[nodiscard]] constexpr int index_of(FacetId facet) { return static_cast<int>(facet % 4); }
 
+template <int Dimension>
 struct TriangulationCell {
-  CellBeads vertex{};
-  std::array<FacetId, 4> beyond{};  ///< the same facets as the neighbours have them
+  CellBeads<Dimension> vertex{};
+  std::array<FacetId, static_cast<std::size_t>(Dimension) + 1>
+      beyond{};  ///< its facets as the neighbours have them
 };
 
 /// Position and weight of a bead at one time, exactly.
@@ -42,36 +45,45 @@ struct ExactBead {
 };
 
 /// Cells of a static triangulation, and beads without a cell of their own in the power diagram.
+template <int Dimension>
 struct StaticTriangulation {
-  std::vector<CellBeads> cells;  ///< positively oriented; infinite ones too where asked for
-  std::vector<BeadId> hidden;    ///< ascending
-  int dimension = 3;             ///< of the points' affine hull; no cells below 3
+  std::vector<CellBeads<Dimension>> cells;  ///< positively oriented; infinite ones too where asked for
+  std::vector<BeadId> hidden;               ///< ascending
+  int dimension = Dimension;                ///< of the points' affine hull; no cells below the space's own
 };
 
 /// Built by CGAL from doubles with exact predicates; finite cells only, beads ascending, sorted.
-[[nodiscard]] StaticTriangulation static_triangulation(const Eigen::Matrix3Xd& centers,
-                                                       std::span<const double> weights);
+template <int Dimension>
+[[nodiscard]] StaticTriangulation<Dimension> static_triangulation(const Eigen::Matrix3Xd& centers,
+                                                                  std::span<const double> weights);
 /// Built by CGAL with exact numbers. With `oriented`, infinite cells too, as they are; else as above.
-[[nodiscard]] StaticTriangulation static_triangulation(std::span<const ExactBead> beads, bool oriented);
+template <int Dimension>
+[[nodiscard]] StaticTriangulation<Dimension> static_triangulation(std::span<const ExactBead> beads,
+                                                                  bool oriented);
 
 /// Seconds that CGAL takes for the same from doubles, which is what a user would do at every frame instead.
+template <int Dimension>
 [[nodiscard]] double seconds_to_triangulate(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
 
+template <int Dimension>
 class RegularTriangulation {
  public:
+  using Cell = TriangulationCell<Dimension>;
+  using Beads = CellBeads<Dimension>;
+
   RegularTriangulation();
   ~RegularTriangulation();
   RegularTriangulation(const RegularTriangulation&) = delete;
   RegularTriangulation& operator=(const RegularTriangulation&) = delete;
 
   /// By CGAL from doubles; returns the hidden beads and the dimension, no cells.
-  StaticTriangulation build(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+  StaticTriangulation<Dimension> build(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
   /// From oriented cells, infinite ones included; all beads are vertices. The points are those last set.
-  void assign(std::size_t beads, std::span<const CellBeads> oriented_cells);
+  void assign(std::size_t beads, std::span<const Beads> oriented_cells);
   void set_points(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
 
   /// Live cells and, among them, free slots: see is_live.
-  [[nodiscard]] std::span<const TriangulationCell> cells() const { return cells_; }
+  [[nodiscard]] std::span<const Cell> cells() const { return cells_; }
   [[nodiscard]] bool is_live(CellId cell) const { return live_[cell] != 0; }
   /// Facet i of `cell` as its neighbour there has it.
   [[nodiscard]] FacetId beyond(CellId cell, int i) const {
@@ -80,29 +92,30 @@ class RegularTriangulation {
   /// The bead opposite to a facet.
   [[nodiscard]] BeadId apex(FacetId facet) const { return cells_[cell_of(facet)].vertex[facet % 4]; }
 
-  /// Replaces `cell` and its neighbour across facet i by three cells around the edge of their apices.
-  std::array<CellId, 3> flip_facet(CellId cell, int i);
-  /// Replaces the three cells around the edge of vertices i and j of `cell` by two.
-  std::array<CellId, 2> flip_edge(CellId cell, int i, int j);
-  /// Whether the beads, infinity among them, are joined by an edge or a triangle.
+  /// Replaces `cell` and its neighbour across facet i by the cells around the edge of their apices: three in
+  /// space, two in the plane.
+  std::array<CellId, static_cast<std::size_t>(Dimension)> flip_facet(CellId cell, int i);
+  /// In space: replaces the three cells around the edge of vertices i and j of `cell` by two.
+  std::array<CellId, 2> flip_edge(CellId cell, int i, int j) requires(Dimension == 3);
+  /// Whether the beads, infinity among them, are joined by an edge or, in space, a triangle.
   [[nodiscard]] bool is_edge(BeadId a, BeadId b) const;
-  [[nodiscard]] bool is_facet(BeadId a, BeadId b, BeadId c) const;
+  [[nodiscard]] bool is_facet(BeadId a, BeadId b, BeadId c) const requires(Dimension == 3);
   /// The cell with these vertices in any order.
-  [[nodiscard]] std::optional<CellId> find_cell(const CellBeads& beads) const;
+  [[nodiscard]] std::optional<CellId> find_cell(const Beads& beads) const;
 
   /// CGAL's own check of combinatorics, orientation and power tests at the points set.
   [[nodiscard]] bool is_valid() const;
   /// The least orientation of a finite cell at the points set: 1, or 0 for a flat, -1 for an inverted one.
   [[nodiscard]] int least_orientation() const;
   /// Finite cells, beads ascending, sorted.
-  [[nodiscard]] std::vector<CellBeads> finite_cells() const;
+  [[nodiscard]] std::vector<Beads> finite_cells() const;
 
  private:
   struct Cgal;
   void mirror_all();
 
   std::unique_ptr<Cgal> cgal_;
-  std::vector<TriangulationCell> cells_;
+  std::vector<Cell> cells_;
   std::vector<char> live_;
 };
 

@@ -2,14 +2,12 @@
 // Cells written one way: beads ascending, cells in lexicographic order.
 
 #include <algorithm>
-#include <array>
 #include <vector>
-
-#include "motions/bead.h"
 
 namespace kds {
 
-inline void sort_cells(std::vector<std::array<BeadId, 4>>& cells) {
+template <class CellOfBeads>
+void sort_cells(std::vector<CellOfBeads>& cells) {
   for (auto& cell : cells) std::sort(cell.begin(), cell.end());
   std::sort(cells.begin(), cells.end());
 }

@@ -2,8 +2,8 @@
 // Whether a triangulation is regular, by the definition and by exact signs alone: sound in degenerate
 // positions, where several are right and comparing with a static build would not do.
 //
-// All beads are vertices, all finite cells positive, all facets regular, the hull's triangles have no bead
-// outside. Then the triangles cover the hull's boundary equally often everywhere, and the cells its inside as
+// All beads are vertices, all finite cells positive, all facets regular, the hull's faces have no bead
+// outside. Then its triangles cover the hull's boundary equally often everywhere, and the cells its inside as
 // often; once, if the centroid of one triangle lies in no other. (The cells close up: flips keep that.)
 
 #include <algorithm>
@@ -19,36 +19,69 @@
 
 namespace kds {
 
-/// The finite facet of an infinite cell, counterclockwise seen from outside; none of a finite cell.
-[[nodiscard]] inline std::optional<std::array<BeadId, 3>> hull_triangle(const CellBeads& v) {
-  const auto place = std::find(v.begin(), v.end(), infinite_bead) - v.begin();
-  if (place == 4) return std::nullopt;
-  std::array<BeadId, 3> triangle{v[0], v[1], v[2]};
-  if (place != 3) {
-    triangle[static_cast<std::size_t>(place)] = v[3];
-    std::swap(triangle[0], triangle[1]);  // one exchange made good by another
+/// The finite facet of an infinite cell, positive seen from outside; none of a finite cell.
+template <int Dimension>
+[[nodiscard]] std::optional<std::array<BeadId, Dimension>> hull_face(const CellBeads<Dimension>& v) {
+  const auto place = static_cast<std::size_t>(std::find(v.begin(), v.end(), infinite_bead) - v.begin());
+  if (place > Dimension) return std::nullopt;
+  std::array<BeadId, Dimension> face{};
+  std::copy(v.begin(), v.end() - 1, face.begin());
+  if (place != Dimension) {
+    face[place] = v[Dimension];
+    std::swap(face[0], face[1]);  // one exchange made good by another
   }
-  return triangle;
+  return face;
 }
+
+template <int Dimension>
+[[nodiscard]] SameTurn<Dimension> same_turn(const std::array<BeadId, Dimension>& a,
+                                            const std::array<BeadId, Dimension>& b) {
+  SameTurn<Dimension> turn;
+  std::copy(b.begin(), b.end(), std::copy(a.begin(), a.end(), turn.beads.begin()));
+  return turn;
+}
+
+namespace detail {
+
+/// Whether the centroid of one face lies in another of the same plane (line), or on its boundary.
+template <int Dimension, class Sign>
+[[nodiscard]] bool holds_centroid(const std::array<BeadId, Dimension>& of,
+                                  const std::array<BeadId, Dimension>& face, Sign sign) {
+  const auto inside = [&](auto... line) {
+    CentroidInside<Dimension> f;
+    const std::array ends{line...};
+    std::copy(ends.begin(), ends.end(), std::copy(of.begin(), of.end(), f.beads.begin()));
+    return sign(f);
+  };
+  if constexpr (Dimension == 2) {
+    return inside(face[0]) >= 0 && inside(face[1]) <= 0;
+  } else {
+    return inside(face[0], face[1]) >= 0 && inside(face[1], face[2]) >= 0 && inside(face[2], face[0]) >= 0;
+  }
+}
+
+}  // namespace detail
 
 /// What is wrong with the triangulation of beads 0 ... beads-1 at one moment, or nothing. `sign` gives the
 /// sign of a function of beads then; cells may be flat where `flat_cells` says so.
-template <class Sign>
-[[nodiscard]] std::optional<std::string> triangulation_fault(const RegularTriangulation& triangulation,
-                                                             BeadId beads, bool flat_cells, Sign sign) {
-  std::vector<std::array<BeadId, 3>> hull;
+template <int Dimension, class Sign>
+[[nodiscard]] std::optional<std::string> triangulation_fault(
+    const RegularTriangulation<Dimension>& triangulation, BeadId beads, bool flat_cells, Sign sign) {
+  using Face = std::array<BeadId, Dimension>;
+  std::vector<Face> hull;
   std::vector<char> is_vertex(beads, 0);
   for (CellId cell = 0; cell < triangulation.cells().size(); ++cell) {
     if (!triangulation.is_live(cell)) continue;
-    const CellBeads& v = triangulation.cells()[cell].vertex;
-    if (const auto triangle = hull_triangle(v)) {
-      hull.push_back(*triangle);
-    } else if (const int s = sign(Orientation(v, 1)); s < 0 || (s == 0 && !flat_cells)) {
-      return "the cell of beads " + bead_names(v) + " is " + (s < 0 ? "inverted" : "flat");
+    const CellBeads<Dimension>& v = triangulation.cells()[cell].vertex;
+    if (const auto face = hull_face<Dimension>(v)) {
+      hull.push_back(*face);
     } else {
+      const int s = sign(Orientation<Dimension>(v, 1));
+      if (s < 0 || (s == 0 && !flat_cells))
+        return "the cell of beads " + bead_names(v) + " is " + (s < 0 ? "inverted" : "flat");
       for (const BeadId b : v) is_vertex[b] = 1;
     }
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i <= Dimension; ++i) {
       const FacetId beyond = triangulation.beyond(cell, i);
       if (cell_of(beyond) < cell) continue;
       const BeadId apex = triangulation.apex(beyond);
@@ -60,28 +93,28 @@ template <class Sign>
   for (BeadId bead = 0; bead < beads; ++bead) {
     if (is_vertex[bead] == 0) return "bead " + std::to_string(bead) + " has no cell";
   }
-  for (const auto& [a, b, c] : hull) {
+  const auto side = [&](const Face& face, BeadId bead) {  // positive inside
+    if (std::find(face.begin(), face.end(), bead) != face.end()) return 0;
+    CellBeads<Dimension> cell{};
+    std::copy(face.begin(), face.end(), cell.begin());
+    cell.back() = bead;
+    return sign(Orientation<Dimension>(cell, -1));
+  };
+  for (const Face& face : hull) {
     for (BeadId bead = 0; bead < beads; ++bead) {
-      if (bead != a && bead != b && bead != c && sign(Orientation({a, b, c, bead}, -1)) < 0)
-        return "bead " + std::to_string(bead) + " is outside the hull's triangle " +
-               bead_names(std::array{a, b, c});
+      if (side(face, bead) < 0)
+        return "bead " + std::to_string(bead) + " is outside the hull's face " + bead_names(face);
     }
   }
-  const auto flat = [&](const std::array<BeadId, 3>& t) {
-    return sign(SameTurn{{t[0], t[1], t[2], t[0], t[1], t[2]}}) == 0;
-  };
+  const auto flat = [&](const Face& face) { return sign(same_turn<Dimension>(face, face)) == 0; };
   const auto first = std::find_if_not(hull.begin(), hull.end(), flat);
   if (first == hull.end()) return std::nullopt;
-  const auto& [a, b, c] = *first;
-  const auto outside = [&](BeadId from, BeadId to) { return sign(CentroidLeftOf{{a, b, c, from, to}}) < 0; };
-  const auto in_plane = [&](BeadId bead) {
-    return bead == a || bead == b || bead == c || sign(Orientation({a, b, c, bead}, 1)) == 0;
+  const auto beside = [&](const Face& face) {
+    return std::all_of(face.begin(), face.end(), [&](BeadId bead) { return side(*first, bead) == 0; });
   };
   for (auto other = first + 1; other != hull.end(); ++other) {
-    const auto& [p, q, r] = *other;
-    if (in_plane(p) && in_plane(q) && in_plane(r) && !flat(*other) && !outside(p, q) && !outside(q, r) &&
-        !outside(r, p))
-      return "the hull's triangles " + bead_names(*first) + " and " + bead_names(*other) + " overlap";
+    if (beside(*other) && !flat(*other) && detail::holds_centroid<Dimension>(*first, *other, sign))
+      return "the hull's faces " + bead_names(*first) + " and " + bead_names(*other) + " overlap";
   }
   return std::nullopt;
 }

@@ -109,14 +109,14 @@ class WrappedHierarchy final : public KineticStructure {
   static BeadId bead_of(const BeadInSphere<Size>& c, const Basis&) {
     return c.beads[Size];
   }
-  static BeadId bead_of(const PowerTest& c, const Basis& basis) {
+  static BeadId bead_of(const PowerTest<3>& c, const Basis& basis) {
     return *std::find_if(c.beads.begin(), c.beads.end(), [&](BeadId b) { return !basis.contains(b); });
   }
 
   auto& table_of(const BeadInSphere<1>&) { return of_singles_; }
   auto& table_of(const BeadInSphere<2>&) { return of_pairs_; }
   auto& table_of(const BeadInSphere<3>&) { return of_triples_; }
-  auto& table_of(const PowerTest&) { return of_quadruples_; }
+  auto& table_of(const PowerTest<3>&) { return of_quadruples_; }
   template <class Visit>
   void visit_table(unsigned table, Visit&& visit) {
     switch (table) {
@@ -160,7 +160,7 @@ class WrappedHierarchy final : public KineticStructure {
   CertificateTable<BeadInSphere<1>, M, K> of_singles_;
   CertificateTable<BeadInSphere<2>, M, K> of_pairs_;
   CertificateTable<BeadInSphere<3>, M, K> of_triples_;
-  CertificateTable<PowerTest, M, K> of_quadruples_;
+  CertificateTable<PowerTest<3>, M, K> of_quadruples_;
   std::vector<Node> nodes_;
   std::vector<Held> held_;
   std::vector<std::uint32_t> free_;

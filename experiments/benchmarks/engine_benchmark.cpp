@@ -44,7 +44,7 @@ void run_instance(benchmark::State& state, const std::string& file, const std::s
     }
     for (int i = 0; i < builds; ++i) {
       built += structure == "sorted" ? kds::seconds_to_sort(centers)
-                                     : kds::seconds_to_triangulate(centers, weights);
+                                     : kds::seconds_to_triangulate<3>(centers, weights);
     }
   }
   state.counters["events_per_second"] = events / kinetic;

@@ -159,8 +159,8 @@ TEST(BeadInSphere, OfFourBeadsIsAPowerTest) {
     const RationalPoint center = test::combination(basis, *weights);
     const RationalPoint radius = test::minus(basis[0], center);
     const RationalPoint reach = test::minus(test::point_at(motion, 4, time), center);
-    EXPECT_EQ(test::sign_at(Orientation({0, 1, 2, 3}, 1), motion, time) *
-                  test::sign_at(PowerTest({0, 1, 2, 3, 4}, 1), motion, time),
+    EXPECT_EQ(test::sign_at(Orientation<3>({0, 1, 2, 3}, 1), motion, time) *
+                  test::sign_at(PowerTest<3>({0, 1, 2, 3, 4}, 1), motion, time),
               test::sign(test::dot(reach, reach) - test::dot(radius, radius)));
   }
 }

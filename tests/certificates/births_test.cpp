@@ -158,7 +158,8 @@ TEST(Stages, NothingIsToldApartFromZero) {
     }
   }
   EXPECT_EQ(
-      (first_failure<Filtered>(Orientation({0, 1, 2, 3}, 1), flat, Instant(0), Birth::unknown, stages).kind),
+      (first_failure<Filtered>(Orientation<3>({0, 1, 2, 3}, 1), flat, Instant(0), Birth::unknown, stages)
+           .kind),
       Kind::zero);
   EXPECT_EQ(stages.identically_zero, 1U);
   EXPECT_EQ(stages.exact, 0U);

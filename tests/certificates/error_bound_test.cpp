@@ -46,11 +46,11 @@ class ErrorBounds : public testing::Test {
 
 using Subjects =
     testing::Types<Subject<Precedes, BezierMotion<1, 1>>, Subject<Precedes, BezierMotion<3, 3>>,
-                   Subject<Orientation, BezierMotion<3, 1>>, Subject<Orientation, BezierMotion<3, 3>>,
+                   Subject<Orientation<3>, BezierMotion<3, 1>>, Subject<Orientation<3>, BezierMotion<3, 3>>,
                    Subject<BeadInSphere<1>, BezierMotion<3, 1>>, Subject<BeadInSphere<2>, BezierMotion<3, 1>>,
                    Subject<BeadInSphere<2>, BezierMotion<2, 2>>, Subject<BeadInSphere<3>, BezierMotion<3, 1>>,
-                   Subject<BeadInSphere<3>, BezierMotion<3, 3>>, Subject<PowerTest, BezierMotion<3, 1>>,
-                   Subject<PowerTest, BezierMotion<3, 3>>>;
+                   Subject<BeadInSphere<3>, BezierMotion<3, 3>>, Subject<PowerTest<3>, BezierMotion<3, 1>>,
+                   Subject<PowerTest<3>, BezierMotion<3, 3>>>;
 TYPED_TEST_SUITE(ErrorBounds, Subjects);
 
 TYPED_TEST(ErrorBounds, HoldAtAllScales) {
@@ -106,8 +106,8 @@ TYPED_TEST(ErrorBounds, SayNothingOutOfRange) {
 TEST(ErrorBound, KnowsTheDegreeInLengths) {
   using M = BezierMotion<3, 1>;
   EXPECT_EQ((error_bound<Precedes, M>.power), 1);
-  EXPECT_EQ((error_bound<Orientation, M>.power), 3);
-  EXPECT_EQ((error_bound<PowerTest, M>.power), 5);
+  EXPECT_EQ((error_bound<Orientation<3>, M>.power), 3);
+  EXPECT_EQ((error_bound<PowerTest<3>, M>.power), 5);
   EXPECT_EQ((error_bound<BeadInSphere<1>, M>.power), 2);
   EXPECT_EQ((error_bound<BeadInSphere<2>, M>.power), 2);
   EXPECT_EQ((error_bound<BeadInSphere<3>, M>.power), 6);

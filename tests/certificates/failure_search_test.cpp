@@ -105,11 +105,11 @@ class FailureSearch : public testing::Test {
 
 using Subjects =
     testing::Types<Subject<Precedes, BezierMotion<1, 1>>, Subject<Precedes, BezierMotion<3, 3>>,
-                   Subject<Orientation, BezierMotion<3, 1>>, Subject<Orientation, BezierMotion<3, 2>>,
+                   Subject<Orientation<3>, BezierMotion<3, 1>>, Subject<Orientation<3>, BezierMotion<3, 2>>,
                    Subject<BeadInSphere<1>, BezierMotion<3, 1>>, Subject<BeadInSphere<2>, BezierMotion<3, 1>>,
                    Subject<BeadInSphere<2>, BezierMotion<2, 3>>, Subject<BeadInSphere<3>, BezierMotion<3, 1>>,
-                   Subject<BeadInSphere<3>, BezierMotion<3, 3>>, Subject<PowerTest, BezierMotion<3, 1>>,
-                   Subject<PowerTest, BezierMotion<3, 3>>>;
+                   Subject<BeadInSphere<3>, BezierMotion<3, 3>>, Subject<PowerTest<3>, BezierMotion<3, 1>>,
+                   Subject<PowerTest<3>, BezierMotion<3, 3>>>;
 TYPED_TEST_SUITE(FailureSearch, Subjects);
 
 // Fewer for types of high degree, where the judge is slow.

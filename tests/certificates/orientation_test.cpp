@@ -14,7 +14,7 @@ namespace {
 using Points = std::vector<std::array<double, 3>>;
 
 int orientation(const Points& points, std::array<BeadId, 4> order = {0, 1, 2, 3}, int wanted = 1) {
-  return test::sign_at(Orientation(order, wanted), test::at_rest(points), Dyadic(0.0));
+  return test::sign_at(Orientation<3>(order, wanted), test::at_rest(points), Dyadic(0.0));
 }
 
 TEST(Orientation, IsPositiveForTheAxes) {
@@ -37,19 +37,19 @@ TEST(Orientation, IsAntisymmetric) {
     const auto motion = test::random_motion<BezierMotion<3, 2>>(random, 4, test::MotionKind::generic);
     const Dyadic time = test::random_dyadic(random);
     std::array<BeadId, 4> order{0, 1, 2, 3};
-    const int first = test::sign_at(Orientation(order, 1), motion, time);
+    const int first = test::sign_at(Orientation<3>(order, 1), motion, time);
     do {
       int inversions = 0;
       for (std::size_t a = 0; a < 4; ++a) {
         for (std::size_t b = a + 1; b < 4; ++b) inversions += order[a] > order[b];
       }
       const int sign = inversions % 2 == 0 ? 1 : -1;
-      EXPECT_EQ(test::sign_at(Orientation(order, 1), motion, time), sign * first);
-      EXPECT_EQ(test::sign_at(Orientation(order, -1), motion, time), -sign * first);
+      EXPECT_EQ(test::sign_at(Orientation<3>(order, 1), motion, time), sign * first);
+      EXPECT_EQ(test::sign_at(Orientation<3>(order, -1), motion, time), -sign * first);
       // one function for all of them, to the last bit
-      EXPECT_EQ(Orientation(order, 1).identity(), Orientation({0, 1, 2, 3}, 1).identity());
-      const auto function = exact_function(Orientation(order, sign), motion);
-      EXPECT_EQ(function.scaled(), exact_function(Orientation({0, 1, 2, 3}, 1), motion).scaled());
+      EXPECT_EQ(Orientation<3>(order, 1).identity(), Orientation<3>({0, 1, 2, 3}, 1).identity());
+      const auto function = exact_function(Orientation<3>(order, sign), motion);
+      EXPECT_EQ(function.scaled(), exact_function(Orientation<3>({0, 1, 2, 3}, 1), motion).scaled());
     } while (std::next_permutation(order.begin(), order.end()));
   }
 }
@@ -65,7 +65,7 @@ TEST(Orientation, IsTheDeterminant) {
         const auto p = test::point_at(motion, b, time);
         rows.push_back({1, p[0], p[1], p[2]});
       }
-      const Orientation certificate({0, 1, 2, 3}, 1);
+      const Orientation<3> certificate({0, 1, 2, 3}, 1);
       const int expected = test::sign(test::determinant_of(rows));
       EXPECT_EQ(test::sign_at(certificate, motion, time), expected) << "seed 702, round " << i;
       EXPECT_EQ(exact_function(certificate, motion).sign_at(time), expected) << "seed 702, round " << i;
@@ -74,10 +74,10 @@ TEST(Orientation, IsTheDeterminant) {
 }
 
 TEST(Orientation, HasAnIdentityByType) {
-  const Identity identity = Orientation({7, 3, 9, 1}, -1).identity();
+  const Identity identity = Orientation<3>({7, 3, 9, 1}, -1).identity();
   EXPECT_EQ(identity.type, static_cast<std::uint32_t>(CertificateType::orientation));
   EXPECT_EQ(identity.beads, (std::array<BeadId, 5>{1, 3, 7, 9, no_bead}));
-  EXPECT_NE(identity, Orientation({7, 3, 8, 1}, -1).identity());
+  EXPECT_NE(identity, Orientation<3>({7, 3, 8, 1}, -1).identity());
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 using Points = std::vector<std::array<double, 3>>;
 
 int power_test(const Points& points, const std::vector<double>& weights = {}) {
-  return test::sign_at(PowerTest({0, 1, 2, 3, 4}, 1), test::at_rest(points, weights), Dyadic(0.0));
+  return test::sign_at(PowerTest<3>({0, 1, 2, 3, 4}, 1), test::at_rest(points, weights), Dyadic(0.0));
 }
 
 // Positively oriented, on the sphere about (1/2, 1/2, 1/2).
@@ -60,7 +60,7 @@ TEST(PowerTest, IsAntisymmetric) {
     const auto motion = test::random_motion<BezierMotion<3, 1>>(random, 5, test::MotionKind::generic);
     const Dyadic time = test::random_dyadic(random);
     std::array<BeadId, 5> order{0, 1, 2, 3, 4};
-    const int first = test::sign_at(PowerTest(order, 1), motion, time);
+    const int first = test::sign_at(PowerTest<3>(order, 1), motion, time);
     ASSERT_NE(first, 0);
     do {
       int inversions = 0;
@@ -68,11 +68,11 @@ TEST(PowerTest, IsAntisymmetric) {
         for (std::size_t b = a + 1; b < 5; ++b) inversions += order[a] > order[b];
       }
       const int sign = inversions % 2 == 0 ? 1 : -1;
-      EXPECT_EQ(test::sign_at(PowerTest(order, 1), motion, time), sign * first);
-      EXPECT_EQ(test::sign_at(PowerTest(order, -1), motion, time), -sign * first);
-      EXPECT_EQ(PowerTest(order, 1).identity(), PowerTest({0, 1, 2, 3, 4}, 1).identity());
-      EXPECT_EQ(exact_function(PowerTest(order, sign), motion).scaled(),
-                exact_function(PowerTest({0, 1, 2, 3, 4}, 1), motion).scaled());
+      EXPECT_EQ(test::sign_at(PowerTest<3>(order, 1), motion, time), sign * first);
+      EXPECT_EQ(test::sign_at(PowerTest<3>(order, -1), motion, time), -sign * first);
+      EXPECT_EQ(PowerTest<3>(order, 1).identity(), PowerTest<3>({0, 1, 2, 3, 4}, 1).identity());
+      EXPECT_EQ(exact_function(PowerTest<3>(order, sign), motion).scaled(),
+                exact_function(PowerTest<3>({0, 1, 2, 3, 4}, 1), motion).scaled());
     } while (std::next_permutation(order.begin(), order.end()));
   }
 }
@@ -93,7 +93,7 @@ TEST(PowerTest, IsThePowerToTheOrthogonalSphere) {
         const auto p = test::point_at(motion, b, time);
         rows.push_back({p[0], p[1], p[2], test::dot(p, p) - exact_position(motion, b, time)[3], 1});
       }
-      const PowerTest certificate({0, 1, 2, 3, 4}, 1);
+      const PowerTest<3> certificate({0, 1, 2, 3, 4}, 1);
       const int found = test::sign_at(certificate, motion, time);
       EXPECT_EQ(found, test::sign(test::determinant_of(rows)));
       EXPECT_EQ(found, exact_function(certificate, motion).sign_at(time));
@@ -119,10 +119,10 @@ TEST(PowerTest, IsThePowerToTheOrthogonalSphere) {
 }
 
 TEST(PowerTest, HasAnIdentityByType) {
-  const Identity identity = PowerTest({7, 3, 9, 1, 4}, -1).identity();
+  const Identity identity = PowerTest<3>({7, 3, 9, 1, 4}, -1).identity();
   EXPECT_EQ(identity.type, static_cast<std::uint32_t>(CertificateType::power_test));
   EXPECT_EQ(identity.beads, (std::array<BeadId, 5>{1, 3, 4, 7, 9}));
-  EXPECT_LT(PowerTest({0, 1, 2, 3, 4}, 1).identity(), PowerTest({0, 1, 2, 3, 5}, 1).identity());
+  EXPECT_LT(PowerTest<3>({0, 1, 2, 3, 4}, 1).identity(), PowerTest<3>({0, 1, 2, 3, 5}, 1).identity());
 }
 
 TEST(SortBeads, TellsTheSignOfThePermutation) {

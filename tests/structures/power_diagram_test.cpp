@@ -19,7 +19,7 @@ using PowerRig = Rig<PowerDiagram<Space, K>, Space>;
 /// The final cells at u = 1, checked by the definition and against CGAL over the rationals.
 template <class K>
 void expect_right_at_the_end(PowerRig<K>& rig) {
-  const StaticTriangulation end = rig.structure.at_frame(false);
+  const StaticTriangulation<3> end = rig.structure.at_frame(false);
   const auto points = exact_points(rig.motion, Dyadic(1.0));
   const CgalCells cgal = cgal_regular_cells(points);
   ASSERT_TRUE(cgal.valid);
@@ -138,33 +138,33 @@ TEST(PowerDiagram, LoggedFlipsTurnTheFirstCellsIntoTheLast) {
   const Space motion = instance_motion<Space>("d3_n20_linear");
   PowerRig<Filtered> rig(motion);
   rig.run();
-  using Cells = std::set<CellBeads>;
+  using Cells = std::set<CellBeads<3>>;
   const auto start = cgal_regular_cells(exact_points(motion, Dyadic(0.0))).cells;
   Cells cells(start.begin(), start.end());
   const auto cell = [](std::initializer_list<BeadId> beads) {
-    CellBeads sorted{};
+    CellBeads<3> sorted{};
     std::copy(beads.begin(), beads.end(), sorted.begin());
     std::sort(sorted.begin(), sorted.end());
     return sorted;
   };
-  const auto finite = [](const CellBeads& c) { return c[3] != infinite_bead; };
+  const auto finite = [](const CellBeads<3>& c) { return c[3] != infinite_bead; };
   for (const LoggedEvent& e : rig.history.events) {
     const auto& id = e.change.ids;
     ASSERT_EQ(e.change.size, 5);
     EXPECT_TRUE(id[0] < id[1] && id[1] < id[2] && id[3] < id[4]);
-    const std::array<CellBeads, 2> two{cell({id[0], id[1], id[2], id[3]}),
-                                       cell({id[0], id[1], id[2], id[4]})};
-    const std::array<CellBeads, 3> three{cell({id[0], id[1], id[3], id[4]}),
-                                         cell({id[0], id[2], id[3], id[4]}),
-                                         cell({id[1], id[2], id[3], id[4]})};
+    const std::array<CellBeads<3>, 2> two{cell({id[0], id[1], id[2], id[3]}),
+                                          cell({id[0], id[1], id[2], id[4]})};
+    const std::array<CellBeads<3>, 3> three{cell({id[0], id[1], id[3], id[4]}),
+                                            cell({id[0], id[2], id[3], id[4]}),
+                                            cell({id[1], id[2], id[3], id[4]})};
     const bool to_edge = rig.structure.kinds()[e.change.kind].name == "2-3";
     ASSERT_TRUE(to_edge || rig.structure.kinds()[e.change.kind].name == "3-2");
-    for (const CellBeads& c : two) {
+    for (const CellBeads<3>& c : two) {
       if (finite(c)) {
         EXPECT_EQ(to_edge ? cells.erase(c) : cells.insert(c).second, 1U);
       }
     }
-    for (const CellBeads& c : three) {
+    for (const CellBeads<3>& c : three) {
       if (finite(c)) {
         EXPECT_EQ(to_edge ? cells.insert(c).second : cells.erase(c), 1U);
       }
@@ -204,12 +204,12 @@ TEST(PowerDiagram, AuditsNoticeEveryWrongFlip) {
     const bool to_edge = rig.structure.kinds()[e.change.kind].name == "2-3";
     for (const bool forth : {to_edge, !to_edge}) {
       Change change = e.change;
-      change.kind = forth ? PowerDiagram<Space, Filtered>::flip23 : PowerDiagram<Space, Filtered>::flip32;
+      change.kind = forth ? PowerDiagram<Space, Filtered>::to_edge : PowerDiagram<Space, Filtered>::to_facet;
       Change back = e.change;
-      back.kind = forth ? PowerDiagram<Space, Filtered>::flip32 : PowerDiagram<Space, Filtered>::flip23;
+      back.kind = forth ? PowerDiagram<Space, Filtered>::to_facet : PowerDiagram<Space, Filtered>::to_edge;
       // Only what leaves a triangulation: no second edge between two beads, no second facet of three.
       const auto together = [cells = rig.structure.at_frame(false).cells](std::span<const BeadId> beads) {
-        return std::any_of(cells.begin(), cells.end(), [&](const CellBeads& cell) {
+        return std::any_of(cells.begin(), cells.end(), [&](const CellBeads<3>& cell) {
           return std::all_of(beads.begin(), beads.end(),
                              [&](BeadId b) { return std::find(cell.begin(), cell.end(), b) != cell.end(); });
         });
@@ -239,15 +239,15 @@ TEST(PowerDiagram, RefusesChangesThatCannotBe) {
   PowerRig<Filtered> rig(moving(points, points));
   rig.run();
   using Diagram = PowerDiagram<Space, Filtered>;
-  EXPECT_THROW(rig.structure.apply({Diagram::flip23, 5, {0, 1, 3, 2, 4}}),
+  EXPECT_THROW(rig.structure.apply({Diagram::to_edge, 5, {0, 1, 3, 2, 4}}),
                std::invalid_argument);  // another apex
-  EXPECT_THROW(rig.structure.apply({Diagram::flip23, 5, {0, 3, 4, 1, 2}}),
+  EXPECT_THROW(rig.structure.apply({Diagram::to_edge, 5, {0, 3, 4, 1, 2}}),
                std::invalid_argument);  // no such cell
-  EXPECT_THROW(rig.structure.apply({Diagram::flip32, 5, {0, 1, 2, 3, 4}}), std::invalid_argument);
-  EXPECT_THROW(rig.structure.apply({Diagram::flip23, 5, {0, 1, 9, 3, 4}}), std::invalid_argument);
-  rig.structure.apply({Diagram::flip23, 5, {0, 1, 2, 3, 4}});
-  EXPECT_THROW(rig.structure.apply({Diagram::flip23, 5, {0, 1, 2, 3, 4}}), std::invalid_argument);
-  rig.structure.apply({Diagram::flip32, 5, {0, 1, 2, 3, 4}});
+  EXPECT_THROW(rig.structure.apply({Diagram::to_facet, 5, {0, 1, 2, 3, 4}}), std::invalid_argument);
+  EXPECT_THROW(rig.structure.apply({Diagram::to_edge, 5, {0, 1, 9, 3, 4}}), std::invalid_argument);
+  rig.structure.apply({Diagram::to_edge, 5, {0, 1, 2, 3, 4}});
+  EXPECT_THROW(rig.structure.apply({Diagram::to_edge, 5, {0, 1, 2, 3, 4}}), std::invalid_argument);
+  rig.structure.apply({Diagram::to_facet, 5, {0, 1, 2, 3, 4}});
 }
 
 // A log may have been edited: the diagram must stay a triangulation.
@@ -255,7 +255,7 @@ TEST(PowerDiagram, RefusesASecondEdgeBetweenTwoBeads) {
   const Points points{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 1}, {0, 0, -1}};  // three cells around 3-4
   PowerRig<Filtered> rig(moving(points, points));
   rig.run();
-  EXPECT_THROW(rig.structure.apply({PowerDiagram<Space, Filtered>::flip23, 5, {0, 3, 4, 1, 2}}),
+  EXPECT_THROW(rig.structure.apply({PowerDiagram<Space, Filtered>::to_edge, 5, {0, 3, 4, 1, 2}}),
                std::invalid_argument);
 }
 
@@ -271,7 +271,7 @@ TEST(PowerDiagram, FourBeads) {
   PowerRig<Filtered> still(moving(start, start), AuditMode::events);
   ASSERT_NO_THROW(still.run());
   EXPECT_EQ(still.history.events.size(), 0U);
-  EXPECT_THAT(still.structure.at_frame(false).cells, testing::ElementsAre(CellBeads{0, 1, 2, 3}));
+  EXPECT_THAT(still.structure.at_frame(false).cells, testing::ElementsAre(CellBeads<3>{0, 1, 2, 3}));
   // The tetrahedron turns inside out: through a triangle with a bead inside; through a square; through both
   // at once.
   EXPECT_FALSE(run_audited<Filtered>({moving(start, {{1, 1, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})}));

@@ -19,12 +19,12 @@ using namespace test;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-CellBeads sorted(CellBeads beads) {
+CellBeads<3> sorted(CellBeads<3> beads) {
   std::sort(beads.begin(), beads.end());
   return beads;
 }
 
-std::vector<CellId> live_cells(const RegularTriangulation& triangulation) {
+std::vector<CellId> live_cells(const RegularTriangulation<3>& triangulation) {
   std::vector<CellId> live;
   for (CellId cell = 0; cell < triangulation.cells().size(); ++cell) {
     if (triangulation.is_live(cell)) live.push_back(cell);
@@ -33,14 +33,14 @@ std::vector<CellId> live_cells(const RegularTriangulation& triangulation) {
 }
 
 /// All cells, infinite ones too, beads ascending.
-std::set<CellBeads> all_cells(const RegularTriangulation& triangulation) {
-  std::set<CellBeads> cells;
+std::set<CellBeads<3>> all_cells(const RegularTriangulation<3>& triangulation) {
+  std::set<CellBeads<3>> cells;
   for (const CellId cell : live_cells(triangulation))
     cells.insert(sorted(triangulation.cells()[cell].vertex));
   return cells;
 }
 
-int parity(CellBeads from, const CellBeads& to) {
+int parity(CellBeads<3> from, const CellBeads<3>& to) {
   int sign = 1;
   for (std::size_t i = 0; i < 4; ++i) {
     if (from[i] == to[i]) continue;
@@ -52,14 +52,14 @@ int parity(CellBeads from, const CellBeads& to) {
 }
 
 /// The mirror by itself, and against what CGAL can be asked for.
-void check_mirror(const RegularTriangulation& triangulation, std::size_t beads) {
+void check_mirror(const RegularTriangulation<3>& triangulation, std::size_t beads) {
   const auto cells = triangulation.cells();
   std::set<std::pair<BeadId, BeadId>> edges;
-  std::vector<CellBeads> finite;
+  std::vector<CellBeads<3>> finite;
   const auto live = live_cells(triangulation);
   EXPECT_EQ(all_cells(triangulation).size(), live.size());
   for (const CellId cell : live) {
-    const TriangulationCell& c = cells[cell];
+    const TriangulationCell<3>& c = cells[cell];
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < i; ++j) {
         ASSERT_NE(c.vertex[at(i)], c.vertex[at(j)]);
@@ -72,7 +72,7 @@ void check_mirror(const RegularTriangulation& triangulation, std::size_t beads) 
       const int back = index_of(c.beyond[at(i)]);
       ASSERT_EQ(cells[n].beyond[at(back)], facet_id(cell, i));
       // The neighbour is this cell with one bead exchanged, and turns the other way for it.
-      CellBeads exchanged = c.vertex;
+      CellBeads<3> exchanged = c.vertex;
       exchanged[at(i)] = cells[n].vertex[at(back)];
       ASSERT_NE(exchanged[at(i)], c.vertex[at(i)]);
       ASSERT_EQ(sorted(exchanged), sorted(cells[n].vertex));
@@ -116,20 +116,20 @@ std::vector<ExactBead> exact_beads(const Cloud& cloud) {
 TEST(RegularTriangulation, BuildsAndMirrors) {
   for (const std::size_t beads : {4U, 5U, 8U, 40U}) {
     const Cloud cloud(beads);
-    RegularTriangulation triangulation;
-    const StaticTriangulation built = triangulation.build(cloud.centers, cloud.weights);
+    RegularTriangulation<3> triangulation;
+    const StaticTriangulation<3> built = triangulation.build(cloud.centers, cloud.weights);
     EXPECT_EQ(built.dimension, 3);
     EXPECT_TRUE(built.hidden.empty());
     check_mirror(triangulation, beads);
     EXPECT_TRUE(triangulation.is_valid());
     EXPECT_EQ(triangulation.least_orientation(), 1);
-    EXPECT_EQ(triangulation.finite_cells(), static_triangulation(cloud.centers, cloud.weights).cells);
-    EXPECT_EQ(triangulation.finite_cells(), static_triangulation(exact_beads(cloud), false).cells);
+    EXPECT_EQ(triangulation.finite_cells(), static_triangulation<3>(cloud.centers, cloud.weights).cells);
+    EXPECT_EQ(triangulation.finite_cells(), static_triangulation<3>(exact_beads(cloud), false).cells);
   }
 }
 
 TEST(RegularTriangulation, BuildsAnew) {
-  RegularTriangulation triangulation;
+  RegularTriangulation<3> triangulation;
   for (const std::size_t beads : {30U, 6U, 50U}) {
     const Cloud cloud(beads, static_cast<unsigned>(beads));
     (void)triangulation.build(cloud.centers, cloud.weights);
@@ -139,13 +139,13 @@ TEST(RegularTriangulation, BuildsAnew) {
 }
 
 TEST(RegularTriangulation, TellsDimensionAndHiddenBeads) {
-  RegularTriangulation triangulation;
+  RegularTriangulation<3> triangulation;
   Cloud cloud(6);
   cloud.centers.row(2).setZero();
   EXPECT_EQ(triangulation.build(cloud.centers, cloud.weights).dimension, 2);
-  EXPECT_EQ(static_triangulation(cloud.centers, cloud.weights).dimension, 2);
-  EXPECT_TRUE(static_triangulation(cloud.centers, cloud.weights).cells.empty());
-  EXPECT_EQ(static_triangulation(exact_beads(cloud), true).dimension, 2);
+  EXPECT_EQ(static_triangulation<3>(cloud.centers, cloud.weights).dimension, 2);
+  EXPECT_TRUE(static_triangulation<3>(cloud.centers, cloud.weights).cells.empty());
+  EXPECT_EQ(static_triangulation<3>(exact_beads(cloud), true).dimension, 2);
   cloud = Cloud(6);
   cloud.centers.col(4) = cloud.centers.col(1);
   EXPECT_EQ(triangulation.build(cloud.centers, cloud.weights).hidden.size(), 1U);
@@ -159,8 +159,8 @@ TEST(RegularTriangulation, TellsDimensionAndHiddenBeads) {
   cloud.centers.col(5) = Eigen::Vector3d(0, 0, 0);
   cloud.weights[5] = 25;
   for (const auto& hidden : {triangulation.build(cloud.centers, cloud.weights).hidden,
-                             static_triangulation(cloud.centers, cloud.weights).hidden,
-                             static_triangulation(exact_beads(cloud), false).hidden}) {
+                             static_triangulation<3>(cloud.centers, cloud.weights).hidden,
+                             static_triangulation<3>(exact_beads(cloud), false).hidden}) {
     EXPECT_THAT(hidden, testing::Contains(2U));
   }
   EXPECT_EQ(triangulation.find_cell({0, 1, 2, 3}), std::nullopt);
@@ -170,15 +170,15 @@ TEST(RegularTriangulation, TellsDimensionAndHiddenBeads) {
 TEST(RegularTriangulation, AssignsOrientedCells) {
   for (const std::size_t beads : {4U, 5U, 20U}) {
     const Cloud cloud(beads, 5);
-    const StaticTriangulation exact = static_triangulation(exact_beads(cloud), true);
-    RegularTriangulation triangulation;
+    const StaticTriangulation<3> exact = static_triangulation<3>(exact_beads(cloud), true);
+    RegularTriangulation<3> triangulation;
     triangulation.assign(beads, exact.cells);
     EXPECT_EQ(live_cells(triangulation).size(), exact.cells.size());
     check_mirror(triangulation, beads);
     triangulation.set_points(cloud.centers, cloud.weights);
     EXPECT_TRUE(triangulation.is_valid());
     EXPECT_EQ(triangulation.least_orientation(), 1);
-    RegularTriangulation built;
+    RegularTriangulation<3> built;
     (void)built.build(cloud.centers, cloud.weights);
     EXPECT_EQ(all_cells(triangulation), all_cells(built));
     // Over another one, whose points stay.
@@ -191,9 +191,9 @@ TEST(RegularTriangulation, AssignsOrientedCells) {
 }
 
 TEST(RegularTriangulation, RefusesCellsThatDoNotCloseUp) {
-  auto cells = static_triangulation(exact_beads(Cloud(8)), true).cells;
+  auto cells = static_triangulation<3>(exact_beads(Cloud(8)), true).cells;
   cells.pop_back();
-  RegularTriangulation triangulation;
+  RegularTriangulation<3> triangulation;
   EXPECT_THROW(triangulation.assign(8, cells), std::logic_error);
 }
 
@@ -206,7 +206,7 @@ TEST(RegularTriangulation, ValidityFollowsThePoints) {
   after[4][2] = -1;  // now the edge 3-4 is there
   const std::vector<double> weights(5, 0.25);
   const auto centers = [](const Points& points) { return control_points(moving(points, points), 0); };
-  RegularTriangulation triangulation;
+  RegularTriangulation<3> triangulation;
   (void)triangulation.build(centers(before), weights);
   ASSERT_FALSE(triangulation.is_edge(3, 4));
   ASSERT_EQ(triangulation.finite_cells().size(), 2U);
@@ -220,7 +220,7 @@ TEST(RegularTriangulation, ValidityFollowsThePoints) {
       triangulation.flip_facet(*cell, static_cast<int>(std::find(v.begin(), v.end(), 3U) - v.begin()));
   EXPECT_TRUE(triangulation.is_valid());
   EXPECT_TRUE(triangulation.is_edge(3, 4));
-  EXPECT_EQ(triangulation.finite_cells(), static_triangulation(centers(after), weights).cells);
+  EXPECT_EQ(triangulation.finite_cells(), static_triangulation<3>(centers(after), weights).cells);
   check_mirror(triangulation, 5);
   for (const CellId id : made) EXPECT_TRUE(triangulation.is_live(id));
   triangulation.set_points(centers(before), weights);
@@ -234,7 +234,7 @@ TEST(RegularTriangulation, ValidityFollowsThePoints) {
 // Mutate, validate, repeat.
 
 /// The other bead across a facet.
-BeadId apex(const RegularTriangulation& t, CellId cell, int i) { return t.apex(t.beyond(cell, i)); }
+BeadId apex(const RegularTriangulation<3>& t, CellId cell, int i) { return t.apex(t.beyond(cell, i)); }
 
 struct Flip {
   bool to_edge;
@@ -242,7 +242,7 @@ struct Flip {
   std::array<BeadId, 2> edge;
 };
 
-bool has_facet(const RegularTriangulation& t, const std::array<BeadId, 3>& facet) {
+bool has_facet(const RegularTriangulation<3>& t, const std::array<BeadId, 3>& facet) {
   for (const CellId cell : live_cells(t)) {
     const auto& v = t.cells()[cell].vertex;
     if (std::all_of(facet.begin(), facet.end(),
@@ -252,30 +252,31 @@ bool has_facet(const RegularTriangulation& t, const std::array<BeadId, 3>& facet
   return false;
 }
 
-int place(const RegularTriangulation& t, CellId cell, BeadId bead) {
+int place(const RegularTriangulation<3>& t, CellId cell, BeadId bead) {
   const auto& v = t.cells()[cell].vertex;
   return static_cast<int>(std::find(v.begin(), v.end(), bead) - v.begin());
 }
 
 /// Makes a flip and checks the cells it says it made.
-void make(RegularTriangulation& t, const Flip& flip) {
+void make(RegularTriangulation<3>& t, const Flip& flip) {
   const auto& [a, b, c] = flip.facet;
   const auto& [d, e] = flip.edge;
   if (flip.to_edge) {
     const auto cell = t.find_cell({a, b, c, d});
     ASSERT_TRUE(cell);
     const auto made = t.flip_facet(*cell, place(t, *cell, d));
-    std::set<CellBeads> beads;
+    std::set<CellBeads<3>> beads;
     for (const CellId id : made) beads.insert(sorted(t.cells()[id].vertex));
-    ASSERT_EQ(beads, (std::set<CellBeads>{sorted({a, b, d, e}), sorted({a, c, d, e}), sorted({b, c, d, e})}));
+    ASSERT_EQ(beads,
+              (std::set<CellBeads<3>>{sorted({a, b, d, e}), sorted({a, c, d, e}), sorted({b, c, d, e})}));
     for (const CellId id : made) ASSERT_TRUE(t.is_live(id));
   } else {
     const auto cell = t.find_cell({a, b, d, e});
     ASSERT_TRUE(cell);
     const auto made = t.flip_edge(*cell, place(t, *cell, d), place(t, *cell, e));
-    std::set<CellBeads> beads;
+    std::set<CellBeads<3>> beads;
     for (const CellId id : made) beads.insert(sorted(t.cells()[id].vertex));
-    ASSERT_EQ(beads, (std::set<CellBeads>{sorted({a, b, c, d}), sorted({a, b, c, e})}));
+    ASSERT_EQ(beads, (std::set<CellBeads<3>>{sorted({a, b, c, d}), sorted({a, b, c, e})}));
     for (const CellId id : made) ASSERT_TRUE(t.is_live(id));
     ASSERT_FALSE(t.is_live(*cell) && std::find(made.begin(), made.end(), *cell) == made.end());
   }
@@ -286,7 +287,7 @@ class RandomFlips : public testing::TestWithParam<unsigned> {};
 TEST_P(RandomFlips, ForthAndBack) {
   const std::size_t beads = 6 + GetParam() % 3 * 5;
   const Cloud cloud(beads, GetParam(), 4);
-  RegularTriangulation t;
+  RegularTriangulation<3> t;
   (void)t.build(cloud.centers, cloud.weights);
   const auto start = all_cells(t);
   std::mt19937 random(GetParam() + 100);
@@ -336,7 +337,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, RandomFlips, testing::Range(0U, 12U));
 
 TEST(RegularTriangulation, SlotsAreUsedAgain) {
   const Points points{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 5}, {0, 0, -5}};
-  RegularTriangulation t;
+  RegularTriangulation<3> t;
   (void)t.build(control_points(moving(points, points), 0), std::vector<double>(5, 0));
   const std::size_t slots = t.cells().size();
   for (int round = 0; round < 20; ++round) {
@@ -350,7 +351,7 @@ TEST(RegularTriangulation, SlotsAreUsedAgain) {
 TEST(StaticBuild, TakesTime) {
   const Cloud cloud(300);
   const std::vector<BeadRange> necklaces{{0, 299}};
-  EXPECT_GT(seconds_to_triangulate(cloud.centers, cloud.weights), 0);
+  EXPECT_GT(seconds_to_triangulate<3>(cloud.centers, cloud.weights), 0);
   EXPECT_GT(seconds_to_wrap(NecklaceTree(necklaces), cloud.centers, cloud.weights), 0);
   EXPECT_GT(seconds_to_sort(cloud.centers), 0);
 }

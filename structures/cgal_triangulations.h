@@ -1,0 +1,106 @@
+#pragma once
+// CGAL's two regular triangulations under one set of names. For the few files that see CGAL.
+
+#include <CGAL/Regular_triangulation_2.h>
+#include <CGAL/Regular_triangulation_3.h>
+#include <CGAL/Regular_triangulation_cell_base_3.h>
+#include <CGAL/Regular_triangulation_face_base_2.h>
+#include <CGAL/Regular_triangulation_vertex_base_2.h>
+#include <CGAL/Regular_triangulation_vertex_base_3.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+#include <vector>
+
+#include "structures/regular_triangulation.h"
+#include "structures/sorted_cells.h"
+
+namespace kds {
+
+/// Vertices know their bead, cells their id.
+template <class Geometry, int Dimension>
+struct CgalTriangulation;
+
+template <class Geometry>
+struct CgalTriangulation<Geometry, 2> {
+  using Vertex =
+      CGAL::Triangulation_vertex_base_with_info_2<BeadId, Geometry,
+                                                  CGAL::Regular_triangulation_vertex_base_2<Geometry>>;
+  using Face = CGAL::Triangulation_face_base_with_info_2<CellId, Geometry,
+                                                         CGAL::Regular_triangulation_face_base_2<Geometry>>;
+  using Type = CGAL::Regular_triangulation_2<Geometry, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
+  using Cell = typename Type::Face_handle;
+
+  static typename Type::Bare_point point(const typename Geometry::FT& x, const typename Geometry::FT& y,
+                                         const typename Geometry::FT&) {
+    return {x, y};
+  }
+  static auto all_cells(const Type& t) { return t.all_face_handles(); }
+  static auto finite_cells(const Type& t) { return t.finite_face_handles(); }
+  template <class Tds>
+  static Cell create_cell(Tds& tds) {
+    return tds.create_face();
+  }
+  template <class VertexHandle>
+  static void set_cell(VertexHandle v, Cell c) {
+    v->set_face(c);
+  }
+  static int orientation(Cell c) {
+    return CGAL::orientation(c->vertex(0)->point().point(), c->vertex(1)->point().point(),
+                             c->vertex(2)->point().point());
+  }
+};
+
+template <class Geometry>
+struct CgalTriangulation<Geometry, 3> {
+  using Vertex =
+      CGAL::Triangulation_vertex_base_with_info_3<BeadId, Geometry,
+                                                  CGAL::Regular_triangulation_vertex_base_3<Geometry>>;
+  using CellBase =
+      CGAL::Triangulation_cell_base_with_info_3<CellId, Geometry,
+                                                CGAL::Regular_triangulation_cell_base_3<Geometry>>;
+  using Type =
+      CGAL::Regular_triangulation_3<Geometry, CGAL::Triangulation_data_structure_3<Vertex, CellBase>>;
+  using Cell = typename Type::Cell_handle;
+
+  static typename Type::Bare_point point(const typename Geometry::FT& x, const typename Geometry::FT& y,
+                                         const typename Geometry::FT& z) {
+    return {x, y, z};
+  }
+  static auto all_cells(const Type& t) { return t.all_cell_handles(); }
+  static auto finite_cells(const Type& t) { return t.finite_cell_handles(); }
+  template <class Tds>
+  static Cell create_cell(Tds& tds) {
+    return tds.create_cell();
+  }
+  template <class VertexHandle>
+  static void set_cell(VertexHandle v, Cell c) {
+    v->set_cell(c);
+  }
+  static int orientation(Cell c) {
+    return CGAL::orientation(c->vertex(0)->point().point(), c->vertex(1)->point().point(),
+                             c->vertex(2)->point().point(), c->vertex(3)->point().point());
+  }
+};
+
+template <int Dimension, class Cell>
+[[nodiscard]] CellBeads<Dimension> beads_of(Cell c) {
+  CellBeads<Dimension> beads{};
+  for (int i = 0; i <= Dimension; ++i) beads[static_cast<std::size_t>(i)] = c->vertex(i)->info();
+  return beads;
+}
+
+template <class Triangulation>
+[[nodiscard]] std::vector<BeadId> hidden_beads(const Triangulation& triangulation, std::size_t beads) {
+  std::vector<char> visible(beads, 0);
+  for (const auto v : triangulation.finite_vertex_handles()) visible[v->info()] = 1;
+  std::vector<BeadId> hidden;
+  for (std::size_t b = 0; b < beads; ++b) {
+    if (visible[b] == 0) hidden.push_back(static_cast<BeadId>(b));
+  }
+  return hidden;
+}
+
+}  // namespace kds

@@ -1,0 +1,98 @@
+#pragma once
+// Part of PowerDiagram: the certificates of facets, made and given up together.
+
+#include "structures/power_diagram.h"
+
+namespace kds {
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::enqueue(CellId cell, int i) {
+  with_facet_certificate(triangulation_.cells()[cell].vertex, apex(cell, i),
+                         [&]<class Certificate>(const Certificate& certificate) {
+                           batch_of(certificate).add(certificate, facet_id(cell, i), birth_of(certificate));
+                         });
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::watch_enqueued() {
+  const auto watch = [this](auto& table, auto& batch, About about) {
+    batch.guards.resize(batch.certificates.size());
+    table.watch(batch.certificates, batch.places, batch.births, batch.guards);
+    for (std::size_t b = 0; b < batch.guards.size(); ++b) {
+      const CellId cell = cell_of(batch.places[b]);
+      const int i = index_of(batch.places[b]);
+      if (batch.guards[b] == Guard::violated) suspect(Doubt::wrong);
+      set_guard(cell, i, {batch.guards[b], about});
+      if (batch.guards[b] == Guard::zero && about == About::power) watch_cells_beside(cell, i);
+    }
+    batch.clear();
+  };
+  watch(power_tests_, power_batch_, About::power);
+  watch(orientations_, hull_batch_, About::hull);
+}
+
+/// Where a power test is zero for the whole step.
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::watch_cells_beside(CellId cell, int i) {
+  power_tests_.drop(guard(cell, i).guard);
+  for (const auto& [own, k] : {std::pair(cell, i), across(cell, i)}) watch_cell(own, k);
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::watch_cell(CellId cell, int i) {
+  const Orientation<dimension> orientation(triangulation_.cells()[cell].vertex, 1);
+  guard(cell, i) = {orientations_.watch(orientation, facet_id(cell, i), birth_of(orientation)), About::cell};
+  if (guard(cell, i).guard == Guard::violated) suspect(Doubt::wrong);
+}
+
+/// Gives up a facet's guard. One of other beads that fails right now as well would have meant another change.
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::drop(CellId cell, int i) {
+  const auto give_up = [&](auto& table, Guard guard) {
+    if (has_slot(guard) && table.time(slot_of(guard)).lower <= simulator_.now().upper() &&
+        table.identity(slot_of(guard)) != present_)
+      suspect(Doubt::unclear);
+    table.drop(guard);
+  };
+  const FacetGuard facet = guard(cell, i);
+  if (facet.about == About::power) {
+    give_up(power_tests_, facet.guard);
+  } else {
+    give_up(orientations_, facet.guard);
+  }
+  if (facet.about == About::cell) {
+    const auto [other, k] = across(cell, i);
+    give_up(orientations_, guard(other, k).guard);
+  }
+  forget(cell, i);
+}
+
+/// Guards all facets of the new cells.
+template <Motion M, Kernel K>
+template <std::size_t N>
+void PowerDiagram<M, K>::watch_around(const std::array<CellId, N>& cells) {
+  for (std::size_t c = 0; c < N; ++c) {
+    for (int i = 0; i <= dimension; ++i) {
+      // A facet between two new cells is met twice.
+      const auto before = cells.begin() + static_cast<std::ptrdiff_t>(c);
+      if (std::find(cells.begin(), before, neighbor(cells[c], i)) == before) enqueue(cells[c], i);
+    }
+  }
+  watch_enqueued();
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::count_certificates_per_bead() {
+  std::vector<std::uint64_t> count(motion_.bead_count(), 0);
+  for_all_facets([&](CellId cell, int i) {
+    for (int k = 0; k <= dimension; ++k) {
+      if (vertex(cell, k) != infinite_bead) ++count[vertex(cell, k)];
+    }
+    if (apex(cell, i) != infinite_bead) ++count[apex(cell, i)];
+  });
+  for (const std::uint64_t c : count) {
+    statistics.certificates.per_bead_max = std::max(statistics.certificates.per_bead_max, c);
+  }
+}
+
+}  // namespace kds

@@ -1,0 +1,202 @@
+#pragma once
+// Part of PowerDiagram: flips. When a certificate fails, the Radon partition of the beads decides the flip.
+// In general position the cells themselves tell which it is: in space 3-2 if an edge of the facet has just
+// three cells, all among the five beads, else 2-3; in the plane 2-2. What general position does not guarantee
+// is checked: finite new cells must be positive just after the event, and on the hull the faces that go and
+// those that come must turn the same way in their common plane now.
+
+#include "structures/power_diagram.h"
+
+namespace kds {
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::fail(unsigned table, std::uint32_t slot) {
+  const FacetId place =
+      table == 0 ? power_tests_.place_in_structure(slot) : orientations_.place_in_structure(slot);
+  const CellId cell = cell_of(place);
+  const int facet = index_of(place);
+  const bool touch = table == 0 ? power_tests_.touches(slot) : orientations_.touches(slot);
+  if (touch) suspect(Doubt::unclear);
+  if (FacetGuard& held = guard(cell, facet); held.about == About::cell) {
+    held.guard = Guard::violated;
+    if (!touch) return suspect(Doubt::wrong);  // cospherical cells turn over: no flip tells how to go on
+    return watch_cell(cell, facet);
+  }
+  forget(cell, facet);
+  if (doubt_ == Doubt::wrong) return;
+  if (touch) {
+    enqueue(cell, facet);
+    return watch_enqueued();
+  }
+  present_ = table == 0 ? power_tests_.identity(slot) : orientations_.identity(slot);
+  if (simulator_.moment() == last_moment_ && present_ != last_identity_) suspect(Doubt::unclear);
+  last_moment_ = simulator_.moment();
+  last_identity_ = present_;
+  repair(cell, facet);
+  present_ = {};
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::repair(CellId cell, int facet) {
+  if constexpr (dimension == 2) {
+    flip_to_edge(cell, facet);
+  } else {
+    // Edges of the facet with three cells only: across the facet's other vertices, both cells meet the same
+    // one.
+    const CellId other = neighbor(cell, facet);
+    int edges = 0;
+    int removed = 0;
+    for (int k = 0; k < 4; ++k) {
+      if (k == facet) continue;
+      if (neighbor(cell, k) == neighbor(other, place_of(other, vertex(cell, k)))) {
+        ++edges;
+        removed = k;
+      }
+    }
+    if (edges == 0) {
+      flip_to_edge(cell, facet);
+    } else if (edges == 1) {
+      flip_to_facet(cell, facet, removed);
+    } else {
+      suspect(Doubt::wrong);  // a bead would vanish: equal weights do that only where beads meet
+    }
+  }
+}
+
+/// Whether new cells may take the place of old ones.
+template <Motion M, Kernel K>
+bool PowerDiagram<M, K>::can_replace(std::span<const Beads> old, std::span<const Beads> made) {
+  const Instant& now = simulator_.now();
+  std::array<Orientation<dimension>, 3> finite;
+  std::size_t count = 0;
+  for (const Beads& cell : made) {
+    const Orientation<dimension> orientation(cell, 1);
+    if (orientation.beads.back() == infinite_bead) continue;
+    if (orientation.identity() == present_) continue;  // flat now, and opening: that is the event
+    finite[count++] = orientation;
+  }
+  if (!all_positive_now<K>(std::span<const Orientation<dimension>>(finite.data(), count), motion_, now,
+                           statistics.stages)) {
+    suspect(Doubt::unclear);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (sign_just_after<K>(finite[i], motion_, now, statistics.stages) <= 0) return false;
+    }
+  }
+  std::vector<std::array<BeadId, dimension>> hull;
+  for (const auto cells : {old, made}) {
+    for (const Beads& cell : cells) {
+      if (const auto face = hull_face<dimension>(cell)) hull.push_back(*face);
+    }
+  }
+  for (std::size_t t = 1; t < hull.size(); ++t) {
+    if (sign_now<K>(same_turn<dimension>(hull[0], hull[t]), motion_, now, statistics.stages) <= 0)
+      return false;
+  }
+  return true;
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::flip_to_edge(CellId cell, int facet) {
+  const Beads v = triangulation_.cells()[cell].vertex;
+  const BeadId d = v[static_cast<std::size_t>(facet)];
+  const BeadId e = apex(cell, facet);
+  const CellId other = neighbor(cell, facet);
+  std::array<Beads, dimension> new_cells{};
+  for (int k = 0, next = 0; k <= dimension; ++k) {
+    if (k != facet) new_cells[static_cast<std::size_t>(next++)] = with(v, k, e);
+  }
+  const std::array<Beads, 2> old_cells{v, triangulation_.cells()[other].vertex};
+  if ((may_stand_already() && triangulation_.is_edge(d, e)) || !can_replace(old_cells, new_cells)) {
+    suspect(Doubt::wrong);
+    return;
+  }
+
+  Change change{to_edge, dimension + 2, {}};
+  std::size_t next = 0;
+  for (const BeadId b : v) {
+    if (b != d) change.ids[next++] = b;
+  }
+  std::sort(change.ids.begin(), change.ids.begin() + dimension);
+  change.ids[dimension] = std::min(d, e);
+  change.ids[dimension + 1] = std::max(d, e);
+
+  for (int i = 0; i <= dimension; ++i) {
+    if (i != facet) drop(cell, i);
+    if (neighbor(other, i) != cell) drop(other, i);
+  }
+  const auto made = triangulation_.flip_facet(cell, facet);
+  guards_.resize(triangulation_.cells().size());
+  simulator_.record(index_, change);
+  watch_around(made);
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::flip_to_facet(CellId cell, int facet, int other_vertex) requires(dimension == 3) {
+  // The edge joins the facet's two vertices other than `other_vertex`; d, e and `other_vertex` make the new
+  // facet.
+  const Beads v = triangulation_.cells()[cell].vertex;
+  const BeadId d = v[static_cast<std::size_t>(facet)];
+  const BeadId e = apex(cell, facet);
+  const BeadId c = v[static_cast<std::size_t>(other_vertex)];
+  std::array<int, 2> edge{};
+  std::size_t found = 0;
+  for (int k = 0; k < 4; ++k) {
+    if (k != facet && k != other_vertex) edge[found++] = k;
+  }
+  const std::array<CellId, 3> old{cell, neighbor(cell, facet), neighbor(cell, other_vertex)};
+  std::array<Beads, 3> old_cells{};
+  for (std::size_t o = 0; o < 3; ++o) old_cells[o] = triangulation_.cells()[old[o]].vertex;
+  if ((may_stand_already() && triangulation_.is_facet(c, d, e)) ||
+      !can_replace(old_cells, std::array{with(v, edge[0], e), with(v, edge[1], e)})) {
+    suspect(Doubt::wrong);
+    return;
+  }
+
+  Change change{to_facet, 5, {c, d, e}};
+  std::sort(change.ids.begin(), change.ids.begin() + 3);
+  const auto [low, high] =
+      std::minmax(v[static_cast<std::size_t>(edge[0])], v[static_cast<std::size_t>(edge[1])]);
+  change.ids[3] = low;
+  change.ids[4] = high;
+
+  for (const CellId o : old) {
+    for (int i = 0; i < 4; ++i) drop(o, i);  // the second drop of an inner facet finds it gone
+  }
+  const std::array<CellId, 2> made = triangulation_.flip_edge(cell, edge[0], edge[1]);
+  simulator_.record(index_, change);
+  watch_around(made);
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::apply(const Change& change) {
+  if (change.kind == rebuild) return apply_rebuild(change);
+  if (change.size != dimension + 2) throw std::invalid_argument("a flip has other numbers of beads");
+  const auto& id = change.ids;
+  if constexpr (dimension == 3) {
+    if (change.kind == to_facet) return apply_to_facet(change);
+  }
+  Beads beads{};
+  std::copy(id.begin(), id.begin() + dimension + 1, beads.begin());
+  const BeadId d = id[dimension];
+  const BeadId e = id[dimension + 1];
+  const auto cell = triangulation_.find_cell(beads);
+  if (!cell) throw std::invalid_argument("the diagram has no such cell");
+  const int facet = place_of(*cell, d);
+  if (apex(*cell, facet) != e) throw std::invalid_argument("the facet has another apex");
+  if (triangulation_.is_edge(d, e)) throw std::invalid_argument("the beads are joined already");
+  triangulation_.flip_facet(*cell, facet);
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::apply_to_facet(const Change& change) requires(dimension == 3) {
+  const auto& id = change.ids;
+  const auto cell = triangulation_.find_cell({id[0], id[1], id[3], id[4]});
+  if (!cell || !triangulation_.find_cell({id[0], id[2], id[3], id[4]}) ||
+      !triangulation_.find_cell({id[1], id[2], id[3], id[4]})) {
+    throw std::invalid_argument("the edge has other cells");
+  }
+  if (triangulation_.is_facet(id[0], id[1], id[2])) throw std::invalid_argument("the facet stands already");
+  triangulation_.flip_edge(*cell, place_of(*cell, id[3]), place_of(*cell, id[4]));
+}
+
+}  // namespace kds

@@ -1,0 +1,181 @@
+#pragma once
+// Part of PowerDiagram: where flips do not suffice. Simultaneous events that block each other, cells that
+// turn over unseen, frames where beads coincide or all lie in one plane: then the diagram is built anew, by
+// CGAL with exact numbers, at a time after the present one so near that nothing is skipped, and the rebuild
+// is counted. And the audit.
+
+#include "structures/power_diagram.h"
+
+namespace kds {
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::settle() {
+  const bool wrong = doubt_ == Doubt::wrong || is_wrong_just_after();
+  settled();
+  if (!wrong) return;
+  if constexpr (std::same_as<K, Fast>) {
+    rebuild_roughly();
+  } else {
+    rebuild_at_first_time_that_works();
+  }
+}
+
+template <Motion M, Kernel K>
+bool PowerDiagram<M, K>::is_wrong_just_after() {
+  if constexpr (std::same_as<K, Fast>) return false;
+  return triangulation_fault(triangulation_, bead_count(), false,
+                             [this](const auto& function) {
+                               return sign_just_after<K>(function, motion_, simulator_.now(),
+                                                         statistics.stages);
+                             })
+      .has_value();
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::build_from_control_points(int k) {
+  const auto built = triangulation_.build(control_points(motion_, k), control_weights(motion_, k));
+  hidden_ = built.hidden;
+  affine_dimension_ = built.dimension;
+  flat_ = false;
+}
+
+template <Motion M, Kernel K>
+auto PowerDiagram<M, K>::exact_static(const Dyadic& time, bool oriented) const
+    -> StaticTriangulation<dimension> {
+  std::vector<ExactBead> beads(motion_.bead_count());
+  for (BeadId b = 0; b < beads.size(); ++b) {
+    const auto position = exact_position(motion_, b, time);
+    std::copy(position.begin(), position.end() - 1, beads[b].center.begin());
+    beads[b].weight = position.back();
+  }
+  return static_triangulation<dimension>(beads, oriented);
+}
+
+template <Motion M, Kernel K>
+bool PowerDiagram<M, K>::assign_static(const Dyadic& time) {
+  const auto built = exact_static(time, true);
+  hidden_ = built.hidden;
+  affine_dimension_ = built.dimension;
+  if (affine_dimension_ < dimension || !hidden_.empty()) return false;
+  triangulation_.assign(motion_.bead_count(), built.cells);
+  return true;
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::drop_all() {
+  if (guards_.empty()) return;
+  for_all_facets([this](CellId cell, int i) { drop(cell, i); });
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::record_rebuild(const Dyadic& time) {
+  ++statistics.rebuilds;
+  Change change{rebuild, 1, {time.exponent()}};
+  for (Integer rest = time.numerator(); rest != 0 && change.size < change.ids.size(); rest >>= 32U) {
+    change.ids[change.size++] = static_cast<BeadId>(Integer(rest & 0xffffffffU));
+  }
+  simulator_.record(index_, change);
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::apply_rebuild(const Change& change) {
+  if (change.size < 1 || change.ids[0] > finest_grid)
+    throw std::invalid_argument("this is no time of a rebuild");
+  Integer numerator = 0;
+  for (std::size_t i = change.size; i-- > 1;) numerator = (numerator << 32U) + change.ids[i];
+  const Dyadic time(numerator, change.ids[0]);
+  if (!(time < Dyadic(1.0)) || !assign_static(time))
+    throw std::invalid_argument("no diagram can be built at this time");
+}
+
+template <Motion M, Kernel K>
+bool PowerDiagram<M, K>::nothing_fails_until(const Dyadic& time) {
+  ExactTime limit(time);
+  const auto later = [&](auto& table, Guard guard) {
+    if (!has_slot(guard)) return true;
+    ExactTime failure = exact_time(table.exact_function(slot_of(guard)), table.time(slot_of(guard)));
+    return ExactTime::compare(limit, failure) < 0;
+  };
+  const auto facet_later = [&](FacetGuard g) {
+    return g.about == About::power ? later(power_tests_, g.guard) : later(orientations_, g.guard);
+  };
+  bool all_later = true;
+  for_all_facets([&](CellId cell, int i) {
+    const auto [other, k] = across(cell, i);
+    all_later = all_later && facet_later(guard(cell, i)) &&
+                (guard(cell, i).about != About::cell || facet_later(guard(other, k)));
+  });
+  return all_later;
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::rebuild_at_first_time_that_works() {
+  drop_all();
+  present_ = {};
+  for (unsigned bits = 8; bits <= finest_grid; bits += bits < 32 ? 4 : 12) {
+    const Dyadic time = next_on_grid(simulator_.now().exact(), bits);
+    if (!(time < Dyadic(1.0)) || !assign_static(time)) continue;
+    settled();
+    watch_all();
+    if (doubt_ != Doubt::wrong && nothing_fails_until(time)) {
+      settled();
+      record_rebuild(time);
+      return;
+    }
+    drop_all();
+  }
+  settled();
+  if (!hidden_.empty()) {
+    throw InputError("bead " + std::to_string(hidden_.front()) + " is hidden in the power diagram in step " +
+                     std::to_string(simulator_.step()) +
+                     " (it stays in one place with another bead); hidden beads are not supported yet");
+  }
+  if (affine_dimension_ < dimension) {
+    throw InputError(
+        std::string("all beads stay ") + (dimension == 3 ? "in one plane" : "on one line") + " in step " +
+        std::to_string(simulator_.step()) + "; the power diagram " +
+        (dimension == 3 ? "in space needs four that do not" : "in the plane needs three that do not"));
+  }
+  throw InputError("step " + std::to_string(simulator_.step()) + " at u = " +
+                   std::to_string(simulator_.now().upper()) + ": events of the power diagram within 2^-" +
+                   std::to_string(finest_grid) + " of the step, closer than it can be rebuilt between");
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::rebuild_roughly() {
+  constexpr int most_in_a_step = 8;
+  if (++rebuilds_in_step_ > most_in_a_step) return;
+  drop_all();
+  present_ = {};
+  const Dyadic time(simulator_.now().upper() + 0x1p-16);
+  if (!(time < Dyadic(1.0)) || !assign_static(time)) return watch_all();  // as it is
+  watch_all();
+  settled();
+  record_rebuild(time);
+}
+
+template <Motion M, Kernel K>
+std::optional<std::string> PowerDiagram<M, K>::audit(const Dyadic& time) {
+  const bool start = time == Dyadic(0.0);
+  const bool end = time == Dyadic(1.0);
+  if (affine_dimension_ < dimension)
+    return std::nullopt;  // at a frame only, where the answer is CGAL's (at_frame)
+  if ((start || end) && !flat_) {
+    const int k = start ? 0 : M::degree;
+    const auto built =
+        static_triangulation<dimension>(control_points(motion_, k), control_weights(motion_, k));
+    if (triangulation_.is_valid() && built.cells == triangulation_.finite_cells() && built.hidden == hidden_)
+      return std::nullopt;
+  } else if (!start && !end) {
+    if (exact_static(time, false).cells == triangulation_.finite_cells()) return std::nullopt;
+  }
+  // Degenerate positions have several regular triangulations: ours must satisfy the definition. Between
+  // events what is zero at this very moment only is judged by its sign just after.
+  const bool frame = start || end;
+  return triangulation_fault(triangulation_, bead_count(), flat_, [&](const auto& function) {
+    const int sign = function_of(function, MomentView<M>(motion_, function.beads, time)).scaled[0].sign();
+    return sign != 0 || frame ? sign : exact_function(function, motion_).sign_after(time);
+  });
+}
+
+}  // namespace kds
