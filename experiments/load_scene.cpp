@@ -22,6 +22,7 @@ Scene load_instance(const RunOptions& options) {
   refuse(reading.selection != Selection::automatic, "--select");
   refuse(reading.frames.first != 0 || reading.frames.last || reading.frames.stride != 1, "--frames");
   refuse(options.radius != "auto", "--radius");
+  refuse(options.motion != FrameMotion::linear, "--motion");
   return Scene(read_instance(options.inputs.front()));
 }
 
@@ -41,7 +42,7 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
     for (const std::string& warning : necklaces.back().warnings) warn(warning);
   }
   std::vector<double> radii = bead_radii(options.radius, necklaces);
-  return Scene(necklaces, std::move(radii));
+  return Scene(necklaces, std::move(radii), options.motion);
 }
 
 std::vector<std::string> structures_to_run(const RunOptions& options, const Scene& scene) {

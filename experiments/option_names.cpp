@@ -4,6 +4,8 @@
 
 namespace kds {
 
+std::string_view name_of(FrameMotion motion) { return motion == FrameMotion::hermite ? "hermite" : "linear"; }
+
 std::string_view name_of(KernelName kernel) {
   switch (kernel) {
     case KernelName::fast:
@@ -49,7 +51,7 @@ std::string name_of(const FrameRange& frames) {
 
 std::vector<std::pair<std::string, std::string>> option_settings(const RunOptions& options) {
   const ReadOptions& reading = options.reading;
-  return {{"motion", options.motion},
+  return {{"motion", std::string(name_of(options.motion))},
           {"kernel", std::string(name_of(options.kernel))},
           {"audit", std::string(name_of(options.audit))},
           {"topology", reading.topology ? reading.topology->string() : ""},
@@ -67,7 +69,7 @@ std::vector<std::string> option_arguments(const RunOptions& options) {
     arguments.push_back(std::move(value));
   };
   if (!options.structures.empty()) add("--structures", fmt::format("{}", fmt::join(options.structures, ",")));
-  add("--motion", options.motion);
+  add("--motion", std::string(name_of(options.motion)));
   add("--kernel", std::string(name_of(options.kernel)));
   add("--audit", std::string(name_of(options.audit)));
   const ReadOptions& reading = options.reading;

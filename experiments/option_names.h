@@ -10,6 +10,7 @@
 
 namespace kds {
 
+[[nodiscard]] std::string_view name_of(FrameMotion motion);
 [[nodiscard]] std::string_view name_of(KernelName kernel);
 [[nodiscard]] std::string_view name_of(AuditMode audit);
 [[nodiscard]] std::string_view name_of(Selection selection);

@@ -20,7 +20,7 @@ constexpr std::array kOptions{
     OptionSpec{"--structures", "LIST",
                "comma list of sorted, wrapped, power (default: wrapped,power;"
                " instances: sorted in 1D, else power)"},
-    OptionSpec{"--motion", "NAME", "how beads move between frames: linear (default: linear)"},
+    OptionSpec{"--motion", "NAME", "how beads move between frames: linear, hermite (default: linear)"},
     OptionSpec{"--kernel", "NAME", "fast, filtered or exact arithmetic (default: filtered)"},
     OptionSpec{"--topology", "FILE",
                "PDB or mmCIF that names the atoms of a DCD (default: its atoms are the beads)"},
@@ -59,9 +59,10 @@ constexpr std::array kAudits{Choice<AuditMode>{"none", AuditMode::none},
 constexpr std::array kSelections{Choice<Selection>{"backbone", Selection::backbone},
                                  Choice<Selection>{"ca", Selection::ca},
                                  Choice<Selection>{"all", Selection::all}};
+constexpr std::array kMotions{Choice<FrameMotion>{"linear", FrameMotion::linear},
+                              Choice<FrameMotion>{"hermite", FrameMotion::hermite}};
 constexpr std::array<std::string_view, 3> kStructures{"sorted", "wrapped", "power"};
 constexpr std::array<std::string_view, 1> kStructuresToCome{"contacts"};
-constexpr std::array<std::string_view, 2> kMotionsToCome{"hermite", "lifted"};
 
 template <class Value, std::size_t count>
 void choose(const ParsedArguments& parsed, std::string_view option,
@@ -102,12 +103,6 @@ std::vector<std::string> parse_structures(const std::string& list) {
   return ordered;
 }
 
-std::string parse_motion(const std::string& name) {
-  if (name == "linear") return name;
-  if (among(kMotionsToCome, name)) throw InputError(fmt::format("--motion: {} is not available yet", name));
-  throw InputError(fmt::format("--motion: '{}' is not one of linear", name));
-}
-
 std::string parse_radius(const std::string& rule) {
   if (rule == "auto" || rule == "element" || rule == "element:fit") return rule;
   if (constexpr std::string_view prefix = "file:"; rule.starts_with(prefix)) {
@@ -140,7 +135,8 @@ RunOptions parse_run_options(const Arguments& arguments) {
     options.inputs.emplace_back(input);
   }
   if (const auto list = parsed.value("--structures")) options.structures = parse_structures(*list);
-  if (const auto name = parsed.value("--motion")) options.motion = parse_motion(*name);
+  if (parsed.value("--motion") == "lifted") throw InputError("--motion: lifted is not available yet");
+  choose(parsed, "--motion", kMotions, options.motion);
   choose(parsed, "--kernel", kKernels, options.kernel);
   options.reading.topology = path_of(parsed, "--topology");
   choose(parsed, "--select", kSelections, options.reading.selection);

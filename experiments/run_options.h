@@ -8,6 +8,7 @@
 
 #include "kds/audit.h"
 #include "motions/read_trajectory.h"
+#include "motions/scene.h"
 
 namespace kds {
 
@@ -17,7 +18,7 @@ struct RunOptions {
   std::vector<std::filesystem::path> inputs;
   std::vector<std::string>
       structures;  ///< of sorted, wrapped, power, in this order; empty: the input's default
-  std::string motion = "linear";
+  FrameMotion motion = FrameMotion::linear;
   KernelName kernel = KernelName::filtered;
   ReadOptions reading;  ///< --topology, --select, --chain, --frames
   std::string radius = "auto";

@@ -10,7 +10,8 @@
 
 namespace kds {
 
-Scene::Scene(std::span<const Trajectory> necklaces, std::vector<double> radii) : radii_(std::move(radii)) {
+Scene::Scene(std::span<const Trajectory> necklaces, std::vector<double> radii, FrameMotion motion)
+    : degree_(motion == FrameMotion::hermite ? 3 : 1), radii_(std::move(radii)) {
   BeadId beads = 0;
   const Trajectory* longest = nullptr;
   for (const Trajectory& necklace : necklaces) {
@@ -68,7 +69,24 @@ bool Scene::equal_radii() const {
 
 double Scene::coordinate(std::size_t step, BeadId bead, int k, int axis) const {
   if (frames_.empty()) return instance_.control_point(bead, axis, k);
-  return frames_[step + static_cast<std::size_t>(k)](axis, bead);
+  if (k == 0) return frames_[step](axis, bead);
+  if (k == degree_) return frames_[step + 1](axis, bead);
+  const double point = k == 1 ? frames_[step](axis, bead) + third_of_velocity(step, bead, axis)
+                              : frames_[step + 1](axis, bead) - third_of_velocity(step + 1, bead, axis);
+  if (!std::isfinite(point)) {
+    throw InputError(
+        fmt::format("bead {}, step {}: moves too far for a Hermite curve in doubles; expected finite "
+                    "control points",
+                    bead, step));
+  }
+  return point;
+}
+
+double Scene::third_of_velocity(std::size_t frame, BeadId bead, int axis) const {
+  const std::size_t before = frame == 0 ? 0 : frame - 1;
+  const std::size_t after = std::min(frame + 1, frame_count_ - 1);
+  return (frames_[after](axis, bead) - frames_[before](axis, bead)) /
+         (3.0 * static_cast<double>(after - before));
 }
 
 double Scene::weight(BeadId bead, int k) const {

@@ -15,11 +15,20 @@
 
 namespace kds {
 
+/// How beads move between sampled frames.
+enum class FrameMotion {
+  linear,
+  /// Cubic, with velocities by central differences over frames, one-sided at the first and last: continuously
+  /// differentiable over frames up to rounding.
+  hermite,
+};
+
 class Scene {
  public:
   /// Necklaces of equal frame counts; one of a single frame is at rest. `radii`: one a bead in scene order.
   /// Throws InputError where the counts differ.
-  Scene(std::span<const Trajectory> necklaces, std::vector<double> radii);
+  Scene(std::span<const Trajectory> necklaces, std::vector<double> radii,
+        FrameMotion motion = FrameMotion::linear);
   explicit Scene(Instance instance);
 
   [[nodiscard]] int dimension() const { return dimension_; }
@@ -51,6 +60,8 @@ class Scene {
 
  private:
   [[nodiscard]] double coordinate(std::size_t step, BeadId bead, int k, int axis) const;
+  /// A third of a bead's velocity at a frame, per step.
+  [[nodiscard]] double third_of_velocity(std::size_t frame, BeadId bead, int axis) const;
   [[nodiscard]] double weight(BeadId bead, int k) const;
 
   int dimension_ = 3;

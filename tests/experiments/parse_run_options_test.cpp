@@ -26,7 +26,7 @@ TEST(RunOptions, DefaultsAreThoseOfTheContract) {
   const RunOptions options = parse_run_options({"chain.pdb"});
   EXPECT_THAT(options.inputs, ElementsAre("chain.pdb"));
   EXPECT_TRUE(options.structures.empty());
-  EXPECT_EQ(options.motion, "linear");
+  EXPECT_EQ(options.motion, FrameMotion::linear);
   EXPECT_EQ(options.kernel, KernelName::filtered);
   EXPECT_EQ(options.radius, "auto");
   EXPECT_EQ(options.audit, AuditMode::none);
@@ -108,7 +108,7 @@ TEST(RunOptions, RefusesOptionsWithoutAValue) {
 
 TEST(RunOptions, RefusesWhatIsNotAvailableYet) {
   EXPECT_THAT(refusal({"a", "--structures", "power,contacts"}), HasSubstr("contacts is not available yet"));
-  EXPECT_THAT(refusal({"a", "--motion", "hermite"}), HasSubstr("hermite is not available yet"));
+  EXPECT_EQ(parse_run_options({"a", "--motion", "hermite"}).motion, FrameMotion::hermite);
   EXPECT_THAT(refusal({"a", "--motion", "lifted"}), HasSubstr("lifted is not available yet"));
 }
 
@@ -117,7 +117,7 @@ TEST(RunOptions, RefusesUnknownNamesAndListsTheKnown) {
               HasSubstr("'heap' is not one of sorted, wrapped, power"));
   EXPECT_THAT(refusal({"a", "--structures", "power,"}), HasSubstr("'' is not one of"));
   EXPECT_THAT(refusal({"a", "--structures", "power,power"}), HasSubstr("power is listed twice"));
-  EXPECT_THAT(refusal({"a", "--motion", "cubic"}), HasSubstr("'cubic' is not one of linear"));
+  EXPECT_THAT(refusal({"a", "--motion", "cubic"}), HasSubstr("'cubic' is not one of linear, hermite"));
   EXPECT_THAT(refusal({"a", "--kernel", "Exact"}), HasSubstr("'Exact' is not one of fast, filtered, exact"));
   EXPECT_THAT(refusal({"a", "--audit", "{}"}), HasSubstr("'{}' is not one of none, frames, events"));
   EXPECT_THAT(refusal({"a", "--select", "cb"}), HasSubstr("'cb' is not one of backbone, ca, all"));

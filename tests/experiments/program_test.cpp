@@ -54,7 +54,7 @@ TEST(Program, RefusesWrongUsage) {
   expect_refused({"run", kSmall, "--fly"}, {"unknown option '--fly'"});
   expect_refused({"run", kSmall, "--kernel", "slow"}, {"--kernel", "slow"});
   expect_refused({"run", kSmall, "--structures", "contacts"}, {"not available yet"});
-  expect_refused({"run", kSmall, "--motion", "hermite"}, {"--motion", "hermite", "not available yet"});
+  expect_refused({"run", kSmall, "--motion", "hermite"}, {"--motion", "instance"});
   expect_refused({"run", kSmall, "--motion", "lifted"}, {"--motion", "lifted", "not available yet"});
   expect_refused({"run", kSmall, "--frames", "0:1"}, {"--frames", "instance"});
   expect_refused({"replay"}, {"one LOG"});

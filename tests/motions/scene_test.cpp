@@ -43,6 +43,53 @@ TEST(Scene, PutsNecklacesOneAfterAnother) {
   }
 }
 
+TEST(Scene, HermiteMeetsFramesAndKeepsVelocities) {
+  std::mt19937_64 random(53);
+  const std::vector<Trajectory> necklaces{random_trajectory(random, "a", 5, 4)};
+  const auto& frames = necklaces[0].frames;
+  const Scene scene(necklaces, std::vector<double>(5, 0.3), FrameMotion::hermite);
+  EXPECT_EQ(scene.degree(), 3);
+  BezierMotion<3, 3> before(5), motion(5);
+  for (std::size_t step = 0; step < scene.step_count(); ++step) {
+    scene.load(step, motion);
+    for (BeadId b = 0; b < 5; ++b) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto c = [&](const auto& m, int k) { return m.coordinate(b, k, axis); };
+        EXPECT_EQ(c(motion, 0), frames[step](axis, b));
+        EXPECT_EQ(c(motion, 3), frames[step + 1](axis, b));
+        if (step > 0) {
+          EXPECT_NEAR(c(before, 3) - c(before, 2), c(motion, 1) - c(motion, 0), 1e-14);
+          EXPECT_NEAR(3 * (c(motion, 1) - c(motion, 0)),
+                      (frames[step + 1](axis, b) - frames[step - 1](axis, b)) / 2, 1e-13);
+        } else {
+          EXPECT_NEAR(3 * (c(motion, 1) - c(motion, 0)), frames[1](axis, b) - frames[0](axis, b), 1e-13);
+        }
+      }
+    }
+    before = motion;
+  }
+}
+
+TEST(Scene, HermiteOfTwoFramesIsAStraightLine) {
+  std::mt19937_64 random(54);
+  const std::vector<Trajectory> necklaces{random_trajectory(random, "a", 3, 2)};
+  const Scene scene(necklaces, std::vector<double>(3, 1), FrameMotion::hermite);
+  BezierMotion<3, 3> motion(3);
+  scene.load(0, motion);
+  for (BeadId b = 0; b < 3; ++b)
+    EXPECT_NEAR(motion.coordinate(b, 1, 0),
+                (2 * necklaces[0].frames[0](0, b) + necklaces[0].frames[1](0, b)) / 3, 1e-14);
+}
+
+TEST(Scene, HermiteRefusesWhatOverflows) {
+  Trajectory far;
+  far.file = "far";
+  far.frames = {Eigen::Matrix3Xd::Constant(3, 1, -1.7e308), Eigen::Matrix3Xd::Constant(3, 1, 1.7e308)};
+  const Scene scene(std::vector<Trajectory>{far}, {1}, FrameMotion::hermite);
+  BezierMotion<3, 3> motion(1);
+  EXPECT_THROW(scene.load(0, motion), InputError);
+}
+
 TEST(Scene, AStepEndsWhereTheNextBegins) {
   std::mt19937_64 random(52);
   const std::vector<Trajectory> necklaces{random_trajectory(random, "a", 5, 4)};
