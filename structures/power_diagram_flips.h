@@ -106,7 +106,7 @@ void PowerDiagram<M, K>::flip_to_edge(CellId cell, int facet) {
     if (k != facet) new_cells[static_cast<std::size_t>(next++)] = with(v, k, e);
   }
   const std::array<Beads, 2> old_cells{v, triangulation_.cells()[other].vertex};
-  if ((may_stand_already() && triangulation_.is_edge(d, e)) || !can_replace(old_cells, new_cells)) {
+  if (!can_replace(old_cells, new_cells) || (may_stand_already() && triangulation_.is_edge(d, e))) {
     suspect(Doubt::wrong);
     return;
   }
@@ -146,8 +146,8 @@ void PowerDiagram<M, K>::flip_to_facet(CellId cell, int facet, int other_vertex)
   const std::array<CellId, 3> old{cell, neighbor(cell, facet), neighbor(cell, other_vertex)};
   std::array<Beads, 3> old_cells{};
   for (std::size_t o = 0; o < 3; ++o) old_cells[o] = triangulation_.cells()[old[o]].vertex;
-  if ((may_stand_already() && triangulation_.is_facet(c, d, e)) ||
-      !can_replace(old_cells, std::array{with(v, edge[0], e), with(v, edge[1], e)})) {
+  if (!can_replace(old_cells, std::array{with(v, edge[0], e), with(v, edge[1], e)}) ||
+      (may_stand_already() && triangulation_.is_facet(c, d, e))) {
     suspect(Doubt::wrong);
     return;
   }
