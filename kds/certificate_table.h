@@ -40,24 +40,34 @@ class CertificateTable final : public FailureSource {
     simulator.add_table(*this);
   }
 
-  /// Guards the structure by certificates from now to the end of the step. `places` say where they stand in
-  /// the structure: they come back with failures and break ties of one function.
-  void watch(std::span<const Certificate> certificates, std::span<const std::uint32_t> places,
-             std::span<const Birth> births, std::span<Guard> guards) {
-    failures_.assign(certificates.size(), {});
-    if (looks_at(certificates.size())) {
-      first_failures<K>(certificates, motion_, simulator_.now(), births, owner_.statistics.stages, touches_,
-                        std::span(failures_));
-    }
-    for (std::size_t i = 0; i < certificates.size(); ++i)
-      guards[i] = hold(certificates[i], places[i], failures_[i]);
-  }
-  /// The same for one.
+  /// Guards the structure by `certificate` from now to the end of the step. `place` says where it stands in
+  /// the structure: it comes back with the failure and breaks ties of one function.
   [[nodiscard]] Guard watch(const Certificate& certificate, std::uint32_t place,
                             Birth birth = Birth::unknown) {
-    Guard guard;
-    watch(std::span(&certificate, 1), std::span(&place, 1), std::span(&birth, 1), std::span(&guard, 1));
-    return guard;
+    Failure failure;
+    search({&certificate, 1}, {&birth, 1}, {&failure, 1});
+    return hold(certificate, place, failure);
+  }
+
+  /// The same for many, of which four at once cost little more than one: enqueue them, then watch them all.
+  void enqueue(const Certificate& certificate, std::uint32_t place, Birth birth) {
+    waiting_.push_back(certificate);
+    places_.push_back(place);
+    births_.push_back(birth);
+  }
+  /// Calls `visit` with the place and the guard of each, in the order in which they were enqueued.
+  template <std::invocable<std::uint32_t, Guard> Visit>
+  void watch_enqueued(Visit visit) {
+    failures_.assign(waiting_.size(), {});
+    search(waiting_, births_, failures_);
+    for (std::size_t i = 0; i < waiting_.size(); ++i)
+      visit(places_[i], hold(waiting_[i], places_[i], failures_[i]));
+    forget_enqueued();
+  }
+  void forget_enqueued() {
+    waiting_.clear();
+    places_.clear();
+    births_.clear();
   }
 
   /// Gives up a certificate that has not failed.
@@ -119,12 +129,16 @@ class CertificateTable final : public FailureSource {
     bool touch = false;
   };
 
-  /// Doubles may contradict themselves without end: after so many certificates in a step, `fast` looks at
-  /// none any more.
-  [[nodiscard]] bool looks_at(std::size_t count) {
-    if constexpr (!std::same_as<K, Fast>) return true;
-    created_in_step_ += count;
-    return created_in_step_ <= 1'000'000 + 100'000 * motion_.bead_count();
+  void search(std::span<const Certificate> certificates, std::span<const Birth> births,
+              std::span<Failure> failures) {
+    if constexpr (std::same_as<K, Fast>) {
+      // Doubles may contradict themselves without end: after so many certificates in a step none is looked at
+      // any more, and all are taken to hold.
+      created_in_step_ += certificates.size();
+      if (created_in_step_ > 1'000'000 + 100'000 * motion_.bead_count()) return;
+    }
+    first_failures<K>(certificates, motion_, simulator_.now(), births, owner_.statistics.stages, touches_,
+                      failures);
   }
 
   [[nodiscard]] Guard hold(const Certificate& certificate, std::uint32_t place, const Failure& failure) {
@@ -160,6 +174,9 @@ class CertificateTable final : public FailureSource {
   Touches touches_;
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> free_;
+  std::vector<Certificate> waiting_;  // enqueued, with their places and births
+  std::vector<std::uint32_t> places_;
+  std::vector<Birth> births_;
   std::vector<Failure> failures_;
   std::uint64_t created_in_step_ = 0;
 };

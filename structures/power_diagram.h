@@ -102,26 +102,6 @@ class PowerDiagram final : public KineticStructure {
   }
 
  private:
-  /// Certificates to be watched together.
-  template <class Certificate>
-  struct Batch {
-    std::vector<Certificate> certificates;
-    std::vector<std::uint32_t> places;
-    std::vector<Birth> births;
-    std::vector<Guard> guards;
-
-    void add(const Certificate& certificate, std::uint32_t place, Birth birth) {
-      certificates.push_back(certificate);
-      places.push_back(place);
-      births.push_back(birth);
-    }
-    void clear() {
-      certificates.clear();
-      places.clear();
-      births.clear();
-    }
-  };
-
   /// In general position an event changes one flip's beads and nothing else. Where more happens at once, or a
   /// certificate touches zero, the diagram is checked after it, and rebuilt if it is wrong: cells can turn
   /// over unseen only at such moments.
@@ -193,8 +173,8 @@ class PowerDiagram final : public KineticStructure {
   [[nodiscard]] Birth birth_of(const Certificate& certificate) const {
     return certificate.identity() == present_ ? Birth::at_own_root : Birth::unknown;
   }
-  auto& batch_of(const PowerTest<dimension>&) { return power_batch_; }
-  auto& batch_of(const Orientation<dimension>&) { return hull_batch_; }
+  auto& table_of(const PowerTest<dimension>&) { return power_tests_; }
+  auto& table_of(const Orientation<dimension>&) { return orientations_; }
   /// Facets are guarded together: enqueue some, then watch them.
   void enqueue(CellId cell, int i);
   void watch_enqueued();
@@ -244,8 +224,6 @@ class PowerDiagram final : public KineticStructure {
   std::size_t index_;
   CertificateTable<PowerTest<dimension>, M, K> power_tests_;
   CertificateTable<Orientation<dimension>, M, K> orientations_;
-  Batch<PowerTest<dimension>> power_batch_;
-  Batch<Orientation<dimension>> hull_batch_;
   RegularTriangulation<dimension> triangulation_;
   std::vector<std::array<FacetGuard, dimension + 1>> guards_;
   std::vector<BeadId> hidden_;

@@ -7,28 +7,22 @@ namespace kds {
 
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::enqueue(CellId cell, int i) {
-  with_facet_certificate(triangulation_.cells()[cell].vertex, apex(cell, i),
-                         [&]<class Certificate>(const Certificate& certificate) {
-                           batch_of(certificate).add(certificate, facet_id(cell, i), birth_of(certificate));
-                         });
+  with_facet_certificate(triangulation_.cells()[cell].vertex, apex(cell, i), [&](const auto& certificate) {
+    table_of(certificate).enqueue(certificate, facet_id(cell, i), birth_of(certificate));
+  });
 }
 
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::watch_enqueued() {
-  const auto watch = [this](auto& table, auto& batch, About about) {
-    batch.guards.resize(batch.certificates.size());
-    table.watch(batch.certificates, batch.places, batch.births, batch.guards);
-    for (std::size_t b = 0; b < batch.guards.size(); ++b) {
-      const CellId cell = cell_of(batch.places[b]);
-      const int i = index_of(batch.places[b]);
-      if (batch.guards[b] == Guard::violated) suspect(Doubt::wrong);
-      set_guard(cell, i, {batch.guards[b], about});
-      if (batch.guards[b] == Guard::zero && about == About::power) watch_cells_beside(cell, i);
-    }
-    batch.clear();
+  const auto take = [this](FacetId facet, Guard guard, About about) {
+    if (guard == Guard::violated) suspect(Doubt::wrong);
+    set_guard(cell_of(facet), index_of(facet), {guard, about});
   };
-  watch(power_tests_, power_batch_, About::power);
-  watch(orientations_, hull_batch_, About::hull);
+  power_tests_.watch_enqueued([&](FacetId facet, Guard guard) {
+    take(facet, guard, About::power);
+    if (guard == Guard::zero) watch_cells_beside(cell_of(facet), index_of(facet));
+  });
+  orientations_.watch_enqueued([&](FacetId facet, Guard guard) { take(facet, guard, About::hull); });
 }
 
 /// Where a power test is zero for the whole step.

@@ -144,8 +144,8 @@ class WrappedHierarchy final : public KineticStructure {
   void guard_node(NodeId node, Basis before);
   /// Guards the node's present basis; the first bead whose certificate is violated, if any.
   [[nodiscard]] std::optional<BeadId> watch_node(NodeId node);
-  template <class Certificate>
-  [[nodiscard]] Guard hold(NodeId node, const Certificate& certificate);
+  [[nodiscard]] std::optional<BeadId> watch_all_of(NodeId node, unsigned table, bool zero_will_do);
+  void hold(NodeId node, Guard guard, unsigned table);
   void drop_node(NodeId node);
   /// The basis of the node's basis and `bead`, which escaped or is to spare.
   [[nodiscard]] bool repair(NodeId node, BeadId bead);
@@ -164,6 +164,7 @@ class WrappedHierarchy final : public KineticStructure {
   std::vector<Node> nodes_;
   std::vector<Held> held_;
   std::vector<std::uint32_t> free_;
+  std::vector<BeadId> watched_;  // of the certificates that are enqueued
   std::optional<Present> present_;
 };
 
@@ -213,16 +214,11 @@ bool WrappedHierarchy<M, K>::repair(NodeId id, BeadId bead) {
 }
 
 template <Motion M, Kernel K>
-template <class Certificate>
-Guard WrappedHierarchy<M, K>::hold(NodeId id, const Certificate& certificate) {
-  auto& table = table_of(certificate);
-  const bool own_root = present_ && certificate.identity() == present_->identity;
-  if (own_root && certificate.side() == present_->side) return Guard::violated;  // it has just failed
-  const Guard guard = table.watch(certificate, id, own_root ? Birth::at_own_root : Birth::unknown);
-  if (guard == Guard::violated) return guard;
+void WrappedHierarchy<M, K>::hold(NodeId id, Guard guard, unsigned table) {
+  if (guard == Guard::violated) return;
   if (!has_slot(guard)) {
     ++nodes_[id].never_failing;
-    return guard;
+    return;
   }
   std::uint32_t place = 0;
   if (free_.empty()) {
@@ -232,35 +228,62 @@ Guard WrappedHierarchy<M, K>::hold(NodeId id, const Certificate& certificate) {
     place = free_.back();
     free_.pop_back();
   }
-  held_[place] = {guard, nodes_[id].held, static_cast<std::uint8_t>(table.number())};
+  held_[place] = {guard, nodes_[id].held, static_cast<std::uint8_t>(table)};
   nodes_[id].held = place;
-  return guard;
+}
+
+/// Guards the node by the certificates of these beads against their bases; the first bead whose certificate
+/// is violated or, unless `zero_will_do`, zero for the whole step.
+template <Motion M, Kernel K>
+std::optional<BeadId> WrappedHierarchy<M, K>::watch_all_of(NodeId id, unsigned table, bool zero_will_do) {
+  std::optional<BeadId> first;
+  visit_table(table, [&](auto& t) {
+    std::size_t i = 0;
+    t.watch_enqueued([&](NodeId, Guard guard) {
+      if (!first && (guard == Guard::violated || (guard == Guard::zero && !zero_will_do)))
+        first = watched_[i];
+      hold(id, guard, table);
+      ++i;
+    });
+  });
+  watched_.clear();
+  return first;
 }
 
 template <Motion M, Kernel K>
 std::optional<BeadId> WrappedHierarchy<M, K>::watch_node(NodeId id) {
   const Basis basis = nodes_[id].basis;
   JustAfter decide{*this};
+  // The bead whose certificate has just failed and would be watched again, if any.
+  std::optional<BeadId> failed;
+  const auto enqueue = [&](BeadId bead) {
+    return [this, id, bead, &failed](const auto& c) {
+      const bool own_root = present_ && c.identity() == present_->identity;
+      if (own_root && c.side() == present_->side) failed = bead;
+      table_of(c).enqueue(c, id, own_root ? Birth::at_own_root : Birth::unknown);
+      watched_.push_back(bead);
+    };
+  };
+  const auto watch = [&](unsigned table, bool zero_will_do) -> std::optional<BeadId> {
+    if (!failed) return watch_all_of(id, table, zero_will_do);
+    visit_table(table, [](auto& t) { t.forget_enqueued(); });
+    watched_.clear();
+    return failed;
+  };
   // Beads that leave first: outside their proper domain the other certificates say nothing. Nor do they where
   // a bead is to spare all the time, its function zero. Two beads never part, but they may be one all the
   // time.
   if (basis.size == 2 && move_together(basis.beads[0], basis.beads[1])) return basis.beads[1];
   if (basis.size >= 3) {
-    for (const BeadId b : basis) {
-      const Guard guard =
-          visit_membership(without(basis, b), b, false, 0, [&](const auto& c) { return hold(id, c); });
-      if (guard == Guard::violated || guard == Guard::zero) return b;
-    }
+    for (const BeadId b : basis) visit_membership(without(basis, b), b, false, 0, enqueue(b));
+    if (const auto to_spare = watch(basis.size - 1U, false)) return to_spare;
   }
   const int orientation = orientation_of(basis, decide);
   const BeadRange range = tree_.range(id);
   for (BeadId b = range.first; b <= range.last; ++b) {
-    if (basis.contains(b)) continue;
-    const Guard guard =
-        visit_membership(basis, b, true, orientation, [&](const auto& c) { return hold(id, c); });
-    if (guard == Guard::violated) return b;
+    if (!basis.contains(b)) visit_membership(basis, b, true, orientation, enqueue(b));
   }
-  return std::nullopt;
+  return watch(basis.size, true);
 }
 
 template <Motion M, Kernel K>
