@@ -363,8 +363,8 @@ TEST(Program, AnInterruptedRunLeavesNothingBehind) {
     // Waits for the log in the making, and ends the program then.
     const ProgramRun run = run_shell(
         "\"$0\" run \"$1\" --log \"$2/events.log\" --audit events & "
-        "i=0; while [ -z \"$(ls -A \"$2\")\" ] && [ $i -lt 200 ]; do sleep 0.05; i=$((i+1)); done; "
-        "ls -A \"$2\"; kill -$3 $!; wait $!",
+        "i=0; while [ -z \"$seen\" ] && [ $i -lt 200 ]; do sleep 0.05; seen=$(ls -A \"$2\" | grep part); "
+        "i=$((i+1)); done; echo \"$seen\"; kill -$3 $!; wait $!",
         {data_file("trajectories/villin_hp36_300K.dcd"), directory.path().string(), signal});
     EXPECT_GT(run.code, 128) << run.err;
     EXPECT_THAT(run.out, HasSubstr(".part"));
