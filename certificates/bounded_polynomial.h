@@ -61,19 +61,21 @@ struct BoundedPolynomial {
 
   /// The first root after `from` at which the polynomial turns negative, in a bracket that proves it:
   /// certainly positive on [from, lower], negative at upper, and one root between. `from` must be certainly
-  /// positive.
-  [[nodiscard]] Result first_descent(double from) const;
+  /// positive, by its value or `known` to be.
+  [[nodiscard]] Result first_descent(double from, bool known = false) const;
 };
 
 template <int Degree>
-auto BoundedPolynomial<Degree>::first_descent(double from) const -> Result {
+auto BoundedPolynomial<Degree>::first_descent(double from, bool known) const -> Result {
   LanesDescent<Degree> descent;
   for (std::size_t k = 0; k <= Degree; ++k) descent.bernstein[k] = Lanes(bernstein[k]);
   descent.value_error = Lanes(value_error);
   descent.local_error = Lanes(local_error);
+  descent.part = descent.bernstein;
+  if (from > 0) casteljau(descent.part, Lanes(from));
   LanesSearch search;
   constexpr Lanes::Mask first{-1, 0, 0, 0};
-  isolate_lanes(descent, from, first, search);
+  isolate_lanes(descent, from, first, known ? first : Lanes::Mask{}, search);
   if (search.never[0] != 0) return {Verdict::never, {}};
   if (search.found[0] == 0) return {Verdict::undecided, {}};
   narrow_lanes(descent, first);

@@ -1,6 +1,9 @@
 #include "certificates/exact_time.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
+#include <vector>
 
 namespace kds {
 
@@ -29,6 +32,36 @@ int sign_all_over(const ExactPolynomial& function, const ExactTime& time) {
     if (x != 0) return x > 0 ? 1 : -1;
   }
   return 0;
+}
+
+// Where the time roughly is: bisection in double on the polynomial's coefficients over its interval.
+double rough(const ExactTime& time) {
+  const ExactPolynomial local = time.polynomial().restricted(time.lower(), time.upper());
+  const auto shift = static_cast<long>(local.largest_bit_length());
+  std::vector<double> c;
+  for (const Integer& x : local.scaled()) {
+    long exponent = 0;
+    const double fraction = mpz_get_d_2exp(&exponent, x.backend().data());
+    c.push_back(std::ldexp(fraction, static_cast<int>(std::max(exponent - shift, -1100L))));
+  }
+  const auto value = [&c](double s) {
+    double sum = c.back();
+    double power = 1;
+    for (std::size_t k = c.size() - 1; k-- > 0;) {
+      power *= 1 - s;
+      sum = sum * s + c[k] * power;
+    }
+    return sum;
+  };
+  const bool rising = c.front() < 0;
+  double low = 0;
+  double high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((value(middle) < 0) == rising ? low : high) = middle;
+  }
+  const double lower = time.lower().round_down();
+  return lower + (time.upper().round_up() - lower) * low;
 }
 
 }  // namespace
@@ -60,6 +93,16 @@ bool ExactTime::narrow_to(const Dyadic& lower, const Dyadic& upper) {
   lower_ = lower;
   upper_ = upper;
   return true;
+}
+
+void ExactTime::narrow_for_doubles() {
+  constexpr double width = 0x1p-44;
+  if (is_dyadic()) return;
+  const double guess = rough(*this);
+  for (const double reach : {0x1p-46, 0x1p-42}) {
+    if (narrow_to(Dyadic(guess - reach), Dyadic(guess + reach))) return;
+  }
+  while (!is_dyadic() && upper_.round_up() - lower_.round_down() > width) refine();
 }
 
 int ExactTime::compare(ExactTime& a, ExactTime& b) {
@@ -129,11 +172,10 @@ int sign_after(const ExactPolynomial& function, ExactTime& time) {
 
 std::optional<ExactFailure> first_failure_after(const ExactPolynomial& function, const ExactTime& now,
                                                 Touches touches) {
-  if (function.is_zero() || function.sign_variations() == 0) return std::nullopt;
   const Dyadic end(1.0);
+  if (!(now.upper() < end) || function.is_zero() || function.sign_variations() == 0) return std::nullopt;
   const bool from_root = now.is_dyadic() && function.sign_at(now.upper()) == 0;
   const ExactPolynomial simple = function.square_free();
-  if (!(now.upper() < end)) return std::nullopt;
   auto roots = isolate_roots(simple, now.upper(), end);
   for (auto root = roots.begin() + (from_root ? 1 : 0); root != roots.end(); ++root) {
     if (root->lower == end) break;  // what happens at u = 1 is judged by the next step

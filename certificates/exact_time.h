@@ -24,6 +24,8 @@ class ExactTime {
   void refine();
   /// The same to a narrower interval that holds the time, if it does; else nothing. Ends must not be roots.
   bool narrow_to(const Dyadic& lower, const Dyadic& upper);
+  /// To about 2^-44, which keeps nearly all failure times of a step apart: at a guess, or by bisection.
+  void narrow_for_doubles();
 
   /// -1, 0, 1. Narrows both.
   [[nodiscard]] static int compare(ExactTime& a, ExactTime& b);

@@ -3,6 +3,7 @@
 // `Filtered` and `Exact` answer exactly; `Fast` approximately (kernel.h).
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <optional>
@@ -102,22 +103,16 @@ template <class Certificate, Motion M>
   return result;
 }
 
-/// Certainly positive from the present time on. At its own root the bracket holds no other one, and its upper
-/// end tells.
-template <int Degree>
-[[nodiscard]] bool starts_positive(const BoundedPolynomial<Degree>& function, const Instant& now,
-                                   Birth birth) {
-  return birth == Birth::at_own_root ? now.isolating() && function.certain_sign_at(now.upper()) > 0
-                                     : function.certain_sign_on(now.lower(), now.upper()) > 0;
-}
-
 /// Settles a certificate in double, or nothing.
 template <int Degree>
 [[nodiscard]] std::optional<Failure> settle(const Bounded<Degree>& bounded, const Instant& now, Birth birth) {
   if (bounded.positive) return Failure{};
   const BoundedPolynomial<Degree>& function = bounded.function;
-  if (!starts_positive(function, now, birth)) return std::nullopt;
-  const auto result = function.first_descent(now.upper());
+  // At its own root the bracket holds no other one, and at its upper end the function is positive.
+  const bool known = birth == Birth::at_own_root && now.isolating();
+  if (!known && (birth == Birth::at_own_root || function.certain_sign_on(now.lower(), now.upper()) <= 0))
+    return std::nullopt;
+  const auto result = function.first_descent(now.upper(), known);
   switch (result.verdict) {
     case Verdict::never:
       return Failure{};
@@ -160,16 +155,16 @@ template <class Certificate, Motion M>
   return {Failure::Kind::later, {time, time, 0, false}};
 }
 
-}  // namespace detail
-
-namespace detail {
-
 /// The stages after the certificate type's own filter.
 template <class Certificate, Motion M>
 [[nodiscard]] Failure careful_first_failure(const Certificate& certificate, const M& motion,
                                             const Instant& now, Birth birth, StageCounts& stages,
                                             Touches touches) {
-  if (const auto failure = settle(tracked_function(certificate, motion), now, birth)) {
+  const auto tracked = tracked_function(certificate, motion);
+  auto failure = settle(tracked, now, birth);
+  // Next to a double root the present bracket is wide, and what fails soon after lies in its shadow.
+  if (!failure && now.narrow()) failure = settle(tracked, now, birth);
+  if (failure) {
     ++stages.refined;
     return *failure;
   }
@@ -177,68 +172,90 @@ template <class Certificate, Motion M>
   return exact_first_failure(exact_function(certificate, motion), now, stages, touches);
 }
 
-/// Up to four certificates side by side; the last one fills what is left.
+/// Up to four certificates side by side, named by their places; the last one fills what is left.
 template <Motion M, class Certificate>
-[[nodiscard]] auto in_lanes(std::span<const Certificate> certificates) {
+[[nodiscard]] auto in_lanes(std::span<const Certificate> certificates, std::span<const std::size_t> places) {
   std::pair<typename LanesView<M, bead_places<Certificate>>::Tuples, Lanes> lanes;
   for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
-    const Certificate& certificate = certificates[std::min(lane, certificates.size() - 1)];
+    const Certificate& certificate = certificates[places[std::min(lane, places.size() - 1)]];
     lanes.first[lane] = certificate.beads;
     lanes.second.v[lane] = certificate.side() ? 1 : -1;
   }
   return lanes;
 }
 
-/// Up to four certificates at once.
+/// Up to four certificates at once, named by their places.
 template <class Certificate, Motion M>
-void filtered_first_failures(std::span<const Certificate> certificates, const M& motion, const Instant& now,
-                             std::span<const Birth> births, StageCounts& stages, Touches touches,
-                             std::span<Failure> failures) {
+void filtered_first_failures(std::span<const Certificate> certificates, std::span<const std::size_t> places,
+                             const M& motion, const Instant& now, std::span<const Birth> births,
+                             StageCounts& stages, Touches touches, std::span<Failure> failures) {
   constexpr int degree = decltype(function_of(Certificate{}, DoubleView<M>(motion)))::degree;
-  const auto [tuples, sides] = in_lanes<M>(certificates);
+  const auto [tuples, sides] = in_lanes<M>(certificates, places);
   LanesNow lanes_now{now.lower(), now.upper(), now.isolating(), 0};
-  for (std::size_t lane = 0; lane < births.size(); ++lane) {
-    if (births[lane] == Birth::at_own_root) lanes_now.at_own_root |= 1U << lane;
+  for (std::size_t lane = 0; lane < places.size(); ++lane) {
+    if (births[places[lane]] == Birth::at_own_root) lanes_now.at_own_root |= 1U << lane;
   }
   LanesOutcome<degree> outcome;
   settle_lanes<Certificate>(motion, tuples, sides, lanes_now, outcome);
   LanesDescent<degree>& descent = outcome.descent;
   LanesSearch search{outcome.positive | outcome.never, outcome.found};
-  if (Lanes::any(outcome.unclear)) isolate_lanes(descent, now.upper(), outcome.unclear, search);
+  if (Lanes::any(outcome.unclear))
+    isolate_lanes(descent, now.upper(), outcome.unclear, outcome.known, search);
   if (Lanes::any(search.found)) narrow_lanes(descent, search.found);
-  for (std::size_t lane = 0; lane < certificates.size(); ++lane) {
+  for (std::size_t lane = 0; lane < places.size(); ++lane) {
+    const std::size_t place = places[lane];
     if (search.never[lane] != 0) {
       ++(outcome.positive[lane] != 0 ? stages.coefficients : stages.isolation);
-      failures[lane] = {};
+      failures[place] = {};
     } else if (search.found[lane] != 0) {
       ++stages.isolation;
-      failures[lane] = {Failure::Kind::later, {descent.lower.v[lane], descent.upper.v[lane], 0, true}};
+      failures[place] = {Failure::Kind::later, {descent.lower.v[lane], descent.upper.v[lane], 0, true}};
     } else {
-      failures[lane] = careful_first_failure(certificates[lane], motion, now, births[lane], stages, touches);
+      failures[place] =
+          careful_first_failure(certificates[place], motion, now, births[place], stages, touches);
     }
   }
 }
 
 }  // namespace detail
 
-/// When each of these certificates, born now, fails for the first time in the motion's step.
+/// When each of these certificates, born now, fails for the first time in the motion's step. All that are
+/// born at their own root have one function, the one that is zero now: it is searched once.
 template <Kernel K, class Certificate, Motion M>
 requires CertificateFor<Certificate, M>
 void first_failures(std::span<const Certificate> certificates, const M& motion, const Instant& now,
                     std::span<const Birth> births, StageCounts& stages, Touches touches,
                     std::span<Failure> failures) {
-  if constexpr (std::same_as<K, Filtered>) {
-    for (std::size_t i = 0; i < certificates.size(); i += Lanes::width) {
-      const std::size_t count = std::min(Lanes::width, certificates.size() - i);
-      detail::filtered_first_failures(certificates.subspan(i, count), motion, now, births.subspan(i, count),
-                                      stages, touches, failures.subspan(i, count));
+  constexpr std::size_t at_once = std::same_as<K, Filtered> ? Lanes::width : 1;
+  std::array<std::size_t, at_once> places{};
+  std::size_t count = 0;
+  const auto search = [&] {
+    if constexpr (std::same_as<K, Filtered>) {
+      detail::filtered_first_failures(certificates, std::span<const std::size_t>(places).first(count), motion,
+                                      now, births, stages, touches, failures);
+    } else {
+      const Certificate& certificate = certificates[places[0]];
+      failures[places[0]] =
+          std::same_as<K, Fast>
+              ? detail::fast_first_failure(certificate, motion, now, births[places[0]], stages)
+              : exact_first_failure(exact_function(certificate, motion), now, stages, touches);
     }
-  } else {
-    for (std::size_t i = 0; i < certificates.size(); ++i) {
-      failures[i] = std::same_as<K, Fast>
-                        ? detail::fast_first_failure(certificates[i], motion, now, births[i], stages)
-                        : exact_first_failure(exact_function(certificates[i], motion), now, stages, touches);
+    count = 0;
+  };
+  std::optional<std::size_t> at_own_root;
+  for (std::size_t i = 0; i < certificates.size(); ++i) {
+    if (births[i] == Birth::at_own_root) {
+      if (at_own_root) continue;
+      at_own_root = i;
     }
+    places[count++] = i;
+    if (count == at_once) search();
+  }
+  if (count > 0) search();
+  for (std::size_t i = at_own_root.value_or(certificates.size()) + 1; i < certificates.size(); ++i) {
+    if (births[i] != Birth::at_own_root) continue;
+    failures[i] = failures[*at_own_root];
+    ++stages.shared;
   }
 }
 
@@ -297,23 +314,29 @@ template <Kernel K, class Function, Motion M>
   return detail::sign_around<K>(function, motion, now, stages, sign_after);
 }
 
-/// Whether up to four functions are all positive now. In doubles at once where that will do.
+/// Whether all functions are positive now. In doubles, four at once, where that will do.
 template <Kernel K, class Function, Motion M>
 [[nodiscard]] bool all_positive_now(std::span<const Function> functions, const M& motion, const Instant& now,
                                     StageCounts& stages) {
-  if (functions.empty()) return true;
-  if constexpr (std::same_as<K, Filtered>) {
-    LanesDescent<decltype(function_of(Function{}, DoubleView<M>(motion)))::degree> work;
-    bool all_positive = false;
-    const auto [tuples, sides] = detail::in_lanes<M>(functions);
-    positive_lanes<Function>(motion, tuples, sides, now.lower(), now.upper(), work, all_positive);
-    if (all_positive) {
-      stages.signs_double += functions.size();
-      return true;
+  constexpr std::array<std::size_t, Lanes::width> places{0, 1, 2, 3};
+  for (std::size_t i = 0; i < functions.size(); i += Lanes::width) {
+    const auto some = functions.subspan(i, std::min(Lanes::width, functions.size() - i));
+    if constexpr (std::same_as<K, Filtered>) {
+      LanesDescent<decltype(function_of(Function{}, DoubleView<M>(motion)))::degree> work;
+      bool all_positive = false;
+      const auto [tuples, sides] =
+          detail::in_lanes<M>(some, std::span<const std::size_t>(places).first(some.size()));
+      positive_lanes<Function>(motion, tuples, sides, now.lower(), now.upper(), work, all_positive);
+      if (all_positive) {
+        stages.signs_double += some.size();
+        continue;
+      }
+    }
+    for (const Function& f : some) {
+      if (sign_now<K>(f, motion, now, stages) <= 0) return false;
     }
   }
-  return std::all_of(functions.begin(), functions.end(),
-                     [&](const Function& f) { return sign_now<K>(f, motion, now, stages) > 0; });
+  return true;
 }
 
 }  // namespace kds

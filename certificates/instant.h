@@ -20,6 +20,9 @@ class CertificateSource {
 /// The root that a failure time stands for. Exact.
 [[nodiscard]] ExactTime exact_time(const ExactPolynomial& function, const FailureTime& time);
 
+/// Carries a narrower exact interval back into the doubles. The time must stay the only root of its function.
+void narrow(FailureTime& time, const ExactTime& exact);
+
 class Instant {
  public:
   /// The start of a step, or another dyadic time.
@@ -34,16 +37,19 @@ class Instant {
   [[nodiscard]] double upper() const { return time_.upper; }
   /// The bracket separates this time from the other roots of its certificate's function.
   [[nodiscard]] bool isolating() const { return time_.isolating; }
+  /// Narrows the bracket as far as doubles go, once: true if that was still to be done.
+  bool narrow() const;
   [[nodiscard]] ExactTime& exact() const {
     if (!exact_) exact_ = exact_time(source_->exact_function(slot_), time_);
     return *exact_;
   }
 
  private:
-  FailureTime time_;
+  mutable FailureTime time_;
   const CertificateSource* source_ = nullptr;
   std::uint32_t slot_ = 0;
   mutable std::optional<ExactTime> exact_;
+  mutable bool narrowed_ = false;
 };
 
 }  // namespace kds

@@ -44,19 +44,42 @@ struct LanesSearch {
   Lanes::Mask found{};  ///< isolated
 };
 
-/// Searches the wanted lanes after `from`, where they are certainly positive.
+/// The value at the start of a part, made certainly positive where it is known to be, close to a root as it
+/// may lie: the rule of signs asks for signs alone.
+[[gnu::always_inline]] inline Lanes known_positive(const Lanes& value, const Lanes::Mask& known,
+                                                   const Lanes& error) {
+  return Lanes::choose(known, Lanes::max(value, error + error), value);
+}
+
+/// Where the control polygon first falls below zero, in [0,1]; 1 if it does not.
+template <std::size_t N>
+[[gnu::always_inline]] inline Lanes first_descent_of_polygon(const std::array<Lanes, N>& c) {
+  Lanes place(static_cast<double>(N - 1)), left(0.0), right(-1.0);
+  for (std::size_t k = N - 1; k-- > 0;) {
+    const Lanes::Mask falls = (c[k] > Lanes(0.0)) & (c[k + 1] <= Lanes(0.0));
+    place = Lanes::choose(falls, Lanes(static_cast<double>(k)), place);
+    left = Lanes::choose(falls, c[k], left);
+    right = Lanes::choose(falls, c[k + 1], right);
+  }
+  return (place + left / (left - right)) * Lanes(1.0 / static_cast<double>(N - 1));
+}
+
+/// Searches the wanted lanes after `from`, where they are certainly positive: by their computed value, or
+/// `known` to be. The part given is that on [from, 1]; it tells how far the first look goes.
 template <int Degree>
 [[KDS_LANES_TARGETS]] void isolate_lanes(LanesDescent<Degree>& descent, double from,
-                                         const Lanes::Mask& wanted, LanesSearch& result) {
+                                         const Lanes::Mask& wanted, const Lanes::Mask& known,
+                                         LanesSearch& result) {
   constexpr int most_steps = 100;
   Lanes::Mask searching = wanted;
   Lanes lower(from);
-  Lanes step((1 - from) * 0.5);
+  Lanes step = Lanes(1.5 * (1 - from)) * first_descent_of_polygon(descent.part);
   for (int count = 0; count < most_steps && Lanes::any(searching); ++count) {
     const Lanes upper = Lanes::min(lower + step, Lanes(1.0));
     LanesCoefficients<Degree> part = descent.bernstein;
     casteljau_left(part, upper);
     casteljau(part, lower / upper);
+    part[0] = known_positive(part[0], known & (lower <= Lanes(from)), descent.local_error);
     const LanesShape shape = shape_of(part, descent.local_error);
     const Lanes::Mask found = searching & shape.one_descent;
     const Lanes::Mask never = searching & shape.positive & (upper >= Lanes(1.0));

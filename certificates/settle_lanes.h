@@ -4,7 +4,6 @@
 // subdivision. No allocation.
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <tuple>
 
@@ -29,6 +28,7 @@ struct LanesOutcome {
   Lanes::Mask never{};           ///< never fails from now on
   Lanes::Mask found{};           ///< fails once from now on: `descent` holds it
   Lanes::Mask unclear{};         ///< positive now, and yet to be searched
+  Lanes::Mask known{};           ///< positive now although the value may not show it: at its own root
   LanesDescent<Degree> descent;  ///< polynomial and errors of all lanes that are not positive
 };
 
@@ -37,36 +37,51 @@ inline constexpr std::size_t bead_places = std::tuple_size_v<decltype(Certificat
 
 namespace detail {
 
-/// The functions of four certificates with their errors; true where all coefficients are certainly positive.
+/// The scaled Bernstein coefficients of four functions, and the scale of their errors.
+template <int Degree>
+struct ScaledLanes {
+  LanesCoefficients<Degree> scaled;
+  Lanes error_scale;     ///< M^h, or a NaN where the bound is not proved
+  Lanes::Mask positive;  ///< all coefficients certainly
+};
+
 /// `sides`: 1 or -1, by which a lane's formula is multiplied.
 template <class Certificate, Motion M, int Degree>
-[[gnu::always_inline]] inline Lanes::Mask bound_lanes(
+[[gnu::always_inline]] inline void evaluate_lanes(
     const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
-    const Lanes& sides, LanesDescent<Degree>& lanes) {
+    const Lanes& sides, ScaledLanes<Degree>& lanes) {
   decltype(Certificate{}.beads) places{};
   for (std::size_t p = 0; p < places.size(); ++p) places[p] = static_cast<BeadId>(p);
   const LanesView<M, bead_places<Certificate>> view(motion, tuples);
   const auto function = Certificate::formula(view, places);
   const auto& bound = error_bound<Certificate, M>;
 
-  const Lanes unknown(__builtin_nan(""));
   const Lanes length = view.largest_length();
   Lanes scale(1.0);
   for (int i = 0; i < bound.power; ++i) scale = scale * length;
-  scale = Lanes::choose((scale >= Lanes(0x1p-900)) & (scale <= Lanes(0x1p900)), scale, unknown);
+  scale =
+      Lanes::choose((scale >= Lanes(0x1p-900)) & (scale <= Lanes(0x1p900)), scale, Lanes(__builtin_nan("")));
+  lanes.error_scale = scale;
+  lanes.positive = scale >= Lanes(0.0);
+  for (std::size_t k = 0; k <= Degree; ++k) {
+    lanes.scaled[k] = sides * function.scaled[k];
+    lanes.positive &= lanes.scaled[k] > Lanes(bound.coefficient[k]) * scale;
+  }
+}
 
-  Lanes::Mask positive = scale >= Lanes(0.0);
+/// Plain coefficients and the errors that go with them.
+template <int Degree>
+[[gnu::always_inline]] inline void bound_lanes(const ScaledLanes<Degree>& given, double uniform_bound,
+                                               LanesDescent<Degree>& lanes) {
   Lanes largest(0.0);
   for (std::size_t k = 0; k <= Degree; ++k) {
-    const Lanes value = sides * function.scaled[k];
-    positive &= value > Lanes(bound.coefficient[k]) * scale;
-    lanes.bernstein[k] = value / Lanes(static_cast<double>(binomial(Degree, static_cast<int>(k))));
+    lanes.bernstein[k] = given.scaled[k] / Lanes(static_cast<double>(binomial(Degree, static_cast<int>(k))));
     largest = Lanes::max(largest, Lanes::abs(lanes.bernstein[k]));
   }
-  const Lanes uniform = Lanes::choose(largest >= Lanes(0x1p-900), Lanes(bound.uniform) * scale, unknown);
+  const Lanes uniform = Lanes::choose(largest >= Lanes(0x1p-900), Lanes(uniform_bound) * given.error_scale,
+                                      Lanes(__builtin_nan("")));
   lanes.value_error = uniform + Lanes(value_rounding(Degree)) * largest;
   lanes.local_error = uniform + Lanes(local_rounding(Degree)) * largest;
-  return positive;
 }
 
 /// How much less than at its upper end a function may be elsewhere in the present bracket.
@@ -89,21 +104,27 @@ template <class Certificate, Motion M, int Degree>
 [[KDS_LANES_TARGETS]] void settle_lanes(const M& motion,
                                         const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
                                         const Lanes& sides, const LanesNow& now, LanesOutcome<Degree>& out) {
-  out.positive = detail::bound_lanes<Certificate>(motion, tuples, sides, out.descent);
+  detail::ScaledLanes<Degree> given;
+  detail::evaluate_lanes<Certificate>(motion, tuples, sides, given);
+  out.positive = given.positive;
   if (Lanes::all(out.positive)) return;
+  detail::bound_lanes(given, error_bound<Certificate, M>.uniform, out.descent);
   auto right = out.descent.bernstein;  // the part after now
   if (now.upper > 0) casteljau(right, Lanes(now.upper));
-  // At its own root the bracket holds no other one, and its upper end tells.
+  // At its own root the bracket holds no other one, and at its upper end the function is positive.
   Lanes::Mask at_own_root{};
   for (unsigned lane = 0; lane < Lanes::width; ++lane)
     at_own_root[lane] = (now.at_own_root >> lane & 1U) != 0 ? -1 : 0;
+  const Lanes::Mask known = now.isolating ? at_own_root : Lanes::Mask{};
+  right[0] = known_positive(right[0], known, out.descent.local_error);
   const Lanes fall = Lanes::choose(at_own_root, Lanes(now.isolating ? 0.0 : __builtin_inf()),
                                    detail::fall_within(out.descent, now.lower, now.upper));
   const Lanes::Mask starts_positive = right[0] > out.descent.local_error + fall;
   const LanesShape shape = shape_of(right, out.descent.local_error);
   out.never = shape.positive & starts_positive & ~out.positive;
   out.found = shape.one_descent & starts_positive;
-  out.unclear = starts_positive & ~(shape.positive | shape.one_descent);
+  out.unclear = starts_positive & ~(out.positive | shape.positive | shape.one_descent);
+  out.known = known;
   out.descent.part = right;
   out.descent.lower = Lanes(now.upper);
   out.descent.upper = Lanes(1.0);
@@ -115,7 +136,9 @@ template <class Function, Motion M, int Degree>
                                           const typename LanesView<M, bead_places<Function>>::Tuples& tuples,
                                           const Lanes& sides, double lower, double upper,
                                           LanesDescent<Degree>& work, bool& all_positive) {
-  static_cast<void>(detail::bound_lanes<Function>(motion, tuples, sides, work));
+  detail::ScaledLanes<Degree> given;
+  detail::evaluate_lanes<Function>(motion, tuples, sides, given);
+  detail::bound_lanes(given, error_bound<Function, M>.uniform, work);
   work.part = work.bernstein;
   const Lanes value = casteljau(work.part, Lanes(upper));
   all_positive = Lanes::all(value > work.value_error + detail::fall_within(work, lower, upper));

@@ -13,13 +13,14 @@ namespace kds {
 template <std::size_t N>
 [[nodiscard]] constexpr int sort_beads(std::array<BeadId, N>& beads) {
   // By rank, without branches: this runs for every certificate.
-  std::array<std::size_t, N> rank{};
+  std::array<unsigned, N> rank{};
   unsigned inversions = 0;
   for (std::size_t j = 1; j < N; ++j) {
     for (std::size_t i = 0; i < j; ++i) {
-      const bool inverted = beads[j] < beads[i];
-      inversions += inverted ? 1 : 0;
-      rank[inverted ? i : j] += 1;
+      const unsigned inverted = beads[j] < beads[i] ? 1 : 0;
+      inversions += inverted;
+      rank[i] += inverted;
+      rank[j] += 1 - inverted;
     }
   }
   const std::array<BeadId, N> before = beads;

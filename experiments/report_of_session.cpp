@@ -36,6 +36,7 @@ StructureReport report_of(const KineticStructure& structure, double seconds) {
                    {"refined", s.stages.refined},
                    {"exact", s.stages.exact},
                    {"identically_zero", s.stages.identically_zero},
+                   {"shared", s.stages.shared},
                    {"signs_double", s.stages.signs_double},
                    {"signs_exact", s.stages.signs_exact},
                    {"largest_bits", s.stages.largest_bits}};

@@ -63,6 +63,7 @@ constexpr std::array kStageLabels{
     StageLabel{"refined", kFailureTimes, "double, errors followed"},
     StageLabel{"exact", kFailureTimes, "integers"},
     StageLabel{"identically_zero", kFailureTimes, "integers, identically zero"},
+    StageLabel{"shared", kFailureTimes, "with another of the same function"},
     StageLabel{"signs_double", kSigns, "double"},
     StageLabel{"signs_exact", kSigns, "integers"},
     StageLabel{"largest_bits", "", "bits of the longest integer"},

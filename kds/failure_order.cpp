@@ -1,20 +1,8 @@
 #include "kds/failure_order.h"
 
-#include <algorithm>
 #include <tuple>
 
 namespace kds {
-
-namespace {
-
-// Carries a narrower exact interval back into the doubles. The time must stay the only root of its function.
-void narrow(FailureTime& time, const ExactTime& exact) {
-  if (!time.isolating || exact.is_dyadic()) return;
-  time.lower = std::max(time.lower, exact.lower().round_down());
-  time.upper = std::min(time.upper, exact.upper().round_up());
-}
-
-}  // namespace
 
 int FailureOrder::compare_times(ScheduledFailure& a, ScheduledFailure& b) {
   if (a.time.upper < b.time.lower) return -1;

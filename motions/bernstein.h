@@ -22,7 +22,7 @@ struct Bernstein {
   using Number = NumberType;
   static constexpr int degree = DegreeValue;
 
-  std::array<Number, static_cast<std::size_t>(DegreeValue) + 1> scaled{};
+  std::array<Number, static_cast<std::size_t>(DegreeValue) + 1> scaled;
 
   constexpr Bernstein& operator+=(const Bernstein& other) {
     for (std::size_t k = 0; k < scaled.size(); ++k) scaled[k] += other.scaled[k];

@@ -19,6 +19,7 @@ concept Motion = requires(const M& motion, BeadId bead, int k, int axis) {
   { motion.bead_count() } -> std::convertible_to<std::size_t>;
   { motion.coordinate(bead, k, axis) } -> std::same_as<double>;  // k-th control point
   { motion.weight(bead, k) } -> std::same_as<double>;
+  { motion.control_point(bead, k) } -> std::same_as<const double*>;
 };
 
 template <int DimensionValue, int DegreeValue>
@@ -36,6 +37,8 @@ class BezierMotion {
     return records_[bead].control[k][axis];
   }
   [[nodiscard]] double weight(BeadId bead, int k) const { return records_[bead].control[k][dimension]; }
+  /// The k-th control point with the weight last, dimension + 1 numbers in a row.
+  [[nodiscard]] const double* control_point(BeadId bead, int k) const { return records_[bead].control[k]; }
   void set_coordinate(BeadId bead, int k, int axis, double value) { records_[bead].control[k][axis] = value; }
   void set_weight(BeadId bead, int k, double value) { records_[bead].control[k][dimension] = value; }
 

@@ -22,9 +22,9 @@ class Lanes {
   using Vector = double __attribute__((vector_size(32)));
   using Mask = decltype(Vector{} < Vector{});  // of whole numbers: -1 where true, else 0
 
-  Vector v{};
+  Vector v;
 
-  Lanes() = default;
+  Lanes() {}  // left as it is: arrays of lanes are filled right away
   [[gnu::always_inline]] Lanes(Vector vector) : v(vector) {}
   [[gnu::always_inline]] explicit Lanes(double all) : v{all, all, all, all} {}
 
@@ -57,6 +57,24 @@ class Lanes {
     const Mask magnitude{0x7fffffffffffffffLL, 0x7fffffffffffffffLL, 0x7fffffffffffffffLL,
                          0x7fffffffffffffffLL};
     return reinterpret_cast<Vector>(reinterpret_cast<Mask>(a.v) & magnitude);
+  }
+  /// Four rows of four: lane i of the k-th result is number k of row i.
+  [[gnu::always_inline]] static std::array<Lanes, 4> transposed(const double* row0, const double* row1,
+                                                                const double* row2, const double* row3) {
+    const Vector a = load(row0), b = load(row1), c = load(row2), d = load(row3);
+    const Vector ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+    const Vector ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const Vector cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+    const Vector cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    return {Lanes(__builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5)),
+            Lanes(__builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5)),
+            Lanes(__builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7)),
+            Lanes(__builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7))};
+  }
+  [[gnu::always_inline]] static Vector load(const double* four) {
+    Vector v;
+    __builtin_memcpy(&v, four, sizeof v);
+    return v;
   }
   [[gnu::always_inline]] static bool any(const Mask& mask) {
     return ((mask[0] | mask[1]) | (mask[2] | mask[3])) != 0;

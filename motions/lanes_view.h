@@ -21,6 +21,12 @@ class LanesView {
   [[gnu::always_inline]] LanesView(const M& motion, const Tuples& t) {
     for (std::size_t place = 0; place < Places; ++place) {
       for (int k = 0; k <= degree; ++k) {
+        if constexpr (dimension == 3) {
+          control_[place][static_cast<std::size_t>(k)] =
+              Lanes::transposed(motion.control_point(t[0][place], k), motion.control_point(t[1][place], k),
+                                motion.control_point(t[2][place], k), motion.control_point(t[3][place], k));
+          continue;
+        }
         for (int axis = 0; axis < dimension; ++axis) {
           control_[place][static_cast<std::size_t>(k)][static_cast<std::size_t>(axis)] =
               Lanes::Vector{motion.coordinate(t[0][place], k, axis), motion.coordinate(t[1][place], k, axis),
@@ -64,8 +70,8 @@ class LanesView {
   }
 
   std::array<std::array<std::array<Lanes, dimension + 1>, degree + 1>, Places> control_;
-  mutable Lanes length_;
-  mutable Lanes weight_;
+  mutable Lanes length_{0.0};
+  mutable Lanes weight_{0.0};
 };
 
 }  // namespace kds
