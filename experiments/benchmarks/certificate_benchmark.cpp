@@ -4,8 +4,9 @@
 //
 //   kds_benchmarks --benchmark_filter=settle     beads to "never fails in this step"; peer: predicate
 //   kds_benchmarks --benchmark_filter=failure    beads to a bracket with one proved root; peer: isolation
-//   kds_benchmarks --benchmark_filter=exact      on integers alone: to the bracket in doubles, to the exact
-//                                                time, isolation of given polynomials; peer: isolation
+//   kds_benchmarks --benchmark_filter=exact      integers alone: beads to a bracket; beads to a polynomial;
+//   and
+//                                                from there its first failure, all roots; peer: isolation
 //   kds_benchmarks --benchmark_filter=compare    two failure times apart; peer: two algebraic numbers
 //   kds_benchmarks --benchmark_filter=sign       just after another failure, all of four at it; peer:
 //   predicate
@@ -183,17 +184,27 @@ void failure(benchmark::State& state, I input) {
       state, input.certificates.size(), [&] { search<K>(input); }, [&] { return peer.seconds_to_isolate(); });
 }
 
-// Beads to the exact time.
+// Beads to polynomials.
+template <class I>
+void exact_function(benchmark::State& state, I input) {
+  input.keep(Failure::Kind::later, enough);
+  measure_in_turn(
+      state, input.certificates.size(), [&] { benchmark::DoNotOptimize(input.polynomials().data()); },
+      [] { return std::numeric_limits<double>::quiet_NaN(); });
+}
+
+// The polynomials are given, the first failure wanted.
 template <class I>
 void exact_failure(benchmark::State& state, I input) {
   input.keep(Failure::Kind::later, enough);
-  const AlgebraicKernel peer(input.polynomials());
+  const std::vector<ExactPolynomial> polynomials = input.polynomials();
+  const AlgebraicKernel peer(polynomials);
   const ExactTime start(Dyadic(0.0));
   measure_in_turn(
-      state, input.certificates.size(),
+      state, polynomials.size(),
       [&] {
-        for (const auto& c : input.certificates) {
-          const auto found = first_failure_after(kds::exact_function(c, input.motion), start);
+        for (const ExactPolynomial& p : polynomials) {
+          const auto found = first_failure_after(p, start);
           benchmark::DoNotOptimize(found->touch);
         }
       },
@@ -329,6 +340,8 @@ void add_certificate_benchmarks() {
 
   add("exact/bracket/facet/linear", [=](State& s) { failure<Exact>(s, facets(linear())); });
   add("exact/bracket/facet/cubic", [=](State& s) { failure<Exact>(s, facets(cubic())); });
+  add("exact/function/facet/linear", [=](State& s) { exact_function(s, facets(linear())); });
+  add("exact/function/facet/cubic", [=](State& s) { exact_function(s, facets(cubic())); });
   add("exact/failure/facet/linear", [=](State& s) { exact_failure(s, facets(linear())); });
   add("exact/failure/facet/cubic", [=](State& s) { exact_failure(s, facets(cubic())); });
   add("exact/isolation/facet/linear", [=](State& s) { exact_isolation(s, facets(linear())); });
