@@ -2,21 +2,21 @@
 // numbers of the same polynomials (needs libmpfi-dev). Timed in turn; `ns` an item, `peer_ns`, `ratio` of
 // both, medians; `allocations` of ours an item.
 //
-//   kds_benchmarks --benchmark_filter=settle     beads to "never fails in this step"; peer: predicate
-//   kds_benchmarks --benchmark_filter=failure    beads to a bracket with one proved root; peer: isolation
-//   kds_benchmarks --benchmark_filter=exact      integers alone: beads to a bracket; beads to a polynomial;
-//   and
-//                                                from there its first failure, all roots; peer: isolation
-//   kds_benchmarks --benchmark_filter=compare    two failure times apart; peer: two algebraic numbers
-//   kds_benchmarks --benchmark_filter=sign       just after another failure, all of four at it; peer:
-//   predicate
+//   kds_benchmarks --benchmark_filter=settle    beads to "never fails in this step"; peer: predicate
+//   kds_benchmarks --benchmark_filter=failure   beads to a bracket with one proved root; peer: isolation
+//   kds_benchmarks --benchmark_filter=exact     on integers alone; peer: isolation
+//   kds_benchmarks --benchmark_filter=compare   two failure times apart; peer: two algebraic numbers
+//   kds_benchmarks --benchmark_filter=sign      at or just after another's failure; peer: predicate
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <limits>
-#include <memory>
+#include <span>
 #include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "certificates/bead_in_sphere.h"
 #include "certificates/failure_search.h"
@@ -25,6 +25,7 @@
 #include "experiments/benchmarks/in_turn.h"
 #include "experiments/benchmarks/random_chain.h"
 #include "kds/failure_order.h"
+#include "motions/instance.h"
 #include "motions/positions.h"
 #include "motions/scene.h"
 #include "structures/facet_certificate.h"

@@ -6,6 +6,8 @@
 #include <CGAL/Gmpz.h>
 #endif
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "experiments/benchmarks/in_turn.h"
