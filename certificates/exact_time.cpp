@@ -180,7 +180,9 @@ std::optional<ExactFailure> first_failure_after(const ExactPolynomial& function,
   for (auto root = roots.begin() + (from_root ? 1 : 0); root != roots.end(); ++root) {
     if (root->lower == end) break;  // what happens at u = 1 is judged by the next step
     ExactTime time(simple, std::move(*root));
-    const bool touch = sign_after(function, time) > 0;
+    // The only root around, so the upper end tells, unless the function is zero at the end of the step.
+    const int at_upper = time.is_dyadic() ? 0 : function.sign_at(time.upper());
+    const bool touch = (at_upper != 0 ? at_upper : sign_after(function, time)) > 0;
     if (!touch || touches == Touches::reported) return ExactFailure{std::move(time), touch};
   }
   return std::nullopt;

@@ -1,13 +1,14 @@
 // Whole kinetic runs of moving-point instances against CGAL's static build of the same points, timed in turn
 // in one process: `events_per_second`, and `static_builds`, how many static builds one run costs.
 //
-//   kds_benchmarks --benchmark_filter=power
+//   kds_benchmarks --benchmark_filter='power|sorted'
 
 #include <benchmark/benchmark.h>
 
 #include <chrono>
 #include <string>
 
+#include "experiments/benchmarks/benchmarks.h"
 #include "experiments/session.h"
 #include "motions/instance.h"
 #include "structures/regular_triangulation.h"
@@ -53,8 +54,7 @@ void run_instance(benchmark::State& state, const std::string& file, const std::s
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  using kds::KernelName;
+void kds::bench::add_engine_benchmarks() {
   const auto add = [](const std::string& name, const std::string& file, const std::string& structure,
                       KernelName kernel) {
     benchmark::RegisterBenchmark(
@@ -71,8 +71,4 @@ int main(int argc, char** argv) {
         KernelName::filtered);
   }
   add("d3_n50/exact", "d3_n50_linear.txt", "power", KernelName::exact);
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
 }

@@ -22,7 +22,7 @@ struct Time {
 
 Time at(const Dyadic& u) {
   const Rational x = u.rational();
-  return {ExactTime(u), std::make_shared<sturm::Sequence>(sturm::Polynomial{-x, 1}), {x, x}};
+  return {ExactTime(u), std::make_shared<sturm::Sequence>(sturm::with_root(x)), {x, x}};
 }
 
 // All roots on [from, 1).
@@ -50,7 +50,7 @@ int judge(const Time& a, const Time& b) {
 void expect_enclosed(const Time& time) {
   const Rational lower = time.ours.lower().rational();
   const Rational upper = time.ours.upper().rational();
-  const auto sequence_at = [](const Rational& x) { return sturm::Sequence({-x, 1}); };
+  const auto sequence_at = [](const Rational& x) { return sturm::Sequence(sturm::with_root(x)); };
   const int above = sturm::compare(*time.sequence, time.judged, sequence_at(lower), {lower, lower});
   const int below = sturm::compare(*time.sequence, time.judged, sequence_at(upper), {upper, upper});
   EXPECT_EQ(above, time.ours.is_dyadic() ? 0 : 1);
@@ -183,7 +183,7 @@ TEST(FirstFailureAfter, IsTheFirstRootFromWhichItIsNegative) {
     sturm::Polynomial power = sturm::from_scaled(f);
     if (sturm::sign_after(power, *now.sequence, now.judged) < 0) {
       for (Integer& x : f) x = -x;
-      for (Rational& x : power) x = -x;
+      for (Integer& x : power) x = -x;
     }
     SCOPED_TRACE("seed 204, case " + std::to_string(i) + ": " + test::describe(f) + " from " +
                  now.judged.lower.str() + ".." + now.judged.upper.str() + " of " + test::describe(p));

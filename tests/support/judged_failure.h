@@ -21,7 +21,7 @@ struct JudgedTime {
 
 inline JudgedTime judged(double u) {
   const Rational x = u;
-  return {std::make_shared<sturm::Sequence>(sturm::Polynomial{-x, 1}), {x, x}};
+  return {std::make_shared<sturm::Sequence>(sturm::with_root(x)), {x, x}};
 }
 
 inline Rational rational_of(double x) { return Dyadic(x).rational(); }
@@ -56,7 +56,7 @@ inline void expect_confirmed(const std::string& kernel, const Failure& answer,
   const sturm::Sequence& sequence = *expected.time.sequence;
   const sturm::Root& root = expected.time.root;
   const auto order = [&](const Rational& x) {
-    return sturm::compare(sequence, root, sturm::Sequence({-x, 1}), {x, x});
+    return sturm::compare(sequence, root, sturm::Sequence(sturm::with_root(x)), {x, x});
   };
   ASSERT_TRUE(0 <= lower && lower <= upper && upper <= 1);
   if (lower == upper) {

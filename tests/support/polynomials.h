@@ -5,6 +5,7 @@
 #include <random>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "motions/exact_number.h"
@@ -151,6 +152,40 @@ inline Scaled random_polynomial(Random& random) {
   return p;
 }
 
+/// u^n - 2 (a u - 1)^2, scaled: two irrational roots about 1/a, the closer the larger a and n (Mignotte).
+inline Scaled mignotte(int n, int a) {
+  Scaled p = product(linear(1, a), linear(1, a));
+  while (static_cast<int>(p.size()) <= n) p = product(p, {1, 1});
+  for (Integer& x : p) x *= -2;
+  p.back() += 1;
+  return p;
+}
+
+/// Mostly of degree 6 or less: hard ones that a judge is quickly done with.
+inline Scaled small_polynomial(Random& random) {
+  Scaled p{Integer(random() % 2 ? 1 : -1)};
+  switch (pick(random, 0, 6)) {
+    case 0:
+      return random_coefficients(random, pick(random, 1, 6), static_cast<unsigned>(pick(random, 1, 6)));
+    case 1:
+      return random_coefficients(random, pick(random, 1, 6), static_cast<unsigned>(pick(random, 7, 60)));
+    case 2:
+      return product(p, mignotte(pick(random, 3, 6), pick(random, 2, 40)));
+    case 3:
+      p = product(p, close_pair(random));
+      break;
+    default:
+      break;
+  }
+  for (int factors = pick(random, 1, 3); factors > 0; --factors) {
+    const Scaled factor = random() % 3 == 0 ? random_quadratic(random) : random_linear(random);
+    for (int power = random() % 3 == 0 ? pick(random, 2, 3) : 1; power > 0 && p.size() <= 6; --power)
+      p = product(p, factor);
+  }
+  if (random() % 4 == 0) p = product(p, {1, 1});  // the same, of a higher degree
+  return p;
+}
+
 /// A polynomial that shares a factor with p.
 inline Scaled relative_of(const Scaled& p, Random& random) {
   Scaled q = p;
@@ -159,6 +194,19 @@ inline Scaled relative_of(const Scaled& p, Random& random) {
   }
   if (q.size() < 16) q = product(q, random() % 2 ? random_linear(random) : random_quadratic(random));
   return q;
+}
+
+/// Two polynomials with a common root, the second with another one 2^-60 away or less.
+inline std::pair<Scaled, Scaled> close_relatives(Random& random) {
+  const Integer s = Integer(1) << 60;
+  const Integer q = pick(random, 2, 50);
+  const Integer p = pick(random, 0, static_cast<int>(q));
+  const int change = random() % 2 ? 1 : -1;
+  const bool rational = random() % 2 == 0;
+  const Scaled common = rational ? linear(p, q) : quadratic(2 * q * q, -4 * p * q, 2 * p * p - 1);
+  const Scaled near = rational ? linear(p * s + change, q * s)
+                               : quadratic(2 * q * q * s, -4 * p * q * s, (2 * p * p - 1) * s + change);
+  return {product(common, random_linear(random)), product(common, near)};
 }
 
 /// A dyadic in [0,1], often a special one.

@@ -1,6 +1,6 @@
 #pragma once
-// An independent judge of roots: Sturm sequences of polynomials in the power basis over rationals. Slow and
-// obvious, and nothing of it comes from certificates/.
+// An independent judge of roots: Sturm sequences of polynomials in the power basis, looked at in rational
+// places. Slow and obvious, and nothing of it comes from certificates/.
 
 #include <cstddef>
 #include <span>
@@ -12,14 +12,18 @@
 
 namespace kds::test::sturm {
 
-/// Coefficients of 1, x, x^2, ...; no leading zeros, empty is zero.
-using Polynomial = std::vector<Rational>;
+/// Coefficients of 1, x, x^2, ...; no leading zeros, empty is zero. Whole, as common denominators are no
+/// matter to roots and signs.
+using Polynomial = std::vector<Integer>;
+
+/// With the root x alone, rising.
+inline Polynomial with_root(const Rational& x) { return {Integer(-numerator(x)), denominator(x)}; }
 
 inline void trim(Polynomial& p) {
   while (!p.empty() && p.back() == 0) p.pop_back();
 }
 
-inline int sign(const Rational& x) { return (x > 0) - (x < 0); }
+inline int sign(const Integer& x) { return x.sign(); }
 
 /// sum_k scaled[k] u^k (1-u)^(n-k), multiplied out.
 inline Polynomial from_scaled(std::span<const Integer> scaled) {
@@ -42,23 +46,30 @@ inline Rational value(const Polynomial& p, const Rational& x) {
   return y;
 }
 
+inline int sign_at(const Polynomial& p, const Rational& x) {
+  const Integer n = numerator(x);
+  const Integer d = denominator(x);
+  Integer y = 0;
+  Integer power = 1;
+  for (std::size_t k = p.size(); k-- > 0; power *= d) y = y * n + p[k] * power;
+  return sign(y);
+}
+
 inline Polynomial derivative(const Polynomial& p) {
   Polynomial d;
   for (std::size_t k = 1; k < p.size(); ++k) d.push_back(p[k] * k);
   return d;
 }
 
-/// Times a positive number: whole coefficients without a common divisor, so that remainders stay small.
+/// Times a positive number: coefficients without a common divisor, so that remainders stay small.
 inline void normalize(Polynomial& p) {
   trim(p);
-  Integer denominators = 1;
-  for (const Rational& x : p) denominators = lcm(denominators, denominator(x));
   Integer content = 0;
-  for (Rational& x : p) {
-    x *= denominators;
-    content = boost::multiprecision::gcd(content, numerator(x));
+  for (const Integer& x : p) {
+    content = boost::multiprecision::gcd(content, x);
+    if (content == 1) return;
   }
-  for (Rational& x : p) x /= content;
+  for (Integer& x : p) x /= content;
 }
 
 /// The remainder times a positive number.
@@ -66,10 +77,10 @@ inline Polynomial remainder(Polynomial a, const Polynomial& b) {
   if (b.empty()) throw std::logic_error("sturm: division by zero");
   trim(a);
   while (a.size() >= b.size()) {
-    const Rational scale = abs(b.back());
-    const Rational factor = b.back() < 0 ? Rational(-a.back()) : a.back();
+    const Integer scale = abs(b.back());
+    const Integer factor = b.back() < 0 ? Integer(-a.back()) : a.back();
     const std::size_t shift = a.size() - b.size();
-    for (Rational& x : a) x *= scale;
+    for (Integer& x : a) x *= scale;
     for (std::size_t i = 0; i < b.size(); ++i) a[i + shift] -= factor * b[i];
     trim(a);
   }
@@ -77,10 +88,11 @@ inline Polynomial remainder(Polynomial a, const Polynomial& b) {
   return a;
 }
 
-/// a / b, where b divides a.
-inline Polynomial quotient(Polynomial a, const Polynomial& b) {
+/// a / b times a positive number, where b divides a.
+inline Polynomial quotient(Polynomial a, Polynomial b) {
   if (b.empty()) throw std::logic_error("sturm: division by zero");
-  trim(a);
+  normalize(a);
+  normalize(b);  // so that the quotient is whole, by Gauss's lemma
   Polynomial result(a.size() >= b.size() ? a.size() - b.size() + 1 : 0);
   for (std::size_t k = result.size(); k-- > 0;) {
     result[k] = a[k + b.size() - 1] / b.back();
@@ -120,12 +132,12 @@ class Sequence {
     while (!next.empty()) {
       chain_.push_back(std::move(next));
       next = remainder(chain_[chain_.size() - 2], chain_.back());
-      for (Rational& x : next) x = -x;
+      for (Integer& x : next) x = -x;
     }
   }
 
   [[nodiscard]] const Polynomial& square_free_part() const { return chain_[0]; }
-  [[nodiscard]] bool is_root(const Rational& x) const { return value(chain_[0], x) == 0; }
+  [[nodiscard]] bool is_root(const Rational& x) const { return sign_at(chain_[0], x) == 0; }
 
   /// In (a, b].
   [[nodiscard]] int roots_after(const Rational& a, const Rational& b) const {
@@ -145,7 +157,7 @@ class Sequence {
     int count = 0;
     int last = 0;
     for (const Polynomial& p : chain_) {
-      const int s = sign(value(p, x));
+      const int s = sign_at(p, x);
       if (s == 0) continue;
       if (last != 0 && s != last) ++count;
       last = s;
@@ -201,7 +213,8 @@ inline std::vector<Root> roots_on(const Sequence& sequence, const Rational& a, c
 /// Whether the root of `sequence` is one of f too.
 inline bool shares(const Sequence& sequence, const Root& root, const Polynomial& f) {
   if (f.empty()) return true;
-  if (root.is_number()) return value(f, root.upper) == 0;
+  if (root.is_number()) return sign_at(f, root.upper) == 0;
+  if (f.size() == 1) return false;
   const Polynomial common = gcd(sequence.square_free_part(), f);
   return common.size() > 1 && Sequence(common).roots_after(root.lower, root.upper) == 1;
 }
@@ -233,7 +246,7 @@ inline int compare(const Sequence& a, Root x, const Sequence& b, Root y) {
     const Rational& upper = x.upper < y.upper ? x.upper : y.upper;
     return common.size() > 1 && lower < upper && Sequence(common).roots_after(lower, upper) == 1;
   };
-  if (equal()) return 0;
+  if (!apart() && equal()) return 0;
   while (!apart()) {
     halve(a, x);
     halve(b, y);
@@ -244,24 +257,25 @@ inline int compare(const Sequence& a, Root x, const Sequence& b, Root y) {
 /// Sign of f on (x, x + delta).
 inline int sign_after(Polynomial f, const Rational& x) {
   while (!f.empty()) {
-    if (const int s = sign(value(f, x))) return s;
+    if (const int s = sign_at(f, x)) return s;
     f = derivative(f);
   }
   return 0;
 }
 
-/// Sign of f just after a root of `sequence`.
-inline int sign_after(const Polynomial& f, const Sequence& sequence, Root root) {
-  if (f.empty()) return 0;
-  const Sequence own(f);
+/// Sign of f just after a root of `sequence`; `own` is f's.
+inline int sign_after(const Polynomial& f, const Sequence& own, const Sequence& sequence, Root root) {
   const int here = shares(sequence, root, f) ? 1 : 0;
   while (!root.is_number()) {
     if (own.roots_after(root.lower, root.upper) == here && !own.is_root(root.upper) &&
         !sequence.is_root(root.upper))
-      return sign(value(f, root.upper));
+      return sign_at(f, root.upper);
     halve(sequence, root);
   }
   return sign_after(f, root.upper);
+}
+inline int sign_after(const Polynomial& f, const Sequence& sequence, const Root& root) {
+  return f.empty() ? 0 : sign_after(f, Sequence(f), sequence, root);
 }
 
 }  // namespace kds::test::sturm

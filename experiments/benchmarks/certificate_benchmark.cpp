@@ -1,0 +1,358 @@
+// Certificates from beads to answers, and CGAL's nearest: a static predicate at one moment, or algebraic
+// numbers of the same polynomials (needs libmpfi-dev). Timed in turn; `ns` an item, `peer_ns`, `ratio` of
+// both, medians; `allocations` of ours an item.
+//
+//   kds_benchmarks --benchmark_filter=settle    beads to "never fails in this step"; peer: predicate
+//   kds_benchmarks --benchmark_filter=failure   beads to a bracket with one proved root; peer: isolation
+//   kds_benchmarks --benchmark_filter=exact     on integers alone; peer: isolation
+//   kds_benchmarks --benchmark_filter=compare   two failure times apart; peer: two algebraic numbers
+//   kds_benchmarks --benchmark_filter=sign      at or just after another's failure; peer: predicate
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "certificates/bead_in_sphere.h"
+#include "certificates/failure_search.h"
+#include "experiments/benchmarks/benchmarks.h"
+#include "experiments/benchmarks/certificate_peers.h"
+#include "experiments/benchmarks/in_turn.h"
+#include "experiments/benchmarks/random_chain.h"
+#include "kds/failure_order.h"
+#include "motions/instance.h"
+#include "motions/positions.h"
+#include "motions/scene.h"
+#include "structures/facet_certificate.h"
+
+namespace kds::bench {
+
+namespace {
+
+using Linear = BezierMotion<3, 1>;
+using Cubic = BezierMotion<3, 3>;
+using Facet = PowerTest<3>;
+
+constexpr std::size_t enough = 1000;  // for what takes microseconds each
+
+// A motion and certificates on it, with what becomes of them in the step.
+template <class C, Motion M>
+struct Input final : CertificateSource {
+  explicit Input(M m) : motion(std::move(m)) {}
+
+  void settle() {
+    failures.assign(certificates.size(), {});
+    first_failures<Filtered>(std::span<const C>(certificates), motion, start,
+                             std::vector<Birth>(certificates.size(), Birth::unknown), stages,
+                             Touches::ignored, failures);
+  }
+  // Leaves those with this outcome, at most so many.
+  void keep(Failure::Kind kind, std::size_t most = std::numeric_limits<std::size_t>::max()) {
+    settle();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < certificates.size() && kept < most; ++i) {
+      if (failures[i].kind == kind) certificates[kept++] = certificates[i];
+    }
+    certificates.resize(kept);
+    settle();
+    births.assign(kept, Birth::unknown);
+  }
+  [[nodiscard]] ExactPolynomial exact_function(std::uint32_t slot) const override {
+    return kds::exact_function(certificates[slot], motion);
+  }
+  [[nodiscard]] std::vector<ExactPolynomial> polynomials() const {
+    std::vector<ExactPolynomial> all;
+    for (const C& c : certificates) all.push_back(kds::exact_function(c, motion));
+    return all;
+  }
+  [[nodiscard]] auto beads() const {
+    std::vector<decltype(C{}.beads)> all;
+    for (const C& c : certificates) all.push_back(c.beads);
+    return all;
+  }
+  [[nodiscard]] StaticPredicates predicates() const {
+    return {control_points(motion, 0), control_weights(motion, 0)};
+  }
+
+  M motion;
+  Instant start{0};
+  std::vector<C> certificates;
+  std::vector<Birth> births;
+  std::vector<Failure> failures;
+  mutable StageCounts stages;
+};
+
+template <Motion M>
+M chain(double distance) {
+  Random random(1);
+  const auto beads = random_chain(random, 10240);
+  return jostled<M>(beads, distance, random);
+}
+
+template <Motion M>
+M instance(const std::string& name) {
+  const Scene scene(read_instance(std::string(KDS_DATA_DIR) + "/kinetic/" + name + ".txt"));
+  M motion(scene.bead_count());
+  scene.load(0, motion);
+  return motion;
+}
+
+// All inner facets of the regular triangulation at the start.
+template <Motion M>
+Input<Facet, M> facets(const M& motion) {
+  Input<Facet, M> input(motion);
+  RegularTriangulation<3> triangulation;
+  static_cast<void>(triangulation.build(control_points(motion, 0), control_weights(motion, 0)));
+  for (CellId cell = 0; cell < triangulation.cells().size(); ++cell) {
+    if (!triangulation.is_live(cell)) continue;
+    for (int i = 0; i < 4; ++i) {
+      const FacetId beyond = triangulation.beyond(cell, i);
+      if (cell_of(beyond) < cell) continue;
+      with_facet_certificate(triangulation.cells()[cell].vertex, triangulation.apex(beyond),
+                             [&](const auto& c) {
+                               if constexpr (std::same_as<decltype(c), const Facet&>)
+                                 input.certificates.push_back(c);
+                             });
+    }
+  }
+  return input;
+}
+
+// Beads against spheres through two, three or four others near along the chain, on the side where they are.
+template <class C, Motion M>
+Input<C, M> spheres(const M& motion, std::size_t count, std::size_t within) {
+  Input<C, M> input(motion);
+  Random random(2);
+  StageCounts stages;
+  constexpr std::size_t size = std::tuple_size_v<decltype(C{}.beads)>;
+  while (input.certificates.size() < count) {
+    const std::size_t first = random() % (motion.bead_count() - within);
+    decltype(C{}.beads) beads;
+    for (BeadId& bead : beads) bead = static_cast<BeadId>(first + random() % within);
+    std::sort(beads.begin(), beads.end() - 1);
+    const bool distinct = std::adjacent_find(beads.begin(), beads.end() - 1) == beads.end() - 1 &&
+                          std::find(beads.begin(), beads.end() - 1, beads.back()) == beads.end() - 1;
+    if (!distinct) continue;
+    for (const bool side : {true, false}) {
+      C c;
+      if constexpr (size == 5)
+        c = C(beads, side ? 1 : -1);
+      else
+        c = {beads, side};
+      if (sign_just_after<Filtered>(c, motion, input.start, stages) > 0) input.certificates.push_back(c);
+    }
+  }
+  return input;
+}
+
+// Handed over some at a time, as structures do; what comes of them stays in cache.
+template <Kernel K, class I>
+void search(I& input) {
+  constexpr std::size_t some = 64;
+  const std::span certificates(std::as_const(input.certificates));
+  for (std::size_t i = 0; i < certificates.size(); i += some) {
+    const std::size_t count = std::min(some, certificates.size() - i);
+    first_failures<K>(certificates.subspan(i, count), input.motion, input.start,
+                      std::span(std::as_const(input.births)).first(count), input.stages, Touches::ignored,
+                      std::span(input.failures).first(count));
+  }
+}
+
+template <class I>
+void settle(benchmark::State& state, I input) {
+  input.keep(Failure::Kind::never);
+  const auto beads = input.beads();
+  const StaticPredicates peer = input.predicates();
+  input.stages = {};
+  measure_in_turn(
+      state, beads.size(), [&] { search<Filtered>(input); }, [&] { return peer.seconds_for(beads); });
+  state.counters["by_coefficients"] =
+      static_cast<double>(input.stages.coefficients) /
+      static_cast<double>(input.stages.coefficients + input.stages.isolation + input.stages.refined +
+                          input.stages.exact + input.stages.identically_zero);
+}
+
+template <Kernel K, class I>
+void failure(benchmark::State& state, I input) {
+  input.keep(Failure::Kind::later, enough);
+  const AlgebraicKernel peer(input.polynomials());
+  measure_in_turn(
+      state, input.certificates.size(), [&] { search<K>(input); }, [&] { return peer.seconds_to_isolate(); });
+}
+
+// Beads to polynomials.
+template <class I>
+void exact_function(benchmark::State& state, I input) {
+  input.keep(Failure::Kind::later, enough);
+  measure_in_turn(
+      state, input.certificates.size(), [&] { benchmark::DoNotOptimize(input.polynomials().data()); },
+      [] { return std::numeric_limits<double>::quiet_NaN(); });
+}
+
+// The polynomials are given, the first failure wanted.
+template <class I>
+void exact_failure(benchmark::State& state, I input) {
+  input.keep(Failure::Kind::later, enough);
+  const std::vector<ExactPolynomial> polynomials = input.polynomials();
+  const AlgebraicKernel peer(polynomials);
+  const ExactTime start(Dyadic(0.0));
+  measure_in_turn(
+      state, polynomials.size(),
+      [&] {
+        for (const ExactPolynomial& p : polynomials) {
+          const auto found = first_failure_after(p, start);
+          benchmark::DoNotOptimize(found->touch);
+        }
+      },
+      [&] { return peer.seconds_to_isolate(); });
+}
+
+// The polynomials are given, all roots in [0,1] wanted.
+template <class I>
+void exact_isolation(benchmark::State& state, I input) {
+  input.keep(Failure::Kind::later, enough);
+  const std::vector<ExactPolynomial> polynomials = input.polynomials();
+  const AlgebraicKernel peer(polynomials);
+  measure_in_turn(
+      state, polynomials.size(),
+      [&] {
+        for (const ExactPolynomial& p : polynomials) {
+          const auto roots = isolate_roots(p.square_free(), Dyadic(0.0), Dyadic(1.0));
+          benchmark::DoNotOptimize(roots.data());
+        }
+      },
+      [&] { return peer.seconds_to_isolate(); });
+}
+
+template <class I>
+void compare(benchmark::State& state, I input) {
+  input.keep(Failure::Kind::later, enough);
+  AlgebraicKernel peer(input.polynomials());
+  std::vector<ScheduledFailure> times;
+  for (const Failure& f : input.failures) times.push_back({f.time, 0, 0, nullptr});
+  Random random(3);
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  while (pairs.size() < 100000) {
+    const std::pair pair{random() % times.size(), random() % times.size()};
+    const FailureTime &a = times[pair.first].time, &b = times[pair.second].time;
+    if (a.upper < b.lower || b.upper < a.lower) pairs.push_back(pair);
+  }
+  FailureOrder order;
+  static_cast<void>(peer.seconds_to_compare(pairs));  // it narrows as it goes
+  measure_in_turn(
+      state, pairs.size(),
+      [&] {
+        int sum = 0;
+        for (const auto& [a, b] : pairs) sum += order.before(times[a], times[b]) ? 1 : 0;
+        benchmark::DoNotOptimize(sum);
+      },
+      [&] { return peer.seconds_to_compare(pairs); });
+}
+
+// At the failure times of some, signs of others.
+template <class I>
+void sign(benchmark::State& state, I input, bool four_at_once) {
+  input.keep(Failure::Kind::later, enough);
+  std::vector<Instant> instants;
+  for (std::uint32_t i = 0; i < input.certificates.size(); ++i)
+    instants.emplace_back(input.failures[i].time, input, i);
+  auto others = input.certificates;
+  Random random(4);
+  std::shuffle(others.begin(), others.end(), random);
+  for (std::size_t i = 0; i < others.size(); ++i) {  // its own function is zero there, and known to be
+    while (others[i].beads == input.certificates[i].beads) others[i] = others[random() % others.size()];
+  }
+  if (four_at_once) {  // positive ones, so that none is cut short
+    StageCounts stages;
+    std::vector<Facet> positive;
+    for (std::size_t i = 0; i < instants.size(); ++i) {
+      for (std::size_t at = i, found = 0; found < 4; ++at) {
+        Facet c = others[at % others.size()];
+        const int s = sign_now<Filtered>(c, input.motion, instants[i], stages);
+        c.sign *= s;
+        if (s != 0 && ++found != 0) positive.push_back(c);
+      }
+    }
+    others = std::move(positive);
+  }
+  std::vector<decltype(Facet{}.beads)> beads;
+  for (const Facet& c : others) beads.push_back(c.beads);
+  const StaticPredicates peer = input.predicates();
+  const std::span<const Facet> all(others);
+  measure_in_turn(
+      state, others.size(),
+      [&] {
+        int sum = 0;
+        for (std::size_t i = 0; i < instants.size(); ++i) {
+          sum += four_at_once ? int{all_positive_now<Filtered>(all.subspan(4 * i, 4), input.motion,
+                                                               instants[i], input.stages)}
+                              : sign_just_after<Filtered>(all[i], input.motion, instants[i], input.stages);
+        }
+        benchmark::DoNotOptimize(sum);
+      },
+      [&] { return peer.seconds_for(beads); });
+}
+
+}  // namespace
+
+void add_certificate_benchmarks() {
+  const auto add = [](const std::string& name, const auto& run) {
+    benchmark::RegisterBenchmark(name.c_str(), run)
+        ->UseManualTime()
+        ->Iterations(21)
+        ->Unit(benchmark::kMicrosecond);
+  };
+  using benchmark::State;
+  const auto near = [] { return chain<Linear>(0.01); };
+  const auto near_cubic = [] { return chain<Cubic>(0.01); };
+  const auto linear = [] { return instance<Linear>("d3_n200_linear"); };
+  const auto cubic = [] { return instance<Cubic>("d3_n100_degree3"); };
+  constexpr std::size_t many = 20000;
+  constexpr std::size_t window = 16;
+
+  add("settle/facet/linear", [=](State& s) { settle(s, facets(near())); });
+  add("settle/sphere2/linear", [=](State& s) { settle(s, spheres<BeadInSphere<2>>(near(), many, window)); });
+  add("settle/sphere3/linear", [=](State& s) { settle(s, spheres<BeadInSphere<3>>(near(), many, window)); });
+  add("settle/sphere4/linear", [=](State& s) { settle(s, spheres<Facet>(near(), many, window)); });
+  add("settle/facet/hermite", [=](State& s) { settle(s, facets(near_cubic())); });
+  add("settle/sphere2/hermite",
+      [=](State& s) { settle(s, spheres<BeadInSphere<2>>(near_cubic(), many, window)); });
+  add("settle/sphere3/hermite",
+      [=](State& s) { settle(s, spheres<BeadInSphere<3>>(near_cubic(), many, window)); });
+  add("settle/sphere4/hermite", [=](State& s) { settle(s, spheres<Facet>(near_cubic(), many, window)); });
+
+  add("failure/facet/linear", [=](State& s) { failure<Filtered>(s, facets(linear())); });
+  add("failure/sphere2/linear",
+      [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<2>>(linear(), many, 100)); });
+  add("failure/sphere3/linear",
+      [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<3>>(linear(), many, 100)); });
+  add("failure/sphere4/linear", [=](State& s) { failure<Filtered>(s, spheres<Facet>(linear(), many, 100)); });
+  add("failure/facet/cubic", [=](State& s) { failure<Filtered>(s, facets(cubic())); });
+  add("failure/sphere2/cubic",
+      [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<2>>(cubic(), many, 50)); });
+  add("failure/sphere3/cubic",
+      [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<3>>(cubic(), many, 50)); });
+  add("failure/sphere4/cubic", [=](State& s) { failure<Filtered>(s, spheres<Facet>(cubic(), many, 50)); });
+
+  add("exact/bracket/facet/linear", [=](State& s) { failure<Exact>(s, facets(linear())); });
+  add("exact/bracket/facet/cubic", [=](State& s) { failure<Exact>(s, facets(cubic())); });
+  add("exact/function/facet/linear", [=](State& s) { exact_function(s, facets(linear())); });
+  add("exact/function/facet/cubic", [=](State& s) { exact_function(s, facets(cubic())); });
+  add("exact/failure/facet/linear", [=](State& s) { exact_failure(s, facets(linear())); });
+  add("exact/failure/facet/cubic", [=](State& s) { exact_failure(s, facets(cubic())); });
+  add("exact/isolation/facet/linear", [=](State& s) { exact_isolation(s, facets(linear())); });
+  add("exact/isolation/facet/cubic", [=](State& s) { exact_isolation(s, facets(cubic())); });
+
+  add("compare/facet/linear", [=](State& s) { compare(s, facets(linear())); });
+  add("sign/just_after/facet/linear", [=](State& s) { sign(s, facets(linear()), false); });
+  add("sign/all_positive_now/facet/linear", [=](State& s) { sign(s, facets(linear()), true); });
+  add("sign/just_after/facet/cubic", [=](State& s) { sign(s, facets(cubic()), false); });
+  add("sign/all_positive_now/facet/cubic", [=](State& s) { sign(s, facets(cubic()), true); });
+}
+
+}  // namespace kds::bench

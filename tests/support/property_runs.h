@@ -1,0 +1,61 @@
+#pragma once
+// How many cases property tests try, and from which seed:
+//
+//   KDS_PROPERTY_CASES   all parts of a test together
+//   KDS_PROPERTY_SEED
+//
+// A part's cases follow from seed and part alone.
+
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "tests/support/polynomials.h"
+
+namespace kds::test {
+
+inline std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? otherwise : std::stoull(text);
+}
+
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr std::uint64_t default_property_cases = 5000;
+#else
+inline constexpr std::uint64_t default_property_cases = 100000;
+#endif
+
+inline std::uint64_t property_cases() {
+  return from_environment("KDS_PROPERTY_CASES", default_property_cases);
+}
+inline std::uint64_t property_seed() { return from_environment("KDS_PROPERTY_SEED", 20040611); }
+
+inline Random property_random(unsigned part) {
+  const std::uint64_t seed = property_seed();
+  std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32), part};
+  return Random(sequence);
+}
+
+/// A smaller polynomial with the same fault: coefficients left out, zeroed or halved while `is_faulty`.
+template <class Predicate>
+Scaled shrunk(Scaled p, const Predicate& is_faulty) {
+  int tries_left = 3000;
+  const auto taken = [&](const Scaled& smaller) {
+    if (smaller.empty() || smaller == p || --tries_left < 0 || !is_faulty(smaller)) return false;
+    p = smaller;
+    return true;
+  };
+  for (bool smaller = true; smaller;) {
+    smaller = taken(Scaled(p.begin(), p.end() - 1)) || taken(Scaled(p.begin() + 1, p.end()));
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      for (const Integer& less : {Integer(0), Integer(p[k] / 65536), Integer(p[k] / 2)}) {
+        Scaled candidate = p;
+        candidate[k] = less;
+        smaller |= taken(candidate);
+      }
+    }
+  }
+  return p;
+}
+
+}  // namespace kds::test
