@@ -16,6 +16,7 @@
 #include "experiments/replay_command.h"
 #include "experiments/run_command.h"
 #include "experiments/run_results.h"
+#include "experiments/stability_command.h"
 #include "experiments/text.h"
 #include "motions/input_error.h"
 
@@ -30,6 +31,7 @@ struct Command {
 constexpr std::array kCommands{
     Command{"run", "run kinetic structures over trajectories and report their events", run_command},
     Command{"replay", "run a logged run again and compare", replay_command},
+    Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},
 };
 
 std::string program_help() {

@@ -1,14 +1,10 @@
 #include "experiments/report_json.h"
 
-#include <nlohmann/json.hpp>
-
-#include "experiments/provenance.h"
+#include "experiments/result_json.h"
 #include "experiments/text.h"
 
 namespace kds {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 void add_counts(Json& object, const NamedCounts& counts) {
   for (const auto& [name, value] : counts) object[name] = value;
@@ -50,16 +46,8 @@ Json run_json(const RunReport& report) {
   add_counts(comparisons, report.comparisons);
   json["engine"] = {{"seconds", report.engine_seconds}, {"close_comparisons", comparisons}};
   json["fingerprint"] = hex_digits(report.fingerprint);
-  json["version"] = program_version();
-  const Machine machine = this_machine();
-  json["machine"] = {
-      {"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}, {"compiler", machine.compiler}};
+  add_provenance(json);
   return json;
-}
-
-// File names need not be UTF-8, JSON must be.
-std::string text_of(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace

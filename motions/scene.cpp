@@ -10,6 +10,43 @@
 
 namespace kds {
 
+namespace {
+
+// Readers refuse these too, naming the line; here is the gate that all motions pass: an exact number cannot
+// stand for them.
+void check_frame(const Trajectory& necklace, std::size_t frame) {
+  const Eigen::Matrix3Xd& centers = necklace.frames[frame];
+  if (centers.allFinite()) return;
+  for (Eigen::Index bead = 0; bead < centers.cols(); ++bead) {
+    if (centers.col(bead).allFinite()) continue;
+    throw InputError(fmt::format("{}: frame {}, bead {}: expected finite coordinates, found {}, {}, {}",
+                                 necklace.file, frame, bead, centers(0, bead), centers(1, bead),
+                                 centers(2, bead)));
+  }
+}
+
+void check_radii(const std::vector<double>& radii) {
+  for (std::size_t bead = 0; bead < radii.size(); ++bead) {
+    if (std::isfinite(radii[bead] * radii[bead])) continue;
+    throw InputError(
+        fmt::format("bead {}: expected a radius with a finite square, found {}", bead, radii[bead]));
+  }
+}
+
+void check_control_points(const Instance& instance) {
+  for (std::size_t point = 0; point < instance.point_count(); ++point) {
+    for (int column = 0; column < instance.columns; ++column) {
+      for (int k = 0; k <= instance.degree; ++k) {
+        if (std::isfinite(instance.control_point(point, column, k))) continue;
+        throw InputError(fmt::format("{}: bead {}, column {}: expected finite control points, found {}",
+                                     instance.file, point, column, instance.control_point(point, column, k)));
+      }
+    }
+  }
+}
+
+}  // namespace
+
 Scene::Scene(std::span<const Trajectory> necklaces, std::vector<double> radii, FrameMotion motion)
     : degree_(motion == FrameMotion::hermite ? 3 : 1), radii_(std::move(radii)) {
   BeadId beads = 0;
@@ -34,11 +71,13 @@ Scene::Scene(std::span<const Trajectory> necklaces, std::vector<double> radii, F
           "{}: {} frames, but {} has {}; necklaces of a run need equal frame counts (or one frame: at rest)",
           necklaces[n].file, frames.size(), longest->file, frame_count_));
     }
+    for (std::size_t k = 0; k < frames.size(); ++k) check_frame(necklaces[n], k);
     for (std::size_t k = 0; k < frame_count_; ++k) {
       const auto& frame = frames[frames.size() == 1 ? 0 : k];
       frames_[k].middleCols(necklaces_[n].first, frame.cols()) = frame;
     }
   }
+  check_radii(radii_);
 }
 
 Scene::Scene(Instance instance)
@@ -46,6 +85,7 @@ Scene::Scene(Instance instance)
       degree_(instance.degree),
       frame_count_(2),
       instance_(std::move(instance)) {
+  check_control_points(instance_);
   const std::size_t points = instance_.point_count();
   necklaces_.push_back({0, static_cast<BeadId>(points - 1)});
   radii_.assign(points, 0);

@@ -26,7 +26,7 @@ enum class FrameMotion {
 class Scene {
  public:
   /// Necklaces of equal frame counts; one of a single frame is at rest. `radii`: one a bead in scene order.
-  /// Throws InputError where the counts differ.
+  /// Throws InputError where the counts differ, and where a number has no exact value (NaN, infinities).
   Scene(std::span<const Trajectory> necklaces, std::vector<double> radii,
         FrameMotion motion = FrameMotion::linear);
   explicit Scene(Instance instance);

@@ -136,6 +136,7 @@ void PowerDiagram<M, K>::rebuild_at_first_time_that_works() {
         std::to_string(simulator_.step()) + "; the power diagram " +
         (dimension == 3 ? "in space needs four that do not" : "in the plane needs three that do not"));
   }
+  if constexpr (std::same_as<K, Fast>) return rebuild_roughly();  // doubles contradict themselves
   throw InputError("step " + std::to_string(simulator_.step()) + " at u = " +
                    std::to_string(simulator_.now().upper()) + ": events of the power diagram within 2^-" +
                    std::to_string(finest_grid) + " of the step, closer than it can be rebuilt between");

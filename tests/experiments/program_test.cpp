@@ -186,6 +186,22 @@ TEST(Program, EventsTooCloseToRebuildBetweenAreNamed) {
   EXPECT_THAT(run.err, Not(HasSubstr("plane")));
 }
 
+// Four beads in one plane at the start, and moves of a last place, which doubles cannot tell apart.
+TEST(Program, FastGoesOnWhereDoublesContradictThemselves) {
+  const ScratchDirectory directory;
+  const std::string flat = directory.file("flat.txt",
+                                          "5 3 1\n"
+                                          "-1 -1 -2 -1.9999999999999998 -2 -2\n"
+                                          "-1 -1 -2 -2 -2 -1.9999999999999998\n"
+                                          "-1 -1 -2 -2 0 1.1102230246251565e-16\n"
+                                          "-1 -1 0 1.1102230246251565e-16 0 -1.1102230246251565e-16\n"
+                                          "-2 -2.0000000000000004 -1 -1 0 1.1102230246251565e-16\n");
+  for (const char* kernel : {"fast", "filtered", "exact"}) {
+    const ProgramRun run = run_program({"run", flat, "--kernel", kernel, "--json", "-"});
+    EXPECT_EQ(run.code, 0) << kernel << ": " << run.err;
+  }
+}
+
 std::uint64_t events_of(const std::string& instance, const std::string& structure) {
   const ProgramRun run = run_program({"run", data_file("kinetic/" + instance + ".txt"), "--json", "-"});
   EXPECT_EQ(run.code, 0) << run.err;

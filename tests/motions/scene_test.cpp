@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "motions/input_error.h"
@@ -145,6 +146,20 @@ TEST(Scene, RefusesUnequalFrameCounts) {
   expect_refused({}, {"no input"});
 }
 
+TEST(Scene, RefusesWhatHasNoExactValue) {
+  std::mt19937_64 random(55);
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double wrong : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
+    std::vector<Trajectory> necklaces{random_trajectory(random, "a.dcd", 3, 2),
+                                      random_trajectory(random, "b.dcd", 3, 2)};
+    necklaces[1].frames[1](2, 1) = wrong;
+    expect_refused(necklaces, {"b.dcd", "frame 1", "bead 1", "finite"});
+  }
+  const std::vector<Trajectory> fine{random_trajectory(random, "a.dcd", 2, 2)};
+  for (const double wrong : {infinity, std::numeric_limits<double>::quiet_NaN(), 1e200})
+    EXPECT_THROW(Scene(fine, std::vector<double>{1, wrong}), InputError);
+}
+
 Instance instance(int columns, int degree, std::vector<double> control_points) {
   Instance made;
   made.columns = columns;
@@ -186,6 +201,15 @@ TEST(Scene, AnInstanceWithoutWeightsHasPoints) {
   const Scene line(instance(1, 1, {0, 1, 2, 3}));
   EXPECT_EQ(line.dimension(), 1);
   EXPECT_EQ(line.bead_count(), 2U);
+}
+
+TEST(Scene, AnInstanceOfNumbersWithoutAnExactValueIsRefused) {
+  for (std::size_t place = 0; place < 8; ++place) {
+    std::vector<double> numbers{0, 1, 2, 3, 4, 5, 6, 7};
+    numbers[place] =
+        place % 2 == 0 ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(Scene(instance(4, 1, numbers)), InputError);
+  }
 }
 
 TEST(Scene, RadiiAreEqualOnlyIfWeightsStaySo) {

@@ -1,0 +1,21 @@
+#pragma once
+// Where the results of a command that prints a table go: NAME.json and NAME.csv in --out, --json, standard
+// output.
+
+#include <string>
+
+#include "experiments/run_results.h"
+
+namespace kds {
+
+struct TableResults {
+  std::string json, csv, table;
+};
+
+/// Throws InputError where something could not be written later, or would replace another result.
+void check_table_destinations(const Destinations& destinations, const std::string& name);
+
+/// The table is printed unless quiet, or where standard output is the JSON's.
+void deliver_table(const Destinations& destinations, const std::string& name, const TableResults& results);
+
+}  // namespace kds
