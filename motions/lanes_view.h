@@ -1,16 +1,17 @@
 #pragma once
 // Four tuples of beads of one motion, seen at once (motion_view.h). A formula over this view names beads by
-// their place in the tuple: 0, 1, 2 ...
+// their place in the tuple: 0, 1, 2 ... Only the channels that will be asked for are loaded.
 
 #include <array>
 
 #include "motions/bernstein.h"
 #include "motions/bezier_motion.h"
 #include "motions/lanes.h"
+#include "motions/motion_view.h"
 
 namespace kds {
 
-template <Motion M, std::size_t Places>
+template <Motion M, std::size_t Places, Channels channels = all_channels>
 class LanesView {
  public:
   using Number = Lanes;
@@ -26,9 +27,16 @@ class LanesView {
               Lanes::Vector{motion.coordinate(t[0][place], k, axis), motion.coordinate(t[1][place], k, axis),
                             motion.coordinate(t[2][place], k, axis), motion.coordinate(t[3][place], k, axis)};
         }
-        control_[place][static_cast<std::size_t>(k)][dimension] =
-            Lanes::Vector{motion.weight(t[0][place], k), motion.weight(t[1][place], k),
-                          motion.weight(t[2][place], k), motion.weight(t[3][place], k)};
+        if constexpr (channels.weights) {
+          control_[place][static_cast<std::size_t>(k)][weight] =
+              Lanes::Vector{motion.weight(t[0][place], k), motion.weight(t[1][place], k),
+                            motion.weight(t[2][place], k), motion.weight(t[3][place], k)};
+        }
+        if constexpr (channels.radii) {
+          control_[place][static_cast<std::size_t>(k)][radius] =
+              Lanes::Vector{motion.radius(t[0][place], k), motion.radius(t[1][place], k),
+                            motion.radius(t[2][place], k), motion.radius(t[3][place], k)};
+        }
       }
     }
   }
@@ -40,8 +48,24 @@ class LanesView {
       result[static_cast<std::size_t>(axis)] = difference(i, j, axis, length_);
     return result;
   }
-  [[nodiscard, gnu::always_inline]] Bernstein<Lanes, degree> weight_difference(BeadId i, BeadId j) const {
-    return difference(i, j, dimension, weight_);
+  [[nodiscard, gnu::always_inline]] Bernstein<Lanes, degree> weight_difference(BeadId i, BeadId j) const
+      requires(channels.weights) {
+    return difference(i, j, weight, weight_);
+  }
+  [[nodiscard, gnu::always_inline]] Bernstein<Lanes, degree> radius_difference(BeadId i, BeadId j) const
+      requires(channels.radii) {
+    return difference(i, j, radius, length_);
+  }
+  [[nodiscard, gnu::always_inline]] Bernstein<Lanes, degree> radius_sum(BeadId i, BeadId j) const
+      requires(channels.radii) {
+    Bernstein<Lanes, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      const auto place = static_cast<std::size_t>(k);
+      const Lanes sum = control_[i][place][radius] + control_[j][place][radius];
+      length_ = Lanes::max(length_, Lanes::abs(sum));
+      result.scaled[place] = Lanes(static_cast<double>(binomial(degree, k))) * sum;
+    }
+    return result;
   }
 
   /// M itself, where no weight difference exceeds its square; else a NaN.
@@ -50,6 +74,10 @@ class LanesView {
   }
 
  private:
+  static constexpr int weight = dimension;
+  static constexpr int radius = dimension + (channels.weights ? 1 : 0);
+  static constexpr std::size_t columns = radius + (channels.radii ? 1 : 0);
+
   [[gnu::always_inline]] Bernstein<Lanes, degree> difference(BeadId i, BeadId j, int axis,
                                                              Lanes& largest) const {
     Bernstein<Lanes, degree> result;
@@ -63,7 +91,7 @@ class LanesView {
     return result;
   }
 
-  std::array<std::array<std::array<Lanes, dimension + 1>, degree + 1>, Places> control_;
+  std::array<std::array<std::array<Lanes, columns>, degree + 1>, Places> control_;
   mutable Lanes length_;
   mutable Lanes weight_;
 };
