@@ -20,7 +20,7 @@ namespace kds {
 
 namespace detail {
 
-/// Whether `value(bead, k)` is one number for all of these beads and control points, bead by bead.
+/// Whether `value(bead, k)` is the same for all of these beads, for every control point k.
 template <Motion M, std::invocable<BeadId, int> Value>
 [[nodiscard]] bool all_equal(std::span<const BeadId> beads, Value value) {
   return std::all_of(beads.begin(), beads.end(), [&](BeadId bead) {
