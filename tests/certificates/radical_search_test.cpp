@@ -364,6 +364,38 @@ TEST(RadicalSearch, ASphereThatShrinksIntoABallLosesIt) {
   EXPECT_EQ((agreed<BallInSphere<3, 2>>(motion, false).kind), Kind::at_birth);
 }
 
+// Where the sphere lies in the ball, A + B sqrt(D) is positive as well.
+template <int Dimension, int Size>
+void expect_outside(const std::vector<Path>& basis) {
+  for (const double radius : {4.0, 40.0}) {
+    std::vector<Path> paths(basis.begin(), basis.begin() + Size);
+    paths.push_back({{0, 0.25, 0}, radius, {0.25, 0, 0}, radius + 1});
+    const auto motion = moving<Dimension>(paths);
+    using C = BallInSphere<Dimension, Size>;
+    EXPECT_EQ(agreed<C>(motion, true).kind, Kind::at_birth);
+    EXPECT_EQ(agreed<C>(motion, false).kind, Kind::never);
+    StageCounts stages;
+    const C certificate = test::certificate_at<C>(motion, Dyadic(0.0));
+    EXPECT_EQ((sign_now<Fast>(certificate, motion, Instant(0.5), stages)), -1);
+    EXPECT_EQ((sign_now<Filtered>(certificate, motion, Instant(0.5), stages)), -1);
+    EXPECT_EQ((sign_now<Exact>(certificate, motion, Instant(0.5), stages)), -1);
+    EXPECT_EQ(stages.signs_double, 1U);
+  }
+}
+
+TEST(RadicalSearch, ABallThatHoldsTheSphereIsNotInside) {
+  const std::vector<Path> plane{still({1, 0, 0}, 0.25), still({-0.5, 0.75, 0}, 0.5),
+                                still({-0.5, -0.75, 0}, 0.125)};
+  expect_outside<2, 1>(plane);
+  expect_outside<2, 2>(plane);
+  expect_outside<2, 3>(plane);
+  const std::vector<Path> space{still({1, 1, 1}, 0.25), still({1, -1, -1}, 0.5), still({-1, 1, -1}, 0.125),
+                                still({-1, -1, 1}, 0.375)};
+  expect_outside<3, 2>(space);
+  expect_outside<3, 3>(space);
+  expect_outside<3, 4>(space);
+}
+
 // Equal radii: A vanishes, the norm is a square, and the certificate for equal radii says the same.
 template <int Dimension, int Size, class Equal>
 void expect_as_equal(const Equal& equal, const BezierMotion<Dimension, 1>& motion, bool inside, int& later) {
