@@ -20,14 +20,14 @@
 // taken as eps.sig, |eps|^2 with eps = q Q^-T e, sig = q Q^-T s. b^2 - ac = g (c - x.Gx) by Lagrange's
 // identity, which is what takes the factors out.
 //
-// The norm A^2 - B^2 D is c (1 for a basis of one or two, where it is e) times what Cramer's rule gives for
-// the tangency of all: d_i.z - s_i rho = e_i for i = 1 .. m, j, with z = Qy and |z|^2 = rho^2, is linear in
-// (y, rho) = (Y, R) / W, and vanishes where Y.GY = R^2. For a full basis z itself is unknown instead of y:
-// |Z|^2 - R^2.
+// The norm A^2 - B^2 D is c times what Cramer's rule gives for the tangency of all: d_i.z - s_i rho = e_i for
+// i = 1 .. m, j is linear in z = Qy and rho, (y, rho) = (Y, R) / W, and |z|^2 = rho^2 where Y.GY = R^2. For a
+// full basis z is unknown instead of y: |Z|^2 - R^2. For a basis of two a factor e is taken out, and the
+// factor left is e, not c; for a basis of one it is |d|^2.
 //
 // The radius condition rho >= s_j is the sign of (c + s_j b) - s_j sqrt(b^2 - ac), norm c + 2 b s_j + a
-// s_j^2. It is implied while any ball of the basis is no smaller than ball j. It can change only where the
-// spheres coincide, which is a zero of the function.
+// s_j^2. It is implied while any ball of the basis is no smaller than ball j. Where the function is positive
+// it can change only where ball j and the sphere coincide, and there the function vanishes.
 //
 // The basis must be proper all the while: no ball of it to spare. Then g, c and sqrt(b^2 - ac) - b are
 // positive and b^2 - ac is not negative. `inside` certificates guard a ball that must stay in, others a basis
