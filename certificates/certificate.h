@@ -4,7 +4,8 @@
 // count as squares) and must not depend on the origin. Everything else is derived: the floating-point filter
 // and its error bound, four certificates at once, the exact isolation, the order of simultaneous failures.
 //
-// The function is a static `formula(view, beads)`, or its negative where side() is false.
+// The function is a static `formula(view, beads)`, or its negative where side() is false. One that asks for
+// weights or radii says so: `static constexpr bool uses_weights = true` (`uses_radii`).
 
 #include <array>
 #include <concepts>
@@ -25,7 +26,23 @@ struct Identity {
 };
 
 /// Types in the order in which simultaneous failures are handled.
-enum class CertificateType : std::uint32_t { precedes, orientation, power_test, bead_in_sphere };
+enum class CertificateType : std::uint32_t {
+  precedes,
+  orientation,
+  power_test,
+  bead_in_sphere,
+  contact,
+  ball_in_sphere,
+};
+
+/// What a function asks of beads besides their centres: it says so by `uses_weights` and `uses_radii`.
+template <class F>
+inline constexpr Channels channels_of = [] {
+  Channels channels;
+  if constexpr (requires { F::uses_weights; }) channels.weights = F::uses_weights;
+  if constexpr (requires { F::uses_radii; }) channels.radii = F::uses_radii;
+  return channels;
+}();
 
 /// A function of a few beads' motions.
 template <class F, class M>

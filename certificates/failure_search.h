@@ -33,10 +33,11 @@ enum class Birth {
 // Rarely called and large: one copy for all kernels.
 template <class Certificate, Motion M>
 [[nodiscard, gnu::noinline]] ExactPolynomial exact_function(const Certificate& certificate, const M& motion) {
-  return ExactPolynomial(function_of(certificate, IntegerView<M>(motion, certificate.beads)));
+  return ExactPolynomial(
+      function_of(certificate, IntegerView<M, channels_of<Certificate>>(motion, certificate.beads)));
 }
 
-/// The exact failure as a bracket in doubles.
+/// The exact failure, a root of `function`, as a bracket in doubles.
 [[nodiscard]] Failure to_failure(const ExactPolynomial& function, ExactFailure& root);
 
 /// The exact stage alone.

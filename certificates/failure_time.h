@@ -3,8 +3,10 @@
 //
 // Exact: the time is root number `ordinal` (from 0, each root once) of the function in [lower, upper];
 // together with the function this determines it. If lower < upper it lies strictly between. If `isolating`,
-// there is no other root in the bracket and the function changes from positive at lower to negative at upper,
-// both proved. The `fast` kernel gives lower == upper without any proof.
+// there is no other root in the bracket and the function's signs at lower and at upper differ, both proved.
+// The function is the certificate's own, which turns negative there, or, for a radical certificate, one that
+// has all its roots (radical_search.h) and may change either way. The `fast` kernel gives lower == upper
+// without any proof.
 
 #include <cstdint>
 

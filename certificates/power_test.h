@@ -16,6 +16,7 @@ template <int Dimension>
 struct PowerTest {
   static_assert(Dimension == 2 || Dimension == 3);
   static constexpr std::size_t size = Dimension + 2;
+  static constexpr bool uses_weights = true;
 
   std::array<BeadId, size> beads{};  ///< ascending
   int sign = 1;

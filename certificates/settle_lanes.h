@@ -52,7 +52,7 @@ template <class Certificate, Motion M, int Degree>
     const Lanes& sides, ScaledLanes<Degree>& lanes) {
   decltype(Certificate{}.beads) places{};
   for (std::size_t p = 0; p < places.size(); ++p) places[p] = static_cast<BeadId>(p);
-  const LanesView<M, bead_places<Certificate>> view(motion, tuples);
+  const LanesView<M, bead_places<Certificate>, channels_of<Certificate>> view(motion, tuples);
   const auto function = Certificate::formula(view, places);
   const auto& bound = error_bound<Certificate, M>;
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "certificates/failure_search.h"
+#include "certificates/radical_search.h"
 #include "kds/kinetic_structure.h"
 #include "kds/simulator.h"
 
@@ -25,7 +26,7 @@ enum class Guard : std::uint32_t {
 [[nodiscard]] constexpr std::uint32_t slot_of(Guard guard) { return static_cast<std::uint32_t>(guard); }
 
 template <class Certificate, Motion M, Kernel K>
-requires CertificateFor<Certificate, M>
+requires CertificateFor<Certificate, M> || RadicalCertificateFor<Certificate, M>
 class CertificateTable final : public FailureSource {
  public:
   /// `number` tells the structure's tables apart in KineticStructure::fail.

@@ -1,7 +1,8 @@
 #pragma once
-// One motion step: every bead's centre (and weight) is a Bezier curve in u in [0,1] with double control
-// points. The control points are the motion by definition: what was rounded was rounded when they were made.
-// Length unit and frame of reference are the input's; a weight is a squared length.
+// One motion step: every bead's centre (and weight, and radius) is a Bezier curve in u in [0,1] with double
+// control points. The control points are the motion by definition: what was rounded was rounded when they
+// were made. Length unit and frame of reference are the input's; a weight is a squared length. Weights are
+// what power diagrams know, radii what spheres and contacts know: neither is derived from the other here.
 
 #include <concepts>
 #include <cstddef>
@@ -11,7 +12,7 @@
 
 namespace kds {
 
-/// A motion step of beads in `dimension` space, all coordinates of degree `degree` in u.
+/// A motion step of beads in `dimension` space, all coordinates, weights and radii of degree `degree` in u.
 template <class M>
 concept Motion = requires(const M& motion, BeadId bead, int k, int axis) {
   { M::dimension } -> std::convertible_to<int>;
@@ -20,6 +21,7 @@ concept Motion = requires(const M& motion, BeadId bead, int k, int axis) {
   { motion.coordinate(bead, k, axis) } -> std::same_as<double>;  // k-th control point
   { motion.weight(bead, k) } -> std::same_as<double>;
   { motion.control_point(bead, k) } -> std::same_as<const double*>;
+  { motion.radius(bead, k) } -> std::same_as<double>;
 };
 
 template <int DimensionValue, int DegreeValue>
@@ -30,7 +32,7 @@ class BezierMotion {
   static constexpr int dimension = DimensionValue;
   static constexpr int degree = DegreeValue;
 
-  explicit BezierMotion(std::size_t beads) : records_(beads) {}
+  explicit BezierMotion(std::size_t beads) : records_(beads), radii_(beads) {}
 
   [[nodiscard]] std::size_t bead_count() const { return records_.size(); }
   [[nodiscard]] double coordinate(BeadId bead, int k, int axis) const {
@@ -41,6 +43,8 @@ class BezierMotion {
   [[nodiscard]] const double* control_point(BeadId bead, int k) const { return records_[bead].control[k]; }
   void set_coordinate(BeadId bead, int k, int axis, double value) { records_[bead].control[k][axis] = value; }
   void set_weight(BeadId bead, int k, double value) { records_[bead].control[k][dimension] = value; }
+  [[nodiscard]] double radius(BeadId bead, int k) const { return radii_[bead].control[k]; }
+  void set_radius(BeadId bead, int k, double value) { radii_[bead].control[k] = value; }
 
  private:
   // All of a bead in one place: linear motion in space fills one cache line.
@@ -48,6 +52,11 @@ class BezierMotion {
     double control[degree + 1][dimension + 1] = {};
   };
   std::vector<Record> records_;
+  // Apart: few certificates ask for them.
+  struct Radius {
+    double control[degree + 1] = {};
+  };
+  std::vector<Radius> radii_;
 };
 
 static_assert(Motion<BezierMotion<3, 1>>);

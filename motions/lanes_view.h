@@ -1,16 +1,17 @@
 #pragma once
 // Four tuples of beads of one motion, seen at once (motion_view.h). A formula over this view names beads by
-// their place in the tuple: 0, 1, 2 ...
+// their place in the tuple: 0, 1, 2 ... Radii are loaded only if they will be asked for.
 
 #include <array>
 
 #include "motions/bernstein.h"
 #include "motions/bezier_motion.h"
 #include "motions/lanes.h"
+#include "motions/motion_view.h"
 
 namespace kds {
 
-template <Motion M, std::size_t Places>
+template <Motion M, std::size_t Places, Channels channels = all_channels>
 class LanesView {
  public:
   using Number = Lanes;
@@ -21,20 +22,23 @@ class LanesView {
   [[gnu::always_inline]] LanesView(const M& motion, const Tuples& t) {
     for (std::size_t place = 0; place < Places; ++place) {
       for (int k = 0; k <= degree; ++k) {
+        auto& column = control_[place][static_cast<std::size_t>(k)];
         if constexpr (dimension == 3) {
-          control_[place][static_cast<std::size_t>(k)] =
+          const auto four =
               Lanes::transposed(motion.control_point(t[0][place], k), motion.control_point(t[1][place], k),
                                 motion.control_point(t[2][place], k), motion.control_point(t[3][place], k));
-          continue;
+          for (std::size_t c = 0; c < four.size(); ++c) column[c] = four[c];
+        } else {
+          for (std::size_t c = 0; c <= dimension; ++c) {
+            column[c] = Lanes::Vector{
+                motion.control_point(t[0][place], k)[c], motion.control_point(t[1][place], k)[c],
+                motion.control_point(t[2][place], k)[c], motion.control_point(t[3][place], k)[c]};
+          }
         }
-        for (int axis = 0; axis < dimension; ++axis) {
-          control_[place][static_cast<std::size_t>(k)][static_cast<std::size_t>(axis)] =
-              Lanes::Vector{motion.coordinate(t[0][place], k, axis), motion.coordinate(t[1][place], k, axis),
-                            motion.coordinate(t[2][place], k, axis), motion.coordinate(t[3][place], k, axis)};
+        if constexpr (channels.radii) {
+          column[radius] = Lanes::Vector{motion.radius(t[0][place], k), motion.radius(t[1][place], k),
+                                         motion.radius(t[2][place], k), motion.radius(t[3][place], k)};
         }
-        control_[place][static_cast<std::size_t>(k)][dimension] =
-            Lanes::Vector{motion.weight(t[0][place], k), motion.weight(t[1][place], k),
-                          motion.weight(t[2][place], k), motion.weight(t[3][place], k)};
       }
     }
   }
@@ -46,8 +50,24 @@ class LanesView {
       result[static_cast<std::size_t>(axis)] = difference(i, j, axis, length_);
     return result;
   }
-  [[nodiscard, gnu::always_inline]] Bernstein<Lanes, degree> weight_difference(BeadId i, BeadId j) const {
-    return difference(i, j, dimension, weight_);
+  [[nodiscard, gnu::always_inline]] Bernstein<Lanes, degree> weight_difference(BeadId i, BeadId j) const
+      requires(channels.weights) {
+    return difference(i, j, weight, weight_);
+  }
+  [[nodiscard, gnu::always_inline]] Bernstein<Lanes, degree> radius_difference(BeadId i, BeadId j) const
+      requires(channels.radii) {
+    return difference(i, j, radius, length_);
+  }
+  [[nodiscard, gnu::always_inline]] Bernstein<Lanes, degree> radius_sum(BeadId i, BeadId j) const
+      requires(channels.radii) {
+    Bernstein<Lanes, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      const auto place = static_cast<std::size_t>(k);
+      const Lanes sum = control_[i][place][radius] + control_[j][place][radius];
+      length_ = Lanes::max(length_, Lanes::abs(sum));
+      result.scaled[place] = Lanes(static_cast<double>(binomial(degree, k))) * sum;
+    }
+    return result;
   }
 
   /// M itself, where no weight difference exceeds its square; else a NaN.
@@ -56,6 +76,10 @@ class LanesView {
   }
 
  private:
+  static constexpr int weight = dimension;
+  static constexpr int radius = dimension + 1;
+  static constexpr std::size_t columns = channels.radii ? radius + 1 : radius;
+
   [[gnu::always_inline]] Bernstein<Lanes, degree> difference(BeadId i, BeadId j, int axis,
                                                              Lanes& largest) const {
     Bernstein<Lanes, degree> result;
@@ -69,7 +93,7 @@ class LanesView {
     return result;
   }
 
-  std::array<std::array<std::array<Lanes, dimension + 1>, degree + 1>, Places> control_;
+  std::array<std::array<std::array<Lanes, columns>, degree + 1>, Places> control_;
   mutable Lanes length_{0.0};
   mutable Lanes weight_{0.0};
 };

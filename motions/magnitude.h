@@ -1,9 +1,10 @@
 #pragma once
 // The number type that derives a certificate's floating-point filter. It stands for a quantity whose exact
 // value is at most bound * M^power in size and whose double computation errs by at most error * M^power,
-// where M is the largest difference that went in. Evaluating a certificate's function once on magnitudes
-// gives the constants of a semi-static filter, proved operation by operation (Higham, Accuracy and
-// Stability, 2.2: fl(a op b) = (a op b)(1+d), |d| <= 2^-53; no contraction, round to nearest).
+// where M is the largest difference (or sum of two radii, which rounds alike) that went in. Evaluating a
+// certificate's function once on magnitudes gives the constants of a semi-static filter, proved operation by
+// operation (Higham, Accuracy and Stability, 2.2: fl(a op b) = (a op b)(1+d), |d| <= 2^-53; no contraction,
+// round to nearest).
 //
 // The constants are computed in double themselves; error_bound.h inflates them once for that, and for
 // products that underflow.
@@ -19,7 +20,7 @@ struct Magnitude {
   double error = 0;
   int power = 0;
 
-  /// A rounded difference of two inputs, at most M in size once rounded.
+  /// A rounded difference or sum of two inputs, at most M in size once rounded.
   static constexpr Magnitude input_difference(int power_of_length) {
     return {1 + 0x1p-50, unit_roundoff * (1 + 0x1p-50), power_of_length};
   }

@@ -4,12 +4,12 @@
 //   DoubleView     rounded; remembers the size of what it was asked for, which scales the error bound
 //   TrackedView    rounded, with an error bound of its own (tracked_double.h)
 //   MagnitudeView  the error bound's constants (magnitude.h); sees no motion at all
-//   IntegerView    exact: all coordinates times one power of two, weights times its square. Functions of
-//                  certificates are homogeneous in lengths, so the common factor changes no sign
+//   IntegerView    exact: all coordinates and radii times one power of two, weights times its square.
+//                  Functions of certificates are homogeneous in lengths, so the common factor changes no sign
 //   MomentView     exact, at one dyadic time: polynomials of degree 0
 //
 // Every view answers with differences to a bead: certificates do not depend on the origin, and the filter is
-// much sharper for it.
+// much sharper for it. Views that pay for what might be asked are told which channels will be.
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +24,21 @@
 
 namespace kds {
 
+/// What a function asks of beads besides their centres.
+struct Channels {
+  bool weights = false;
+  bool radii = false;
+};
+inline constexpr Channels all_channels{true, true};
+
+/// Answers also with weight_difference(i, j), radius_difference(i, j) and radius_sum(i, j), polynomials of
+/// the same degree, if it was told that they will be asked for.
 template <class V>
 concept MotionView = requires(const V& view, BeadId i, BeadId j) {
   typename V::Number;
   { V::dimension } -> std::convertible_to<int>;
   { V::degree } -> std::convertible_to<int>;
   { view.difference(i, j) } -> std::same_as<BernsteinVector<typename V::Number, V::degree, V::dimension>>;
-  { view.weight_difference(i, j) } -> std::same_as<Bernstein<typename V::Number, V::degree>>;
 };
 
 template <Motion M>
@@ -66,12 +74,32 @@ class DoubleView {
     return result;
   }
 
-  /// M of the error bound: no difference answered so far is larger, and no weight difference than its square.
+  /// radius of i minus radius of j
+  [[nodiscard]] Bernstein<double, degree> radius_difference(BeadId i, BeadId j) const {
+    return radii([&](int k) { return motion_.radius(i, k) - motion_.radius(j, k); });
+  }
+  [[nodiscard]] Bernstein<double, degree> radius_sum(BeadId i, BeadId j) const {
+    return radii([&](int k) { return motion_.radius(i, k) + motion_.radius(j, k); });
+  }
+
+  /// M of the error bound: no difference or sum answered so far is larger, and no weight difference than its
+  /// square.
   [[nodiscard]] double largest_length() const {
     return weight_ <= length_ * length_ ? length_ : std::max(length_, std::sqrt(weight_));
   }
 
  private:
+  template <std::invocable<int> Value>
+  [[nodiscard]] Bernstein<double, degree> radii(Value value) const {
+    Bernstein<double, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      const double r = value(k);
+      length_ = std::max(length_, std::abs(r));
+      result.scaled[static_cast<std::size_t>(k)] = static_cast<double>(binomial(degree, k)) * r;
+    }
+    return result;
+  }
+
   const M& motion_;
   mutable double length_ = 0;
   mutable double weight_ = 0;
@@ -103,8 +131,23 @@ class TrackedView {
     }
     return result;
   }
+  [[nodiscard]] Bernstein<TrackedDouble, degree> radius_difference(BeadId i, BeadId j) const {
+    return radii(i, j, 1);
+  }
+  [[nodiscard]] Bernstein<TrackedDouble, degree> radius_sum(BeadId i, BeadId j) const {
+    return radii(i, j, -1);
+  }
 
  private:
+  [[nodiscard]] Bernstein<TrackedDouble, degree> radii(BeadId i, BeadId j, double sign) const {
+    Bernstein<TrackedDouble, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      result.scaled[static_cast<std::size_t>(k)] =
+          chosen(k, motion_.radius(i, k), sign * motion_.radius(j, k));
+    }
+    return result;
+  }
+
   /// C(degree, k) (a - b)
   static TrackedDouble chosen(int k, double a, double b) {
     TrackedDouble difference{a, 0};
@@ -129,6 +172,8 @@ class MagnitudeView {
     return result;
   }
   [[nodiscard]] Bernstein<Magnitude, degree> weight_difference(BeadId, BeadId) const { return polynomial(2); }
+  [[nodiscard]] Bernstein<Magnitude, degree> radius_difference(BeadId, BeadId) const { return polynomial(1); }
+  [[nodiscard]] Bernstein<Magnitude, degree> radius_sum(BeadId, BeadId) const { return polynomial(1); }
 
  private:
   static Bernstein<Magnitude, degree> polynomial(int power) {
@@ -141,9 +186,9 @@ class MagnitudeView {
   }
 };
 
-/// The power of two that makes the control points of some beads whole: coordinates times 2^exponent, weights
-/// times 2^(2 exponent).
-template <Motion M>
+/// The power of two that makes the control points of some beads whole: coordinates and radii times
+/// 2^exponent, weights times 2^(2 exponent). Channels that are not asked for do not count.
+template <Channels channels = all_channels, Motion M>
 [[nodiscard]] int integer_scale(const M& motion, std::span<const BeadId> beads) {
   int scale = -4096;  // below every double
   for (const BeadId bead : beads) {
@@ -152,8 +197,14 @@ template <Motion M>
         const SplitDouble x = split(motion.coordinate(bead, k, axis));
         if (x.mantissa != 0) scale = std::max(scale, -x.exponent);
       }
-      const SplitDouble w = split(motion.weight(bead, k));
-      if (w.mantissa != 0) scale = std::max(scale, -(w.exponent >> 1));
+      if constexpr (channels.weights) {
+        const SplitDouble w = split(motion.weight(bead, k));
+        if (w.mantissa != 0) scale = std::max(scale, -(w.exponent >> 1));
+      }
+      if constexpr (channels.radii) {
+        const SplitDouble r = split(motion.radius(bead, k));
+        if (r.mantissa != 0) scale = std::max(scale, -r.exponent);
+      }
     }
   }
   return scale;
@@ -166,7 +217,7 @@ template <Motion M>
   return Integer(parts.mantissa) << static_cast<unsigned>(parts.exponent + shift);
 }
 
-template <Motion M>
+template <Motion M, Channels channels = all_channels>
 class IntegerView {
  public:
   using Number = Integer;
@@ -175,7 +226,7 @@ class IntegerView {
 
   /// May be asked for these beads alone.
   IntegerView(const M& motion, std::span<const BeadId> beads)
-      : motion_(motion), scale_(integer_scale(motion, beads)) {}
+      : motion_(motion), scale_(integer_scale<channels>(motion, beads)) {}
 
   [[nodiscard]] BernsteinVector<Integer, degree, dimension> difference(BeadId i, BeadId j) const {
     BernsteinVector<Integer, degree, dimension> result;
@@ -188,7 +239,8 @@ class IntegerView {
     }
     return result;
   }
-  [[nodiscard]] Bernstein<Integer, degree> weight_difference(BeadId i, BeadId j) const {
+  [[nodiscard]] Bernstein<Integer, degree> weight_difference(BeadId i, BeadId j) const
+      requires(channels.weights) {
     Bernstein<Integer, degree> result;
     for (int k = 0; k <= degree; ++k) {
       result.scaled[static_cast<std::size_t>(k)] =
@@ -197,13 +249,29 @@ class IntegerView {
     }
     return result;
   }
+  [[nodiscard]] Bernstein<Integer, degree> radius_difference(BeadId i, BeadId j) const
+      requires(channels.radii) {
+    return radius(i) - radius(j);
+  }
+  [[nodiscard]] Bernstein<Integer, degree> radius_sum(BeadId i, BeadId j) const requires(channels.radii) {
+    return radius(i) + radius(j);
+  }
 
  private:
+  [[nodiscard]] Bernstein<Integer, degree> radius(BeadId bead) const {
+    Bernstein<Integer, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      result.scaled[static_cast<std::size_t>(k)] =
+          binomial(degree, k) * scaled_integer(motion_.radius(bead, k), scale_);
+    }
+    return result;
+  }
+
   const M& motion_;
   int scale_;
 };
 
-template <Motion M>
+template <Motion M, Channels channels = all_channels>
 class MomentView {
  public:
   using Number = Integer;
@@ -222,10 +290,16 @@ class MomentView {
     for (std::size_t axis = 0; axis < result.size(); ++axis) result[axis].scaled[0] = at_moment(moving[axis]);
     return result;
   }
-  [[nodiscard]] Bernstein<Integer, 0> weight_difference(BeadId i, BeadId j) const {
+  [[nodiscard]] Bernstein<Integer, 0> weight_difference(BeadId i, BeadId j) const requires(channels.weights) {
     // Coordinates carry the time's denominator to the degree's power, weights must carry its square.
     return {
         {at_moment(moving_.weight_difference(i, j)) << (time_exponent_ * static_cast<unsigned>(M::degree))}};
+  }
+  [[nodiscard]] Bernstein<Integer, 0> radius_difference(BeadId i, BeadId j) const requires(channels.radii) {
+    return {{at_moment(moving_.radius_difference(i, j))}};
+  }
+  [[nodiscard]] Bernstein<Integer, 0> radius_sum(BeadId i, BeadId j) const requires(channels.radii) {
+    return {{at_moment(moving_.radius_sum(i, j))}};
   }
 
  private:
@@ -239,7 +313,7 @@ class MomentView {
     return value;
   }
 
-  IntegerView<M> moving_;
+  IntegerView<M, channels> moving_;
   Integer later_;    // u * 2^time_exponent
   Integer earlier_;  // (1-u) * 2^time_exponent
   unsigned time_exponent_;

@@ -44,12 +44,25 @@ template <Motion M>
   return points;
 }
 
+namespace detail {
+
+/// The Bezier curve with these control points. Exact.
+template <std::size_t N>
+[[nodiscard]] Rational curve_at(std::array<Rational, N> p, const Rational& u) {
+  const Rational v = 1 - u;
+  for (std::size_t round = N - 1; round > 0; --round) {
+    for (std::size_t i = 0; i < round; ++i) p[i] = v * p[i] + u * p[i + 1];
+  }
+  return p[0];
+}
+
+}  // namespace detail
+
 /// Coordinates and, last, the weight of a bead at `time`. Exact.
 template <Motion M>
 [[nodiscard]] std::array<Rational, M::dimension + 1> exact_position(const M& motion, BeadId bead,
                                                                     const Dyadic& time) {
   const Rational u = time.rational();
-  const Rational v = 1 - u;
   std::array<Rational, M::dimension + 1> position;
   for (int axis = 0; axis <= M::dimension; ++axis) {
     std::array<Rational, M::degree + 1> p;
@@ -57,12 +70,17 @@ template <Motion M>
       p[static_cast<std::size_t>(k)] =
           axis < M::dimension ? motion.coordinate(bead, k, axis) : motion.weight(bead, k);
     }
-    for (std::size_t round = M::degree; round > 0; --round) {
-      for (std::size_t i = 0; i < round; ++i) p[i] = v * p[i] + u * p[i + 1];
-    }
-    position[static_cast<std::size_t>(axis)] = p[0];
+    position[static_cast<std::size_t>(axis)] = detail::curve_at(p, u);
   }
   return position;
+}
+
+/// The radius of a bead at `time`. Exact.
+template <Motion M>
+[[nodiscard]] Rational exact_radius(const M& motion, BeadId bead, const Dyadic& time) {
+  std::array<Rational, M::degree + 1> p;
+  for (int k = 0; k <= M::degree; ++k) p[static_cast<std::size_t>(k)] = motion.radius(bead, k);
+  return detail::curve_at(p, time.rational());
 }
 
 }  // namespace kds

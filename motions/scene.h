@@ -43,7 +43,7 @@ class Scene {
   [[nodiscard]] bool equal_radii() const;
 
   /// Sets the motion of step k, between frames k and k+1. Both frames are met exactly, whatever the kind of
-  /// motion.
+  /// motion. Radii do not change during a step; the points of an instance have none, only weights.
   template <Motion M>
   void load(std::size_t step, M& motion) const {
     for (BeadId b = 0; b < bead_count(); ++b) {
@@ -51,6 +51,7 @@ class Scene {
         for (int axis = 0; axis < M::dimension; ++axis)
           motion.set_coordinate(b, k, axis, coordinate(step, b, k, axis));
         motion.set_weight(b, k, weight(b, k));
+        motion.set_radius(b, k, frames_.empty() ? 0 : radii_[b]);
       }
     }
   }

@@ -50,7 +50,8 @@ using Subjects =
                    Subject<BeadInSphere<1>, BezierMotion<3, 1>>, Subject<BeadInSphere<2>, BezierMotion<3, 1>>,
                    Subject<BeadInSphere<2>, BezierMotion<2, 2>>, Subject<BeadInSphere<3>, BezierMotion<3, 1>>,
                    Subject<BeadInSphere<3>, BezierMotion<3, 3>>, Subject<PowerTest<3>, BezierMotion<3, 1>>,
-                   Subject<PowerTest<3>, BezierMotion<3, 3>>>;
+                   Subject<PowerTest<3>, BezierMotion<3, 3>>, Subject<Contact, BezierMotion<3, 1>>,
+                   Subject<Contact, BezierMotion<2, 3>>>;
 TYPED_TEST_SUITE(ErrorBounds, Subjects);
 
 TYPED_TEST(ErrorBounds, HoldAtAllScales) {
@@ -108,6 +109,7 @@ TEST(ErrorBound, KnowsTheDegreeInLengths) {
   EXPECT_EQ((error_bound<Precedes, M>.power), 1);
   EXPECT_EQ((error_bound<Orientation<3>, M>.power), 3);
   EXPECT_EQ((error_bound<PowerTest<3>, M>.power), 5);
+  EXPECT_EQ((error_bound<Contact, M>.power), 2);
   EXPECT_EQ((error_bound<BeadInSphere<1>, M>.power), 2);
   EXPECT_EQ((error_bound<BeadInSphere<2>, M>.power), 2);
   EXPECT_EQ((error_bound<BeadInSphere<3>, M>.power), 6);

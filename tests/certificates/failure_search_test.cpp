@@ -109,7 +109,8 @@ using Subjects =
                    Subject<BeadInSphere<1>, BezierMotion<3, 1>>, Subject<BeadInSphere<2>, BezierMotion<3, 1>>,
                    Subject<BeadInSphere<2>, BezierMotion<2, 3>>, Subject<BeadInSphere<3>, BezierMotion<3, 1>>,
                    Subject<BeadInSphere<3>, BezierMotion<3, 3>>, Subject<PowerTest<3>, BezierMotion<3, 1>>,
-                   Subject<PowerTest<3>, BezierMotion<3, 3>>>;
+                   Subject<PowerTest<3>, BezierMotion<3, 3>>, Subject<Contact, BezierMotion<3, 1>>,
+                   Subject<Contact, BezierMotion<2, 3>>>;
 TYPED_TEST_SUITE(FailureSearch, Subjects);
 
 // Fewer for types of high degree, where the judge is slow.

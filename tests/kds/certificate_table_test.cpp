@@ -6,6 +6,8 @@
 #include <functional>
 #include <random>
 
+#include "certificates/ball_in_sphere.h"
+#include "certificates/contact.h"
 #include "certificates/precedes.h"
 
 namespace kds {
@@ -279,6 +281,71 @@ TYPED_TEST(CertificateTableTest, TheBooksBalance) {
   EXPECT_GT(this->owner.failed.size(), 30U);
   EXPECT_EQ(this->counts().peak, peak);
   this->expect_sum();
+}
+
+// Polynomial and radical certificates in one queue.
+template <class K>
+class BallOwner final : public KineticStructure {
+ public:
+  using Plane = BezierMotion<2, 1>;
+  BallOwner(Simulator& simulator, const Plane& motion)
+      : contacts(simulator, *this, simulator.add(*this), 0, motion), inside(simulator, *this, 0, 1, motion) {}
+
+  [[nodiscard]] std::string_view name() const override { return "balls"; }
+  [[nodiscard]] std::span<const EventKind> kinds() const override {
+    static constexpr std::array<EventKind, 1> kinds{{{"event"}}};
+    return kinds;
+  }
+  void build() override {}
+  void start_step() override {
+    // The ball leaves the sphere at u = 1/3; its certificate comes before the contact's, and its type after.
+    EXPECT_TRUE(has_slot(inside.watch({{0, 1}, true}, 0)));
+    EXPECT_TRUE(has_slot(contacts.watch(Contact({2, 3}, 1), 0)));
+    EXPECT_EQ(contacts.watch(Contact({0, 2}, 1), 1), Guard::never);
+    EXPECT_EQ(inside.watch({{0, 2}, true}, 1), Guard::violated);
+    EXPECT_EQ(inside.watch({{0, 0}, true}, 2), Guard::zero);
+  }
+  void fail(unsigned number, std::uint32_t slot) override {
+    failed.push_back(number);
+    if (number == 1) {
+      auto outside = inside.certificate(slot);
+      outside.inside = false;
+      EXPECT_EQ(inside.watch(outside, 0, Birth::at_own_root), Guard::never);
+    }
+  }
+  void apply(const Change&) override {}
+  [[nodiscard]] std::optional<std::string> audit(const Dyadic&) override { return std::nullopt; }
+
+  std::vector<unsigned> failed;
+  CertificateTable<Contact, Plane, K> contacts;
+  CertificateTable<BallInSphere<2, 1>, Plane, K> inside;
+};
+
+template <class K>
+void expect_balls_in_order(std::vector<unsigned> expected) {
+  BezierMotion<2, 1> motion(4);
+  const auto set = [&](BeadId bead, double from, double to, double y, double radius) {
+    motion.set_coordinate(bead, 0, 0, from);
+    motion.set_coordinate(bead, 1, 0, to);
+    for (int k = 0; k <= 1; ++k) {
+      motion.set_coordinate(bead, k, 1, y);
+      motion.set_radius(bead, k, radius);
+    }
+  };
+  set(0, 0, 0, 0, 1);
+  set(1, 0, 1.5, 0, 0.5);
+  set(2, 0, 0, 100, 1);
+  set(3, 4, -2, 100, 1);  // meets 2 at x = 2
+  Simulator simulator;
+  BallOwner<K> owner(simulator, motion);
+  simulator.build();
+  simulator.run_step(true);
+  EXPECT_EQ(owner.failed, expected);
+}
+
+TEST(CertificateTables, OfRadicalsShareTheQueue) {
+  expect_balls_in_order<Filtered>({0, 1});
+  expect_balls_in_order<Exact>({0, 1});
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "motions/lanes_view.h"
 #include "motions/positions.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/sturm.h"
@@ -55,6 +56,20 @@ void expect_exact(const M& motion, const Dyadic& time) {
       // and both are the polynomial's value there
       EXPECT_EQ(sturm::value(sturm::from_scaled(polynomial.scaled), time.rational()), at_time * factor);
     }
+    const auto thicker = whole.radius_difference(i, j);
+    const auto reach = whole.radius_sum(i, j);
+    for (int k = 0; k <= M::degree; ++k) {
+      const Rational ri = Dyadic(motion.radius(i, k)).rational();
+      const Rational rj = Dyadic(motion.radius(j, k)).rational();
+      const auto place = static_cast<std::size_t>(k);
+      EXPECT_EQ(Rational(thicker.scaled[place]), binomial(M::degree, k) * scale * (ri - rj));
+      EXPECT_EQ(Rational(reach.scaled[place]), binomial(M::degree, k) * scale * (ri + rj));
+    }
+    const Rational ri = exact_radius(motion, i, time);
+    const Rational rj = exact_radius(motion, j, time);
+    EXPECT_EQ(Rational(moment.radius_difference(i, j).scaled[0]), (ri - rj) * scale * later);
+    EXPECT_EQ(Rational(moment.radius_sum(i, j).scaled[0]), (ri + rj) * scale * later);
+    EXPECT_EQ(sturm::value(sturm::from_scaled(reach.scaled), time.rational()), (ri + rj) * scale);
   }
 }
 
@@ -85,6 +100,7 @@ TEST(MotionViews, ExactOnesKnowNoLimits) {
             motion.set_coordinate(b, k, axis, std::ldexp(motion.coordinate(b, k, axis), exponent));
           }
           motion.set_weight(b, k, std::ldexp(motion.weight(b, k), weight_exponent));
+          motion.set_radius(b, k, std::ldexp(motion.radius(b, k), weight_exponent / 2));
         }
       }
       expect_exact(motion, test::random_dyadic(random));
@@ -120,6 +136,12 @@ TEST(MotionViews, WholeNumbersNeedNoScale) {
   EXPECT_EQ(integer_scale(motion, beads), 4);
   motion.set_weight(1, 0, 0x1p-8);
   EXPECT_EQ(integer_scale(motion, beads), 4);
+  motion.set_radius(0, 1, 0x1p-9);
+  EXPECT_EQ(integer_scale(motion, beads), 9);
+  // What is not asked for does not make numbers longer.
+  EXPECT_EQ(integer_scale<Channels{}>(motion, beads), 3);
+  EXPECT_EQ(integer_scale<Channels{.weights = true}>(motion, beads), 4);
+  EXPECT_EQ((IntegerView<BezierMotion<2, 1>, Channels{}>(motion, beads).difference(0, 1)[0].scaled[0]), 24);
 }
 
 // The view of doubles remembers the largest thing that it answered.
@@ -139,6 +161,35 @@ TEST(DoubleView, KnowsTheLargestLength) {
   EXPECT_EQ(view.largest_length(), 7);
   (void)view.difference(2, 1);
   EXPECT_EQ(view.largest_length(), 9);
+  motion.set_radius(0, 1, 10);
+  motion.set_radius(1, 1, 6);
+  (void)view.radius_difference(0, 1);
+  EXPECT_EQ(view.largest_length(), 9);
+  (void)view.radius_sum(0, 1);
+  EXPECT_EQ(view.largest_length(), 16);
+}
+
+TEST(MotionViews, AnswerWithRadiiIfToldSo) {
+  test::Random random(45);
+  using M = BezierMotion<3, 2>;
+  for (int i = 0; i < 50; ++i) {
+    auto motion = test::random_motion<M>(random, 5, test::MotionKind::generic);
+    const LanesView<M, 2, Channels{.radii = true}> lanes(motion, {{{0, 1}, {1, 2}, {2, 3}, {3, 4}}});
+    const DoubleView<M> one(motion);
+    const auto sum = lanes.radius_sum(0, 1);
+    const auto difference = lanes.radius_difference(0, 1);
+    for (BeadId lane = 0; lane < 4; ++lane) {
+      for (std::size_t k = 0; k <= 2; ++k) {
+        EXPECT_EQ(sum.scaled[k].v[lane], one.radius_sum(lane, lane + 1).scaled[k]);
+        EXPECT_EQ(difference.scaled[k].v[lane], one.radius_difference(lane, lane + 1).scaled[k]);
+        const double reach =
+            motion.radius(lane, static_cast<int>(k)) + motion.radius(lane + 1, static_cast<int>(k));
+        EXPECT_GE(lanes.largest_length().v[lane], reach);
+        const TrackedDouble tracked = TrackedView<M>(motion).radius_sum(lane, lane + 1).scaled[k];
+        EXPECT_EQ(tracked.value, sum.scaled[k].v[lane]);
+      }
+    }
+  }
 }
 
 TEST(MotionViews, InDoubleTheyAreNearTheExactOne) {

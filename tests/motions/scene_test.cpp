@@ -105,6 +105,7 @@ TEST(Scene, AStepEndsWhereTheNextBegins) {
           EXPECT_EQ(motion.coordinate(b, k, axis),
                     necklaces[0].frames[step + static_cast<std::size_t>(k)](axis, b));
         EXPECT_EQ(motion.weight(b, k), 0.3 * 0.3);
+        EXPECT_EQ(motion.radius(b, k), 0.3);
       }
     }
   }
@@ -186,6 +187,7 @@ TEST(Scene, AnInstanceIsOneStep) {
   EXPECT_EQ(motion.coordinate(1, 1, 1), -5);
   EXPECT_EQ(motion.weight(0, 2), 9);
   EXPECT_EQ(motion.weight(1, 2), -3);
+  EXPECT_EQ(motion.radius(0, 2), 0);
   EXPECT_EQ(scene.centers(0).col(1), Eigen::Vector3d(9, -6, 30));
   EXPECT_EQ(scene.centers(1).col(1), Eigen::Vector3d(7, -4, 10));
   EXPECT_EQ(scene.weights(0), (std::vector<double>{4, 1}));

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "certificates/bead_in_sphere.h"
+#include "certificates/contact.h"
 #include "certificates/orientation.h"
 #include "certificates/power_test.h"
 #include "certificates/precedes.h"

@@ -71,7 +71,9 @@ M random_motion(Random& random, std::size_t beads, MotionKind kind) {
         motion.set_coordinate(b, k, axis, x);
       }
       const double weight = random() % 2 || k == 0 ? uniform(random, 0, 0.5) : motion.weight(b, k - 1);
-      motion.set_weight(b, k, kind == MotionKind::grid || kind == MotionKind::cospherical ? 0 : weight);
+      const bool whole = kind == MotionKind::grid || kind == MotionKind::cospherical;
+      motion.set_weight(b, k, whole ? 0 : weight);
+      motion.set_radius(b, k, whole ? 0.5 * (b % 3) : std::sqrt(weight));
     }
   }
   for (BeadId b = 0; b < beads; ++b) {
@@ -94,13 +96,14 @@ M random_motion(Random& random, std::size_t beads, MotionKind kind) {
   return motion;
 }
 
-/// Coordinates times 2^exponent, weights times its square.
+/// Coordinates and radii times 2^exponent, weights times its square.
 template <Motion M>
 void scale(M& motion, int exponent) {
   for (BeadId b = 0; b < motion.bead_count(); ++b) {
     for (int k = 0; k <= M::degree; ++k) {
       for (int axis = 0; axis < M::dimension; ++axis)
         motion.set_coordinate(b, k, axis, std::ldexp(motion.coordinate(b, k, axis), exponent));
+      motion.set_radius(b, k, std::ldexp(motion.radius(b, k), exponent));
       const double w = std::ldexp(motion.weight(b, k), 2 * exponent);
       motion.set_weight(b, k, std::isfinite(w) ? w : std::numeric_limits<double>::max());
     }
