@@ -6,6 +6,7 @@
 namespace kds {
 
 struct StageCounts {
+  std::uint64_t tolerance = 0;     ///< beads moved less than what was proved tolerable at an earlier frame
   std::uint64_t coefficients = 0;  ///< all Bernstein coefficients certainly positive: never fails
   std::uint64_t isolation = 0;     ///< subdivision in double: never fails, or a bracket with one proved root
   std::uint64_t refined = 0;       ///< the same with errors followed operation by operation

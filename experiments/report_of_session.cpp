@@ -37,6 +37,7 @@ StructureReport report_of(const KineticStructure& structure, double seconds) {
                    {"exact", s.stages.exact},
                    {"identically_zero", s.stages.identically_zero},
                    {"shared", s.stages.shared},
+                   {"tolerance", s.stages.tolerance},
                    {"signs_double", s.stages.signs_double},
                    {"signs_exact", s.stages.signs_exact},
                    {"largest_bits", s.stages.largest_bits}};

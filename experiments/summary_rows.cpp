@@ -64,6 +64,7 @@ constexpr std::array kStageLabels{
     StageLabel{"exact", kFailureTimes, "integers"},
     StageLabel{"identically_zero", kFailureTimes, "integers, identically zero"},
     StageLabel{"shared", kFailureTimes, "with another of the same function"},
+    StageLabel{"tolerance", kFailureTimes, "beads moved too little to matter"},
     StageLabel{"signs_double", kSigns, "double"},
     StageLabel{"signs_exact", kSigns, "integers"},
     StageLabel{"largest_bits", "", "bits of the longest integer"},

@@ -81,6 +81,14 @@ class CertificateTable final : public FailureSource {
     free_.push_back(slot_of(guard));
   }
 
+  /// Counts certificates that are known to hold for the rest of the step.
+  void hold_never(std::uint64_t count) {
+    CertificateCounts& counts = owner_.statistics.certificates;
+    counts.created += count;
+    counts.never_failing += count;
+    counts.alive += count;
+    counts.peak = std::max(counts.peak, counts.alive);
+  }
   /// Gives up `count` certificates that never fail.
   void drop_never(std::uint64_t count) { owner_.statistics.certificates.alive -= count; }
 

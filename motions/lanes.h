@@ -76,6 +76,7 @@ class Lanes {
     __builtin_memcpy(&v, four, sizeof v);
     return v;
   }
+  [[gnu::always_inline]] friend Lanes abs(const Lanes& a) { return Lanes::abs(a); }
   [[gnu::always_inline]] static bool any(const Mask& mask) {
     return ((mask[0] | mask[1]) | (mask[2] | mask[3])) != 0;
   }

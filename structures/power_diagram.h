@@ -19,6 +19,7 @@
 #include "motions/input_error.h"
 #include "motions/positions.h"
 #include "structures/facet_certificate.h"
+#include "structures/facet_tolerances.h"
 #include "structures/regular_triangulation.h"
 #include "structures/triangulation_fault.h"
 
@@ -64,6 +65,7 @@ class PowerDiagram final : public KineticStructure {
   }
 
   void start_step() override {
+    if constexpr (!std::same_as<K, Exact>) tolerances_.start_step(motion_, triangulation_);
     rebuilds_in_step_ = 0;
     guards_.clear();  // those of the step before are gone
     if (!hidden_.empty() || affine_dimension_ < dimension || (flat_ && is_wrong_just_after())) {
@@ -181,11 +183,7 @@ class PowerDiagram final : public KineticStructure {
   void watch_cells_beside(CellId cell, int i);
   void watch_cell(CellId cell, int i);
   void drop(CellId cell, int i);
-  void watch_all() {
-    guards_.assign(triangulation_.cells().size(), {});
-    for_all_facets([this](CellId cell, int i) { enqueue(cell, i); });
-    watch_enqueued();
-  }
+  void watch_all();
   template <class Visit>
   void for_all_facets(Visit visit) const {
     for (CellId cell = 0; cell < triangulation_.cells().size(); ++cell) {
@@ -226,6 +224,7 @@ class PowerDiagram final : public KineticStructure {
   CertificateTable<Orientation<dimension>, M, K> orientations_;
   RegularTriangulation<dimension> triangulation_;
   std::vector<std::array<FacetGuard, dimension + 1>> guards_;
+  FacetTolerances<M> tolerances_;
   std::vector<BeadId> hidden_;
   int affine_dimension_ = dimension;  // of the beads; below, no cells
   bool flat_ = false;                 // some cell is flat at the frame just reached

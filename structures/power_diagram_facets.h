@@ -12,6 +12,26 @@ void PowerDiagram<M, K>::enqueue(CellId cell, int i) {
   });
 }
 
+/// Guards all facets; those that rest in this step need no certificate.
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::watch_all() {
+  FacetGuard resting{Guard::never, About::power};
+  std::array<FacetGuard, dimension + 1> all_resting;
+  all_resting.fill(resting);
+  guards_.assign(triangulation_.cells().size(), all_resting);
+  std::uint64_t at_rest = 0;
+  for_all_facets([&](CellId cell, int i) {
+    if (tolerances_.holds(cell, i, neighbor(cell, i))) {
+      ++at_rest;
+    } else {
+      enqueue(cell, i);
+    }
+  });
+  power_tests_.hold_never(at_rest);
+  statistics.stages.tolerance += at_rest;
+  watch_enqueued();
+}
+
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::watch_enqueued() {
   const auto take = [this](FacetId facet, Guard guard, About about) {
@@ -69,7 +89,11 @@ void PowerDiagram<M, K>::watch_around(const std::array<CellId, N>& cells) {
     for (int i = 0; i <= dimension; ++i) {
       // A facet between two new cells is met twice.
       const auto before = cells.begin() + static_cast<std::ptrdiff_t>(c);
-      if (std::find(cells.begin(), before, neighbor(cells[c], i)) == before) enqueue(cells[c], i);
+      if (std::find(cells.begin(), before, neighbor(cells[c], i)) != before) continue;
+      const auto [other, k] = across(cells[c], i);
+      tolerances_.forget(cells[c], i);
+      tolerances_.forget(other, k);
+      enqueue(cells[c], i);
     }
   }
   watch_enqueued();

@@ -34,6 +34,7 @@ bool PowerDiagram<M, K>::is_wrong_just_after() {
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::build_from_control_points(int k) {
   const auto built = triangulation_.build(control_points(motion_, k), control_weights(motion_, k));
+  tolerances_.forget_all();
   hidden_ = built.hidden;
   affine_dimension_ = built.dimension;
   flat_ = false;
@@ -63,6 +64,7 @@ bool PowerDiagram<M, K>::assign_static(const Dyadic& time) {
 
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::drop_all() {
+  tolerances_.forget_all();  // what follows is another triangulation
   if (guards_.empty()) return;
   for_all_facets([this](CellId cell, int i) { drop(cell, i); });
 }

@@ -1,0 +1,164 @@
+#pragma once
+// Tolerances of a triangulation's facets, kept across steps: a facet whose beads stray less from where they
+// were than its certificate tolerates is not looked at in the step. All are taken at one reference frame,
+// which is moved up when a fresh one would let many more facets rest; a sample of facets tells. Where motion
+// is fast, none is taken.
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "certificates/tolerance.h"
+#include "motions/wandering.h"
+#include "structures/facet_certificate.h"
+
+namespace kds {
+
+template <Motion M>
+class FacetTolerances {
+ public:
+  static constexpr int dimension = M::dimension;
+  using Triangulation = RegularTriangulation<dimension>;
+
+  /// At the start of a step, its motion loaded.
+  void start_step(const M& motion, const Triangulation& triangulation) {
+    if (triangulation.cells().empty()) return forget_all();
+    const double rest = settle(motion, triangulation);
+    if (rest >= 1 - worth_a_reference) return;
+    Wandering<M> fresh;
+    fresh.set_reference(motion);
+    fresh.look_at(motion);
+    if (sampled(motion, triangulation, fresh.strays()) < rest + worth_a_reference) return;
+    wandering_ = std::move(fresh);
+    take_all(motion, triangulation);
+    static_cast<void>(settle(motion, triangulation));
+  }
+  /// Whether the facet needs no certificate in this step.
+  [[nodiscard]] bool holds(CellId cell, int i, CellId neighbor) const {
+    return wandering_.has_reference() &&
+           std::max(strays_[cell], strays_[neighbor]) < tolerances_[cell][static_cast<std::size_t>(i)];
+  }
+  /// The facet has got other beads. Either side's name will do where the other is new, too.
+  void forget(CellId cell, int i) {
+    if (!wandering_.has_reference()) return;
+    if (cell >= tolerances_.size()) tolerances_.resize(cell + 1);
+    tolerances_[cell][static_cast<std::size_t>(i)] = 0;
+  }
+  void forget_all() {
+    wandering_.forget_reference();
+    tolerances_.clear();
+  }
+
+ private:
+  /// Taking tolerances costs about as much as settling in double, so a reference must let this share of all
+  /// facets rest that do not yet.
+  static constexpr double worth_a_reference = 0.25;
+  static constexpr std::size_t sample_size = 128;
+
+  /// What each cell's beads stray at most; the share of facets that may rest.
+  double settle(const M& motion, const Triangulation& triangulation) {
+    if (!wandering_.has_reference()) return 0;
+    wandering_.look_at(motion);
+    const auto cells = triangulation.cells();
+    tolerances_.resize(cells.size());
+    strays_.resize(cells.size());
+    for (CellId cell = 0; cell < cells.size(); ++cell)
+      strays_[cell] = stray_of(cells[cell].vertex, wandering_.strays());
+    std::size_t facets = 0, resting = 0;
+    for (CellId cell = 0; cell < cells.size(); ++cell) {
+      if (!triangulation.is_live(cell)) continue;
+      for (int i = 0; i <= dimension; ++i) {
+        const CellId neighbor = cell_of(triangulation.beyond(cell, i));
+        if (neighbor < cell) continue;
+        ++facets;
+        resting += holds(cell, i, neighbor) ? 1 : 0;
+      }
+    }
+    return static_cast<double>(resting) / static_cast<double>(facets);
+  }
+
+  static double stray_of(std::span<const BeadId> beads, std::span<const double> strays) {
+    double most = 0;
+    for (const BeadId b : beads) most = std::max(most, b == infinite_bead ? 0 : strays[b]);
+    return most;
+  }
+
+  /// Facets of finite beads, four at a time: `use(cell, i, tolerance of one bead)`.
+  template <class Use>
+  class FourAtOnce {
+   public:
+    FourAtOnce(const M& motion, const Triangulation& triangulation, Use use)
+        : motion_(motion), triangulation_(triangulation), use_(use) {}
+    void add(CellId cell, int i) {
+      std::array<BeadId, dimension + 2> beads{};
+      const auto& vertex = triangulation_.cells()[cell].vertex;
+      std::copy(vertex.begin(), vertex.end(), beads.begin());
+      beads.back() = triangulation_.apex(triangulation_.beyond(cell, i));
+      if (std::find(beads.begin(), beads.end(), infinite_bead) != beads.end()) return use_(cell, i, 0);
+      tuples_[count_] = beads;
+      facets_[count_] = {cell, i};
+      if (++count_ == Lanes::width) flush();
+    }
+    void flush() {
+      if (count_ == 0) return;
+      for (std::size_t lane = count_; lane < Lanes::width; ++lane) tuples_[lane] = tuples_[0];
+      Lanes tolerance;
+      tolerance_lanes<PowerTest<dimension>>(motion_, tuples_, Lanes(1.0), tolerance);
+      // A difference moves by what both of its beads stray.
+      for (std::size_t lane = 0; lane < count_; ++lane)
+        use_(facets_[lane].first, facets_[lane].second, 0.5 * tolerance.v[lane]);
+      count_ = 0;
+    }
+
+   private:
+    const M& motion_;
+    const Triangulation& triangulation_;
+    Use use_;
+    std::array<std::array<BeadId, dimension + 2>, Lanes::width> tuples_{};
+    std::array<std::pair<CellId, int>, Lanes::width> facets_{};
+    std::size_t count_ = 0;
+  };
+
+  void take_all(const M& motion, const Triangulation& triangulation) {
+    tolerances_.assign(triangulation.cells().size(), {});
+    FourAtOnce four(motion, triangulation, [&](CellId cell, int i, double tolerance) {
+      const FacetId beyond = triangulation.beyond(cell, i);
+      tolerances_[cell][static_cast<std::size_t>(i)] = tolerance;
+      tolerances_[cell_of(beyond)][static_cast<std::size_t>(index_of(beyond))] = tolerance;
+    });
+    for (CellId cell = 0; cell < triangulation.cells().size(); ++cell) {
+      if (!triangulation.is_live(cell)) continue;
+      for (int i = 0; i <= dimension; ++i) {
+        if (cell < cell_of(triangulation.beyond(cell, i))) four.add(cell, i);
+      }
+    }
+    four.flush();
+  }
+
+  /// The share of some facets that a reference at this step's start would let rest.
+  [[nodiscard]] double sampled(const M& motion, const Triangulation& triangulation,
+                               std::span<const double> strays) const {
+    const auto cells = triangulation.cells();
+    std::size_t looked_at = 0, resting = 0;
+    FourAtOnce four(motion, triangulation, [&](CellId cell, int i, double tolerance) {
+      const BeadId apex = triangulation.apex(triangulation.beyond(cell, i));
+      const double apex_strays = apex == infinite_bead ? 0 : strays[apex];
+      ++looked_at;
+      resting += std::max(stray_of(cells[cell].vertex, strays), apex_strays) < tolerance ? 1 : 0;
+    });
+    const std::size_t stride = std::max<std::size_t>(1, cells.size() / sample_size);
+    for (CellId cell = 0; cell < cells.size(); cell += static_cast<CellId>(stride)) {
+      if (triangulation.is_live(cell)) four.add(cell, static_cast<int>(cell % (dimension + 1)));
+    }
+    four.flush();
+    return looked_at == 0 ? 0 : static_cast<double>(resting) / static_cast<double>(looked_at);
+  }
+
+  Wandering<M> wandering_;
+  std::vector<std::array<double, dimension + 1>> tolerances_;  ///< of each facet, as each cell has it
+  std::vector<double> strays_;                                 ///< of each cell
+};
+
+}  // namespace kds
