@@ -14,12 +14,14 @@
 // local_rounding(n) * max|c|.
 //
 // One subdivision is n rounds of (1-t) a + t b. A round errs by at most 4u max|c| (two products, one sum,
-// 1-t), and t itself, (m-a)/(b-a) rounded three times, by 4u, which moves a coefficient by at most 2n * 4u
+// 1-t), and t itself, at most a quotient of such numbers, by 4u, which moves a coefficient by at most 2n * 4u
 // max|c|. Together 12 u n max|c|; evaluation at a double is one subdivision.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "certificates/certificate.h"
 

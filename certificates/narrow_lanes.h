@@ -80,6 +80,7 @@ template <std::size_t N>
 template <int Degree>
 [[KDS_LANES_TARGETS]] void narrow_lanes(LanesDescent<Degree>& descent, const Lanes::Mask& wanted) {
   Lanes slope(-1.0);
+  // In units of the part, hence times its length below.
   const Lanes t = detail::newton(descent.part, wanted, slope);
   const Lanes length = descent.upper - descent.lower;
   const Lanes root = descent.lower + length * t;

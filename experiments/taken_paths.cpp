@@ -12,8 +12,14 @@ namespace {
 
 bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
-  return fs::equivalent(a, b, error) || fs::weakly_canonical(a, error).lexically_normal() ==
-                                            fs::weakly_canonical(b, error).lexically_normal();
+  if (fs::equivalent(a, b, error)) return true;
+  // Files that do not exist yet; where a path cannot be followed, opening it will tell.
+  const auto place = [](const fs::path& path) {
+    std::error_code lost;
+    const fs::path found = fs::weakly_canonical(path, lost);
+    return (lost ? fs::absolute(path, lost) : found).lexically_normal();
+  };
+  return place(a) == place(b);
 }
 
 }  // namespace

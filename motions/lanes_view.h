@@ -20,25 +20,31 @@ class LanesView {
   using Tuples = std::array<std::array<BeadId, Places>, Lanes::width>;
 
   [[gnu::always_inline]] LanesView(const M& motion, const Tuples& t) {
+    if constexpr (channels.radii) {
+      for (std::size_t place = 0; place < Places; ++place) {
+        for (int k = 0; k <= degree; ++k) {
+          radius_[place][static_cast<std::size_t>(k)] =
+              Lanes::Vector{motion.radius(t[0][place], k), motion.radius(t[1][place], k),
+                            motion.radius(t[2][place], k), motion.radius(t[3][place], k)};
+        }
+      }
+    }
     for (std::size_t place = 0; place < Places; ++place) {
       for (int k = 0; k <= degree; ++k) {
-        auto& column = control_[place][static_cast<std::size_t>(k)];
         if constexpr (dimension == 3) {
-          const auto four =
+          control_[place][static_cast<std::size_t>(k)] =
               Lanes::transposed(motion.control_point(t[0][place], k), motion.control_point(t[1][place], k),
                                 motion.control_point(t[2][place], k), motion.control_point(t[3][place], k));
-          for (std::size_t c = 0; c < four.size(); ++c) column[c] = four[c];
-        } else {
-          for (std::size_t c = 0; c <= dimension; ++c) {
-            column[c] = Lanes::Vector{
-                motion.control_point(t[0][place], k)[c], motion.control_point(t[1][place], k)[c],
-                motion.control_point(t[2][place], k)[c], motion.control_point(t[3][place], k)[c]};
-          }
+          continue;
         }
-        if constexpr (channels.radii) {
-          column[radius] = Lanes::Vector{motion.radius(t[0][place], k), motion.radius(t[1][place], k),
-                                         motion.radius(t[2][place], k), motion.radius(t[3][place], k)};
+        for (int axis = 0; axis < dimension; ++axis) {
+          control_[place][static_cast<std::size_t>(k)][static_cast<std::size_t>(axis)] =
+              Lanes::Vector{motion.coordinate(t[0][place], k, axis), motion.coordinate(t[1][place], k, axis),
+                            motion.coordinate(t[2][place], k, axis), motion.coordinate(t[3][place], k, axis)};
         }
+        control_[place][static_cast<std::size_t>(k)][dimension] =
+            Lanes::Vector{motion.weight(t[0][place], k), motion.weight(t[1][place], k),
+                          motion.weight(t[2][place], k), motion.weight(t[3][place], k)};
       }
     }
   }
@@ -52,22 +58,15 @@ class LanesView {
   }
   [[nodiscard, gnu::always_inline]] Bernstein<Lanes, degree> weight_difference(BeadId i, BeadId j) const
       requires(channels.weights) {
-    return difference(i, j, weight, weight_);
+    return difference(i, j, dimension, weight_);
   }
   [[nodiscard, gnu::always_inline]] Bernstein<Lanes, degree> radius_difference(BeadId i, BeadId j) const
       requires(channels.radii) {
-    return difference(i, j, radius, length_);
+    return of_radii(i, j, -1);
   }
   [[nodiscard, gnu::always_inline]] Bernstein<Lanes, degree> radius_sum(BeadId i, BeadId j) const
       requires(channels.radii) {
-    Bernstein<Lanes, degree> result;
-    for (int k = 0; k <= degree; ++k) {
-      const auto place = static_cast<std::size_t>(k);
-      const Lanes sum = control_[i][place][radius] + control_[j][place][radius];
-      length_ = Lanes::max(length_, Lanes::abs(sum));
-      result.scaled[place] = Lanes(static_cast<double>(binomial(degree, k))) * sum;
-    }
-    return result;
+    return of_radii(i, j, 1);
   }
 
   /// M itself, where no weight difference exceeds its square; else a NaN.
@@ -76,10 +75,6 @@ class LanesView {
   }
 
  private:
-  static constexpr int weight = dimension;
-  static constexpr int radius = dimension + 1;
-  static constexpr std::size_t columns = channels.radii ? radius + 1 : radius;
-
   [[gnu::always_inline]] Bernstein<Lanes, degree> difference(BeadId i, BeadId j, int axis,
                                                              Lanes& largest) const {
     Bernstein<Lanes, degree> result;
@@ -93,7 +88,19 @@ class LanesView {
     return result;
   }
 
-  std::array<std::array<std::array<Lanes, columns>, degree + 1>, Places> control_;
+  [[gnu::always_inline]] Bernstein<Lanes, degree> of_radii(BeadId i, BeadId j, double sign) const {
+    Bernstein<Lanes, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      const auto place = static_cast<std::size_t>(k);
+      const Lanes sum = radius_[i][place] + Lanes(sign) * radius_[j][place];
+      length_ = Lanes::max(length_, Lanes::abs(sum));
+      result.scaled[place] = Lanes(static_cast<double>(binomial(degree, k))) * sum;
+    }
+    return result;
+  }
+
+  std::array<std::array<std::array<Lanes, dimension + 1>, degree + 1>, Places> control_;  // the weight last
+  std::array<std::array<Lanes, degree + 1>, channels.radii ? Places : 0> radius_;
   mutable Lanes length_{0.0};
   mutable Lanes weight_{0.0};
 };

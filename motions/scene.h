@@ -34,9 +34,8 @@ class Scene {
   [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] int degree() const { return degree_; }
   [[nodiscard]] std::size_t bead_count() const { return radii_.size(); }
-  [[nodiscard]] std::size_t frame_count() const {
-    return frame_count_;
-  }  ///< an instance has two: u = 0 and u = 1
+  /// An instance has two: u = 0 and u = 1.
+  [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
   [[nodiscard]] std::size_t step_count() const { return frame_count_ - 1; }
   [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }

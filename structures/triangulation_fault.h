@@ -43,7 +43,8 @@ template <int Dimension>
 
 namespace detail {
 
-/// Whether the centroid of one face lies in another of the same plane (line), or on its boundary.
+/// Whether the centroid of one face lies in another of the same plane (line; both edges run
+/// the same way), or on its boundary.
 template <int Dimension, class Sign>
 [[nodiscard]] bool holds_centroid(const std::array<BeadId, Dimension>& of,
                                   const std::array<BeadId, Dimension>& face, Sign sign) {

@@ -51,7 +51,10 @@ class WrappedHierarchy final : public KineticStructure {
 
   void build() override;
   void start_step() override {
-    for (Node& node : nodes_) node.held = none, node.never_failing = 0;
+    for (Node& node : nodes_) {
+      node.held = none;
+      node.never_failing = 0;
+    }
     held_.clear();
     free_.clear();
     for (NodeId node = 0; node < nodes_.size(); ++node) guard_node(node, nodes_[node].basis);
