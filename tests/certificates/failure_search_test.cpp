@@ -181,6 +181,14 @@ TYPED_TEST(FailureSearch, ScaleChangesNothing) {
   }
 }
 
+TEST(FailureTimes, KeepThatTheyAreATouch) {
+  const ExactPolynomial function({Integer(1), Integer(-3)});
+  ExactFailure at_a_change{ExactTime(function, {Dyadic(0.125), Dyadic(0.5)}), true};
+  const Failure failure = to_failure(function, at_a_change);
+  EXPECT_TRUE(failure.time.isolating);
+  EXPECT_TRUE(failure.time.touch);
+}
+
 // Sizes at which the function's own values, or the products on the way, are subnormal.
 TYPED_TEST(FailureSearch, UnderflowNeverMisleads) {
   test::Random random(304);

@@ -507,5 +507,14 @@ TEST(RadicalSearch, ImproperBasesDoNoHarm) {
   }
 }
 
+// Its function changes sign where the basis turns over, and comes back where the norm vanishes: no touch.
+TEST(RadicalSearch, ABasisThatTurnedOverTouchesNothing) {
+  const auto motion = moving<2>({{{3, 0, 0}, 2, {-3, -3, 0}, 2},
+                                 {{2, 3, 0}, 2, {2, 2, 0}, 2},
+                                 {{-1, -1, 0}, 3, {2, 0, 0}, 3},
+                                 {{3, -3, 0}, 2, {1, 2, 0}, 2}});
+  EXPECT_EQ((agreed<BallInSphere<2, 3>>(motion, false, Touches::reported).kind), Kind::never);
+}
+
 }  // namespace
 }  // namespace kds
