@@ -231,7 +231,10 @@ TYPED_TEST(RadicalSearch, ScaleDoesNotMatter) {
     }
     if (!same) continue;
     const Failure exact = first_failure<Exact>(certificate, scaled, Instant(0), Birth::unknown, stages);
-    const Failure filtered = first_failure<Filtered>(certificate, scaled, Instant(0), Birth::unknown, stages);
+    StageCounts filtered_stages;
+    const Failure filtered =
+        first_failure<Filtered>(certificate, scaled, Instant(0), Birth::unknown, filtered_stages);
+    EXPECT_EQ(filtered_stages.exact, plain.kind == Kind::at_birth ? 1U : 0U);
     EXPECT_EQ(exact.kind, plain.kind);
     EXPECT_EQ(filtered.kind, plain.kind);
     EXPECT_EQ(exact.time.lower, plain.time.lower);
