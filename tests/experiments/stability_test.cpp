@@ -265,11 +265,11 @@ TEST(Stability, BallsAreGivenRadiiWhereAnExtremeHasNone) {
   EXPECT_EQ(curves.radius(2, 1), radius);
 }
 
-TEST(Stability, BallsMeetSpheresInEveryExtremeThatMoves) {
+TEST(Stability, BallsTouchAndCrossSpheres) {
   for (const StabilityRow& row :
-       rows_of({"--subjects", "ball_in_sphere_2,contact", "--extremes", "contact,radii", "--cases", "40"})) {
+       rows_of({"--subjects", "ball_in_sphere_1,contact", "--extremes", "contact", "--cases", "100"})) {
     EXPECT_TRUE(row.holds()) << name_of(row) << ": " << row.reason;
-    EXPECT_GT(row.events, 0U) << name_of(row);
+    EXPECT_GT(row.stages.exact, 0U) << name_of(row);  // doubles prove no touch
   }
 }
 
