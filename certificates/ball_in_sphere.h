@@ -29,8 +29,13 @@
 // s_j^2. It is implied while any ball of the basis is no smaller than ball j. Where the function is positive
 // it can change only where ball j and the sphere coincide, and there the function vanishes.
 //
-// The basis must be proper all the while: no ball of it to spare. Then g, c and sqrt(b^2 - ac) - b are
-// positive and b^2 - ac is not negative. `inside` certificates guard a ball that must stay in, others a basis
+// Asked of the basis, all the while: its centres span a simplex (that of a full one keeps its orientation),
+// none of its balls holds another, and some sphere touches them all from outside. So it is for a basis that
+// has no ball to spare, and for its balls but one. Then g and c are positive; with y = A (e + s rho) / g at
+// that sphere's rho, a rho^2 + 2 b rho + c = g (|Qy|^2 - rho^2) <= 0, since Qy is its centre seen in the
+// basis' span; hence b^2 - ac >= 0 and sqrt(b^2 - ac) - b > 0. That is why no sign of D is ever asked for.
+//
+// `inside` certificates guard a ball that must stay in, others a basis
 // ball that must stay out of the sphere of its fellows: it leaves the basis when it gets in. Exact.
 
 #include <array>

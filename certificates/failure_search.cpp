@@ -17,7 +17,8 @@ Failure to_failure(const ExactPolynomial& function, ExactFailure& failure) {
   const Dyadic from(lower);
   const Dyadic to(upper);
   const auto proved = [&] { return function.sign_at(from) * function.sign_at(to) < 0; };
-  if (before <= from && to <= after && proved()) return {Failure::Kind::later, {lower, upper, 0, true}};
+  if (before <= from && to <= after && proved())
+    return {Failure::Kind::later, {lower, upper, 0, true, touch}};
 
   // Doubles are too coarse to isolate it: which of the roots in the widened bracket is it?
   const ExactPolynomial simple = function.square_free();

@@ -85,7 +85,8 @@ template <class Certificate, Motion M>
 /// With errors followed operation by operation.
 template <class Certificate, Motion M>
 [[nodiscard, gnu::noinline]] auto tracked_function(const Certificate& certificate, const M& motion) {
-  const auto function = function_of(certificate, TrackedView<M>(motion));
+  const auto function =
+      function_of(certificate, TrackedView<M, channels_of<Certificate>>(motion, certificate.beads));
   constexpr int degree = decltype(function)::degree;
   Bounded<degree> result{{{}, 0, 0}, true};
   double uniform = 0;

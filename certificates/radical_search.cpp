@@ -31,6 +31,12 @@ int ExactRadicalCertificate::sign(ExactTime& time, int (*sign_of)(const ExactPol
   return side ? sign : -sign;
 }
 
+bool ExactRadicalCertificate::touches(ExactTime& candidate) const {
+  if (sign(candidate, sign_at) != 0) return false;
+  ExactTime before(candidate.lower());
+  return candidate.is_dyadic() || sign(before, sign_at) > 0;
+}
+
 ExactPolynomial ExactRadicalCertificate::candidates() const {
   return radical.norm.is_zero() ? product(radical.rational, radical.root) : radical.norm;
 }
@@ -68,8 +74,7 @@ Failure exact_first_failure(const ExactRadicalCertificate& certificate, const In
       ExactTime candidate(simple, std::move(root));
       const int after = certificate.sign(candidate, sign_after);
       zero &= after == 0;
-      const bool touch =
-          after > 0 && touches == Touches::reported && certificate.sign(candidate, sign_at) == 0;
+      const bool touch = after > 0 && touches == Touches::reported && certificate.touches(candidate);
       if (after >= 0 && !touch) continue;
       ExactFailure failure{std::move(candidate), touch};
       return answer(to_failure(candidates, failure));

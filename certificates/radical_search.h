@@ -30,6 +30,8 @@ struct ExactRadicalCertificate {
   bool side = true;
 
   [[nodiscard]] int sign(ExactTime& time, int (*sign_of)(const ExactPolynomial&, ExactTime&)) const;
+  /// Zero at a candidate and positive on both sides, where it is positive just after.
+  [[nodiscard]] bool touches(ExactTime& candidate) const;
   /// Has all roots of the certificate's function: the norm, or, where that is zero, A B.
   [[nodiscard]] ExactPolynomial candidates() const;
   [[nodiscard]] std::size_t largest_bit_length() const;

@@ -16,7 +16,7 @@ class BeadCurves {
       : dimension_(dimension),
         degree_(degree),
         beads_(beads),
-        numbers_(beads * static_cast<std::size_t>((degree + 1) * (dimension + 1)), 0) {}
+        numbers_(beads * static_cast<std::size_t>((degree + 1) * (dimension + 2)), 0) {}
 
   [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] int degree() const { return degree_; }
@@ -30,8 +30,11 @@ class BeadCurves {
   [[nodiscard]] double& weight(std::size_t bead, int k) { return numbers_[at(bead, k, dimension_)]; }
   [[nodiscard]] double weight(std::size_t bead, int k) const { return numbers_[at(bead, k, dimension_)]; }
 
-  /// Weights are left out where they are all zero, and in the plane and on the line, where an instance has
-  /// none.
+  [[nodiscard]] double& radius(std::size_t bead, int k) { return numbers_[at(bead, k, dimension_ + 1)]; }
+  [[nodiscard]] double radius(std::size_t bead, int k) const { return numbers_[at(bead, k, dimension_ + 1)]; }
+
+  /// Without radii. Weights are left out where they are all zero, and in the plane and on the line, where an
+  /// instance has none.
   [[nodiscard]] Instance instance(std::string name) const;
 
   /// M has this dimension and degree.
@@ -43,6 +46,7 @@ class BeadCurves {
         for (int axis = 0; axis < M::dimension; ++axis)
           motion.set_coordinate(b, k, axis, coordinate(b, k, axis));
         motion.set_weight(b, k, weight(b, k));
+        motion.set_radius(b, k, radius(b, k));
       }
     }
     return motion;
@@ -51,7 +55,7 @@ class BeadCurves {
  private:
   [[nodiscard]] std::size_t at(std::size_t bead, int k, int column) const {
     return (bead * static_cast<std::size_t>(degree_ + 1) + static_cast<std::size_t>(k)) *
-               static_cast<std::size_t>(dimension_ + 1) +
+               static_cast<std::size_t>(dimension_ + 2) +
            static_cast<std::size_t>(column);
   }
 

@@ -1,34 +1,61 @@
 #pragma once
 // One certificate type in one extreme: `filtered` and `fast` against `exact`.
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "certificates/orientation.h"
+#include "certificates/radical_search.h"
 #include "experiments/compare_answers.h"
+#include "experiments/stability_radii.h"
 #include "experiments/stability_subjects.h"
 #include "motions/input_error.h"
 #include "motions/scene.h"
 
 namespace kds {
 
+/// The polynomial whose roots are failures.
 template <class C, Motion M>
-inline constexpr int function_degree =
-    decltype(function_of(C{}, DoubleView<M>(std::declval<const M&>())))::degree;
+struct RootsOf {
+  using Function = C;
+};
+template <class C, Motion M>
+requires RadicalCertificateFor<C, M>
+struct RootsOf<C, M> {
+  using Function = typename C::Radical::Norm;
+};
+
+template <class C, Motion M>
+inline constexpr int function_degree = decltype(function_of(typename RootsOf<C, M>::Function{},
+                                                            DoubleView<M>(std::declval<const M&>())))::degree;
+
+/// How many times longer than usual the exact stage takes for a case; less than that is not counted.
+template <class C, Motion M>
+inline constexpr double case_cost = [] {
+  constexpr double longer = std::max(1.0, function_degree<C, M> / 6.0);
+  return RadicalCertificateFor<C, M> ? 4 * longer * longer * longer : longer * longer;
+}();
+
+template <class C, Motion M>
+inline constexpr Channels channels_asked = channels_of<typename RootsOf<C, M>::Function>;
 
 template <class C, Motion M>
 class CertificateTrial {
  public:
   CertificateTrial(const Extreme& extreme, const StabilityCases& cases) : extreme_(extreme) {
-    // Fewer where the exact stage is slow.
-    constexpr std::size_t slow = function_degree < C,
-                          M >> 6 ? function_degree<C, M> * function_degree<C, M> : 36;
-    const std::size_t count = (cases.cases * 36 + slow - 1) / slow;
+    const auto count =
+        static_cast<std::size_t>(std::ceil(static_cast<double>(cases.cases) / case_cost<C, M>));
     for (std::size_t number = 0; number < count; ++number) {
       SceneRandom random = scene_random(cases.seed, extreme.name, number);
-      const BeadCurves curves = extreme.make({M::dimension, M::degree, beads}, random);
+      BeadCurves curves = extreme.make({M::dimension, M::degree, beads}, random);
+      if constexpr (channels_asked<C, M>.radii) give_radii(curves, random);
       Case made{number, {}, M(0), {}, curves.instance(std::string(extreme.name))};
       std::iota(made.certificate.beads.begin(), made.certificate.beads.end(), BeadId{0});
       made.certificate.opposite = random() % 2 == 1;
@@ -40,6 +67,7 @@ class CertificateTrial {
         continue;
       }
       made.motion = curves.motion<M>();
+      orient(made);
       cases_.push_back(std::move(made));
     }
   }
@@ -69,6 +97,17 @@ class CertificateTrial {
     std::array<double, 2> times{};  // at which signs are compared, besides 0 and the failures
     Instance instance;
   };
+
+  /// Certificates of full bases are told how these turn, at the start.
+  static void orient(Case& made) {
+    if constexpr (requires { made.certificate.orientation; }) {
+      Orientation<M::dimension> basis;
+      std::copy_n(made.certificate.beads.begin(), basis.beads.size(), basis.beads.begin());
+      StageCounts uncounted;
+      made.certificate.orientation =
+          sign_just_after<Exact>(basis, made.motion, Instant(0), uncounted) < 0 ? -1 : 1;
+    }
+  }
 
   template <Kernel K>
   [[nodiscard]] std::vector<std::vector<Answer>> follow_all(StageCounts& stages, double& seconds) const {
@@ -104,7 +143,17 @@ class CertificateTrial {
     }
     if (!trouble) return;
     ++row.disagreements;
+    if constexpr (channels_asked<C, M>.radii) *trouble += radii_text(c.motion);
     note_trouble(row, c.number, *trouble, instance_text(c.instance));
+  }
+
+  /// What an instance file does not hold.
+  static std::string radii_text(const M& motion) {
+    std::string text = "; radii";
+    for (BeadId b = 0; b < beads; ++b)
+      for (int k = 0; k <= M::degree; ++k)
+        text += fmt::format("{}{}", k == 0 ? "; " : " ", motion.radius(b, k));
+    return text;
   }
 
   static std::optional<std::string> compare_signs(StabilityRow& row, const Case& c, const Instant& now) {
@@ -127,7 +176,8 @@ class CertificateTrial {
 
 /// A certificate type as a subject.
 template <class C, Motion M>
-[[nodiscard]] StabilitySubject certificate_subject(std::string name, bool weighted = false) {
+[[nodiscard]] StabilitySubject certificate_subject(std::string name) {
+  constexpr bool weighted = channels_asked<C, M>.weights || channels_asked<C, M>.radii;
   StabilitySubject subject{std::move(name), false, M::dimension, M::degree, function_degree<C, M>,
                            weighted,        {}};
   subject.run = [](const Extreme& extreme, const StabilityCases& cases) {

@@ -12,13 +12,12 @@ std::vector<StabilitySubject> cubic_certificates() {
   using Line = BezierMotion<1, 3>;
   using Plane = BezierMotion<2, 3>;
   using Space = BezierMotion<3, 3>;
-  constexpr bool weighted = true;
   return {
       certificate_subject<Precedes, Line>("precedes"),
       certificate_subject<Orientation<2>, Plane>("orientation"),
       certificate_subject<Orientation<3>, Space>("orientation"),
-      certificate_subject<PowerTest<2>, Plane>("power_test", weighted),
-      certificate_subject<PowerTest<3>, Space>("power_test", weighted),
+      certificate_subject<PowerTest<2>, Plane>("power_test"),
+      certificate_subject<PowerTest<3>, Space>("power_test"),
       certificate_subject<BeadInSphere<1>, Space>("bead_in_sphere_1"),
       certificate_subject<BeadInSphere<2>, Plane>("bead_in_sphere_2"),
       certificate_subject<BeadInSphere<2>, Space>("bead_in_sphere_2"),

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "certificates/failure_search.h"
+#include "certificates/radical_search.h"
 
 namespace kds {
 

@@ -17,8 +17,8 @@ constexpr std::array kOptions{
     OptionSpec{"--subjects", "LIST", "comma list of certificate types and structures (default: all)"},
     OptionSpec{"--extremes", "LIST", "comma list of extremes, or of their families (default: all)"},
     OptionSpec{"--cases", "N",
-               "random cases of each extreme, fewer for degrees above 6, one run of a structure for 50, cubic"
-               " 100 (default: 200)"},
+               "random cases of each extreme, fewer for degrees above 6 and for radicals, one run of a"
+               " structure for 50, cubic 100 (default: 200)"},
     OptionSpec{"--seed", "N", "which random cases (default: 1)"},
     OptionSpec{"--out", "DIR", "write stability.json and stability.csv there (default: none)"},
     OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},

@@ -114,7 +114,10 @@ BeadCurves thousandfold_steps(const SceneShape& shape, SceneRandom& random) {
 }
 
 void set_radius(BeadCurves& beads, std::size_t b, double radius) {
-  for (int k = 0; k <= beads.degree(); ++k) beads.weight(b, k) = radius * radius;
+  for (int k = 0; k <= beads.degree(); ++k) {
+    beads.radius(b, k) = radius;
+    beads.weight(b, k) = radius * radius;
+  }
 }
 
 template <int Decimals>
@@ -281,6 +284,29 @@ BeadCurves tangent(const SceneShape& shape, SceneRandom& random) {
   return beads;
 }
 
+// Balls at rest that touch one sphere from inside, the first one perhaps as large as that; the last one comes
+// along a tangent and touches it at u = 1/2.
+BeadCurves inner_contact(const SceneShape& shape, SceneRandom& random) {
+  constexpr double sphere = 20;
+  BeadCurves beads = empty(shape);
+  const std::vector<Point> points = points_on_sphere(random, shape);
+  const Point velocity = tangent_at(points.back(), random, shape.dimension);
+  const bool large = shape.beads == 2 || toss(random);
+  for (std::size_t b = 0; b < shape.beads; ++b) {
+    const double times = b == 0 && large ? 0 : pick(random, 1, 4);
+    set_radius(beads, b, sphere - 5 * times);
+    for (int k = 0; k <= shape.degree; ++k) {
+      for (int axis = 0; axis < shape.dimension; ++axis) {
+        const auto along = static_cast<std::size_t>(axis);
+        beads.coordinate(b, k, axis) = times * points[b][along];
+        if (b + 1 == shape.beads)
+          beads.coordinate(b, k, axis) += velocity[along] * share(Moment::middle, k, shape.degree);
+      }
+    }
+  }
+  return beads;
+}
+
 // Many certificates are zero at one moment: beads on a small grid, or on a sphere, then.
 template <Moment At>
 BeadCurves tied(const SceneShape& shape, SceneRandom& random) {
@@ -373,6 +399,7 @@ constexpr Extreme kExtremes[] = {
     {"beads:cospherical", "all on one moving sphere", cospherical, 2},
     {"beads:cospherical-mid", "the same at u = 1/2", cospherical_midstep, 2},
     {"contact:tangent", "a bead touches a sphere, and a bead, at u = 1/2", tangent, 2},
+    {"contact:inner", "unequal balls touch a sphere from inside at u = 1/2", inner_contact, 2, 1, unequal},
     {"ties:start", "many certificates are zero at u = 0", tied<Moment::start>},
     {"ties:middle", "many certificates are zero at u = 1/2", tied<Moment::middle>},
     {"ties:end", "many certificates are zero at u = 1", tied<Moment::end>},

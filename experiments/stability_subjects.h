@@ -22,7 +22,7 @@ struct StabilitySubject {
   bool structure = false;
   int dimension = 0, degree = 0;  ///< of the motion
   int function_degree = 0;        ///< of a certificate
-  bool weighted = false;          ///< asks for radii; others are spared the extremes of unequal ones
+  bool weighted = false;  ///< asks for weights or radii; others are spared the extremes of unequal ones
   std::function<StabilityRow(const Extreme&, const StabilityCases&)> run;
 
   [[nodiscard]] bool meets(const Extreme& extreme) const {
@@ -33,9 +33,11 @@ struct StabilitySubject {
 /// Certificate types first, then structures; those of one name stand together.
 [[nodiscard]] std::vector<StabilitySubject> all_subjects();
 
-/// Parts of it: certificate types under motions of degree 1 and 3, structures.
+/// Parts of it: certificate types of beads and of balls under motions of degree 1 and 3, structures.
 [[nodiscard]] std::vector<StabilitySubject> linear_certificates();
 [[nodiscard]] std::vector<StabilitySubject> cubic_certificates();
+[[nodiscard]] std::vector<StabilitySubject> linear_ball_certificates();
+[[nodiscard]] std::vector<StabilitySubject> cubic_ball_certificates();
 [[nodiscard]] std::vector<StabilitySubject> kinetic_structures();
 
 }  // namespace kds

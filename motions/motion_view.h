@@ -2,14 +2,16 @@
 // A motion seen in a number type. A certificate's function is written once over a view:
 //
 //   DoubleView     rounded; remembers the size of what it was asked for, which scales the error bound
-//   TrackedView    rounded, with an error bound of its own (tracked_double.h)
+//   TrackedView    rounded, with an error bound of its own (tracked_double.h), at a scale where numbers keep
+//                  in the middle of double's range: all lengths times one power of two, weights times its
+//                  square
 //   MagnitudeView  the error bound's constants (magnitude.h); sees no motion at all
-//   IntegerView    exact: all coordinates and radii times one power of two, weights times its square.
-//                  Functions of certificates are homogeneous in lengths, so the common factor changes no sign
+//   IntegerView    exact: scaled likewise, until all is whole
 //   MomentView     exact, at one dyadic time: polynomials of degree 0
 //
-// Every view answers with differences to a bead: certificates do not depend on the origin, and the filter is
-// much sharper for it. Views that pay for what might be asked are told which channels will be.
+// Functions of certificates are homogeneous in lengths, so a common factor changes no sign. Every view
+// answers with differences to a bead: certificates do not depend on the origin, and the filter is much
+// sharper for it. Views that pay for what might be asked are told which channels will be.
 
 #include <algorithm>
 #include <cmath>
@@ -105,58 +107,94 @@ class DoubleView {
   mutable double weight_ = 0;
 };
 
-template <Motion M>
+/// A power of two that brings the largest difference of some beads near 1, as far as a double goes; 1 where
+/// differences overflow or are zero. Channels that are not asked for do not count.
+template <Channels channels = all_channels, Motion M>
+[[nodiscard]] double scale_to_unit(const M& motion, std::span<const BeadId> beads) {
+  double length = 0;
+  double weight = 0;
+  for (const BeadId bead : beads) {
+    for (int k = 0; k <= M::degree; ++k) {
+      for (int axis = 0; axis < M::dimension; ++axis)
+        length = std::max(length,
+                          std::abs(motion.coordinate(bead, k, axis) - motion.coordinate(beads[0], k, axis)));
+      if constexpr (channels.radii) length = std::max(length, std::abs(motion.radius(bead, k)));
+      if constexpr (channels.weights)
+        weight = std::max(weight, std::abs(motion.weight(bead, k) - motion.weight(beads[0], k)));
+    }
+  }
+  const double largest = std::max(length, std::sqrt(weight));
+  if (!(largest > 0 && std::isfinite(largest))) return 1;
+  return std::ldexp(1.0, std::min(-std::ilogb(largest), 1023));
+}
+
+template <Motion M, Channels channels = all_channels>
 class TrackedView {
  public:
   using Number = TrackedDouble;
   static constexpr int dimension = M::dimension;
   static constexpr int degree = M::degree;
 
-  explicit TrackedView(const M& motion) : motion_(motion) {}
+  /// May be asked for these beads alone.
+  TrackedView(const M& motion, std::span<const BeadId> beads)
+      : motion_(motion), scale_(scale_to_unit<channels>(motion, beads)) {}
 
   [[nodiscard]] BernsteinVector<TrackedDouble, degree, dimension> difference(BeadId i, BeadId j) const {
     BernsteinVector<TrackedDouble, degree, dimension> result;
     for (int axis = 0; axis < dimension; ++axis) {
       for (int k = 0; k <= degree; ++k) {
         result[static_cast<std::size_t>(axis)].scaled[static_cast<std::size_t>(k)] =
-            chosen(k, motion_.coordinate(i, k, axis), motion_.coordinate(j, k, axis));
+            chosen(k, scaled(motion_.coordinate(i, k, axis) - motion_.coordinate(j, k, axis)));
       }
     }
     return result;
   }
-  [[nodiscard]] Bernstein<TrackedDouble, degree> weight_difference(BeadId i, BeadId j) const {
-    Bernstein<TrackedDouble, degree> result;
-    for (int k = 0; k <= degree; ++k) {
-      result.scaled[static_cast<std::size_t>(k)] = chosen(k, motion_.weight(i, k), motion_.weight(j, k));
-    }
-    return result;
-  }
-  [[nodiscard]] Bernstein<TrackedDouble, degree> radius_difference(BeadId i, BeadId j) const {
-    return radii(i, j, 1);
-  }
-  [[nodiscard]] Bernstein<TrackedDouble, degree> radius_sum(BeadId i, BeadId j) const {
-    return radii(i, j, -1);
-  }
-
- private:
-  [[nodiscard]] Bernstein<TrackedDouble, degree> radii(BeadId i, BeadId j, double sign) const {
+  [[nodiscard]] Bernstein<TrackedDouble, degree> weight_difference(BeadId i, BeadId j) const
+      requires(channels.weights) {
     Bernstein<TrackedDouble, degree> result;
     for (int k = 0; k <= degree; ++k) {
       result.scaled[static_cast<std::size_t>(k)] =
-          chosen(k, motion_.radius(i, k), sign * motion_.radius(j, k));
+          chosen(k, scaled_twice(motion_.weight(i, k) - motion_.weight(j, k)));
     }
     return result;
   }
+  [[nodiscard]] Bernstein<TrackedDouble, degree> radius_difference(BeadId i, BeadId j) const
+      requires(channels.radii) {
+    return radii([&](int k) { return motion_.radius(i, k) - motion_.radius(j, k); });
+  }
+  [[nodiscard]] Bernstein<TrackedDouble, degree> radius_sum(BeadId i, BeadId j) const
+      requires(channels.radii) {
+    return radii([&](int k) { return motion_.radius(i, k) + motion_.radius(j, k); });
+  }
 
-  /// C(degree, k) (a - b)
-  static TrackedDouble chosen(int k, double a, double b) {
-    TrackedDouble difference{a, 0};
-    difference -= TrackedDouble{b, 0};
-    if (k == 0 || k == degree) return difference;
-    return TrackedDouble{static_cast<double>(binomial(degree, k)), 0} * difference;
+ private:
+  template <std::invocable<int> Value>
+  [[nodiscard]] Bernstein<TrackedDouble, degree> radii(Value value) const {
+    Bernstein<TrackedDouble, degree> result;
+    for (int k = 0; k <= degree; ++k)
+      result.scaled[static_cast<std::size_t>(k)] = chosen(k, scaled(value(k)));
+    return result;
+  }
+
+  /// A rounded difference or sum of two inputs, times the scale. Sums are exact where they are subnormal,
+  /// and scaling is but for what underflows.
+  [[nodiscard]] TrackedDouble scaled(double rounded) const { return from_rounded(rounded * scale_); }
+  /// The same times the scale's square, which may be no double itself.
+  [[nodiscard]] TrackedDouble scaled_twice(double rounded) const {
+    return from_rounded(rounded * scale_ * scale_);
+  }
+  static TrackedDouble from_rounded(double x) {
+    return {x, TrackedDouble::unit_roundoff * std::abs(x) + TrackedDouble::lost_to_underflow};
+  }
+
+  /// C(degree, k) times x
+  static TrackedDouble chosen(int k, const TrackedDouble& x) {
+    if (k == 0 || k == degree) return x;
+    return TrackedDouble{static_cast<double>(binomial(degree, k)), 0} * x;
   }
 
   const M& motion_;
+  double scale_;
 };
 
 template <int DimensionValue, int DegreeValue>

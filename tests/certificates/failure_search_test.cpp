@@ -181,6 +181,40 @@ TYPED_TEST(FailureSearch, ScaleChangesNothing) {
   }
 }
 
+// Errors followed operation by operation have no range: what doubles decide at one scale they decide at all.
+TYPED_TEST(FailureSearch, NoScaleIsLeftToIntegers) {
+  test::Random random(306);
+  StageCounts plain, scaled;
+  for (int i = 0; i < rounds<TypeParam>(20); ++i) {
+    auto motion = test::random_motion<typename TypeParam::M>(random, TypeParam::beads, MotionKind::generic);
+    for (BeadId b = 0; b < TypeParam::beads; ++b) {
+      for (int k = 0; k <= TypeParam::M::degree; ++k) motion.set_weight(b, k, 0);
+    }
+    const auto certificate = test::random_certificate<typename TypeParam::C>(random);
+    const Failure::Kind kind =
+        first_failure<Filtered>(certificate, motion, Instant(0), Birth::unknown, plain).kind;
+    const int sign = sign_now<Filtered>(certificate, motion, Instant(0.5), plain);
+    int before = 0;
+    for (const int exponent : {-1000, -600, -300, -150, 150, 300, 600, 1000}) {
+      SCOPED_TRACE("seed 306, round " + std::to_string(i) + ", times 2^" + std::to_string(exponent));
+      test::scale(motion, exponent - before);
+      before = exponent;
+      EXPECT_EQ(first_failure<Filtered>(certificate, motion, Instant(0), Birth::unknown, scaled).kind, kind);
+      EXPECT_EQ(sign_now<Filtered>(certificate, motion, Instant(0.5), scaled), sign);
+    }
+  }
+  EXPECT_LE(scaled.exact, 8 * plain.exact + 1);
+  EXPECT_LE(scaled.signs_exact, 8 * plain.signs_exact + 1);
+}
+
+TEST(FailureTimes, KeepThatTheyAreATouch) {
+  const ExactPolynomial function({Integer(1), Integer(-3)});
+  ExactFailure at_a_change{ExactTime(function, {Dyadic(0.125), Dyadic(0.5)}), true};
+  const Failure failure = to_failure(function, at_a_change);
+  EXPECT_TRUE(failure.time.isolating);
+  EXPECT_TRUE(failure.time.touch);
+}
+
 // Sizes at which the function's own values, or the products on the way, are subnormal.
 TYPED_TEST(FailureSearch, UnderflowNeverMisleads) {
   test::Random random(304);

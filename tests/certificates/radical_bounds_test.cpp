@@ -16,12 +16,15 @@ double share_used(const M& motion) {
   for (std::size_t i = 0; i < part.beads.size(); ++i) part.beads[i] = static_cast<BeadId>(i);
   const DoubleView<M> view(motion);
   const auto rounded = function_of(part, view);
-  const auto tracked = function_of(part, TrackedView<M>(motion));
+  const auto tracked = function_of(part, TrackedView<M, Channels{.radii = true}>(motion, part.beads));
   const auto exact = function_of(part, IntegerView<M, Channels{.radii = true}>(motion, part.beads));
   const auto& bound = error_bound<detail::SignedPart<Part>, M>;
   const double scale = bound.scale(view.largest_length());
   const int shift = integer_scale<Channels{.radii = true}>(motion, part.beads) * bound.power;
   const Rational power(Integer(1) << static_cast<unsigned>(std::abs(shift)));
+  Rational unit(1);
+  for (int i = 0; i < bound.power; ++i)
+    unit *= Dyadic(scale_to_unit<Channels{.radii = true}>(motion, part.beads)).rational();
   double share = 0;
   for (std::size_t k = 0; k < rounded.scaled.size(); ++k) {
     const Rational value = shift > 0 ? Rational(exact.scaled[k] / power) : Rational(exact.scaled[k] * power);
@@ -31,7 +34,7 @@ double share_used(const M& motion) {
           std::max(share, Rational(error(rounded.scaled[k]) / Dyadic(bound.coefficient[k] * scale).rational())
                               .template convert_to<double>());
     }
-    EXPECT_LE(error(tracked.scaled[k].value),
+    EXPECT_LE(abs(Dyadic(tracked.scaled[k].value).rational() - value * unit),
               Dyadic(tracked.scaled[k].error * TrackedDouble::inflation).rational());
   }
   return share;

@@ -231,7 +231,10 @@ TYPED_TEST(RadicalSearch, ScaleDoesNotMatter) {
     }
     if (!same) continue;
     const Failure exact = first_failure<Exact>(certificate, scaled, Instant(0), Birth::unknown, stages);
-    const Failure filtered = first_failure<Filtered>(certificate, scaled, Instant(0), Birth::unknown, stages);
+    StageCounts filtered_stages;
+    const Failure filtered =
+        first_failure<Filtered>(certificate, scaled, Instant(0), Birth::unknown, filtered_stages);
+    EXPECT_EQ(filtered_stages.exact, plain.kind == Kind::at_birth ? 1U : 0U);
     EXPECT_EQ(exact.kind, plain.kind);
     EXPECT_EQ(filtered.kind, plain.kind);
     EXPECT_EQ(exact.time.lower, plain.time.lower);
@@ -505,6 +508,15 @@ TEST(RadicalSearch, ImproperBasesDoNoHarm) {
       static_cast<void>(agreed<BallInSphere<3, 2>>(moving<3>({paths[0], paths[1], ball}), inside));
     }
   }
+}
+
+// Its function changes sign where the basis turns over, and comes back where the norm vanishes: no touch.
+TEST(RadicalSearch, ABasisThatTurnedOverTouchesNothing) {
+  const auto motion = moving<2>({{{3, 0, 0}, 2, {-3, -3, 0}, 2},
+                                 {{2, 3, 0}, 2, {2, 2, 0}, 2},
+                                 {{-1, -1, 0}, 3, {2, 0, 0}, 3},
+                                 {{3, -3, 0}, 2, {1, 2, 0}, 2}});
+  EXPECT_EQ((agreed<BallInSphere<2, 3>>(motion, false, Touches::reported).kind), Kind::never);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "experiments/compare_answers.h"
 #include "experiments/parse_stability_options.h"
 #include "experiments/run_stability.h"
+#include "experiments/stability_radii.h"
 #include "experiments/stability_report.h"
 #include "experiments/stability_table.h"
 #include "experiments/text.h"
@@ -226,7 +227,8 @@ TEST(Stability, EverySubjectHoldsInAFewCasesOfEveryExtreme) {
   }
   EXPECT_EQ(extremes.size(), all_extremes().size());
   for (const char* name : {"precedes", "orientation", "power_test", "bead_in_sphere_1", "bead_in_sphere_2",
-                           "bead_in_sphere_3", "sorted", "wrapped", "power"})
+                           "bead_in_sphere_3", "contact", "ball_in_sphere_1", "ball_in_sphere_2",
+                           "ball_in_sphere_3", "ball_in_sphere_4", "sorted", "wrapped", "power"})
     EXPECT_TRUE(subjects.contains(name)) << name;
   EXPECT_GT(audits, 1000U);
   EXPECT_GT(events, 1000U);
@@ -237,6 +239,46 @@ TEST(Stability, OneBeadInSphereHasDegree18) {
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].function_degree, 18);
   EXPECT_GT(rows[0].events, 0U);
+}
+
+TEST(Stability, BallsAreGivenRadiiWhereAnExtremeHasNone) {
+  std::set<bool> equal, changing;
+  for (std::size_t number = 0; number < 30; ++number) {
+    SceneRandom random = scene_random(17, "offset:2^20", number);
+    BeadCurves curves = extreme("offset:2^20").make({3, 1, 4}, random);
+    give_radii(curves, random);
+    bool same = true, constant = true;
+    for (std::size_t b = 0; b < 4; ++b) {
+      same &= curves.radius(b, 0) == curves.radius(0, 0) && curves.radius(b, 1) == curves.radius(0, 1);
+      constant &= curves.radius(b, 0) == curves.radius(b, 1);
+      EXPECT_GE(curves.radius(b, 1), 0);
+      EXPECT_LE(curves.radius(b, 1), 8);
+    }
+    equal.insert(same);
+    changing.insert(!constant);
+  }
+  EXPECT_EQ(equal.size() + changing.size(), 4U);
+  SceneRandom random = scene_random(17, "radii:10^3", 0);
+  BeadCurves curves = extreme("radii:10^3").make({3, 1, 4}, random);
+  const double radius = curves.radius(2, 1);
+  give_radii(curves, random);
+  EXPECT_EQ(curves.radius(2, 1), radius);
+}
+
+TEST(Stability, BallsTouchAndCrossSpheres) {
+  for (const StabilityRow& row :
+       rows_of({"--subjects", "ball_in_sphere_1,contact", "--extremes", "contact", "--cases", "100"})) {
+    EXPECT_TRUE(row.holds()) << name_of(row) << ": " << row.reason;
+    EXPECT_GT(row.stages.exact, 0U) << name_of(row);  // doubles prove no touch
+  }
+}
+
+TEST(Stability, NoScaleIsLeftToIntegersWhereDifferencesAreFinite) {
+  StageCounts sum;
+  for (const StabilityRow& row :
+       rows_of({"--subjects", "power_test", "--extremes", "scale:2^300,scale:2^-300", "--cases", "40"}))
+    add(sum, row.stages);
+  EXPECT_GT(sum.refined, sum.exact);
 }
 
 TEST(Stability, FastIsWrongWhereProductsVanish) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "motions/lanes_view.h"
 #include "motions/positions.h"
 #include "tests/support/random_motion.h"
@@ -185,8 +188,9 @@ TEST(MotionViews, AnswerWithRadiiIfToldSo) {
         const double reach =
             motion.radius(lane, static_cast<int>(k)) + motion.radius(lane + 1, static_cast<int>(k));
         EXPECT_GE(lanes.largest_length().v[lane], reach);
-        const TrackedDouble tracked = TrackedView<M>(motion).radius_sum(lane, lane + 1).scaled[k];
-        EXPECT_EQ(tracked.value, sum.scaled[k].v[lane]);
+        const std::array beads{lane, lane + 1};
+        const TrackedDouble tracked = TrackedView<M>(motion, beads).radius_sum(beads[0], beads[1]).scaled[k];
+        EXPECT_EQ(tracked.value, sum.scaled[k].v[lane] * scale_to_unit(motion, beads));
       }
     }
   }
@@ -198,20 +202,48 @@ TEST(MotionViews, InDoubleTheyAreNearTheExactOne) {
     const auto kind = test::all_motion_kinds[random() % test::all_motion_kinds.size()];
     const auto motion = test::random_motion<BezierMotion<3, 3>>(random, 2, kind);
     const auto rounded = DoubleView<BezierMotion<3, 3>>(motion).difference(1, 0);
-    const auto tracked = TrackedView<BezierMotion<3, 3>>(motion).difference(1, 0);
-    const auto weights = TrackedView<BezierMotion<3, 3>>(motion).weight_difference(1, 0);
+    const std::array<BeadId, 2> beads{0, 1};
+    const TrackedView<BezierMotion<3, 3>> view(motion, beads);
+    const auto tracked = view.difference(1, 0);
+    const auto weights = view.weight_difference(1, 0);
+    const double scale = scale_to_unit(motion, beads);
+    const Rational unit = Dyadic(scale).rational();
     for (int axis = 0; axis <= 3; ++axis) {
       for (int k = 0; k <= 3; ++k) {
         const auto at = static_cast<std::size_t>(k);
-        const Rational exact = binomial(3, k) * (control(motion, 1, k, axis) - control(motion, 0, k, axis));
+        const Rational exact = (axis == 3 ? unit * unit : unit) * binomial(3, k) *
+                               (control(motion, 1, k, axis) - control(motion, 0, k, axis));
         const TrackedDouble& t =
             axis == 3 ? weights.scaled[at] : tracked[static_cast<std::size_t>(axis)].scaled[at];
         EXPECT_LE(abs(Dyadic(t.value).rational() - exact),
                   Dyadic(t.error).rational() * Dyadic(TrackedDouble::inflation).rational());
-        EXPECT_TRUE(axis == 3 || t.value == rounded[static_cast<std::size_t>(axis)].scaled[at]);
+        EXPECT_TRUE(axis == 3 || t.value == rounded[static_cast<std::size_t>(axis)].scaled[at] * scale);
       }
     }
   }
+}
+
+TEST(MotionViews, TrackedAtAUsefulScaleWhereverDifferencesAreFinite) {
+  using M = BezierMotion<2, 1>;
+  const std::array<BeadId, 2> beads{0, 1};
+  for (int exponent = -1073; exponent <= 1023; ++exponent) {
+    M motion(2);
+    motion.set_coordinate(1, 0, 0, std::ldexp(1.5, exponent));
+    const bool square_is_normal = std::abs(2 * exponent) < 1022;
+    if (square_is_normal) motion.set_weight(1, 0, std::ldexp(1.0, 2 * exponent));
+    const TrackedView<M> view(motion, beads);
+    const TrackedDouble x = view.difference(1, 0)[0].scaled[0];
+    EXPECT_GE(x.value, 0x1p-52) << exponent;
+    EXPECT_LT(x.value, 2.5) << exponent;
+    EXPECT_LE(x.error, x.value * 0x1p-52) << exponent;
+    const double weight = view.weight_difference(1, 0).scaled[0].value;
+    EXPECT_EQ(weight, square_is_normal ? 1 : 0) << exponent;
+  }
+  M same(2);
+  EXPECT_EQ(scale_to_unit(same, beads), 1);
+  same.set_coordinate(0, 0, 0, -0x1p1023);
+  same.set_coordinate(1, 0, 0, 0x1p1023);  // their difference is no double
+  EXPECT_EQ(scale_to_unit(same, beads), 1);
 }
 
 }  // namespace
