@@ -1,3 +1,4 @@
+#include "motions/whole_view.h"
 #include "structures/basis.h"
 
 #include <gmock/gmock.h>
