@@ -62,7 +62,8 @@ double Dyadic::round_up() const {
 
 Dyadic Dyadic::midpoint(const Dyadic& a, const Dyadic& b) {
   const unsigned exponent = a.exponent_ > b.exponent_ ? a.exponent_ : b.exponent_;
-  Integer sum = (a.numerator_ << (exponent - a.exponent_)) + (b.numerator_ << (exponent - b.exponent_));
+  Integer sum = a.numerator_ << (exponent - a.exponent_);
+  sum += b.numerator_ << (exponent - b.exponent_);
   return {std::move(sum), exponent + 1};
 }
 
