@@ -3,9 +3,12 @@
 // bound in lengths asks for at the width of these beads' control points; where those are wider than the
 // primes reach, on whole numbers outright. Exact.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 

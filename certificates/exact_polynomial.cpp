@@ -191,8 +191,8 @@ ExactPolynomial ExactPolynomial::gcd(const ExactPolynomial& a, const ExactPolyno
 
 namespace {
 
-// Bernstein coefficients proper, times a common multiple of the binomials: these are halved by additions, both
-// halves at once.
+// Bernstein coefficients proper, times a common multiple of the binomials: these are halved by additions,
+// both halves at once.
 Coefficients unscaled(const Coefficients& scaled) {
   const int degree = static_cast<int>(scaled.size()) - 1;
   Integer multiple = 1;

@@ -54,8 +54,8 @@ struct RootInterval {
 /// Returns whether there should be more.
 using RootVisitor = std::function<bool(RootInterval)>;
 
-/// Visits the roots of a square-free polynomial in [lower, upper], ascending; their intervals are disjoint but
-/// for touching ends.
+/// Visits the roots of a square-free polynomial in [lower, upper], ascending; their intervals are disjoint
+/// but for touching ends.
 void visit_roots(const ExactPolynomial& square_free, const Dyadic& lower, const Dyadic& upper,
                  const RootVisitor& visit);
 

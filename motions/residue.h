@@ -1,7 +1,7 @@
 #pragma once
-// Whole numbers modulo primes of 61 bits: a formula is evaluated modulo a few of them, and its exact value put
-// together from the residues, as long as it is known to be small enough. A product costs a multiplication for
-// each prime, whatever the width.
+// Whole numbers modulo primes of 61 bits: a formula is evaluated modulo a few of them, and its exact value
+// put together from the residues, as long as it is known to be small enough. A product costs a multiplication
+// for each prime, whatever the width.
 
 #include <array>
 #include <cstddef>
@@ -80,7 +80,8 @@ struct Residue {
 template <>
 class SumOfProducts<Residue> {
  public:
-  constexpr SumOfProducts(const Residue& a, const Residue& b) : sum_(Wide{a.value} * b.value), fold_(a.fold) {}
+  constexpr SumOfProducts(const Residue& a, const Residue& b)
+      : sum_(Wide{a.value} * b.value), fold_(a.fold) {}
   constexpr void add(const Residue& a, const Residue& b) {
     if ((sum_ >> 127U) != 0) sum_ = Residue::reduced(sum_, fold_).value;
     sum_ += Wide{a.value} * b.value;
@@ -94,7 +95,7 @@ class SumOfProducts<Residue> {
 
 /// The largest primes below 2^61, as 2^61 - fold.
 inline constexpr std::array<std::uint64_t, 32> residue_folds{
-    1,   31,  45,  229, 259, 283, 339, 391, 403,  465,  531,  579,  675,  759,  799,  819,
+    1,   31,  45,  229, 259, 283,  339,  391,  403,  465,  531,  579,  675,  759,  799,  819,
     829, 843, 859, 939, 985, 1015, 1153, 1195, 1215, 1281, 1299, 1351, 1371, 1425, 1489, 1525};
 
 /// How many residues tell all whole numbers below 2^bits in size apart.

@@ -116,8 +116,12 @@ class WholeView {
   [[nodiscard]] Number square(double value) const { return whole(value, 2 * exponent_); }
   [[nodiscard]] Number whole(double value, int exponent) const {
     const SplitDouble parts = split(value);
+    if (parts.mantissa == 0) return ring_.of(0);
+    const int shift = parts.exponent + exponent;
+    if (shift < 60 && std::abs(parts.mantissa) >> (60 - shift) == 0)
+      return ring_.of(parts.mantissa * (1LL << shift));
     Number result = ring_.of(parts.mantissa);
-    if (parts.mantissa != 0) result <<= static_cast<unsigned>(parts.exponent + exponent);
+    result <<= static_cast<unsigned>(shift);
     return result;
   }
 

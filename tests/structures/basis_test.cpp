@@ -1,5 +1,5 @@
-#include "motions/whole_view.h"
 #include "structures/basis.h"
+#include "motions/whole_view.h"
 
 #include <gmock/gmock.h>
 
