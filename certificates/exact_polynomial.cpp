@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <deque>
 
 #include "certificates/modular_gcd.h"
 
@@ -74,14 +75,23 @@ Coefficients exact_quotient(Coefficients a, const Coefficients& b) {
   return quotient;
 }
 
-// Coefficients of c(1 + x).
-void taylor_shift_by_one(Coefficients& c) {
-  for (std::size_t pass = 0; pass + 1 < c.size(); ++pass) {
-    for (std::size_t i = c.size() - 1; i-- > pass;) c[i] += c[i + 1];
+int sign_of(const Integer& x) { return x.sign(); }
+
+int sign_variations_of(const Coefficients& c) {
+  int variations = 0;
+  int last = 0;
+  for (const Integer& x : c) {
+    const int sign = sign_of(x);
+    if (sign == 0) continue;
+    if (last != 0 && sign != last) ++variations;
+    last = sign;
   }
+  return variations;
 }
 
-int sign_of(const Integer& x) { return (x > 0) - (x < 0); }
+void add_product(Integer& sum, const Integer& a, const Integer& b) {
+  mpz_addmul(sum.backend().data(), a.backend().data(), b.backend().data());
+}
 
 }  // namespace
 
@@ -104,17 +114,20 @@ std::size_t ExactPolynomial::largest_bit_length() const {
 
 int ExactPolynomial::sign_at(const Dyadic& u) const {
   if (scaled_.empty()) return 0;
+  if (u.exponent() == 0 && u.numerator() == 0) return sign_of(scaled_.front());
   const Integer earlier = (Integer(1) << u.exponent()) - u.numerator();
   Integer value = scaled_.back();
   Integer power = 1;
   for (std::size_t k = scaled_.size() - 1; k-- > 0;) {
     power *= earlier;
-    value = value * u.numerator() + scaled_[k] * power;
+    value *= u.numerator();
+    add_product(value, scaled_[k], power);
   }
   return sign_of(value);
 }
 
 int ExactPolynomial::sign_after(const Dyadic& u) const {
+  if (const int sign = sign_at(u)) return sign;
   const ExactPolynomial from_u =
       restricted(u, Dyadic(u.numerator() + (Integer(1) << u.exponent()), u.exponent()));
   for (const Integer& x : from_u.scaled_) {
@@ -123,19 +136,10 @@ int ExactPolynomial::sign_after(const Dyadic& u) const {
   return 0;
 }
 
-int ExactPolynomial::sign_variations() const {
-  int variations = 0;
-  int last = 0;
-  for (const Integer& x : scaled_) {
-    const int sign = sign_of(x);
-    if (sign == 0) continue;
-    if (last != 0 && sign != last) ++variations;
-    last = sign;
-  }
-  return variations;
-}
+int ExactPolynomial::sign_variations() const { return sign_variations_of(scaled_); }
 
 ExactPolynomial ExactPolynomial::restricted(const Dyadic& lower, const Dyadic& upper) const {
+  if (lower.numerator() == 0 && upper.exponent() == 0 && upper.numerator() == 1) return *this;
   // u = lower (1-s) + upper s and 1-u = (1-lower)(1-s) + (1-upper) s, over a common denominator 2^e.
   const unsigned e = std::max(lower.exponent(), upper.exponent());
   const Integer one = Integer(1) << e;
@@ -146,48 +150,32 @@ ExactPolynomial ExactPolynomial::restricted(const Dyadic& lower, const Dyadic& u
 
   // Horner in u with the growing power of (1-u), both linear forms in (1-s, s).
   if (scaled_.empty()) return {};
-  Coefficients value{scaled_.back()};
-  Coefficients power{Integer(1)};
-  for (std::size_t k = scaled_.size() - 1; k-- > 0;) {
-    const std::size_t size = value.size() + 1;
-    Coefficients next_power(size);
-    Coefficients next(size);
-    for (std::size_t i = 0; i < size; ++i) {
-      if (i + 1 < size) next_power[i] += a1 * power[i];
-      if (i > 0) next_power[i] += b1 * power[i - 1];
-      if (i + 1 < size) next[i] += a * value[i];
-      if (i > 0) next[i] += b * value[i - 1];
-      next[i] += scaled_[k] * next_power[i];
+  Coefficients value(scaled_.size());
+  Coefficients power(scaled_.size());
+  value[0] = scaled_.back();
+  power[0] = 1;
+  for (std::size_t size = 2; size <= scaled_.size(); ++size) {
+    const Integer& c = scaled_[scaled_.size() - size];
+    for (std::size_t i = size; i-- > 0;) {
+      power[i] *= a1;
+      value[i] *= a;
+      if (i > 0) {
+        add_product(power[i], b1, power[i - 1]);
+        add_product(value[i], b, value[i - 1]);
+      }
+      add_product(value[i], c, power[i]);
     }
-    value = std::move(next);
-    power = std::move(next_power);
   }
   return ExactPolynomial(std::move(value));
-}
-
-ExactPolynomial ExactPolynomial::left_half() const {
-  // (u, 1-u) = (s/2, (1-s) + s/2): times two, a Taylor shift of the reversed coefficients.
-  Coefficients c(scaled_.rbegin(), scaled_.rend());
-  taylor_shift_by_one(c);
-  for (std::size_t j = 0; j < c.size(); ++j) c[j] <<= j;
-  std::reverse(c.begin(), c.end());
-  return ExactPolynomial(std::move(c));
-}
-
-ExactPolynomial ExactPolynomial::right_half() const {
-  Coefficients c = scaled_;
-  taylor_shift_by_one(c);
-  for (std::size_t j = 0; j < c.size(); ++j) c[j] <<= j;
-  return ExactPolynomial(std::move(c));
 }
 
 ExactPolynomial ExactPolynomial::square_free() const {
   Coefficients c = scaled_;
   drop_leading_zeros(c);
   if (c.size() <= 2) return ExactPolynomial(std::move(c));
+  if (certainly_square_free(c)) return ExactPolynomial(std::move(c));
   Coefficients derivative(c.size() - 1);
   for (std::size_t k = 1; k < c.size(); ++k) derivative[k - 1] = c[k] * k;
-  if (certainly_coprime(c, derivative)) return ExactPolynomial(std::move(c));
   const Coefficients repeated = polynomial_gcd(c, std::move(derivative));
   if (repeated.size() > 1) {
     c = exact_quotient(std::move(c), repeated);
@@ -203,38 +191,78 @@ ExactPolynomial ExactPolynomial::gcd(const ExactPolynomial& a, const ExactPolyno
 
 namespace {
 
-// `local` is the polynomial on [lower, upper]. Roots in the open interval, and at `lower` if `with_lower`.
-void isolate(ExactPolynomial local, const Dyadic& lower, const Dyadic& upper, bool with_lower,
-             std::vector<RootInterval>& roots) {
-  if (local.scaled().empty()) return;
-  const bool root_at_lower = local.scaled().front() == 0;
-  const bool root_at_upper = local.scaled().back() == 0;
-  if (root_at_lower && with_lower) roots.push_back({lower, lower});
-  const int variations = local.sign_variations();
-  if (variations == 0) return;
-  if (variations == 1 && !root_at_lower && !root_at_upper) {
-    roots.push_back({lower, upper});
-    return;
-  }
-  const Dyadic middle = Dyadic::midpoint(lower, upper);
-  isolate(local.left_half(), lower, middle, false, roots);
-  isolate(local.right_half(), middle, upper, true, roots);
+// Bernstein coefficients proper, times a common multiple of the binomials: these are halved by additions,
+// both halves at once.
+Coefficients unscaled(const Coefficients& scaled) {
+  const int degree = static_cast<int>(scaled.size()) - 1;
+  Integer multiple = 1;
+  for (int k = 1; k < degree; ++k) multiple = lcm(multiple, Integer(binomial(degree, k)));
+  Coefficients result = scaled;
+  for (int k = 0; k <= degree; ++k) result[static_cast<std::size_t>(k)] *= multiple / binomial(degree, k);
+  return result;
 }
 
+void shift_up(Integer& to, const Integer& from, std::size_t bits) {
+  mpz_mul_2exp(to.backend().data(), from.backend().data(), bits);
+}
+
+class Isolation {
+ public:
+  explicit Isolation(const RootVisitor& visit) : visit_(visit) {}
+
+  // `local` is the polynomial on [lower, upper], unscaled, and lost. Roots in the open interval, and at
+  // `lower` if `with_lower`; false if the visitor wants no more.
+  bool visit(Coefficients& local, const Dyadic& lower, const Dyadic& upper, bool with_lower,
+             std::size_t depth = 0) {
+    const bool root_at_lower = local.front() == 0;
+    const bool root_at_upper = local.back() == 0;
+    if (root_at_lower && with_lower && !visit_({lower, lower})) return false;
+    const int variations = sign_variations_of(local);
+    if (variations == 0) return true;
+    if (variations == 1 && !root_at_lower && !root_at_upper) return visit_({lower, upper});
+    const Dyadic middle = Dyadic::midpoint(lower, upper);
+    if (left_.size() == depth) left_.emplace_back(local.size());
+    halve(local, left_[depth]);
+    return visit(left_[depth], lower, middle, false, depth + 1) &&
+           visit(local, middle, upper, true, depth + 1);
+  }
+
+ private:
+  // de Casteljau, times 2^degree; `local` becomes the right half.
+  static void halve(Coefficients& local, Coefficients& left) {
+    const std::size_t degree = local.size() - 1;
+    for (std::size_t round = 0; round <= degree; ++round) {
+      shift_up(left[round], local[0], degree - round);
+      for (std::size_t i = 0; i + round < degree; ++i) local[i] += local[i + 1];
+    }
+    for (std::size_t i = 1; i <= degree; ++i) shift_up(local[i], local[i], i);
+  }
+
+  const RootVisitor& visit_;
+  std::deque<Coefficients> left_;  // one a level, used again
+};
+
 }  // namespace
+
+void visit_roots(const ExactPolynomial& square_free, const Dyadic& lower, const Dyadic& upper,
+                 const RootVisitor& visit) {
+  if (square_free.is_zero()) return;
+  if (lower == upper) {
+    if (square_free.sign_at(lower) == 0) visit({lower, lower});
+    return;
+  }
+  Coefficients local = unscaled(square_free.restricted(lower, upper).scaled());
+  const bool root_at_upper = local.back() == 0;
+  if (Isolation(visit).visit(local, lower, upper, true) && root_at_upper) visit({upper, upper});
+}
 
 std::vector<RootInterval> isolate_roots(const ExactPolynomial& square_free, const Dyadic& lower,
                                         const Dyadic& upper) {
   std::vector<RootInterval> roots;
-  if (square_free.is_zero()) return roots;
-  if (lower == upper) {
-    if (square_free.sign_at(lower) == 0) roots.push_back({lower, lower});
-    return roots;
-  }
-  ExactPolynomial local = square_free.restricted(lower, upper);
-  const bool root_at_upper = local.scaled().back() == 0;
-  isolate(std::move(local), lower, upper, true, roots);
-  if (root_at_upper) roots.push_back({upper, upper});
+  visit_roots(square_free, lower, upper, [&roots](RootInterval root) {
+    roots.push_back(std::move(root));
+    return true;
+  });
   return roots;
 }
 

@@ -4,6 +4,7 @@
 // which is how gcd and square-free part are computed; Descartes' rule of signs on them bounds the roots in
 // (0,1).
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -33,9 +34,6 @@ class ExactPolynomial {
 
   /// The polynomial as seen on [lower, upper], times a positive number.
   [[nodiscard]] ExactPolynomial restricted(const Dyadic& lower, const Dyadic& upper) const;
-  /// The same for [0, 1/2] and [1/2, 1], by additions and shifts alone.
-  [[nodiscard]] ExactPolynomial left_half() const;
-  [[nodiscard]] ExactPolynomial right_half() const;
 
   /// The roots in [0,1), each once. Roots at u = 1 are dropped.
   [[nodiscard]] ExactPolynomial square_free() const;
@@ -53,7 +51,15 @@ struct RootInterval {
   Dyadic lower, upper;
 };
 
-/// All roots of a square-free polynomial in [lower, upper], ascending; disjoint but for touching ends.
+/// Returns whether there should be more.
+using RootVisitor = std::function<bool(RootInterval)>;
+
+/// Visits the roots of a square-free polynomial in [lower, upper], ascending; their intervals are disjoint
+/// but for touching ends.
+void visit_roots(const ExactPolynomial& square_free, const Dyadic& lower, const Dyadic& upper,
+                 const RootVisitor& visit);
+
+/// All of them.
 [[nodiscard]] std::vector<RootInterval> isolate_roots(const ExactPolynomial& square_free, const Dyadic& lower,
                                                       const Dyadic& upper);
 

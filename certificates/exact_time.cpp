@@ -176,16 +176,19 @@ std::optional<ExactFailure> first_failure_after(const ExactPolynomial& function,
   if (!(now.upper() < end) || function.is_zero() || function.sign_variations() == 0) return std::nullopt;
   const bool from_root = now.is_dyadic() && function.sign_at(now.upper()) == 0;
   const ExactPolynomial simple = function.square_free();
-  auto roots = isolate_roots(simple, now.upper(), end);
-  for (auto root = roots.begin() + (from_root ? 1 : 0); root != roots.end(); ++root) {
-    if (root->lower == end) break;  // what happens at u = 1 is judged by the next step
-    ExactTime time(simple, std::move(*root));
+  std::optional<ExactFailure> failure;
+  bool present = from_root;  // the first root is the present time
+  visit_roots(simple, now.upper(), end, [&](RootInterval root) {
+    if (std::exchange(present, false)) return true;
+    if (root.lower == end) return false;  // what happens at u = 1 is judged by the next step
+    ExactTime time(simple, std::move(root));
     // The only root around, so the upper end tells, unless the function is zero at the end of the step.
     const int at_upper = time.is_dyadic() ? 0 : function.sign_at(time.upper());
     const bool touch = (at_upper != 0 ? at_upper : sign_after(function, time)) > 0;
-    if (!touch || touches == Touches::reported) return ExactFailure{std::move(time), touch};
-  }
-  return std::nullopt;
+    if (!touch || touches == Touches::reported) failure = {std::move(time), touch};
+    return !failure;
+  });
+  return failure;
 }
 
 Dyadic dyadic_between(ExactTime& a, ExactTime& b) {

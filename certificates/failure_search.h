@@ -13,6 +13,7 @@
 #include "certificates/bounded_polynomial.h"
 #include "certificates/certificate.h"
 #include "certificates/error_bound.h"
+#include "certificates/exact_function.h"
 #include "certificates/failure_time.h"
 #include "certificates/instant.h"
 #include "certificates/kernel.h"
@@ -29,13 +30,6 @@ enum class Birth {
   /// polynomial.
   at_own_root,
 };
-
-// Rarely called and large: one copy for all kernels.
-template <class Certificate, Motion M>
-[[nodiscard, gnu::noinline]] ExactPolynomial exact_function(const Certificate& certificate, const M& motion) {
-  return ExactPolynomial(
-      function_of(certificate, IntegerView<M, channels_of<Certificate>>(motion, certificate.beads)));
-}
 
 /// The exact failure, a root of `function`, as a bracket in doubles.
 [[nodiscard]] Failure to_failure(const ExactPolynomial& function, ExactFailure& root);

@@ -13,4 +13,7 @@ namespace kds {
 /// zero.
 [[nodiscard]] bool certainly_coprime(const std::vector<Integer>& a, const std::vector<Integer>& b);
 
+/// True only if the polynomial has no factor twice. Degree at least 1, leading coefficient not zero.
+[[nodiscard]] bool certainly_square_free(const std::vector<Integer>& p);
+
 }  // namespace kds

@@ -7,6 +7,9 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
+
+#include "motions/sum_of_products.h"
 
 namespace kds {
 
@@ -34,10 +37,9 @@ struct Bernstein {
   }
   friend constexpr Bernstein operator+(Bernstein a, const Bernstein& b) { return a += b; }
   friend constexpr Bernstein operator-(Bernstein a, const Bernstein& b) { return a -= b; }
-  friend constexpr Bernstein operator-(const Bernstein& a) {
-    Bernstein result;
-    for (std::size_t k = 0; k < a.scaled.size(); ++k) result.scaled[k] = -a.scaled[k];
-    return result;
+  friend constexpr Bernstein operator-(Bernstein a) {
+    for (Number& c : a.scaled) c = -std::move(c);
+    return a;
   }
 };
 
@@ -47,9 +49,9 @@ constexpr Bernstein<Number, A + B> operator*(const Bernstein<Number, A>& a, cons
   for (std::size_t k = 0; k < product.scaled.size(); ++k) {
     const std::size_t first = k > B ? k - B : 0;
     const std::size_t last = k < A ? k : A;
-    Number sum = a.scaled[first] * b.scaled[k - first];
-    for (std::size_t i = first + 1; i <= last; ++i) sum += a.scaled[i] * b.scaled[k - i];
-    product.scaled[k] = sum;
+    SumOfProducts<Number> sum(a.scaled[first], b.scaled[k - first]);
+    for (std::size_t i = first + 1; i <= last; ++i) sum.add(a.scaled[i], b.scaled[k - i]);
+    product.scaled[k] = std::move(sum).value();
   }
   return product;
 }

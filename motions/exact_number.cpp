@@ -1,21 +1,10 @@
 #include "motions/exact_number.h"
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
 
 namespace kds {
-
-SplitDouble split(double value) {
-  if (value == 0) return {};
-  int exponent = 0;
-  auto mantissa = static_cast<long long>(std::ldexp(std::frexp(value, &exponent), 53));
-  exponent -= 53;
-  const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa));
-  return {mantissa / (1LL << zeros), exponent + zeros};
-}
 
 Dyadic::Dyadic(double value) {
   const SplitDouble parts = split(value);
@@ -73,7 +62,8 @@ double Dyadic::round_up() const {
 
 Dyadic Dyadic::midpoint(const Dyadic& a, const Dyadic& b) {
   const unsigned exponent = a.exponent_ > b.exponent_ ? a.exponent_ : b.exponent_;
-  Integer sum = (a.numerator_ << (exponent - a.exponent_)) + (b.numerator_ << (exponent - b.exponent_));
+  Integer sum = a.numerator_ << (exponent - a.exponent_);
+  sum += b.numerator_ << (exponent - b.exponent_);
   return {std::move(sum), exponent + 1};
 }
 

@@ -6,8 +6,7 @@
 //                  in the middle of double's range: all lengths times one power of two, weights times its
 //                  square
 //   MagnitudeView  the error bound's constants (magnitude.h); sees no motion at all
-//   IntegerView    exact: scaled likewise, until all is whole
-//   MomentView     exact, at one dyadic time: polynomials of degree 0
+//   IntegerView, ResidueView, MomentView   exact (whole_view.h)
 //
 // Functions of certificates are homogeneous in lengths, so a common factor changes no sign. Every view
 // answers with differences to a bead: certificates do not depend on the origin, and the filter is much
@@ -16,11 +15,9 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
-#include <span>
 
 #include "motions/bernstein.h"
 #include "motions/bezier_motion.h"
-#include "motions/exact_number.h"
 #include "motions/magnitude.h"
 #include "motions/tracked_double.h"
 
@@ -224,143 +221,8 @@ class MagnitudeView {
   }
 };
 
-/// The power of two that makes the control points of some beads whole: coordinates and radii times
-/// 2^exponent, weights times 2^(2 exponent). Channels that are not asked for do not count.
-template <Channels channels = all_channels, Motion M>
-[[nodiscard]] int integer_scale(const M& motion, std::span<const BeadId> beads) {
-  int scale = -4096;  // below every double
-  for (const BeadId bead : beads) {
-    for (int k = 0; k <= M::degree; ++k) {
-      for (int axis = 0; axis < M::dimension; ++axis) {
-        const SplitDouble x = split(motion.coordinate(bead, k, axis));
-        if (x.mantissa != 0) scale = std::max(scale, -x.exponent);
-      }
-      if constexpr (channels.weights) {
-        const SplitDouble w = split(motion.weight(bead, k));
-        if (w.mantissa != 0) scale = std::max(scale, -(w.exponent >> 1));
-      }
-      if constexpr (channels.radii) {
-        const SplitDouble r = split(motion.radius(bead, k));
-        if (r.mantissa != 0) scale = std::max(scale, -r.exponent);
-      }
-    }
-  }
-  return scale;
-}
-
-/// value * 2^shift, which must be whole.
-[[nodiscard]] inline Integer scaled_integer(double value, int shift) {
-  const SplitDouble parts = split(value);
-  if (parts.mantissa == 0) return 0;
-  return Integer(parts.mantissa) << static_cast<unsigned>(parts.exponent + shift);
-}
-
-template <Motion M, Channels channels = all_channels>
-class IntegerView {
- public:
-  using Number = Integer;
-  static constexpr int dimension = M::dimension;
-  static constexpr int degree = M::degree;
-
-  /// May be asked for these beads alone.
-  IntegerView(const M& motion, std::span<const BeadId> beads)
-      : motion_(motion), scale_(integer_scale<channels>(motion, beads)) {}
-
-  [[nodiscard]] BernsteinVector<Integer, degree, dimension> difference(BeadId i, BeadId j) const {
-    BernsteinVector<Integer, degree, dimension> result;
-    for (int axis = 0; axis < dimension; ++axis) {
-      for (int k = 0; k <= degree; ++k) {
-        result[static_cast<std::size_t>(axis)].scaled[static_cast<std::size_t>(k)] =
-            binomial(degree, k) * (scaled_integer(motion_.coordinate(i, k, axis), scale_) -
-                                   scaled_integer(motion_.coordinate(j, k, axis), scale_));
-      }
-    }
-    return result;
-  }
-  [[nodiscard]] Bernstein<Integer, degree> weight_difference(BeadId i, BeadId j) const
-      requires(channels.weights) {
-    Bernstein<Integer, degree> result;
-    for (int k = 0; k <= degree; ++k) {
-      result.scaled[static_cast<std::size_t>(k)] =
-          binomial(degree, k) * (scaled_integer(motion_.weight(i, k), 2 * scale_) -
-                                 scaled_integer(motion_.weight(j, k), 2 * scale_));
-    }
-    return result;
-  }
-  [[nodiscard]] Bernstein<Integer, degree> radius_difference(BeadId i, BeadId j) const
-      requires(channels.radii) {
-    return radius(i) - radius(j);
-  }
-  [[nodiscard]] Bernstein<Integer, degree> radius_sum(BeadId i, BeadId j) const requires(channels.radii) {
-    return radius(i) + radius(j);
-  }
-
- private:
-  [[nodiscard]] Bernstein<Integer, degree> radius(BeadId bead) const {
-    Bernstein<Integer, degree> result;
-    for (int k = 0; k <= degree; ++k) {
-      result.scaled[static_cast<std::size_t>(k)] =
-          binomial(degree, k) * scaled_integer(motion_.radius(bead, k), scale_);
-    }
-    return result;
-  }
-
-  const M& motion_;
-  int scale_;
-};
-
-template <Motion M, Channels channels = all_channels>
-class MomentView {
- public:
-  using Number = Integer;
-  static constexpr int dimension = M::dimension;
-  static constexpr int degree = 0;
-
-  /// The motion at `time` in [0,1]; may be asked for these beads alone.
-  MomentView(const M& motion, std::span<const BeadId> beads, const Dyadic& time)
-      : moving_(motion, beads), later_(time.numerator()), time_exponent_(time.exponent()) {
-    earlier_ = (Integer(1) << time_exponent_) - later_;
-  }
-
-  [[nodiscard]] BernsteinVector<Integer, 0, dimension> difference(BeadId i, BeadId j) const {
-    const auto moving = moving_.difference(i, j);
-    BernsteinVector<Integer, 0, dimension> result;
-    for (std::size_t axis = 0; axis < result.size(); ++axis) result[axis].scaled[0] = at_moment(moving[axis]);
-    return result;
-  }
-  [[nodiscard]] Bernstein<Integer, 0> weight_difference(BeadId i, BeadId j) const requires(channels.weights) {
-    // Coordinates carry the time's denominator to the degree's power, weights must carry its square.
-    return {
-        {at_moment(moving_.weight_difference(i, j)) << (time_exponent_ * static_cast<unsigned>(M::degree))}};
-  }
-  [[nodiscard]] Bernstein<Integer, 0> radius_difference(BeadId i, BeadId j) const requires(channels.radii) {
-    return {{at_moment(moving_.radius_difference(i, j))}};
-  }
-  [[nodiscard]] Bernstein<Integer, 0> radius_sum(BeadId i, BeadId j) const requires(channels.radii) {
-    return {{at_moment(moving_.radius_sum(i, j))}};
-  }
-
- private:
-  [[nodiscard]] Integer at_moment(const Bernstein<Integer, M::degree>& p) const {
-    Integer value = p.scaled[M::degree];
-    Integer power = 1;
-    for (int k = M::degree - 1; k >= 0; --k) {  // Horner in u, one more factor (1-u) a step
-      power *= earlier_;
-      value = value * later_ + p.scaled[static_cast<std::size_t>(k)] * power;
-    }
-    return value;
-  }
-
-  IntegerView<M, channels> moving_;
-  Integer later_;    // u * 2^time_exponent
-  Integer earlier_;  // (1-u) * 2^time_exponent
-  unsigned time_exponent_;
-};
-
 static_assert(MotionView<DoubleView<BezierMotion<3, 1>>>);
 static_assert(MotionView<TrackedView<BezierMotion<3, 1>>>);
 static_assert(MotionView<MagnitudeView<3, 1>>);
-static_assert(MotionView<IntegerView<BezierMotion<3, 1>>>);
-static_assert(MotionView<MomentView<BezierMotion<3, 1>>>);
 
 }  // namespace kds

@@ -4,6 +4,7 @@
 // CGAL with exact numbers, at a time after the present one so near that nothing is skipped, and the rebuild
 // is counted. And the audit.
 
+#include "motions/whole_view.h"
 #include "structures/power_diagram.h"
 
 namespace kds {

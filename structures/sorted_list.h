@@ -10,6 +10,7 @@
 
 #include "certificates/precedes.h"
 #include "kds/certificate_table.h"
+#include "motions/whole_view.h"
 
 namespace kds {
 

@@ -14,6 +14,7 @@
 
 #include "kds/certificate_table.h"
 #include "motions/positions.h"
+#include "motions/whole_view.h"
 #include "structures/basis.h"
 #include "structures/bead_names.h"
 #include "structures/enclosing_sphere.h"

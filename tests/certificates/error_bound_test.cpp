@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "motions/whole_view.h"
 #include "tests/support/any_certificate.h"
 #include "tests/support/random_motion.h"
 
@@ -25,7 +26,7 @@ class ErrorBounds : public testing::Test {
     const auto& bound = error_bound<C, M>;
     const double scale = bound.scale(view.largest_length());
     if (std::isnan(scale)) return 0;
-    const int shift = integer_scale(motion, certificate.beads) * bound.power;
+    const int shift = whole_scale(motion, certificate.beads).exponent * bound.power;
     const Integer power = Integer(1) << static_cast<unsigned>(std::abs(shift));
     double share = 0;
     for (std::size_t k = 0; k < rounded.scaled.size(); ++k) {

@@ -180,8 +180,6 @@ TEST(ExactPolynomial, RestrictsToAnInterval) {
     if (upper < lower) std::swap(lower, upper);
     EXPECT_TRUE(same_up_to_positive_factor(power_form(p.restricted(lower, upper)),
                                            composed(power, lower.rational(), upper.rational())));
-    EXPECT_TRUE(same_up_to_positive_factor(power_form(p.left_half()), composed(power, 0, Rational(1, 2))));
-    EXPECT_TRUE(same_up_to_positive_factor(power_form(p.right_half()), composed(power, Rational(1, 2), 1)));
   }
 }
 

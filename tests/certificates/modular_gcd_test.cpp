@@ -57,5 +57,19 @@ TEST(ModularGcd, SaysNothingWhereThePrimeHidesTheDegree) {
   EXPECT_TRUE(certainly_coprime({1, 1}, {2, 1}));
 }
 
+TEST(ModularGcd, ProvesSquareFreeness) {
+  test::Random random(803);
+  for (int i = 0; i < 1000; ++i) {
+    const Scaled p = random_power(random, test::pick(random, 1, 8));
+    const Scaled factor = random_power(random, test::pick(random, 1, 3));
+    EXPECT_FALSE(certainly_square_free(test::product(p, test::product(factor, factor)))) << "case " << i;
+  }
+  EXPECT_TRUE(certainly_square_free({1, 1}));
+  EXPECT_TRUE(certainly_square_free({-1, 0, 1}));
+  EXPECT_TRUE(certainly_square_free({0, 1, 0, 1}));
+  EXPECT_FALSE(certainly_square_free({1, 2, 1}));
+  EXPECT_FALSE(certainly_square_free({-1, 0, prime}));
+}
+
 }  // namespace
 }  // namespace kds

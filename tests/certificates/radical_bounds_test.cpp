@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "certificates/radical_search.h"
+#include "motions/whole_view.h"
 #include "tests/support/ball_motions.h"
 
 namespace kds {
@@ -20,7 +21,7 @@ double share_used(const M& motion) {
   const auto exact = function_of(part, IntegerView<M, Channels{.radii = true}>(motion, part.beads));
   const auto& bound = error_bound<detail::SignedPart<Part>, M>;
   const double scale = bound.scale(view.largest_length());
-  const int shift = integer_scale<Channels{.radii = true}>(motion, part.beads) * bound.power;
+  const int shift = whole_scale<Channels{.radii = true}>(motion, part.beads).exponent * bound.power;
   const Rational power(Integer(1) << static_cast<unsigned>(std::abs(shift)));
   Rational unit(1);
   for (int i = 0; i < bound.power; ++i)

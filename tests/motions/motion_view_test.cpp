@@ -1,4 +1,4 @@
-#include "motions/motion_view.h"
+#include "motions/whole_view.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ void expect_exact(const M& motion, const Dyadic& time) {
   std::array<BeadId, 3> beads{0, 1, 2};
   const IntegerView<M> whole(motion, beads);
   const MomentView<M> moment(motion, beads, time);
-  const Rational scale = power_of_two(integer_scale(motion, beads));
+  const Rational scale = power_of_two(whole_scale(motion, beads).exponent);
   // Times from which the moment's numbers are scaled: (denominator)^degree for lengths, its square for
   // weights.
   Rational later = 1;
@@ -130,20 +130,20 @@ TEST(MotionViews, MomentsAtTheEndsAreTheFrames) {
 TEST(MotionViews, WholeNumbersNeedNoScale) {
   BezierMotion<2, 1> motion(2);
   const std::array<BeadId, 2> beads{0, 1};
-  EXPECT_LT(integer_scale(motion, beads), 0);  // all zero
+  EXPECT_LT(whole_scale(motion, beads).exponent, 0);  // all zero
   motion.set_coordinate(0, 0, 0, 3);
-  EXPECT_EQ(integer_scale(motion, beads), 0);
+  EXPECT_EQ(whole_scale(motion, beads).exponent, 0);
   motion.set_coordinate(1, 1, 1, 0.125);
-  EXPECT_EQ(integer_scale(motion, beads), 3);
+  EXPECT_EQ(whole_scale(motion, beads).exponent, 3);
   motion.set_weight(1, 0, 0x1p-7);  // weights are scaled by the square
-  EXPECT_EQ(integer_scale(motion, beads), 4);
+  EXPECT_EQ(whole_scale(motion, beads).exponent, 4);
   motion.set_weight(1, 0, 0x1p-8);
-  EXPECT_EQ(integer_scale(motion, beads), 4);
+  EXPECT_EQ(whole_scale(motion, beads).exponent, 4);
   motion.set_radius(0, 1, 0x1p-9);
-  EXPECT_EQ(integer_scale(motion, beads), 9);
+  EXPECT_EQ(whole_scale(motion, beads).exponent, 9);
   // What is not asked for does not make numbers longer.
-  EXPECT_EQ(integer_scale<Channels{}>(motion, beads), 3);
-  EXPECT_EQ(integer_scale<Channels{.weights = true}>(motion, beads), 4);
+  EXPECT_EQ(whole_scale<Channels{}>(motion, beads).exponent, 3);
+  EXPECT_EQ(whole_scale<Channels{.weights = true}>(motion, beads).exponent, 4);
   EXPECT_EQ((IntegerView<BezierMotion<2, 1>, Channels{}>(motion, beads).difference(0, 1)[0].scaled[0]), 24);
 }
 

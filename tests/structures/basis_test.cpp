@@ -1,4 +1,5 @@
 #include "structures/basis.h"
+#include "motions/whole_view.h"
 
 #include <gmock/gmock.h>
 

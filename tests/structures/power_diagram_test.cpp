@@ -522,7 +522,9 @@ TEST(PowerDiagram, InSlowMotionMostFacetsRest) {
     EXPECT_TRUE(test::books_balance(filtered.structure.statistics));
     EXPECT_GT(filtered.structure.statistics.stages.tolerance, counts.created / 2) << step;
     EXPECT_EQ(exact.structure.statistics.stages.tolerance, 0U);
-    if (step > 1e-9) EXPECT_GT(filtered.external_events(), 5U) << step;
+    if (step > 1e-9) {
+      EXPECT_GT(filtered.external_events(), 5U) << step;
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "motions/positions.h"
+#include "motions/whole_view.h"
 
 namespace kds::test {
 
