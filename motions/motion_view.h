@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <span>
 
 #include "motions/bernstein.h"
 #include "motions/bezier_motion.h"
