@@ -255,9 +255,9 @@ void first_failures(std::span<const Certificate> certificates, const M& motion, 
   }
 }
 
-/// When `certificate`, born now, fails for the first time in the motion's step.
+/// When `certificate`, of whatever kind has a search of its own, born now, fails for the first time in the
+/// motion's step.
 template <Kernel K, class Certificate, Motion M>
-requires CertificateFor<Certificate, M>
 [[nodiscard]] Failure first_failure(const Certificate& certificate, const M& motion, const Instant& now,
                                     Birth birth, StageCounts& stages, Touches touches = Touches::ignored) {
   Failure failure;

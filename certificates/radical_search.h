@@ -298,17 +298,6 @@ void first_failures(std::span<const Certificate> certificates, const M& motion, 
   }
 }
 
-/// When `certificate`, born now, fails for the first time in the motion's step.
-template <Kernel K, class Certificate, Motion M>
-requires RadicalCertificateFor<Certificate, M>
-[[nodiscard]] Failure first_failure(const Certificate& certificate, const M& motion, const Instant& now,
-                                    Birth birth, StageCounts& stages, Touches touches = Touches::ignored) {
-  Failure failure;
-  first_failures<K>(std::span(&certificate, 1), motion, now, std::span(&birth, 1), stages, touches,
-                    std::span(&failure, 1));
-  return failure;
-}
-
 namespace detail {
 
 template <Kernel K, class Certificate, Motion M>

@@ -6,9 +6,9 @@
 namespace kds {
 
 std::vector<StabilitySubject> all_subjects() {
-  std::vector<StabilitySubject> subjects = linear_certificates();
-  for (auto make :
-       {cubic_certificates, linear_ball_certificates, cubic_ball_certificates, kinetic_structures})
+  std::vector<StabilitySubject> subjects;
+  for (auto make : {bead_certificates<1>, bead_certificates<3>, ball_certificates<1>, ball_certificates<3>,
+                    kinetic_structures})
     std::ranges::move(make(), std::back_inserter(subjects));
   // Those of one name together, in the order of first appearance; then by dimension and degree.
   std::vector<std::string> names;

@@ -33,11 +33,11 @@ struct StabilitySubject {
 /// Certificate types first, then structures; those of one name stand together.
 [[nodiscard]] std::vector<StabilitySubject> all_subjects();
 
-/// Parts of it: certificate types of beads and of balls under motions of degree 1 and 3, structures.
-[[nodiscard]] std::vector<StabilitySubject> linear_certificates();
-[[nodiscard]] std::vector<StabilitySubject> cubic_certificates();
-[[nodiscard]] std::vector<StabilitySubject> linear_ball_certificates();
-[[nodiscard]] std::vector<StabilitySubject> cubic_ball_certificates();
+/// Parts of it: certificate types of beads and of balls under motions of degree 1 or 3, structures.
+template <int degree>
+[[nodiscard]] std::vector<StabilitySubject> bead_certificates();
+template <int degree>
+[[nodiscard]] std::vector<StabilitySubject> ball_certificates();
 [[nodiscard]] std::vector<StabilitySubject> kinetic_structures();
 
 }  // namespace kds

@@ -40,7 +40,7 @@ class FacetTolerances {
     return wandering_.has_reference() &&
            std::max(strays_[cell], strays_[neighbor]) < tolerances_[cell][static_cast<std::size_t>(i)];
   }
-  /// The facet has got other beads. Either side's name will do where the other is new, too.
+  /// The facet, as this cell has it, has got other beads.
   void forget(CellId cell, int i) {
     if (!wandering_.has_reference()) return;
     if (cell >= tolerances_.size()) tolerances_.resize(cell + 1);

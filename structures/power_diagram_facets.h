@@ -15,9 +15,8 @@ void PowerDiagram<M, K>::enqueue(CellId cell, int i) {
 /// Guards all facets; those that rest in this step need no certificate.
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::watch_all() {
-  FacetGuard resting{Guard::never, About::power};
   std::array<FacetGuard, dimension + 1> all_resting;
-  all_resting.fill(resting);
+  all_resting.fill({Guard::never, About::power});
   guards_.assign(triangulation_.cells().size(), all_resting);
   std::uint64_t at_rest = 0;
   for_all_facets([&](CellId cell, int i) {

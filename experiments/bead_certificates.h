@@ -1,4 +1,6 @@
-// Certificate types under cubic motion: one line each. They take long to compile.
+#pragma once
+// Certificate types of beads: one line each, for one degree of motion. They take long to
+// compile: each degree in a file of its own (stability_certificates.cpp.in).
 
 #include "certificates/bead_in_sphere.h"
 #include "certificates/orientation.h"
@@ -8,10 +10,11 @@
 
 namespace kds {
 
-std::vector<StabilitySubject> cubic_certificates() {
-  using Line = BezierMotion<1, 3>;
-  using Plane = BezierMotion<2, 3>;
-  using Space = BezierMotion<3, 3>;
+template <int degree>
+std::vector<StabilitySubject> bead_certificates() {
+  using Line = BezierMotion<1, degree>;
+  using Plane = BezierMotion<2, degree>;
+  using Space = BezierMotion<3, degree>;
   return {
       certificate_subject<Precedes, Line>("precedes"),
       certificate_subject<Orientation<2>, Plane>("orientation"),

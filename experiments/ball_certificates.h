@@ -1,4 +1,6 @@
-// Certificate types of balls under cubic motion: one line each. They take long to compile.
+#pragma once
+// Certificate types of balls: one line each, for one degree of motion. They take long to
+// compile: each degree in a file of its own (stability_certificates.cpp.in).
 
 #include "certificates/ball_in_sphere.h"
 #include "certificates/contact.h"
@@ -6,10 +8,11 @@
 
 namespace kds {
 
-std::vector<StabilitySubject> cubic_ball_certificates() {
-  using Line = BezierMotion<1, 3>;
-  using Plane = BezierMotion<2, 3>;
-  using Space = BezierMotion<3, 3>;
+template <int degree>
+std::vector<StabilitySubject> ball_certificates() {
+  using Line = BezierMotion<1, degree>;
+  using Plane = BezierMotion<2, degree>;
+  using Space = BezierMotion<3, degree>;
   return {
       certificate_subject<Contact, Line>("contact"),
       certificate_subject<Contact, Plane>("contact"),
