@@ -44,9 +44,10 @@ inline constexpr Channels channels_of = [] {
   return channels;
 }();
 
-/// A function of a few beads' motions.
+/// A function of a few beads' motions. Where weights are fictitious none asks for radii.
 template <class F, class M>
-concept FunctionOfBeads = Motion<M> && requires(const F& f, const DoubleView<M>& view) {
+concept FunctionOfBeads =
+    Motion<M> && !(lifted<M> && channels_of<F>.radii) && requires(const F& f, const DoubleView<M>& view) {
   {
     F {}
     } -> std::same_as<F>;

@@ -52,7 +52,7 @@ struct ErrorBound {
 template <class Certificate, class M>
 ErrorBound<decltype(function_of(Certificate{}, DoubleView<M>(std::declval<const M&>())))::degree>
 derive_error_bound() {
-  const auto magnitudes = function_of(Certificate{}, MagnitudeView<M::dimension, M::degree>{});
+  const auto magnitudes = function_of(Certificate{}, MagnitudeViewOf<M>{});
   constexpr int degree = decltype(magnitudes)::degree;
   constexpr double inflation = 1 + 0x1p-30;
   constexpr double u = Magnitude::unit_roundoff;

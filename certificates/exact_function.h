@@ -29,7 +29,7 @@ struct CoefficientBits {
 template <class Function, class M>
 [[nodiscard]] CoefficientBits derive_coefficient_bits() {
   CoefficientBits result;
-  for (const Magnitude& m : function_of(Function{}, MagnitudeView<M::dimension, M::degree>{}).scaled) {
+  for (const Magnitude& m : function_of(Function{}, MagnitudeViewOf<M>{}).scaled) {
     // Rounded on the way: by far less than one bit.
     result = {std::max(result.bits, std::ilogb(m.bound) + 2), m.power};
   }

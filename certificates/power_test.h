@@ -4,7 +4,7 @@
 // rows
 //   (x-p, |x-p|^2 - w_x + w_p)   for x = q, r, (s,) t.
 // Antisymmetric in its beads; zero iff one circle (sphere) is orthogonal to all. Exact; for centres of degree
-// k and weights of degree at most 2k of degree 4k in the plane and 5k in space.
+// k and weights of degree at most 2k of degree 4k in the plane and 5k in space, in lifted motion 3 and 4.
 
 #include "certificates/certificate.h"
 #include "certificates/determinant.h"
@@ -33,15 +33,20 @@ struct PowerTest {
 
   template <MotionView View>
   [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, size>& beads) {
-    using Number = typename View::Number;
-    std::array<BernsteinVector<Number, View::degree, Dimension>, Dimension + 1> rows;
-    std::array<Bernstein<Number, 2 * View::degree>, Dimension + 1> lifted;
+    const auto lift = [&](BeadId x, BeadId p, [[maybe_unused]] const auto& d) {
+      if constexpr (LiftedView<View>) {
+        return view.lift_difference(x, p);
+      } else {
+        return dot(d, d) - elevate<2 * View::degree>(view.weight_difference(x, p));
+      }
+    };
+    std::array<BernsteinVector<typename View::Number, View::degree, Dimension>, Dimension + 1> rows;
+    std::array<decltype(lift(beads[1], beads[0], rows[0])), Dimension + 1> lifts;
     for (std::size_t i = 0; i <= Dimension; ++i) {
       rows[i] = view.difference(beads[i + 1], beads[0]);
-      lifted[i] =
-          dot(rows[i], rows[i]) - elevate<2 * View::degree>(view.weight_difference(beads[i + 1], beads[0]));
+      lifts[i] = lift(beads[i + 1], beads[0], rows[i]);
     }
-    return determinant(rows, lifted);
+    return determinant(rows, lifts);
   }
 };
 

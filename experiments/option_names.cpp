@@ -4,7 +4,17 @@
 
 namespace kds {
 
-std::string_view name_of(FrameMotion motion) { return motion == FrameMotion::hermite ? "hermite" : "linear"; }
+std::string_view name_of(FrameMotion motion) {
+  switch (motion) {
+    case FrameMotion::hermite:
+      return "hermite";
+    case FrameMotion::lifted:
+      return "lifted";
+    case FrameMotion::linear:
+      break;
+  }
+  return "linear";
+}
 
 std::string_view name_of(KernelName kernel) {
   switch (kernel) {

@@ -20,7 +20,7 @@ constexpr std::array kOptions{
     OptionSpec{"--structures", "LIST",
                "comma list of sorted, wrapped, power (default: wrapped,power;"
                " instances: sorted in 1D, else power)"},
-    OptionSpec{"--motion", "NAME", "how beads move between frames: linear, hermite (default: linear)"},
+    OptionSpec{"--motion", "NAME", "how beads move between frames: linear, hermite, lifted (default: linear)"},
     OptionSpec{"--kernel", "NAME", "fast, filtered or exact arithmetic (default: filtered)"},
     OptionSpec{"--topology", "FILE",
                "PDB or mmCIF that names the atoms of a DCD (default: its atoms are the beads)"},
@@ -60,7 +60,8 @@ constexpr std::array kSelections{Choice<Selection>{"backbone", Selection::backbo
                                  Choice<Selection>{"ca", Selection::ca},
                                  Choice<Selection>{"all", Selection::all}};
 constexpr std::array kMotions{Choice<FrameMotion>{"linear", FrameMotion::linear},
-                              Choice<FrameMotion>{"hermite", FrameMotion::hermite}};
+                              Choice<FrameMotion>{"hermite", FrameMotion::hermite},
+                              Choice<FrameMotion>{"lifted", FrameMotion::lifted}};
 constexpr std::array<std::string_view, 3> kStructures{"sorted", "wrapped", "power"};
 constexpr std::array<std::string_view, 1> kStructuresToCome{"contacts"};
 
@@ -135,7 +136,6 @@ RunOptions parse_run_options(const Arguments& arguments) {
     options.inputs.emplace_back(input);
   }
   if (const auto list = parsed.value("--structures")) options.structures = parse_structures(*list);
-  if (parsed.value("--motion") == "lifted") throw InputError("--motion: lifted is not available yet");
   choose(parsed, "--motion", kMotions, options.motion);
   choose(parsed, "--kernel", kKernels, options.kernel);
   options.reading.topology = path_of(parsed, "--topology");

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "experiments/make_session_of.h"
+#include "motions/elevated_motion.h"
 #include "motions/input_error.h"
+#include "motions/lifted_motion.h"
 
 namespace kds {
 
@@ -19,16 +21,25 @@ std::unique_ptr<Session> make_session_in(const Scene& scene, const std::vector<s
       return make_session_of<BezierMotion<Dimension, 2>>(scene, structures, kernel, audits);
     case 3:
       return make_session_of<BezierMotion<Dimension, 3>>(scene, structures, kernel, audits);
-    default:
-      throw InputError(
-          fmt::format("motions of degree {} are not supported yet, only up to 3", scene.degree()));
   }
+  if (scene.degree() > highest_degree) {
+    throw InputError(
+        fmt::format("motions of degree {}: expected a degree from 1 to {}", scene.degree(), highest_degree));
+  }
+  if (kernel == KernelName::fast) {
+    throw InputError(fmt::format(
+        "--kernel fast: motions of degree {} (above 3) run in whole numbers only; expected filtered or exact",
+        scene.degree()));
+  }
+  return make_session_of<ElevatedMotion<Dimension, highest_degree>>(scene, structures, KernelName::exact,
+                                                                    audits);
 }
 
 }  // namespace
 
 std::unique_ptr<Session> make_session(const Scene& scene, const std::vector<std::string>& structures,
                                       KernelName kernel, AuditMode audits) {
+  if (scene.is_lifted()) return make_session_of<LiftedMotion<3>>(scene, structures, kernel, audits);
   switch (scene.dimension()) {
     case 1:
       return make_session_in<1>(scene, structures, kernel, audits);

@@ -20,7 +20,7 @@
 namespace kds {
 
 template <Motion M>
-inline constexpr bool has_wrapped = M::dimension == 3;
+inline constexpr bool has_wrapped = M::dimension == 3 && !lifted<M>;
 template <Motion M>
 inline constexpr bool has_power = M::dimension >= 2;
 
@@ -74,17 +74,22 @@ class SessionOf final : public Session {
           [this](std::size_t frame) { return seconds_to_sort(scene_.centers(frame)); });
       return;
     }
+    if (lifted<M> && name != "power") {
+      throw InputError(
+          fmt::format("--motion lifted: its radii between frames are fictitious, so it serves --structures "
+                      "power alone, not {}",
+                      name));
+    }
     const bool supported = name == "wrapped" ? has_wrapped<M> : has_power<M>;
     if (!supported) {
       throw InputError(fmt::format("--structures {}: needs {}, this input has {} coordinate{}", name,
                                    name == "wrapped" ? "points in space" : "points in the plane or in space",
                                    M::dimension, M::dimension == 1 ? "" : "s"));
     }
-    if (!scene_.equal_radii()) {
+    if (name == "wrapped" && !scene_.equal_radii()) {
       throw InputError(
-          fmt::format("--structures {}: needs equal radii (or weights), which this input does not have; "
-                      "unequal ones are not supported yet",
-                      name));
+          "--structures wrapped: needs equal radii (or weights), which this input does not have; "
+          "unequal ones are not supported yet");
     }
     if constexpr (has_wrapped<M>) {
       if (name == "wrapped") add_wrapped();
@@ -137,15 +142,19 @@ class SessionOf final : public Session {
 template <Motion M>
 std::unique_ptr<Session> make_session_of(const Scene& scene, const std::vector<std::string>& structures,
                                          KernelName kernel, AuditMode audits) {
-  switch (kernel) {
-    case KernelName::fast:
-      return std::make_unique<SessionOf<M, Fast>>(scene, structures, audits);
-    case KernelName::exact:
-      return std::make_unique<SessionOf<M, Exact>>(scene, structures, audits);
-    case KernelName::filtered:
-      break;
+  if constexpr (elevated<M>) {
+    return std::make_unique<SessionOf<M, Exact>>(scene, structures, audits);
+  } else {
+    switch (kernel) {
+      case KernelName::fast:
+        return std::make_unique<SessionOf<M, Fast>>(scene, structures, audits);
+      case KernelName::exact:
+        return std::make_unique<SessionOf<M, Exact>>(scene, structures, audits);
+      case KernelName::filtered:
+        break;
+    }
+    return std::make_unique<SessionOf<M, Filtered>>(scene, structures, audits);
   }
-  return std::make_unique<SessionOf<M, Filtered>>(scene, structures, audits);
 }
 
 }  // namespace kds

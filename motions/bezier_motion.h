@@ -24,6 +24,12 @@ concept Motion = requires(const M& motion, BeadId bead, int k, int axis) {
   { motion.radius(bead, k) } -> std::same_as<double>;
 };
 
+/// Whether weights follow the centres between the ends of a step (lifted_motion.h). Radii mean nothing there.
+template <class M>
+inline constexpr bool lifted = requires {
+  requires M::is_lifted;
+};
+
 template <int DimensionValue, int DegreeValue>
 class BezierMotion {
   static_assert(DimensionValue >= 1 && DimensionValue <= 3 && DegreeValue >= 1);

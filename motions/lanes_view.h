@@ -20,6 +20,10 @@ class LanesView {
   using Tuples = std::array<std::array<BeadId, Places>, Lanes::width>;
 
   [[gnu::always_inline]] LanesView(const M& motion, const Tuples& t) {
+    if constexpr (lifted<M>) {
+      for (int axis = 0; axis < dimension; ++axis)
+        drift_[static_cast<std::size_t>(axis)] = Lanes(motion.drift(axis));
+    }
     if constexpr (channels.radii) {
       for (std::size_t place = 0; place < Places; ++place) {
         for (int k = 0; k <= degree; ++k) {
@@ -69,6 +73,21 @@ class LanesView {
     return of_radii(i, j, 1);
   }
 
+  [[nodiscard, gnu::always_inline]] Bernstein<Lanes, 1> lift_difference(BeadId i, BeadId j) const
+      requires(channels.weights&& lifted<M>) {
+    return lift_of(*this, i, j);
+  }
+  [[nodiscard, gnu::always_inline]] std::array<Lanes, dimension> displacement(BeadId bead) const
+      requires(lifted<M>) {
+    std::array<Lanes, dimension> result;
+    for (std::size_t axis = 0; axis < dimension; ++axis) {
+      const Lanes moved = control_[bead][1][axis] - control_[bead][0][axis];
+      length_ = Lanes::max(Lanes::max(length_, Lanes::abs(moved)), Lanes::abs(drift_[axis]));
+      result[axis] = moved - drift_[axis];
+    }
+    return result;
+  }
+
   /// M itself, where no weight difference exceeds its square; else a NaN.
   [[nodiscard, gnu::always_inline]] Lanes largest_length() const {
     return Lanes::choose(weight_ <= length_ * length_, length_, Lanes(__builtin_nan("")));
@@ -101,6 +120,7 @@ class LanesView {
 
   std::array<std::array<std::array<Lanes, dimension + 1>, degree + 1>, Places> control_;  // the weight last
   std::array<std::array<Lanes, degree + 1>, channels.radii ? Places : 0> radius_;
+  std::array<Lanes, lifted<M> ? dimension : 0> drift_;
   mutable Lanes length_{0.0};
   mutable Lanes weight_{0.0};
 };

@@ -13,12 +13,14 @@
 // sharper for it. Views that pay for what might be asked are told which channels will be.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <span>
 
 #include "motions/bernstein.h"
 #include "motions/bezier_motion.h"
+#include "motions/lifted_motion.h"
 #include "motions/magnitude.h"
 #include "motions/tracked_double.h"
 
@@ -32,13 +34,20 @@ struct Channels {
 inline constexpr Channels all_channels{true, true};
 
 /// Answers also with weight_difference(i, j), radius_difference(i, j) and radius_sum(i, j), polynomials of
-/// the same degree, if it was told that they will be asked for.
+/// the same degree, if it was told that they will be asked for, and with lift_difference(i, j) if the motion
+/// is lifted: |x|^2 less the weight (lifted_motion.h), while weight_difference knows the ends of the step
+/// only.
 template <class V>
 concept MotionView = requires(const V& view, BeadId i, BeadId j) {
   typename V::Number;
   { V::dimension } -> std::convertible_to<int>;
   { V::degree } -> std::convertible_to<int>;
   { view.difference(i, j) } -> std::same_as<BernsteinVector<typename V::Number, V::degree, V::dimension>>;
+};
+
+template <class V>
+concept LiftedView = requires(const V& view, BeadId i, BeadId j) {
+  view.lift_difference(i, j);
 };
 
 template <Motion M>
@@ -80,6 +89,20 @@ class DoubleView {
   }
   [[nodiscard]] Bernstein<double, degree> radius_sum(BeadId i, BeadId j) const {
     return radii([&](int k) { return motion_.radius(i, k) + motion_.radius(j, k); });
+  }
+
+  [[nodiscard]] Bernstein<double, 1> lift_difference(BeadId i, BeadId j) const requires(lifted<M>) {
+    return lift_of(*this, i, j);
+  }
+  /// Of a bead in the step, less the drift.
+  [[nodiscard]] std::array<double, dimension> displacement(BeadId bead) const requires(lifted<M>) {
+    std::array<double, dimension> result;
+    for (int axis = 0; axis < dimension; ++axis) {
+      const double moved = motion_.coordinate(bead, 1, axis) - motion_.coordinate(bead, 0, axis);
+      length_ = std::max({length_, std::abs(moved), std::abs(motion_.drift(axis))});
+      result[static_cast<std::size_t>(axis)] = moved - motion_.drift(axis);
+    }
+    return result;
   }
 
   /// M of the error bound: no difference or sum answered so far is larger, and no weight difference than its
@@ -164,6 +187,19 @@ class TrackedView {
       requires(channels.radii) {
     return radii([&](int k) { return motion_.radius(i, k) + motion_.radius(j, k); });
   }
+  [[nodiscard]] Bernstein<TrackedDouble, 1> lift_difference(BeadId i, BeadId j) const
+      requires(channels.weights&& lifted<M>) {
+    return lift_of(*this, i, j);
+  }
+  [[nodiscard]] std::array<TrackedDouble, dimension> displacement(BeadId bead) const requires(lifted<M>) {
+    std::array<TrackedDouble, dimension> result;
+    for (int axis = 0; axis < dimension; ++axis) {
+      result[static_cast<std::size_t>(axis)] =
+          scaled(motion_.coordinate(bead, 1, axis) - motion_.coordinate(bead, 0, axis)) -
+          scaled(motion_.drift(axis));
+    }
+    return result;
+  }
 
  private:
   template <std::invocable<int> Value>
@@ -195,7 +231,7 @@ class TrackedView {
   double scale_;
 };
 
-template <int DimensionValue, int DegreeValue>
+template <int DimensionValue, int DegreeValue, bool Lifted = false>
 class MagnitudeView {
  public:
   using Number = Magnitude;
@@ -210,6 +246,14 @@ class MagnitudeView {
   [[nodiscard]] Bernstein<Magnitude, degree> weight_difference(BeadId, BeadId) const { return polynomial(2); }
   [[nodiscard]] Bernstein<Magnitude, degree> radius_difference(BeadId, BeadId) const { return polynomial(1); }
   [[nodiscard]] Bernstein<Magnitude, degree> radius_sum(BeadId, BeadId) const { return polynomial(1); }
+  [[nodiscard]] Bernstein<Magnitude, 1> lift_difference(BeadId i, BeadId j) const requires(Lifted) {
+    return lift_of(*this, i, j);
+  }
+  [[nodiscard]] std::array<Magnitude, dimension> displacement(BeadId) const requires(Lifted) {
+    std::array<Magnitude, dimension> result;
+    result.fill(Magnitude::input_difference(1) - Magnitude::input_difference(1));
+    return result;
+  }
 
  private:
   static Bernstein<Magnitude, degree> polynomial(int power) {
@@ -221,6 +265,9 @@ class MagnitudeView {
     return result;
   }
 };
+
+template <Motion M>
+using MagnitudeViewOf = MagnitudeView<M::dimension, M::degree, lifted<M>>;
 
 static_assert(MotionView<DoubleView<BezierMotion<3, 1>>>);
 static_assert(MotionView<TrackedView<BezierMotion<3, 1>>>);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "motions/bezier_motion.h"
+#include "motions/elevated_motion.h"
 #include "motions/exact_number.h"
 
 namespace kds {
@@ -46,11 +47,11 @@ template <Motion M>
 
 namespace detail {
 
-/// The Bezier curve with these control points. Exact.
+/// The Bezier curve of the first degree + 1 of these control points. Exact.
 template <std::size_t N>
-[[nodiscard]] Rational curve_at(std::array<Rational, N> p, const Rational& u) {
+[[nodiscard]] Rational curve_at(std::array<Rational, N> p, int degree, const Rational& u) {
   const Rational v = 1 - u;
-  for (std::size_t round = N - 1; round > 0; --round) {
+  for (auto round = static_cast<std::size_t>(degree); round > 0; --round) {
     for (std::size_t i = 0; i < round; ++i) p[i] = v * p[i] + u * p[i + 1];
   }
   return p[0];
@@ -58,7 +59,8 @@ template <std::size_t N>
 
 }  // namespace detail
 
-/// Coordinates and, last, the weight of a bead at `time`. Exact.
+/// Coordinates and, last, the weight of a bead at `time`. Exact; also for what a lifted motion makes of the
+/// weight.
 template <Motion M>
 [[nodiscard]] std::array<Rational, M::dimension + 1> exact_position(const M& motion, BeadId bead,
                                                                     const Dyadic& time) {
@@ -70,7 +72,14 @@ template <Motion M>
       p[static_cast<std::size_t>(k)] =
           axis < M::dimension ? motion.coordinate(bead, k, axis) : motion.weight(bead, k);
     }
-    position[static_cast<std::size_t>(axis)] = detail::curve_at(p, u);
+    position[static_cast<std::size_t>(axis)] = detail::curve_at(p, own_degree(motion), u);
+  }
+  if constexpr (lifted<M>) {
+    for (int axis = 0; axis < M::dimension; ++axis) {
+      const Rational moved =
+          Rational(motion.coordinate(bead, 1, axis)) - motion.coordinate(bead, 0, axis) - motion.drift(axis);
+      position.back() -= u * (1 - u) * moved * moved;
+    }
   }
   return position;
 }
@@ -80,7 +89,7 @@ template <Motion M>
 [[nodiscard]] Rational exact_radius(const M& motion, BeadId bead, const Dyadic& time) {
   std::array<Rational, M::degree + 1> p;
   for (int k = 0; k <= M::degree; ++k) p[static_cast<std::size_t>(k)] = motion.radius(bead, k);
-  return detail::curve_at(p, time.rational());
+  return detail::curve_at(p, own_degree(motion), time.rational());
 }
 
 }  // namespace kds

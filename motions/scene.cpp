@@ -48,7 +48,9 @@ void check_control_points(const Instance& instance) {
 }  // namespace
 
 Scene::Scene(std::span<const Trajectory> necklaces, std::vector<double> radii, FrameMotion motion)
-    : degree_(motion == FrameMotion::hermite ? 3 : 1), radii_(std::move(radii)) {
+    : degree_(motion == FrameMotion::hermite ? 3 : 1),
+      is_lifted_(motion == FrameMotion::lifted),
+      radii_(std::move(radii)) {
   BeadId beads = 0;
   const Trajectory* longest = nullptr;
   for (const Trajectory& necklace : necklaces) {

@@ -3,6 +3,7 @@
 // instance file gives one step by itself. Beads are numbered necklace after necklace.
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -10,7 +11,9 @@
 
 #include "motions/bead_range.h"
 #include "motions/bezier_motion.h"
+#include "motions/elevated_motion.h"
 #include "motions/instance.h"
+#include "motions/lifted_motion.h"
 #include "motions/trajectory.h"
 
 namespace kds {
@@ -21,6 +24,8 @@ enum class FrameMotion {
   /// Cubic, with velocities by central differences over frames, one-sided at the first and last: continuously
   /// differentiable over frames up to rounding.
   hermite,
+  /// Linear, with weights such that each sphere moves on a straight line in lifted space (lifted_motion.h).
+  lifted,
 };
 
 class Scene {
@@ -33,6 +38,7 @@ class Scene {
 
   [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] int degree() const { return degree_; }
+  [[nodiscard]] bool is_lifted() const { return is_lifted_; }
   [[nodiscard]] std::size_t bead_count() const { return radii_.size(); }
   /// An instance has two: u = 0 and u = 1.
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
@@ -46,13 +52,11 @@ class Scene {
   template <Motion M>
   void load(std::size_t step, M& motion) const {
     for (BeadId b = 0; b < bead_count(); ++b) {
-      for (int k = 0; k <= M::degree; ++k) {
-        for (int axis = 0; axis < M::dimension; ++axis)
-          motion.set_coordinate(b, k, axis, coordinate(step, b, k, axis));
-        motion.set_weight(b, k, weight(b, k));
-        motion.set_radius(b, k, frames_.empty() ? 0 : radii_[b]);
-      }
+      for (int k = 0; k <= degree_; ++k) set_control_point(step, b, k, motion, k);
+      if constexpr (elevated<M>) set_control_point(step, b, degree_, motion, M::degree);
     }
+    if constexpr (elevated<M>) motion.set_own_degree(degree_);
+    if constexpr (lifted<M>) motion.set_drift(drift<M>(step));
   }
   /// Centres and weights at a frame.
   [[nodiscard]] Eigen::Matrix3Xd centers(std::size_t frame) const;
@@ -63,9 +67,28 @@ class Scene {
   /// A third of a bead's velocity at a frame, per step.
   [[nodiscard]] double third_of_velocity(std::size_t frame, BeadId bead, int axis) const;
   [[nodiscard]] double weight(BeadId bead, int k) const;
+  template <Motion M>
+  void set_control_point(std::size_t step, BeadId b, int k, M& motion, int place) const {
+    for (int axis = 0; axis < M::dimension; ++axis)
+      motion.set_coordinate(b, place, axis, coordinate(step, b, k, axis));
+    motion.set_weight(b, place, weight(b, k));
+    motion.set_radius(b, place, frames_.empty() ? 0 : radii_[b]);
+  }
+  /// The mean displacement; any vector makes a motion, this one dips weights the least on average.
+  template <Motion M>
+  [[nodiscard]] typename M::Vector drift(std::size_t step) const {
+    const Eigen::Vector3d mean = (frames_[step + 1] - frames_[step]).rowwise().mean();
+    typename M::Vector drift{};
+    for (std::size_t axis = 0; axis < drift.size(); ++axis) {
+      const double x = mean[static_cast<Eigen::Index>(axis)];
+      drift[axis] = std::isfinite(x) ? x : 0;
+    }
+    return drift;
+  }
 
   int dimension_ = 3;
   int degree_ = 1;
+  bool is_lifted_ = false;
   std::size_t frame_count_ = 0;
   std::vector<BeadRange> necklaces_;
   std::vector<double> radii_;

@@ -15,6 +15,7 @@
 
 #include "motions/bernstein.h"
 #include "motions/bezier_motion.h"
+#include "motions/elevated_motion.h"
 #include "motions/exact_number.h"
 #include "motions/motion_view.h"
 #include "motions/residue.h"
@@ -31,6 +32,9 @@ void each_control(const M& motion, std::span<const BeadId> beads, Visit visit) {
       if constexpr (channels.weights) visit(motion.weight(bead, k), 2);
       if constexpr (channels.radii) visit(motion.radius(bead, k), 1);
     }
+  }
+  if constexpr (lifted<M>) {
+    for (int axis = 0; axis < M::dimension; ++axis) visit(motion.drift(axis), 1);
   }
 }
 
@@ -100,15 +104,41 @@ class WholeView {
   [[nodiscard]] Bernstein<Number, degree> radius_sum(BeadId i, BeadId j) const requires(channels.radii) {
     return polynomial([&](int k) { return length(motion_.radius(i, k)) + length(motion_.radius(j, k)); });
   }
+  [[nodiscard]] Bernstein<Number, 1> lift_difference(BeadId i, BeadId j) const
+      requires(channels.weights&& lifted<M>) {
+    return lift_of(*this, i, j);
+  }
+  [[nodiscard]] std::array<Number, dimension> displacement(BeadId bead) const requires(lifted<M>) {
+    std::array<Number, dimension> result;
+    for (int axis = 0; axis < dimension; ++axis) {
+      result[static_cast<std::size_t>(axis)] = length(motion_.coordinate(bead, 1, axis)) -
+                                               length(motion_.coordinate(bead, 0, axis)) -
+                                               length(motion_.drift(axis));
+    }
+    return result;
+  }
 
  private:
   template <std::invocable<int> Value>
-  [[nodiscard]] static Bernstein<Number, degree> polynomial(Value value) {
+  [[nodiscard]] Bernstein<Number, degree> polynomial(Value value) const {
     Bernstein<Number, degree> result;
-    for (int k = 0; k <= degree; ++k) {
-      Number& scaled = result.scaled[static_cast<std::size_t>(k)];
-      scaled = value(k);
-      if (0 < k && k < degree) scaled *= binomial(degree, k);
+    if constexpr (elevated<M>) {  // times (1-u + u)^(the degrees that are missing)
+      const int own = motion_.own_degree();
+      for (Number& scaled : result.scaled) scaled = ring_.of(0);
+      for (int i = 0; i <= own; ++i) {
+        const Number control = value(i);
+        for (int k = i; k <= i + degree - own; ++k) {
+          Number term = control;
+          term *= binomial(own, i) * binomial(degree - own, k - i);
+          result.scaled[static_cast<std::size_t>(k)] += term;
+        }
+      }
+    } else {
+      for (int k = 0; k <= degree; ++k) {
+        Number& scaled = result.scaled[static_cast<std::size_t>(k)];
+        scaled = value(k);
+        if (0 < k && k < degree) scaled *= binomial(degree, k);
+      }
     }
     return result;
   }
@@ -155,9 +185,11 @@ class MomentView {
     return result;
   }
   [[nodiscard]] Bernstein<Integer, 0> weight_difference(BeadId i, BeadId j) const requires(channels.weights) {
-    // Coordinates carry the time's denominator to the degree's power, weights must carry its square.
-    return {
-        {at_moment(moving_.weight_difference(i, j)) << (time_exponent_ * static_cast<unsigned>(M::degree))}};
+    return squares(moving_.weight_difference(i, j));
+  }
+  [[nodiscard]] Bernstein<Integer, 0> lift_difference(BeadId i, BeadId j) const
+      requires(channels.weights&& lifted<M>) {
+    return squares(moving_.lift_difference(i, j));
   }
   [[nodiscard]] Bernstein<Integer, 0> radius_difference(BeadId i, BeadId j) const requires(channels.radii) {
     return {{at_moment(moving_.radius_difference(i, j))}};
@@ -167,6 +199,10 @@ class MomentView {
   }
 
  private:
+  /// Coordinates carry the time's denominator to the degree's power, squares must carry its square.
+  [[nodiscard]] Bernstein<Integer, 0> squares(const Bernstein<Integer, M::degree>& p) const {
+    return {{at_moment(p) << (time_exponent_ * static_cast<unsigned>(M::degree))}};
+  }
   [[nodiscard]] Integer at_moment(const Bernstein<Integer, M::degree>& p) const {
     Integer value = p.scaled[M::degree];
     Integer power = 1;

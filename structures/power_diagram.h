@@ -1,9 +1,10 @@
 #pragma once
-// Kinetic power diagram in the plane or in space, equal weights: CGAL's regular triangulation flipped while
-// time runs. Each facet has its certificate (facet_certificate.h); parts of this class by theme:
+// Kinetic power diagram in the plane or in space: CGAL's regular triangulation flipped while time runs. Each
+// facet has its certificate (facet_certificate.h), each hidden bead some; parts of this class by theme:
 //
 //   power_diagram_facets.h    which certificate guards a facet
 //   power_diagram_flips.h     what happens when one fails
+//   power_diagram_hidden.h    hidden beads: how they are guarded, come back and vanish
 //   power_diagram_rebuilds.h  where flips do not suffice, audits
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,6 +22,7 @@
 #include "motions/positions.h"
 #include "structures/facet_certificate.h"
 #include "structures/facet_tolerances.h"
+#include "structures/hidden_beads.h"
 #include "structures/regular_triangulation.h"
 #include "structures/triangulation_fault.h"
 
@@ -39,19 +42,30 @@ class PowerDiagram final : public KineticStructure {
         motion_(motion),
         index_(simulator.add(*this)),
         power_tests_(simulator, *this, index_, 0, motion, Touches::reported),
-        orientations_(simulator, *this, index_, 1, motion, Touches::reported) {}
+        orientations_(simulator, *this, index_, 1, motion, Touches::reported),
+        appearances_(simulator, *this, index_, appearing, motion),
+        departures_(simulator, *this, index_, departing, motion) {}
 
   /// In the plane `to_edge` is the 2-2 flip, and there is no `to_facet`.
-  enum Kind : std::uint8_t { to_edge, to_facet, rebuild = dimension == 3 ? 2 : 1 };
+  enum Kind : std::uint8_t {
+    to_edge,
+    to_facet,
+    hides = dimension == 3 ? 2 : 1,
+    shows,
+    wanders,
+    rebuild,
+  };
 
   [[nodiscard]] std::string_view name() const override { return "power"; }
   /// Ids of a flip: those of the face that goes, then those of the face that comes, in space the triangle
-  /// first; each ascending. Ids of a rebuild: its time numerator / 2^exponent as exponent, then 32-bit words
-  /// of the numerator, lowest first.
+  /// first; each ascending. Where a bead vanishes or comes back: those of the one cell, ascending, then the
+  /// bead. Where one wanders: itself, then its host's, ascending. Ids of a rebuild: its time numerator /
+  /// 2^exponent as exponent, then 32-bit words of the numerator, lowest first.
   [[nodiscard]] std::span<const EventKind> kinds() const override {
+    static constexpr EventKind wander{"wander", false};
     static constexpr EventKind rebuilt{"rebuild", false, true};
-    static constexpr std::array<EventKind, 3> in_space{{{"2-3"}, {"3-2"}, rebuilt}};
-    static constexpr std::array<EventKind, 2> in_plane{{{"2-2"}, rebuilt}};
+    static constexpr std::array<EventKind, 6> in_space{{{"2-3"}, {"3-2"}, {"4-1"}, {"1-4"}, wander, rebuilt}};
+    static constexpr std::array<EventKind, 5> in_plane{{{"2-2"}, {"3-1"}, {"1-3"}, wander, rebuilt}};
     if constexpr (dimension == 3) return in_space;
     return in_plane;
   }
@@ -65,10 +79,12 @@ class PowerDiagram final : public KineticStructure {
   }
 
   void start_step() override {
-    if constexpr (!std::same_as<K, Exact>) tolerances_.start_step(motion_, triangulation_);
+    // Tolerances take weights as constant.
+    if constexpr (!std::same_as<K, Exact> && !lifted<M>) tolerances_.start_step(motion_, triangulation_);
     rebuilds_in_step_ = 0;
     guards_.clear();  // those of the step before are gone
-    if (!hidden_.empty() || affine_dimension_ < dimension || (flat_ && is_wrong_just_after())) {
+    hidden_guards_.clear();
+    if (affine_dimension_ < dimension || (flat_ && is_wrong_just_after())) {
       rebuild_at_first_time_that_works();
     } else {
       watch_all();
@@ -98,7 +114,8 @@ class PowerDiagram final : public KineticStructure {
   /// Finite cells and hidden beads at the frame just reached, as a static build has them where cells are flat
   /// there.
   [[nodiscard]] StaticTriangulation<dimension> at_frame(bool first) const {
-    if (!flat_ && affine_dimension_ == dimension) return {triangulation_.finite_cells(), hidden_, dimension};
+    if (!flat_ && affine_dimension_ == dimension)
+      return {triangulation_.finite_cells(), hidden_.beads(), dimension};
     const int k = first ? 0 : M::degree;
     return static_triangulation<dimension>(control_points(motion_, k), control_weights(motion_, k));
   }
@@ -132,8 +149,8 @@ class PowerDiagram final : public KineticStructure {
 
   void build_from_control_points(int k);
   [[nodiscard]] StaticTriangulation<dimension> exact_static(const Dyadic& time, bool oriented) const;
-  /// The static diagram at `time`; false, and nothing but hidden_ and affine_dimension_ set, where it is flat
-  /// or hides a bead.
+  /// The static diagram at `time`; false, and nothing but hidden_ and affine_dimension_ set, where it is
+  /// flat.
   bool assign_static(const Dyadic& time);
   /// Rebuilds at the first time on ever finer grids after now before which nothing fails.
   void rebuild_at_first_time_that_works();
@@ -183,6 +200,8 @@ class PowerDiagram final : public KineticStructure {
   void watch_cells_beside(CellId cell, int i);
   void watch_cell(CellId cell, int i);
   void drop(CellId cell, int i);
+  template <class Certificate>
+  void give_up(CertificateTable<Certificate, M, K>& table, Guard guard);
   void watch_all();
   template <class Visit>
   void for_all_facets(Visit visit) const {
@@ -195,8 +214,41 @@ class PowerDiagram final : public KineticStructure {
   }
   void count_certificates_per_bead();
 
+  // Hidden beads.
+
+  /// Tables of their certificates.
+  enum : unsigned { appearing = 2, departing = 3 };
+  /// Against the host's facets, then the power test.
+  using Guards = std::array<Guard, dimension + 2>;
+  static constexpr Guards no_guards = [] {
+    Guards none{};
+    none.fill(Guard::violated);
+    return none;
+  }();
+  void fail_hidden(unsigned table, std::uint32_t slot);
+  void wander(BeadId bead, int facet);
+  void show(BeadId bead, CellId cell);
+  void hide(CellId cell, int i);
+  [[nodiscard]] CellId find_host(BeadId bead, CellId cell, int came_from = -1);
+  [[nodiscard]] CellId some_finite_cell() const;
+  [[nodiscard]] bool is_infinite(CellId cell) const { return place_of(cell, infinite_bead) <= dimension; }
+  void enqueue_hidden(BeadId bead);
+  void watch_all_hidden();
+  void drop_hidden(BeadId bead);
+  void displace(std::span<const CellId> cells);
+  void rehouse(CellId near);
+  [[nodiscard]] static Change change_of(Kind kind, const Beads& cell, BeadId bead) {
+    Change change{kind, dimension + 2, {}};
+    std::copy(cell.begin(), cell.end(), change.ids.begin());
+    std::sort(change.ids.begin(), change.ids.begin() + dimension + 1);
+    change.ids[dimension + 1] = bead;
+    return change;
+  }
+
   // Flips.
 
+  /// The certificate that fails now.
+  void begin_event(const Identity& identity);
   void repair(CellId cell, int facet);
   /// Whether new cells may take the place of old ones.
   [[nodiscard]] bool can_replace(std::span<const Beads> old, std::span<const Beads> made);
@@ -208,6 +260,7 @@ class PowerDiagram final : public KineticStructure {
   void flip_to_edge(CellId cell, int facet);
   void flip_to_facet(CellId cell, int facet, int other) requires(dimension == 3);
   void apply_to_facet(const Change& change) requires(dimension == 3);
+  void apply_to_hidden(const Change& change);
   /// In exact geometry new cells that are positive have no face that stands already, unless more happens at
   /// once.
   [[nodiscard]] bool may_stand_already() const {
@@ -222,10 +275,14 @@ class PowerDiagram final : public KineticStructure {
   std::size_t index_;
   CertificateTable<PowerTest<dimension>, M, K> power_tests_;
   CertificateTable<Orientation<dimension>, M, K> orientations_;
+  CertificateTable<PowerTest<dimension>, M, K> appearances_;  // of hidden beads
+  CertificateTable<Orientation<dimension>, M, K> departures_;
   RegularTriangulation<dimension> triangulation_;
   std::vector<std::array<FacetGuard, dimension + 1>> guards_;
   FacetTolerances<M> tolerances_;
-  std::vector<BeadId> hidden_;
+  HiddenBeads hidden_;
+  std::vector<Guards> hidden_guards_;  // of each bead, if any is hidden
+  std::vector<BeadId> displaced_;
   int affine_dimension_ = dimension;  // of the beads; below, no cells
   bool flat_ = false;                 // some cell is flat at the frame just reached
   int rebuilds_in_step_ = 0;
@@ -239,4 +296,5 @@ class PowerDiagram final : public KineticStructure {
 
 #include "structures/power_diagram_facets.h"
 #include "structures/power_diagram_flips.h"
+#include "structures/power_diagram_hidden.h"
 #include "structures/power_diagram_rebuilds.h"

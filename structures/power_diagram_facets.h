@@ -29,6 +29,7 @@ void PowerDiagram<M, K>::watch_all() {
   power_tests_.hold_never(at_rest);
   statistics.stages.tolerance += at_rest;
   watch_enqueued();
+  watch_all_hidden();
 }
 
 template <Motion M, Kernel K>
@@ -42,6 +43,13 @@ void PowerDiagram<M, K>::watch_enqueued() {
     if (guard == Guard::zero) watch_cells_beside(cell_of(facet), index_of(facet));
   });
   orientations_.watch_enqueued([&](FacetId facet, Guard guard) { take(facet, guard, About::hull); });
+  const auto take_hidden = [this](BeadId bead, int i, Guard guard) {
+    if (guard == Guard::violated) suspect(Doubt::wrong);
+    hidden_guards_[bead][static_cast<std::size_t>(i)] = guard;
+  };
+  appearances_.watch_enqueued([&](BeadId bead, Guard guard) { take_hidden(bead, dimension + 1, guard); });
+  departures_.watch_enqueued(
+      [&](FacetId place, Guard guard) { take_hidden(cell_of(place), index_of(place), guard); });
 }
 
 /// Where a power test is zero for the whole step.
@@ -58,15 +66,18 @@ void PowerDiagram<M, K>::watch_cell(CellId cell, int i) {
   if (guard(cell, i).guard == Guard::violated) suspect(Doubt::wrong);
 }
 
-/// Gives up a facet's guard. One of other beads that fails right now as well would have meant another change.
+/// Gives up a guard. One of other beads that fails right now as well would have meant another change.
+template <Motion M, Kernel K>
+template <class Certificate>
+void PowerDiagram<M, K>::give_up(CertificateTable<Certificate, M, K>& table, Guard guard) {
+  if (has_slot(guard) && table.time(slot_of(guard)).lower <= simulator_.now().upper() &&
+      table.identity(slot_of(guard)) != present_)
+    suspect(Doubt::unclear);
+  table.drop(guard);
+}
+
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::drop(CellId cell, int i) {
-  const auto give_up = [&](auto& table, Guard guard) {
-    if (has_slot(guard) && table.time(slot_of(guard)).lower <= simulator_.now().upper() &&
-        table.identity(slot_of(guard)) != present_)
-      suspect(Doubt::unclear);
-    table.drop(guard);
-  };
   const FacetGuard facet = guard(cell, i);
   if (facet.about == About::power) {
     give_up(power_tests_, facet.guard);
@@ -107,6 +118,11 @@ void PowerDiagram<M, K>::count_certificates_per_bead() {
     }
     if (apex(cell, i) != infinite_bead) ++count[apex(cell, i)];
   });
+  for (const BeadId bead : hidden_.beads()) {
+    if (hidden_.host(bead) == no_cell) continue;
+    count[bead] += dimension + 2;
+    for (int k = 0; k <= dimension; ++k) count[vertex(hidden_.host(bead), k)] += dimension + 1;
+  }
   for (const std::uint64_t c : count) {
     statistics.certificates.per_bead_max = std::max(statistics.certificates.per_bead_max, c);
   }

@@ -1,9 +1,10 @@
 #pragma once
 // Part of PowerDiagram: flips. When a certificate fails, the Radon partition of the beads decides the flip.
-// In general position the cells themselves tell which it is: in space 3-2 if an edge of the facet has just
-// three cells, all among the five beads, else 2-3; in the plane 2-2. What general position does not guarantee
-// is checked: finite new cells must be positive just after the event, and on the hull the faces that go and
-// those that come must turn the same way in their common plane now.
+// In general position the cells themselves tell which it is, for those among the beads change: in space 4-1
+// if a vertex of the facet has just four cells, all among them, 3-2 if an edge has just three, else 2-3; in
+// the plane 3-1 if a vertex has just three, else 2-2. What general position does not guarantee is checked:
+// finite new cells must be positive just after the event, and on the hull the faces that go and those that
+// come must turn the same way in their common plane now.
 
 #include "structures/power_diagram.h"
 
@@ -11,6 +12,7 @@ namespace kds {
 
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::fail(unsigned table, std::uint32_t slot) {
+  if (table >= appearing) return fail_hidden(table, slot);
   const FacetId place =
       table == 0 ? power_tests_.place_in_structure(slot) : orientations_.place_in_structure(slot);
   const CellId cell = cell_of(place);
@@ -28,46 +30,49 @@ void PowerDiagram<M, K>::fail(unsigned table, std::uint32_t slot) {
     enqueue(cell, facet);
     return watch_enqueued();
   }
-  present_ = table == 0 ? power_tests_.identity(slot) : orientations_.identity(slot);
-  if (simulator_.moment() == last_moment_ && present_ != last_identity_) suspect(Doubt::unclear);
-  last_moment_ = simulator_.moment();
-  last_identity_ = present_;
+  begin_event(table == 0 ? power_tests_.identity(slot) : orientations_.identity(slot));
   repair(cell, facet);
   present_ = {};
 }
 
 template <Motion M, Kernel K>
+void PowerDiagram<M, K>::begin_event(const Identity& identity) {
+  present_ = identity;
+  if (simulator_.moment() == last_moment_ && present_ != last_identity_) suspect(Doubt::unclear);
+  last_moment_ = simulator_.moment();
+  last_identity_ = present_;
+}
+
+template <Motion M, Kernel K>
 void PowerDiagram<M, K>::repair(CellId cell, int facet) {
-  if constexpr (dimension == 2) {
-    flip_to_edge(cell, facet);
-  } else {
-    // Edges of the facet with three cells only: across the facet's other vertices, both cells meet the same
-    // one.
-    const CellId other = neighbor(cell, facet);
-    int edges = 0;
-    int removed = 0;
-    for (int k = 0; k < 4; ++k) {
-      if (k == facet) continue;
-      if (neighbor(cell, k) == neighbor(other, place_of(other, vertex(cell, k)))) {
-        ++edges;
-        removed = k;
-      }
-    }
-    if (edges == 0) {
-      flip_to_edge(cell, facet);
-    } else if (edges == 1) {
-      flip_to_facet(cell, facet, removed);
+  // Vertices of the facet across which both cells meet the same one: the others span a face that only cells
+  // among the beads contain.
+  const CellId other = neighbor(cell, facet);
+  int met = 0;
+  int across_from_face = 0;
+  int in_all = 0;  // a vertex of the facet that is none of them
+  for (int k = 0; k <= dimension; ++k) {
+    if (k == facet) continue;
+    if (neighbor(cell, k) == neighbor(other, place_of(other, vertex(cell, k)))) {
+      ++met;
+      across_from_face = k;
     } else {
-      suspect(Doubt::wrong);  // a bead would vanish: equal weights do that only where beads meet
+      in_all = k;
     }
   }
+  if (met == 0) return flip_to_edge(cell, facet);
+  if (met == dimension - 1) return hide(cell, in_all);
+  if constexpr (dimension == 3) {
+    if (met == 1) return flip_to_facet(cell, facet, across_from_face);
+  }
+  suspect(Doubt::wrong);  // there are no other beads
 }
 
 /// Whether new cells may take the place of old ones.
 template <Motion M, Kernel K>
 bool PowerDiagram<M, K>::can_replace(std::span<const Beads> old, std::span<const Beads> made) {
   const Instant& now = simulator_.now();
-  std::array<Orientation<dimension>, 3> finite;
+  std::array<Orientation<dimension>, dimension + 1> finite;
   std::size_t count = 0;
   for (const Beads& cell : made) {
     const Orientation<dimension> orientation(cell, 1);
@@ -120,6 +125,7 @@ void PowerDiagram<M, K>::flip_to_edge(CellId cell, int facet) {
   change.ids[dimension] = std::min(d, e);
   change.ids[dimension + 1] = std::max(d, e);
 
+  displace(std::array{cell, other});
   for (int i = 0; i <= dimension; ++i) {
     if (i != facet) drop(cell, i);
     if (neighbor(other, i) != cell) drop(other, i);
@@ -128,6 +134,7 @@ void PowerDiagram<M, K>::flip_to_edge(CellId cell, int facet) {
   guards_.resize(triangulation_.cells().size());
   simulator_.record(index_, change);
   watch_around(made);
+  rehouse(made[0]);
 }
 
 template <Motion M, Kernel K>
@@ -159,19 +166,26 @@ void PowerDiagram<M, K>::flip_to_facet(CellId cell, int facet, int other_vertex)
   change.ids[3] = low;
   change.ids[4] = high;
 
+  displace(old);
   for (const CellId o : old) {
     for (int i = 0; i < 4; ++i) drop(o, i);  // the second drop of an inner facet finds it gone
   }
   const std::array<CellId, 2> made = triangulation_.flip_edge(cell, edge[0], edge[1]);
   simulator_.record(index_, change);
   watch_around(made);
+  rehouse(made[0]);
 }
 
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::apply(const Change& change) {
   if (change.kind == rebuild) return apply_rebuild(change);
   if (change.size != dimension + 2) throw std::invalid_argument("a flip has other numbers of beads");
+  for (std::size_t i = 0; i < change.size; ++i) {
+    if (change.ids[i] >= bead_count() && change.ids[i] != infinite_bead)
+      throw std::invalid_argument("there is no bead " + std::to_string(change.ids[i]));
+  }
   const auto& id = change.ids;
+  if (change.kind == hides || change.kind == shows || change.kind == wanders) return apply_to_hidden(change);
   if constexpr (dimension == 3) {
     if (change.kind == to_facet) return apply_to_facet(change);
   }
@@ -197,6 +211,33 @@ void PowerDiagram<M, K>::apply_to_facet(const Change& change) requires(dimension
   }
   if (triangulation_.is_facet(id[0], id[1], id[2])) throw std::invalid_argument("the facet stands already");
   triangulation_.flip_edge(*cell, place_of(*cell, id[3]), place_of(*cell, id[4]));
+}
+
+/// Where hidden beads are is not followed.
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::apply_to_hidden(const Change& change) {
+  const BeadId bead = change.kind == wanders ? change.ids[0] : change.ids[dimension + 1];
+  Beads cell{};
+  std::copy_n(change.ids.begin() + (change.kind == wanders ? 1 : 0), dimension + 1, cell.begin());
+  if (bead == infinite_bead) throw std::invalid_argument("infinity is never hidden");
+  if (hidden_.contains(bead) == (change.kind == hides))
+    throw std::invalid_argument("bead " + std::to_string(bead) +
+                                (change.kind == hides ? " is hidden already" : " is not hidden"));
+  const auto stands = triangulation_.find_cell(cell);
+  if (stands.has_value() == (change.kind == hides))
+    throw std::invalid_argument(stands ? "the cell stands already" : "the diagram has no such cell");
+  if (change.kind == shows) {
+    triangulation_.flip_in(*stands, bead);
+    hidden_.show(bead);
+  } else if (change.kind == hides) {
+    std::optional<CellId> part;
+    for (int i = 0; i <= dimension; ++i) {
+      part = triangulation_.find_cell(with(cell, i, bead));
+      if (!part) throw std::invalid_argument("bead " + std::to_string(bead) + " has other cells");
+    }
+    triangulation_.flip_out(*part, place_of(*part, bead));
+    hidden_.hide(bead);
+  }
 }
 
 }  // namespace kds

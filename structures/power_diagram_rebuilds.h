@@ -24,7 +24,7 @@ void PowerDiagram<M, K>::settle() {
 template <Motion M, Kernel K>
 bool PowerDiagram<M, K>::is_wrong_just_after() {
   if constexpr (std::same_as<K, Fast>) return false;
-  return triangulation_fault(triangulation_, bead_count(), false,
+  return triangulation_fault(triangulation_, bead_count(), hidden_.with_hosts(), false,
                              [this](const auto& function) {
                                return sign_just_after<K>(function, motion_, simulator_.now(),
                                                          statistics.stages);
@@ -36,7 +36,7 @@ template <Motion M, Kernel K>
 void PowerDiagram<M, K>::build_from_control_points(int k) {
   const auto built = triangulation_.build(control_points(motion_, k), control_weights(motion_, k));
   tolerances_.forget_all();
-  hidden_ = built.hidden;
+  hidden_.assign(motion_.bead_count(), built.hidden);
   affine_dimension_ = built.dimension;
   flat_ = false;
 }
@@ -56,9 +56,9 @@ auto PowerDiagram<M, K>::exact_static(const Dyadic& time, bool oriented) const
 template <Motion M, Kernel K>
 bool PowerDiagram<M, K>::assign_static(const Dyadic& time) {
   const auto built = exact_static(time, true);
-  hidden_ = built.hidden;
+  hidden_.assign(motion_.bead_count(), built.hidden);
   affine_dimension_ = built.dimension;
-  if (affine_dimension_ < dimension || !hidden_.empty()) return false;
+  if (affine_dimension_ < dimension) return false;
   triangulation_.assign(motion_.bead_count(), built.cells);
   return true;
 }
@@ -68,6 +68,7 @@ void PowerDiagram<M, K>::drop_all() {
   tolerances_.forget_all();  // what follows is another triangulation
   if (guards_.empty()) return;
   for_all_facets([this](CellId cell, int i) { drop(cell, i); });
+  for (BeadId bead = 0; bead < hidden_guards_.size(); ++bead) drop_hidden(bead);
 }
 
 template <Motion M, Kernel K>
@@ -108,6 +109,10 @@ bool PowerDiagram<M, K>::nothing_fails_until(const Dyadic& time) {
     all_later = all_later && facet_later(guard(cell, i)) &&
                 (guard(cell, i).about != About::cell || facet_later(guard(other, k)));
   });
+  for (const Guards& guards : hidden_guards_) {
+    for (std::size_t i = 0; i <= dimension; ++i) all_later = all_later && later(departures_, guards[i]);
+    all_later = all_later && later(appearances_, guards.back());
+  }
   return all_later;
 }
 
@@ -128,11 +133,6 @@ void PowerDiagram<M, K>::rebuild_at_first_time_that_works() {
     drop_all();
   }
   settled();
-  if (!hidden_.empty()) {
-    throw InputError("bead " + std::to_string(hidden_.front()) + " is hidden in the power diagram in step " +
-                     std::to_string(simulator_.step()) +
-                     " (it stays in one place with another bead); hidden beads are not supported yet");
-  }
   if (affine_dimension_ < dimension) {
     throw InputError(
         std::string("all beads stay ") + (dimension == 3 ? "in one plane" : "on one line") + " in step " +
@@ -168,18 +168,21 @@ std::optional<std::string> PowerDiagram<M, K>::audit(const Dyadic& time) {
     const int k = start ? 0 : M::degree;
     const auto built =
         static_triangulation<dimension>(control_points(motion_, k), control_weights(motion_, k));
-    if (triangulation_.is_valid() && built.cells == triangulation_.finite_cells() && built.hidden == hidden_)
+    if (triangulation_.is_valid() && built.cells == triangulation_.finite_cells() &&
+        built.hidden == hidden_.beads())
       return std::nullopt;
   } else if (!start && !end) {
-    if (exact_static(time, false).cells == triangulation_.finite_cells()) return std::nullopt;
+    const auto built = exact_static(time, false);
+    if (built.cells == triangulation_.finite_cells() && built.hidden == hidden_.beads()) return std::nullopt;
   }
   // Degenerate positions have several regular triangulations: ours must satisfy the definition. Between
   // events what is zero at this very moment only is judged by its sign just after.
   const bool frame = start || end;
-  return triangulation_fault(triangulation_, bead_count(), flat_, [&](const auto& function) {
-    const int sign = function_of(function, MomentView<M>(motion_, function.beads, time)).scaled[0].sign();
-    return sign != 0 || frame ? sign : exact_function(function, motion_).sign_after(time);
-  });
+  return triangulation_fault(
+      triangulation_, bead_count(), hidden_.with_hosts(), flat_, [&](const auto& function) {
+        const int sign = function_of(function, MomentView<M>(motion_, function.beads, time)).scaled[0].sign();
+        return sign != 0 || frame ? sign : exact_function(function, motion_).sign_after(time);
+      });
 }
 
 }  // namespace kds

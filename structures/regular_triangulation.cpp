@@ -83,6 +83,15 @@ struct RegularTriangulation<Dimension>::Cgal {
     return bead < vertex.size() ? vertex[bead] : VertexHandle();
   }
 
+  /// Made if there is none yet.
+  VertexHandle vertex_of(BeadId bead) {
+    if (vertex[bead] == VertexHandle()) {
+      vertex[bead] = triangulation.tds().create_vertex();
+      vertex[bead]->info() = bead;
+    }
+    return vertex[bead];
+  }
+
   CellId new_id(CellHandle c) {
     if (free.empty()) {
       c->info() = static_cast<CellId>(cell.size());
@@ -124,11 +133,17 @@ StaticTriangulation<Dimension> RegularTriangulation<Dimension>::build(const Eige
   for (const auto v : triangulation.finite_vertex_handles()) cgal_->vertex[v->info()] = v;
   StaticTriangulation<Dimension> result{
       {}, hidden_beads(triangulation, weights.size()), triangulation.dimension()};
-  if (result.dimension == Dimension) {
-    mirror_all();
-  } else {
+  if (result.dimension < Dimension) {
     cells_.clear();
     live_.clear();
+    return result;
+  }
+  mirror_all();
+  if (!result.hidden.empty()) {  // CGAL keeps hidden points with its cells, which flips would not keep up
+    std::vector<Beads> cells;
+    for (const Cell& cell : cells_) cells.push_back(cell.vertex);
+    assign(weights.size(), cells);
+    set_points(centers, weights);
   }
   return result;
 }
@@ -149,18 +164,14 @@ void RegularTriangulation<Dimension>::assign(std::size_t beads, std::span<const 
   infinite->info() = infinite_bead;
   triangulation.set_infinite_vertex(infinite);
   cgal_->vertex.assign(beads, {});
-  for (std::size_t b = 0; b < beads; ++b) {
-    cgal_->vertex[b] = tds.create_vertex();
-    cgal_->vertex[b]->info() = static_cast<BeadId>(b);
-    cgal_->vertex[b]->set_point(points[b]);
-  }
   // Facets of two cells meet here by their beads.
   std::map<std::array<BeadId, Dimension>, std::pair<typename Cgal::CellHandle, int>> open;
   for (const Beads& beads_of_cell : oriented_cells) {
     const auto c = Types::create_cell(tds);
     for (int i = 0; i <= Dimension; ++i) {
       const BeadId b = beads_of_cell[static_cast<std::size_t>(i)];
-      const auto v = b == infinite_bead ? infinite : cgal_->vertex[b];
+      const auto v = b == infinite_bead ? infinite : cgal_->vertex_of(b);
+      if (b != infinite_bead) v->set_point(points[b]);
       c->set_vertex(i, v);
       Types::set_cell(v, c);
     }
@@ -203,6 +214,15 @@ void RegularTriangulation<Dimension>::set_points(const Eigen::Matrix3Xd& centers
 }
 
 template <int Dimension>
+void RegularTriangulation<Dimension>::enliven(CellId id) {
+  if (id == cells_.size()) {
+    cells_.emplace_back();
+    live_.push_back(0);
+  }
+  live_[id] = 1;
+}
+
+template <int Dimension>
 std::array<CellId, static_cast<std::size_t>(Dimension)> RegularTriangulation<Dimension>::flip_facet(
     CellId cell, int i) {
   const auto c = cgal_->cell[cell];
@@ -217,11 +237,7 @@ std::array<CellId, static_cast<std::size_t>(Dimension)> RegularTriangulation<Dim
     // The new cell is across the facet that CGAL leaves opposite to the place of the second vertex after i.
     const auto made = c->neighbor(i2);
     const CellId id = cgal_->new_id(made);
-    if (id == cells_.size()) {
-      cells_.emplace_back();
-      live_.push_back(0);
-    }
-    live_[id] = 1;
+    enliven(id);
     for (const auto changed : {c, n, made}) cgal_->mirror(changed, cells_);
     return {cell, n->info(), id};
   }
@@ -241,6 +257,64 @@ std::array<CellId, 2> RegularTriangulation<Dimension>::flip_edge(CellId cell, in
   live_[cell] = 0;
   for (const auto changed : rest) cgal_->mirror(changed, cells_);
   return {rest[0]->info(), rest[1]->info()};
+}
+
+template <int Dimension>
+auto RegularTriangulation<Dimension>::star(CellId cell, int i) const -> Star {
+  Star cells{cell};
+  for (int k = 0, next = 1; k <= Dimension; ++k) {
+    if (k != i) cells[static_cast<std::size_t>(next++)] = cell_of(beyond(cell, k));
+  }
+  return cells;
+}
+
+template <int Dimension>
+auto RegularTriangulation<Dimension>::flip_in(CellId cell, BeadId bead) -> Star {
+  const auto c = cgal_->cell[cell];
+  auto& tds = cgal_->triangulation.tds();
+  typename Cgal::VertexHandle v;
+  if constexpr (Dimension == 2) {
+    v = tds.insert_in_face(c);
+  } else {
+    v = tds.insert_in_cell(c);
+  }
+  v->info() = bead;
+  cgal_->vertex[bead] = v;
+  const int i = c->index(v);
+  for (int k = 0; k <= Dimension; ++k) {
+    if (k != i) enliven(cgal_->new_id(c->neighbor(k)));
+  }
+  cgal_->mirror(c, cells_);
+  for (int k = 0; k <= Dimension; ++k) {
+    if (k != i) cgal_->mirror(c->neighbor(k), cells_);
+  }
+  return star(cell, i);
+}
+
+template <int Dimension>
+CellId RegularTriangulation<Dimension>::flip_out(CellId cell, int i) {
+  const auto c = cgal_->cell[cell];
+  const auto v = c->vertex(i);
+  cgal_->vertex[v->info()] = {};
+  for (const CellId gone : star(cell, i)) {
+    live_[gone] = 0;
+    if (gone != cell) cgal_->free.push_back(gone);
+  }
+  auto& tds = cgal_->triangulation.tds();
+  if constexpr (Dimension == 2) {
+    tds.remove_degree_3(v, c);
+  } else {
+    cgal_->cell[cell] = tds.remove_from_maximal_dimension_simplex(v);
+    cgal_->cell[cell]->info() = cell;
+  }
+  enliven(cell);
+  cgal_->mirror(cgal_->cell[cell], cells_);
+  return cell;
+}
+
+template <int Dimension>
+bool RegularTriangulation<Dimension>::is_vertex(BeadId bead) const {
+  return cgal_->handle(bead) != typename Cgal::VertexHandle();
 }
 
 template <int Dimension>

@@ -70,6 +70,7 @@ class RegularTriangulation {
  public:
   using Cell = TriangulationCell<Dimension>;
   using Beads = CellBeads<Dimension>;
+  using Star = std::array<CellId, static_cast<std::size_t>(Dimension) + 1>;
 
   RegularTriangulation();
   ~RegularTriangulation();
@@ -78,7 +79,7 @@ class RegularTriangulation {
 
   /// By CGAL from doubles; returns the hidden beads and the dimension, no cells.
   StaticTriangulation<Dimension> build(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
-  /// From oriented cells, infinite ones included; all beads are vertices. The points are those last set.
+  /// From oriented cells, infinite ones included, of some of the beads. The points are those last set.
   void assign(std::size_t beads, std::span<const Beads> oriented_cells);
   void set_points(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
 
@@ -97,9 +98,17 @@ class RegularTriangulation {
   std::array<CellId, static_cast<std::size_t>(Dimension)> flip_facet(CellId cell, int i);
   /// In space: replaces the three cells around the edge of vertices i and j of `cell` by two.
   std::array<CellId, 2> flip_edge(CellId cell, int i, int j) requires(Dimension == 3);
+  /// Puts a bead that is no vertex into a cell: one cell around it for each of the cell's vertices.
+  Star flip_in(CellId cell, BeadId bead);
+  /// The cells around a vertex of `cell` that has as many as flip_in makes, that one first.
+  [[nodiscard]] Star star(CellId cell, int i) const;
+  /// Takes vertex i of `cell` and the cells around it, which must be a star and not border on one cell
+  /// everywhere; returns the cell in their place.
+  CellId flip_out(CellId cell, int i);
   /// Whether the beads, infinity among them, are joined by an edge or, in space, a triangle.
   [[nodiscard]] bool is_edge(BeadId a, BeadId b) const;
   [[nodiscard]] bool is_facet(BeadId a, BeadId b, BeadId c) const requires(Dimension == 3);
+  [[nodiscard]] bool is_vertex(BeadId bead) const;
   /// The cell with these vertices in any order.
   [[nodiscard]] std::optional<CellId> find_cell(const Beads& beads) const;
 
@@ -113,6 +122,7 @@ class RegularTriangulation {
  private:
   struct Cgal;
   void mirror_all();
+  void enliven(CellId id);
 
   std::unique_ptr<Cgal> cgal_;
   std::vector<Cell> cells_;

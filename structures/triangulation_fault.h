@@ -2,13 +2,15 @@
 // Whether a triangulation is regular, by the definition and by exact signs alone: sound in degenerate
 // positions, where several are right and comparing with a static build would not do.
 //
-// All beads are vertices, all finite cells positive, all facets regular, the hull's faces have no bead
-// outside. Then its triangles cover the hull's boundary equally often everywhere, and the cells its inside as
-// often; once, if the centroid of one triangle lies in no other. (The cells close up: flips keep that.)
+// All beads are vertices or hidden, all finite cells positive, all facets regular, the hull's faces have no
+// bead outside, and each hidden bead is in a cell and not inside its power sphere. Then its triangles cover
+// the hull's boundary equally often everywhere, and the cells its inside as often; once, if the centroid of
+// one triangle lies in no other. (The cells close up: flips keep that.)
 
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +18,7 @@
 #include "certificates/coplanar.h"
 #include "structures/bead_names.h"
 #include "structures/facet_certificate.h"
+#include "structures/hidden_beads.h"
 
 namespace kds {
 
@@ -61,13 +64,40 @@ template <int Dimension, class Sign>
   }
 }
 
+/// Whether a bead is in its host, on the boundary perhaps, and not inside the host's power sphere. In a
+/// regular triangulation it does not matter which of the cells it is in.
+template <int Dimension, class Sign>
+[[nodiscard]] bool hides(const RegularTriangulation<Dimension>& triangulation, const HiddenBead& hidden,
+                         Sign sign) {
+  const auto contains = [&](const CellBeads<Dimension>& v) {
+    if (std::find(v.begin(), v.end(), infinite_bead) != v.end()) return false;
+    for (std::size_t i = 0; i <= Dimension; ++i) {
+      auto part = v;
+      part[i] = hidden.bead;
+      if (sign(Orientation<Dimension>(part, 1)) < 0) return false;
+    }
+    return true;
+  };
+  const auto hides_in = [&](CellId cell) {
+    const CellBeads<Dimension>& v = triangulation.cells()[cell].vertex;
+    return triangulation.is_live(cell) && contains(v) && with_facet_certificate(v, hidden.bead, sign) >= 0;
+  };
+  if (hidden.host != no_cell) return hides_in(hidden.host);
+  for (CellId cell = 0; cell < triangulation.cells().size(); ++cell) {
+    if (hides_in(cell)) return true;
+  }
+  return false;
+}
+
 }  // namespace detail
 
 /// What is wrong with the triangulation of beads 0 ... beads-1 at one moment, or nothing. `sign` gives the
-/// sign of a function of beads then; cells may be flat where `flat_cells` says so.
+/// sign of a function of beads then; cells may be flat where `flat_cells` says so. A hidden bead whose host
+/// is not known may be in any cell.
 template <int Dimension, class Sign>
 [[nodiscard]] std::optional<std::string> triangulation_fault(
-    const RegularTriangulation<Dimension>& triangulation, BeadId beads, bool flat_cells, Sign sign) {
+    const RegularTriangulation<Dimension>& triangulation, BeadId beads, std::span<const HiddenBead> hidden,
+    bool flat_cells, Sign sign) {
   using Face = std::array<BeadId, Dimension>;
   std::vector<Face> hull;
   std::vector<char> is_vertex(beads, 0);
@@ -90,6 +120,12 @@ template <int Dimension, class Sign>
         return "the facet between the cell of beads " + bead_names(v) + " and bead " +
                bead_names(std::array{apex}) + " fails its test";
     }
+  }
+  for (const HiddenBead& h : hidden) {
+    if (is_vertex[h.bead] != 0) return "bead " + std::to_string(h.bead) + " is hidden and has cells";
+    is_vertex[h.bead] = 1;
+    if (!detail::hides<Dimension>(triangulation, h, sign))
+      return "bead " + std::to_string(h.bead) + " is not hidden in its cell";
   }
   for (BeadId bead = 0; bead < beads; ++bead) {
     if (is_vertex[bead] == 0) return "bead " + std::to_string(bead) + " has no cell";

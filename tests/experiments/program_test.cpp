@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <string>
 
 #include "tests/experiments/run_program.h"
@@ -18,6 +19,7 @@ using testing::Not;
 using Json = nlohmann::ordered_json;
 
 const std::string kSmall = data_file("kinetic/d1_n20_linear.txt");
+const std::string kTrajectory = data_file("trajectories/villin_hp36_300K.dcd");
 
 // Exit code 2, nothing on standard output, one line on standard error that has each of the words.
 void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
@@ -55,10 +57,42 @@ TEST(Program, RefusesWrongUsage) {
   expect_refused({"run", kSmall, "--kernel", "slow"}, {"--kernel", "slow"});
   expect_refused({"run", kSmall, "--structures", "contacts"}, {"not available yet"});
   expect_refused({"run", kSmall, "--motion", "hermite"}, {"--motion", "instance"});
-  expect_refused({"run", kSmall, "--motion", "lifted"}, {"--motion", "lifted", "not available yet"});
+  expect_refused({"run", kSmall, "--motion", "lifted"}, {"--motion", "instance"});
+  expect_refused({"run", kTrajectory, "--motion", "lifted"}, {"--motion lifted", "fictitious", "wrapped"});
   expect_refused({"run", kSmall, "--frames", "0:1"}, {"--frames", "instance"});
   expect_refused({"replay"}, {"one LOG"});
   expect_refused({"replay", kSmall, kSmall}, {"one LOG"});
+}
+
+// A linear motion written with five control points a coordinate: other polynomials, the same events.
+TEST(Program, RunsPolynomialsBeyondTheUsualDegrees) {
+  const ScratchDirectory directory;
+  std::mt19937 random(7);
+  std::string linear = "8 3 1\n", quartic = "8 3 4\n", high = "8 3 11\n";
+  for (int number = 0; number < 8 * 3; ++number) {
+    const int from = 4 * static_cast<int>(random() % 100), to = 4 * static_cast<int>(random() % 100);
+    const char* end = number % 3 == 2 ? "\n" : " ";
+    linear += std::to_string(from) + " " + std::to_string(to) + end;
+    for (int k = 0; k <= 4; ++k) quartic += std::to_string(from + k * (to - from) / 4) + (k < 4 ? " " : end);
+    for (int k = 0; k <= 11; ++k) high += std::to_string(from) + (k < 11 ? " " : end);
+  }
+  const std::string one = directory.file("linear.txt", linear);
+  const std::string four = directory.file("quartic.txt", quartic);
+  for (const char* structure : {"sorted", "power", "wrapped"}) {
+    const auto result = [&](const std::string& file) {
+      const ProgramRun run = run_program(
+          {"run", file, "--structures", structure, "--quiet", "--json", "-", "--audit", "events"});
+      EXPECT_EQ(run.code, 0) << run.err;
+      return Json::parse(run.out);
+    };
+    const auto expected = result(one);
+    const auto found = result(four);
+    EXPECT_GT(expected["structures"][structure]["events"]["total"], 0);
+    EXPECT_EQ(found["structures"][structure]["events"], expected["structures"][structure]["events"]);
+    EXPECT_EQ(found["fingerprint"], expected["fingerprint"]);
+  }
+  expect_refused({"run", directory.file("high.txt", high)}, {"degree 11", "1 to 10"});
+  expect_refused({"run", four, "--kernel", "fast"}, {"--kernel fast", "degree 4"});
 }
 
 TEST(Program, RefusesMissingFiles) {

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "motions/elevated_motion.h"
 #include "motions/lanes_view.h"
+#include "motions/lifted_motion.h"
 #include "motions/positions.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/sturm.h"
@@ -244,6 +246,99 @@ TEST(MotionViews, TrackedAtAUsefulScaleWhereverDifferencesAreFinite) {
   same.set_coordinate(0, 0, 0, -0x1p1023);
   same.set_coordinate(1, 0, 0, 0x1p1023);  // their difference is no double
   EXPECT_EQ(scale_to_unit(same, beads), 1);
+}
+
+// A motion of degree 2 or 3 in the place of one of degree 6: other Bernstein coefficients, the same values.
+TEST(ElevatedMotion, IsTheSameMotion) {
+  test::Random random(5);
+  for (const int degree : {1, 2, 3}) {
+    ElevatedMotion<2, 6> high(3);
+    BezierMotion<2, 3> low(3);
+    high.set_own_degree(degree);
+    for (BeadId b = 0; b < 3; ++b) {
+      for (int k = 0; k <= degree; ++k) {
+        high.set_coordinate(b, k, 0, test::uniform(random));
+        high.set_coordinate(b, k, 1, test::pick(random, -9, 9));
+        high.set_weight(b, k, test::uniform(random));
+        high.set_radius(b, k, test::uniform(random));
+      }
+    }
+    const std::array<BeadId, 3> beads{0, 1, 2};
+    const IntegerView<ElevatedMotion<2, 6>> view(high, beads);
+    const Rational scale = power_of_two(whole_scale(high, beads).exponent);
+    for (const Dyadic& time : {Dyadic(0.0), Dyadic(0.3), Dyadic(0.75), Dyadic(1.0)}) {
+      const auto p = exact_position(high, 0, time);
+      const auto q = exact_position(high, 1, time);
+      const auto at = [&](const auto& polynomial) {
+        return sturm::value(sturm::from_scaled(polynomial.scaled), time.rational());
+      };
+      const auto d = view.difference(0, 1);
+      EXPECT_EQ(at(d[0]), scale * (p[0] - q[0]));
+      EXPECT_EQ(at(d[1]), scale * (p[1] - q[1]));
+      EXPECT_EQ(at(view.weight_difference(0, 1)), scale * scale * (p[2] - q[2]));
+      EXPECT_EQ(at(view.radius_sum(0, 1)),
+                scale * (exact_radius(high, 0, time) + exact_radius(high, 1, time)));
+    }
+    if (degree != 3) continue;
+    for (BeadId b = 0; b < 3; ++b) {
+      for (int k = 0; k <= 3; ++k) {
+        for (int axis = 0; axis < 2; ++axis) low.set_coordinate(b, k, axis, high.coordinate(b, k, axis));
+      }
+    }
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      EXPECT_EQ(exact_position(high, 2, Dyadic(0.3))[a], exact_position(low, 2, Dyadic(0.3))[a]);
+    }
+  }
+}
+
+// The lift of every view, and of exact positions: |x|^2 less the weight moves linearly, the drift left out.
+TEST(LiftedMotion, LiftsAreLinear) {
+  test::Random random(6);
+  LiftedMotion<3> motion(2);
+  for (BeadId b = 0; b < 2; ++b) {
+    for (int k = 0; k <= 1; ++k) {
+      for (int axis = 0; axis < 3; ++axis) motion.set_coordinate(b, k, axis, test::uniform(random));
+      motion.set_weight(b, k, test::uniform(random));
+    }
+  }
+  motion.set_drift({0.25, -0.5, 1.0 / 3});
+  const auto lift = [&](BeadId b, const Dyadic& time) {
+    const auto p = exact_position(motion, b, time);
+    Rational sum = -p[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const Rational x = p[static_cast<std::size_t>(axis)] - time.rational() * Rational(motion.drift(axis));
+      sum += x * x;
+    }
+    return sum;
+  };
+  const Rational start = lift(0, Dyadic(0.0)), end = lift(0, Dyadic(1.0));
+  const Dyadic time(0.375);
+  EXPECT_EQ(lift(0, time), start + time.rational() * (end - start));
+  EXPECT_EQ(exact_position(motion, 0, Dyadic(1.0))[3], Rational(motion.weight(0, 1)));
+  EXPECT_LT(exact_position(motion, 0, time)[3], Rational(std::max(motion.weight(0, 0), motion.weight(0, 1))));
+
+  // lift_difference leaves out a multiple of the centres: 2 (where bead 1 starts) . (difference).
+  const std::array<BeadId, 2> beads{0, 1};
+  const Rational scale = power_of_two(whole_scale<Channels{.weights = true}>(motion, beads).exponent);
+  const auto whole =
+      IntegerView<LiftedMotion<3>, Channels{.weights = true}>(motion, beads).lift_difference(0, 1);
+  const auto rounded = DoubleView<LiftedMotion<3>>(motion).lift_difference(0, 1);
+  const auto tracked = TrackedView<LiftedMotion<3>>(motion, beads).lift_difference(0, 1);
+  const double tracked_scale = scale_to_unit(motion, std::span<const BeadId>(beads));
+  for (const double u : {0.0, 1.0}) {
+    const auto k = static_cast<std::size_t>(u);
+    const auto p = exact_position(motion, 0, Dyadic(u));
+    const auto q = exact_position(motion, 1, Dyadic(u));
+    Rational expected = lift(0, Dyadic(u)) - lift(1, Dyadic(u));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      expected -= 2 * Rational(motion.coordinate(1, 0, static_cast<int>(axis))) * (p[axis] - q[axis]);
+    EXPECT_EQ(Rational(whole.scaled[k]), scale * scale * expected);
+    EXPECT_NEAR(rounded.scaled[k], static_cast<double>(expected), 1e-14);
+    EXPECT_LE(
+        std::abs(tracked.scaled[k].value - static_cast<double>(expected) * tracked_scale * tracked_scale),
+        tracked.scaled[k].error + 1e-16);
+  }
 }
 
 }  // namespace
