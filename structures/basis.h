@@ -96,18 +96,27 @@ template <SignDecider Decide>
   });
 }
 
-/// The basis of at most five beads: the smallest proper subset whose sphere holds the others. None only if
-/// `decide` contradicts itself, as plain double may.
+/// What is known of the basis that is sought: where to look first, and who is in it for sure.
+struct BasisHint {
+  std::size_t size = 1;
+  BeadId member = no_bead;
+};
+
+/// The basis of at most five beads: the proper subset whose sphere holds the others. None only if `decide`
+/// contradicts itself, as plain double may. Where several will do, the hint decides which is found.
 template <SignDecider Decide>
-[[nodiscard]] std::optional<Basis> basis_among(std::span<const BeadId> beads, Decide& decide) {
+[[nodiscard]] std::optional<Basis> basis_among(std::span<const BeadId> beads, Decide& decide,
+                                               BasisHint hint = {}) {
   const auto subsets = 1U << beads.size();
-  for (int size = 1; size <= static_cast<int>(Basis::max_size); ++size) {
+  for (std::size_t i = 0; i < Basis::max_size; ++i) {
+    const auto size = static_cast<int>((hint.size - 1 + i) % Basis::max_size + 1);
     for (unsigned subset = 1; subset < subsets; ++subset) {
       if (std::popcount(subset) != size) continue;
       Basis basis;
-      for (std::size_t i = 0; i < beads.size(); ++i) {
-        if ((subset >> i & 1U) != 0) basis.beads[basis.size++] = beads[i];
+      for (std::size_t b = 0; b < beads.size(); ++b) {
+        if ((subset >> b & 1U) != 0) basis.beads[basis.size++] = beads[b];
       }
+      if (hint.member != no_bead && !basis.contains(hint.member)) continue;
       basis.sort();
       const int orientation = orientation_of(basis, decide);
       if (basis.size == 4 && orientation == 0) continue;

@@ -2,10 +2,12 @@
 // Kinetic wrapped hierarchy in space, equal radii: at every internal node of the balanced tree over a
 // necklace the minimum enclosing sphere of all its beads, kept as a basis of at most four beads. Certificates
 // of a node: each other bead stays inside the sphere of the basis; each basis bead stays outside the sphere
-// of its fellows. When one fails, the new basis is found among the basis and the bead, just after the event.
+// of its fellows. Those that a bound on the sphere's path proves at once (sphere_chord.h) are not made. When
+// one fails, the new basis is found among the basis and the bead, just after the event.
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -19,6 +21,7 @@
 #include "structures/bead_names.h"
 #include "structures/enclosing_sphere.h"
 #include "structures/necklace_tree.h"
+#include "structures/sphere_chord.h"
 
 namespace kds {
 
@@ -58,8 +61,13 @@ class WrappedHierarchy final : public KineticStructure {
     }
     held_.clear();
     free_.clear();
+    if constexpr (prunes) ends_.set(motion_);
+    per_bead_.assign(motion_.bead_count(), 0);
     for (NodeId node = 0; node < nodes_.size(); ++node) guard_node(node, nodes_[node].basis);
-    count_certificates_per_bead();
+    const auto most = std::max_element(per_bead_.begin(), per_bead_.end());
+    auto& per_bead_max = statistics.certificates.per_bead_max;
+    if (most != per_bead_.end()) per_bead_max = std::max(per_bead_max, *most);
+    per_bead_.clear();
   }
   void fail(unsigned table, std::uint32_t slot) override;
   void apply(const Change& change) override;
@@ -71,6 +79,8 @@ class WrappedHierarchy final : public KineticStructure {
  private:
   static constexpr std::uint32_t none = 0xffffffffU;
   static constexpr int most_repairs = 64;  // of one node at one time, in `fast`
+  /// Doubles prove some certificates without looking at them one by one.
+  static constexpr bool prunes = M::degree == 1 && !std::same_as<K, Exact>;
 
   struct Node {
     Basis basis;
@@ -146,6 +156,7 @@ class WrappedHierarchy final : public KineticStructure {
   /// Guards a node, repairing its basis while a certificate is violated already; logs the change from
   /// `before`.
   void guard_node(NodeId node, Basis before);
+  [[nodiscard]] bool find_beads_to_watch(NodeId node);
   /// Guards the node's present basis; the first bead whose certificate is violated, if any.
   [[nodiscard]] std::optional<BeadId> watch_node(NodeId node);
   [[nodiscard]] std::optional<BeadId> watch_all_of(NodeId node, unsigned table, bool zero_will_do);
@@ -154,7 +165,6 @@ class WrappedHierarchy final : public KineticStructure {
   /// The basis of the node's basis and `bead`, which escaped or is to spare.
   [[nodiscard]] bool repair(NodeId node, BeadId bead);
   void record(NodeId node, const Basis& before);
-  void count_certificates_per_bead();
 
   Simulator& simulator_;
   const M& motion_;
@@ -169,6 +179,9 @@ class WrappedHierarchy final : public KineticStructure {
   std::vector<Held> held_;
   std::vector<std::uint32_t> free_;
   std::vector<BeadId> watched_;  // of the certificates that are enqueued
+  StepEnds ends_;
+  std::vector<BeadId> beyond_;           // beads of a node that are not proved to stay inside
+  std::vector<std::uint64_t> per_bead_;  // certificates that name it, at the start of a step
   std::optional<Present> present_;
 };
 
@@ -204,9 +217,14 @@ bool WrappedHierarchy<M, K>::repair(NodeId id, BeadId bead) {
   std::array<BeadId, Basis::max_size + 1> among{};
   std::size_t count = basis.size;
   std::copy(basis.begin(), basis.end(), among.begin());
-  if (bead != no_bead && !basis.contains(bead)) among[count++] = bead;
+  BasisHint hint{std::max<std::size_t>(1, basis.size - 1U)};
+  if (bead != no_bead && !basis.contains(bead)) {
+    among[count++] = bead;
+    hint = {basis.size, bead};  // it is outside the sphere of all the others
+  }
   JustAfter decide{*this};
-  const auto next = basis_among(std::span(among).first(count), decide);
+  auto next = basis_among(std::span(among).first(count), decide, hint);
+  if (!next && hint.member != no_bead) next = basis_among(std::span(among).first(count), decide);
   if (!next) {
     if constexpr (!std::same_as<K, Fast>)
       throw std::logic_error("no basis among beads " + bead_names(std::span(among).first(count)));
@@ -266,6 +284,9 @@ std::optional<BeadId> WrappedHierarchy<M, K>::watch_node(NodeId id) {
       if (own_root && c.side() == present_->side) failed = bead;
       table_of(c).enqueue(c, id, own_root ? Birth::at_own_root : Birth::unknown);
       watched_.push_back(bead);
+      if (!per_bead_.empty()) {
+        for (const BeadId b : c.beads) ++per_bead_[b];
+      }
     };
   };
   const auto watch = [&](unsigned table, bool zero_will_do) -> std::optional<BeadId> {
@@ -278,16 +299,34 @@ std::optional<BeadId> WrappedHierarchy<M, K>::watch_node(NodeId id) {
   // a bead is to spare all the time, its function zero. Two beads never part, but they may be one all the
   // time.
   if (basis.size == 2 && move_together(basis.beads[0], basis.beads[1])) return basis.beads[1];
-  if (basis.size >= 3) {
+  const bool keeps_basis = find_beads_to_watch(id);
+  if (basis.size >= 3 && !keeps_basis) {
     for (const BeadId b : basis) visit_membership(without(basis, b), b, false, 0, enqueue(b));
     if (const auto to_spare = watch(basis.size - 1U, false)) return to_spare;
   }
+  std::erase_if(beyond_, [&](BeadId b) { return basis.contains(b); });
+  if (beyond_.empty()) return std::nullopt;
   const int orientation = orientation_of(basis, decide);
-  const BeadRange range = tree_.range(id);
-  for (BeadId b = range.first; b <= range.last; ++b) {
-    if (!basis.contains(b)) visit_membership(basis, b, true, orientation, enqueue(b));
-  }
+  for (const BeadId b : beyond_) visit_membership(basis, b, true, orientation, enqueue(b));
   return watch(basis.size, true);
+}
+
+/// Sets `beyond_`; whether the basis' own beads are proved to stay in it.
+template <Motion M, Kernel K>
+bool WrappedHierarchy<M, K>::find_beads_to_watch(NodeId id) {
+  const Basis& basis = nodes_[id].basis;
+  const BeadRange range = tree_.range(id);
+  if constexpr (prunes) {
+    const double from = simulator_.now().lower();
+    const SphereChord chord = sphere_chord(ends_, basis, from);
+    if (chord.proved) {
+      find_beyond(ends_, range, basis.beads[0], chord, from, beyond_);
+      return chord.keeps_basis;
+    }
+  }
+  beyond_.resize(range.last - range.first + 1U);
+  std::iota(beyond_.begin(), beyond_.end(), range.first);
+  return false;
 }
 
 template <Motion M, Kernel K>
@@ -410,21 +449,6 @@ std::optional<std::string> WrappedHierarchy<M, K>::audit(const Dyadic& time) {
     }
   }
   return std::nullopt;
-}
-
-template <Motion M, Kernel K>
-void WrappedHierarchy<M, K>::count_certificates_per_bead() {
-  std::vector<std::uint64_t> count(motion_.bead_count(), 0);
-  for (NodeId id = 0; id < nodes_.size(); ++id) {
-    const BeadRange range = tree_.range(id);
-    const Basis& basis = nodes_[id].basis;
-    const std::uint64_t inside = range.last - range.first + 1U - basis.size;
-    for (BeadId b = range.first; b <= range.last; ++b) count[b] += 1;
-    for (const BeadId b : basis) count[b] += inside - 1 + (basis.size >= 3 ? basis.size : 0U);
-  }
-  for (const std::uint64_t c : count) {
-    statistics.certificates.per_bead_max = std::max(statistics.certificates.per_bead_max, c);
-  }
 }
 
 }  // namespace kds
