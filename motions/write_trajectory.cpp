@@ -54,7 +54,10 @@ void write_xyz(std::ostream& stream, const Trajectory& trajectory, std::string_v
 }
 
 void write_pdb(std::ostream& stream, const Trajectory& trajectory, std::string_view about) {
-  put(stream, fmt::format("TITLE     {}\n", about.substr(0, 70)));
+  constexpr std::size_t width = 70;  // of a title's lines, the second and later ones numbered
+  for (std::size_t line = 0; line * width < about.size(); ++line)
+    put(stream, fmt::format("TITLE   {:>2}{}\n", line == 0 ? "" : std::to_string(line + 1),
+                            about.substr(line * width, width)));
   std::string text;
   for (std::size_t k = 0; k < trajectory.frames.size(); ++k) {
     const Eigen::Matrix3Xd& frame = trajectory.frames[k];
