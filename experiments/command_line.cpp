@@ -31,7 +31,7 @@ std::string explain(const CLI::ParseError& error, const CLI::App& parser, const 
       if (option.value.empty() && argument.starts_with(std::string(option.name) + "="))
         return fmt::format("{} takes no value", option.name);
   const std::string last = arguments.empty() ? "" : arguments.back();
-  if (last.starts_with("--") && parser.get_option_no_throw(last) != nullptr) return last + " needs a value";
+  if (last.starts_with('-') && parser.get_option_no_throw(last) != nullptr) return last + " needs a value";
   return one_line(error.what());
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // The options of one command: a table that both the parser and the help are made from.
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <span>
@@ -17,6 +19,15 @@ struct OptionSpec {
   std::string_view value;  ///< how help names its value; empty: a flag
   std::string_view help;   ///< one line, the default included
 };
+
+/// Options that several commands share, with a command's own.
+template <std::size_t n, std::size_t m>
+[[nodiscard]] constexpr std::array<OptionSpec, n + m> joined(const std::array<OptionSpec, n>& first,
+                                                             const std::array<OptionSpec, m>& second) {
+  std::array<OptionSpec, n + m> all{};
+  std::copy(second.begin(), second.end(), std::copy(first.begin(), first.end(), all.begin()));
+  return all;
+}
 
 struct CommandSpec {
   std::string_view name;     ///< kds run

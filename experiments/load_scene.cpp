@@ -9,10 +9,13 @@
 
 namespace kds {
 
-namespace {
-
-Scene load_instance(const RunOptions& options) {
-  const std::string file = options.inputs.front().string();
+std::optional<Instance> read_lone_instance(const InputOptions& options) {
+  const auto instance = std::find_if(options.inputs.begin(), options.inputs.end(),
+                                     [](const auto& path) { return is_instance_file(path); });
+  if (instance == options.inputs.end()) return std::nullopt;
+  const std::string file = instance->string();
+  if (options.inputs.size() > 1)
+    throw InputError(file + ": an instance file runs alone, without further inputs");
   const auto refuse = [&](bool given, const char* option) {
     if (given) throw InputError(fmt::format("{}: has no meaning for an instance file ({})", option, file));
   };
@@ -22,25 +25,28 @@ Scene load_instance(const RunOptions& options) {
   refuse(reading.selection != Selection::automatic, "--select");
   refuse(reading.frames.first != 0 || reading.frames.last || reading.frames.stride != 1, "--frames");
   refuse(options.radius != "auto", "--radius");
-  refuse(options.motion != FrameMotion::linear, "--motion");
-  return Scene(read_instance(options.inputs.front()));
+  return read_instance(*instance);
 }
 
-}  // namespace
-
-Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn) {
-  const auto instance = std::find_if(options.inputs.begin(), options.inputs.end(),
-                                     [](const auto& path) { return is_instance_file(path); });
-  if (instance != options.inputs.end()) {
-    if (options.inputs.size() > 1)
-      throw InputError(instance->string() + ": an instance file runs alone, without further inputs");
-    return load_instance(options);
-  }
+std::vector<Trajectory> read_necklaces(const InputOptions& options,
+                                       const std::function<void(const std::string&)>& warn) {
   std::vector<Trajectory> necklaces;
   for (const auto& input : options.inputs) {
     necklaces.push_back(read_trajectory(input, options.reading));
     for (const std::string& warning : necklaces.back().warnings) warn(warning);
   }
+  return necklaces;
+}
+
+Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn) {
+  const InputOptions input{options.inputs, options.reading, options.radius};
+  if (std::optional<Instance> instance = read_lone_instance(input)) {
+    if (options.motion != FrameMotion::linear)
+      throw InputError(
+          fmt::format("--motion: has no meaning for an instance file ({})", options.inputs.front().string()));
+    return Scene(std::move(*instance));
+  }
+  const std::vector<Trajectory> necklaces = read_necklaces(input, warn);
   std::vector<double> radii = bead_radii(options.radius, necklaces);
   return Scene(necklaces, std::move(radii), options.motion);
 }

@@ -12,6 +12,8 @@
 #include <string_view>
 
 #include "experiments/command_line.h"
+#include "experiments/generate_command.h"
+#include "experiments/info_command.h"
 #include "experiments/provenance.h"
 #include "experiments/replay_command.h"
 #include "experiments/run_command.h"
@@ -30,6 +32,8 @@ struct Command {
 
 constexpr std::array kCommands{
     Command{"run", "run kinetic structures over trajectories and report their events", run_command},
+    Command{"info", "describe trajectories and the conditions of a necklace they violate", info_command},
+    Command{"generate", "write a model necklace", generate_command},
     Command{"replay", "run a logged run again and compare", replay_command},
     Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},
 };

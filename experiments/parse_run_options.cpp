@@ -5,30 +5,23 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
+#include "experiments/input_options.h"
+#include "experiments/option_values.h"
 #include "experiments/text.h"
 #include "motions/input_error.h"
 
 namespace kds {
 namespace {
 
-constexpr std::array kOptions{
+constexpr std::array kRunOptions{
     OptionSpec{"--structures", "LIST",
                "comma list of sorted, wrapped, power (default: wrapped,power;"
                " instances: sorted in 1D, else power)"},
     OptionSpec{"--motion", "NAME", "how beads move between frames: linear, hermite, lifted (default: linear)"},
     OptionSpec{"--kernel", "NAME", "fast, filtered or exact arithmetic (default: filtered)"},
-    OptionSpec{"--topology", "FILE",
-               "PDB or mmCIF that names the atoms of a DCD (default: its atoms are the beads)"},
-    OptionSpec{"--select", "NAME",
-               "backbone (N, CA, C), ca or all (default: backbone where residues are known)"},
-    OptionSpec{"--chain", "ID", "the chain to read (default: the first polymer chain)"},
-    OptionSpec{"--frames", "RANGE", "FIRST:LAST:STRIDE, from 0, LAST excluded (default: all)"},
-    OptionSpec{"--radius", "RULE", "auto, a number, element, element:fit or file:PATH (default: auto)"},
     OptionSpec{"--audit", "WHEN", "compare with static builds: none, frames or events (default: none)"},
     OptionSpec{"--dump", "DIR", "write the structures at every frame there (default: none)"},
     OptionSpec{"--log", "FILE", "write the event log there, for kds replay (default: none)"},
@@ -37,18 +30,17 @@ constexpr std::array kOptions{
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
 
+constexpr auto kOptions = joined(kInputOptions, kRunOptions);
+
 constexpr CommandSpec kCommand{
     "kds run",
     "Runs kinetic structures over moving beads and reports every event, exactly and in order.",
-    "INPUT...",
-    "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd, .xyz, or an instance file",
+    kInputOperand,
+    kInputHelp,
     kOptions,
     "kds run villin.dcd --topology villin.pdb --frames 0:200 --structures wrapped,power --out report\n"
     "kds run models.pdb --kernel exact --audit events --json -",
 };
-
-template <class Value>
-using Choice = std::pair<std::string_view, Value>;
 
 constexpr std::array kKernels{Choice<KernelName>{"fast", KernelName::fast},
                               Choice<KernelName>{"filtered", KernelName::filtered},
@@ -56,30 +48,11 @@ constexpr std::array kKernels{Choice<KernelName>{"fast", KernelName::fast},
 constexpr std::array kAudits{Choice<AuditMode>{"none", AuditMode::none},
                              Choice<AuditMode>{"frames", AuditMode::frames},
                              Choice<AuditMode>{"events", AuditMode::events}};
-constexpr std::array kSelections{Choice<Selection>{"backbone", Selection::backbone},
-                                 Choice<Selection>{"ca", Selection::ca},
-                                 Choice<Selection>{"all", Selection::all}};
 constexpr std::array kMotions{Choice<FrameMotion>{"linear", FrameMotion::linear},
                               Choice<FrameMotion>{"hermite", FrameMotion::hermite},
                               Choice<FrameMotion>{"lifted", FrameMotion::lifted}};
 constexpr std::array<std::string_view, 3> kStructures{"sorted", "wrapped", "power"};
 constexpr std::array<std::string_view, 1> kStructuresToCome{"contacts"};
-
-template <class Value, std::size_t count>
-void choose(const ParsedArguments& parsed, std::string_view option,
-            const std::array<Choice<Value>, count>& choices, Value& target) {
-  const std::optional<std::string> word = parsed.value(option);
-  if (!word) return;
-  std::vector<std::string_view> names;
-  for (const auto& [name, value] : choices) {
-    if (name == *word) {
-      target = value;
-      return;
-    }
-    names.push_back(name);
-  }
-  throw InputError(fmt::format("{}: '{}' is not one of {}", option, *word, fmt::join(names, ", ")));
-}
 
 template <class Names>
 bool among(const Names& names, std::string_view name) {
@@ -104,46 +77,19 @@ std::vector<std::string> parse_structures(const std::string& list) {
   return ordered;
 }
 
-std::string parse_radius(const std::string& rule) {
-  if (rule == "auto" || rule == "element" || rule == "element:fit") return rule;
-  if (constexpr std::string_view prefix = "file:"; rule.starts_with(prefix)) {
-    if (rule.size() == prefix.size()) throw InputError("--radius: file: needs a path, as in file:radii.txt");
-    return rule;
-  }
-  double number = 0;
-  const auto [end, error] = std::from_chars(rule.data(), rule.data() + rule.size(), number);
-  if (error == std::errc() && end == rule.data() + rule.size() && std::isfinite(number) && number > 0)
-    return rule;
-  throw InputError(
-      fmt::format("--radius: '{}' is not auto, a positive number, element, element:fit or file:PATH", rule));
-}
-
-std::optional<std::filesystem::path> path_of(const ParsedArguments& parsed, std::string_view option) {
-  const std::optional<std::string> text = parsed.value(option);
-  if (!text) return std::nullopt;
-  if (*text == "-") throw InputError(fmt::format("{} needs a path; - is for --json only", option));
-  return std::filesystem::path(*text);
-}
-
 }  // namespace
 
 RunOptions parse_run_options(const Arguments& arguments) {
   const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  InputOptions input = parse_input_options(parsed, kCommand.name);
   RunOptions options;
-  if (parsed.operands().empty()) throw InputError("kds run needs at least one INPUT (see kds run --help)");
-  for (const std::string& input : parsed.operands()) {
-    if (input.empty()) throw InputError("an INPUT is empty; give the path of a file");
-    options.inputs.emplace_back(input);
-  }
+  options.inputs = std::move(input.inputs);
+  options.reading = std::move(input.reading);
+  options.radius = std::move(input.radius);
   if (const auto list = parsed.value("--structures")) options.structures = parse_structures(*list);
-  choose(parsed, "--motion", kMotions, options.motion);
-  choose(parsed, "--kernel", kKernels, options.kernel);
-  options.reading.topology = path_of(parsed, "--topology");
-  choose(parsed, "--select", kSelections, options.reading.selection);
-  options.reading.chain = parsed.value("--chain");
-  if (const auto range = parsed.value("--frames")) options.reading.frames = parse_frame_range(*range);
-  if (const auto rule = parsed.value("--radius")) options.radius = parse_radius(*rule);
-  choose(parsed, "--audit", kAudits, options.audit);
+  options.motion = chosen(parsed, "--motion", kMotions).value_or(options.motion);
+  options.kernel = chosen(parsed, "--kernel", kKernels).value_or(options.kernel);
+  options.audit = chosen(parsed, "--audit", kAudits).value_or(options.audit);
   options.dump = path_of(parsed, "--dump");
   options.log = path_of(parsed, "--log");
   options.out = path_of(parsed, "--out");

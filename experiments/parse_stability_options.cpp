@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
+#include "experiments/option_values.h"
 #include "experiments/text.h"
 #include "motions/input_error.h"
 
@@ -70,15 +70,6 @@ std::vector<std::string> extreme_names() {
   return names;
 }
 
-std::uint64_t parse_number(std::string_view option, const std::string& text, std::uint64_t least,
-                           std::uint64_t most) {
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc() && end == text.data() + text.size() && number >= least && number <= most)
-    return number;
-  throw InputError(fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, least, most));
-}
-
 }  // namespace
 
 bool StabilityOptions::wants(const StabilitySubject& subject) const {
@@ -97,13 +88,10 @@ StabilityOptions parse_stability_options(const Arguments& arguments) {
   if (const auto list = parsed.value("--extremes"))
     options.extremes = parse_names("--extremes", *list, extreme_names());
   if (const auto text = parsed.value("--cases"))
-    options.cases.cases = parse_number("--cases", *text, 1, 1'000'000);
+    options.cases.cases = parse_whole_number("--cases", *text, 1, 1'000'000);
   if (const auto text = parsed.value("--seed"))
-    options.cases.seed = parse_number("--seed", *text, 0, ~std::uint64_t{0});
-  if (const auto text = parsed.value("--out")) {
-    if (*text == "-") throw InputError("--out needs a path; - is for --json only");
-    options.out = *text;
-  }
+    options.cases.seed = parse_whole_number("--seed", *text, 0, ~std::uint64_t{0});
+  options.out = path_of(parsed, "--out");
   options.json = parsed.value("--json");
   options.quiet = parsed.has("--quiet");
   return options;

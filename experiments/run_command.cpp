@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "experiments/input_options.h"
 #include "experiments/output_files.h"
 #include "experiments/parse_run_options.h"
 #include "experiments/progress_bar.h"
@@ -20,26 +21,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check_exists(const fs::path& path) {
-  std::error_code error;
-  if (!fs::exists(path, error)) throw InputError(fmt::format("{}: no such file", path.string()));
-  if (fs::is_directory(path, error))
-    throw InputError(fmt::format("{}: is a directory, expected a file", path.string()));
-}
-
 void check_apart(const RunOptions& options, const Destinations& destinations) {
   TakenPaths paths;
-  for (const fs::path& input : options.inputs) paths.add("an input", input);
-  if (options.reading.topology) paths.add("--topology", *options.reading.topology);
-  constexpr std::string_view file = "file:";
-  if (options.radius.starts_with(file)) paths.add("--radius", options.radius.substr(file.size()));
+  paths.read({options.inputs, options.reading, options.radius});
   paths.write(destinations);
   if (options.log) paths.write("--log", *options.log);
 }
 
 void check_before_run(const RunOptions& options, const Destinations& destinations) {
-  for (const fs::path& input : options.inputs) check_exists(input);
-  if (options.reading.topology) check_exists(*options.reading.topology);
+  check_inputs_exist({options.inputs, options.reading, options.radius});
   check_apart(options, destinations);
   check_destinations(destinations);
   if (options.log) ensure_writable_file(*options.log, "--log");

@@ -8,9 +8,8 @@
 
 namespace kds {
 
-void check_table_destinations(const Destinations& destinations, const std::string& name) {
+void check_table_destinations(const Destinations& destinations, const std::string& name, TakenPaths paths) {
   const bool json_file = destinations.json && *destinations.json != "-";
-  TakenPaths paths;
   const std::array<std::string, 2> files{name + ".json", name + ".csv"};
   if (destinations.out)
     for (const std::string& file : files) paths.write("--out", *destinations.out / file);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "experiments/run_results.h"
+#include "experiments/taken_paths.h"
 
 namespace kds {
 
@@ -12,8 +13,10 @@ struct TableResults {
   std::string json, csv, table;
 };
 
-/// Throws InputError where something could not be written later, or would replace another result.
-void check_table_destinations(const Destinations& destinations, const std::string& name);
+/// Throws InputError where something could not be written later, or would replace another result or one of
+/// the files that are taken.
+void check_table_destinations(const Destinations& destinations, const std::string& name,
+                              TakenPaths taken = {});
 
 /// The table is printed unless quiet, or where standard output is the JSON's.
 void deliver_table(const Destinations& destinations, const std::string& name, const TableResults& results);

@@ -24,6 +24,13 @@ bool same_file(const fs::path& a, const fs::path& b) {
 
 }  // namespace
 
+void TakenPaths::read(const InputOptions& options) {
+  for (const fs::path& input : options.inputs) add("an input", input);
+  if (options.reading.topology) add("--topology", *options.reading.topology);
+  constexpr std::string_view file = "file:";
+  if (options.radius.starts_with(file)) add("--radius", options.radius.substr(file.size()));
+}
+
 void TakenPaths::write(const std::string& option, const fs::path& path) {
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_regular_file(path, error)) return;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/input_options.h"
 #include "experiments/run_results.h"
 
 namespace kds {
@@ -16,6 +17,8 @@ class TakenPaths {
   void add(std::string owner, const std::filesystem::path& path) {
     taken_.emplace_back(std::move(owner), path);
   }
+  /// The files that are read.
+  void read(const InputOptions& options);
   /// A file to be written. Throws InputError where it is another's; devices are for all.
   void write(const std::string& option, const std::filesystem::path& path);
   /// The files that `deliver` writes.

@@ -150,9 +150,13 @@ std::vector<SelectedAtom> select_polymer_atoms(const std::string& file, const ge
                                                const std::optional<std::string>& wanted) {
   const std::string chain = chain_or_default(file, model, wanted);
   std::vector<SelectedAtom> atoms;
-  for (const Candidate& candidate : polymer_residues(model, chain))
-    for (const gemmi::Atom* atom : selected_atoms(candidate, selection))
-      atoms.push_back({atom, element_of(*atom), describe(*atom, *candidate.residue, chain)});
+  const auto select = [&](Selection which) {
+    for (const Candidate& candidate : polymer_residues(model, chain))
+      for (const gemmi::Atom* atom : selected_atoms(candidate, which))
+        atoms.push_back({atom, element_of(*atom), describe(*atom, *candidate.residue, chain)});
+  };
+  select(selection);
+  if (atoms.empty() && selection == Selection::automatic) select(Selection::ca);  // a coarse-grained model
   if (atoms.empty()) {
     const char* what = selection == Selection::all  ? "any residue of a polymer"
                        : selection == Selection::ca ? "an atom CA in any residue of a polymer"

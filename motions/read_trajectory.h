@@ -19,7 +19,7 @@ struct FrameRange {
 };
 
 enum class Selection {
-  automatic,  ///< backbone where residues are known, else all
+  automatic,  ///< backbone where residues are known (CA where none has N and C), else all
   backbone,   ///< N, CA, C of each residue that has all three
   ca,
   all,

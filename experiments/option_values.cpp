@@ -1,0 +1,41 @@
+#include "experiments/option_values.h"
+
+#include <charconv>
+
+namespace kds {
+
+namespace {
+
+template <class Number>
+std::optional<Number> number_in(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> path_of(const ParsedArguments& parsed, std::string_view option) {
+  const std::optional<std::string> text = parsed.value(option);
+  if (!text) return std::nullopt;
+  if (*text == "-") throw InputError(fmt::format("{} needs a path; - is for --json only", option));
+  return std::filesystem::path(*text);
+}
+
+std::uint64_t parse_whole_number(std::string_view option, std::string_view text, std::uint64_t least,
+                                 std::uint64_t most) {
+  const auto number = number_in<std::uint64_t>(text);
+  if (number && *number >= least && *number <= most) return *number;
+  throw InputError(fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, least, most));
+}
+
+double parse_real(std::string_view option, std::string_view text, const RealRange& range) {
+  const auto number = number_in<double>(text);
+  const bool enough = number && (range.least_excluded ? *number > range.least : *number >= range.least);
+  if (enough && *number <= range.most) return *number == 0 ? 0 : *number;  // -0 too
+  throw InputError(fmt::format("{}: '{}' is not a number {} {}, at most {}", option, text,
+                               range.least_excluded ? "above" : "from", range.least, range.most));
+}
+
+}  // namespace kds

@@ -1,0 +1,33 @@
+#pragma once
+// Random numbers that are the same for the same seed on every platform: the engine is prescribed by the
+// standard, its distributions are not.
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace kds::models {
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+  /// In [0, 1), a multiple of 2^-53.
+  [[nodiscard]] double uniform() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
+
+  /// A unit vector, by rejection from the cube around the ball.
+  [[nodiscard]] Eigen::Vector3d direction() {
+    for (;;) {
+      Eigen::Vector3d d;
+      for (Eigen::Index axis = 0; axis < 3; ++axis) d[axis] = 2 * uniform() - 1;
+      const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+      if (square <= 1 && square >= 0x1p-20) return d / std::sqrt(square);
+    }
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+}  // namespace kds::models
