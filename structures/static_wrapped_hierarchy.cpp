@@ -1,0 +1,317 @@
+#include "structures/static_wrapped_hierarchy.h"
+
+#include <algorithm>
+
+#include "structures/parallel_runs.h"
+#include "structures/scan_targets.h"
+#include "structures/settle_sphere.h"
+
+namespace kds {
+
+namespace {
+
+// Nodes of more beads look whether cages below are inside before they look at the beads.
+constexpr BeadId most_in_block = 64;
+// By how much beads may be out of a cage that doubles have proved.
+constexpr double looseness = 1 + 0x1p-27;
+constexpr std::size_t chunk = 64;  // nodes at a time
+
+enum class Start { children, old_bases };
+
+template <class Form>
+class Wrapper {
+ public:
+  static constexpr int Dimension = Form::Dimension;
+  using Sphere = typename Form::Sphere;
+
+  const NecklaceTree& tree;
+  const Balls<Dimension>& balls;
+  Basis* bases;
+  Cage<Dimension>* cages;
+  std::uint8_t* loose;
+  WrapCounts counts{};
+
+  // Nodes that do not depend on each other.
+  [[gnu::always_inline]] void wrap(const NodeId* nodes, std::size_t count, Start start) {
+    std::array<Pending, chunk> pending;
+    for (std::size_t i = 0; i < count; ++i) pending[i] = {nodes[i], {}};
+    if (start == Start::children) {
+      for (std::size_t i = 0; i < count; ++i) bases[nodes[i]] = far_pair(nodes[i]);
+      const BeadRange& range = tree.range(nodes[0]);
+      if (range.last - range.first > 16) pivot_among_children(nodes, count);  // few beads are as fast to scan
+      counts.changed += count;
+    } else {
+      for (std::size_t i = 0; i < count; ++i) pending[i].old = bases[nodes[i]];
+    }
+    std::array<Sphere, chunk> spheres;
+    std::array<detail::Seen, chunk> seen;
+    std::size_t waiting = count;
+    for (int round = 0; waiting > 0; ++round) {
+      const auto visit_below = [&](std::size_t i) __attribute__((always_inline)) {
+        return [ this, node = pending[i].node ](const Sphere& sphere, const auto& look)
+            __attribute__((always_inline)) {
+          visit_blocks(node, sphere, look);
+        };
+      };
+      // One thing after the other for all of them: a processor overlaps what does not branch.
+      spheres_of(pending.data(), waiting, spheres.data());
+      for (std::size_t i = 0; i < waiting; ++i)
+        seen[i] = detail::scan_beads<Form>(balls, spheres[i], visit_below(i));
+      std::size_t left = 0;
+      for (std::size_t i = 0; i < waiting; ++i) {
+        const NodeId node = pending[i].node;
+        if (detail::is_proved<Form>(bases[node], spheres[i], seen[i])) {
+          cages[node] = {spheres[i].center, spheres[i].radius};
+          loose[node] = 0;
+          if (round > 0) finish(pending[i], start);
+        } else if (round < detail::most_pivots &&
+                   detail::next_basis<Form>(balls, bases[node], spheres[i], seen[i], visit_below(i))) {
+          ++counts.pivots;
+          pending[left++] = pending[i];
+        } else {
+          settle_in_exact_numbers(node);
+          finish(pending[i], start);
+        }
+      }
+      waiting = left;
+    }
+  }
+
+  // Nodes of two beads of one radius: their sphere is around the midpoint.
+  [[gnu::always_inline]] void wrap_pairs(const NodeId* nodes, std::size_t count, Start start) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const NodeId node = nodes[i];
+      const BeadRange range = tree.range(node);
+      Cage<Dimension>& cage = cages[node];
+      double square = 0, size = 0;
+      for (std::size_t axis = 0; axis < Dimension; ++axis) {
+        const double p = balls.coordinates(axis)[range.first];
+        const double half = 0.5 * (balls.coordinates(axis)[range.last] - p);
+        cage.center[axis] = p + half;
+        size = std::max(size, std::abs(cage.center[axis]));
+        square += half * half;
+      }
+      cage.radius = std::sqrt(square);
+      loose[node] = !(size * 0x1p-22 <= cage.radius);
+      const Pending before{node, bases[node]};
+      Basis& basis = bases[node];
+      basis.size = 2;
+      basis.beads[0] = range.first;
+      basis.beads[1] = range.last;
+      if (!(square >= 0x1p-600 && square <= 0x1p600)) settle_in_exact_numbers(node);
+      if (start == Start::old_bases && (before.old.size != 2 || basis.size != 2)) finish(before, start);
+    }
+    if (start == Start::children) counts.changed += count;
+  }
+
+ private:
+  struct Pending {
+    NodeId node;
+    Basis old;
+  };
+
+  [[gnu::always_inline]] void finish(const Pending& done, Start start) {
+    if (start == Start::old_bases && !(done.old == bases[done.node])) ++counts.changed;
+  }
+
+  void settle_in_exact_numbers(NodeId node) {
+    const BeadRange range = tree.range(node);
+    ++counts.exact;
+    loose[node] = 1;
+    cages[node] = settle_exactly(balls, range.first, range.last, bases[node], Form::of_points);
+  }
+
+  // Spheres of the nodes' bases, four at a time among those of one size.
+  [[gnu::always_inline]] void spheres_of(const Pending* pending, std::size_t count, Sphere* spheres) const {
+    std::array<std::array<std::uint8_t, chunk>, 4> places;
+    std::array<std::size_t, 4> of_size{};
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t m = bases[pending[i].node].size - 1U;
+      places[m][of_size[m]++] = static_cast<std::uint8_t>(i);
+    }
+    for (std::size_t i = 0; i < of_size[0]; ++i)
+      spheres[places[0][i]] = Form::sphere(detail::basis_balls<0>(balls, bases[pending[places[0][i]].node]));
+    spheres_of_size<1>(pending, places[1].data(), of_size[1], spheres);
+    spheres_of_size<2>(pending, places[2].data(), of_size[2], spheres);
+    if constexpr (Dimension == 3) spheres_of_size<3>(pending, places[3].data(), of_size[3], spheres);
+  }
+  template <std::size_t M>
+  [[gnu::always_inline]] void spheres_of_size(const Pending* pending, const std::uint8_t* places,
+                                              std::size_t count, Sphere* spheres) const {
+    for (std::size_t i = 0; i < count; i += Lanes::width) {
+      detail::BasisBalls<Lanes, Dimension, M> members;
+      std::array<const Basis*, Lanes::width> four;
+      for (std::size_t lane = 0; lane < Lanes::width; ++lane)
+        four[lane] = &bases[pending[places[std::min(i + lane, count - 1)]].node];
+      const auto gather = [&](const double* values, std::size_t j) __attribute__((always_inline)) {
+        return Lanes(Lanes::Vector{values[four[0]->beads[j]], values[four[1]->beads[j]],
+                                   values[four[2]->beads[j]], values[four[3]->beads[j]]});
+      };
+      for (std::size_t j = 0; j <= M; ++j) {
+        for (std::size_t axis = 0; axis < Dimension; ++axis)
+          members.center[j][axis] = gather(balls.coordinates(axis), j);
+        if (!Form::of_points) members.radius[j] = gather(balls.radii(), j);
+      }
+      const BasisSphere<Lanes, Dimension> sphere = Form::sphere(members);
+      for (std::size_t lane = 0; lane < Lanes::width && i + lane < count; ++lane) {
+        Sphere& one = spheres[places[i + lane]];
+        for (std::size_t axis = 0; axis < Dimension; ++axis) one.center[axis] = sphere.center[axis].v[lane];
+        one.radius = sphere.radius.v[lane];
+        one.inner = sphere.inner.v[lane];
+        one.outer = sphere.outer.v[lane];
+        one.least = sphere.least.v[lane];
+        one.certain = sphere.certain[lane] != 0;
+      }
+    }
+  }
+
+  // Blocks of beads below a node, from the left, without cages that are inside for certain.
+  template <class Look>
+  [[gnu::always_inline]] void visit_blocks(NodeId node, const Sphere& sphere, const Look& look) const {
+    const BeadRange all = tree.range(node);
+    if (all.last - all.first < most_in_block) return look(all.first, all.last);
+    const double inner = sphere.certain ? Form::inner_radius(sphere) : 0;
+    std::array<NodeId, 64> stack;
+    std::size_t depth = 0;
+    stack[depth++] = tree.right(node);
+    stack[depth++] = tree.left(node);
+    while (depth > 0) {
+      const NodeId v = stack[--depth];
+      const Cage<Dimension>& cage = cages[v];
+      const double room = inner - cage.radius * looseness;
+      const Point<Dimension> d = detail::minus(cage.center, sphere.center);
+      if (room > 0x1p-200 && detail::dot(d, d) <= room * room * (1 - 0x1p-40) && loose[v] == 0) continue;
+      const BeadRange range = tree.range(v);
+      if (range.last - range.first < most_in_block) {
+        look(range.first, range.last);
+        continue;
+      }
+      stack[depth++] = tree.right(v);
+      stack[depth++] = tree.left(v);
+    }
+  }
+
+  [[gnu::always_inline]] std::span<const BeadId> members(NodeId child, const BeadId& leaf) const {
+    return child == NecklaceTree::leaf ? std::span<const BeadId>(&leaf, 1)
+                                       : std::span<const BeadId>(bases[child].begin(), bases[child].size);
+  }
+  // Of the beads of both children's bases.
+  [[gnu::always_inline]] Basis far_pair(NodeId node) const {
+    const BeadRange range = tree.range(node);
+    const NodeId left = tree.left(node);
+    return detail::far_pair<Form>(
+        balls, members(tree.right(node), range.last), members(left, range.first),
+        left == NecklaceTree::leaf ? detail::center_of(balls, range.first) : cages[left].center);
+  }
+
+  // Makes the bases those of the beads of both children's bases, most likely.
+  [[gnu::always_inline]] void pivot_among_children(const NodeId* nodes, std::size_t count) {
+    struct Few {
+      std::array<std::array<double, 8>, Dimension> centers;
+      std::array<double, 8> radii;
+      std::array<BeadId, 8> ids;
+    };
+    std::array<Few, chunk> few;
+    std::array<Sphere, chunk> spheres;
+    std::array<double, chunk> farthest;
+    std::array<Pending, chunk> pending;
+    std::array<std::uint8_t, chunk> place;
+    for (std::size_t i = 0; i < count; ++i) {
+      const BeadRange range = tree.range(nodes[i]);
+      const auto of_left = members(tree.left(nodes[i]), range.first);
+      const auto of_right = members(tree.right(nodes[i]), range.last);
+      for (std::size_t k = 0; k < 8; ++k) {
+        const std::size_t r = k - of_left.size();
+        const BeadId b = k < of_left.size() ? of_left[k] : of_right[r < of_right.size() ? r : 0];
+        few[i].ids[k] = b;
+        for (std::size_t axis = 0; axis < Dimension; ++axis)
+          few[i].centers[axis][k] = balls.coordinates(axis)[b];
+        few[i].radii[k] = balls.radii()[b];
+      }
+      pending[i].node = nodes[i];
+      place[i] = static_cast<std::uint8_t>(i);
+    }
+    std::size_t waiting = count;
+    for (int round = 0; waiting > 0 && round < 8; ++round) {
+      spheres_of(pending.data(), waiting, spheres.data());
+      const auto measure_of = [&](std::size_t i) __attribute__((always_inline)) {
+        auto measure = Form::measure(balls, spheres[i]);
+        for (std::size_t axis = 0; axis < Dimension; ++axis)
+          measure.centers[axis] = few[place[i]].centers[axis].data();
+        if constexpr (!Form::of_points) measure.radii = few[place[i]].radii.data();
+        return measure;
+      };
+      for (std::size_t i = 0; i < waiting; ++i) {
+        detail::Scanner scanner;
+        scanner.scan(measure_of(i), 0, 7);
+        farthest[i] = scanner.farthest_value();
+      }
+      std::size_t left = 0;
+      for (std::size_t i = 0; i < waiting; ++i) {
+        if (!(farthest[i] > spheres[i].outer) || !(spheres[i].least > 0)) continue;
+        Basis& basis = bases[pending[i].node];
+        const BeadId found = detail::find_value(measure_of(i), 0, 7, farthest[i]);
+        const BeadId escaped = found == no_bead ? no_bead : few[place[i]].ids[found];
+        if (escaped == no_bead || basis.contains(escaped) || !Form::pivot(balls, basis, escaped)) continue;
+        ++counts.pivots;
+        pending[left].node = pending[i].node;
+        place[left++] = place[i];
+      }
+      waiting = left;
+    }
+  }
+};
+
+template <class Form, Start start>
+[[KDS_SCAN_TARGETS]] void wrap_groups(Wrapper<Form>& wrapper, const BottomUpOrder& order,
+                                      std::span<const BottomUpOrder::Group> groups) {
+  for (const BottomUpOrder::Group& group : groups) {
+    const std::span<const NodeId> nodes = order.nodes(group);
+    const BeadRange range = wrapper.tree.range(nodes[0]);
+    if (Form::of_points && range.last - range.first == 1) {
+      wrapper.wrap_pairs(nodes.data(), nodes.size(), start);
+      continue;
+    }
+    for (std::size_t i = 0; i < nodes.size(); i += chunk)
+      wrapper.wrap(nodes.data() + i, std::min(chunk, nodes.size() - i), start);
+  }
+}
+
+}  // namespace
+
+template <int Dimension>
+StaticWrappedHierarchy<Dimension>::StaticWrappedHierarchy(std::span<const BeadRange> necklaces)
+    : tree_(necklaces), order_(tree_) {}
+
+template <int Dimension>
+template <class Form, bool from_children>
+WrapCounts StaticWrappedHierarchy<Dimension>::wrap(const Balls<Dimension>& balls, Threads threads) {
+  return over_runs<WrapCounts>(order_, threads, [&](std::span<const BottomUpOrder::Group> groups) {
+    Wrapper<Form> wrapper{tree_, balls, bases_.data(), cages_.data(), loose_.data()};
+    wrap_groups<Form, from_children ? Start::children : Start::old_bases>(wrapper, order_, groups);
+    return wrapper.counts;
+  });
+}
+
+template <int Dimension>
+WrapCounts StaticWrappedHierarchy<Dimension>::build(const Balls<Dimension>& balls, Threads threads) {
+  bases_.resize(tree_.node_count());
+  cages_.resize(tree_.node_count());
+  loose_.resize(tree_.node_count());
+  wider_ = balls.equal_radii() && balls.size() > 0 ? balls.radius(0) : 0;
+  return balls.equal_radii() ? wrap<PointForm<Dimension>, true>(balls, threads)
+                             : wrap<BallForm<Dimension>, true>(balls, threads);
+}
+
+template <int Dimension>
+WrapCounts StaticWrappedHierarchy<Dimension>::update(const Balls<Dimension>& balls, Threads threads) {
+  if (bases_.size() != tree_.node_count()) return build(balls, threads);
+  wider_ = balls.equal_radii() && balls.size() > 0 ? balls.radius(0) : 0;
+  return balls.equal_radii() ? wrap<PointForm<Dimension>, false>(balls, threads)
+                             : wrap<BallForm<Dimension>, false>(balls, threads);
+}
+
+template class StaticWrappedHierarchy<2>;
+template class StaticWrappedHierarchy<3>;
+
+}  // namespace kds
