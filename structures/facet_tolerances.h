@@ -24,7 +24,8 @@ class FacetTolerances {
 
   /// At the start of a step, its motion loaded.
   void start_step(const M& motion, const Triangulation& triangulation) {
-    if (triangulation.cells().empty()) return forget_all();
+    cells_ = triangulation.cells();
+    if (cells_.empty()) return forget_all();
     const double rest = settle(motion, triangulation);
     if (rest >= 1 - worth_a_reference) return;
     Wandering<M> fresh;
@@ -35,10 +36,12 @@ class FacetTolerances {
     take_all(motion, triangulation);
     static_cast<void>(settle(motion, triangulation));
   }
-  /// Whether the facet needs no certificate in this step.
+  /// Whether the facet needs no certificate in this step. Asked before any flip in the step.
   [[nodiscard]] bool holds(CellId cell, int i, CellId neighbor) const {
-    return wandering_.has_reference() &&
-           std::max(strays_[cell], strays_[neighbor]) < tolerances_[cell][static_cast<std::size_t>(i)];
+    if (!wandering_.has_reference()) return false;
+    const double tolerance = tolerances_[cell][static_cast<std::size_t>(i)];
+    if (farthest_ < tolerance) return true;  // which bead does not matter: most facets, where motion is slow
+    return stray_of(cell) < tolerance && stray_of(neighbor) < tolerance;
   }
   /// The facet, as this cell has it, has got other beads.
   void forget(CellId cell, int i) {
@@ -56,27 +59,42 @@ class FacetTolerances {
   /// facets rest that do not yet.
   static constexpr double worth_a_reference = 0.25;
   static constexpr std::size_t sample_size = 128;
+  static constexpr double unknown = -1;
 
-  /// What each cell's beads stray at most; the share of facets that may rest.
+  /// How far beads stray; of a sample, the share of facets that may rest.
   double settle(const M& motion, const Triangulation& triangulation) {
     if (!wandering_.has_reference()) return 0;
     wandering_.look_at(motion);
-    const auto cells = triangulation.cells();
-    tolerances_.resize(cells.size());
-    strays_.resize(cells.size());
-    for (CellId cell = 0; cell < cells.size(); ++cell)
-      strays_[cell] = stray_of(cells[cell].vertex, wandering_.strays());
-    std::size_t facets = 0, resting = 0;
-    for (CellId cell = 0; cell < cells.size(); ++cell) {
-      if (!triangulation.is_live(cell)) continue;
-      for (int i = 0; i <= dimension; ++i) {
-        const CellId neighbor = cell_of(triangulation.beyond(cell, i));
-        if (neighbor < cell) continue;
-        ++facets;
-        resting += holds(cell, i, neighbor) ? 1 : 0;
-      }
+    const auto strays = wandering_.strays();
+    farthest_ = *std::max_element(strays.begin(), strays.end());
+    tolerances_.resize(cells_.size());
+    strays_.assign(cells_.size(), unknown);
+    std::size_t looked_at = 0, resting = 0;
+    for_sample(triangulation, [&](CellId cell, int i) {
+      ++looked_at;
+      resting += holds(cell, i, cell_of(triangulation.beyond(cell, i))) ? 1 : 0;
+    });
+    return share_of(resting, looked_at);
+  }
+
+  /// What a cell's beads stray at most, worked out when first asked for.
+  [[nodiscard]] double stray_of(CellId cell) const {
+    double& stray = strays_[cell];
+    if (stray == unknown) stray = stray_of(cells_[cell].vertex, wandering_.strays());
+    return stray;
+  }
+
+  /// Some facets of live cells.
+  template <class Visit>
+  static void for_sample(const Triangulation& triangulation, Visit visit) {
+    const std::size_t stride = std::max<std::size_t>(1, triangulation.cells().size() / sample_size);
+    for (std::size_t at = 0; at < triangulation.cells().size(); at += stride) {
+      const auto cell = static_cast<CellId>(at);
+      if (triangulation.is_live(cell)) visit(cell, static_cast<int>(cell % (dimension + 1)));
     }
-    return static_cast<double>(resting) / static_cast<double>(facets);
+  }
+  [[nodiscard]] static double share_of(std::size_t some, std::size_t all) {
+    return all == 0 ? 0 : static_cast<double>(some) / static_cast<double>(all);
   }
 
   static double stray_of(std::span<const BeadId> beads, std::span<const double> strays) {
@@ -148,17 +166,16 @@ class FacetTolerances {
       ++looked_at;
       resting += std::max(stray_of(cells[cell].vertex, strays), apex_strays) < tolerance ? 1 : 0;
     });
-    const std::size_t stride = std::max<std::size_t>(1, cells.size() / sample_size);
-    for (CellId cell = 0; cell < cells.size(); cell += static_cast<CellId>(stride)) {
-      if (triangulation.is_live(cell)) four.add(cell, static_cast<int>(cell % (dimension + 1)));
-    }
+    for_sample(triangulation, [&](CellId cell, int i) { four.add(cell, i); });
     four.flush();
-    return looked_at == 0 ? 0 : static_cast<double>(resting) / static_cast<double>(looked_at);
+    return share_of(resting, looked_at);
   }
 
   Wandering<M> wandering_;
   std::vector<std::array<double, dimension + 1>> tolerances_;  ///< of each facet, as each cell has it
-  std::vector<double> strays_;                                 ///< of each cell
+  double farthest_ = 0;                                        ///< any bead strays no more
+  std::span<const TriangulationCell<dimension>> cells_;        ///< at the start of the step
+  mutable std::vector<double> strays_;                         ///< of each cell, or unknown
 };
 
 }  // namespace kds

@@ -5,5 +5,6 @@ namespace kds::bench {
 
 void add_engine_benchmarks();
 void add_certificate_benchmarks();
+void add_tolerance_benchmarks();
 
 }  // namespace kds::bench

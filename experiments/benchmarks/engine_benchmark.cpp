@@ -70,5 +70,6 @@ void kds::bench::add_engine_benchmarks() {
     add(std::string("d1_n") + n + "/filtered", std::string("d1_n") + n + "_linear.txt", "sorted",
         KernelName::filtered);
   }
+  add("d3_n50_degree3/filtered", "d3_n50_degree3.txt", "power", KernelName::filtered);
   add("d3_n50/exact", "d3_n50_linear.txt", "power", KernelName::exact);
 }

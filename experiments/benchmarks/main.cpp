@@ -6,6 +6,7 @@
 
 int main(int argc, char** argv) {
   kds::bench::add_certificate_benchmarks();
+  kds::bench::add_tolerance_benchmarks();
   kds::bench::add_engine_benchmarks();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

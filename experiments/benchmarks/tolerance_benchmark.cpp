@@ -1,0 +1,81 @@
+// Slow motion: facets that tolerances of an earlier frame let rest, against EPICK's power test of the same
+// facets at one moment. One step is looking at all beads and all facets; the tolerances stand already. `ns` a
+// facet of the step; `resting` is the share of facets that need no certificate.
+//
+//   kds_benchmarks --benchmark_filter=tolerance
+
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "experiments/benchmarks/benchmarks.h"
+#include "experiments/benchmarks/certificate_peers.h"
+#include "experiments/benchmarks/in_turn.h"
+#include "experiments/benchmarks/random_chain.h"
+#include "motions/positions.h"
+#include "structures/facet_tolerances.h"
+
+namespace kds::bench {
+
+namespace {
+
+// The beads move by `distance` times their radius in the step.
+template <Motion M>
+void rest(benchmark::State& state, double distance) {
+  Random random(1);
+  const auto beads = random_chain(random, 10240);
+  const M motion = jostled<M>(beads, distance, random);
+  RegularTriangulation<3> triangulation;
+  static_cast<void>(triangulation.build(control_points(motion, 0), control_weights(motion, 0)));
+
+  std::vector<FacetId> facets;
+  std::vector<std::array<BeadId, 5>> finite;
+  for (CellId cell = 0; cell < triangulation.cells().size(); ++cell) {
+    if (!triangulation.is_live(cell)) continue;
+    for (int i = 0; i < 4; ++i) {
+      const FacetId beyond = triangulation.beyond(cell, i);
+      if (cell_of(beyond) < cell) continue;
+      facets.push_back(facet_id(cell, i));
+      with_facet_certificate(triangulation.cells()[cell].vertex, triangulation.apex(beyond),
+                             [&](const auto& c) {
+                               if constexpr (std::same_as<decltype(c), const PowerTest<3>&>)
+                                 finite.push_back(c.beads);
+                             });
+    }
+  }
+  FacetTolerances<M> tolerances;
+  std::size_t resting = 0;
+  const auto step = [&] {
+    tolerances.start_step(motion, triangulation);
+    resting = 0;
+    for (const FacetId f : facets) {
+      const CellId cell = cell_of(f);
+      const int i = index_of(f);
+      resting += tolerances.holds(cell, i, cell_of(triangulation.beyond(cell, i))) ? 1 : 0;
+    }
+  };
+  step();  // takes the reference
+  const StaticPredicates peer(control_points(motion, 0), control_weights(motion, 0));
+  const double share = static_cast<double>(facets.size()) / static_cast<double>(finite.size());
+  measure_in_turn(state, facets.size(), step, [&] { return share * peer.seconds_for(finite); });
+  state.counters["resting"] = static_cast<double>(resting) / static_cast<double>(facets.size());
+}
+
+}  // namespace
+
+void add_tolerance_benchmarks() {
+  const auto add = [](const std::string& name, const auto& run) {
+    benchmark::RegisterBenchmark(name.c_str(), run)
+        ->UseManualTime()
+        ->Iterations(21)
+        ->Unit(benchmark::kMicrosecond);
+  };
+  using benchmark::State;
+  add("tolerance/facet/linear/0.0001r", [](State& s) { rest<BezierMotion<3, 1>>(s, 0.0001); });
+  add("tolerance/facet/linear/0.001r", [](State& s) { rest<BezierMotion<3, 1>>(s, 0.001); });
+  add("tolerance/facet/hermite/0.001r", [](State& s) { rest<BezierMotion<3, 3>>(s, 0.001); });
+}
+
+}  // namespace kds::bench
