@@ -99,6 +99,11 @@ template <class Certificate, Motion M>
   return result;
 }
 
+/// Does not hold just after now, as a sign certain all around now tells.
+[[nodiscard]] inline Failure failed_at_birth(const Instant& now) {
+  return {Failure::Kind::at_birth, {now.lower(), now.upper(), 0, false}};
+}
+
 /// Settles a certificate in double, or nothing.
 template <int Degree>
 [[nodiscard]] std::optional<Failure> settle(const Bounded<Degree>& bounded, const Instant& now, Birth birth) {
@@ -106,8 +111,11 @@ template <int Degree>
   const BoundedPolynomial<Degree>& function = bounded.function;
   // At its own root the bracket holds no other one, and at its upper end the function is positive.
   const bool known = birth == Birth::at_own_root && now.isolating();
-  if (!known && (birth == Birth::at_own_root || function.certain_sign_on(now.lower(), now.upper()) <= 0))
-    return std::nullopt;
+  if (!known) {
+    const int sign = birth == Birth::at_own_root ? 0 : function.certain_sign_on(now.lower(), now.upper());
+    if (sign == 0) return std::nullopt;
+    if (sign < 0) return failed_at_birth(now);
+  }
   const auto result = function.first_descent(now.upper(), known);
   switch (result.verdict) {
     case Verdict::never:
@@ -168,14 +176,21 @@ template <class Certificate, Motion M>
   return exact_first_failure(exact_function(certificate, motion), now, stages, touches);
 }
 
+/// Beads lie anywhere in memory: those of the next certificates are fetched while these are worked on.
+template <class Certificate, Motion M>
+void fetch_early(const Certificate& certificate, const M& motion) {
+  for (const BeadId bead : certificate.beads) __builtin_prefetch(motion.control_point(bead, 0));
+}
+
 /// Up to four certificates side by side, named by their places; the last one fills what is left.
 template <Motion M, class Certificate>
 [[nodiscard]] auto in_lanes(std::span<const Certificate> certificates, std::span<const std::size_t> places) {
+  constexpr std::array<double, 2> signs{-1, 1};  // no branch: no one foretells a side
   std::pair<typename LanesView<M, bead_places<Certificate>>::Tuples, Lanes> lanes;
   for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
     const Certificate& certificate = certificates[places[std::min(lane, places.size() - 1)]];
     lanes.first[lane] = certificate.beads;
-    lanes.second.v[lane] = certificate.side() ? 1 : -1;
+    lanes.second.v[lane] = signs[certificate.side() ? 1 : 0];
   }
   return lanes;
 }
@@ -193,6 +208,11 @@ void filtered_first_failures(std::span<const Certificate> certificates, std::spa
   }
   LanesOutcome<degree> outcome;
   settle_lanes<Certificate>(motion, tuples, sides, lanes_now, outcome);
+  if (Lanes::all(outcome.positive)) {
+    for (const std::size_t place : places) failures[place] = {};
+    stages.coefficients += places.size();
+    return;
+  }
   LanesDescent<degree>& descent = outcome.descent;
   LanesSearch search{outcome.positive | outcome.never, outcome.found};
   if (Lanes::any(outcome.unclear))
@@ -206,6 +226,9 @@ void filtered_first_failures(std::span<const Certificate> certificates, std::spa
     } else if (search.found[lane] != 0) {
       ++stages.isolation;
       failures[place] = {Failure::Kind::later, {descent.lower.v[lane], descent.upper.v[lane], 0, true}};
+    } else if (outcome.violated[lane] != 0) {
+      ++stages.isolation;
+      failures[place] = failed_at_birth(now);
     } else {
       failures[place] =
           careful_first_failure(certificates[place], motion, now, births[place], stages, touches);
@@ -240,6 +263,7 @@ void first_failures(std::span<const Certificate> certificates, const M& motion, 
   };
   std::optional<std::size_t> at_own_root;
   for (std::size_t i = 0; i < certificates.size(); ++i) {
+    if (i + at_once < certificates.size()) detail::fetch_early(certificates[i + at_once], motion);
     if (births[i] == Birth::at_own_root) {
       if (at_own_root) continue;
       at_own_root = i;

@@ -65,7 +65,8 @@ template <std::size_t N>
 }
 
 /// Searches the wanted lanes after `from`, where they are certainly positive: by their computed value, or
-/// `known` to be. The part given is that on [from, 1]; it tells how far the first look goes.
+/// `known` to be. The part given is that on [from, 1], as computed; it tells how far the
+/// first look goes, and looks that start at `from` subdivide it.
 template <int Degree>
 [[KDS_LANES_TARGETS]] void isolate_lanes(LanesDescent<Degree>& descent, double from,
                                          const Lanes::Mask& wanted, const Lanes::Mask& known,
@@ -73,12 +74,22 @@ template <int Degree>
   constexpr int most_steps = 100;
   Lanes::Mask searching = wanted;
   Lanes lower(from);
-  Lanes step = Lanes(1.5 * (1 - from)) * first_descent_of_polygon(descent.part);
+  const LanesCoefficients<Degree> given = descent.part;
+  const Lanes rest(1 - from);
+  LanesCoefficients<Degree> known_given = given;
+  known_given[0] = known_positive(given[0], known, descent.local_error);
+  Lanes step = Lanes(1.5) * rest * first_descent_of_polygon(known_given);
   for (int count = 0; count < most_steps && Lanes::any(searching); ++count) {
     const Lanes upper = Lanes::min(lower + step, Lanes(1.0));
-    LanesCoefficients<Degree> part = descent.bernstein;
-    casteljau_left(part, upper);
-    casteljau(part, lower / upper);
+    LanesCoefficients<Degree> part;
+    if (Lanes::any(searching & (lower > Lanes(from)))) {
+      part = descent.bernstein;
+      casteljau_left(part, upper);
+      casteljau(part, lower / upper);
+    } else {  // two subdivisions again, one of them made already
+      part = given;
+      casteljau_left(part, (upper - lower) / rest);
+    }
     part[0] = known_positive(part[0], known & (lower <= Lanes(from)), descent.local_error);
     const LanesShape shape = shape_of(part, descent.local_error);
     const Lanes::Mask found = searching & shape.one_descent;

@@ -1,5 +1,5 @@
 #pragma once
-// Four isolated descents narrowed at once: Newton on the local polynomials, guarded by the bracket of signs
+// Four isolated descents narrowed at once: Halley on the local polynomials, guarded by the bracket of signs
 // seen so far, then a bracket around the result whose ends are proved. No allocation.
 
 #include <array>
@@ -34,9 +34,35 @@ template <std::size_t N>
 
 namespace detail {
 
+/// Odd and even powers apart: half as long a chain of operations as Horner's rule.
+template <std::size_t N>
+[[gnu::always_inline]] inline Lanes value_of_powers(const std::array<Lanes, N>& c, const Lanes& t,
+                                                    const Lanes& square) {
+  if constexpr (N == 1) {
+    return c[0];
+  } else {
+    Lanes later = c[N - 1], next = c[N - 2];
+    for (std::size_t k = N - 2; k-- > 0;) {
+      const Lanes sum = later * square + c[k];
+      later = next;
+      next = sum;
+    }
+    return next + t * later;
+  }
+}
+
+/// The derivative's coefficients, divided by `divisor`.
+template <std::size_t N>
+[[gnu::always_inline]] inline std::array<Lanes, N - 1> derivative(const std::array<Lanes, N>& c,
+                                                                  double divisor) {
+  std::array<Lanes, N - 1> result;
+  for (std::size_t k = 1; k < N; ++k) result[k - 1] = Lanes(static_cast<double>(k) / divisor) * c[k];
+  return result;
+}
+
 /// Near the descent of the polynomial with these coefficients on [0,1]; `slope` is its derivative there.
 template <std::size_t N>
-[[gnu::always_inline]] inline Lanes newton(const std::array<Lanes, N>& c, Lanes::Mask moving, Lanes& slope) {
+[[gnu::always_inline]] inline Lanes halley(const std::array<Lanes, N>& c, Lanes::Mask moving, Lanes& slope) {
   constexpr int degree = static_cast<int>(N) - 1;
   // Where the control polygon descends through zero.
   Lanes place(0.0), left(0.0), right(-1.0);
@@ -53,21 +79,24 @@ template <std::size_t N>
   }
   for (std::size_t k = 1; k + 1 < N; ++k)
     power[k] = Lanes(static_cast<double>(binomial(degree, static_cast<int>(k)))) * power[k];
+  const auto first = derivative(power, 1);
 
   Lanes low(0.0), high(1.0);
   for (int iteration = 0; iteration < 40 && Lanes::any(moving); ++iteration) {
-    Lanes value = power[N - 1];
-    slope = Lanes(0.0);
-    for (std::size_t k = N - 1; k-- > 0;) {
-      slope = slope * t + value;
-      value = value * t + power[k];
+    const Lanes square = t * t;
+    const Lanes value = value_of_powers(power, t, square);
+    slope = value_of_powers(first, t, square);
+    Lanes change = value / slope;
+    if constexpr (N > 2) {
+      const Lanes bend = value_of_powers(derivative(first, 2), t, square);
+      change = value * slope / (slope * slope - value * bend);
     }
     const Lanes::Mask before = value > Lanes(0.0);
     low = Lanes::choose(before, t, low);
     high = Lanes::choose(before, high, t);
-    Lanes next = t - value / slope;
+    Lanes next = t - change;
     next = Lanes::choose((next >= low) & (next <= high), next, Lanes(0.5) * (low + high));
-    const Lanes::Mask far = Lanes::abs(next - t) > Lanes(0x1p-22);  // the next step is far shorter
+    const Lanes::Mask far = Lanes::abs(next - t) > Lanes(0x1p-16);  // the next step is far shorter
     t = Lanes::choose(moving, next, t);  // one that has arrived stays: more steps would bisect it away
     moving &= far;
   }
@@ -81,7 +110,7 @@ template <int Degree>
 [[KDS_LANES_TARGETS]] void narrow_lanes(LanesDescent<Degree>& descent, const Lanes::Mask& wanted) {
   Lanes slope(-1.0);
   // In units of the part, hence times its length below.
-  const Lanes t = detail::newton(descent.part, wanted, slope);
+  const Lanes t = detail::halley(descent.part, wanted, slope);
   const Lanes length = descent.upper - descent.lower;
   const Lanes root = descent.lower + length * t;
   // Far enough on both sides for the signs to be certain, also where a later search starts; the part's own

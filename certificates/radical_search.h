@@ -9,6 +9,7 @@
 #include <concepts>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "certificates/failure_search.h"
 #include "certificates/radical.h"
@@ -71,23 +72,6 @@ template <class Radical, class Certificate, Motion M>
           exact_function(part_of<typename Radical::Norm>(certificate), motion)};
 }
 
-/// A radical's polynomials in double with their errors.
-template <class Rational, class Root, class Norm>
-struct RadicalInDouble {
-  Rational rational;
-  Root root;
-  Norm norm;
-
-  /// 1 or -1 if that is the sign all over [lower, upper] for certain, else 0.
-  [[nodiscard]] int certain_sign_on(double lower, double upper) const {
-    return sign_of_radical(rational.function.certain_sign_on(lower, upper),
-                           root.function.certain_sign_on(lower, upper),
-                           norm.function.certain_sign_on(lower, upper));
-  }
-  /// The same all over the step, by A and B alone.
-  [[nodiscard]] bool certainly_positive() const { return rational.positive && root.positive; }
-};
-
 /// The certificate type's own filter, and errors followed operation by operation.
 struct OwnFilter {
   template <class Part, Motion M>
@@ -111,14 +95,41 @@ struct NoErrors {
   }
 };
 
+/// A radical's polynomials in double with their errors; the norm, the longest by far, when it is asked for.
 template <class Radical, class Errors, class Certificate, Motion M>
-[[nodiscard]] auto radical_in_double(const Certificate& certificate, const M& motion, int sign,
-                                     int root_sign) {
-  return RadicalInDouble{
-      Errors::bounded(part_of<typename Radical::Rational>(certificate, sign), motion),
-      Errors::bounded(part_of<typename Radical::Root>(certificate, sign * root_sign), motion),
-      Errors::bounded(part_of<typename Radical::Norm>(certificate), motion)};
-}
+class RadicalInDouble {
+ public:
+  /// Times `sign`, and the root by `root_sign` too.
+  RadicalInDouble(const Certificate& certificate, const M& motion, int sign, int root_sign)
+      : certificate_(certificate),
+        motion_(motion),
+        rational_(Errors::bounded(part_of<typename Radical::Rational>(certificate, sign), motion)),
+        root_(Errors::bounded(part_of<typename Radical::Root>(certificate, sign * root_sign), motion)) {}
+
+  [[nodiscard]] const auto& norm() const {
+    if (!norm_) norm_ = Errors::bounded(part_of<typename Radical::Norm>(certificate_), motion_);
+    return norm_->function;
+  }
+  /// 1 or -1 if that is the sign all over [lower, upper] for certain, else 0.
+  [[nodiscard]] int certain_sign_on(double lower, double upper) const {
+    const int a = rational_.function.certain_sign_on(lower, upper);
+    const int b = root_.function.certain_sign_on(lower, upper);
+    return a == b ? a : sign_of_radical(a, b, norm().certain_sign_on(lower, upper));
+  }
+  /// The same all over the step, by A and B alone.
+  [[nodiscard]] bool certainly_positive() const { return rational_.positive && root_.positive; }
+
+ private:
+  template <class Polynomial>
+  using InDouble = decltype(Errors::bounded(part_of<Polynomial>(std::declval<const Certificate&>()),
+                                            std::declval<const M&>()));
+
+  const Certificate& certificate_;
+  const M& motion_;
+  InDouble<typename Radical::Rational> rational_;
+  InDouble<typename Radical::Root> root_;
+  mutable std::optional<InDouble<typename Radical::Norm>> norm_;
+};
 
 /// A radical certificate in double.
 template <class Errors, class Certificate, Motion M>
@@ -128,12 +139,11 @@ class CertificateInDouble {
       : certificate_(certificate),
         motion_(motion),
         side_(certificate.side() ? 1 : -1),
-        wanted_(radical_in_double<typename Certificate::Radical, Errors>(certificate, motion, side_,
-                                                                         certificate.root_sign())) {
+        wanted_(certificate, motion, side_, certificate.root_sign()) {
     if constexpr (ConditionalFor<Certificate, M>) conditional_ = certificate.conditional(motion);
   }
 
-  [[nodiscard]] const auto& norm() const { return wanted_.norm.function; }
+  [[nodiscard]] const auto& norm() const { return wanted_.norm(); }
   /// 1 or -1 if that is the sign all over [lower, upper] for certain, else 0.
   [[nodiscard]] int certain_sign_on(double lower, double upper) const {
     return side_ * with_condition(side_ * wanted_.certain_sign_on(lower, upper), lower, upper);
@@ -148,8 +158,8 @@ class CertificateInDouble {
   [[nodiscard]] int with_condition(int radical, double lower, double upper) const {
     if constexpr (ConditionalFor<Certificate, M>) {
       if (conditional_ && radical >= 0) {
-        const auto condition =
-            radical_in_double<typename Certificate::Condition, Errors>(certificate_, motion_, 1, 1);
+        const RadicalInDouble<typename Certificate::Condition, Errors, Certificate, M> condition(
+            certificate_, motion_, 1, 1);
         const int sign = condition.certain_sign_on(lower, upper);
         return sign < 0 ? -1 : sign > 0 ? radical : 0;
       }
@@ -161,8 +171,7 @@ class CertificateInDouble {
   const M& motion_;
   int side_;
   bool conditional_ = false;
-  decltype(radical_in_double<typename Certificate::Radical, Errors>(std::declval<const Certificate&>(),
-                                                                    std::declval<const M&>(), 1, 1)) wanted_;
+  RadicalInDouble<typename Certificate::Radical, Errors, Certificate, M> wanted_;
 };
 
 template <int Degree>
@@ -200,8 +209,9 @@ template <class InDouble>
                                                     Birth birth) {
   const bool at_own_root = birth == Birth::at_own_root;
   if (at_own_root && !now.isolating()) return std::nullopt;
-  if (certificate.certain_sign_on(at_own_root ? now.upper() : now.lower(), now.upper()) <= 0)
-    return std::nullopt;
+  const int sign = certificate.certain_sign_on(at_own_root ? now.upper() : now.lower(), now.upper());
+  if (sign == 0 || (sign < 0 && at_own_root)) return std::nullopt;
+  if (sign < 0) return failed_at_birth(now);
   return walk_candidates(certificate, now.upper());
 }
 
@@ -234,7 +244,10 @@ template <class Certificate, Motion M>
     }
   }
   const CertificateInDouble<TrackedErrors, Certificate, M> tracked(certificate, motion);
-  if (const auto failure = settle_radical(tracked, now, birth)) {
+  auto failure = settle_radical(tracked, now, birth);
+  // As in careful_first_failure.
+  if (!failure && now.narrow()) failure = settle_radical(tracked, now, birth);
+  if (failure) {
     ++stages.refined;
     return *failure;
   }

@@ -26,6 +26,7 @@ template <int Degree>
 struct LanesOutcome {
   Lanes::Mask positive{};        ///< never fails: all coefficients positive
   Lanes::Mask never{};           ///< never fails from now on
+  Lanes::Mask violated{};        ///< negative now
   Lanes::Mask found{};           ///< fails once from now on: `descent` holds it
   Lanes::Mask unclear{};         ///< positive now, and yet to be searched
   Lanes::Mask known{};           ///< positive now although the value may not show it: at its own root
@@ -84,10 +85,10 @@ template <int Degree>
   lanes.local_error = uniform + Lanes(local_rounding(Degree)) * largest;
 }
 
-/// How much less than at its upper end a function may be elsewhere in the present bracket.
+/// How far from its value at the upper end a function may be elsewhere in the present bracket.
 template <int Degree>
-[[gnu::always_inline]] inline Lanes fall_within(const LanesDescent<Degree>& lanes, double lower,
-                                                double upper) {
+[[gnu::always_inline]] inline Lanes change_within(const LanesDescent<Degree>& lanes, double lower,
+                                                  double upper) {
   if (!(lower < upper)) return Lanes(0.0);
   // |p'| <= Degree * steepest; coefficients err by value_error each.
   Lanes steepest(0.0);
@@ -116,15 +117,18 @@ template <class Certificate, Motion M, int Degree>
   for (unsigned lane = 0; lane < Lanes::width; ++lane)
     at_own_root[lane] = (now.at_own_root >> lane & 1U) != 0 ? -1 : 0;
   const Lanes::Mask known = now.isolating ? at_own_root : Lanes::Mask{};
-  right[0] = known_positive(right[0], known, out.descent.local_error);
-  const Lanes fall = Lanes::choose(at_own_root, Lanes(now.isolating ? 0.0 : __builtin_inf()),
-                                   detail::fall_within(out.descent, now.lower, now.upper));
-  const Lanes::Mask starts_positive = right[0] > out.descent.local_error + fall;
+  const Lanes start = right[0];
+  right[0] = known_positive(start, known, out.descent.local_error);
+  const Lanes change = Lanes::choose(at_own_root, Lanes(now.isolating ? 0.0 : __builtin_inf()),
+                                     detail::change_within(out.descent, now.lower, now.upper));
+  const Lanes::Mask starts_positive = right[0] > out.descent.local_error + change;
+  out.violated = right[0] < -(out.descent.local_error + change);
   const LanesShape shape = shape_of(right, out.descent.local_error);
   out.never = shape.positive & starts_positive & ~out.positive;
   out.found = shape.one_descent & starts_positive;
   out.unclear = starts_positive & ~(out.positive | shape.positive | shape.one_descent);
   out.known = known;
+  right[0] = Lanes::choose(out.unclear, start, right[0]);  // those are subdivided: the polynomial as it is
   out.descent.part = right;
   out.descent.lower = Lanes(now.upper);
   out.descent.upper = Lanes(1.0);
@@ -141,7 +145,7 @@ template <class Function, Motion M, int Degree>
   detail::bound_lanes(given, error_bound<Function, M>.uniform, work);
   work.part = work.bernstein;
   const Lanes value = casteljau(work.part, Lanes(upper));
-  all_positive = Lanes::all(value > work.value_error + detail::fall_within(work, lower, upper));
+  all_positive = Lanes::all(value > work.value_error + detail::change_within(work, lower, upper));
 }
 
 }  // namespace kds

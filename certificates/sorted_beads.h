@@ -4,28 +4,31 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "motions/bead.h"
 
 namespace kds {
 
-/// Sorts ascending; 1 if an even number of exchanges did it, else -1.
+/// Sorts ascending; 1 if an even number of exchanges did it, else -1. Always the same exchanges, without
+/// branches and, as it is not a loop, in registers: this runs for every certificate.
 template <std::size_t N>
-[[nodiscard]] constexpr int sort_beads(std::array<BeadId, N>& beads) {
-  // By rank, without branches: this runs for every certificate.
-  std::array<unsigned, N> rank{};
-  unsigned inversions = 0;
-  for (std::size_t j = 1; j < N; ++j) {
-    for (std::size_t i = 0; i < j; ++i) {
-      const unsigned inverted = beads[j] < beads[i] ? 1 : 0;
-      inversions += inverted;
-      rank[i] += inverted;
-      rank[j] += 1 - inverted;
-    }
+[[nodiscard, gnu::always_inline]] constexpr int sort_beads(std::array<BeadId, N>& beads) {
+  unsigned exchanges = 0;
+  const auto exchange = [&](BeadId& a, BeadId& b) {
+    const BeadId low = b < a ? b : a, high = b < a ? a : b;
+    exchanges += b < a ? 1 : 0;
+    a = low;
+    b = high;
+  };
+  const auto raise_greatest = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (exchange(beads[I], beads[I + 1]), ...);
+  };
+  [&]<std::size_t... Done>(std::index_sequence<Done...>) {
+    (raise_greatest(std::make_index_sequence<N - 1 - Done>{}), ...);
   }
-  const std::array<BeadId, N> before = beads;
-  for (std::size_t i = 0; i < N; ++i) beads[rank[i]] = before[i];
-  return inversions % 2 == 0 ? 1 : -1;
+  (std::make_index_sequence<N - 1>{});
+  return exchanges % 2 == 0 ? 1 : -1;
 }
 
 }  // namespace kds
