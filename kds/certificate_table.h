@@ -52,24 +52,22 @@ class CertificateTable final : public FailureSource {
 
   /// The same for many, of which four at once cost little more than one: enqueue them, then watch them all.
   void enqueue(const Certificate& certificate, std::uint32_t place, Birth birth) {
-    waiting_.push_back(certificate);
-    places_.push_back(place);
-    births_.push_back(birth);
+    if (waiting_count_ == waiting_.size()) make_room();
+    waiting_[waiting_count_] = certificate;
+    places_[waiting_count_] = place;
+    births_[waiting_count_] = birth;
+    ++waiting_count_;
   }
   /// Calls `visit` with the place and the guard of each, in the order in which they were enqueued.
   template <std::invocable<std::uint32_t, Guard> Visit>
   void watch_enqueued(Visit visit) {
-    failures_.assign(waiting_.size(), {});
-    search(waiting_, births_, failures_);
-    for (std::size_t i = 0; i < waiting_.size(); ++i)
-      visit(places_[i], hold(waiting_[i], places_[i], failures_[i]));
+    const std::size_t count = waiting_count_;
+    search(std::span(waiting_).first(count), std::span(births_).first(count),
+           std::span(failures_).first(count));
+    for (std::size_t i = 0; i < count; ++i) visit(places_[i], hold(waiting_[i], places_[i], failures_[i]));
     forget_enqueued();
   }
-  void forget_enqueued() {
-    waiting_.clear();
-    places_.clear();
-    births_.clear();
-  }
+  void forget_enqueued() { waiting_count_ = 0; }
 
   /// Gives up a certificate that has not failed.
   void drop(Guard guard) {
@@ -138,13 +136,24 @@ class CertificateTable final : public FailureSource {
     bool touch = false;
   };
 
+  void make_room() {
+    const std::size_t room = std::max<std::size_t>(16, 2 * waiting_.size());
+    waiting_.resize(room);
+    places_.resize(room);
+    births_.resize(room);
+    failures_.resize(room);
+  }
+
   void search(std::span<const Certificate> certificates, std::span<const Birth> births,
               std::span<Failure> failures) {
     if constexpr (std::same_as<K, Fast>) {
       // Doubles may contradict themselves without end: after so many certificates in a step none is looked at
       // any more, and all are taken to hold.
       created_in_step_ += certificates.size();
-      if (created_in_step_ > 1'000'000 + 100'000 * motion_.bead_count()) return;
+      if (created_in_step_ > 1'000'000 + 100'000 * motion_.bead_count()) {
+        std::fill(failures.begin(), failures.end(), Failure{});
+        return;
+      }
     }
     first_failures<K>(certificates, motion_, simulator_.now(), births, owner_.statistics.stages, touches_,
                       failures);
@@ -170,8 +179,11 @@ class CertificateTable final : public FailureSource {
       slot = free_.back();
       free_.pop_back();
     }
-    entries_[slot] = {certificate, place, 0, failure.time.touch};
-    entries_[slot].handle = simulator_.schedule(failure.time, *this, slot);
+    Entry& entry = entries_[slot];
+    entry.certificate = certificate;
+    entry.place = place;
+    entry.touch = failure.time.touch;
+    entry.handle = simulator_.schedule(failure.time, *this, slot);
     return static_cast<Guard>(slot);
   }
 
@@ -183,10 +195,12 @@ class CertificateTable final : public FailureSource {
   Touches touches_;
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> free_;
-  std::vector<Certificate> waiting_;  // enqueued, with their places and births
+  // Enqueued, with their places and births, and what becomes of them: room for more than there are.
+  std::vector<Certificate> waiting_;
   std::vector<std::uint32_t> places_;
   std::vector<Birth> births_;
   std::vector<Failure> failures_;
+  std::size_t waiting_count_ = 0;
   std::uint64_t created_in_step_ = 0;
 };
 

@@ -1,12 +1,16 @@
 #pragma once
-// Addressable priority queue of failures: a 4-ary heap over dense handles.
+// Addressable priority queue of failures. Most of them are given up long before their time, so only those of
+// the near future are kept in order: a 4-ary heap. The others lie in bins of equal spans of [0,1] by their
+// earliest time, and a bin joins the heap when its time has come. n entries, m of them near, about n / bins.
 //
-//   push        O(log4 n)      erase   O(4 log4 n)
-//   top         O(1)           pop     O(4 log4 n)
+//   push        O(log4 m) near, O(1) far      erase   O(4 log4 m) near, O(1) far
+//   top         O(1), a bin of k joining O(k log4 m)       pop     O(4 log4 m)
 //
-// No allocation once it has grown. The order may narrow the entries it compares (their bracket shrinks around
-// the same time), which never changes how they compare. Slow obvious twin: tests/support/linear_queue.h.
+// Where all times fall into one bin it is a heap. No allocation once it has grown. The order may narrow the
+// entries it compares (their bracket shrinks around the same time), which never changes how they compare.
+// Slow obvious twin: tests/support/linear_queue.h.
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -18,104 +22,182 @@ namespace kds {
 /// Names an entry from push to pop or erase; then it may be used again.
 using QueueHandle = std::uint32_t;
 
+/// `a` is before `b` wherever latest(a) < earliest(b).
 template <class O, class Key>
 concept QueueOrder = requires(O& order, Key& a, Key& b) {
   { order.before(a, b) } -> std::same_as<bool>;  // strict total order
+  { order.earliest(a) } -> std::same_as<double>;
+  { order.latest(a) } -> std::same_as<double>;
 };
 
 template <class Key, QueueOrder<Key> Order>
 class EventQueue {
  public:
-  explicit EventQueue(Order& order) : order_(order) {}
+  explicit EventQueue(Order& order) : order_(order) { bins_.fill(none); }
 
-  [[nodiscard]] bool empty() const { return heap_.empty(); }
-  [[nodiscard]] std::size_t size() const { return heap_.size(); }
+  [[nodiscard]] bool empty() const { return size() == 0; }
+  [[nodiscard]] std::size_t size() const { return near_.size() + far_count_; }
 
   /// `make_key` is given the handle, so that keys can know theirs.
   template <std::invocable<QueueHandle> MakeKey>
   QueueHandle push(MakeKey&& make_key) {
     QueueHandle handle;
     if (free_.empty()) {
-      handle = static_cast<QueueHandle>(place_.size());
-      place_.push_back(0);
+      handle = static_cast<QueueHandle>(entries_.size());
+      entries_.emplace_back();
     } else {
       handle = free_.back();
       free_.pop_back();
     }
-    heap_.push_back({make_key(handle), handle});
-    sift_up(heap_.size() - 1);
+    Entry& entry = entries_[handle];
+    entry.key = make_key(handle);
+    const std::uint32_t bin = bin_of(order_.earliest(entry.key));
+    if (bin < first_far_) {
+      push_near(handle);
+    } else {
+      push_far(handle, bin);
+    }
     return handle;
   }
 
-  [[nodiscard]] Key& top() { return heap_.front().key; }
-  [[nodiscard]] QueueHandle top_handle() const { return heap_.front().handle; }
-  [[nodiscard]] Key& at(QueueHandle handle) { return heap_[place_[handle]].key; }
+  [[nodiscard]] Key& top() { return at(top_handle()); }
+  [[nodiscard]] QueueHandle top_handle() {
+    while (far_count_ != 0 && (near_.empty() || !(order_.latest(at(near_.front())) < far_from())))
+      bring_next_bin();
+    return near_.front();
+  }
+  [[nodiscard]] Key& at(QueueHandle handle) { return entries_[handle].key; }
 
-  void pop() { erase(heap_.front().handle); }
+  void pop() { erase(top_handle()); }
 
   void erase(QueueHandle handle) {
-    const std::size_t hole = place_[handle];
-    free_.push_back(handle);
-    const std::size_t last = heap_.size() - 1;
-    if (hole != last) {
-      heap_[hole] = std::move(heap_[last]);
-      heap_.pop_back();
-      place_[heap_[hole].handle] = hole;
-      if (!sift_up(hole)) sift_down(hole);
+    if (entries_[handle].bin == in_heap) {
+      erase_near(entries_[handle].place);
     } else {
-      heap_.pop_back();
+      erase_far(entries_[handle]);
     }
+    free_.push_back(handle);
   }
 
   void clear() {
-    for (const Node& node : heap_) free_.push_back(node.handle);
-    heap_.clear();
+    entries_.clear();
+    free_.clear();
+    near_.clear();
+    bins_.fill(none);
+    far_count_ = 0;
+    first_far_ = 0;
   }
 
  private:
-  struct Node {
+  static constexpr std::uint32_t bin_count = 1024;
+  static constexpr std::uint32_t none = 0xffffffffU;
+  static constexpr std::uint32_t in_heap = none;
+
+  struct Entry {
     Key key;
-    QueueHandle handle;
+    std::uint32_t bin;    // or in_heap
+    std::uint32_t place;  // there, or the entry before it in its bin
+    QueueHandle next;     // in its bin
   };
+
+  // Far.
+
+  [[nodiscard]] static std::uint32_t bin_of(double earliest) {
+    const double bin = earliest * bin_count;  // a power of two: exact
+    if (!(bin > 0)) return 0;
+    return bin < bin_count ? static_cast<std::uint32_t>(bin) : bin_count - 1;
+  }
+  /// What is far is no earlier.
+  [[nodiscard]] double far_from() const { return static_cast<double>(first_far_) / bin_count; }
+
+  void push_far(QueueHandle handle, std::uint32_t bin) {
+    const QueueHandle next = bins_[bin];
+    Entry& entry = entries_[handle];
+    entry.bin = bin;
+    entry.place = none;
+    entry.next = next;
+    if (next != none) entries_[next].place = handle;
+    bins_[bin] = handle;
+    ++far_count_;
+  }
+
+  void erase_far(const Entry& entry) {
+    if (entry.next != none) entries_[entry.next].place = entry.place;
+    (entry.place != none ? entries_[entry.place].next : bins_[entry.bin]) = entry.next;
+    --far_count_;
+  }
+
+  void bring_next_bin() {
+    while (bins_[first_far_] == none) ++first_far_;
+    QueueHandle handle = std::exchange(bins_[first_far_], none);
+    ++first_far_;
+    while (handle != none) {
+      const QueueHandle next = entries_[handle].next;
+      push_near(handle);
+      --far_count_;
+      handle = next;
+    }
+  }
+
+  // Near.
+
+  [[nodiscard]] bool before(QueueHandle a, QueueHandle b) { return order_.before(at(a), at(b)); }
+
+  void push_near(QueueHandle handle) {
+    entries_[handle].bin = in_heap;
+    near_.push_back(handle);
+    sift_up(near_.size() - 1);
+  }
+
+  void erase_near(std::size_t hole) {
+    const QueueHandle last = near_.back();
+    near_.pop_back();
+    if (hole == near_.size()) return;
+    put(hole, last);
+    if (!sift_up(hole)) sift_down(hole);
+  }
 
   bool sift_up(std::size_t i) {
     const std::size_t start = i;
-    Node node = std::move(heap_[i]);
+    const QueueHandle handle = near_[i];
     while (i > 0) {
       const std::size_t parent = (i - 1) / 4;
-      if (!order_.before(node.key, heap_[parent].key)) break;
-      put(i, std::move(heap_[parent]));
+      if (!before(handle, near_[parent])) break;
+      put(i, near_[parent]);
       i = parent;
     }
-    put(i, std::move(node));
+    put(i, handle);
     return i != start;
   }
 
   void sift_down(std::size_t i) {
-    Node node = std::move(heap_[i]);
+    const QueueHandle handle = near_[i];
     while (true) {
       const std::size_t first = 4 * i + 1;
-      if (first >= heap_.size()) break;
+      if (first >= near_.size()) break;
       std::size_t least = first;
-      for (std::size_t child = first + 1; child < first + 4 && child < heap_.size(); ++child) {
-        if (order_.before(heap_[child].key, heap_[least].key)) least = child;
+      for (std::size_t child = first + 1; child < first + 4 && child < near_.size(); ++child) {
+        if (before(near_[child], near_[least])) least = child;
       }
-      if (!order_.before(heap_[least].key, node.key)) break;
-      put(i, std::move(heap_[least]));
+      if (!before(near_[least], handle)) break;
+      put(i, near_[least]);
       i = least;
     }
-    put(i, std::move(node));
+    put(i, handle);
   }
 
-  void put(std::size_t i, Node&& node) {
-    place_[node.handle] = i;
-    heap_[i] = std::move(node);
+  void put(std::size_t i, QueueHandle handle) {
+    entries_[handle].place = static_cast<std::uint32_t>(i);
+    near_[i] = handle;
   }
 
   Order& order_;
-  std::vector<Node> heap_;
-  std::vector<std::size_t> place_;  // of each handle in the heap
+  std::vector<Entry> entries_;
   std::vector<QueueHandle> free_;
+  std::vector<QueueHandle> near_;            // heap
+  std::array<QueueHandle, bin_count> bins_;  // the first entry of each; those before first_far_ are empty
+  std::size_t far_count_ = 0;
+  std::uint32_t first_far_ = 0;
 };
 
 }  // namespace kds

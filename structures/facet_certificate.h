@@ -3,6 +3,7 @@
 // infinite vertex is among them, the orientation of the others (the hull is locally convex there).
 
 #include <algorithm>
+#include <utility>
 
 #include "certificates/orientation.h"
 #include "certificates/power_test.h"
@@ -12,11 +13,11 @@ namespace kds {
 
 /// Calls `use` with the certificate of the facet between a cell and the one with this apex beyond it.
 template <std::size_t N, class Use>
-decltype(auto) with_facet_certificate(const std::array<BeadId, N>& cell, BeadId apex, Use use) {
+[[gnu::always_inline]] inline decltype(auto) with_facet_certificate(const std::array<BeadId, N>& cell,
+                                                                    BeadId apex, Use use) {
   constexpr int dimension = static_cast<int>(N) - 1;
-  std::array<BeadId, N + 1> beads{};
-  std::copy(cell.begin(), cell.end(), beads.begin());
-  beads.back() = apex;
+  const auto beads = [&]<std::size_t... I>(std::index_sequence<I...>) { return std::array{cell[I]..., apex}; }
+  (std::make_index_sequence<N>{});
   const PowerTest<dimension> test(beads, 1);
   if (test.beads.back() != infinite_bead) return use(test);
   // Sorted, infinity is last: a row (0, ..., 0, 1) there leaves the determinant of the others.

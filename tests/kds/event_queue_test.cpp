@@ -25,6 +25,9 @@ struct Order {
     ++comparisons;
     return a.value + *a.ballast < b.value + *b.ballast;
   }
+  // Bins as wide as 10 keys, bounds that overlap, and keys beyond both ends of what the queue expects.
+  static double earliest(const Key& key) { return (key.value - 7) / 10240.0; }
+  static double latest(const Key& key) { return (key.value + 7) / 10240.0; }
 };
 
 // Both are to behave alike.
@@ -170,7 +173,7 @@ TYPED_TEST(EventQueueTest, AgreesWithAMultimap) {
     if (operation % 500 == 0) target = below(linear ? 20 : 400);
     const std::size_t choice = below(100);
     if (reference.empty() || choice < (reference.size() < target ? 70U : 30U)) {
-      const int value = static_cast<int>(below(operation % 2000 < 1000 ? 10 : 1000000));
+      const int value = static_cast<int>(below(operation % 2000 < 1000 ? 10 : 12000));
       const QueueHandle handle = this->push(value);
       ASSERT_EQ(held.count(handle), 0U) << "handle of a live entry given again";
       held[handle] = reference.emplace(value, handle);
@@ -196,16 +199,27 @@ TYPED_TEST(EventQueueTest, AgreesWithAMultimap) {
   }
 }
 
+// All in one bin: a heap, once it is brought.
+struct OneBin : Order {
+  static double earliest(const Key&) { return 0.5; }
+  static double latest(const Key&) { return 0.5; }
+};
+
 // The header's cost table.
 TEST(EventQueueCost, GrowsWithTheLogarithm) {
-  Order order;
-  EventQueue<Key, Order> queue(order);
+  OneBin order;
+  EventQueue<Key, OneBin> queue(order);
   std::mt19937 random(1);
   std::vector<QueueHandle> handles;
-  for (int i = 0; i < 4096; ++i) {
+  const auto push = [&] {
     const int value = static_cast<int>(random() % 1000000);
-    const std::size_t before = order.comparisons;
     handles.push_back(queue.push([&](QueueHandle) { return Key{value}; }));
+  };
+  push();
+  ASSERT_GE(queue.top().value, 0);  // the bin is near from now on
+  for (int i = 0; i < 4096; ++i) {
+    const std::size_t before = order.comparisons;
+    push();
     ASSERT_LE(order.comparisons - before, 7U);  // log4(4096) = 6
   }
   for (std::size_t i = 0; i < 4000; ++i) {
@@ -216,6 +230,23 @@ TEST(EventQueueCost, GrowsWithTheLogarithm) {
     ASSERT_GE(queue.top().value, 0);
     ASSERT_EQ(order.comparisons, unchanged);
   }
+}
+
+TEST(EventQueueCost, WhatIsFarIsNotCompared) {
+  Order order;
+  EventQueue<Key, Order> queue(order);
+  std::vector<QueueHandle> handles;
+  for (int value = 10000; value-- > 0;) {
+    handles.push_back(queue.push([&](QueueHandle) { return Key{value}; }));
+  }
+  EXPECT_EQ(order.comparisons, 0U);
+  EXPECT_EQ(queue.top().value, 0);
+  EXPECT_LT(order.comparisons, 100U);
+  const std::size_t before = order.comparisons;
+  for (std::size_t i = 0; i < 9000; ++i) queue.erase(handles[i]);
+  EXPECT_EQ(order.comparisons, before);
+  for (int value = 0; value < 1000; ++value, queue.pop()) ASSERT_EQ(queue.top().value, value);
+  EXPECT_TRUE(queue.empty());
 }
 
 }  // namespace
