@@ -11,6 +11,7 @@
 #include <new>
 #include <string_view>
 
+#include "experiments/bench_command.h"
 #include "experiments/command_line.h"
 #include "experiments/provenance.h"
 #include "experiments/replay_command.h"
@@ -31,6 +32,7 @@ struct Command {
 constexpr std::array kCommands{
     Command{"run", "run kinetic structures over trajectories and report their events", run_command},
     Command{"replay", "run a logged run again and compare", replay_command},
+    Command{"bench", "measure ours beside what users would pick today", bench_command},
     Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},
 };
 
