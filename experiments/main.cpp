@@ -11,6 +11,7 @@
 #include <new>
 #include <string_view>
 
+#include "experiments/bench_command.h"
 #include "experiments/command_line.h"
 #include "experiments/generate_command.h"
 #include "experiments/info_command.h"
@@ -35,6 +36,7 @@ constexpr std::array kCommands{
     Command{"info", "describe trajectories and the conditions of a necklace they violate", info_command},
     Command{"generate", "write a model necklace", generate_command},
     Command{"replay", "run a logged run again and compare", replay_command},
+    Command{"bench", "measure ours beside what users would pick today", bench_command},
     Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},
 };
 

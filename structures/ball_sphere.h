@@ -39,7 +39,8 @@ template <std::size_t LeftOut, class N, std::size_t Size, std::size_t Count>
   }
 }
 
-template <class N, int Dimension, std::size_t M>
+/// Without `bounds` only centre, radius and least weight.
+template <bool bounds = true, class N, int Dimension, std::size_t M>
 [[gnu::always_inline]] inline BasisSphere<N, Dimension> sphere_of_balls(
     const BasisBalls<N, Dimension, M>& balls) {
   using Is = NumberTraits<N>;
@@ -123,7 +124,7 @@ template <class N, int Dimension, std::size_t M>
   return sphere;
 }
 
-template <int Dimension>
+template <bool bounds = true, int Dimension>
 [[gnu::always_inline]] inline BasisSphere<double, Dimension> sphere_of_balls(
     const BasisBalls<double, Dimension, 0>& balls) {
   constexpr double u = unit_roundoff;

@@ -37,8 +37,8 @@ void LayeredHierarchy<Dimension>::build(const Balls<Dimension>& balls, Threads t
   const auto bead = [&balls](BeadId b) {
     return Cage<Dimension>{detail::center_of(balls, b), balls.radii()[b]};
   };
-  over_runs<Nothing>(order_, threads, [&](std::span<const BottomUpOrder::Group> groups) {
-    for (const BottomUpOrder::Group& group : groups) {
+  over_runs<Nothing>(order_, threads, [&](std::size_t run) {
+    for (const BottomUpOrder::Group& group : order_.groups(order_.runs()[run])) {
       for (const NodeId node : order_.nodes(group)) {
         const NodeId left = tree_.left(node), right = tree_.right(node);
         const BeadRange& range = tree_.range(node);

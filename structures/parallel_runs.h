@@ -9,12 +9,12 @@
 
 namespace kds {
 
-/// `pass(groups)` does a run's groups in their order and returns what it counted; the sum of all.
+/// `pass(run)` does a run's groups in their order and returns what it counted; the sum of all.
 template <class Counts, class Pass>
 Counts over_runs(const BottomUpOrder& order, Threads threads, const Pass& pass) {
   const auto runs = order.runs();
   std::vector<Counts> counts(runs.size());
-  const auto do_run = [&](std::size_t i) { counts[i] = pass(order.groups(runs[i])); };
+  const auto do_run = [&](std::size_t i) { counts[i] = pass(i); };
   if (threads == Threads::one) {
     for (std::size_t i = 0; i + 1 < runs.size(); ++i) do_run(i);
   } else {

@@ -197,7 +197,8 @@ struct BasisSphere {
 
 namespace detail {
 
-template <class N, int Dimension, std::size_t M>
+/// Without `bounds` only centre, radius and least weight.
+template <bool bounds = true, class N, int Dimension, std::size_t M>
 [[gnu::always_inline]] inline BasisSphere<N, Dimension> sphere_of_points(
     const BasisBalls<N, Dimension, M>& balls) {
   using Is = NumberTraits<N>;
@@ -223,6 +224,7 @@ template <class N, int Dimension, std::size_t M>
     fewest = Is::min(fewest, t);
   }
   sphere.radius = Is::sqrt(most);
+  if constexpr (!bounds) return sphere;
   const N rounding = N(u) * (N(2.0) * size + N(64.0) * sphere.radius);
   N error = rounding;
   auto proper = sphere.least > N(0.0);  // a midpoint has equal weights and nothing to solve for
@@ -243,7 +245,7 @@ template <class N, int Dimension, std::size_t M>
 }
 
 /// Of one bead: coincident ones are a matter of exact equality.
-template <int Dimension>
+template <bool bounds = true, int Dimension>
 [[gnu::always_inline]] inline BasisSphere<double, Dimension> sphere_of_points(
     const BasisBalls<double, Dimension, 0>& balls) {
   return {balls.center[0], 0, 0, 0, 1, false};

@@ -13,10 +13,10 @@ struct PointForm {
   using Sphere = BasisSphere<double, Dimension>;
   static constexpr bool of_points = true;
 
-  template <class N, std::size_t M>
+  template <bool bounds = true, class N, std::size_t M>
   [[gnu::always_inline]] static BasisSphere<N, Dimension> sphere(
       const detail::BasisBalls<N, Dimension, M>& balls) {
-    return detail::sphere_of_points(balls);
+    return detail::sphere_of_points<bounds>(balls);
   }
   [[gnu::always_inline]] static bool pivot(const Balls<Dimension>& balls, Basis& basis, BeadId escaped) {
     return pivot_points(balls, basis, escaped);
@@ -41,10 +41,10 @@ struct BallForm {
   using Sphere = BasisSphere<double, Dimension>;
   static constexpr bool of_points = false;
 
-  template <class N, std::size_t M>
+  template <bool bounds = true, class N, std::size_t M>
   [[gnu::always_inline]] static BasisSphere<N, Dimension> sphere(
       const detail::BasisBalls<N, Dimension, M>& balls) {
-    return detail::sphere_of_balls(balls);
+    return detail::sphere_of_balls<bounds>(balls);
   }
   [[nodiscard]] static bool pivot(const Balls<Dimension>& balls, Basis& basis, BeadId escaped) {
     return pivot_balls(balls, basis, escaped);

@@ -14,6 +14,10 @@ namespace kds {
 [[nodiscard]] double seconds_to_wrap(const NecklaceTree& tree, const Eigen::Matrix3Xd& centers,
                                      std::span<const double> radii);
 
+/// The same, processor time of the process.
+[[nodiscard]] double processor_seconds_to_wrap(const NecklaceTree& tree, const Eigen::Matrix3Xd& centers,
+                                               std::span<const double> radii);
+
 /// Seconds to sort the beads along the first axis.
 [[nodiscard]] double seconds_to_sort(const Eigen::Matrix3Xd& centers);
 

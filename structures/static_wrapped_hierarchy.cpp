@@ -18,6 +18,20 @@ constexpr std::size_t chunk = 64;  // nodes at a time
 
 enum class Start { children, old_bases };
 
+// The sphere of a basis as it is; of fewer beads where some are to spare.
+template <class Form>
+Cage<Form::Dimension> trusted_cage(const Balls<Form::Dimension>& balls, Basis basis) {
+  while (true) {
+    const typename Form::Sphere sphere = detail::sphere_of_basis<Form>(balls, basis);
+    if (sphere.least > 0 || basis.size == 1) return {sphere.center, sphere.radius};
+    std::size_t place = 0;
+    visit_size<Form::Dimension>(basis.size, [&](auto m) {
+      if constexpr (m > 0) place = detail::lightest<m>(balls, basis);
+    });
+    erase_place(basis, place);
+  }
+}
+
 template <class Form>
 class Wrapper {
  public:
@@ -29,6 +43,8 @@ class Wrapper {
   Basis* bases;
   Cage<Dimension>* cages;
   std::uint8_t* loose;
+  Update how;
+  Frontiers& frontiers;
   WrapCounts counts{};
 
   // Nodes that do not depend on each other.
@@ -77,28 +93,55 @@ class Wrapper {
     }
   }
 
+  // Spheres of the bases as they are.
+  [[gnu::always_inline]] void trust(const NodeId* nodes, std::size_t count) {
+    std::array<Pending, chunk> pending;
+    std::array<Sphere, chunk> spheres;
+    for (std::size_t i = 0; i < count; ++i) pending[i].node = nodes[i];
+    spheres_of<false>(pending.data(), count, spheres.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      cages[nodes[i]] = {spheres[i].center, spheres[i].radius};
+      if (!(spheres[i].least > 0)) cages[nodes[i]] = trusted_cage<Form>(balls, bases[nodes[i]]);
+    }
+  }
+
+  // By a cascade from where it ended last, or from the children; `known`: the run's list, `next`: the new
+  // one.
+  [[gnu::always_inline]] void wrap_by_cascade(NodeId node, const std::vector<std::uint32_t>& known,
+                                              std::vector<std::uint32_t>& next) {
+    const Sphere sphere = detail::sphere_of_basis<Form>(balls, bases[node]);
+    const BottomUpOrder::Group old = frontiers.of_node[node];
+    const auto start = static_cast<std::uint32_t>(next.size());
+    if (sphere.certain && cascade(node, sphere, {known.data() + old.first, known.data() + old.end}, next)) {
+      cages[node] = {sphere.center, sphere.radius};
+      loose[node] = 0;
+    } else {
+      next.resize(start);
+      wrap(&node, 1, Start::old_bases);
+    }
+    frontiers.of_node[node] = {start, static_cast<std::uint32_t>(next.size())};
+    counts.frontier += next.size() - start;
+  }
+
   // Nodes of two beads of one radius: their sphere is around the midpoint.
+  [[gnu::always_inline]] void trust_pairs(const NodeId* nodes, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) cages[nodes[i]] = cage_of_pair(tree.range(nodes[i]));
+  }
   [[gnu::always_inline]] void wrap_pairs(const NodeId* nodes, std::size_t count, Start start) {
     for (std::size_t i = 0; i < count; ++i) {
       const NodeId node = nodes[i];
       const BeadRange range = tree.range(node);
       Cage<Dimension>& cage = cages[node];
-      double square = 0, size = 0;
-      for (std::size_t axis = 0; axis < Dimension; ++axis) {
-        const double p = balls.coordinates(axis)[range.first];
-        const double half = 0.5 * (balls.coordinates(axis)[range.last] - p);
-        cage.center[axis] = p + half;
-        size = std::max(size, std::abs(cage.center[axis]));
-        square += half * half;
-      }
-      cage.radius = std::sqrt(square);
+      cage = cage_of_pair(range);
+      double size = 0;
+      for (std::size_t axis = 0; axis < Dimension; ++axis) size = std::max(size, std::abs(cage.center[axis]));
       loose[node] = !(size * 0x1p-22 <= cage.radius);
       const Pending before{node, bases[node]};
       Basis& basis = bases[node];
       basis.size = 2;
       basis.beads[0] = range.first;
       basis.beads[1] = range.last;
-      if (!(square >= 0x1p-600 && square <= 0x1p600)) settle_in_exact_numbers(node);
+      if (!(cage.radius >= 0x1p-300 && cage.radius <= 0x1p300)) settle_in_exact_numbers(node);
       if (start == Start::old_bases && (before.old.size != 2 || basis.size != 2)) finish(before, start);
     }
     if (start == Start::children) counts.changed += count;
@@ -109,6 +152,19 @@ class Wrapper {
     NodeId node;
     Basis old;
   };
+
+  [[gnu::always_inline]] Cage<Dimension> cage_of_pair(const BeadRange& range) const {
+    Cage<Dimension> cage;
+    double square = 0;
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      const double p = balls.coordinates(axis)[range.first];
+      const double half = 0.5 * (balls.coordinates(axis)[range.last] - p);
+      cage.center[axis] = p + half;
+      square += half * half;
+    }
+    cage.radius = std::sqrt(square);
+    return cage;
+  }
 
   [[gnu::always_inline]] void finish(const Pending& done, Start start) {
     if (start == Start::old_bases && !(done.old == bases[done.node])) ++counts.changed;
@@ -122,6 +178,7 @@ class Wrapper {
   }
 
   // Spheres of the nodes' bases, four at a time among those of one size.
+  template <bool bounds = true>
   [[gnu::always_inline]] void spheres_of(const Pending* pending, std::size_t count, Sphere* spheres) const {
     std::array<std::array<std::uint8_t, chunk>, 4> places;
     std::array<std::size_t, 4> of_size{};
@@ -131,11 +188,11 @@ class Wrapper {
     }
     for (std::size_t i = 0; i < of_size[0]; ++i)
       spheres[places[0][i]] = Form::sphere(detail::basis_balls<0>(balls, bases[pending[places[0][i]].node]));
-    spheres_of_size<1>(pending, places[1].data(), of_size[1], spheres);
-    spheres_of_size<2>(pending, places[2].data(), of_size[2], spheres);
-    if constexpr (Dimension == 3) spheres_of_size<3>(pending, places[3].data(), of_size[3], spheres);
+    spheres_of_size<bounds, 1>(pending, places[1].data(), of_size[1], spheres);
+    spheres_of_size<bounds, 2>(pending, places[2].data(), of_size[2], spheres);
+    if constexpr (Dimension == 3) spheres_of_size<bounds, 3>(pending, places[3].data(), of_size[3], spheres);
   }
-  template <std::size_t M>
+  template <bool bounds, std::size_t M>
   [[gnu::always_inline]] void spheres_of_size(const Pending* pending, const std::uint8_t* places,
                                               std::size_t count, Sphere* spheres) const {
     for (std::size_t i = 0; i < count; i += Lanes::width) {
@@ -152,24 +209,36 @@ class Wrapper {
           members.center[j][axis] = gather(balls.coordinates(axis), j);
         if (!Form::of_points) members.radius[j] = gather(balls.radii(), j);
       }
-      const BasisSphere<Lanes, Dimension> sphere = Form::sphere(members);
+      const BasisSphere<Lanes, Dimension> sphere = Form::template sphere<bounds>(members);
       for (std::size_t lane = 0; lane < Lanes::width && i + lane < count; ++lane) {
         Sphere& one = spheres[places[i + lane]];
         for (std::size_t axis = 0; axis < Dimension; ++axis) one.center[axis] = sphere.center[axis].v[lane];
         one.radius = sphere.radius.v[lane];
-        one.inner = sphere.inner.v[lane];
-        one.outer = sphere.outer.v[lane];
         one.least = sphere.least.v[lane];
-        one.certain = sphere.certain[lane] != 0;
+        if constexpr (bounds) {
+          one.inner = sphere.inner.v[lane];
+          one.outer = sphere.outer.v[lane];
+          one.certain = sphere.certain[lane] != 0;
+        }
       }
     }
   }
 
+  // The sphere holds a cage, and so its beads, for certain. `inner`: within which beads are inside.
+  [[gnu::always_inline]] bool holds_cage(const Sphere& sphere, double inner, NodeId node) const {
+    const double room = inner - cages[node].radius * looseness;
+    const Point<Dimension> d = detail::minus(cages[node].center, sphere.center);
+    return room > 0x1p-200 && detail::dot(d, d) <= room * room * (1 - 0x1p-40) && loose[node] == 0;
+  }
+
   // Blocks of beads below a node, from the left, without cages that are inside for certain.
   template <class Look>
-  [[gnu::always_inline]] void visit_blocks(NodeId node, const Sphere& sphere, const Look& look) const {
+  [[gnu::always_inline]] void visit_blocks(NodeId node, const Sphere& sphere, const Look& look) {
     const BeadRange all = tree.range(node);
-    if (all.last - all.first < most_in_block) return look(all.first, all.last);
+    if (all.last - all.first < most_in_block || how == Update::naive) {
+      counts.bead_tests += all.last - all.first + 1;
+      return look(all.first, all.last);
+    }
     const double inner = sphere.certain ? Form::inner_radius(sphere) : 0;
     std::array<NodeId, 64> stack;
     std::size_t depth = 0;
@@ -177,18 +246,57 @@ class Wrapper {
     stack[depth++] = tree.left(node);
     while (depth > 0) {
       const NodeId v = stack[--depth];
-      const Cage<Dimension>& cage = cages[v];
-      const double room = inner - cage.radius * looseness;
-      const Point<Dimension> d = detail::minus(cage.center, sphere.center);
-      if (room > 0x1p-200 && detail::dot(d, d) <= room * room * (1 - 0x1p-40) && loose[v] == 0) continue;
+      ++counts.cage_tests;
+      if (holds_cage(sphere, inner, v)) continue;
       const BeadRange range = tree.range(v);
       if (range.last - range.first < most_in_block) {
+        counts.bead_tests += range.last - range.first + 1;
         look(range.first, range.last);
         continue;
       }
       stack[depth++] = tree.right(v);
       stack[depth++] = tree.left(v);
     }
+  }
+
+  // Whether all that is below the node is inside; appends where that was seen, from the left.
+  bool cascade(NodeId node, const Sphere& sphere, std::span<const std::uint32_t> known,
+               std::vector<std::uint32_t>& next) {
+    const auto child = [](NodeId v, BeadId leaf) {
+      return v == NecklaceTree::leaf ? Frontiers::bead | leaf : v;
+    };
+    const auto left = [&](NodeId v) { return child(tree.left(v), tree.range(v).first); };
+    const auto right = [&](NodeId v) { return child(tree.right(v), tree.range(v).last); };
+    const std::array<std::uint32_t, 2> children{left(node), right(node)};
+    if (known.empty()) known = children;
+    const double inner = Form::inner_radius(sphere);
+    const auto measure = Form::measure(balls, sphere);
+    std::array<std::uint32_t, 64> stack;
+    for (const std::uint32_t from : known) {
+      std::size_t depth = 0;
+      stack[depth++] = from;
+      while (depth > 0) {
+        const std::uint32_t v = stack[--depth];
+        if ((v & Frontiers::bead) != 0) {
+          const BeadId b = v & ~Frontiers::bead;
+          if (!bases[node].contains(b)) {
+            ++counts.bead_tests;
+            detail::Scanner one;
+            one.scan(measure, b, b);
+            if (one.outside_count() > 0) return false;
+          }
+        } else {
+          ++counts.cage_tests;
+          if (!holds_cage(sphere, inner, v)) {
+            stack[depth++] = right(v);
+            stack[depth++] = left(v);
+            continue;
+          }
+        }
+        next.push_back(v);
+      }
+    }
+    return true;
   }
 
   [[gnu::always_inline]] std::span<const BeadId> members(NodeId child, const BeadId& leaf) const {
@@ -262,9 +370,9 @@ class Wrapper {
   }
 };
 
-template <class Form, Start start>
+template <class Form>
 [[KDS_SCAN_TARGETS]] void wrap_groups(Wrapper<Form>& wrapper, const BottomUpOrder& order,
-                                      std::span<const BottomUpOrder::Group> groups) {
+                                      std::span<const BottomUpOrder::Group> groups, Start start) {
   for (const BottomUpOrder::Group& group : groups) {
     const std::span<const NodeId> nodes = order.nodes(group);
     const BeadRange range = wrapper.tree.range(nodes[0]);
@@ -277,6 +385,40 @@ template <class Form, Start start>
   }
 }
 
+template <class Form>
+[[KDS_SCAN_TARGETS]] void trust_groups(Wrapper<Form>& wrapper, const BottomUpOrder& order,
+                                       std::span<const BottomUpOrder::Group> groups) {
+  for (const BottomUpOrder::Group& group : groups) {
+    const std::span<const NodeId> nodes = order.nodes(group);
+    const BeadRange range = wrapper.tree.range(nodes[0]);
+    if (Form::of_points && range.last - range.first == 1) {
+      wrapper.trust_pairs(nodes.data(), nodes.size());
+      continue;
+    }
+    for (std::size_t i = 0; i < nodes.size(); i += chunk)
+      wrapper.trust(nodes.data() + i, std::min(chunk, nodes.size() - i));
+  }
+}
+
+template <class Form>
+[[KDS_SCAN_TARGETS]] void cascade_groups(Wrapper<Form>& wrapper, const BottomUpOrder& order,
+                                         std::span<const BottomUpOrder::Group> groups,
+                                         std::vector<std::uint32_t>& frontiers) {
+  std::vector<std::uint32_t> next;
+  next.reserve(frontiers.size());
+  for (const BottomUpOrder::Group& group : groups) {
+    const std::span<const NodeId> nodes = order.nodes(group);
+    const BeadRange range = wrapper.tree.range(nodes[0]);
+    if (Form::of_points && range.last - range.first == 1) {  // nothing to test
+      wrapper.wrap_pairs(nodes.data(), nodes.size(), Start::old_bases);
+      wrapper.counts.frontier += 2 * nodes.size();
+      continue;
+    }
+    for (const NodeId node : nodes) wrapper.wrap_by_cascade(node, frontiers, next);
+  }
+  frontiers.swap(next);
+}
+
 }  // namespace
 
 template <int Dimension>
@@ -284,11 +426,22 @@ StaticWrappedHierarchy<Dimension>::StaticWrappedHierarchy(std::span<const BeadRa
     : tree_(necklaces), order_(tree_) {}
 
 template <int Dimension>
-template <class Form, bool from_children>
-WrapCounts StaticWrappedHierarchy<Dimension>::wrap(const Balls<Dimension>& balls, Threads threads) {
-  return over_runs<WrapCounts>(order_, threads, [&](std::span<const BottomUpOrder::Group> groups) {
-    Wrapper<Form> wrapper{tree_, balls, bases_.data(), cages_.data(), loose_.data()};
-    wrap_groups<Form, from_children ? Start::children : Start::old_bases>(wrapper, order_, groups);
+template <class Form>
+WrapCounts StaticWrappedHierarchy<Dimension>::wrap(const Balls<Dimension>& balls, bool from_children,
+                                                   Update how, Threads threads) {
+  const auto runs = order_.runs();
+  return over_runs<WrapCounts>(order_, threads, [&](std::size_t run) {
+    const auto groups = order_.groups(runs[run]);
+    Wrapper<Form> wrapper{tree_, balls, bases_.data(), cages_.data(), loose_.data(), how, frontiers_};
+    if (from_children) {
+      wrap_groups<Form>(wrapper, order_, groups, Start::children);
+    } else if (how == Update::trust) {
+      trust_groups<Form>(wrapper, order_, groups);
+    } else if (how == Update::cascade) {
+      cascade_groups<Form>(wrapper, order_, groups, frontiers_.of_run[run]);
+    } else {
+      wrap_groups<Form>(wrapper, order_, groups, Start::old_bases);
+    }
     return wrapper.counts;
   });
 }
@@ -298,20 +451,62 @@ WrapCounts StaticWrappedHierarchy<Dimension>::build(const Balls<Dimension>& ball
   bases_.resize(tree_.node_count());
   cages_.resize(tree_.node_count());
   loose_.resize(tree_.node_count());
+  frontiers_.of_run.assign(order_.runs().size(), {});
+  frontiers_.of_node.assign(tree_.node_count(), {});
   wider_ = balls.equal_radii() && balls.size() > 0 ? balls.radius(0) : 0;
-  return balls.equal_radii() ? wrap<PointForm<Dimension>, true>(balls, threads)
-                             : wrap<BallForm<Dimension>, true>(balls, threads);
+  trusting_ = false;
+  lazy_ = nullptr;
+  return balls.equal_radii() ? wrap<PointForm<Dimension>>(balls, true, Update::blocks, threads)
+                             : wrap<BallForm<Dimension>>(balls, true, Update::blocks, threads);
 }
 
 template <int Dimension>
-WrapCounts StaticWrappedHierarchy<Dimension>::update(const Balls<Dimension>& balls, Threads threads) {
+WrapCounts StaticWrappedHierarchy<Dimension>::update(const Balls<Dimension>& balls, Update how,
+                                                     Threads threads) {
   if (bases_.size() != tree_.node_count()) return build(balls, threads);
+  const bool trusting = how == Update::trust || how == Update::lazy;
+  if (trusting && !trusting_) {
+    verified_.swap(cages_);
+    cages_.resize(verified_.size());
+  }
+  trusting_ = trusting;
+  lazy_ = how == Update::lazy ? &balls : nullptr;
   wider_ = balls.equal_radii() && balls.size() > 0 ? balls.radius(0) : 0;
-  return balls.equal_radii() ? wrap<PointForm<Dimension>, false>(balls, threads)
-                             : wrap<BallForm<Dimension>, false>(balls, threads);
+  if (lazy_ != nullptr) return {};
+  return balls.equal_radii() ? wrap<PointForm<Dimension>>(balls, false, how, threads)
+                             : wrap<BallForm<Dimension>>(balls, false, how, threads);
+}
+
+template <int Dimension>
+Sphere StaticWrappedHierarchy<Dimension>::sphere(NodeId node) const {
+  if (lazy_ == nullptr) return sphere_of(cages_[node], wider_);
+  return sphere_of(lazy_->equal_radii() ? trusted_cage<PointForm<Dimension>>(*lazy_, bases_[node])
+                                        : trusted_cage<BallForm<Dimension>>(*lazy_, bases_[node]),
+                   wider_);
+}
+
+template <int Dimension>
+double StaticWrappedHierarchy<Dimension>::stick_out(NodeId node, double moved) const {
+  if (!trusting_) return 0;
+  const Sphere now = sphere(node), then = sphere_of(verified_[node], wider_);
+  // Cages are rounded; loose ones, of degenerate beads far from the origin, to their size there.
+  const double rounding = 0x1p-27 * then.radius + 0x1p-48 * then.center.template lpNorm<Eigen::Infinity>();
+  return std::max(0.0, moved + then.radius + (then.center - now.center).norm() - now.radius + rounding);
+}
+
+template <int Dimension>
+double greatest_move(const Balls<Dimension>& from, const Balls<Dimension>& to) {
+  double most = 0;
+  for (BeadId b = 0; b < from.size(); ++b) {
+    const Point<Dimension> d = detail::minus(detail::center_of(to, b), detail::center_of(from, b));
+    most = std::max(most, detail::dot(d, d));
+  }
+  return std::sqrt(most) * (1 + 0x1p-48) + 0x1p-500;
 }
 
 template class StaticWrappedHierarchy<2>;
 template class StaticWrappedHierarchy<3>;
+template double greatest_move(const Balls<2>&, const Balls<2>&);
+template double greatest_move(const Balls<3>&, const Balls<3>&);
 
 }  // namespace kds

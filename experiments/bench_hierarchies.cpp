@@ -1,0 +1,172 @@
+#include "experiments/bench_hierarchies.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "experiments/bench_chains.h"
+#include "experiments/bench_timing.h"
+#include "motions/input_error.h"
+#include "motions/radii.h"
+#include "motions/read_trajectory.h"
+#include "structures/layered_hierarchy.h"
+#include "structures/static_build.h"
+#include "structures/static_wrapped_hierarchy.h"
+
+namespace kds {
+
+namespace {
+
+constexpr std::string_view peer_name = "CGAL Min_sphere_of_spheres_d";
+constexpr std::size_t most_frames = 100;  // of a trajectory
+
+// One necklace, frame after frame.
+struct Input {
+  std::string name;
+  std::vector<Eigen::Matrix3Xd> frames;
+  std::vector<double> radii;
+  // Factors that are asked for.
+  double build = 6, update = 10, trust = 25;
+};
+
+// Every third bead a fifth smaller, every seventh a tenth: half of each factor is asked for.
+Input with_unequal_radii(Input input) {
+  for (std::size_t b = 0; b < input.radii.size(); ++b) {
+    if (b % 3 == 0) input.radii[b] *= 0.8;
+    if (b % 7 == 0) input.radii[b] *= 0.9;
+  }
+  input.name += ", radii";
+  for (double* factor : {&input.build, &input.update, &input.trust}) *factor /= 2;
+  return input;
+}
+
+class Measured {
+ public:
+  Measured(const Input& input, std::vector<BenchRow>& rows) : input_(input), rows_(rows) {
+    const BeadRange all{0, static_cast<BeadId>(input.radii.size() - 1)};
+    necklace_ = {all};
+    for (const Eigen::Matrix3Xd& frame : input.frames) balls_.emplace_back(frame, input.radii);
+  }
+
+  void run(std::size_t rounds) {
+    StaticWrappedHierarchy<3> wrapped(necklace_);
+    StaticWrappedHierarchy<3> updated(necklace_), naive(necklace_), cascade(necklace_), trusting(necklace_);
+    LayeredHierarchy<3> layered(necklace_);
+    const std::size_t frames = balls_.size();
+    std::vector<double> peer, build, layer, update, by_naive, by_cascade, trust;
+    for (std::size_t round = 0; round < std::max(rounds, frames - 1); ++round) {
+      const std::size_t from = round % (frames - 1);
+      const Balls<3>& now = balls_[from + 1];
+      if (from == 0)
+        for (auto* h : {&updated, &naive, &cascade, &trusting}) h->build(balls_[0]);
+      peer.push_back(processor_seconds_to_wrap(wrapped.tree(), input_.frames[from + 1], input_.radii));
+      build.push_back(processor_seconds_of([&] { wrapped.build(now); }));
+      layer.push_back(processor_seconds_of([&] { layered.build(now); }));
+      update.push_back(processor_seconds_of([&] { updated.update(now); }));
+      by_naive.push_back(processor_seconds_of([&] { naive.update(now, Update::naive); }));
+      by_cascade.push_back(processor_seconds_of([&] { cascade.update(now, Update::cascade); }));
+      trust.push_back(processor_seconds_of([&] { trusting.update(now, Update::trust); }));
+      trusting.update(now);
+    }
+    const double nodes = static_cast<double>(wrapped.tree().node_count());
+    const double cgal = median_of(peer) / nodes * 1e9;
+    const auto row = [&](const char* name, const std::vector<double>& seconds, std::optional<double> factor) {
+      rows_.push_back({name, input_.name, input_.radii.size(), median_of(seconds) / nodes * 1e9, "ns/node",
+                       std::string(peer_name), cgal, factor ? std::optional(1 / *factor) : std::nullopt});
+    };
+    row("wrapped build", build, input_.build);
+    row("wrapped update", update, input_.update);
+    row("wrapped update, naive", by_naive, std::nullopt);
+    row("wrapped update, cascade", by_cascade, std::nullopt);
+    row("wrapped trusted update", trust, input_.trust);
+    rows_.push_back({"layered build", input_.name, input_.radii.size(), median_of(layer) / nodes * 1e9,
+                     "ns/node", "", std::nullopt, 10.0});
+  }
+
+ private:
+  const Input& input_;
+  std::vector<BenchRow>& rows_;
+  std::vector<BeadRange> necklace_;
+  std::vector<Balls<3>> balls_;
+};
+
+// Two distant necklaces, of which a query looks at the two roots: what a frame costs in all.
+void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& rows) {
+  BenchChain chain = helix_chain(beads);
+  Eigen::Matrix3Xd both(3, 2 * chain.centers.cols());
+  both << chain.centers, chain.centers.colwise() + Eigen::Vector3d(10, 0, 0);
+  const std::vector<double> radii(static_cast<std::size_t>(both.cols()), chain.radius);
+  const auto n = static_cast<BeadId>(beads);
+  const std::vector<BeadRange> necklaces{{0, n - 1}, {n, 2 * n - 1}};
+  StaticWrappedHierarchy<3> hierarchy(necklaces);
+  const Balls<3> balls(both, radii);
+  hierarchy.build(balls);
+  const NodeId second = *hierarchy.tree().find(necklaces[1]);
+  std::vector<double> ours, peer;
+  double apart = 0;  // used, so that nothing can be left out
+  for (std::size_t round = 0; round < rounds; ++round) {
+    constexpr int queries = 1000;
+    ours.push_back(processor_seconds_of([&] {
+                     for (int i = 0; i < queries; ++i) {
+                       hierarchy.update(balls, Update::lazy);
+                       const Sphere a = hierarchy.sphere(0), b = hierarchy.sphere(second);
+                       apart += (a.center - b.center).norm() - a.radius - b.radius;
+                     }
+                   }) /
+                   queries);
+    peer.push_back(processor_seconds_to_wrap(hierarchy.tree(), both, radii));
+  }
+  rows.push_back({"lazy update and query", "2 far helices", radii.size(), median_of(ours) * 1e9, "ns/frame",
+                  apart > 0 ? std::string(peer_name) : "", median_of(peer) * 1e9, 1.0 / 25});
+}
+
+Input read_input(const std::filesystem::path& path) {
+  ReadOptions options;
+  // NAME.pdb names the atoms of NAME.dcd and of NAME_first20.dcd.
+  const std::string stem = path.stem().string();
+  const std::filesystem::path topology = path.parent_path() / (stem.substr(0, stem.find("_first")) + ".pdb");
+  if (path.extension() == ".dcd" && std::filesystem::exists(topology)) options.topology = topology;
+  Trajectory trajectory = read_trajectory(path, options);
+  Input input{stem, {}, bead_radii("auto", std::span(&trajectory, 1))};
+  input.frames = std::move(trajectory.frames);
+  if (input.frames.size() > most_frames) input.frames.resize(most_frames);
+  if (input.frames.size() < 2) throw InputError(path.string() + ": expected two frames or more");
+  return input;
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_hierarchies(const HierarchyBenchOptions& options,
+                                        const std::function<void(std::size_t, std::size_t)>& progress) {
+  std::vector<std::function<Input()>> inputs;
+  for (const std::filesystem::path& path : options.trajectories)
+    inputs.emplace_back([path] { return read_input(path); });
+  for (const std::size_t beads : options.sizes) {
+    for (auto* make : {helix_chain, random_chain, packed_chain}) {
+      inputs.emplace_back([make, beads] {
+        BenchChain chain = make(beads);
+        Input input{chain.name, jostled_frames(chain.centers, 0.01 * chain.radius, 8),
+                    std::vector<double>(beads, chain.radius)};
+        input.update = chain.name == "random" ? 18 : 10;
+        return input;
+      });
+    }
+  }
+  std::vector<BenchRow> rows;
+  std::size_t done = 0;
+  for (const auto& make : inputs) {
+    const Input input = make();
+    for (const bool equal : {true, false}) {
+      const Input one = equal ? input : with_unequal_radii(input);
+      // A small hierarchy is done many times.
+      const std::size_t rounds = std::max(options.rounds, 20000 / one.radii.size());
+      Measured(one, rows).run(rounds);
+      progress(++done, 2 * inputs.size());
+    }
+  }
+  for (const std::size_t beads : options.sizes) lazy_query(beads, options.rounds, rows);
+  return rows;
+}
+
+}  // namespace kds

@@ -1,0 +1,37 @@
+#pragma once
+// Rows of `kds bench`: ours beside a peer in the same process. For programs and for people.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace kds {
+
+struct BenchRow {
+  std::string name, input;
+  std::size_t n = 0;
+  double value = 0;
+  std::string unit;
+  std::string peer;                  ///< empty: none
+  std::optional<double> peer_value;  ///< in the same unit
+  /// What the ratio ours / peer, or the value where there is no peer, is to be at most; none where no figure
+  /// is asked for.
+  std::optional<double> goal;
+
+  [[nodiscard]] std::optional<double> ratio() const {
+    return peer_value ? std::optional(value / *peer_value) : std::nullopt;
+  }
+  /// None without a goal.
+  [[nodiscard]] std::optional<bool> holds() const {
+    return goal ? std::optional(ratio().value_or(value) <= *goal) : std::nullopt;
+  }
+};
+
+/// {machine, version, rows}; ends with a newline.
+[[nodiscard]] std::string bench_json(std::span<const BenchRow> rows);
+/// A header and one line a row.
+[[nodiscard]] std::string bench_csv(std::span<const BenchRow> rows);
+[[nodiscard]] std::string bench_table(std::span<const BenchRow> rows);
+
+}  // namespace kds
