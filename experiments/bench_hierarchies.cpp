@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
 #include <string_view>
 
 #include "experiments/bench_chains.h"
@@ -93,10 +94,11 @@ class Measured {
 
 // Two distant necklaces, of which a query looks at the two roots: what a frame costs in all.
 void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& rows) {
-  BenchChain chain = helix_chain(beads);
-  Eigen::Matrix3Xd both(3, 2 * chain.centers.cols());
-  both << chain.centers, chain.centers.colwise() + Eigen::Vector3d(10, 0, 0);
-  const std::vector<double> radii(static_cast<std::size_t>(both.cols()), chain.radius);
+  const Eigen::Matrix3Xd helix = model_at_rest("helix", beads);
+  Eigen::Matrix3Xd both(3, 2 * helix.cols());
+  const double apart_by = 10 * (helix.rowwise().maxCoeff() - helix.rowwise().minCoeff()).norm();
+  both << helix, helix.colwise() + Eigen::Vector3d(apart_by, 0, 0);
+  const std::vector<double> radii(static_cast<std::size_t>(both.cols()), 1.0);
   const auto n = static_cast<BeadId>(beads);
   const std::vector<BeadRange> necklaces{{0, n - 1}, {n, 2 * n - 1}};
   StaticWrappedHierarchy<3> hierarchy(necklaces);
@@ -143,12 +145,11 @@ std::vector<BenchRow> bench_hierarchies(const HierarchyBenchOptions& options,
   for (const std::filesystem::path& path : options.trajectories)
     inputs.emplace_back([path] { return read_input(path); });
   for (const std::size_t beads : options.sizes) {
-    for (auto* make : {helix_chain, random_chain, packed_chain}) {
-      inputs.emplace_back([make, beads] {
-        BenchChain chain = make(beads);
-        Input input{chain.name, jostled_frames(chain.centers, 0.01 * chain.radius, 8),
-                    std::vector<double>(beads, chain.radius)};
-        input.update = chain.name == "random" ? 18 : 10;
+    for (const char* model : {"helix", "random-chain", "grid"}) {
+      inputs.emplace_back([name = std::string(model), beads] {
+        Input input{name, jostled_frames(model_at_rest(name, beads), 0.01, 8),
+                    std::vector<double>(beads, 1.0)};
+        input.update = name == "random-chain" ? 18 : 10;
         return input;
       });
     }

@@ -90,7 +90,7 @@ struct Input final : CertificateSource {
 template <Motion M>
 M chain(double distance) {
   Random random(1);
-  const auto beads = random_chain(random, 10240);
+  const auto beads = random_chain(10240);
   return jostled<M>(beads, distance, random);
 }
 

@@ -3,11 +3,10 @@
 
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <random>
-#include <unordered_map>
 #include <vector>
 
+#include "experiments/bench_chains.h"
 #include "motions/bezier_motion.h"
 
 namespace kds::bench {
@@ -23,47 +22,12 @@ inline Point random_direction(Random& random) {
   return d;
 }
 
-/// In a cube of which the beads fill a fifth.
-inline std::vector<Point> random_chain(Random& random, std::size_t beads) {
-  const double side = std::cbrt(static_cast<double>(beads) * 4.18879 / 0.2);
-  std::unordered_map<std::int64_t, std::vector<std::size_t>> grid;  // of cells of side 2
-  std::vector<Point> chain{{side / 2, side / 2, side / 2}};
-  const auto cell = [](const Point& p, int x, int y, int z) {
-    const auto place = [](double at, int shift) { return static_cast<std::int64_t>(at / 2) + shift + 1; };
-    return (place(p[0], x) << 40) + (place(p[1], y) << 20) + place(p[2], z);
-  };
-  const auto is_free = [&](const Point& p) {
-    for (const double x : p) {
-      if (x < 0 || x > side) return false;
-    }
-    for (int near = 0; near < 27; ++near) {
-      const auto found = grid.find(cell(p, near % 3 - 1, near / 3 % 3 - 1, near / 9 - 1));
-      if (found == grid.end()) continue;
-      for (const std::size_t other : found->second) {
-        double distance = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) distance += std::pow(p[axis] - chain[other][axis], 2);
-        if (other + 1 < chain.size() && distance < 4) return false;
-      }
-    }
-    return true;
-  };
-  grid[cell(chain[0], 0, 0, 0)].push_back(0);
-  while (chain.size() < beads) {
-    Point next{};
-    int tries = 200;
-    do {
-      next = random_direction(random);
-      for (std::size_t axis = 0; axis < 3; ++axis) next[axis] = chain.back()[axis] + 2 * next[axis];
-    } while (--tries > 0 && !is_free(next));
-    if (tries > 0) {
-      grid[cell(next, 0, 0, 0)].push_back(chain.size());
-      chain.push_back(next);
-      continue;
-    }
-    for (int back = 0; back < 30 && chain.size() > 1; ++back) {  // a dead end
-      grid[cell(chain.back(), 0, 0, 0)].pop_back();
-      chain.pop_back();
-    }
+inline std::vector<Point> random_chain(std::size_t beads) {
+  const Eigen::Matrix3Xd centers = model_at_rest("random-chain", beads);
+  std::vector<Point> chain(beads);
+  for (std::size_t b = 0; b < beads; ++b) {
+    const auto c = centers.col(static_cast<Eigen::Index>(b));
+    chain[b] = {c.x(), c.y(), c.z()};
   }
   return chain;
 }

@@ -25,7 +25,7 @@ namespace {
 template <Motion M>
 void rest(benchmark::State& state, double distance) {
   Random random(1);
-  const auto beads = random_chain(random, 10240);
+  const auto beads = random_chain(10240);
   const M motion = jostled<M>(beads, distance, random);
   RegularTriangulation<3> triangulation;
   static_cast<void>(triangulation.build(control_points(motion, 0), control_weights(motion, 0)));
