@@ -1,7 +1,7 @@
 #pragma once
 // Four doubles that go through the same operations side by side, rounded each like any double. Functions
-// marked KDS_LANES_TARGETS are compiled three times, plain, for AVX2 and for AVX-512 (of which they use the
-// many registers), and the right one is taken when the program starts; all give the same bits.
+// marked KDS_LANES_TARGETS are compiled twice, with and without AVX2, and the right one is taken when the
+// program starts; both give the same bits. (With sanitizers once: they are slow enough to compile.)
 
 #include <array>
 #include <cstddef>
@@ -10,8 +10,8 @@ namespace kds {
 
 // Everything called from such a function must be inlined into it: code compiled for other targets passes
 // vectors in other ways.
-#if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__)
-#define KDS_LANES_TARGETS gnu::target_clones("arch=x86-64-v4", "avx2", "default"), gnu::flatten, gnu::noinline
+#if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define KDS_LANES_TARGETS gnu::target_clones("avx2", "default"), gnu::flatten, gnu::noinline
 #else
 #define KDS_LANES_TARGETS gnu::noinline
 #endif
