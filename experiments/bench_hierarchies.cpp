@@ -7,6 +7,7 @@
 
 #include "experiments/bench_chains.h"
 #include "experiments/bench_timing.h"
+#include "motions/input_error.h"
 #include "motions/radii.h"
 #include "motions/read_trajectory.h"
 #include "structures/layered_hierarchy.h"
@@ -122,7 +123,6 @@ void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& ro
 
 Input read_input(const std::filesystem::path& path) {
   ReadOptions options;
-  options.frames.last = most_frames;
   // NAME.pdb names the atoms of NAME.dcd and of NAME_first20.dcd.
   const std::string stem = path.stem().string();
   const std::filesystem::path topology = path.parent_path() / (stem.substr(0, stem.find("_first")) + ".pdb");
@@ -130,6 +130,8 @@ Input read_input(const std::filesystem::path& path) {
   Trajectory trajectory = read_trajectory(path, options);
   Input input{stem, {}, bead_radii("auto", std::span(&trajectory, 1))};
   input.frames = std::move(trajectory.frames);
+  if (input.frames.size() > most_frames) input.frames.resize(most_frames);
+  if (input.frames.size() < 2) throw InputError(path.string() + ": expected two frames or more");
   return input;
 }
 
