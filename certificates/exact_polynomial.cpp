@@ -28,6 +28,21 @@ void make_primitive(Coefficients& c) {
   }
 }
 
+// Divides out all factors 1 + t, that is (1-u) + u = 1: what a polynomial carries whose degree is written
+// higher than it is. They would be repeated roots, and common ones.
+void drop_elevation(Coefficients& c) {
+  while (c.size() > 1) {
+    Coefficients quotient(c.size() - 1);
+    Integer rest = 0;
+    for (std::size_t k = c.size() - 1; k > 0; --k) {
+      rest = c[k] - rest;
+      quotient[k - 1] = rest;
+    }
+    if (c[0] != rest) return;
+    c = std::move(quotient);
+  }
+}
+
 // A positive multiple of the remainder of a by b, both without leading zeros, deg a >= deg b.
 Coefficients pseudo_remainder(Coefficients a, const Coefficients& b) {
   const Integer lead = abs(b.back());
@@ -47,6 +62,9 @@ Coefficients pseudo_remainder(Coefficients a, const Coefficients& b) {
 Coefficients polynomial_gcd(Coefficients a, Coefficients b) {
   drop_leading_zeros(a);
   drop_leading_zeros(b);
+  if (certainly_coprime(a, b)) return {Integer(1)};
+  drop_elevation(a);
+  drop_elevation(b);
   if (certainly_coprime(a, b)) return {Integer(1)};
   make_primitive(a);
   make_primitive(b);
@@ -174,6 +192,8 @@ ExactPolynomial ExactPolynomial::square_free() const {
   drop_leading_zeros(c);
   if (c.size() <= 2) return ExactPolynomial(std::move(c));
   if (certainly_square_free(c)) return ExactPolynomial(std::move(c));
+  drop_elevation(c);
+  if (c.size() <= 2 || certainly_square_free(c)) return ExactPolynomial(std::move(c));
   Coefficients derivative(c.size() - 1);
   for (std::size_t k = 1; k < c.size(); ++k) derivative[k - 1] = c[k] * k;
   const Coefficients repeated = polynomial_gcd(c, std::move(derivative));

@@ -20,7 +20,8 @@ constexpr std::array kRunOptions{
     OptionSpec{"--structures", "LIST",
                "comma list of sorted, wrapped, power (default: wrapped,power;"
                " instances: sorted in 1D, else power)"},
-    OptionSpec{"--motion", "NAME", "how beads move between frames: linear, hermite, lifted (default: linear)"},
+    OptionSpec{"--motion", "NAME",
+               "how beads move between frames: linear, hermite, lifted (default: linear)"},
     OptionSpec{"--kernel", "NAME", "fast, filtered or exact arithmetic (default: filtered)"},
     OptionSpec{"--audit", "WHEN", "compare with static builds: none, frames or events (default: none)"},
     OptionSpec{"--dump", "DIR", "write the structures at every frame there (default: none)"},

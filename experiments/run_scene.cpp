@@ -6,6 +6,7 @@
 
 #include "experiments/event_log_file.h"
 #include "experiments/load_scene.h"
+#include "experiments/make_session_of.h"
 #include "experiments/option_names.h"
 #include "experiments/output_files.h"
 #include "experiments/report_of_session.h"
@@ -29,6 +30,9 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
                     const std::function<void(const std::string&)>& warn) {
   const Scene scene = load_scene(options, warn);
   const auto session = make_session(scene, structures_to_run(options, scene), options.kernel, options.audit);
+  if (scene.degree() > highest_filtered_degree)
+    warn(fmt::format("motions of degree {}: all is decided in whole numbers, as with --kernel exact",
+                     scene.degree()));
   std::optional<EventLogWriter> log;
   if (options.log) {
     log.emplace(*options.log, options, scene);

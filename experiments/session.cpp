@@ -27,9 +27,10 @@ std::unique_ptr<Session> make_session_in(const Scene& scene, const std::vector<s
         fmt::format("motions of degree {}: expected a degree from 1 to {}", scene.degree(), highest_degree));
   }
   if (kernel == KernelName::fast) {
-    throw InputError(fmt::format(
-        "--kernel fast: motions of degree {} (above 3) run in whole numbers only; expected filtered or exact",
-        scene.degree()));
+    throw InputError(
+        fmt::format("--kernel fast: motions of degree {} (above {}) run in whole numbers only; expected "
+                    "filtered or exact",
+                    scene.degree(), highest_filtered_degree));
   }
   return make_session_of<ElevatedMotion<Dimension, highest_degree>>(scene, structures, KernelName::exact,
                                                                     audits);

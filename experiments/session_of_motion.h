@@ -76,8 +76,8 @@ class SessionOf final : public Session {
     }
     if (lifted<M> && name != "power") {
       throw InputError(
-          fmt::format("--motion lifted: its radii between frames are fictitious, so it serves --structures "
-                      "power alone, not {}",
+          fmt::format("--motion lifted: its radii between frames are fictitious, and {} needs physical ones; "
+                      "expected --structures power",
                       name));
     }
     const bool supported = name == "wrapped" ? has_wrapped<M> : has_power<M>;

@@ -56,9 +56,9 @@ auto PowerDiagram<M, K>::exact_static(const Dyadic& time, bool oriented) const
 template <Motion M, Kernel K>
 bool PowerDiagram<M, K>::assign_static(const Dyadic& time) {
   const auto built = exact_static(time, true);
+  if (built.dimension < dimension) return false;
+  affine_dimension_ = dimension;
   hidden_.assign(motion_.bead_count(), built.hidden);
-  affine_dimension_ = built.dimension;
-  if (affine_dimension_ < dimension) return false;
   triangulation_.assign(motion_.bead_count(), built.cells);
   return true;
 }
@@ -120,9 +120,12 @@ template <Motion M, Kernel K>
 void PowerDiagram<M, K>::rebuild_at_first_time_that_works() {
   drop_all();
   present_ = {};
+  bool always_flat = true;
   for (unsigned bits = 8; bits <= finest_grid; bits += bits < 32 ? 4 : 12) {
     const Dyadic time = next_on_grid(simulator_.now().exact(), bits);
-    if (!(time < Dyadic(1.0)) || !assign_static(time)) continue;
+    if (!(time < Dyadic(1.0))) continue;
+    always_flat = !assign_static(time);
+    if (always_flat) continue;
     settled();
     watch_all();
     if (doubt_ != Doubt::wrong && nothing_fails_until(time)) {
@@ -133,7 +136,7 @@ void PowerDiagram<M, K>::rebuild_at_first_time_that_works() {
     drop_all();
   }
   settled();
-  if (affine_dimension_ < dimension) {
+  if (always_flat) {
     throw InputError(
         std::string("all beads stay ") + (dimension == 3 ? "in one plane" : "on one line") + " in step " +
         std::to_string(simulator_.step()) + "; the power diagram " +

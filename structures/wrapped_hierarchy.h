@@ -63,11 +63,13 @@ class WrappedHierarchy final : public KineticStructure {
     free_.clear();
     if constexpr (prunes) ends_.set(motion_);
     per_bead_.assign(motion_.bead_count(), 0);
-    for (NodeId node = 0; node < nodes_.size(); ++node) guard_node(node, nodes_[node].basis);
+    for (NodeId node = 0; node < nodes_.size(); ++node) {
+      guard_node(node, nodes_[node].basis);
+      for (const BeadId b : named_) ++per_bead_[b];
+    }
     const auto most = std::max_element(per_bead_.begin(), per_bead_.end());
     auto& per_bead_max = statistics.certificates.per_bead_max;
     if (most != per_bead_.end()) per_bead_max = std::max(per_bead_max, *most);
-    per_bead_.clear();
   }
   void fail(unsigned table, std::uint32_t slot) override;
   void apply(const Change& change) override;
@@ -181,6 +183,7 @@ class WrappedHierarchy final : public KineticStructure {
   std::vector<BeadId> watched_;  // of the certificates that are enqueued
   StepEnds ends_;
   std::vector<BeadId> beyond_;           // beads of a node that are not proved to stay inside
+  std::vector<BeadId> named_;            // by the certificates of the node watched last
   std::vector<std::uint64_t> per_bead_;  // certificates that name it, at the start of a step
   std::optional<Present> present_;
 };
@@ -276,6 +279,7 @@ template <Motion M, Kernel K>
 std::optional<BeadId> WrappedHierarchy<M, K>::watch_node(NodeId id) {
   const Basis basis = nodes_[id].basis;
   JustAfter decide{*this};
+  named_.clear();
   // The bead whose certificate has just failed and would be watched again, if any.
   std::optional<BeadId> failed;
   const auto enqueue = [&](BeadId bead) {
@@ -284,9 +288,7 @@ std::optional<BeadId> WrappedHierarchy<M, K>::watch_node(NodeId id) {
       if (own_root && c.side() == present_->side) failed = bead;
       table_of(c).enqueue(c, id, own_root ? Birth::at_own_root : Birth::unknown);
       watched_.push_back(bead);
-      if (!per_bead_.empty()) {
-        for (const BeadId b : c.beads) ++per_bead_[b];
-      }
+      named_.insert(named_.end(), c.beads.begin(), c.beads.end());
     };
   };
   const auto watch = [&](unsigned table, bool zero_will_do) -> std::optional<BeadId> {

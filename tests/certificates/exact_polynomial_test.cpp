@@ -153,6 +153,33 @@ TEST(ExactPolynomial, CommonDivisorIsThatOfThePowerBasis) {
   EXPECT_GT(common_factors, 300);
 }
 
+// A degree written higher than it is: factors (1-u) + u, which are no repeated and no common roots.
+TEST(ExactPolynomial, ElevationIsDividedOut) {
+  test::Random random(31);
+  const auto elevated = [](std::vector<Integer> c, int times) {
+    for (; times > 0; --times) {
+      c.emplace_back(0);
+      for (std::size_t k = c.size(); k-- > 1;) c[k] += c[k - 1];
+    }
+    return ExactPolynomial(std::move(c));
+  };
+  for (int round = 0; round < 50; ++round) {
+    std::vector<Integer> c(6), other(5);
+    for (Integer& x : c) x = test::pick(random, -1000, 1000);
+    for (Integer& x : other) x = test::pick(random, -1000, 1000);
+    c.back() = other.back() = 7;
+    const ExactPolynomial low = ExactPolynomial(c).square_free();
+    const ExactPolynomial high = elevated(c, test::pick(random, 2, 30)).square_free();
+    EXPECT_EQ(high.scaled().size(), low.scaled().size());
+    for (const double u : {0.0, 0.25, 0.5, 0.8125})
+      EXPECT_EQ(high.sign_at(Dyadic(u)), low.sign_at(Dyadic(u)));
+    EXPECT_EQ(isolate_roots(high, Dyadic(0.0), Dyadic(1.0)).size(),
+              isolate_roots(low, Dyadic(0.0), Dyadic(1.0)).size());
+    EXPECT_EQ(ExactPolynomial::gcd(elevated(c, 9), elevated(other, 4)).scaled().size(),
+              ExactPolynomial::gcd(ExactPolynomial(c), ExactPolynomial(other)).scaled().size());
+  }
+}
+
 TEST(ExactPolynomial, SignsAtAndAfterDyadics) {
   test::Random random(104);
   int zeros = 0;
