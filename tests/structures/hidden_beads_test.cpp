@@ -130,7 +130,7 @@ WeightedRig in_a_tetrahedron(const Points& from, const Points& to, const std::ve
 
 TEST(HiddenBead, ComesOutOfAHeavyOne) {
   // Twice through the power sphere's surface: visible at first, hidden near the heavy bead, visible again.
-  auto rig = in_a_tetrahedron({{0, 0, 0}, {0.5, 0.25, -3}}, {{0, 0, 0}, {0.75, 0.5, 4}}, {4, -10});
+  auto rig = in_a_tetrahedron({{0, 0, 0}, {0.5, 0.25, -2.5}}, {{0, 0, 0}, {0.75, 0.5, 4}}, {45, 0});
   ASSERT_NO_THROW(rig.run());
   EXPECT_EQ(count(rig, Diagram::hides), 1U);
   EXPECT_EQ(count(rig, Diagram::shows), 1U);
