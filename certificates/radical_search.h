@@ -210,8 +210,8 @@ template <class InDouble>
   const bool at_own_root = birth == Birth::at_own_root;
   if (at_own_root && !now.isolating()) return std::nullopt;
   const int sign = certificate.certain_sign_on(at_own_root ? now.upper() : now.lower(), now.upper());
-  if (sign == 0 || (sign < 0 && at_own_root)) return std::nullopt;
-  if (sign < 0) return failed_at_birth(now);
+  // A sign below zero may belong to a sphere that is none, its beads in one place: integers know.
+  if (sign <= 0) return std::nullopt;
   return walk_candidates(certificate, now.upper());
 }
 

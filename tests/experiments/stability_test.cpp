@@ -269,9 +269,7 @@ TEST(Stability, BallsTouchAndCrossSpheres) {
   for (const StabilityRow& row :
        rows_of({"--subjects", "ball_in_sphere_1,contact", "--extremes", "contact", "--cases", "100"})) {
     EXPECT_TRUE(row.holds()) << name_of(row) << ": " << row.reason;
-    // Doubles prove no touch; but a ball that touches a sphere from outside is never in it.
-    const bool outside = row.subject.starts_with("ball_in_sphere") && row.extreme == "contact:tangent";
-    EXPECT_EQ(row.stages.exact > 0, !outside) << name_of(row);
+    EXPECT_GT(row.stages.exact, 0U) << name_of(row);  // doubles prove no touch
   }
 }
 
