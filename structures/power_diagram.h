@@ -149,8 +149,7 @@ class PowerDiagram final : public KineticStructure {
 
   void build_from_control_points(int k);
   [[nodiscard]] StaticTriangulation<dimension> exact_static(const Dyadic& time, bool oriented) const;
-  /// The static diagram at `time`; false, and nothing but hidden_ and affine_dimension_ set, where it is
-  /// flat.
+  /// The static diagram at `time`; false, and nothing changed, where it is flat.
   bool assign_static(const Dyadic& time);
   /// Rebuilds at the first time on ever finer grids after now before which nothing fails.
   void rebuild_at_first_time_that_works();
