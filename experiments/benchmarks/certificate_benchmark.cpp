@@ -301,12 +301,6 @@ void sign(benchmark::State& state, I input, bool four_at_once) {
 }  // namespace
 
 void add_certificate_benchmarks() {
-  const auto add = [](const std::string& name, const auto& run) {
-    benchmark::RegisterBenchmark(name.c_str(), run)
-        ->UseManualTime()
-        ->Iterations(21)
-        ->Unit(benchmark::kMicrosecond);
-  };
   using benchmark::State;
   const auto near = [] { return chain<Linear>(0.01); };
   const auto near_cubic = [] { return chain<Cubic>(0.01); };
@@ -315,44 +309,49 @@ void add_certificate_benchmarks() {
   constexpr std::size_t many = 20000;
   constexpr std::size_t window = 16;
 
-  add("settle/facet/linear", [=](State& s) { settle(s, facets(near())); });
-  add("settle/sphere2/linear", [=](State& s) { settle(s, spheres<BeadInSphere<2>>(near(), many, window)); });
-  add("settle/sphere3/linear", [=](State& s) { settle(s, spheres<BeadInSphere<3>>(near(), many, window)); });
-  add("settle/sphere4/linear", [=](State& s) { settle(s, spheres<Facet>(near(), many, window)); });
-  add("settle/facet/hermite", [=](State& s) { settle(s, facets(near_cubic())); });
-  add("settle/sphere2/hermite",
-      [=](State& s) { settle(s, spheres<BeadInSphere<2>>(near_cubic(), many, window)); });
-  add("settle/sphere3/hermite",
-      [=](State& s) { settle(s, spheres<BeadInSphere<3>>(near_cubic(), many, window)); });
-  add("settle/sphere4/hermite", [=](State& s) { settle(s, spheres<Facet>(near_cubic(), many, window)); });
+  add_benchmark("settle/facet/linear", [=](State& s) { settle(s, facets(near())); });
+  add_benchmark("settle/sphere2/linear",
+                [=](State& s) { settle(s, spheres<BeadInSphere<2>>(near(), many, window)); });
+  add_benchmark("settle/sphere3/linear",
+                [=](State& s) { settle(s, spheres<BeadInSphere<3>>(near(), many, window)); });
+  add_benchmark("settle/sphere4/linear", [=](State& s) { settle(s, spheres<Facet>(near(), many, window)); });
+  add_benchmark("settle/facet/hermite", [=](State& s) { settle(s, facets(near_cubic())); });
+  add_benchmark("settle/sphere2/hermite",
+                [=](State& s) { settle(s, spheres<BeadInSphere<2>>(near_cubic(), many, window)); });
+  add_benchmark("settle/sphere3/hermite",
+                [=](State& s) { settle(s, spheres<BeadInSphere<3>>(near_cubic(), many, window)); });
+  add_benchmark("settle/sphere4/hermite",
+                [=](State& s) { settle(s, spheres<Facet>(near_cubic(), many, window)); });
 
-  add("failure/facet/linear", [=](State& s) { failure<Filtered>(s, facets(linear())); });
-  add("failure/sphere2/linear",
-      [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<2>>(linear(), many, 100)); });
-  add("failure/sphere3/linear",
-      [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<3>>(linear(), many, 100)); });
-  add("failure/sphere4/linear", [=](State& s) { failure<Filtered>(s, spheres<Facet>(linear(), many, 100)); });
-  add("failure/facet/cubic", [=](State& s) { failure<Filtered>(s, facets(cubic())); });
-  add("failure/sphere2/cubic",
-      [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<2>>(cubic(), many, 50)); });
-  add("failure/sphere3/cubic",
-      [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<3>>(cubic(), many, 50)); });
-  add("failure/sphere4/cubic", [=](State& s) { failure<Filtered>(s, spheres<Facet>(cubic(), many, 50)); });
+  add_benchmark("failure/facet/linear", [=](State& s) { failure<Filtered>(s, facets(linear())); });
+  add_benchmark("failure/sphere2/linear",
+                [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<2>>(linear(), many, 100)); });
+  add_benchmark("failure/sphere3/linear",
+                [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<3>>(linear(), many, 100)); });
+  add_benchmark("failure/sphere4/linear",
+                [=](State& s) { failure<Filtered>(s, spheres<Facet>(linear(), many, 100)); });
+  add_benchmark("failure/facet/cubic", [=](State& s) { failure<Filtered>(s, facets(cubic())); });
+  add_benchmark("failure/sphere2/cubic",
+                [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<2>>(cubic(), many, 50)); });
+  add_benchmark("failure/sphere3/cubic",
+                [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<3>>(cubic(), many, 50)); });
+  add_benchmark("failure/sphere4/cubic",
+                [=](State& s) { failure<Filtered>(s, spheres<Facet>(cubic(), many, 50)); });
 
-  add("exact/bracket/facet/linear", [=](State& s) { failure<Exact>(s, facets(linear())); });
-  add("exact/bracket/facet/cubic", [=](State& s) { failure<Exact>(s, facets(cubic())); });
-  add("exact/function/facet/linear", [=](State& s) { exact_function(s, facets(linear())); });
-  add("exact/function/facet/cubic", [=](State& s) { exact_function(s, facets(cubic())); });
-  add("exact/failure/facet/linear", [=](State& s) { exact_failure(s, facets(linear())); });
-  add("exact/failure/facet/cubic", [=](State& s) { exact_failure(s, facets(cubic())); });
-  add("exact/isolation/facet/linear", [=](State& s) { exact_isolation(s, facets(linear())); });
-  add("exact/isolation/facet/cubic", [=](State& s) { exact_isolation(s, facets(cubic())); });
+  add_benchmark("exact/bracket/facet/linear", [=](State& s) { failure<Exact>(s, facets(linear())); });
+  add_benchmark("exact/bracket/facet/cubic", [=](State& s) { failure<Exact>(s, facets(cubic())); });
+  add_benchmark("exact/function/facet/linear", [=](State& s) { exact_function(s, facets(linear())); });
+  add_benchmark("exact/function/facet/cubic", [=](State& s) { exact_function(s, facets(cubic())); });
+  add_benchmark("exact/failure/facet/linear", [=](State& s) { exact_failure(s, facets(linear())); });
+  add_benchmark("exact/failure/facet/cubic", [=](State& s) { exact_failure(s, facets(cubic())); });
+  add_benchmark("exact/isolation/facet/linear", [=](State& s) { exact_isolation(s, facets(linear())); });
+  add_benchmark("exact/isolation/facet/cubic", [=](State& s) { exact_isolation(s, facets(cubic())); });
 
-  add("compare/facet/linear", [=](State& s) { compare(s, facets(linear())); });
-  add("sign/just_after/facet/linear", [=](State& s) { sign(s, facets(linear()), false); });
-  add("sign/all_positive_now/facet/linear", [=](State& s) { sign(s, facets(linear()), true); });
-  add("sign/just_after/facet/cubic", [=](State& s) { sign(s, facets(cubic()), false); });
-  add("sign/all_positive_now/facet/cubic", [=](State& s) { sign(s, facets(cubic()), true); });
+  add_benchmark("compare/facet/linear", [=](State& s) { compare(s, facets(linear())); });
+  add_benchmark("sign/just_after/facet/linear", [=](State& s) { sign(s, facets(linear()), false); });
+  add_benchmark("sign/all_positive_now/facet/linear", [=](State& s) { sign(s, facets(linear()), true); });
+  add_benchmark("sign/just_after/facet/cubic", [=](State& s) { sign(s, facets(cubic()), false); });
+  add_benchmark("sign/all_positive_now/facet/cubic", [=](State& s) { sign(s, facets(cubic()), true); });
 }
 
 }  // namespace kds::bench

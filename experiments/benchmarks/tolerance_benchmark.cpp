@@ -66,16 +66,10 @@ void rest(benchmark::State& state, double distance) {
 }  // namespace
 
 void add_tolerance_benchmarks() {
-  const auto add = [](const std::string& name, const auto& run) {
-    benchmark::RegisterBenchmark(name.c_str(), run)
-        ->UseManualTime()
-        ->Iterations(21)
-        ->Unit(benchmark::kMicrosecond);
-  };
   using benchmark::State;
-  add("tolerance/facet/linear/0.0001r", [](State& s) { rest<BezierMotion<3, 1>>(s, 0.0001); });
-  add("tolerance/facet/linear/0.001r", [](State& s) { rest<BezierMotion<3, 1>>(s, 0.001); });
-  add("tolerance/facet/hermite/0.001r", [](State& s) { rest<BezierMotion<3, 3>>(s, 0.001); });
+  add_benchmark("tolerance/facet/linear/0.0001r", [](State& s) { rest<BezierMotion<3, 1>>(s, 0.0001); });
+  add_benchmark("tolerance/facet/linear/0.001r", [](State& s) { rest<BezierMotion<3, 1>>(s, 0.001); });
+  add_benchmark("tolerance/facet/hermite/0.001r", [](State& s) { rest<BezierMotion<3, 3>>(s, 0.001); });
 }
 
 }  // namespace kds::bench
