@@ -36,7 +36,7 @@ Input with_unequal_radii(Input input) {
     if (b % 3 == 0) input.radii[b] *= 0.8;
     if (b % 7 == 0) input.radii[b] *= 0.9;
   }
-  input.name += ", radii";
+  input.name += " unequal";
   for (double* factor : {&input.build, &input.update, &input.trust}) *factor /= 2;
   return input;
 }
@@ -122,7 +122,7 @@ void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& ro
                    queries);
     peer.push_back(processor_seconds_to_wrap(hierarchy.tree(), both, radii));
   }
-  rows.push_back({"lazy update and query", "2 far helices", radii.size(), median_of(ours) * 1e9, "ns/frame",
+  rows.push_back({"lazy update and query", "far helices", radii.size(), median_of(ours) * 1e9, "ns/frame",
                   apart > 0 ? std::string(peer_name) : "", median_of(peer) * 1e9, 1.0 / 25});
 }
 
