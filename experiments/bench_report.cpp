@@ -46,11 +46,11 @@ std::string bench_csv(std::span<const BenchRow> rows) {
 }
 
 std::string bench_table(std::span<const BenchRow> rows) {
-  std::string text = fmt::format("{:<28} {:<14} {:>7} {:>9} {:<9} {:>9} {:>8} {:>8}  {:<5} {}\n", "name",
+  std::string text = fmt::format("{:<24} {:<30} {:>7} {:>9} {:<9} {:>9} {:>8} {:>8}  {:<5} {}\n", "name",
                                  "input", "n", "value", "unit", "peer", "ratio", "goal", "holds", "peer is");
   for (const BenchRow& row : rows) {
     const auto holds = row.holds();
-    text += fmt::format("{:<28} {:<14} {:>7} {:>9} {:<9} {:>9} {:>8} {:>8}  {:<5} {}\n", row.name, row.input,
+    text += fmt::format("{:<24} {:<30} {:>7} {:>9} {:<9} {:>9} {:>8} {:>8}  {:<5} {}\n", row.name, row.input,
                         row.n, figure(row.value), row.unit, figure(row.peer_value), figure(row.ratio()),
                         figure(row.goal), holds ? (*holds ? "yes" : "no") : "-", row.peer);
   }

@@ -20,31 +20,13 @@ namespace kds {
 
 namespace detail {
 
-/// The volume that M unit vectors span, all but one of M + 1; an absolute error of 32u is taken off.
-template <std::size_t LeftOut, class N, std::size_t Size, std::size_t Count>
-[[gnu::always_inline]] inline N volume_of(const std::array<std::array<N, Size>, Count>& units) {
-  using Is = NumberTraits<N>;
-  constexpr auto place = [](std::size_t i) { return i < LeftOut ? i : i + 1; };
-  if constexpr (Count == 2) {
-    return N(1.0);
-  } else if constexpr (Size == 2) {
-    const auto &a = units[place(0)], &b = units[place(1)];
-    return Is::abs(a[0] * b[1] - a[1] * b[0]) - N(32 * unit_roundoff);
-  } else {
-    const auto normal = cross(units[place(0)], units[place(1)]);
-    if constexpr (Count == 3)
-      return Is::sqrt(dot(normal, normal)) - N(32 * unit_roundoff);
-    else
-      return Is::abs(dot(normal, units[place(2)])) - N(32 * unit_roundoff);
-  }
-}
-
 /// Without `bounds` only centre, radius and least weight.
 template <bool bounds = true, class N, int Dimension, std::size_t M>
 [[gnu::always_inline]] inline BasisSphere<N, Dimension> sphere_of_balls(
-    const BasisBalls<N, Dimension, M>& balls) {
+    const BasisBalls<N, Dimension, M>& members) {
   using Is = NumberTraits<N>;
   constexpr double u = unit_roundoff;
+  const auto balls = from_widest(members);
   const Span<N, Dimension, M> span(balls);
   std::array<N, M> s, e;
   for (std::size_t i = 0; i < M; ++i) {
@@ -71,52 +53,51 @@ template <bool bounds = true, class N, int Dimension, std::size_t M>
     sphere.center[axis] = balls.center[0][axis] + (p[axis] + rho * q[axis]);
     size = Is::max(size, Is::abs(sphere.center[axis]));
   }
-  std::array<std::array<N, static_cast<std::size_t>(Dimension)>, M + 1> units;
-  std::array<N, static_cast<std::size_t>(Dimension)> balance;
+  std::array<N, static_cast<std::size_t>(Dimension)> balance;  // sum of weights times c_i - z~
   balance.fill(N(0.0));
-  N most(0.0), fewest(HUGE_VAL), near(HUGE_VAL), sum(0.0), weakest(HUGE_VAL), strongest(0.0);
+  N most(0.0), fewest(HUGE_VAL), near(HUGE_VAL), sum(0.0), weakest(HUGE_VAL), strongest(0.0), product(1.0);
   sphere.least = weight[0];
-  N volume(0.0);
   for (std::size_t i = 0; i <= M; ++i) {
-    units[i] = minus(balls.center[i], sphere.center);
-    const N distance = Is::sqrt(dot(units[i], units[i]));
+    const auto d = minus(balls.center[i], sphere.center);
+    const N distance = Is::sqrt(dot(d, d));
     const N reach = distance + balls.radius[i];
+    most = Is::max(most, reach);
+    fewest = Is::min(fewest, reach);
+    sphere.least = Is::min(sphere.least, weight[i]);
+    if constexpr (!bounds) continue;
     const N pull = weight[i] * distance;
+    product = product * distance;
     sum = sum + pull;
     weakest = Is::min(weakest, pull);
     strongest = Is::max(strongest, pull);
-    most = Is::max(most, reach);
-    fewest = Is::min(fewest, reach);
     near = Is::min(near, distance);
-    sphere.least = Is::min(sphere.least, weight[i]);
-    const N over = N(1.0) / distance;
-    for (std::size_t axis = 0; axis < Dimension; ++axis) {
-      balance[axis] = balance[axis] + weight[i] * units[i][axis];
-      units[i][axis] = units[i][axis] * over;
-    }
+    for (std::size_t axis = 0; axis < Dimension; ++axis) balance[axis] = balance[axis] + weight[i] * d[axis];
   }
-  // The greatest volume belongs to leaving out the strongest.
-  volume = volume_of<0>(units);
-  if constexpr (M >= 2) volume = Is::max(Is::max(volume, volume_of<1>(units)), volume_of<2>(units));
-  if constexpr (M == 3) volume = Is::max(volume, volume_of<3>(units));
-  constexpr std::array<double, 4> least_singular{0, 1, 0.7071, 0.6666};  // of a unit volume
-  const N sigma = N(least_singular[M]) * volume;
   sphere.radius = most;
-  const N rounding = N(u) * (N(2.0) * size + N(64.0) * most);
-  const N left = M < Dimension ? rounding : N(0.0);
-  const N unbalanced = Is::sqrt(dot(balance, balance)) / sum + N(32 * u);
-  const N balanced = weakest / sum * sigma;
-  const N spread = most - fewest + N(32 * u) * most + left;
-  const N error = N(2.02 * root_of[M]) * spread / balanced + left;
   // Written so that NaNs and signs that make no sense are no proof.
-  const auto touches = (rho >= N(0.0)) & (sphere.least > N(0.0)) & (sphere.least <= N(1.0)) & (sum > N(0.0)) &
+  const auto touches = (rho >= N(0.0)) & (sphere.least > N(0.0)) & (sphere.least <= N(1.0)) &
                        (most - fewest <= N(1e-6) * most);
   sphere.least = Is::choose(touches, sphere.least, N(-1.0));
-  sphere.certain =
-      touches & (sigma > N(0.0)) & (most >= N(0x1p-150)) & (most <= N(0x1p150)) & (near >= N(0x1p-200)) &
-      (near > N(4.0) * error) & (error <= N(0x1p-28) * most) & (unbalanced * error <= N(0x1p-46) * most) &
-      (N(4 * root_of[M]) * unbalanced <= balanced) &
-      ((weakest * sigma - N(8.0) * unbalanced * sum) * near > N(8 * root_of[M]) * error * strongest);
+  if constexpr (!bounds) return sphere;
+  N norm = N(32 * u) * sum;  // of the balance, or more
+  for (const N& x : balance) norm = norm + Is::abs(x);
+  // The volume of all unit vectors but the strongest pull's: w_i det Q / product of the other distances.
+  N volume(1.0);
+  if constexpr (M > 1) {
+    const N whole = M == 2 ? Is::sqrt(span.determinant) : Is::abs(span.determinant);
+    volume = N(0.99) * whole * strongest / product - N(4.0) * norm / near;
+  }
+  constexpr std::array<double, 4> least_singular{0, 1, 0.7071, 0.6666};  // of a unit volume
+  const N sigma = N(least_singular[M]) * volume;
+  const N rounding = N(u) * (N(2.0) * size + N(64.0) * most);
+  const N left = M < Dimension ? rounding : N(0.0);
+  const N balanced = weakest * sigma;
+  const N spread = most - fewest + N(32 * u) * most + left;
+  const N error = N(2.02 * root_of[M]) * spread * sum / balanced + left;
+  sphere.certain = touches & span.sound() & (sigma > N(0.0)) & (most >= N(0x1p-150)) & (most <= N(0x1p150)) &
+                   (near >= N(0x1p-200)) & (near > N(4.0) * error) & (error <= N(0x1p-28) * most) &
+                   (norm * error <= N(0x1p-46) * most * sum) & (N(4 * root_of[M]) * norm <= balanced) &
+                   ((balanced - N(8.0) * norm) * near > N(8 * root_of[M]) * error * strongest);
   sphere.inner = (most - N(2.0) * error) * N(1 - 4 * u);
   sphere.outer =
       Is::choose(sphere.certain, N(8.1) * most * error + N(16.0) * error * error + N(32 * u) * most * most,

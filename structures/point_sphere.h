@@ -80,6 +80,35 @@ template <std::size_t M, int Dimension>
   return b;
 }
 
+/// The same balls with the base where the widest angle is: a triangle's is 60 degrees at least, and so its
+/// system is well conditioned, however short a side.
+template <class N, int Dimension, std::size_t M>
+[[gnu::always_inline]] inline BasisBalls<N, Dimension, M> from_widest(
+    const BasisBalls<N, Dimension, M>& balls) {
+  if constexpr (M != 2) return balls;
+  using Is = NumberTraits<N>;
+  BasisBalls<N, Dimension, M> turned = balls;
+  const auto square = [&balls](std::size_t i, std::size_t j) __attribute__((always_inline)) {
+    const auto d = minus(balls.center[i], balls.center[j]);
+    return dot(d, d);
+  };
+  const auto exchange = [](const typename Is::Flag& flag, N& a, N& b) __attribute__((always_inline)) {
+    const N kept = a;
+    a = Is::choose(flag, b, a);
+    b = Is::choose(flag, kept, b);
+  };
+  const N opposite0 = square(1, 2), opposite1 = square(0, 2), opposite2 = square(0, 1);
+  const auto at1 = (opposite1 > opposite0) & (opposite1 >= opposite2);
+  const auto at2 = (opposite2 > opposite0) & (opposite2 > opposite1);
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    exchange(at1, turned.center[0][axis], turned.center[1][axis]);
+    exchange(at2, turned.center[0][axis], turned.center[2][axis]);
+  }
+  exchange(at1, turned.radius[0], turned.radius[1]);
+  exchange(at2, turned.radius[0], turned.radius[2]);
+  return turned;
+}
+
 /// Q of M points seen from a base, M = 1 to Dimension, and what solves G y = Q^T v.
 template <class N, int Dimension, std::size_t M>
 struct Span {
@@ -117,8 +146,8 @@ struct Span {
   [[gnu::always_inline]] typename NumberTraits<N>::Flag sound() const {
     constexpr double error = 16 * unit_roundoff * 200;
     if constexpr (M == 1) return square[0] > N(0.0);
-    if constexpr (M == 2) return determinant > N(error) * trace * trace;
-    return determinant * determinant > N(error * error) * trace * trace * trace;
+    if constexpr (M == 2) return determinant > N(error) * (square[0] * square[1]);
+    return determinant * determinant > N(error * error) * (square[0] * square[1] * square[2]);
   }
   /// An upper bound of one by sigma where that is so.
   [[gnu::always_inline]] N most_by_singular_value() const {
@@ -200,9 +229,10 @@ namespace detail {
 /// Without `bounds` only centre, radius and least weight.
 template <bool bounds = true, class N, int Dimension, std::size_t M>
 [[gnu::always_inline]] inline BasisSphere<N, Dimension> sphere_of_points(
-    const BasisBalls<N, Dimension, M>& balls) {
+    const BasisBalls<N, Dimension, M>& members) {
   using Is = NumberTraits<N>;
   constexpr double u = unit_roundoff;
+  const auto balls = from_widest(members);
   const Span<N, Dimension, M> span(balls);
   typename Span<N, Dimension, M>::Weights y;
   const auto z = span.circumcenter(y);

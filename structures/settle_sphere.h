@@ -24,35 +24,30 @@ template <class Form>
   return sphere;
 }
 
-/// What a scan of all beads saw.
-struct Seen {
-  double farthest = 0;
-  std::size_t outside = 0;
-};
-
-/// `visit(sphere, look)` calls look(first, last) for the runs of beads that may be outside.
+/// How many beads are not inside for certain. `visit(sphere, look)` calls look(first, last) for the runs of
+/// beads that may be outside.
 template <class Form, class Visit>
-[[gnu::always_inline]] inline Seen scan_beads(const Balls<Form::Dimension>& balls,
-                                              const typename Form::Sphere& sphere, const Visit& visit) {
+[[gnu::always_inline]] inline std::size_t count_outside(const Balls<Form::Dimension>& balls,
+                                                        const typename Form::Sphere& sphere,
+                                                        const Visit& visit) {
   const auto measure = Form::measure(balls, sphere);
-  Scanner scanner;
+  OutsideCount count;
   visit(
       sphere, [&](BeadId first, BeadId last)
-                  __attribute__((always_inline)) { scanner.scan(measure, first, last); });
-  return {scanner.farthest_value(), scanner.outside_count()};
+                  __attribute__((always_inline)) { count.scan(measure, first, last); });
+  return count.result();
 }
 
 template <class Form>
 [[gnu::always_inline]] inline bool is_proved(const Basis& basis, const typename Form::Sphere& sphere,
-                                             const Seen& seen) {
-  return sphere.certain & (seen.outside == basis.size);
+                                             std::size_t outside) {
+  return sphere.certain & (outside == basis.size);
 }
 
 /// Where that is no proof: the next basis. False if doubles know none.
 template <class Form, class Visit>
 [[gnu::always_inline]] inline bool next_basis(const Balls<Form::Dimension>& balls, Basis& basis,
-                                              const typename Form::Sphere& sphere, const Seen& seen,
-                                              const Visit& visit) {
+                                              const typename Form::Sphere& sphere, const Visit& visit) {
   if (basis.size > 1 && !(sphere.least > 0)) {
     if (!(sphere.least < -1e-9)) return false;  // a right basis must not be changed
     std::size_t place = 0;
@@ -62,12 +57,17 @@ template <class Form, class Visit>
     erase_place(basis, place);
     return true;
   }
-  if (!(seen.farthest > sphere.outer)) return false;
   const auto measure = Form::measure(balls, sphere);
+  Farthest farthest;
+  visit(
+      sphere, [&](BeadId first, BeadId last)
+                  __attribute__((always_inline)) { farthest.scan(measure, first, last); });
+  const double value = farthest.result();
+  if (!(value > sphere.outer)) return false;
   BeadId escaped = no_bead;
   visit(
       sphere, [&](BeadId first, BeadId last) __attribute__((always_inline)) {
-        if (escaped == no_bead) escaped = find_value(measure, first, last, seen.farthest);
+        if (escaped == no_bead) escaped = find_value(measure, first, last, value);
       });
   return escaped != no_bead && !basis.contains(escaped) && Form::pivot(balls, basis, escaped);
 }

@@ -19,18 +19,18 @@ template <class Form>
   for (const BeadId b : guess.empty() ? guess : guess.subspan(1)) {
     if (basis.contains(b)) continue;
     const Sphere sphere = detail::sphere_of_basis<Form>(balls, basis);
-    detail::Scanner one;
+    detail::Farthest one;
     one.scan(Form::measure(balls, sphere), b, b);
-    if (one.farthest_value() > sphere.outer && !Form::pivot(balls, basis, b)) return false;
+    if (one.result() > sphere.outer && !Form::pivot(balls, basis, b)) return false;
   }
   for (int pivots = 0; pivots < detail::most_pivots; ++pivots) {
     const Sphere sphere = detail::sphere_of_basis<Form>(balls, basis);
-    const detail::Seen seen = detail::scan_beads<Form>(balls, sphere, visit);
-    if (detail::is_proved<Form>(basis, sphere, seen)) {
+    const std::size_t outside = detail::count_outside<Form>(balls, sphere, visit);
+    if (detail::is_proved<Form>(basis, sphere, outside)) {
       cage = {sphere.center, sphere.radius};
       return true;
     }
-    if (!detail::next_basis<Form>(balls, basis, sphere, seen, visit)) return false;
+    if (!detail::next_basis<Form>(balls, basis, sphere, visit)) return false;
   }
   return false;
 }

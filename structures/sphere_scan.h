@@ -4,7 +4,10 @@
 // Every operation is rounded as written and the result does not depend on the order of beads: the same bits
 // on every machine.
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 
 #include "structures/ball_sphere.h"
@@ -23,10 +26,12 @@ using EightFlags = decltype(Eight{} < Eight{});  // of whole numbers: -1 where t
   return v;
 }
 [[gnu::always_inline]] inline Eight all(double x) { return Eight{} + x; }
-/// The first `count` of eight.
-[[gnu::always_inline]] inline EightFlags first_of_eight(std::size_t count) {
-  constexpr EightFlags place{0, 1, 2, 3, 4, 5, 6, 7};
-  return place < static_cast<long long>(count);
+/// Zero for the first `count` of eight, then what takes a bead out of the count.
+[[gnu::always_inline]] inline Eight only_first(std::size_t count) {
+  static constexpr double no = -HUGE_VAL;
+  alignas(64) static constexpr std::array<double, 16> table{0,  0,  0,  0,  0,  0,  0,  0,
+                                                            no, no, no, no, no, no, no, no};
+  return load(table.data() + (8 - count));
 }
 
 /// One bit each.
@@ -50,12 +55,18 @@ template <int Dimension>
   return sum;
 }
 
-/// What is looked at of each bead: the square distance of a point, the excess of a ball.
+/// What is looked at of each bead: the square distance of a point, the excess of a ball. `taken` is added
+/// where not all eight are meant.
 template <int Dimension>
 struct PointMeasure {
-  std::array<const double*, Dimension> centers;
+  std::array<const double*, static_cast<std::size_t>(Dimension)> centers;
   Point<Dimension> center;
   double inner;
+  [[gnu::always_inline]] Eight operator()(std::size_t b, EightFlags& outside, const Eight& taken) const {
+    const Eight t = square_distance<Dimension>(centers, b, center) + taken;
+    outside = t > inner;
+    return t;
+  }
   [[gnu::always_inline]] Eight operator()(std::size_t b, EightFlags& outside) const {
     const Eight t = square_distance<Dimension>(centers, b, center);
     outside = t > inner;
@@ -64,17 +75,22 @@ struct PointMeasure {
 };
 template <int Dimension>
 struct BallMeasure {
-  std::array<const double*, Dimension> centers;
+  std::array<const double*, static_cast<std::size_t>(Dimension)> centers;
   const double* radii;
   Point<Dimension> center;
   double inner;
-  [[gnu::always_inline]] Eight operator()(std::size_t b, EightFlags& outside) const {
-    const Eight t = square_distance<Dimension>(centers, b, center);
-    const Eight room = inner - load(radii + b);
+  [[gnu::always_inline]] Eight operator()(std::size_t b, EightFlags& outside, const Eight& taken) const {
+    const Eight t = square_distance<Dimension>(centers, b, center) + taken;
+    const Eight room = inner - (load(radii + b) + taken);
+    // Below 2^-200 of room a square may have lost its digits: then no square distance is small enough.
+    const Eight none = all(-1.0);
     const Eight square = room * room;
-    // Below 2^-200 of room a square may have lost its digits.
-    outside = ~((room >= 0x1p-200) & (t <= square * (1 - 32 * unit_roundoff)));
+    const Eight limit = room >= 0x1p-200 ? square * (1 - 32 * unit_roundoff) : none;
+    outside = t > limit;
     return t - (room < 0.0 ? -square : square);
+  }
+  [[gnu::always_inline]] Eight operator()(std::size_t b, EightFlags& outside) const {
+    return (*this)(b, outside, Eight{});
   }
 };
 
@@ -86,41 +102,56 @@ template <int Dimension>
   return c;
 }
 
-/// Gathers over several runs of beads how far the farthest is out (points: its square distance, balls: their
-/// excess) and how many are not inside for certain.
-struct Scanner {
-  Eight farthest = all(-HUGE_VAL);
-  EightFlags outside{};  // beads that are not inside for certain, negative
+/// How many beads are not inside for certain, over several runs of beads.
+class OutsideCount {
+ public:
+  template <class Measure>
+  [[gnu::always_inline]] void scan(const Measure& measure, std::size_t first, std::size_t last) {
+    EightFlags flags;
+    for (; first + 7 <= last; first += 8) {
+      measure(first, flags);
+      sum_ += flags;
+    }
+    if (first > last) return;
+    measure(first, flags, only_first(last - first + 1));
+    sum_ += flags;
+  }
+  [[gnu::always_inline]] std::size_t result() const {
+    const auto four =
+        __builtin_shufflevector(sum_, sum_, 0, 1, 2, 3) + __builtin_shufflevector(sum_, sum_, 4, 5, 6, 7);
+    const auto two = __builtin_shufflevector(four, four, 0, 1) + __builtin_shufflevector(four, four, 2, 3);
+    return static_cast<std::size_t>(-(two[0] + two[1]));
+  }
 
+ private:
+  EightFlags sum_{};  // negative
+};
+
+/// How far the farthest bead is out, over several runs: points by square distance, balls by their excess.
+class Farthest {
+ public:
   template <class Measure>
   [[gnu::always_inline]] void scan(const Measure& measure, std::size_t first, std::size_t last) {
     EightFlags flags;
     for (; first + 7 <= last; first += 8) {
       const Eight value = measure(first, flags);
-      farthest = value > farthest ? value : farthest;
-      outside += flags;
+      most_ = value > most_ ? value : most_;
     }
-    if (first <= last) {
-      const EightFlags some = first_of_eight(last - first + 1);
-      const Eight value = measure(first, flags);
-      farthest = (value > farthest) & some ? value : farthest;
-      outside += flags & some;
-    }
+    if (first > last) return;
+    const Eight value = measure(first, flags, only_first(last - first + 1));
+    most_ = value > most_ ? value : most_;
   }
-  [[gnu::always_inline]] std::size_t outside_count() const {
-    const auto four = __builtin_shufflevector(outside, outside, 0, 1, 2, 3) +
-                      __builtin_shufflevector(outside, outside, 4, 5, 6, 7);
-    const auto two = __builtin_shufflevector(four, four, 0, 1) + __builtin_shufflevector(four, four, 2, 3);
-    return static_cast<std::size_t>(-(two[0] + two[1]));
-  }
-  [[gnu::always_inline]] double farthest_value() const {
+  [[gnu::always_inline]] double result() const {
     const auto greater = [](const auto& a, const auto& b) { return a > b ? a : b; };
-    const auto four = greater(__builtin_shufflevector(farthest, farthest, 0, 1, 2, 3),
-                              __builtin_shufflevector(farthest, farthest, 4, 5, 6, 7));
+    const auto four = greater(__builtin_shufflevector(most_, most_, 0, 1, 2, 3),
+                              __builtin_shufflevector(most_, most_, 4, 5, 6, 7));
     const auto two =
         greater(__builtin_shufflevector(four, four, 0, 1), __builtin_shufflevector(four, four, 2, 3));
     return two[0] > two[1] ? two[0] : two[1];
   }
+
+ private:
+  Eight most_ = all(-HUGE_VAL);
 };
 
 /// The first bead of first..last with this value, or no_bead.
@@ -129,7 +160,8 @@ template <class Measure>
                                                 double value) {
   for (; first <= last; first += 8) {
     EightFlags flags;
-    const unsigned equal = bits_of((measure(first, flags) == value) & first_of_eight(last - first + 1));
+    const std::size_t count = std::min<std::size_t>(last - first + 1, 8);
+    const unsigned equal = bits_of(measure(first, flags, only_first(count)) == value);
     if (equal != 0) return static_cast<BeadId>(first + static_cast<std::size_t>(std::countr_zero(equal)));
   }
   return no_bead;

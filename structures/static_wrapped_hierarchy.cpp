@@ -11,7 +11,7 @@ namespace kds {
 namespace {
 
 // Nodes of more beads look whether cages below are inside before they look at the beads.
-constexpr BeadId most_in_block = 64;
+constexpr BeadId most_in_block = 256;
 // By how much beads may be out of a cage that doubles have proved.
 constexpr double looseness = 1 + 0x1p-27;
 constexpr std::size_t chunk = 64;  // nodes at a time
@@ -60,7 +60,7 @@ class Wrapper {
       for (std::size_t i = 0; i < count; ++i) pending[i].old = bases[nodes[i]];
     }
     std::array<Sphere, chunk> spheres;
-    std::array<detail::Seen, chunk> seen;
+    std::array<std::size_t, chunk> outside;
     std::size_t waiting = count;
     for (int round = 0; waiting > 0; ++round) {
       const auto visit_below = [&](std::size_t i) __attribute__((always_inline)) {
@@ -72,16 +72,16 @@ class Wrapper {
       // One thing after the other for all of them: a processor overlaps what does not branch.
       spheres_of(pending.data(), waiting, spheres.data());
       for (std::size_t i = 0; i < waiting; ++i)
-        seen[i] = detail::scan_beads<Form>(balls, spheres[i], visit_below(i));
+        outside[i] = detail::count_outside<Form>(balls, spheres[i], visit_below(i));
       std::size_t left = 0;
       for (std::size_t i = 0; i < waiting; ++i) {
         const NodeId node = pending[i].node;
-        if (detail::is_proved<Form>(bases[node], spheres[i], seen[i])) {
+        if (detail::is_proved<Form>(bases[node], spheres[i], outside[i])) {
           cages[node] = {spheres[i].center, spheres[i].radius};
           loose[node] = 0;
           if (round > 0) finish(pending[i], start);
         } else if (round < detail::most_pivots &&
-                   detail::next_basis<Form>(balls, bases[node], spheres[i], seen[i], visit_below(i))) {
+                   detail::next_basis<Form>(balls, bases[node], spheres[i], visit_below(i))) {
           ++counts.pivots;
           pending[left++] = pending[i];
         } else {
@@ -123,9 +123,13 @@ class Wrapper {
     counts.frontier += next.size() - start;
   }
 
-  // Nodes of two beads of one radius: their sphere is around the midpoint.
+  // Nodes of two beads.
   [[gnu::always_inline]] void trust_pairs(const NodeId* nodes, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) cages[nodes[i]] = cage_of_pair(tree.range(nodes[i]));
+    for (std::size_t i = 0; i < count; ++i) {
+      const BeadRange range = tree.range(nodes[i]);
+      cages[nodes[i]] = cage_of_pair(range);
+      if (!is_basis(range, cages[nodes[i]])) cages[nodes[i]] = trusted_cage<Form>(balls, bases[nodes[i]]);
+    }
   }
   [[gnu::always_inline]] void wrap_pairs(const NodeId* nodes, std::size_t count, Start start) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -141,7 +145,7 @@ class Wrapper {
       basis.size = 2;
       basis.beads[0] = range.first;
       basis.beads[1] = range.last;
-      if (!(cage.radius >= 0x1p-300 && cage.radius <= 0x1p300)) settle_in_exact_numbers(node);
+      if (!is_basis(range, cage) && !settle_nested_pair(node, range)) settle_in_exact_numbers(node);
       if (start == Start::old_bases && (before.old.size != 2 || basis.size != 2)) finish(before, start);
     }
     if (start == Start::children) counts.changed += count;
@@ -153,17 +157,47 @@ class Wrapper {
     Basis old;
   };
 
+  // Of two balls of which none holds the other.
   [[gnu::always_inline]] Cage<Dimension> cage_of_pair(const BeadRange& range) const {
     Cage<Dimension> cage;
-    double square = 0;
-    for (std::size_t axis = 0; axis < Dimension; ++axis) {
-      const double p = balls.coordinates(axis)[range.first];
-      const double half = 0.5 * (balls.coordinates(axis)[range.last] - p);
-      cage.center[axis] = p + half;
-      square += half * half;
+    Point<Dimension> d;
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
+      d[axis] = 0.5 * (balls.coordinates(axis)[range.last] - balls.coordinates(axis)[range.first]);
+    cage.radius = std::sqrt(detail::dot(d, d));
+    double share = 1;
+    if constexpr (!Form::of_points) {
+      const double a = balls.radii()[range.first], b = balls.radii()[range.last];
+      share += 0.5 * (b - a) / cage.radius;
+      cage.radius += 0.5 * (a + b);
     }
-    cage.radius = std::sqrt(square);
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
+      cage.center[axis] = balls.coordinates(axis)[range.first] + share * d[axis];
     return cage;
+  }
+  // Both are needed, for certain.
+  [[gnu::always_inline]] bool is_basis(const BeadRange& range, const Cage<Dimension>& cage) const {
+    const bool sized = (cage.radius >= 0x1p-150) & (cage.radius <= 0x1p150);
+    if constexpr (Form::of_points) return sized;
+    const double a = balls.radii()[range.first], b = balls.radii()[range.last];
+    // The radius is greater than both, by more than it errs.
+    return sized & (cage.radius > (a < b ? b : a) * (1 + 0x1p-40));
+  }
+
+  // If one ball holds the other for certain, it is the basis.
+  bool settle_nested_pair(NodeId node, const BeadRange& range) {
+    if constexpr (Form::of_points) return false;
+    const Point<Dimension> d =
+        detail::minus(detail::center_of(balls, range.last), detail::center_of(balls, range.first));
+    const double a = balls.radii()[range.first], b = balls.radii()[range.last];
+    const double distance = std::sqrt(detail::dot(d, d));
+    const double larger = std::max(a, b);
+    if (!(larger >= 0x1p-150 && larger <= 0x1p150)) return false;
+    if (!(distance + std::min(a, b) < larger * (1 - 0x1p-40))) return false;
+    bases[node] = Basis();
+    insert_bead(bases[node], a < b ? range.last : range.first);
+    cages[node] = {detail::center_of(balls, bases[node].beads[0]), larger};
+    loose[node] = 0;
+    return true;
   }
 
   [[gnu::always_inline]] void finish(const Pending& done, Start start) {
@@ -281,9 +315,9 @@ class Wrapper {
           const BeadId b = v & ~Frontiers::bead;
           if (!bases[node].contains(b)) {
             ++counts.bead_tests;
-            detail::Scanner one;
+            detail::OutsideCount one;
             one.scan(measure, b, b);
-            if (one.outside_count() > 0) return false;
+            if (one.result() > 0) return false;
           }
         } else {
           ++counts.cage_tests;
@@ -350,9 +384,9 @@ class Wrapper {
         return measure;
       };
       for (std::size_t i = 0; i < waiting; ++i) {
-        detail::Scanner scanner;
-        scanner.scan(measure_of(i), 0, 7);
-        farthest[i] = scanner.farthest_value();
+        detail::Farthest most;
+        most.scan(measure_of(i), 0, 7);
+        farthest[i] = most.result();
       }
       std::size_t left = 0;
       for (std::size_t i = 0; i < waiting; ++i) {
@@ -370,16 +404,31 @@ class Wrapper {
   }
 };
 
+// Groups of one run stand one after the other: `together` of them from `first` on as one list of nodes.
+std::span<const NodeId> nodes_of(const BottomUpOrder& order, std::span<const BottomUpOrder::Group> groups,
+                                 std::size_t first, std::size_t together) {
+  return order.nodes({groups[first].first, groups[first + together - 1].end});
+}
+
 template <class Form>
 [[KDS_SCAN_TARGETS]] void wrap_groups(Wrapper<Form>& wrapper, const BottomUpOrder& order,
                                       std::span<const BottomUpOrder::Group> groups, Start start) {
-  for (const BottomUpOrder::Group& group : groups) {
-    const std::span<const NodeId> nodes = order.nodes(group);
-    const BeadRange range = wrapper.tree.range(nodes[0]);
-    if (Form::of_points && range.last - range.first == 1) {
-      wrapper.wrap_pairs(nodes.data(), nodes.size(), start);
+  const auto beads = [&](std::size_t g) {
+    const BeadRange range = wrapper.tree.range(order.nodes(groups[g])[0]);
+    return range.last - range.first + 1;
+  };
+  for (std::size_t g = 0, together = 1; g < groups.size(); g += together) {
+    together = 1;
+    if (beads(g) == 2) {
+      const auto pairs = order.nodes(groups[g]);
+      wrapper.wrap_pairs(pairs.data(), pairs.size(), start);
       continue;
     }
+    // Nodes that ask neither bases nor cages below do not wait for those: nodes of one height differ by less
+    // than a factor of two.
+    if (start == Start::old_bases && 2 * beads(g) <= most_in_block)
+      while (g + together < groups.size() && 2 * beads(g + together) <= most_in_block) ++together;
+    const auto nodes = nodes_of(order, groups, g, together);
     for (std::size_t i = 0; i < nodes.size(); i += chunk)
       wrapper.wrap(nodes.data() + i, std::min(chunk, nodes.size() - i), start);
   }
@@ -388,16 +437,15 @@ template <class Form>
 template <class Form>
 [[KDS_SCAN_TARGETS]] void trust_groups(Wrapper<Form>& wrapper, const BottomUpOrder& order,
                                        std::span<const BottomUpOrder::Group> groups) {
-  for (const BottomUpOrder::Group& group : groups) {
-    const std::span<const NodeId> nodes = order.nodes(group);
-    const BeadRange range = wrapper.tree.range(nodes[0]);
-    if (Form::of_points && range.last - range.first == 1) {
-      wrapper.trust_pairs(nodes.data(), nodes.size());
-      continue;
-    }
-    for (std::size_t i = 0; i < nodes.size(); i += chunk)
-      wrapper.trust(nodes.data() + i, std::min(chunk, nodes.size() - i));
-  }
+  if (groups.empty()) return;
+  const auto lowest = order.nodes(groups[0]);
+  const BeadRange range = wrapper.tree.range(lowest[0]);
+  const std::size_t pairs = range.last - range.first == 1 ? 1 : 0;
+  if (pairs == 1) wrapper.trust_pairs(lowest.data(), lowest.size());
+  if (groups.size() == pairs) return;
+  const auto nodes = nodes_of(order, groups, pairs, groups.size() - pairs);
+  for (std::size_t i = 0; i < nodes.size(); i += chunk)
+    wrapper.trust(nodes.data() + i, std::min(chunk, nodes.size() - i));
 }
 
 template <class Form>
@@ -409,7 +457,7 @@ template <class Form>
   for (const BottomUpOrder::Group& group : groups) {
     const std::span<const NodeId> nodes = order.nodes(group);
     const BeadRange range = wrapper.tree.range(nodes[0]);
-    if (Form::of_points && range.last - range.first == 1) {  // nothing to test
+    if (range.last - range.first == 1) {  // nothing to test
       wrapper.wrap_pairs(nodes.data(), nodes.size(), Start::old_bases);
       wrapper.counts.frontier += 2 * nodes.size();
       continue;

@@ -1,35 +1,32 @@
 #include "motions/models/tightness_points.h"
 
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace kds::models {
 
 Eigen::Matrix3Xd tightness_points(int h) {
-  const Eigen::Index count = Eigen::Index{1} << h;
-  Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Zero(3, count);
-  points(0, 0) = 1;
-  // The centre O_l of the first 2^l points lies at distance sqrt(1 - l/h) from the origin, and O_(l+1) at the
-  // right angle of the triangle O O_(l+1) O_l whose leg O_l O_(l+1) is 1 / sqrt(h).
-  double x = 1, y = 0;  // the direction of O_l
-  Eigen::Index built = 1;
+  // By angles: every point and every centre lies on a ray from the origin, and to mirror is to mirror an
+  // angle.
+  std::vector<long double> angles{0};
+  long double ray = 0, distance = 1;  // of the centre O_l of the first 2^l points
+  const long double leg = 1 / std::sqrt(static_cast<long double>(h));
   for (int l = 0; l + 1 < h; ++l) {
-    const double cosine = std::sqrt(static_cast<double>(h - l - 1) / (h - l));
-    const double sine = std::sqrt(1.0 / (h - l));
-    const double turned = x * cosine - y * sine;
-    y = y * cosine + x * sine;
-    x = turned;
-    const double square = x * x + y * y;
-    for (Eigen::Index p = 0; p < built; ++p) {  // mirrored about the line through O and O_(l+1)
-      const double along = 2 * (x * points(0, p) + y * points(1, p)) / square;
-      points(0, built + p) = along * x - points(0, p);
-      points(1, built + p) = along * y - points(1, p);
-    }
-    built *= 2;
+    // O_(l+1) is at the right angle of the triangle O O_(l+1) O_l whose leg O_l O_(l+1) is 1 / sqrt(h).
+    const long double next = std::sqrt(distance * distance - leg * leg);
+    ray += std::acos(next / distance);
+    distance = next;
+    for (std::size_t i = 0, built = angles.size(); i < built; ++i) angles.push_back(2 * ray - angles[i]);
   }
-  for (Eigen::Index p = 0; p < built; ++p) {
-    points(0, built + p) = -points(0, p);
-    points(1, built + p) = -points(1, p);
+  const auto half = static_cast<Eigen::Index>(angles.size());
+  Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Zero(3, 2 * half);
+  for (Eigen::Index p = 0; p < half; ++p) {
+    const long double angle = angles[static_cast<std::size_t>(p)];
+    points(0, p) = static_cast<double>(std::cos(angle));
+    points(1, p) = static_cast<double>(std::sin(angle));
   }
+  points.rightCols(half) = -points.leftCols(half);
   return points;
 }
 

@@ -8,7 +8,7 @@ namespace kds::models {
 
 /// 2^h points in sequence order, 1 <= h <= 24, on the unit circle in the plane z = 0: the sphere of the whole
 /// has radius 1, the sphere of any 2^l consecutive points that form a node of the balanced tree has radius
-/// l / sqrt(h) in the layered hierarchy. Coordinates are rounded a few times.
+/// l / sqrt(h) in the layered hierarchy. Coordinates are rounded once, from `long double`.
 [[nodiscard]] Eigen::Matrix3Xd tightness_points(int h);
 
 }  // namespace kds::models
