@@ -41,39 +41,43 @@ template <std::size_t N>
 
 }  // namespace detail
 
+/// What is promised of the radii of a necklace.
+enum class Radii {
+  equal,  ///< the same for all beads, and so are weights: radical certificates are not even compiled
+  any
+};
+
 /// Calls `visit` with the certificate that `bead` lies inside (or, not `inside`, outside) the sphere of
 /// `basis`: 1 to dimension + 1 beads, ascending. `orientation` is a full basis' own (orientation.h).
-template <Motion M, class Visit>
+template <Radii radii = Radii::any, Motion M, class Visit>
 decltype(auto) visit_membership(const M& motion, std::span<const BeadId> basis, BeadId bead, bool inside,
                                 int orientation, Visit&& visit) {
   constexpr std::size_t full = M::dimension + 1;
+  const bool is_full = basis.size() == full;
   std::array<BeadId, full + 1> all{};
   std::copy(basis.begin(), basis.end(), all.begin());
   all[basis.size()] = bead;
-  const auto beads = std::span(all).first(basis.size() + 1);
-  const bool equal = detail::all_equal<M>(beads, [&](BeadId b, int k) { return motion.radius(b, k); }) &&
-                     (basis.size() < full ||
-                      detail::all_equal<M>(beads, [&](BeadId b, int k) { return motion.weight(b, k); }));
-
-  if (basis.size() == full) {
-    if (equal) return visit(PowerTest<M::dimension>(all, inside ? -orientation : orientation));
-    return visit(BallInSphere<M::dimension, full>{all, inside, orientation});
-  }
-  if (basis.size() == 1) {
-    const auto one = detail::with_bead<1>(basis, bead);
-    if (equal) return visit(BeadInSphere<1>{one, inside});
-    return visit(BallInSphere<M::dimension, 1>{one, inside});
-  }
-  if constexpr (full == 4) {
-    if (basis.size() == 3) {
-      const auto three = detail::with_bead<3>(basis, bead);
-      if (equal) return visit(BeadInSphere<3>{three, inside});
-      return visit(BallInSphere<3, 3>{three, inside});
+  if constexpr (radii == Radii::any) {
+    const auto beads = std::span(all).first(basis.size() + 1);
+    const bool equal =
+        detail::all_equal<M>(beads, [&](BeadId b, int k) { return motion.radius(b, k); }) &&
+        (!is_full || detail::all_equal<M>(beads, [&](BeadId b, int k) { return motion.weight(b, k); }));
+    if (!equal) {
+      if (is_full) return visit(BallInSphere<M::dimension, full>{all, inside, orientation});
+      if (basis.size() == 1)
+        return visit(BallInSphere<M::dimension, 1>{detail::with_bead<1>(basis, bead), inside});
+      if constexpr (full == 4) {
+        if (basis.size() == 3) return visit(BallInSphere<3, 3>{detail::with_bead<3>(basis, bead), inside});
+      }
+      return visit(BallInSphere<M::dimension, 2>{detail::with_bead<2>(basis, bead), inside});
     }
   }
-  const auto two = detail::with_bead<2>(basis, bead);
-  if (equal) return visit(BeadInSphere<2>{two, inside});
-  return visit(BallInSphere<M::dimension, 2>{two, inside});
+  if (is_full) return visit(PowerTest<M::dimension>(all, inside ? -orientation : orientation));
+  if (basis.size() == 1) return visit(BeadInSphere<1>{detail::with_bead<1>(basis, bead), inside});
+  if constexpr (full == 4) {
+    if (basis.size() == 3) return visit(BeadInSphere<3>{detail::with_bead<3>(basis, bead), inside});
+  }
+  return visit(BeadInSphere<2>{detail::with_bead<2>(basis, bead), inside});
 }
 
 }  // namespace kds

@@ -341,6 +341,23 @@ template <Kernel K, class Certificate, Motion M>
 
 }  // namespace detail
 
+/// The sign just after a failure of another certificate with the same norm, as doubles know it, or 0: at the
+/// end of a bracket that holds no other root of the norm.
+template <class Certificate, Motion M>
+requires RadicalCertificateFor<Certificate, M>
+[[nodiscard]] int sign_after_root_of_norm(const Certificate& certificate, const M& motion, const Instant& now,
+                                          StageCounts& stages) {
+  if (!now.isolating()) return 0;
+  int sign = detail::CertificateInDouble<detail::OwnFilter, Certificate, M>(certificate, motion)
+                 .certain_sign_on(now.upper(), now.upper());
+  if (sign == 0) {
+    sign = detail::CertificateInDouble<detail::TrackedErrors, Certificate, M>(certificate, motion)
+               .certain_sign_on(now.upper(), now.upper());
+  }
+  stages.signs_double += sign != 0 ? 1 : 0;
+  return sign;
+}
+
 /// The sign of the certificate's function now: 1, 0 or -1.
 template <Kernel K, class Certificate, Motion M>
 requires RadicalCertificateFor<Certificate, M>

@@ -73,7 +73,7 @@ class Measured {
       trust.push_back(over_frames(trusting, [](auto& h, const auto& now) { h.update(now, Update::trust); }));
       peer.push_back(0);
       for (std::size_t k = 1; k < balls_.size(); ++k)
-        peer.back() += processor_seconds_to_wrap(built.tree(), input_.frames[k], input_.radii);
+        peer.back() += processor_seconds_to_wrap(built.tree().ranges(), input_.frames[k], input_.radii);
     }
     const double nodes = static_cast<double>(built.tree().node_count() * later.size());
     const double cgal = median_of(peer) / nodes * 1e9;
@@ -122,7 +122,7 @@ void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& ro
                      }
                    }) /
                    queries);
-    peer.push_back(processor_seconds_to_wrap(hierarchy.tree(), both, radii));
+    peer.push_back(processor_seconds_to_wrap(hierarchy.tree().ranges(), both, radii));
   }
   rows.push_back({"lazy update and query", "far helices", radii.size(), median_of(ours) * 1e9, "ns/frame",
                   apart > 0 ? std::string(peer_name) : "", median_of(peer) * 1e9, 1.0 / 25});

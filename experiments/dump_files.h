@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "experiments/session.h"
-#include "structures/enclosing_sphere.h"
+#include "structures/basis.h"
 #include "structures/necklace_tree.h"
 #include "structures/regular_triangulation.h"
+#include "structures/sphere.h"
 
 namespace kds {
 

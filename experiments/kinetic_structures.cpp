@@ -47,7 +47,7 @@ Outcome outcome_of(const Instance& instance, const std::string& structure, Kerne
   Outcome outcome;
   try {
     const Scene scene(instance);
-    const auto session = make_session(scene, {structure}, kernel, audits);
+    const auto session = make_session(scene, {{structure}, kernel, audits, {}});
     Recorder recorder;
     Simulator& simulator = session->simulator();
     simulator.listen(recorder);
@@ -148,6 +148,7 @@ std::vector<StabilitySubject> kinetic_structures() {
   for (const int degree : {1, 3}) {
     subjects.push_back(structure_subject("sorted", 1, degree, 10));
     const std::size_t few = degree == 1 ? 8 : 6;
+    subjects.push_back(structure_subject("wrapped", 2, degree, few));
     subjects.push_back(structure_subject("wrapped", 3, degree, few));
     subjects.push_back(structure_subject("power", 2, degree, few));
     subjects.push_back(structure_subject("power", 3, degree, few));

@@ -51,11 +51,19 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
   return Scene(necklaces, std::move(radii), options.motion);
 }
 
-std::vector<std::string> structures_to_run(const RunOptions& options, const Scene& scene) {
-  if (!options.structures.empty()) return options.structures;
-  const bool instance = is_instance_file(options.inputs.front());
-  if (!instance) return {"wrapped", "power"};
-  return {scene.dimension() == 1 ? "sorted" : "power"};
+SessionOptions session_options(const RunOptions& options, const Scene& scene, AuditMode audits) {
+  SessionOptions session{options.structures, options.kernel, audits, options.nodes};
+  if (session.structures.empty()) {
+    if (!is_instance_file(options.inputs.front())) {
+      session.structures = {"wrapped", "power"};
+    } else {
+      session.structures = {scene.dimension() == 1 ? "sorted" : "power"};
+    }
+  }
+  const auto& names = session.structures;
+  if (options.nodes.restricts() && std::find(names.begin(), names.end(), "wrapped") == names.end())
+    throw InputError("--levels, --nodes: they choose nodes of wrapped, which is not among the structures");
+  return session;
 }
 
 }  // namespace kds

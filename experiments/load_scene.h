@@ -8,6 +8,7 @@
 
 #include "experiments/input_options.h"
 #include "experiments/run_options.h"
+#include "experiments/session.h"
 #include "motions/scene.h"
 
 namespace kds {
@@ -24,7 +25,7 @@ namespace kds {
 [[nodiscard]] Scene load_scene(const RunOptions& options,
                                const std::function<void(const std::string&)>& warn);
 
-/// What --structures means where it is not given.
-[[nodiscard]] std::vector<std::string> structures_to_run(const RunOptions& options, const Scene& scene);
+/// What the options ask of a session, --structures' default filled in. Throws InputError.
+[[nodiscard]] SessionOptions session_options(const RunOptions& options, const Scene& scene, AuditMode audits);
 
 }  // namespace kds

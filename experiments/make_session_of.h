@@ -2,8 +2,6 @@
 // A session for one type of motion. Each is compiled in a file of its own, made from session_instance.cpp.in.
 
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "experiments/session.h"
 #include "motions/bezier_motion.h"
@@ -16,8 +14,6 @@ inline constexpr int highest_degree = 10;
 inline constexpr int highest_filtered_degree = 3;
 
 template <Motion M>
-[[nodiscard]] std::unique_ptr<Session> make_session_of(const Scene& scene,
-                                                       const std::vector<std::string>& structures,
-                                                       KernelName kernel, AuditMode audits);
+[[nodiscard]] std::unique_ptr<Session> make_session_of(const Scene& scene, const SessionOptions& options);
 
 }  // namespace kds

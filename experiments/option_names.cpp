@@ -59,6 +59,21 @@ std::string name_of(const FrameRange& frames) {
                      frames.stride);
 }
 
+namespace {
+
+// As the options take them; empty for all.
+std::string levels_of(const NodeSelection& nodes) {
+  NodeSelection levels = nodes;
+  levels.beads.reset();
+  return levels.restricts() ? fmt::format("{}:{}", nodes.first_level, std::uint64_t{nodes.last_level} + 1)
+                            : "";
+}
+std::string beads_of(const NodeSelection& nodes) {
+  return nodes.beads ? fmt::format("{}:{}", nodes.beads->first, std::uint64_t{nodes.beads->last} + 1) : "";
+}
+
+}  // namespace
+
 std::vector<std::pair<std::string, std::string>> option_settings(const RunOptions& options) {
   const ReadOptions& reading = options.reading;
   return {{"motion", std::string(name_of(options.motion))},
@@ -68,7 +83,9 @@ std::vector<std::pair<std::string, std::string>> option_settings(const RunOption
           {"select", std::string(name_of(reading.selection))},
           {"chain", reading.chain.value_or("")},
           {"frames", name_of(reading.frames)},
-          {"radius", options.radius}};
+          {"radius", options.radius},
+          {"levels", levels_of(options.nodes)},
+          {"nodes", beads_of(options.nodes)}};
 }
 
 std::vector<std::string> option_arguments(const RunOptions& options) {
@@ -90,6 +107,8 @@ std::vector<std::string> option_arguments(const RunOptions& options) {
   std::string radius = options.radius;
   if (radius.starts_with("file:")) radius = "file:" + std::filesystem::absolute(radius.substr(5)).string();
   add("--radius", radius);
+  if (const std::string levels = levels_of(options.nodes); !levels.empty()) add("--levels", levels);
+  if (const std::string beads = beads_of(options.nodes); !beads.empty()) add("--nodes", beads);
   return arguments;
 }
 

@@ -30,6 +30,19 @@ std::uint64_t parse_whole_number(std::string_view option, std::string_view text,
   throw InputError(fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, least, most));
 }
 
+std::pair<std::uint64_t, std::uint64_t> parse_range(std::string_view option, std::string_view text,
+                                                    std::uint64_t most) {
+  const std::size_t colon = text.find(':');
+  if (colon != std::string_view::npos) {
+    const std::string_view from = text.substr(0, colon), to = text.substr(colon + 1);
+    const auto first = from.empty() ? std::optional<std::uint64_t>(0) : number_in<std::uint64_t>(from);
+    const auto last = to.empty() ? std::optional<std::uint64_t>(most) : number_in<std::uint64_t>(to);
+    if (first && last && *first < *last && *last <= most) return {*first, *last};
+  }
+  throw InputError(fmt::format("{}: '{}' is not FIRST:LAST, whole numbers with FIRST below LAST, at most {}",
+                               option, text, most));
+}
+
 double parse_real(std::string_view option, std::string_view text, const RealRange& range) {
   const auto number = number_in<double>(text);
   const bool enough = number && (range.least_excluded ? *number > range.least : *number >= range.least);

@@ -44,6 +44,10 @@ template <class Value, std::size_t count>
 [[nodiscard]] std::uint64_t parse_whole_number(std::string_view option, std::string_view text,
                                                std::uint64_t least, std::uint64_t most);
 
+/// FIRST:LAST, LAST excluded, at most `most`; either may be left out. At least one number is in it.
+[[nodiscard]] std::pair<std::uint64_t, std::uint64_t> parse_range(std::string_view option,
+                                                                  std::string_view text, std::uint64_t most);
+
 /// Real numbers as an option takes them.
 struct RealRange {
   double least, most;

@@ -23,6 +23,10 @@ constexpr std::array kRunOptions{
     OptionSpec{"--motion", "NAME",
                "how beads move between frames: linear, hermite, lifted (default: linear)"},
     OptionSpec{"--kernel", "NAME", "fast, filtered or exact arithmetic (default: filtered)"},
+    OptionSpec{"--levels", "RANGE",
+               "levels of wrapped to keep, FIRST:LAST, roots 0, LAST excluded (default: all)"},
+    OptionSpec{"--nodes", "RANGE",
+               "nodes of wrapped to keep, those over beads FIRST:LAST, LAST excluded (default: all)"},
     OptionSpec{"--audit", "WHEN", "compare with static builds: none, frames or events (default: none)"},
     OptionSpec{"--dump", "DIR", "write the structures at every frame there (default: none)"},
     OptionSpec{"--log", "FILE", "write the event log there, for kds replay (default: none)"},
@@ -78,6 +82,21 @@ std::vector<std::string> parse_structures(const std::string& list) {
   return ordered;
 }
 
+NodeSelection parse_nodes(const ParsedArguments& parsed) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 32U;
+  NodeSelection nodes;
+  if (const auto text = parsed.value("--levels")) {
+    const auto [first, end] = parse_range("--levels", *text, most);
+    nodes.first_level = static_cast<std::uint32_t>(first);
+    nodes.last_level = static_cast<std::uint32_t>(end - 1);
+  }
+  if (const auto text = parsed.value("--nodes")) {
+    const auto [first, end] = parse_range("--nodes", *text, most);
+    nodes.beads = BeadRange{static_cast<BeadId>(first), static_cast<BeadId>(end - 1)};
+  }
+  return nodes;
+}
+
 }  // namespace
 
 RunOptions parse_run_options(const Arguments& arguments) {
@@ -90,6 +109,7 @@ RunOptions parse_run_options(const Arguments& arguments) {
   if (const auto list = parsed.value("--structures")) options.structures = parse_structures(*list);
   options.motion = chosen(parsed, "--motion", kMotions).value_or(options.motion);
   options.kernel = chosen(parsed, "--kernel", kKernels).value_or(options.kernel);
+  options.nodes = parse_nodes(parsed);
   options.audit = chosen(parsed, "--audit", kAudits).value_or(options.audit);
   options.dump = path_of(parsed, "--dump");
   options.log = path_of(parsed, "--log");

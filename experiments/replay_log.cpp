@@ -56,7 +56,7 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
   // Only the changes are made again: no certificate, no failure time. Frames are audited, unless the run
   // itself promised nothing.
   const AuditMode audits = options.kernel == KernelName::fast ? AuditMode::none : AuditMode::frames;
-  const auto session = make_session(scene, structures_to_run(options, scene), options.kernel, audits);
+  const auto session = make_session(scene, session_options(options, scene, audits));
   session->load(0);
   Simulator& simulator = session->simulator();
   const auto& structures = session->structures();

@@ -9,6 +9,7 @@
 #include "kds/audit.h"
 #include "motions/read_trajectory.h"
 #include "motions/scene.h"
+#include "structures/node_selection.h"
 
 namespace kds {
 
@@ -23,6 +24,7 @@ struct RunOptions {
   ReadOptions reading;  ///< --topology, --select, --chain, --frames
   std::string radius = "auto";
   AuditMode audit = AuditMode::none;
+  NodeSelection nodes;                        ///< --levels, --nodes
   std::optional<std::filesystem::path> dump;  ///< directory for the structures at every frame
   std::optional<std::filesystem::path> out;   ///< directory for summary.json, events.csv, report.html
   std::optional<std::filesystem::path> log;   ///< event log, for `kds replay`

@@ -29,7 +29,7 @@ void write_dump(const std::filesystem::path& directory, std::size_t frame, Sessi
 RunReport run_scene(const RunOptions& options, const Progress& progress,
                     const std::function<void(const std::string&)>& warn) {
   const Scene scene = load_scene(options, warn);
-  const auto session = make_session(scene, structures_to_run(options, scene), options.kernel, options.audit);
+  const auto session = make_session(scene, session_options(options, scene, options.audit));
   if (scene.degree() > highest_filtered_degree)
     warn(fmt::format("motions of degree {}: all is decided in whole numbers, as with --kernel exact",
                      scene.degree()));

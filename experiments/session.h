@@ -10,6 +10,7 @@
 #include "experiments/run_options.h"
 #include "kds/simulator.h"
 #include "motions/scene.h"
+#include "structures/node_selection.h"
 
 namespace kds {
 
@@ -34,10 +35,14 @@ class Session {
   [[nodiscard]] virtual const std::vector<KineticStructure*>& structures() const = 0;
 };
 
-/// `structures`: names as in --structures, in the order in which they act. Throws InputError where the scene
-/// or kernel and a structure do not go together.
-[[nodiscard]] std::unique_ptr<Session> make_session(const Scene& scene,
-                                                    const std::vector<std::string>& structures,
-                                                    KernelName kernel, AuditMode audits);
+struct SessionOptions {
+  std::vector<std::string> structures;  ///< names as in --structures, in the order in which they act
+  KernelName kernel = KernelName::filtered;
+  AuditMode audits = AuditMode::none;
+  NodeSelection nodes;  ///< of the wrapped hierarchy
+};
+
+/// Throws InputError where the scene or kernel and a structure do not go together.
+[[nodiscard]] std::unique_ptr<Session> make_session(const Scene& scene, const SessionOptions& options);
 
 }  // namespace kds

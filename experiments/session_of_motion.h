@@ -20,16 +20,20 @@
 namespace kds {
 
 template <Motion M>
-inline constexpr bool has_wrapped = M::dimension == 3 && !lifted<M>;
+inline constexpr bool has_wrapped = M::dimension >= 2 && !lifted<M>;
+/// Motions of trajectories; radical certificates take long to compile.
+template <Motion M>
+inline constexpr bool has_unequal_wrapped =
+    M::dimension == 3 && !elevated<M> && (M::degree == 1 || M::degree == 3) && has_wrapped<M>;
 template <Motion M>
 inline constexpr bool has_power = M::dimension >= 2;
 
 template <Motion M, Kernel K>
 class SessionOf final : public Session {
  public:
-  SessionOf(const Scene& scene, const std::vector<std::string>& structures, AuditMode audits)
-      : scene_(scene), motion_(scene.bead_count()), simulator_(audits) {
-    for (const std::string& name : structures) add(name);
+  SessionOf(const Scene& scene, const SessionOptions& options)
+      : scene_(scene), nodes_(options.nodes), motion_(scene.bead_count()), simulator_(options.audits) {
+    for (const std::string& name : options.structures) add(name);
   }
 
   void load(std::size_t step) override { scene_.load(step, motion_); }
@@ -80,16 +84,11 @@ class SessionOf final : public Session {
                       "expected --structures power",
                       name));
     }
-    const bool supported = name == "wrapped" ? has_wrapped<M> : has_power<M>;
-    if (!supported) {
-      throw InputError(fmt::format("--structures {}: needs {}, this input has {} coordinate{}", name,
-                                   name == "wrapped" ? "points in space" : "points in the plane or in space",
-                                   M::dimension, M::dimension == 1 ? "" : "s"));
-    }
-    if (name == "wrapped" && !scene_.equal_radii()) {
+    if (M::dimension < 2) {
       throw InputError(
-          "--structures wrapped: needs equal radii (or weights), which this input does not have; "
-          "unequal ones are not supported yet");
+          fmt::format("--structures {}: needs points in the plane or in space, this input has {} "
+                      "coordinate",
+                      name, M::dimension));
     }
     if constexpr (has_wrapped<M>) {
       if (name == "wrapped") add_wrapped();
@@ -100,21 +99,34 @@ class SessionOf final : public Session {
   }
 
   void add_wrapped() requires has_wrapped<M> {
-    auto* wrapped = own(std::make_unique<WrappedHierarchy<M, K>>(simulator_, motion_, scene_.necklaces()));
+    if (scene_.equal_radii()) return add_wrapped_of<Radii::equal>();
+    if constexpr (has_unequal_wrapped<M>) {
+      if (scene_.has_radii()) return add_wrapped_of<Radii::any>();
+    }
+    throw InputError(
+        "--structures wrapped: the points of an instance have weights that differ, and those are no radii; "
+        "expected equal weights, or a trajectory");
+  }
+  template <Radii radii>
+  void add_wrapped_of() {
+    auto* wrapped =
+        own(std::make_unique<WrappedHierarchy<M, K, radii>>(simulator_, motion_, scene_.necklaces(), nodes_));
+    std::vector<BeadRange> kept;
+    for (NodeId id = 0; id < wrapped->tree().node_count(); ++id)
+      if (wrapped->keeps(id)) kept.push_back(wrapped->tree().range(id));
     add(
         [this, wrapped](std::size_t frame, auto& files) {
-          const Dyadic time(frame == 0 ? 0.0 : 1.0);
-          const Eigen::Matrix3Xd centers = scene_.centers(frame);
+          const std::vector<Basis> bases = wrapped->bases_at(Dyadic(frame == 0 ? 0.0 : 1.0));
+          const Balls<M::dimension> balls(scene_.centers(frame), scene_.radii());
           std::vector<WrappedNode> nodes;
-          for (NodeId id = 0; id < wrapped->tree().node_count(); ++id) {
-            const Basis basis = wrapped->basis_at(id, time);
-            nodes.push_back({wrapped->tree().range(id), basis, exact_sphere_of(basis, centers)});
-            nodes.back().sphere.radius += scene_.radii().front();
+          for (NodeId id = 0; id < bases.size(); ++id) {
+            if (wrapped->keeps(id))
+              nodes.push_back({wrapped->tree().range(id), bases[id], exact_sphere_of(bases[id], balls)});
           }
           files.push_back(dump_wrapped(nodes));
         },
-        [this, wrapped](std::size_t frame) {
-          return seconds_to_wrap(wrapped->tree(), scene_.centers(frame), scene_.radii());
+        [this, kept](std::size_t frame) {
+          return seconds_to_wrap<M::dimension>(kept, scene_.centers(frame), scene_.radii());
         });
   }
 
@@ -132,6 +144,7 @@ class SessionOf final : public Session {
   }
 
   const Scene& scene_;
+  NodeSelection nodes_;
   M motion_;
   Simulator simulator_;
   std::vector<std::unique_ptr<KineticStructure>> owned_;
@@ -140,20 +153,19 @@ class SessionOf final : public Session {
 };
 
 template <Motion M>
-std::unique_ptr<Session> make_session_of(const Scene& scene, const std::vector<std::string>& structures,
-                                         KernelName kernel, AuditMode audits) {
+std::unique_ptr<Session> make_session_of(const Scene& scene, const SessionOptions& options) {
   if constexpr (elevated<M>) {
-    return std::make_unique<SessionOf<M, Exact>>(scene, structures, audits);
+    return std::make_unique<SessionOf<M, Exact>>(scene, options);
   } else {
-    switch (kernel) {
+    switch (options.kernel) {
       case KernelName::fast:
-        return std::make_unique<SessionOf<M, Fast>>(scene, structures, audits);
+        return std::make_unique<SessionOf<M, Fast>>(scene, options);
       case KernelName::exact:
-        return std::make_unique<SessionOf<M, Exact>>(scene, structures, audits);
+        return std::make_unique<SessionOf<M, Exact>>(scene, options);
       case KernelName::filtered:
         break;
     }
-    return std::make_unique<SessionOf<M, Filtered>>(scene, structures, audits);
+    return std::make_unique<SessionOf<M, Filtered>>(scene, options);
   }
 }
 

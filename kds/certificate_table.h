@@ -27,7 +27,7 @@ enum class Guard : std::uint32_t {
 
 template <class Certificate, Motion M, Kernel K>
 requires CertificateFor<Certificate, M> || RadicalCertificateFor<Certificate, M>
-class CertificateTable final : public FailureSource {
+class CertificateTable : public FailureSource {
  public:
   /// `number` tells the structure's tables apart in KineticStructure::fail.
   CertificateTable(Simulator& simulator, KineticStructure& owner, std::size_t structure, unsigned number,

@@ -28,6 +28,26 @@ template <Motion M>
   return weights;
 }
 
+template <Motion M>
+[[nodiscard]] std::vector<double> control_radii(const M& motion, int k) {
+  std::vector<double> radii(motion.bead_count());
+  for (BeadId b = 0; b < motion.bead_count(); ++b) radii[b] = motion.radius(b, k);
+  return radii;
+}
+
+namespace detail {
+
+/// A Bezier curve at u, rounded a few times.
+template <std::size_t N>
+[[nodiscard]] double approximate_curve_at(std::array<double, N> p, double u) {
+  for (std::size_t round = N - 1; round > 0; --round) {
+    for (std::size_t i = 0; i < round; ++i) p[i] = (1 - u) * p[i] + u * p[i + 1];
+  }
+  return p[0];
+}
+
+}  // namespace detail
+
 /// The positions at u in [0,1], each rounded a few times.
 template <Motion M>
 [[nodiscard]] Eigen::Matrix3Xd approximate_positions(const M& motion, double u) {
@@ -36,13 +56,21 @@ template <Motion M>
     for (int axis = 0; axis < M::dimension; ++axis) {
       std::array<double, M::degree + 1> p;
       for (int k = 0; k <= M::degree; ++k) p[static_cast<std::size_t>(k)] = motion.coordinate(b, k, axis);
-      for (std::size_t round = M::degree; round > 0; --round) {
-        for (std::size_t i = 0; i < round; ++i) p[i] = (1 - u) * p[i] + u * p[i + 1];
-      }
-      points(axis, b) = p[0];
+      points(axis, b) = detail::approximate_curve_at(p, u);
     }
   }
   return points;
+}
+
+template <Motion M>
+[[nodiscard]] std::vector<double> approximate_radii(const M& motion, double u) {
+  std::vector<double> radii(motion.bead_count());
+  for (BeadId b = 0; b < motion.bead_count(); ++b) {
+    std::array<double, M::degree + 1> p;
+    for (int k = 0; k <= M::degree; ++k) p[static_cast<std::size_t>(k)] = motion.radius(b, k);
+    radii[b] = detail::approximate_curve_at(p, u);
+  }
+  return radii;
 }
 
 namespace detail {

@@ -46,6 +46,8 @@ class Scene {
   [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   [[nodiscard]] bool equal_radii() const;
+  /// An instance has weights at most, no radii.
+  [[nodiscard]] bool has_radii() const { return !frames_.empty(); }
 
   /// Sets the motion of step k, between frames k and k+1. Both frames are met exactly, whatever the kind of
   /// motion. Radii do not change during a step; the points of an instance have none, only weights.

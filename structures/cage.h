@@ -1,8 +1,8 @@
 #pragma once
 // The sphere of a node of a hierarchy, as its loops hold it.
 
-#include "structures/enclosing_sphere.h"
 #include "structures/point_sphere.h"
+#include "structures/sphere.h"
 
 namespace kds {
 

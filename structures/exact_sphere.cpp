@@ -221,6 +221,19 @@ std::vector<std::size_t> exact_basis_among(std::span<const WholeBall<Dimension>>
   throw std::logic_error("balls without a minimum enclosing sphere");
 }
 
+template <int Dimension>
+Sphere exact_sphere_of(const Basis& basis, const Balls<Dimension>& balls) {
+  int unit = std::numeric_limits<int>::max();
+  for (const BeadId b : basis) unit = std::min(unit, whole_unit(balls, b, b));
+  std::vector<WholeBall<Dimension>> members;
+  for (const BeadId b : basis) members.push_back(whole_ball(balls, b, unit));
+  const auto sphere = ExactSphere<Dimension>::touching(members);
+  if (!sphere) throw std::invalid_argument("no sphere touches these balls");
+  return sphere->rounded(unit);
+}
+
+template Sphere exact_sphere_of(const Basis&, const Balls<2>&);
+template Sphere exact_sphere_of(const Basis&, const Balls<3>&);
 template int whole_unit(const Balls<2>&, BeadId, BeadId);
 template int whole_unit(const Balls<3>&, BeadId, BeadId);
 template WholeBall<2> whole_ball(const Balls<2>&, BeadId, int);

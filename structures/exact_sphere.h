@@ -13,7 +13,7 @@
 #include "motions/exact_number.h"
 #include "structures/balls.h"
 #include "structures/basis.h"
-#include "structures/enclosing_sphere.h"
+#include "structures/sphere.h"
 
 namespace kds {
 
@@ -62,5 +62,9 @@ class ExactSphere {
 /// ones that hold all others. Places in `balls`, ascending.
 template <int Dimension>
 [[nodiscard]] std::vector<std::size_t> exact_basis_among(std::span<const WholeBall<Dimension>> balls);
+
+/// The sphere of a basis at a frame, rounded as above. Throws std::invalid_argument if there is none.
+template <int Dimension>
+[[nodiscard]] Sphere exact_sphere_of(const Basis& basis, const Balls<Dimension>& balls);
 
 }  // namespace kds

@@ -27,6 +27,7 @@ class NecklaceTree {
 
   [[nodiscard]] std::size_t node_count() const { return ranges_.size(); }
   [[nodiscard]] const BeadRange& range(NodeId node) const { return ranges_[node]; }
+  [[nodiscard]] std::span<const BeadRange> ranges() const { return ranges_; }
   /// A child, or `leaf` where the half is a single bead.
   [[nodiscard]] NodeId left(NodeId node) const { return left_[node]; }
   [[nodiscard]] NodeId right(NodeId node) const { return right_[node]; }

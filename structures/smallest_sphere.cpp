@@ -59,6 +59,13 @@ SmallestSphere smallest_sphere(const Balls<Dimension>& balls, BeadId first, Bead
   return result;
 }
 
+template <int Dimension>
+bool is_certainly_proper(const Balls<Dimension>& balls, const Basis& basis) {
+  return detail::sphere_of_basis<BallForm<Dimension>>(balls, basis).certain;
+}
+
+template bool is_certainly_proper(const Balls<2>&, const Basis&);
+template bool is_certainly_proper(const Balls<3>&, const Basis&);
 template SmallestSphere smallest_sphere(const Balls<2>&, BeadId, BeadId, std::span<const BeadId>, ExactUse);
 template SmallestSphere smallest_sphere(const Balls<3>&, BeadId, BeadId, std::span<const BeadId>, ExactUse);
 

@@ -8,8 +8,8 @@
 
 #include "structures/balls.h"
 #include "structures/basis.h"
-#include "structures/enclosing_sphere.h"
 #include "structures/settle_exactly.h"
+#include "structures/sphere.h"
 
 namespace kds {
 
@@ -25,5 +25,9 @@ template <int Dimension>
 [[nodiscard]] SmallestSphere smallest_sphere(const Balls<Dimension>& balls, BeadId first, BeadId last,
                                              std::span<const BeadId> guess = {},
                                              ExactUse use = ExactUse::where_needed);
+
+/// Whether doubles prove that a basis is one: each of its balls strictly outside the sphere of the others.
+template <int Dimension>
+[[nodiscard]] bool is_certainly_proper(const Balls<Dimension>& balls, const Basis& basis);
 
 }  // namespace kds

@@ -1,7 +1,7 @@
 #include "structures/static_build.h"
 
-#include <CGAL/Min_sphere_of_points_d_traits_3.h>
 #include <CGAL/Min_sphere_of_spheres_d.h>
+#include <CGAL/Min_sphere_of_spheres_d_traits_2.h>
 #include <CGAL/Min_sphere_of_spheres_d_traits_3.h>
 #include <CGAL/Simple_cartesian.h>
 
@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <type_traits>
 #include <vector>
 
 namespace kds {
@@ -23,24 +24,32 @@ double seconds_of(Work&& work) {
 }
 
 using Geometry = CGAL::Simple_cartesian<double>;
-using Traits = CGAL::Min_sphere_of_spheres_d_traits_3<Geometry, double>;
+template <int Dimension>
+using TraitsIn = std::conditional_t<Dimension == 2, CGAL::Min_sphere_of_spheres_d_traits_2<Geometry, double>,
+                                    CGAL::Min_sphere_of_spheres_d_traits_3<Geometry, double>>;
 
-std::vector<Traits::Sphere> cgal_spheres(const Eigen::Matrix3Xd& centers, std::span<const double> radii) {
-  std::vector<Traits::Sphere> spheres;
+template <int Dimension>
+auto cgal_spheres(const Eigen::Matrix3Xd& centers, std::span<const double> radii) {
+  std::vector<typename TraitsIn<Dimension>::Sphere> spheres;
   spheres.reserve(radii.size());
   for (std::size_t b = 0; b < radii.size(); ++b) {
     const auto c = centers.col(static_cast<Eigen::Index>(b));
-    spheres.emplace_back(Geometry::Point_3(c.x(), c.y(), c.z()), radii[b]);
+    if constexpr (Dimension == 2) {
+      spheres.emplace_back(Geometry::Point_2(c.x(), c.y()), radii[b]);
+    } else {
+      spheres.emplace_back(Geometry::Point_3(c.x(), c.y(), c.z()), radii[b]);
+    }
   }
   return spheres;
 }
 
-void wrap(const NecklaceTree& tree, const std::vector<Traits::Sphere>& spheres) {
+template <int Dimension>
+void wrap(std::span<const BeadRange> nodes,
+          const std::vector<typename TraitsIn<Dimension>::Sphere>& spheres) {
   double sum = 0;
-  for (NodeId node = 0; node < tree.node_count(); ++node) {
-    const BeadRange range = tree.range(node);
-    CGAL::Min_sphere_of_spheres_d<Traits> sphere(spheres.begin() + range.first,
-                                                 spheres.begin() + range.last + 1);
+  for (const BeadRange& range : nodes) {
+    CGAL::Min_sphere_of_spheres_d<TraitsIn<Dimension>> sphere(spheres.begin() + range.first,
+                                                              spheres.begin() + range.last + 1);
     sum += sphere.radius();
   }
   volatile double used = sum;  // so that no build can be left out
@@ -49,22 +58,28 @@ void wrap(const NecklaceTree& tree, const std::vector<Traits::Sphere>& spheres) 
 
 }  // namespace
 
-double seconds_to_wrap(const NecklaceTree& tree, const Eigen::Matrix3Xd& centers,
+template <int Dimension>
+double seconds_to_wrap(std::span<const BeadRange> nodes, const Eigen::Matrix3Xd& centers,
                        std::span<const double> radii) {
-  const auto spheres = cgal_spheres(centers, radii);
-  return seconds_of([&] { wrap(tree, spheres); });
+  const auto spheres = cgal_spheres<Dimension>(centers, radii);
+  return seconds_of([&] { wrap<Dimension>(nodes, spheres); });
 }
 
-double processor_seconds_to_wrap(const NecklaceTree& tree, const Eigen::Matrix3Xd& centers,
+template double seconds_to_wrap<2>(std::span<const BeadRange>, const Eigen::Matrix3Xd&,
+                                   std::span<const double>);
+template double seconds_to_wrap<3>(std::span<const BeadRange>, const Eigen::Matrix3Xd&,
+                                   std::span<const double>);
+
+double processor_seconds_to_wrap(std::span<const BeadRange> nodes, const Eigen::Matrix3Xd& centers,
                                  std::span<const double> radii) {
-  const auto spheres = cgal_spheres(centers, radii);
+  const auto spheres = cgal_spheres<3>(centers, radii);
   const auto now = [] {
     std::timespec t{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
   };
   const double start = now();
-  wrap(tree, spheres);
+  wrap<3>(nodes, spheres);
   return now() - start;
 }
 

@@ -5,17 +5,19 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "structures/necklace_tree.h"
+#include "motions/bead_range.h"
 
 namespace kds {
 
-/// Seconds that CGAL takes for the minimum enclosing sphere at every node (Min_sphere_of_spheres_d, its
+/// Seconds that CGAL takes for the minimum enclosing sphere of every node (Min_sphere_of_spheres_d, its
 /// defaults).
-[[nodiscard]] double seconds_to_wrap(const NecklaceTree& tree, const Eigen::Matrix3Xd& centers,
+template <int Dimension>
+[[nodiscard]] double seconds_to_wrap(std::span<const BeadRange> nodes, const Eigen::Matrix3Xd& centers,
                                      std::span<const double> radii);
 
-/// The same, processor time of the process.
-[[nodiscard]] double processor_seconds_to_wrap(const NecklaceTree& tree, const Eigen::Matrix3Xd& centers,
+/// The same in space, processor time of the process.
+[[nodiscard]] double processor_seconds_to_wrap(std::span<const BeadRange> nodes,
+                                               const Eigen::Matrix3Xd& centers,
                                                std::span<const double> radii);
 
 /// Seconds to sort the beads along the first axis.

@@ -33,7 +33,7 @@ void run_instance(benchmark::State& state, const std::string& file, const std::s
   constexpr int builds = 20;
   for (auto _ : state) {
     const auto start = Clock::now();
-    const auto session = kds::make_session(scene, {structure}, kernel, kds::AuditMode::none);
+    const auto session = kds::make_session(scene, {{structure}, kernel, kds::AuditMode::none, {}});
     session->load(0);
     session->simulator().build();
     session->simulator().run_step(true);

@@ -97,8 +97,9 @@ TEST(RunOptions, RefusesWhatIsGivenTwice) {
 }
 
 TEST(RunOptions, RefusesOptionsWithoutAValue) {
-  for (const char* option : {"--structures", "--motion", "--kernel", "--topology", "--select", "--chain",
-                             "--frames", "--radius", "--audit", "--dump", "--log", "--out", "--json"}) {
+  for (const char* option :
+       {"--structures", "--motion", "--kernel", "--topology", "--select", "--chain", "--frames", "--radius",
+        "--levels", "--nodes", "--audit", "--dump", "--log", "--out", "--json"}) {
     EXPECT_THAT(refusal({"a", option}), HasSubstr(std::string(option) + " needs a value"));
     EXPECT_THAT(refusal({"a", option, "--quiet"}), HasSubstr(std::string(option) + " needs a value"));
     EXPECT_THAT(refusal({"a", option, ""}), HasSubstr(option));
@@ -121,6 +122,22 @@ TEST(RunOptions, RefusesUnknownNamesAndListsTheKnown) {
   EXPECT_THAT(refusal({"a", "--kernel", "Exact"}), HasSubstr("'Exact' is not one of fast, filtered, exact"));
   EXPECT_THAT(refusal({"a", "--audit", "{}"}), HasSubstr("'{}' is not one of none, frames, events"));
   EXPECT_THAT(refusal({"a", "--select", "cb"}), HasSubstr("'cb' is not one of backbone, ca, all"));
+}
+
+TEST(RunOptions, NodesOfTheHierarchy) {
+  EXPECT_FALSE(parse_run_options({"a"}).nodes.restricts());
+  const NodeSelection levels = parse_run_options({"a", "--levels", "1:3"}).nodes;
+  EXPECT_EQ(levels.first_level, 1U);
+  EXPECT_EQ(levels.last_level, 2U);
+  EXPECT_FALSE(levels.beads);
+  EXPECT_TRUE(parse_run_options({"a", "--levels", "2:"}).nodes.restricts());
+  EXPECT_FALSE(parse_run_options({"a", "--levels", ":"}).nodes.restricts());
+  const NodeSelection nodes = parse_run_options({"a", "--nodes", "10:20"}).nodes;
+  EXPECT_TRUE(nodes.beads == (BeadRange{10, 19}));
+  for (const char* range : {"", "3", "3:3", "4:3", "-1:2", "0:4294967297", "a:b", "1:2:3", "1: 2"}) {
+    EXPECT_THAT(refusal({"a", "--levels", range}), HasSubstr("--levels")) << range;
+    EXPECT_THAT(refusal({"a", "--nodes", range}), HasSubstr("--nodes")) << range;
+  }
 }
 
 TEST(RunOptions, RefusesRadiiThatAreNone) {

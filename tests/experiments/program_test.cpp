@@ -287,6 +287,50 @@ TEST(Program, GivesOneFingerprintForAllRunsAndExactKernels) {
   }
 }
 
+// Every third bead smaller: the hierarchy's certificates have square roots then.
+TEST(Program, WrapsBallsOfSeveralSizes) {
+  const ScratchDirectory directory;
+  std::string radii;
+  for (int b = 0; b < 108; ++b) radii += b % 3 == 0 ? "0.6\n" : "0.75\n";
+  const std::string rule = "file:" + directory.file("radii.txt", radii);
+  const std::vector<std::string> arguments{"run",          data_file("trajectories/villin_hp36_300K.dcd"),
+                                           "--topology",   data_file("trajectories/villin_hp36_300K.pdb"),
+                                           "--frames",     "0:4",
+                                           "--structures", "wrapped",
+                                           "--radius",     rule,
+                                           "--audit",      "events",
+                                           "--json",       "-"};
+  for (const char* motion : {"linear", "hermite"}) {
+    std::vector<std::string> one = arguments;
+    one.insert(one.end(), {"--motion", motion});
+    const ProgramRun run = run_program(one);
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_GT(Json::parse(run.out)["structures"]["wrapped"]["events"]["total"], 0);
+  }
+  expect_refused({"run", data_file("kinetic/w3_n20_linear.txt"), "--structures", "wrapped"},
+                 {"weights", "radii"});
+}
+
+TEST(Program, KeepsOnlyTheNodesAskedFor) {
+  const ScratchDirectory directory;
+  const std::string log = (directory.path() / "log").string();
+  std::vector<std::string> arguments{
+      "run", data_file("kinetic/d3_n50_linear.txt"), "--structures", "wrapped", "--json", "-", "--quiet"};
+  const ProgramRun all = run_program(arguments);
+  arguments.insert(arguments.end(), {"--levels", "0:2", "--log", log, "--dump", directory.path().string()});
+  const ProgramRun some = run_program(arguments);
+  ASSERT_EQ(some.code, 0) << some.err;
+  const auto created = [](const ProgramRun& run) {
+    return Json::parse(run.out)["structures"]["wrapped"]["certificates"]["created"].get<int>();
+  };
+  EXPECT_LT(created(some), created(all));
+  EXPECT_EQ(Json::parse(some.out)["settings"]["levels"], "0:2");
+  const std::string dump = content_of(directory.path() / "frame-1.wrapped.csv");
+  EXPECT_EQ(std::count(dump.begin(), dump.end(), '\n'), 4);  // a header and three nodes
+  EXPECT_EQ(run_program({"replay", log, "--quiet"}).code, 0);
+  expect_refused({"run", kSmall, "--structures", "power", "--levels", "0:2"}, {"--levels", "wrapped"});
+}
+
 TEST(Program, RunsSeveralNecklacesOnOneClock) {
   const std::string moving = data_file("trajectories/villin_hp36_300K.dcd");
   const std::string resting = data_file("trajectories/villin_hp36_300K.pdb");

@@ -28,14 +28,15 @@ template <class K>
 void expect_right_at(const WrappedRig<K>& rig, const Dyadic& time, bool cgal = true) {
   const auto points = exact_points(rig.motion, time);
   const NecklaceTree& tree = rig.structure.tree();
+  const std::vector<Basis> bases = rig.structure.bases_at(time);
   for (NodeId node = 0; node < tree.node_count(); ++node) {
     const auto [first, last] = tree.range(node);
-    const Basis basis = rig.structure.basis_at(node, time);
+    const Basis& basis = bases[node];
     SCOPED_TRACE(text_of("node ", first, "-", last));
     ASSERT_EQ(not_smallest_sphere(points, first, last, beads_of(basis), true), std::nullopt);
     if (!cgal) continue;
-    const ExactSphere ours = sphere_through(points, beads_of(basis))->first;
-    const ExactSphere theirs = cgal_smallest_sphere(points, first, last);
+    const test::ExactSphere ours = sphere_through(points, beads_of(basis))->first;
+    const test::ExactSphere theirs = cgal_smallest_sphere(points, first, last);
     ASSERT_EQ(ours.center, theirs.center);
     ASSERT_EQ(ours.square, theirs.square);
   }

@@ -1,0 +1,94 @@
+#pragma once
+// Which beads a minimum enclosing sphere can lose during a step, and which its basis can, without a
+// certificate for each: balls of any radii in motions of degree 1 to 3, in the plane and in space.
+//
+// All is seen from the basis' first ball: centres c_i(u), radii s_i(u), those of the first are zero. The
+// sphere touches all of them from outside: its centre x(u), in their affine hull, and radius rho(u), less the
+// first ball's, solve c_i.x = e_i + s_i rho, e_i = (|c_i|^2 - s_i^2) / 2, for i = 1 .. m, and |x| = rho. Let
+// z'(u) and rho'(u) be its *chord*, linear between approximate ones at both ends. z' leaves residuals r_i =
+// e_i + s_i rho' - c_i.z', and it may leave the hull, all of second order in the motion and bounded by their
+// Bernstein coefficients; with a lower bound of the simplex' volume that bounds the part A of x - z' = A +
+// (rho - rho') q that does not come from the radius, |A| <= B, and the slope |q| <= sum |s_i| / height_i. If
+// that is below 1, |x| = rho has one solution, and
+//   |rho - rho'| <= (B + max ||z'| - rho'|) / (1 - |q|),   |x - z'| <= B + |q| |rho - rho'| =: E,
+// where |z'| sags below its chord by at most |z'(1) - z'(0)|^2 / (8 min |z'|). A bead with |c_b - z'| + s_b
+// <= rho' - E - |rho - rho'| at all control points is inside all the time. Basis ball i stays one while its
+// barycentric coordinate is positive: with w_i linear between those at both ends it is w_i to within the
+// distance of x from sum w_i c_i by the height of ball i. Where all are, and rho >= s_i, the sphere is the
+// smallest, whatever was known before.
+//
+// All in double, with margins far above its rounding: what is proved here holds; what is not needs a
+// certificate.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "motions/bead_range.h"
+#include "motions/bezier_motion.h"
+#include "structures/basis.h"
+
+namespace kds {
+
+/// Control points of all beads' centres and radii during a step, a column each.
+template <int Dimension>
+class BeadPaths {
+ public:
+  static constexpr int most_degree = 3;
+  static constexpr std::size_t padding = 3;  ///< read four at a time
+
+  template <Motion M>
+  void set(const M& motion) {
+    static_assert(M::dimension == Dimension && M::degree <= most_degree);
+    degree_ = M::degree;
+    equal_radii_ = true;
+    beads_ = motion.bead_count();
+    for (int k = 0; k <= degree_; ++k) {
+      for (int axis = 0; axis <= Dimension; ++axis) {
+        std::vector<double>& column = columns_[place(k, axis)];
+        column.resize(beads_ + padding);
+        for (BeadId b = 0; b < beads_; ++b)
+          column[b] = axis < Dimension ? motion.coordinate(b, k, axis) : motion.radius(b, k);
+      }
+    }
+    measure();
+  }
+
+  [[nodiscard]] int degree() const { return degree_; }
+  /// Of all beads for the whole step.
+  [[nodiscard]] bool equal_radii() const { return equal_radii_; }
+  /// The k-th control points along an axis, or (axis = Dimension) of the radius.
+  [[nodiscard]] const double* column(int k, int axis) const { return columns_[place(k, axis)].data(); }
+  /// No difference within a column is larger, coordinates or radii.
+  [[nodiscard]] double extent() const { return extent_; }
+
+ private:
+  static std::size_t place(int k, int axis) { return static_cast<std::size_t>(k * (Dimension + 1) + axis); }
+  void measure();
+
+  int degree_ = 1;
+  std::size_t beads_ = 0;
+  bool equal_radii_ = true;
+  std::array<std::vector<double>, (most_degree + 1) * (Dimension + 1)> columns_;
+  double extent_ = 0;
+};
+
+template <int Dimension>
+struct SphereChord {
+  bool proved = false;     ///< else nothing is known of the sphere
+  std::uint8_t stays = 0;  ///< a bit for each bead of the basis that cannot leave it: all, and it is a basis
+  std::array<std::array<double, Dimension>, 2> center{};  ///< at both ends, from the basis' first bead
+  std::array<double, 2> limit{};  ///< of a bead's distance plus its radius less the first bead's
+};
+
+/// From time `from` to the end of the step.
+template <int Dimension>
+[[nodiscard]] SphereChord<Dimension> sphere_chord(const BeadPaths<Dimension>& paths, const Basis& basis,
+                                                  double from);
+
+/// Sets `beyond` to the beads of a range that are not proved to stay inside, basis beads among them.
+template <int Dimension>
+void find_beyond(const BeadPaths<Dimension>& paths, const BeadRange& range, BeadId base,
+                 const SphereChord<Dimension>& chord, double from, std::vector<BeadId>& beyond);
+
+}  // namespace kds

@@ -1,0 +1,211 @@
+// What the path of a sphere proves, against certificates on integers.
+
+#include "structures/sphere_path.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "certificates/failure_search.h"
+#include "certificates/membership.h"
+#include "certificates/orientation.h"
+#include "certificates/radical_search.h"
+#include "motions/positions.h"
+#include "structures/smallest_sphere.h"
+#include "tests/support/moving_beads.h"
+#include "tests/support/random_motion.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+
+template <class M>
+Basis basis_at(const M& motion, const BeadRange& range, double time) {
+  std::vector<double> radii = approximate_radii(motion, time);
+  for (double& r : radii) r = std::max(r, 0.0);
+  const Balls<M::dimension> balls(approximate_positions(motion, time), radii);
+  return smallest_sphere(balls, range.first, range.last).basis;
+}
+
+/// Whether the bead's certificate against the basis holds from `now` to the end of the step.
+template <Radii radii, class M>
+bool holds(const M& motion, const Basis& basis, BeadId bead, bool inside, const Instant& now) {
+  StageCounts stages;
+  int orientation = 0;
+  if (basis.size == M::dimension + 1) {
+    Orientation<M::dimension> certificate;
+    std::copy(basis.begin(), basis.end(), certificate.beads.begin());
+    orientation = sign_just_after<Exact>(certificate, motion, now, stages);
+  }
+  return visit_membership<radii>(
+      motion, std::span(basis.begin(), basis.end()), bead, inside, orientation, [&](const auto& certificate) {
+        const Failure::Kind kind =
+            first_failure<Exact>(certificate, motion, now, Birth::unknown, stages).kind;
+        return kind != Failure::Kind::later && kind != Failure::Kind::at_birth;
+      });
+}
+
+struct Tally {
+  int proved = 0, inside = 0, beyond = 0, kept = 0;
+};
+
+/// Judges all that is claimed of the basis at `from` of all beads.
+template <Radii radii, class M>
+void judge(const M& motion, double from, Tally& tally) {
+  const auto count = static_cast<BeadId>(motion.bead_count());
+  const Basis basis = basis_at(motion, {0, count - 1}, from);
+  BeadPaths<M::dimension> paths;
+  paths.set(motion);
+  const auto chord = sphere_chord(paths, basis, from);
+  if (!chord.proved) return;
+  ++tally.proved;
+  std::vector<BeadId> beyond;
+  find_beyond(paths, {0, count - 1}, basis.beads[0], chord, from, beyond);
+  ASSERT_TRUE(std::is_sorted(beyond.begin(), beyond.end()));
+  const Instant now(from);
+  for (BeadId b = 0; b < count; ++b) {
+    if (std::binary_search(beyond.begin(), beyond.end(), b)) {
+      ++tally.beyond;
+      continue;
+    }
+    ++tally.inside;
+    ASSERT_FALSE(basis.contains(b)) << "basis beads lie on the sphere";
+    EXPECT_TRUE((holds<radii>(motion, basis, b, true, now))) << "bead " << b << " from " << from;
+  }
+  for (std::size_t i = 0; i < basis.size && basis.size > 1; ++i) {
+    if ((chord.stays >> i & 1U) == 0) continue;
+    ++tally.kept;
+    EXPECT_TRUE((holds<radii>(motion, without(basis, basis.beads[i]), basis.beads[i], false, now)))
+        << "basis bead " << basis.beads[i];
+  }
+}
+
+/// From rest to far: at first hardly anything is beyond, then all.
+template <class M, Radii radii>
+Tally judge_random(unsigned seeds) {
+  Tally tally;
+  for (unsigned seed = 0; seed < seeds; ++seed) {
+    for (const MotionKind kind : all_motion_kinds) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", kind " << static_cast<int>(kind));
+      Random random(1000 * seed + static_cast<unsigned>(kind));
+      auto motion = random_motion<M>(random, 4 + random() % 9, kind);
+      const double pace = std::ldexp(1.0, -static_cast<int>(seed % 12));
+      const auto slow = [&](double start, double x) { return start + pace * (x - start); };
+      for (BeadId b = 0; b < motion.bead_count(); ++b) {
+        for (int k = 0; k <= M::degree; ++k) {
+          for (int axis = 0; axis < M::dimension; ++axis)
+            motion.set_coordinate(b, k, axis,
+                                  slow(motion.coordinate(b, 0, axis), motion.coordinate(b, k, axis)));
+          motion.set_radius(b, k,
+                            radii == Radii::equal ? 0.5 : slow(motion.radius(b, 0), motion.radius(b, k)));
+          motion.set_weight(b, k, 0);
+        }
+      }
+      for (const double from : {0.0, 0.25, 0.9}) judge<radii>(motion, from, tally);
+      if (testing::Test::HasFailure()) return tally;
+    }
+  }
+  return tally;
+}
+
+TEST(SpherePath, ProvesOnlyWhatHolds) {
+  const Tally tally = judge_random<Space, Radii::equal>(150);
+  EXPECT_GT(tally.proved, 1000);
+  EXPECT_GT(tally.inside, 2000);
+  EXPECT_GT(tally.beyond, 2000);
+  EXPECT_GT(tally.kept, 200);
+}
+
+TEST(SpherePath, OfBallsInThePlaneAndOfCurvedMotion) {
+  for (const Tally& tally :
+       {judge_random<Space, Radii::any>(24), judge_random<BezierMotion<2, 1>, Radii::any>(24),
+        judge_random<BezierMotion<2, 3>, Radii::equal>(24),
+        judge_random<BezierMotion<3, 2>, Radii::equal>(24),
+        judge_random<BezierMotion<3, 3>, Radii::equal>(24)}) {
+    EXPECT_GT(tally.proved, 50);
+    EXPECT_GT(tally.inside, 100);
+    EXPECT_GT(tally.beyond, 100);
+    EXPECT_GT(tally.kept, 50);
+  }
+}
+
+TEST(SpherePath, ScalesWithTheInput) {
+  for (const int exponent : {-300, -140, 100, 140, 300, 900}) {
+    Tally tally;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      Random random(seed);
+      auto motion = random_motion<Space>(random, 9, MotionKind::generic);
+      for (BeadId b = 0; b < motion.bead_count(); ++b) {
+        for (int axis = 0; axis < 3; ++axis) {
+          const double x = motion.coordinate(b, 0, axis);
+          motion.set_coordinate(b, 1, axis, x + 0.01 * (motion.coordinate(b, 1, axis) - x));
+        }
+        for (int k = 0; k <= 1; ++k) {
+          motion.set_weight(b, k, 0);
+          motion.set_radius(b, k, 0);
+        }
+      }
+      scale(motion, exponent);
+      judge<Radii::equal>(motion, 0, tally);
+    }
+    EXPECT_EQ(tally.proved > 0, std::abs(exponent) <= 140) << exponent;
+  }
+}
+
+// A rigid turn: the triangle's centre rests, its radius dips in between by what the formula says.
+TEST(SpherePath, SeesTheDipOfATurningBasis) {
+  const double r = 1, turn = 0.2;
+  Points from, to;
+  for (int k = 0; k < 3; ++k) {
+    const double a = 2.0943951023931953 * k;
+    from.push_back({r * std::cos(a), r * std::sin(a), 0});
+    to.push_back({r * std::cos(a + turn), r * std::sin(a + turn), 0});
+  }
+  const double dip = r * (1 - std::cos(turn / 2));
+  for (const double share : {0.5, 3.0}) {  // of the dip: inside the whole sphere, but is it in the dip?
+    Points start = from, end = to;
+    start.push_back({0, 0, r - share * dip});
+    end.push_back(start.back());
+    const Space motion = moving(start, end);
+    BeadPaths<3> paths;
+    paths.set(motion);
+    const Basis basis(std::array<BeadId, 3>{0, 1, 2});
+    const auto chord = sphere_chord(paths, basis, 0);
+    ASSERT_TRUE(chord.proved && chord.stays == 7);
+    std::vector<BeadId> beyond;
+    find_beyond(paths, {3, 3}, 0, chord, 0, beyond);
+    EXPECT_EQ(beyond.empty(), share > 1);
+    EXPECT_EQ((holds<Radii::equal>(motion, basis, 3, true, Instant(0))), share > 1);
+  }
+}
+
+// Where motion is slow the kinetic hierarchy makes hardly any certificate.
+TEST(SpherePath, PrunesCertificatesInSlowMotion) {
+  Random random(12);
+  Points from(200), to(200);
+  for (std::size_t b = 0; b < from.size(); ++b) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      from[b][axis] = (b == 0 ? 0 : from[b - 1][axis]) + uniform(random);
+      to[b][axis] = from[b][axis] + 1e-4 * uniform(random);
+    }
+  }
+  BeadPaths<3> paths;
+  const Space motion = moving(from, to);
+  paths.set(motion);
+  std::size_t watched = 0, all = 0;
+  for (BeadId first = 0; first < 200; first += 25) {
+    const BeadRange range{first, first + 24};
+    const Basis basis = basis_at(motion, range, 0);
+    const auto chord = sphere_chord(paths, basis, 0);
+    ASSERT_TRUE(chord.proved);
+    std::vector<BeadId> beyond;
+    find_beyond(paths, range, basis.beads[0], chord, 0, beyond);
+    watched += beyond.size() - basis.size;
+    all += 25U - basis.size;
+  }
+  EXPECT_LE(watched, all / 50);
+}
+
+}  // namespace
+}  // namespace kds
