@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "structures/cgal_triangulations.h"
+#include "structures/diagram_edges.h"
 
 namespace kds {
 
@@ -53,6 +54,20 @@ StaticTriangulation<Dimension> static_triangulation(const Eigen::Matrix3Xd& cent
   insert_all<Dimension>(triangulation, centers, weights);
   return {sorted_finite_cells<Dimension>(triangulation), hidden_beads(triangulation, weights.size()),
           triangulation.dimension()};
+}
+
+template <int Dimension>
+DiagramEdges static_edges(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  typename CgalOf<Dimension>::Type triangulation;
+  insert_all<Dimension>(triangulation, centers, weights);
+  std::vector<BeadPairs::Pair> pairs;
+  if (triangulation.dimension() >= 1) {
+    for (const auto& edge : triangulation.finite_edges()) {
+      const auto [a, b] = CgalOf<Dimension>::ends(edge);
+      pairs.emplace_back(a->info(), b->info());
+    }
+  }
+  return {BeadPairs(weights.size(), pairs), hidden_beads(triangulation, weights.size())};
 }
 
 template <int Dimension>
@@ -370,6 +385,8 @@ template class RegularTriangulation<2>;
 template class RegularTriangulation<3>;
 template StaticTriangulation<2> static_triangulation(const Eigen::Matrix3Xd&, std::span<const double>);
 template StaticTriangulation<3> static_triangulation(const Eigen::Matrix3Xd&, std::span<const double>);
+template DiagramEdges static_edges<2>(const Eigen::Matrix3Xd&, std::span<const double>);
+template DiagramEdges static_edges<3>(const Eigen::Matrix3Xd&, std::span<const double>);
 template double seconds_to_triangulate<2>(const Eigen::Matrix3Xd&, std::span<const double>);
 template double seconds_to_triangulate<3>(const Eigen::Matrix3Xd&, std::span<const double>);
 
