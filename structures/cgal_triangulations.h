@@ -47,6 +47,10 @@ struct CgalTriangulation<Geometry, 2> {
   static Cell create_cell(Tds& tds) {
     return tds.create_face();
   }
+  template <class Tds>
+  static void delete_cell(Tds& tds, Cell c) {
+    tds.delete_face(c);
+  }
   template <class VertexHandle>
   static void set_cell(VertexHandle v, Cell c) {
     v->set_face(c);
@@ -81,6 +85,10 @@ struct CgalTriangulation<Geometry, 3> {
   template <class Tds>
   static Cell create_cell(Tds& tds) {
     return tds.create_cell();
+  }
+  template <class Tds>
+  static void delete_cell(Tds& tds, Cell c) {
+    tds.delete_cell(c);
   }
   template <class VertexHandle>
   static void set_cell(VertexHandle v, Cell c) {

@@ -93,9 +93,8 @@ void PowerDiagram<M, K>::drop(CellId cell, int i) {
 
 /// Guards all facets of the new cells.
 template <Motion M, Kernel K>
-template <std::size_t N>
-void PowerDiagram<M, K>::watch_around(const std::array<CellId, N>& cells) {
-  for (std::size_t c = 0; c < N; ++c) {
+void PowerDiagram<M, K>::watch_around(std::span<const CellId> cells) {
+  for (std::size_t c = 0; c < cells.size(); ++c) {
     for (int i = 0; i <= dimension; ++i) {
       // A facet between two new cells is met twice.
       const auto before = cells.begin() + static_cast<std::ptrdiff_t>(c);

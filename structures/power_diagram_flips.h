@@ -179,6 +179,7 @@ void PowerDiagram<M, K>::flip_to_facet(CellId cell, int facet, int other_vertex)
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::apply(const Change& change) {
   if (change.kind == rebuild) return apply_rebuild(change);
+  if (change.kind > rebuild) return apply_edit(change);
   if (change.size != dimension + 2) throw std::invalid_argument("a flip has other numbers of beads");
   for (std::size_t i = 0; i < change.size; ++i) {
     if (change.ids[i] >= bead_count() && change.ids[i] != infinite_bead)
