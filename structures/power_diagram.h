@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "kds/certificate_table.h"
+#include "motions/grow_little.h"
 #include "motions/input_error.h"
 #include "motions/positions.h"
 #include "structures/facet_certificate.h"

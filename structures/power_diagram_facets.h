@@ -8,7 +8,7 @@ namespace kds {
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::enqueue(CellId cell, int i) {
   with_facet_certificate(triangulation_.cells()[cell].vertex, apex(cell, i), [&](const auto& certificate) {
-    table_of(certificate).enqueue(certificate, facet_id(cell, i), birth_of(certificate));
+    table_of(certificate).enqueue_one_of_many(certificate, facet_id(cell, i), birth_of(certificate));
   });
 }
 

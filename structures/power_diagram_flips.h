@@ -131,7 +131,7 @@ void PowerDiagram<M, K>::flip_to_edge(CellId cell, int facet) {
     if (neighbor(other, i) != cell) drop(other, i);
   }
   const auto made = triangulation_.flip_facet(cell, facet);
-  guards_.resize(triangulation_.cells().size());
+  grow_little(guards_, triangulation_.cells().size());
   simulator_.record(index_, change);
   watch_around(made);
   rehouse(made[0]);

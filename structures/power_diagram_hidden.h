@@ -83,13 +83,13 @@ void PowerDiagram<M, K>::enqueue_hidden(BeadId bead) {
   const Beads& v = triangulation_.cells()[hidden_.host(bead)].vertex;
   for (int i = 0; i <= dimension; ++i) {
     const Orientation<dimension> inside(with(v, i, bead), 1);
-    departures_.enqueue(inside, facet_id(bead, i), birth_of(inside));
+    departures_.enqueue_one_of_many(inside, facet_id(bead, i), birth_of(inside));
   }
   std::array<BeadId, dimension + 2> beads{};
   std::copy(v.begin(), v.end(), beads.begin());
   beads.back() = bead;
   const PowerTest<dimension> above(beads, 1);
-  appearances_.enqueue(above, bead, birth_of(above));
+  appearances_.enqueue_one_of_many(above, bead, birth_of(above));
 }
 
 template <Motion M, Kernel K>
@@ -171,7 +171,7 @@ void PowerDiagram<M, K>::show(BeadId bead, CellId cell) {
   displace(std::array{cell});
   for (int i = 0; i <= dimension; ++i) drop(cell, i);
   const auto made = triangulation_.flip_in(cell, bead);
-  guards_.resize(triangulation_.cells().size());
+  grow_little(guards_, triangulation_.cells().size());
   simulator_.record(index_, change_of(shows, v, bead));
   watch_around(made);
   rehouse(cell);

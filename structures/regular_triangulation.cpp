@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "certificates/sorted_beads.h"
+#include "motions/grow_little.h"
 #include "structures/cgal_triangulations.h"
 #include "structures/diagram_edges.h"
 
@@ -112,7 +113,7 @@ struct RegularTriangulation<Dimension>::Cgal {
   CellId new_id(CellHandle c) {
     if (free.empty()) {
       c->info() = static_cast<CellId>(cell.size());
-      cell.push_back(c);
+      append_little(cell, c);
     } else {
       c->info() = free.back();
       free.pop_back();
@@ -233,8 +234,8 @@ void RegularTriangulation<Dimension>::set_points(const Eigen::Matrix3Xd& centers
 template <int Dimension>
 void RegularTriangulation<Dimension>::enliven(CellId id) {
   if (id == cells_.size()) {
-    cells_.emplace_back();
-    live_.push_back(0);
+    append_little(cells_, {});
+    append_little(live_, char{0});
   }
   live_[id] = 1;
 }
