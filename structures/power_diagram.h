@@ -23,6 +23,7 @@
 #include "motions/grow_little.h"
 #include "motions/input_error.h"
 #include "motions/positions.h"
+#include "structures/diagram_edges.h"
 #include "structures/facet_certificate.h"
 #include "structures/facet_tolerances.h"
 #include "structures/hidden_beads.h"
@@ -138,11 +139,19 @@ class PowerDiagram final : public KineticStructure {
     return static_at_end(first ? 0 : M::degree);
   }
 
+  /// Its edges there, of all beads, none being absent: what closest_pair (closest_pair.h) asks for.
+  [[nodiscard]] DiagramEdges edges_at_frame(bool first) const {
+    if (affine_dimension_ == dimension)
+      return edges_of(triangulation_, motion_.bead_count(), hidden_.beads());
+    const int k = first ? 0 : M::degree;
+    return static_edges<dimension>(control_points(motion_, k), control_weights(motion_, k));
+  }
+
   // Edits, within a step while the simulator stands still between events (Simulator::run_until): afterwards
   // the diagram is the one of the beads then present, just after that time. Cost: the beads around, and the
   // way to them. Where ties decide how cells lie, the diagram is built anew instead, and the rebuild counted.
   // Bad calls are refused by std::invalid_argument, and nothing is changed; if all beads left stay in one
-  // plane (on one line), InputError.
+  // plane (on one line), InputError. Other structures on the same motion are not told.
 
   /// Before it is built: the bead does not take part until it is inserted. Its curve may be anything finite.
   void leave_out(BeadId bead);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <string>
 
+#include "motions/radii.h"
 #include "structures/ball_distance.h"
 #include "structures/necklace.h"
 #include "tests/support/ball_gaps.h"
@@ -313,25 +314,34 @@ TEST(ClosestPair, WhereRoundedSquaresOfRadiiMightMatter) {
 }
 
 TEST(ClosestPair, OfProteins) {
-  struct Input {
-    const char* file;
-    double radius;
-  };
-  for (const Input& input : {Input{"villin_hp36_300K.dcd", 0.7}, Input{"villin_hp36_300K.dcd", 0.3}}) {
+  const auto read = [](const char* file) {
     ReadOptions options;
-    options.frames = {0, 3, 1};
-    const Trajectory trajectory = read_trajectory(data(std::string("trajectories/") + input.file), options);
-    for (const bool equal : {true, false}) {
+    options.frames = {0, 1, 1};
+    return read_trajectory(data(file), options);
+  };
+  unsigned disjoint = 0, collisions = 0;
+  for (const std::vector<const char*>& files :
+       std::vector<std::vector<const char*>>{{"proteins/1l2y.pdb"},
+                                             {"proteins/1ejg.pdb"},
+                                             {"proteins/6wqa.cif"},
+                                             {"proteins/2f4k.pdb"},
+                                             {"proteins/1l2y.pdb", "proteins/2f4k.pdb"}}) {
+    std::vector<Trajectory> necklaces;
+    for (const char* file : files) necklaces.push_back(read(file));
+    for (const char* policy : {"auto", "element", "element:fit", "0.4"}) {
       Balls balls;
-      const Eigen::Matrix3Xd& frame = trajectory.frames[1];
-      for (Eigen::Index b = 0; b < std::min<Eigen::Index>(frame.cols(), 200); ++b) {
-        balls.centers.push_back(frame.col(b));
-        balls.radii.push_back(equal ? input.radius : input.radius * (b % 3 == 0 ? 0.83 : 1));
+      balls.radii = bead_radii(policy, necklaces);
+      for (const Trajectory& t : necklaces) {
+        const auto first = static_cast<BeadId>(balls.centers.size());
+        for (Eigen::Index b = 0; b < t.frames[0].cols(); ++b) balls.centers.push_back(t.frames[0].col(b));
+        balls.necklaces.push_back({first, balls.last()});
       }
-      balls.necklaces = {{0, 99}, {100, balls.last()}};
       Seen seen;
-      expect_right<3>(balls, BeadPairs::along(balls.radii.size(), balls.necklaces), seen, input.file);
-      // The kinetic diagram's own triangulation at a frame gives the same edges.
+      expect_right<3>(balls, BeadPairs::along(balls.radii.size(), balls.necklaces), seen,
+                      std::string(files[0]) + " " + policy);
+      disjoint += seen.disjoint;
+      collisions += seen.collisions;
+      // A triangulation that is kept up gives the same edges.
       RegularTriangulation<3> triangulation;
       const auto built = triangulation.build(balls.matrix(), squares(balls.radii));
       const DiagramEdges edges = edges_of(triangulation, balls.radii.size(), built.hidden);
@@ -342,6 +352,8 @@ TEST(ClosestPair, OfProteins) {
         EXPECT_TRUE(std::ranges::equal(edges.edges.of(b), expected.edges.of(b)));
     }
   }
+  EXPECT_GT(disjoint, 5U);
+  EXPECT_GT(collisions, 3U);
 }
 
 TEST(BeadPairs, AreAsGiven) {

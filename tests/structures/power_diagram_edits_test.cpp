@@ -281,6 +281,39 @@ TEST(PowerDiagramEdits, AreReplayed) {
   }
 }
 
+/// Inserts, erases and bends under one kernel.
+template <Kernel K>
+std::pair<std::uint64_t, std::uint64_t> run_kernel() {
+  using Plane = BezierMotion<2, 1>;
+  Random random(77);
+  Plane motion(30);
+  for (BeadId b = 0; b < 30; ++b) set_curve(motion, b, random, Scene::weighted);
+  Simulator simulator;
+  PowerDiagram<Plane, K> diagram(simulator, motion);
+  for (BeadId b = 0; b < 10; ++b) diagram.leave_out(b);
+  simulator.build();
+  simulator.enter_step();
+  for (int k = 1; k < 16; ++k) {
+    simulator.run_until(Dyadic(k / 16.0));
+    const BeadId b = random() % 20;
+    if (diagram.is_absent(b)) {
+      diagram.insert(b);
+    } else {
+      diagram.erase(b);
+    }
+    diagram.change_motion(25, [&] { bend(motion, 25, k / 16.0, random); });
+  }
+  simulator.leave_step(true);
+  EXPECT_EQ(diagram.statistics.rebuilds, 0U);
+  return {simulator.fingerprint(), diagram.statistics.certificates.created};
+}
+
+TEST(PowerDiagramEdits, KernelsAgree) {
+  const auto filtered = run_kernel<Filtered>();
+  EXPECT_EQ(run_kernel<Exact>(), filtered);
+  EXPECT_EQ(run_kernel<Fast>(), filtered);
+}
+
 TEST(PowerDiagramEdits, ReplayRefusesWhatDoesNotFit) {
   Rig<Diagram<Space>, Space> rig(random_space(20, 3, 0));
   rig.simulator.build();

@@ -37,17 +37,25 @@ struct ClosestByForce {
   Integer gap;
 };
 
-/// Among the pairs that are no neighbours; none if there are none.
+/// Among the pairs that are no neighbours; none if there are none. Of numbers below 2^10 in size, so that
+/// doubles are off by less than 2^-30 by far: what is farther by more is passed over.
 template <class AreNeighbors>
 std::optional<ClosestByForce> closest_by_force(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
                                                AreNeighbors are_neighbors) {
   std::optional<ClosestByForce> best;
+  double least = 0;
   for (BeadId a = 0; a < radii.size(); ++a) {
     for (BeadId b = a + 1; b < radii.size(); ++b) {
       if (are_neighbors(a, b)) continue;
+      const double about =
+          (centers.col(Eigen::Index{a}) - centers.col(Eigen::Index{b})).norm() - radii[a] - radii[b];
+      if (best && about > least + 0x1p-30) continue;
       const Integer gap =
           gap_in_units(centers.col(Eigen::Index{a}), centers.col(Eigen::Index{b}), radii[a], radii[b]);
-      if (!best || compare_gap_units(gap, best->gap) < 0) best = {{a, b}, gap};
+      if (!best || compare_gap_units(gap, best->gap) < 0) {
+        best = {{a, b}, gap};
+        least = about;
+      }
     }
   }
   return best;
