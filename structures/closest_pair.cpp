@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <stdexcept>
 #include <vector>
 
@@ -44,7 +45,8 @@ class Search {
     look_at_common_neighbors();
     look_at_unconnected();
     look_at_centers();
-    if (rounding_matters()) look_at_near_pairs();
+    if (rounding_matters())
+      look_at_near_pairs([this](BeadId a, BeadId b) { look_at(a, b, report_.looked_at.near); });
     if (report_.pair) {
       ClosestPair& p = *report_.pair;
       p.sign = compare_distance(center(p.first), center(p.second), radii_[p.first], radii_[p.second]);
@@ -102,9 +104,22 @@ class Search {
     });
   }
   void look_at_unconnected() {
+    std::vector<char> unconnected(bead_count(), 0);
+    std::size_t count = 0;
     for (BeadId a = 0; a < bead_count(); ++a) {
       const auto beside = neighbors_.of(a);
       if (std::all_of(beside.begin(), beside.end(), [&](BeadId b) { return connects(b, a); })) continue;
+      unconnected[a] = 1;
+      ++count;
+    }
+    constexpr std::size_t few = 16;
+    if (count > few && report_.pair) {
+      return look_at_near_pairs([&](BeadId a, BeadId b) {
+        if (unconnected[a] != 0 || unconnected[b] != 0) look_at(a, b, report_.looked_at.unconnected);
+      });
+    }
+    for (BeadId a = 0; a < bead_count(); ++a) {
+      if (unconnected[a] == 0) continue;
       for (BeadId b = 0; b < bead_count(); ++b) look_at(a, b, report_.looked_at.unconnected);
     }
   }
@@ -150,14 +165,15 @@ class Search {
     const double largest = *std::max_element(radii_.begin(), radii_.end());
     return !(largest > 0x1p-400 && p.distance > 0x1p-14 * largest);
   }
-  void look_at_near_pairs() {
-    const double reach = std::max(0.0, report_.pair->distance);
+  /// All pairs that may be as close as the closest so far.
+  template <std::invocable<BeadId, BeadId> Visit>
+  void look_at_near_pairs(Visit visit) const {
     const auto& p = *report_.pair;
+    const double reach = std::max(0.0, p.distance);
     const double off = ((center(p.first) - center(p.second)).stableNorm() + reach) * 0x1p-40;
     std::vector<double> inflated;
     for (const double r : radii_) inflated.push_back((r + 0.5 * reach + off) * (1 + 0x1p-50));
-    visit_near_pairs(centers_, inflated,
-                     [this](BeadId a, BeadId b) { look_at(a, b, report_.looked_at.near); });
+    visit_near_pairs(centers_, inflated, visit);
   }
 
   const Eigen::Matrix3Xd& centers_;

@@ -31,7 +31,8 @@
 // What does not: if some collide, the pair returned collides, but others may be deeper in one another, or
 // touch as well. As printed, the theorem fails where neighbours do not meet (chain breaks, thin beads): there
 // a bead may lie between two others without connecting anything. And a neighbour C of B that is also one of A
-// does not help, disjoint from A or not. Here such beads are treated as DT3 has it, at n pairs each.
+// does not help, disjoint from A or not. Here such beads are treated as DT3 has it: at n pairs each, or,
+// where there are more than a few, with the pairs that a grid finds as near as the closest known by then.
 //
 // Exact. The diagram must be that of the weights r^2, rounded to doubles. Where this rounding could matter,
 // which takes unequal radii and a closest pair about 2^-14 of the largest radius apart or less, a grid finds
@@ -69,7 +70,8 @@ struct ClosestPairReport {
 };
 
 /// Centres have three rows; in the plane the third is not looked at. Finite; radii finite, not negative. Time
-/// linear in diagram and family, and in the beads for each bead of DT3.
+/// linear in beads, edges and pairs with a common neighbour, and in the near pairs (near_pairs.h) where a
+/// grid is asked.
 template <int Dimension>
 [[nodiscard]] ClosestPairReport closest_pair(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
                                              const DiagramEdges& diagram, const BeadPairs& neighbors);

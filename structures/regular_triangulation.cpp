@@ -465,7 +465,8 @@ bool RegularTriangulation<Dimension>::is_vertex(BeadId bead) const {
 
 template <int Dimension>
 bool RegularTriangulation<Dimension>::is_edge(BeadId a, BeadId b) const {
-  return cgal_->triangulation.tds().is_edge(cgal_->handle(a), cgal_->handle(b));
+  return is_vertex(a) && is_vertex(b) &&
+         cgal_->triangulation.tds().is_edge(cgal_->handle(a), cgal_->handle(b));
 }
 
 template <int Dimension>

@@ -270,6 +270,25 @@ TEST(ClosestPair, AThirdNeighborOfBothConnectsNothing) {
   EXPECT_EQ(seen.unconnected_only, 1U);
 }
 
+/// Beads too thin to meet: no one connects, and a grid keeps the pairs few.
+TEST(ClosestPair, OfThinBeads) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    Balls balls;
+    for (unsigned b = 0; b < 150; ++b) {
+      balls.centers.push_back(8 * Eigen::Vector3d(uniform(random), uniform(random), uniform(random)));
+      balls.radii.push_back(seed % 2 == 0 ? 0.01 : 0.02 * uniform(random, 0, 1));
+    }
+    balls.necklaces = {{0, 79}, {80, 149}};
+    const BeadPairs neighbors = BeadPairs::along(150, balls.necklaces);
+    Seen seen;
+    expect_right<3>(balls, neighbors, seen, "seed " + std::to_string(seed));
+    const auto report = closest_pair<3>(balls.matrix(), balls.radii, neighbors);
+    EXPECT_GT(report.looked_at.unconnected, 0U);
+    EXPECT_LT(report.looked_at.unconnected, 500U);
+  }
+}
+
 TEST(ClosestPair, InFewBeadsAndFlatScenes) {
   for (const int dimension : {0, 1, 2}) {
     for (unsigned seed = 0; seed < 200; ++seed) {
@@ -354,6 +373,32 @@ TEST(ClosestPair, OfProteins) {
   }
   EXPECT_GT(disjoint, 5U);
   EXPECT_GT(collisions, 3U);
+}
+
+// Comparisons that doubles cannot decide, against whole numbers.
+TEST(BallDistance, ComparesGapsAndPowers) {
+  Random random(3);
+  unsigned equal = 0, close = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const auto whole = [&] {
+      return Eigen::Vector3d(pick(random, -3, 3), pick(random, -3, 3), pick(random, -3, 3));
+    };
+    const auto off = [&] { return random() % 3 == 0 ? 0x1p-50 * pick(random, -2, 2) : 0.0; };
+    const Eigen::Vector3d a = whole(), b = whole(), c = whole(), d = whole();
+    const double r = 0.5 * pick(random, 0, 3) + std::abs(off()), s = 0.5 * pick(random, 0, 3);
+    const double t = 0.5 * pick(random, 0, 3), u = 0.5 * pick(random, 0, 3) + std::abs(off());
+    const int gaps = compare_gap_units(gap_in_units(a, b, r, s), gap_in_units(c, d, t, u));
+    EXPECT_EQ(compare_gaps(a, b, {r, s}, c, d, {t, u}), gaps);
+    EXPECT_EQ(compare_gaps(c, d, {t, u}, a, b, {r, s}), -gaps);
+    const double first = (a - b).norm() - (r + s), second = (c - d).norm() - (t + u);
+    equal += gaps == 0 ? 1 : 0;
+    close += gaps != 0 && std::abs(first - second) < 1e-12 ? 1 : 0;
+    const Rational power =
+        Rational((a - b).squaredNorm()) - Rational(r) - Rational((a - c).squaredNorm()) + Rational(u);
+    EXPECT_EQ(compare_powers(a, b, r, c, u), power > 0 ? 1 : power < 0 ? -1 : 0);
+  }
+  EXPECT_GT(equal, 30U);
+  EXPECT_GT(close, 50U);
 }
 
 TEST(BeadPairs, AreAsGiven) {
