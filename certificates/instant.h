@@ -27,6 +27,7 @@ class Instant {
  public:
   /// The start of a step, or another dyadic time.
   explicit Instant(double u = 0) : time_{u, u, 0, false}, exact_(ExactTime(Dyadic(u))) {}
+  explicit Instant(const Dyadic& u) : time_{u.round_down(), u.round_up(), 0, false}, exact_(ExactTime(u)) {}
   /// A bracket with nothing behind it: for reports, not for decisions.
   explicit Instant(const FailureTime& time) : time_(time) {}
   /// The failure time of a certificate, which must stay available while the instant lasts.

@@ -13,6 +13,7 @@
 #include "certificates/radical_search.h"
 #include "kds/kinetic_structure.h"
 #include "kds/simulator.h"
+#include "motions/grow_little.h"
 
 namespace kds {
 
@@ -58,14 +59,20 @@ class CertificateTable : public FailureSource {
     births_[waiting_count_] = birth;
     ++waiting_count_;
   }
+  /// Enqueues where many may be: a few at a time are searched at once, so that they need little room. They
+  /// cannot be forgotten.
+  void enqueue_one_of_many(const Certificate& certificate, std::uint32_t place, Birth birth) {
+    constexpr std::size_t at_a_time = 512;
+    enqueue(certificate, place, birth);
+    if (waiting_count_ < at_a_time) return;
+    settle_enqueued([this](std::uint32_t at, Guard guard) { append_little(settled_, {at, guard}); });
+  }
   /// Calls `visit` with the place and the guard of each, in the order in which they were enqueued.
   template <std::invocable<std::uint32_t, Guard> Visit>
   void watch_enqueued(Visit visit) {
-    const std::size_t count = waiting_count_;
-    search(std::span(waiting_).first(count), std::span(births_).first(count),
-           std::span(failures_).first(count));
-    for (std::size_t i = 0; i < count; ++i) visit(places_[i], hold(waiting_[i], places_[i], failures_[i]));
-    forget_enqueued();
+    for (const Settled& s : settled_) visit(s.place, s.guard);
+    settled_.clear();
+    settle_enqueued(visit);
   }
   void forget_enqueued() { waiting_count_ = 0; }
 
@@ -136,6 +143,20 @@ class CertificateTable : public FailureSource {
     bool touch = false;
   };
 
+  struct Settled {
+    std::uint32_t place;
+    Guard guard;
+  };
+
+  template <std::invocable<std::uint32_t, Guard> Visit>
+  void settle_enqueued(Visit visit) {
+    const std::size_t count = waiting_count_;
+    search(std::span(waiting_).first(count), std::span(births_).first(count),
+           std::span(failures_).first(count));
+    for (std::size_t i = 0; i < count; ++i) visit(places_[i], hold(waiting_[i], places_[i], failures_[i]));
+    waiting_count_ = 0;
+  }
+
   void make_room() {
     const std::size_t room = std::max<std::size_t>(16, 2 * waiting_.size());
     waiting_.resize(room);
@@ -174,7 +195,7 @@ class CertificateTable : public FailureSource {
     std::uint32_t slot = 0;
     if (free_.empty()) {
       slot = static_cast<std::uint32_t>(entries_.size());
-      entries_.emplace_back();
+      append_little(entries_, {});
     } else {
       slot = free_.back();
       free_.pop_back();
@@ -201,6 +222,7 @@ class CertificateTable : public FailureSource {
   std::vector<Birth> births_;
   std::vector<Failure> failures_;
   std::size_t waiting_count_ = 0;
+  std::vector<Settled> settled_;  // of many
   std::uint64_t created_in_step_ = 0;
 };
 

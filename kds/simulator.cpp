@@ -25,13 +25,33 @@ void Simulator::build() {
 }
 
 void Simulator::run_step(bool last) {
+  enter_step();
+  leave_step(last);
+}
+
+void Simulator::enter_step() {
   begin_step();
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     watch_.charge(s + 1);
     structures_[s]->start_step();
   }
   settle();
-  run_events();
+  watch_.charge(Stopwatch::stopped);
+}
+
+void Simulator::run_until(const Dyadic& time) {
+  ExactTime stop(time);
+  if (ExactTime::compare(stop, now_.exact()) < 0 || !(time < Dyadic(1.0)))
+    throw std::invalid_argument(fmt::format("a run until u = {}: expected a time from {} on, before 1",
+                                            time.rational().str(), now_.lower()));
+  run_events(&time);
+  now_ = Instant(time);
+  ++moment_;
+  watch_.charge(Stopwatch::stopped);
+}
+
+void Simulator::leave_step(bool last) {
+  run_events(nullptr);
   finish_step(last);
 }
 
@@ -78,7 +98,7 @@ void Simulator::replay_step(std::span<const Replayed> events, bool last) {
   finish_step(last);
 }
 
-void Simulator::run_events() {
+void Simulator::run_events(const Dyadic* until) {
   const bool alone = structures_.size() == 1;  // then the engine's time is the structure's
   watch_.charge(alone ? 1 : nobody);
   while (true) {
@@ -87,7 +107,7 @@ void Simulator::run_events() {
         present_.source != nullptr && !queue_.empty() && order_.compare_times(present_, queue_.top()) == 0;
     if (!tied) ++moment_;
     retire_present();
-    if (queue_.empty()) return;
+    if (queue_.empty() || (until != nullptr && is_after(queue_.top(), *until))) break;
     present_ = queue_.top();
     queue_.pop();
     auto& source = static_cast<FailureSource&>(*present_.source);
@@ -96,6 +116,14 @@ void Simulator::run_events() {
     source.fail(present_.slot);
     if (!alone) watch_.charge(nobody);
   }
+}
+
+bool Simulator::is_after(const ScheduledFailure& failure, const Dyadic& time) {
+  if (failure.time.lower > time.round_up()) return true;
+  if (failure.time.upper < time.round_down()) return false;
+  ExactTime failing = exact_time(failure.source->exact_function(failure.slot), failure.time);
+  ExactTime limit(time);
+  return ExactTime::compare(limit, failing) < 0;
 }
 
 // Nothing more happens at the present time: structures settle, and between two times they can be audited.

@@ -44,6 +44,12 @@ class Simulator {
   void build();
   /// Runs [0,1) of the motion's present step, the simulator's next, and reaches its end.
   void run_step(bool last);
+  /// The same in parts, for what is done to structures while time runs: enters the step, runs to some times,
+  /// ascending, and leaves. At each of them all that happens until then, or right then, has happened, and the
+  /// structures are settled. Throws std::invalid_argument where a time is not in [now, 1).
+  void enter_step();
+  void run_until(const Dyadic& time);
+  void leave_step(bool last);
 
   /// A logged event, to be made again; `where` names it in messages.
   struct Replayed {
@@ -78,7 +84,9 @@ class Simulator {
 
   void begin_step();
   void finish_step(bool last);
-  void run_events();
+  /// Those until a time, or all of the step.
+  void run_events(const Dyadic* until);
+  [[nodiscard]] static bool is_after(const ScheduledFailure& failure, const Dyadic& time);
   void advance(ScheduledFailure* next);
   void retire_present();
   void settle();

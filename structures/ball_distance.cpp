@@ -1,6 +1,7 @@
 #include "structures/ball_distance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "motions/exact_number.h"
@@ -54,6 +55,42 @@ int compare_lengths(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double f
   }
   const Rational exact_factor(factor);
   return sign_of(square_in_rationals(a, b) * exact_factor * exact_factor - square_in_rationals(c, d));
+}
+
+namespace {
+
+// The sign of e - f sqrt(q), q not negative.
+int sign_of_difference(const Rational& e, const Rational& f, const Rational& q) {
+  const int s = sign_of(e), t = sign_of(f) * sign_of(q);
+  if (s != t || s == 0) return s > t ? 1 : s < t ? -1 : 0;
+  return s * sign_of(e * e - f * f * q);
+}
+
+}  // namespace
+
+int compare_gaps(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const ExactSum& r,
+                 const Eigen::Vector3d& c, const Eigen::Vector3d& d, const ExactSum& s) {
+  const double first = std::sqrt(square_in_double(a, b)), second = std::sqrt(square_in_double(c, d));
+  const double reach = r.first + r.second, other_reach = s.first + s.second;
+  const double sizes = (first + std::abs(reach)) + (second + std::abs(other_reach));
+  // Each of the four is off by less than 2^-50 of itself, or by less than 2^-500 where squares underflow.
+  const double difference = (first - reach) - (second - other_reach);
+  if (sizes <= 0x1p500 && std::abs(difference) > 0x1p-48 * sizes + 0x1p-490) return difference > 0 ? 1 : -1;
+  // The sign of sqrt(p) - (sqrt(q) + u).
+  const Rational p = square_in_rationals(a, b), q = square_in_rationals(c, d);
+  const Rational u = Rational(r.first) + Rational(r.second) - Rational(s.first) - Rational(s.second);
+  const int right = sign_of_difference(u, Rational(-1), q);
+  if (right < 0) return 1;
+  return sign_of_difference(p - q - u * u, 2 * u, q);
+}
+
+int compare_powers(const Eigen::Vector3d& x, const Eigen::Vector3d& a, double v, const Eigen::Vector3d& b,
+                   double w) {
+  const double first = square_in_double(x, a), second = square_in_double(x, b);
+  const double sizes = (first + std::abs(v)) + (second + std::abs(w));
+  const double difference = (first - v) - (second - w);
+  if (sizes <= 0x1p1000 && std::abs(difference) > 0x1p-48 * sizes + 0x1p-990) return difference > 0 ? 1 : -1;
+  return sign_of(square_in_rationals(x, a) - Rational(v) - square_in_rationals(x, b) + Rational(w));
 }
 
 int compare_products(double x, double factor, double y) {

@@ -12,6 +12,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
+#include <utility>
 #include <vector>
 
 #include "structures/regular_triangulation.h"
@@ -39,9 +40,16 @@ struct CgalTriangulation<Geometry, 2> {
   }
   static auto all_cells(const Type& t) { return t.all_face_handles(); }
   static auto finite_cells(const Type& t) { return t.finite_face_handles(); }
+  static auto ends(const typename Type::Edge& e) {
+    return std::pair(e.first->vertex(Type::cw(e.second)), e.first->vertex(Type::ccw(e.second)));
+  }
   template <class Tds>
   static Cell create_cell(Tds& tds) {
     return tds.create_face();
+  }
+  template <class Tds>
+  static void delete_cell(Tds& tds, Cell c) {
+    tds.delete_face(c);
   }
   template <class VertexHandle>
   static void set_cell(VertexHandle v, Cell c) {
@@ -71,9 +79,16 @@ struct CgalTriangulation<Geometry, 3> {
   }
   static auto all_cells(const Type& t) { return t.all_cell_handles(); }
   static auto finite_cells(const Type& t) { return t.finite_cell_handles(); }
+  static auto ends(const typename Type::Edge& e) {
+    return std::pair(e.first->vertex(e.second), e.first->vertex(e.third));
+  }
   template <class Tds>
   static Cell create_cell(Tds& tds) {
     return tds.create_cell();
+  }
+  template <class Tds>
+  static void delete_cell(Tds& tds, Cell c) {
+    tds.delete_cell(c);
   }
   template <class VertexHandle>
   static void set_cell(VertexHandle v, Cell c) {

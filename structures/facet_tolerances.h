@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "certificates/tolerance.h"
+#include "motions/grow_little.h"
 #include "motions/wandering.h"
 #include "structures/facet_certificate.h"
 
@@ -46,7 +47,7 @@ class FacetTolerances {
   /// The facet, as this cell has it, has got other beads.
   void forget(CellId cell, int i) {
     if (!wandering_.has_reference()) return;
-    if (cell >= tolerances_.size()) tolerances_.resize(cell + 1);
+    grow_little(tolerances_, cell + 1);
     tolerances_[cell][static_cast<std::size_t>(i)] = 0;
   }
   void forget_all() {
@@ -67,7 +68,7 @@ class FacetTolerances {
     wandering_.look_at(motion);
     const auto strays = wandering_.strays();
     farthest_ = *std::max_element(strays.begin(), strays.end());
-    tolerances_.resize(cells_.size());
+    grow_little(tolerances_, cells_.size());
     strays_.assign(cells_.size(), unknown);
     std::size_t looked_at = 0, resting = 0;
     for_sample(triangulation, [&](CellId cell, int i) {

@@ -5,10 +5,12 @@
 //   power_diagram_facets.h    which certificate guards a facet
 //   power_diagram_flips.h     what happens when one fails
 //   power_diagram_hidden.h    hidden beads: how they are guarded, come back and vanish
+//   power_diagram_edits.h     beads that come, go and change course while time runs
 //   power_diagram_rebuilds.h  where flips do not suffice, audits
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -18,8 +20,10 @@
 #include <vector>
 
 #include "kds/certificate_table.h"
+#include "motions/grow_little.h"
 #include "motions/input_error.h"
 #include "motions/positions.h"
+#include "structures/diagram_edges.h"
 #include "structures/facet_certificate.h"
 #include "structures/facet_tolerances.h"
 #include "structures/hidden_beads.h"
@@ -54,26 +58,40 @@ class PowerDiagram final : public KineticStructure {
     shows,
     wanders,
     rebuild,
+    // Edits: all their cells that go and that come, then what it was.
+    clears,
+    fills,
+    inserts,
+    erases,
+    changes,
   };
 
   [[nodiscard]] std::string_view name() const override { return "power"; }
   /// Ids of a flip: those of the face that goes, then those of the face that comes, in space the triangle
   /// first; each ascending. Where a bead vanishes or comes back: those of the one cell, ascending, then the
   /// bead. Where one wanders: itself, then its host's, ascending. Ids of a rebuild: its time numerator /
-  /// 2^exponent as exponent, then 32-bit words of the numerator, lowest first.
+  /// 2^exponent as exponent, then 32-bit words of the numerator, lowest first. Ids of a cell that an edit
+  /// clears: ascending; of one that fills its place, positively oriented: ascending but for the last two
+  /// perhaps. Of an insert, erase or change: the bead.
   [[nodiscard]] std::span<const EventKind> kinds() const override {
     static constexpr EventKind wander{"wander", false};
     static constexpr EventKind rebuilt{"rebuild", false, true};
-    static constexpr std::array<EventKind, 6> in_space{{{"2-3"}, {"3-2"}, {"4-1"}, {"1-4"}, wander, rebuilt}};
-    static constexpr std::array<EventKind, 5> in_plane{{{"2-2"}, {"3-1"}, {"1-3"}, wander, rebuilt}};
+    static constexpr EventKind clear{"clear", false, true}, fill{"fill", false, true};
+    static constexpr EventKind insert{"insert", false, true}, erase{"erase", false, true},
+        change{"change", false, true};
+    static constexpr std::array<EventKind, 11> in_space{
+        {{"2-3"}, {"3-2"}, {"4-1"}, {"1-4"}, wander, rebuilt, clear, fill, insert, erase, change}};
+    static constexpr std::array<EventKind, 10> in_plane{
+        {{"2-2"}, {"3-1"}, {"1-3"}, wander, rebuilt, clear, fill, insert, erase, change}};
     if constexpr (dimension == 3) return in_space;
     return in_plane;
   }
 
   void build() override {
-    if (motion_.bead_count() <= dimension) {
+    const std::size_t beads = motion_.bead_count() - absent_count_;
+    if (beads <= dimension) {
       throw InputError("the power diagram needs at least " + std::to_string(dimension + 1) +
-                       " beads, the input has " + std::to_string(motion_.bead_count()));
+                       " beads, the input has " + std::to_string(beads));
     }
     build_from_control_points(0);
   }
@@ -90,12 +108,14 @@ class PowerDiagram final : public KineticStructure {
       watch_all();
     }
     flat_ = false;
+    within_step_ = true;
     count_certificates_per_bead();
   }
 
   void fail(unsigned table, std::uint32_t slot) override;
   void settle() override;
   void finish_step(bool last) override {
+    within_step_ = false;
     triangulation_.set_points(control_points(motion_, M::degree), control_weights(motion_, M::degree));
     const int least = triangulation_.least_orientation();
     if (least < 0 && !std::same_as<K, Fast>)
@@ -116,9 +136,36 @@ class PowerDiagram final : public KineticStructure {
   [[nodiscard]] StaticTriangulation<dimension> at_frame(bool first) const {
     if (!flat_ && affine_dimension_ == dimension)
       return {triangulation_.finite_cells(), hidden_.beads(), dimension};
-    const int k = first ? 0 : M::degree;
-    return static_triangulation<dimension>(control_points(motion_, k), control_weights(motion_, k));
+    return static_at_end(first ? 0 : M::degree);
   }
+
+  /// Its edges there, of all beads, none being absent: what closest_pair (closest_pair.h) asks for.
+  [[nodiscard]] DiagramEdges edges_at_frame(bool first) const {
+    if (affine_dimension_ == dimension)
+      return edges_of(triangulation_, motion_.bead_count(), hidden_.beads());
+    const int k = first ? 0 : M::degree;
+    return static_edges<dimension>(control_points(motion_, k), control_weights(motion_, k));
+  }
+
+  // Edits, within a step while the simulator stands still between events (Simulator::run_until): afterwards
+  // the diagram is the one of the beads then present, just after that time. Cost: the beads around, and the
+  // way to them. Where ties decide how cells lie, the diagram is built anew instead, and the rebuild counted.
+  // Bad calls are refused by std::invalid_argument, and nothing is changed; if all beads left stay in one
+  // plane (on one line), InputError. Other structures on the same motion are not told.
+
+  /// Before it is built: the bead does not take part until it is inserted. Its curve may be anything finite.
+  void leave_out(BeadId bead);
+  /// The bead takes part from now on, on the curve that the motion has. It is looked for from `near`, if
+  /// given.
+  void insert(BeadId bead, BeadId near = no_bead);
+  /// It does not any more.
+  void erase(BeadId bead);
+  /// The bead goes on along the curve that `set_curve()` gives it in the motion; where it jumps now it is
+  /// erased and inserted. That of beads absent can be set at any time. A log does not hold curves: a replay
+  /// must follow the same motion.
+  template <std::invocable SetCurve>
+  void change_motion(BeadId bead, SetCurve set_curve);
+  [[nodiscard]] bool is_absent(BeadId bead) const { return bead < absent_.size() && absent_[bead] != 0; }
 
  private:
   /// In general position an event changes one flip's beads and nothing else. Where more happens at once, or a
@@ -148,7 +195,15 @@ class PowerDiagram final : public KineticStructure {
   // Building.
 
   void build_from_control_points(int k);
-  [[nodiscard]] StaticTriangulation<dimension> exact_static(const Dyadic& time, bool oriented) const;
+  [[nodiscard]] std::vector<BeadId> beads_present() const;
+  /// Of some beads, ascending.
+  [[nodiscard]] StaticTriangulation<dimension> exact_static(std::span<const BeadId> beads, const Dyadic& time,
+                                                            bool oriented) const;
+  [[nodiscard]] StaticTriangulation<dimension> exact_static(const Dyadic& time, bool oriented) const {
+    return exact_static(beads_present(), time, oriented);
+  }
+  /// From the k-th control points, an end of the step.
+  [[nodiscard]] StaticTriangulation<dimension> static_at_end(int k) const;
   /// The static diagram at `time`; false, and nothing changed, where it is flat.
   bool assign_static(const Dyadic& time);
   /// Rebuilds at the first time on ever finer grids after now before which nothing fails.
@@ -244,6 +299,33 @@ class PowerDiagram final : public KineticStructure {
     return change;
   }
 
+  // Edits.
+
+  void require_edit(BeadId bead, bool present) const;
+  [[nodiscard]] Dyadic time_of_edit() const;
+  void set_absent(BeadId bead, bool absent);
+  void put_in(BeadId bead, CellId from);
+  void take_out(BeadId bead, std::span<const CellId> hole, const Dyadic& time);
+  void take_out_hidden(BeadId bead);
+  [[nodiscard]] CellId cell_near(BeadId near) const;
+  [[nodiscard]] CellId walk_to(BeadId bead, CellId cell, int came_from = -1);
+  template <class Function>
+  [[nodiscard]] int sign_after_edit(const Function& function) {
+    return sign_just_after<K>(function, motion_, simulator_.now(), statistics.stages);
+  }
+  [[nodiscard]] int power_against(BeadId bead, CellId cell);
+  [[nodiscard]] std::vector<CellId> cells_in_conflict(BeadId bead, CellId start, bool zero_too);
+  [[nodiscard]] std::vector<Beads> star_in_place_of(std::span<const CellId> hole, BeadId bead) const;
+  [[nodiscard]] std::vector<Beads> fill_of(std::span<const CellId> hole, BeadId bead,
+                                           std::vector<BeadId> beads, const Dyadic& time) const;
+  [[nodiscard]] bool can_fill(std::span<const CellId> hole, std::span<const Beads> made);
+  void drop_around(std::span<const CellId> cells);
+  void fill(std::span<const CellId> hole, std::span<const Beads> made);
+  void finish_edit(Kind kind, BeadId bead);
+  void rebuild_after_edit(Kind kind, BeadId bead);
+  [[nodiscard]] std::vector<CellId> exchange_cells(std::span<const CellId> hole, std::span<const Beads> made);
+  void apply_edit(const Change& change);
+
   // Flips.
 
   /// The certificate that fails now.
@@ -266,8 +348,7 @@ class PowerDiagram final : public KineticStructure {
     return std::same_as<K, Fast> || doubt_ != Doubt::none ||
            present_.type == static_cast<std::uint32_t>(CertificateType::orientation);
   }
-  template <std::size_t N>
-  void watch_around(const std::array<CellId, N>& cells);
+  void watch_around(std::span<const CellId> cells);
 
   Simulator& simulator_;
   const M& motion_;
@@ -286,6 +367,12 @@ class PowerDiagram final : public KineticStructure {
   bool flat_ = false;                 // some cell is flat at the frame just reached
   int rebuilds_in_step_ = 0;
   Doubt doubt_ = Doubt::none;
+  std::vector<char> absent_;  // of each bead, if any was ever left out
+  std::size_t absent_count_ = 0;
+  bool within_step_ = false;
+  // Replay: cells that the edit being read clears and fills.
+  std::vector<CellId> cleared_;
+  std::vector<Beads> filled_;
   Identity present_;  // of the certificate that fails now
   Identity last_identity_;
   std::uint64_t last_moment_ = 0;
@@ -293,6 +380,7 @@ class PowerDiagram final : public KineticStructure {
 
 }  // namespace kds
 
+#include "structures/power_diagram_edits.h"
 #include "structures/power_diagram_facets.h"
 #include "structures/power_diagram_flips.h"
 #include "structures/power_diagram_hidden.h"

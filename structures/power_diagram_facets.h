@@ -8,7 +8,7 @@ namespace kds {
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::enqueue(CellId cell, int i) {
   with_facet_certificate(triangulation_.cells()[cell].vertex, apex(cell, i), [&](const auto& certificate) {
-    table_of(certificate).enqueue(certificate, facet_id(cell, i), birth_of(certificate));
+    table_of(certificate).enqueue_one_of_many(certificate, facet_id(cell, i), birth_of(certificate));
   });
 }
 
@@ -93,9 +93,8 @@ void PowerDiagram<M, K>::drop(CellId cell, int i) {
 
 /// Guards all facets of the new cells.
 template <Motion M, Kernel K>
-template <std::size_t N>
-void PowerDiagram<M, K>::watch_around(const std::array<CellId, N>& cells) {
-  for (std::size_t c = 0; c < N; ++c) {
+void PowerDiagram<M, K>::watch_around(std::span<const CellId> cells) {
+  for (std::size_t c = 0; c < cells.size(); ++c) {
     for (int i = 0; i <= dimension; ++i) {
       // A facet between two new cells is met twice.
       const auto before = cells.begin() + static_cast<std::ptrdiff_t>(c);

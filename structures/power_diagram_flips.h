@@ -131,7 +131,7 @@ void PowerDiagram<M, K>::flip_to_edge(CellId cell, int facet) {
     if (neighbor(other, i) != cell) drop(other, i);
   }
   const auto made = triangulation_.flip_facet(cell, facet);
-  guards_.resize(triangulation_.cells().size());
+  grow_little(guards_, triangulation_.cells().size());
   simulator_.record(index_, change);
   watch_around(made);
   rehouse(made[0]);
@@ -179,6 +179,7 @@ void PowerDiagram<M, K>::flip_to_facet(CellId cell, int facet, int other_vertex)
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::apply(const Change& change) {
   if (change.kind == rebuild) return apply_rebuild(change);
+  if (change.kind > rebuild) return apply_edit(change);
   if (change.size != dimension + 2) throw std::invalid_argument("a flip has other numbers of beads");
   for (std::size_t i = 0; i < change.size; ++i) {
     if (change.ids[i] >= bead_count() && change.ids[i] != infinite_bead)

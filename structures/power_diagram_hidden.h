@@ -47,16 +47,17 @@ void PowerDiagram<M, K>::wander(BeadId bead, int facet) {
   watch_enqueued();
 }
 
-/// The host of a bead just after now, on a walk from some cell, on which it came through a facet; no_cell
-/// where none is found, since the bead is outside the hull or signs contradict each other.
+/// The cell in which a bead is just after now, an infinite one where it is outside the hull, on a walk from
+/// some cell, on which it came through a facet; no_cell where signs contradict each other.
 template <Motion M, Kernel K>
-CellId PowerDiagram<M, K>::find_host(BeadId bead, CellId cell, int came_from) {
+CellId PowerDiagram<M, K>::walk_to(BeadId bead, CellId cell, int came_from) {
   if (is_infinite(cell)) {
     cell = neighbor(cell, place_of(cell, infinite_bead));
     came_from = -1;
   }
   const std::size_t most_steps = triangulation_.cells().size();
-  for (std::size_t step = 0; step <= most_steps && !is_infinite(cell); ++step) {
+  for (std::size_t step = 0; step <= most_steps; ++step) {
+    if (is_infinite(cell)) return cell;
     const Beads& v = triangulation_.cells()[cell].vertex;
     int leaves_by = -1;
     for (int i = 0; i <= dimension && leaves_by < 0; ++i) {
@@ -70,18 +71,25 @@ CellId PowerDiagram<M, K>::find_host(BeadId bead, CellId cell, int came_from) {
   return no_cell;
 }
 
+/// The host of a bead just after now; no_cell where none is found.
+template <Motion M, Kernel K>
+CellId PowerDiagram<M, K>::find_host(BeadId bead, CellId cell, int came_from) {
+  const CellId at = walk_to(bead, cell, came_from);
+  return at == no_cell || is_infinite(at) ? no_cell : at;
+}
+
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::enqueue_hidden(BeadId bead) {
   const Beads& v = triangulation_.cells()[hidden_.host(bead)].vertex;
   for (int i = 0; i <= dimension; ++i) {
     const Orientation<dimension> inside(with(v, i, bead), 1);
-    departures_.enqueue(inside, facet_id(bead, i), birth_of(inside));
+    departures_.enqueue_one_of_many(inside, facet_id(bead, i), birth_of(inside));
   }
   std::array<BeadId, dimension + 2> beads{};
   std::copy(v.begin(), v.end(), beads.begin());
   beads.back() = bead;
   const PowerTest<dimension> above(beads, 1);
-  appearances_.enqueue(above, bead, birth_of(above));
+  appearances_.enqueue_one_of_many(above, bead, birth_of(above));
 }
 
 template <Motion M, Kernel K>
@@ -163,7 +171,7 @@ void PowerDiagram<M, K>::show(BeadId bead, CellId cell) {
   displace(std::array{cell});
   for (int i = 0; i <= dimension; ++i) drop(cell, i);
   const auto made = triangulation_.flip_in(cell, bead);
-  guards_.resize(triangulation_.cells().size());
+  grow_little(guards_, triangulation_.cells().size());
   simulator_.record(index_, change_of(shows, v, bead));
   watch_around(made);
   rehouse(cell);

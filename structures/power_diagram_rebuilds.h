@@ -9,6 +9,17 @@
 
 namespace kds {
 
+/// The triangulation of some beads, which it numbers from 0, with their own names.
+template <int Dimension>
+[[nodiscard]] StaticTriangulation<Dimension> with_names(StaticTriangulation<Dimension> triangulation,
+                                                        std::span<const BeadId> beads) {
+  for (auto& cell : triangulation.cells) {
+    for (BeadId& b : cell) b = b == infinite_bead ? b : beads[b];
+  }
+  for (BeadId& b : triangulation.hidden) b = beads[b];
+  return triangulation;
+}
+
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::settle() {
   const bool wrong = doubt_ == Doubt::wrong || is_wrong_just_after();
@@ -24,17 +35,25 @@ void PowerDiagram<M, K>::settle() {
 template <Motion M, Kernel K>
 bool PowerDiagram<M, K>::is_wrong_just_after() {
   if constexpr (std::same_as<K, Fast>) return false;
-  return triangulation_fault(triangulation_, bead_count(), hidden_.with_hosts(), false,
-                             [this](const auto& function) {
-                               return sign_just_after<K>(function, motion_, simulator_.now(),
-                                                         statistics.stages);
-                             })
+  return triangulation_fault(
+             triangulation_, bead_count(), hidden_.with_hosts(), false,
+             [this](const auto& function) {
+               return sign_just_after<K>(function, motion_, simulator_.now(), statistics.stages);
+             },
+             absent_)
       .has_value();
 }
 
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::build_from_control_points(int k) {
-  const auto built = triangulation_.build(control_points(motion_, k), control_weights(motion_, k));
+  StaticTriangulation<dimension> built;
+  if (absent_count_ == 0) {
+    built = triangulation_.build(control_points(motion_, k), control_weights(motion_, k));
+  } else {
+    built = exact_static(Dyadic(k == 0 ? 0.0 : 1.0), true);
+    triangulation_.assign(motion_.bead_count(), built.cells);
+    triangulation_.set_points(control_points(motion_, k), control_weights(motion_, k));
+  }
   tolerances_.forget_all();
   hidden_.assign(motion_.bead_count(), built.hidden);
   affine_dimension_ = built.dimension;
@@ -42,15 +61,39 @@ void PowerDiagram<M, K>::build_from_control_points(int k) {
 }
 
 template <Motion M, Kernel K>
-auto PowerDiagram<M, K>::exact_static(const Dyadic& time, bool oriented) const
-    -> StaticTriangulation<dimension> {
-  std::vector<ExactBead> beads(motion_.bead_count());
-  for (BeadId b = 0; b < beads.size(); ++b) {
-    const auto position = exact_position(motion_, b, time);
-    std::copy(position.begin(), position.end() - 1, beads[b].center.begin());
-    beads[b].weight = position.back();
+std::vector<BeadId> PowerDiagram<M, K>::beads_present() const {
+  std::vector<BeadId> beads;
+  beads.reserve(motion_.bead_count() - absent_count_);
+  for (BeadId b = 0; b < motion_.bead_count(); ++b) {
+    if (!is_absent(b)) beads.push_back(b);
   }
-  return static_triangulation<dimension>(beads, oriented);
+  return beads;
+}
+
+template <Motion M, Kernel K>
+auto PowerDiagram<M, K>::exact_static(std::span<const BeadId> beads, const Dyadic& time, bool oriented) const
+    -> StaticTriangulation<dimension> {
+  std::vector<ExactBead> positions(beads.size());
+  for (std::size_t i = 0; i < beads.size(); ++i) {
+    const auto position = exact_position(motion_, beads[i], time);
+    std::copy(position.begin(), position.end() - 1, positions[i].center.begin());
+    positions[i].weight = position.back();
+  }
+  return with_names(static_triangulation<dimension>(positions, oriented), beads);
+}
+
+template <Motion M, Kernel K>
+auto PowerDiagram<M, K>::static_at_end(int k) const -> StaticTriangulation<dimension> {
+  Eigen::Matrix3Xd points = control_points(motion_, k);
+  std::vector<double> weights = control_weights(motion_, k);
+  const std::vector<BeadId> beads = beads_present();
+  for (std::size_t i = 0; i < beads.size(); ++i) {  // each moves to the front
+    points.col(static_cast<Eigen::Index>(i)) = points.col(Eigen::Index{beads[i]});
+    weights[i] = weights[beads[i]];
+  }
+  points.conservativeResize(3, static_cast<Eigen::Index>(beads.size()));
+  weights.resize(beads.size());
+  return with_names(static_triangulation<dimension>(points, weights), beads);
 }
 
 template <Motion M, Kernel K>
@@ -169,8 +212,7 @@ std::optional<std::string> PowerDiagram<M, K>::audit(const Dyadic& time) {
     return std::nullopt;  // at a frame only, where the answer is CGAL's (at_frame)
   if ((start || end) && !flat_) {
     const int k = start ? 0 : M::degree;
-    const auto built =
-        static_triangulation<dimension>(control_points(motion_, k), control_weights(motion_, k));
+    const auto built = static_at_end(k);
     if (triangulation_.is_valid() && built.cells == triangulation_.finite_cells() &&
         built.hidden == hidden_.beads())
       return std::nullopt;
@@ -182,10 +224,12 @@ std::optional<std::string> PowerDiagram<M, K>::audit(const Dyadic& time) {
   // events what is zero at this very moment only is judged by its sign just after.
   const bool frame = start || end;
   return triangulation_fault(
-      triangulation_, bead_count(), hidden_.with_hosts(), flat_, [&](const auto& function) {
+      triangulation_, bead_count(), hidden_.with_hosts(), flat_,
+      [&](const auto& function) {
         const int sign = function_of(function, MomentView<M>(motion_, function.beads, time)).scaled[0].sign();
         return sign != 0 || frame ? sign : exact_function(function, motion_).sign_after(time);
-      });
+      },
+      absent_);
 }
 
 }  // namespace kds

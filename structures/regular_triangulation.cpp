@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <stdexcept>
 
+#include "certificates/sorted_beads.h"
+#include "motions/grow_little.h"
 #include "structures/cgal_triangulations.h"
+#include "structures/diagram_edges.h"
 
 namespace kds {
 
@@ -56,6 +60,20 @@ StaticTriangulation<Dimension> static_triangulation(const Eigen::Matrix3Xd& cent
 }
 
 template <int Dimension>
+DiagramEdges static_edges(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  typename CgalOf<Dimension>::Type triangulation;
+  insert_all<Dimension>(triangulation, centers, weights);
+  std::vector<BeadPairs::Pair> pairs;
+  if (triangulation.dimension() >= 1) {
+    for (const auto& edge : triangulation.finite_edges()) {
+      const auto [a, b] = CgalOf<Dimension>::ends(edge);
+      pairs.emplace_back(a->info(), b->info());
+    }
+  }
+  return {BeadPairs(weights.size(), pairs), hidden_beads(triangulation, weights.size())};
+}
+
+template <int Dimension>
 double seconds_to_triangulate(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
   std::vector<typename CgalOf<Dimension>::Type::Weighted_point> points;
   points.reserve(weights.size());
@@ -95,7 +113,7 @@ struct RegularTriangulation<Dimension>::Cgal {
   CellId new_id(CellHandle c) {
     if (free.empty()) {
       c->info() = static_cast<CellId>(cell.size());
-      cell.push_back(c);
+      append_little(cell, c);
     } else {
       c->info() = free.back();
       free.pop_back();
@@ -216,8 +234,8 @@ void RegularTriangulation<Dimension>::set_points(const Eigen::Matrix3Xd& centers
 template <int Dimension>
 void RegularTriangulation<Dimension>::enliven(CellId id) {
   if (id == cells_.size()) {
-    cells_.emplace_back();
-    live_.push_back(0);
+    append_little(cells_, {});
+    append_little(live_, char{0});
   }
   live_[id] = 1;
 }
@@ -313,13 +331,142 @@ CellId RegularTriangulation<Dimension>::flip_out(CellId cell, int i) {
 }
 
 template <int Dimension>
+std::vector<CellId> RegularTriangulation<Dimension>::cells_around(BeadId bead) const {
+  std::vector<CellId> cells;
+  std::vector<typename Cgal::CellHandle> handles;
+  const auto v = cgal_->handle(bead);
+  if constexpr (Dimension == 2) {
+    auto c = cgal_->triangulation.incident_faces(v);
+    const auto first = c;
+    do cells.push_back(c->info());
+    while (++c != first);
+  } else {
+    cgal_->triangulation.tds().incident_cells(v, std::back_inserter(handles));
+    for (const auto c : handles) cells.push_back(c->info());
+  }
+  return cells;
+}
+
+template <int Dimension>
+auto RegularTriangulation<Dimension>::meetings(std::span<const CellId> old, std::span<const Beads> made) const
+    -> std::optional<std::vector<Meeting>> {
+  struct Side {
+    std::array<BeadId, Dimension> beads;
+    FacetId facet;
+    bool stays;
+    bool even;  // of two cells that meet only one
+  };
+  std::vector<Side> sides;
+  const auto add = [&sides](const Beads& v, int i, FacetId facet, bool stays) {
+    Side side{{}, facet, stays, (Dimension - i) % 2 == 0};
+    for (int j = 0, k = 0; j <= Dimension; ++j) {
+      if (j != i) side.beads[static_cast<std::size_t>(k++)] = v[static_cast<std::size_t>(j)];
+    }
+    if (sort_beads(side.beads) < 0) side.even = !side.even;
+    sides.push_back(side);
+  };
+  std::vector<CellId> gone(old.begin(), old.end());
+  std::sort(gone.begin(), gone.end());
+  if (std::adjacent_find(gone.begin(), gone.end()) != gone.end()) return std::nullopt;
+  std::vector<BeadId> corners;
+  for (const CellId c : old) {
+    corners.insert(corners.end(), cells_[c].vertex.begin(), cells_[c].vertex.end());
+    for (int i = 0; i <= Dimension; ++i) {
+      const FacetId there = beyond(c, i);
+      if (!std::binary_search(gone.begin(), gone.end(), cell_of(there)))
+        add(cells_[cell_of(there)].vertex, index_of(there), there, true);
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  for (std::size_t m = 0; m < made.size(); ++m) {
+    for (const BeadId b : made[m]) {
+      if (std::count(made[m].begin(), made[m].end(), b) != 1) return std::nullopt;
+      if (is_vertex(b) && !std::binary_search(corners.begin(), corners.end(), b)) return std::nullopt;
+    }
+    for (int i = 0; i <= Dimension; ++i) add(made[m], i, facet_id(static_cast<CellId>(m), i), false);
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return a.beads != b.beads ? a.beads < b.beads : a.stays < b.stays;
+  });
+  std::vector<Meeting> result;
+  if (sides.size() % 2 != 0) return std::nullopt;
+  for (std::size_t s = 0; s < sides.size(); s += 2) {
+    const Side& a = sides[s];
+    const Side& b = sides[s + 1];
+    if (a.beads != b.beads || a.even == b.even || a.stays) return std::nullopt;
+    if (s + 2 < sides.size() && sides[s + 2].beads == a.beads) return std::nullopt;
+    result.push_back({a.facet, b.facet, b.stays});
+  }
+  return result;
+}
+
+template <int Dimension>
+bool RegularTriangulation<Dimension>::fits(std::span<const CellId> old,
+                                           std::span<const Beads> oriented_cells) const {
+  return !oriented_cells.empty() && meetings(old, oriented_cells).has_value();
+}
+
+template <int Dimension>
+std::vector<CellId> RegularTriangulation<Dimension>::replace(std::span<const CellId> old,
+                                                             std::span<const Beads> oriented_cells) {
+  using Types = typename Cgal::Types;
+  const auto meeting = meetings(old, oriented_cells);
+  if (!meeting || oriented_cells.empty()) throw std::logic_error("the cells to put in do not fit");
+  auto& tds = cgal_->triangulation.tds();
+  std::vector<BeadId> kept;
+  for (const Beads& beads : oriented_cells) kept.insert(kept.end(), beads.begin(), beads.end());
+  std::sort(kept.begin(), kept.end());
+  std::vector<BeadId> left;  // vertices that have no cell any more
+  for (const CellId c : old) {
+    std::copy_if(cells_[c].vertex.begin(), cells_[c].vertex.end(), std::back_inserter(left),
+                 [&](BeadId b) { return !std::binary_search(kept.begin(), kept.end(), b); });
+  }
+  std::sort(left.begin(), left.end());
+  left.erase(std::unique(left.begin(), left.end()), left.end());
+  std::vector<CellId> ids;
+  std::vector<typename Cgal::CellHandle> made;
+  for (const Beads& beads : oriented_cells) {
+    const auto c = Types::create_cell(tds);
+    for (int i = 0; i <= Dimension; ++i) {
+      const BeadId b = beads[static_cast<std::size_t>(i)];
+      const auto v = b == infinite_bead ? cgal_->triangulation.infinite_vertex() : cgal_->vertex_of(b);
+      c->set_vertex(i, v);
+      Types::set_cell(v, c);
+    }
+    made.push_back(c);
+  }
+  for (const Meeting& m : *meeting) {
+    const auto a = made[cell_of(m.first)];
+    const auto b = m.second_stays ? cgal_->cell[cell_of(m.second)] : made[cell_of(m.second)];
+    a->set_neighbor(index_of(m.first), b);
+    b->set_neighbor(index_of(m.second), a);
+  }
+  for (const CellId c : old) {
+    Types::delete_cell(tds, cgal_->cell[c]);
+    cgal_->free.push_back(c);
+    live_[c] = 0;
+  }
+  for (const BeadId b : left) {
+    tds.delete_vertex(cgal_->vertex[b]);
+    cgal_->vertex[b] = {};
+  }
+  for (const auto c : made) {
+    ids.push_back(cgal_->new_id(c));
+    enliven(ids.back());
+  }
+  for (const auto c : made) cgal_->mirror(c, cells_);
+  return ids;
+}
+
+template <int Dimension>
 bool RegularTriangulation<Dimension>::is_vertex(BeadId bead) const {
   return cgal_->handle(bead) != typename Cgal::VertexHandle();
 }
 
 template <int Dimension>
 bool RegularTriangulation<Dimension>::is_edge(BeadId a, BeadId b) const {
-  return cgal_->triangulation.tds().is_edge(cgal_->handle(a), cgal_->handle(b));
+  return is_vertex(a) && is_vertex(b) &&
+         cgal_->triangulation.tds().is_edge(cgal_->handle(a), cgal_->handle(b));
 }
 
 template <int Dimension>
@@ -370,6 +517,8 @@ template class RegularTriangulation<2>;
 template class RegularTriangulation<3>;
 template StaticTriangulation<2> static_triangulation(const Eigen::Matrix3Xd&, std::span<const double>);
 template StaticTriangulation<3> static_triangulation(const Eigen::Matrix3Xd&, std::span<const double>);
+template DiagramEdges static_edges<2>(const Eigen::Matrix3Xd&, std::span<const double>);
+template DiagramEdges static_edges<3>(const Eigen::Matrix3Xd&, std::span<const double>);
 template double seconds_to_triangulate<2>(const Eigen::Matrix3Xd&, std::span<const double>);
 template double seconds_to_triangulate<3>(const Eigen::Matrix3Xd&, std::span<const double>);
 

@@ -105,6 +105,15 @@ class RegularTriangulation {
   /// Takes vertex i of `cell` and the cells around it, which must be a star and not border on one cell
   /// everywhere; returns the cell in their place.
   CellId flip_out(CellId cell, int i);
+  /// All cells around a vertex. Time linear in them.
+  [[nodiscard]] std::vector<CellId> cells_around(BeadId bead) const;
+  /// Whether these cells, positively oriented, fill the place of the old ones: their facets meet in pairs or
+  /// meet those that the old cells leave open, each from its side, and their beads are among those of the old
+  /// cells or no vertices.
+  [[nodiscard]] bool fits(std::span<const CellId> old, std::span<const Beads> oriented_cells) const;
+  /// Puts them there; beads that have no cell any more are no vertices. Returns them in the order given. Time
+  /// n log n in both numbers of cells. Throws std::logic_error, and nothing is changed, if they do not fit.
+  std::vector<CellId> replace(std::span<const CellId> old, std::span<const Beads> oriented_cells);
   /// Whether the beads, infinity among them, are joined by an edge or, in space, a triangle.
   [[nodiscard]] bool is_edge(BeadId a, BeadId b) const;
   [[nodiscard]] bool is_facet(BeadId a, BeadId b, BeadId c) const requires(Dimension == 3);
@@ -121,6 +130,13 @@ class RegularTriangulation {
 
  private:
   struct Cgal;
+  /// Facets that meet, as two cells have them: of the new ones by number, or of those that stay.
+  struct Meeting {
+    FacetId first, second;
+    bool second_stays;
+  };
+  [[nodiscard]] std::optional<std::vector<Meeting>> meetings(std::span<const CellId> old,
+                                                             std::span<const Beads> made) const;
   void mirror_all();
   void enliven(CellId id);
 

@@ -93,11 +93,12 @@ template <int Dimension, class Sign>
 
 /// What is wrong with the triangulation of beads 0 ... beads-1 at one moment, or nothing. `sign` gives the
 /// sign of a function of beads then; cells may be flat where `flat_cells` says so. A hidden bead whose host
-/// is not known may be in any cell.
+/// is not known may be in any cell. Beads marked in `absent` do not take part.
 template <int Dimension, class Sign>
 [[nodiscard]] std::optional<std::string> triangulation_fault(
     const RegularTriangulation<Dimension>& triangulation, BeadId beads, std::span<const HiddenBead> hidden,
-    bool flat_cells, Sign sign) {
+    bool flat_cells, Sign sign, std::span<const char> absent = {}) {
+  const auto is_absent = [&](BeadId bead) { return bead < absent.size() && absent[bead] != 0; };
   using Face = std::array<BeadId, Dimension>;
   std::vector<Face> hull;
   std::vector<char> is_vertex(beads, 0);
@@ -128,7 +129,8 @@ template <int Dimension, class Sign>
       return "bead " + std::to_string(h.bead) + " is not hidden in its cell";
   }
   for (BeadId bead = 0; bead < beads; ++bead) {
-    if (is_vertex[bead] == 0) return "bead " + std::to_string(bead) + " has no cell";
+    if (is_absent(bead) && is_vertex[bead] != 0) return "bead " + std::to_string(bead) + " should be absent";
+    if (is_vertex[bead] == 0 && !is_absent(bead)) return "bead " + std::to_string(bead) + " has no cell";
   }
   const auto side = [&](const Face& face, BeadId bead) {  // positive inside
     if (std::find(face.begin(), face.end(), bead) != face.end()) return 0;
@@ -139,7 +141,7 @@ template <int Dimension, class Sign>
   };
   for (const Face& face : hull) {
     for (BeadId bead = 0; bead < beads; ++bead) {
-      if (side(face, bead) < 0)
+      if (!is_absent(bead) && side(face, bead) < 0)
         return "bead " + std::to_string(bead) + " is outside the hull's face " + bead_names(face);
     }
   }

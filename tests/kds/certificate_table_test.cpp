@@ -246,6 +246,34 @@ TYPED_TEST(CertificateTableTest, EveryStageIsCounted) {
             19U);
 }
 
+// A few at a time or all at once: the same guards in the same order.
+TYPED_TEST(CertificateTableTest, ManyAreAsOneByOne) {
+  std::vector<std::pair<std::uint32_t, Guard>> expected, many;
+  for (const bool a_few_at_a_time : {false, true}) {
+    this->run([&] {
+      std::mt19937 random(6);
+      auto& table = this->owner.table;
+      for (int round = 0; round < 3; ++round) {
+        for (std::uint32_t place = 0; place < 1300; ++place) {
+          const auto left = static_cast<BeadId>(random() % 20);
+          const auto right = static_cast<BeadId>((left + 1 + random() % 19) % 20);
+          if (a_few_at_a_time) {
+            table.enqueue_one_of_many({{left, right}}, place, Birth::unknown);
+          } else {
+            table.enqueue({{left, right}}, place, Birth::unknown);
+          }
+        }
+        table.watch_enqueued([&](std::uint32_t place, Guard guard) {
+          (a_few_at_a_time ? many : expected).emplace_back(place, guard);
+        });
+      }
+    });
+    this->expect_sum();
+  }
+  EXPECT_EQ(expected.size(), 3900U);
+  EXPECT_EQ(many, expected);
+}
+
 // Anything at random; only the books are checked.
 TYPED_TEST(CertificateTableTest, TheBooksBalance) {
   std::mt19937 random(5);

@@ -278,6 +278,55 @@ TEST_F(SimulatorTest, OneClockForAllStructures) {
                                "a finish", "b finish"));
 }
 
+TEST_F(SimulatorTest, StandsStillWithinAStep) {
+  a.on_start = [&] {
+    a.schedule("1/4", falling(1, 4), 1, [&] { a.unsettled = true; });
+    a.schedule("1/3", falling(1, 3), 2);
+    a.schedule("3/4", falling(3, 4), 3);
+  };
+  simulator.build();
+  simulator.enter_step();
+  EXPECT_THAT(log, ElementsAre("a build", "a start"));
+  simulator.run_until(Dyadic(0.0));
+  EXPECT_THAT(log, ElementsAre("a build", "a start"));
+  log.clear();
+  simulator.run_until(Dyadic(0.25));  // what happens right then has happened, and is settled
+  EXPECT_THAT(log, ElementsAre("a 1/4", "a settle"));
+  EXPECT_EQ(simulator.now().exact().lower(), Dyadic(0.25));
+  EXPECT_TRUE(simulator.now().exact().is_dyadic());
+  const std::uint64_t moment = simulator.moment();
+  const Dyadic before_a_third(Integer((1U << 30U) / 3), 30);
+  simulator.run_until(before_a_third);
+  simulator.run_until(before_a_third);
+  EXPECT_GT(simulator.moment(), moment);
+  EXPECT_THROW(simulator.run_until(Dyadic(0.25)), std::invalid_argument);
+  EXPECT_THROW(simulator.run_until(Dyadic(1.0)), std::invalid_argument);
+  a.schedule("1/2", falling(1, 2), 4);  // from outside
+  log.clear();
+  simulator.run_until(Dyadic(0.625));
+  EXPECT_THAT(log, ElementsAre("a 1/3", "a 1/2"));
+  simulator.leave_step(true);
+  EXPECT_THAT(log, ElementsAre("a 1/3", "a 1/2", "a 3/4", "a finish last"));
+  EXPECT_EQ(a.retired, 4);
+  EXPECT_EQ(simulator.step(), 1U);
+}
+
+// What is unsettled while time stands still is settled, and looked at, before it goes on.
+TEST_F(AuditedTest, LooksAtWhatWasDoneWhileTimeStoodStill) {
+  a.on_start = [&] { a.schedule("1/2", falling(1, 2), 1); };
+  simulator.build();
+  simulator.enter_step();
+  simulator.run_until(Dyadic(0.25));
+  log.clear();
+  a.audits.clear();
+  a.unsettled = true;
+  simulator.leave_step(true);
+  EXPECT_THAT(log, ElementsAre("a settle", "a 1/2", "a finish last"));
+  ASSERT_EQ(a.audits.size(), 3U);  // before the event, after it, at the end
+  EXPECT_GT(a.audits[0], Rational(1, 4));
+  EXPECT_LT(a.audits[0], Rational(1, 2));
+}
+
 TEST_F(SimulatorTest, StepsFollowEachOther) {
   a.on_start = [&] {
     EXPECT_EQ(simulator.now().upper(), 0);

@@ -1,4 +1,5 @@
 #include "structures/power_diagram.h"
+#include "structures/closest_pair.h"
 
 #include <gmock/gmock.h>
 
@@ -102,6 +103,26 @@ TEST(PowerDiagram, AuditsPassBetweenAllEvents) {
     ASSERT_NO_THROW(rig.run()) << name;
     EXPECT_EQ(rig.structure.statistics.audits_run,
               rig.external_events() + 3);  // and before the first, and the ends
+  }
+}
+
+// The diagram that is kept up knows the closest pair at every frame.
+TEST(PowerDiagram, EdgesAtFramesHaveTheClosestPair) {
+  const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 4);
+  PowerRig<Filtered> rig(steps[0]);
+  const std::vector<double> radii(rig.motion.bead_count(), 0.5);
+  const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(radii.size() - 1)}};
+  const BeadPairs neighbors = BeadPairs::along(radii.size(), necklace);
+  rig.simulator.build();
+  for (const Space& step : steps) {
+    rig.step(step, false);
+    const Eigen::Matrix3Xd centers = control_points(step, 1);
+    const auto kept = closest_pair<3>(centers, radii, rig.structure.edges_at_frame(false), neighbors);
+    const auto built = closest_pair<3>(centers, radii, neighbors);
+    ASSERT_TRUE(kept.pair && built.pair);
+    EXPECT_EQ(kept.pair->first, built.pair->first);
+    EXPECT_EQ(kept.pair->second, built.pair->second);
+    EXPECT_EQ(kept.looked_at.edges, built.looked_at.edges);
   }
 }
 

@@ -336,6 +336,71 @@ TEST_P(RandomFlips, ForthAndBack) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomFlips, testing::Range(0U, 12U));
 
+// A bead is taken out and put back by cells, its place filled as CGAL fills it without the bead.
+TEST(RegularTriangulation, ReplacesCells) {
+  constexpr BeadId beads = 40;
+  const Cloud cloud(beads);
+  RegularTriangulation<3> triangulation;
+  static_cast<void>(triangulation.build(cloud.centers, cloud.weights));
+  const auto cells = all_cells(triangulation);
+  for (BeadId bead = 0; bead < beads; ++bead) {
+    SCOPED_TRACE(bead);
+    const std::vector<CellId> around = triangulation.cells_around(bead);
+    std::vector<CellBeads<3>> star;
+    for (const CellId c : around) star.push_back(triangulation.cells()[c].vertex);
+    EXPECT_EQ(std::set<CellId>(around.begin(), around.end()).size(), around.size());
+    EXPECT_EQ(star.size(), std::count_if(cells.begin(), cells.end(), [&](const CellBeads<3>& c) {
+                return std::find(c.begin(), c.end(), bead) != c.end();
+              }));
+    // All beads but this one, named from 0.
+    std::vector<ExactBead> others = exact_beads(cloud);
+    others.erase(others.begin() + bead);
+    std::vector<CellBeads<3>> made;
+    for (CellBeads<3> c : static_triangulation<3>(others, true).cells) {
+      for (BeadId& b : c) b += b != infinite_bead && b >= bead ? 1 : 0;
+      if (!cells.contains(sorted(c))) made.push_back(c);
+    }
+    ASSERT_TRUE(triangulation.fits(around, made));
+
+    // What does not fit is refused.
+    const auto refused = [&](const std::vector<CellId>& old, const std::vector<CellBeads<3>>& cells_made) {
+      EXPECT_FALSE(triangulation.fits(old, cells_made));
+      EXPECT_THROW(static_cast<void>(triangulation.replace(old, cells_made)), std::logic_error);
+    };
+    std::vector<CellBeads<3>> wrong = made;
+    std::swap(wrong[0][0], wrong[0][1]);
+    refused(around, wrong);
+    wrong = made;
+    wrong.pop_back();
+    refused(around, wrong);
+    wrong = made;
+    wrong.push_back(made[0]);
+    refused(around, wrong);
+    refused(around, {});
+    refused({around.begin() + 1, around.end()}, made);
+    std::vector<CellId> twice = around;
+    twice.push_back(around[0]);
+    refused(twice, made);
+    wrong = star;  // another bead, a vertex elsewhere, in its place
+    BeadId far = 0;
+    while (far == bead || triangulation.is_edge(far, bead)) ++far;
+    for (auto& c : wrong) std::replace(c.begin(), c.end(), bead, far);
+    refused(around, wrong);
+    EXPECT_EQ(all_cells(triangulation), cells);
+
+    const std::vector<CellId> filled = triangulation.replace(around, made);
+    for (std::size_t c = 0; c < made.size(); ++c) EXPECT_EQ(triangulation.cells()[filled[c]].vertex, made[c]);
+    EXPECT_FALSE(triangulation.is_vertex(bead));
+    check_mirror(triangulation, beads);
+    EXPECT_TRUE(triangulation.is_valid());
+    static_cast<void>(triangulation.replace(filled, star));
+    triangulation.set_points(cloud.centers, cloud.weights);
+    check_mirror(triangulation, beads);
+    EXPECT_TRUE(triangulation.is_valid());
+    EXPECT_EQ(all_cells(triangulation), cells);
+  }
+}
+
 TEST(RegularTriangulation, SlotsAreUsedAgain) {
   const Points points{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 5}, {0, 0, -5}};
   RegularTriangulation<3> t;

@@ -1,0 +1,64 @@
+#pragma once
+// The closest pair of balls by looking at all pairs, distances as whole numbers of many bits.
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "motions/bead.h"
+#include "motions/exact_number.h"
+
+namespace kds::test {
+
+/// |a - b| - r - s, rounded down to a multiple of 2^-500. Two such distances are equal or more than 2^-400
+/// apart where all numbers are below 2^10 in size and multiples of 2^-70: their difference times its three
+/// conjugates is a multiple of 2^-280.
+inline Integer gap_in_units(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s) {
+  Rational square = 0;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Rational x = Rational(a[axis]) - Rational(b[axis]);
+    square += x * x;
+  }
+  const Integer one = Integer(1) << 500U;
+  const Rational scaled = square * Rational(one) * Rational(one);
+  const Integer whole = numerator(scaled) / denominator(scaled);
+  const Rational reach = (Rational(r) + Rational(s)) * Rational(one);
+  return sqrt(whole) - numerator(reach) / denominator(reach);
+}
+inline int compare_gap_units(const Integer& a, const Integer& b) {
+  const Integer difference = a - b;
+  if (abs(difference) < Integer(1) << 100U) return 0;
+  return difference > 0 ? 1 : -1;
+}
+
+struct ClosestByForce {
+  std::pair<BeadId, BeadId> beads;  ///< of equally close pairs the first
+  Integer gap;
+};
+
+/// Among the pairs that are no neighbours; none if there are none. Of numbers below 2^10 in size, so that
+/// doubles are off by less than 2^-30 by far: what is farther by more is passed over.
+template <class AreNeighbors>
+std::optional<ClosestByForce> closest_by_force(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
+                                               AreNeighbors are_neighbors) {
+  std::optional<ClosestByForce> best;
+  double least = 0;
+  for (BeadId a = 0; a < radii.size(); ++a) {
+    for (BeadId b = a + 1; b < radii.size(); ++b) {
+      if (are_neighbors(a, b)) continue;
+      const double about =
+          (centers.col(Eigen::Index{a}) - centers.col(Eigen::Index{b})).norm() - radii[a] - radii[b];
+      if (best && about > least + 0x1p-30) continue;
+      const Integer gap =
+          gap_in_units(centers.col(Eigen::Index{a}), centers.col(Eigen::Index{b}), radii[a], radii[b]);
+      if (!best || compare_gap_units(gap, best->gap) < 0) {
+        best = {{a, b}, gap};
+        least = about;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace kds::test
