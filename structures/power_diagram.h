@@ -79,8 +79,11 @@ class PowerDiagram final : public KineticStructure {
   }
 
   void start_step() override {
+    triangulation_.make_mirror();
     // Tolerances take weights as constant.
-    if constexpr (!std::same_as<K, Exact> && !lifted<M>) tolerances_.start_step(motion_, triangulation_);
+    if constexpr (!std::same_as<K, Exact> && !lifted<M>) {
+      if (moving_.empty()) tolerances_.start_step(motion_, triangulation_);
+    }
     rebuilds_in_step_ = 0;
     guards_.clear();  // those of the step before are gone
     hidden_guards_.clear();
@@ -90,12 +93,42 @@ class PowerDiagram final : public KineticStructure {
       watch_all();
     }
     flat_ = false;
-    count_certificates_per_bead();
+    if (moving_.empty()) count_certificates_per_bead();
   }
 
   void fail(unsigned table, std::uint32_t slot) override;
   void settle() override;
   void finish_step(bool last) override {
+    if (moving_.empty()) reach_frame(last);
+  }
+
+  // Steps that bring but a part of the beads to the next frame (diagram_update.h).
+
+  /// From now on only the beads marked, one entry a bead, move in a step, and a step does not end at a frame:
+  /// that is for reach_frame. Facets of beads that all rest need no certificate. Empty: all beads move.
+  void move_only(std::vector<char> moving) {
+    moving_ = std::move(moving);
+    flipped_.clear();
+    if (!moving_.empty()) tolerances_.forget_all();
+  }
+  /// Cells that flips made since then, some more than once, some gone again.
+  [[nodiscard]] std::span<const CellId> flipped() const { return flipped_; }
+  /// Whether cells are neither missing nor flat, so that flips alone lead on.
+  [[nodiscard]] bool is_solid() const { return affine_dimension_ == dimension && !flat_; }
+  /// Built anew at the end of the motion's step, as CGAL does it; the mirror is made when a step starts.
+  void build_at_end() {
+    const auto built =
+        triangulation_.build_bare(control_points(motion_, M::degree), control_weights(motion_, M::degree));
+    forget_steps(built);
+  }
+  [[nodiscard]] RegularTriangulation<dimension>& triangulation() { return triangulation_; }
+  [[nodiscard]] const HiddenBeads& hidden() const { return hidden_; }
+  void house(BeadId hidden, CellId host) {
+    if (host != no_cell) hidden_.enter(hidden, host);
+  }
+  [[nodiscard]] CellId some_finite_cell() const;
+  /// All beads are where the motion's step ends.
+  void reach_frame(bool last) {
     triangulation_.set_points(control_points(motion_, M::degree), control_weights(motion_, M::degree));
     const int least = triangulation_.least_orientation();
     if (least < 0 && !std::same_as<K, Fast>)
@@ -148,6 +181,7 @@ class PowerDiagram final : public KineticStructure {
   // Building.
 
   void build_from_control_points(int k);
+  void forget_steps(const StaticTriangulation<dimension>& built);
   [[nodiscard]] StaticTriangulation<dimension> exact_static(const Dyadic& time, bool oriented) const;
   /// The static diagram at `time`; false, and nothing changed, where it is flat.
   bool assign_static(const Dyadic& time);
@@ -202,6 +236,7 @@ class PowerDiagram final : public KineticStructure {
   template <class Certificate>
   void give_up(CertificateTable<Certificate, M, K>& table, Guard guard);
   void watch_all();
+  void watch_moving();
   template <class Visit>
   void for_all_facets(Visit visit) const {
     for (CellId cell = 0; cell < triangulation_.cells().size(); ++cell) {
@@ -229,7 +264,6 @@ class PowerDiagram final : public KineticStructure {
   void show(BeadId bead, CellId cell);
   void hide(CellId cell, int i);
   [[nodiscard]] CellId find_host(BeadId bead, CellId cell, int came_from = -1);
-  [[nodiscard]] CellId some_finite_cell() const;
   [[nodiscard]] bool is_infinite(CellId cell) const { return place_of(cell, infinite_bead) <= dimension; }
   void enqueue_hidden(BeadId bead);
   void watch_all_hidden();
@@ -279,6 +313,8 @@ class PowerDiagram final : public KineticStructure {
   RegularTriangulation<dimension> triangulation_;
   std::vector<std::array<FacetGuard, dimension + 1>> guards_;
   FacetTolerances<M> tolerances_;
+  std::vector<char> moving_;  // of each bead; empty: all move
+  std::vector<CellId> flipped_;
   HiddenBeads hidden_;
   std::vector<Guards> hidden_guards_;  // of each bead, if any is hidden
   std::vector<BeadId> displaced_;

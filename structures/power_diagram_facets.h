@@ -19,6 +19,7 @@ void PowerDiagram<M, K>::watch_all() {
   all_resting.fill({Guard::never, About::power});
   guards_.assign(triangulation_.cells().size(), all_resting);
   std::uint64_t at_rest = 0;
+  if (!moving_.empty()) return watch_moving();
   for_all_facets([&](CellId cell, int i) {
     if (tolerances_.holds(cell, i, neighbor(cell, i))) {
       ++at_rest;
@@ -28,6 +29,31 @@ void PowerDiagram<M, K>::watch_all() {
   });
   power_tests_.hold_never(at_rest);
   statistics.stages.tolerance += at_rest;
+  watch_enqueued();
+  watch_all_hidden();
+}
+
+/// Guards the facets with a bead that moves.
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::watch_moving() {
+  const auto moves = [this](BeadId bead) { return bead != infinite_bead && moving_[bead] != 0; };
+  std::vector<char> has_moving(triangulation_.cells().size(), 0);
+  for (CellId cell = 0; cell < has_moving.size(); ++cell) {
+    const Beads& v = triangulation_.cells()[cell].vertex;
+    has_moving[cell] = triangulation_.is_live(cell) && std::any_of(v.begin(), v.end(), moves) ? 1 : 0;
+  }
+  std::uint64_t watched = 0, all = 0;
+  for (CellId cell = 0; cell < has_moving.size(); ++cell) {
+    if (triangulation_.is_live(cell)) all += dimension + 1;
+    if (has_moving[cell] == 0) continue;
+    for (int i = 0; i <= dimension; ++i) {
+      const CellId other = neighbor(cell, i);
+      if (has_moving[other] != 0 && other < cell) continue;
+      enqueue(cell, i);
+      ++watched;
+    }
+  }
+  power_tests_.hold_never(all / 2 - watched);
   watch_enqueued();
   watch_all_hidden();
 }
@@ -95,6 +121,7 @@ void PowerDiagram<M, K>::drop(CellId cell, int i) {
 template <Motion M, Kernel K>
 template <std::size_t N>
 void PowerDiagram<M, K>::watch_around(const std::array<CellId, N>& cells) {
+  if (!moving_.empty()) flipped_.insert(flipped_.end(), cells.begin(), cells.end());
   for (std::size_t c = 0; c < N; ++c) {
     for (int i = 0; i <= dimension; ++i) {
       // A facet between two new cells is met twice.

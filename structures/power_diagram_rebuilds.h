@@ -34,7 +34,11 @@ bool PowerDiagram<M, K>::is_wrong_just_after() {
 
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::build_from_control_points(int k) {
-  const auto built = triangulation_.build(control_points(motion_, k), control_weights(motion_, k));
+  forget_steps(triangulation_.build(control_points(motion_, k), control_weights(motion_, k)));
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::forget_steps(const StaticTriangulation<dimension>& built) {
   tolerances_.forget_all();
   hidden_.assign(motion_.bead_count(), built.hidden);
   affine_dimension_ = built.dimension;

@@ -125,27 +125,50 @@ RegularTriangulation<Dimension>::~RegularTriangulation() = default;
 template <int Dimension>
 StaticTriangulation<Dimension> RegularTriangulation<Dimension>::build(const Eigen::Matrix3Xd& centers,
                                                                       std::span<const double> weights) {
+  auto built = build_bare(centers, weights);
+  make_mirror();
+  return built;
+}
+
+template <int Dimension>
+StaticTriangulation<Dimension> RegularTriangulation<Dimension>::build_bare(const Eigen::Matrix3Xd& centers,
+                                                                           std::span<const double> weights) {
+  mirrored_ = false;
   auto& triangulation = cgal_->triangulation;
   triangulation.clear();
   insert_all<Dimension>(triangulation, centers, weights);
   triangulation.infinite_vertex()->info() = infinite_bead;
   cgal_->vertex.assign(weights.size(), {});
   for (const auto v : triangulation.finite_vertex_handles()) cgal_->vertex[v->info()] = v;
-  StaticTriangulation<Dimension> result{
-      {}, hidden_beads(triangulation, weights.size()), triangulation.dimension()};
-  if (result.dimension < Dimension) {
+  return {{}, hidden_beads(triangulation, weights.size()), triangulation.dimension()};
+}
+
+template <int Dimension>
+void RegularTriangulation<Dimension>::make_mirror() {
+  if (mirrored_) return;
+  mirrored_ = true;
+  if (cgal_->triangulation.dimension() < Dimension) {
     cells_.clear();
     live_.clear();
-    return result;
+    return;
   }
   mirror_all();
-  if (!result.hidden.empty()) {  // CGAL keeps hidden points with its cells, which flips would not keep up
+  forget_hidden_points();
+}
+
+/// CGAL keeps hidden points with its cells, which flips would not keep up.
+template <int Dimension>
+void RegularTriangulation<Dimension>::forget_hidden_points() {
+  if constexpr (Dimension == 3) {
+    if (cgal_->triangulation.number_of_vertices() == cgal_->vertex.size()) return;
+    for (const auto c : Cgal::Types::all_cells(cgal_->triangulation)) {
+      while (c->hidden_points_begin() != c->hidden_points_end()) c->unhide_point(c->hidden_points_begin());
+    }
+  } else if (cgal_->triangulation.number_of_hidden_vertices() > 0) {
     std::vector<Beads> cells;
     for (const Cell& cell : cells_) cells.push_back(cell.vertex);
-    assign(weights.size(), cells);
-    set_points(centers, weights);
+    assign(cgal_->vertex.size(), cells);
   }
-  return result;
 }
 
 template <int Dimension>
@@ -191,6 +214,7 @@ void RegularTriangulation<Dimension>::assign(std::size_t beads, std::span<const 
     }
   }
   if (!open.empty()) throw std::logic_error("the cells to assign do not close up");
+  mirrored_ = true;
   mirror_all();
 }
 
@@ -310,6 +334,84 @@ CellId RegularTriangulation<Dimension>::flip_out(CellId cell, int i) {
   enliven(cell);
   cgal_->mirror(cgal_->cell[cell], cells_);
   return cell;
+}
+
+template <int Dimension>
+void RegularTriangulation<Dimension>::take_out(std::span<const BeadId> beads) requires(Dimension == 3) {
+  for (const BeadId bead : beads) {
+    cgal_->triangulation.remove(cgal_->vertex[bead]);
+    cgal_->vertex[bead] = {};
+  }
+}
+
+template <int Dimension>
+void RegularTriangulation<Dimension>::put_in(std::span<const BeadId> beads, const Eigen::Matrix3Xd& centers,
+                                             std::span<const double> weights) requires(Dimension == 3) {
+  auto& triangulation = cgal_->triangulation;
+  typename Cgal::VertexHandle last = triangulation.infinite_vertex();
+  for (const BeadId bead : beads) {
+    const auto hint = Cgal::Types::cell_beside(last);
+    const auto v = triangulation.insert(weighted_point<Dimension>(centers, weights, bead), hint);
+    if (v == typename Cgal::VertexHandle()) continue;
+    last = v;
+    if (v->info() == no_bead) v->info() = bead;  // else a coincident bead has it
+  }
+  cgal_->vertex.assign(weights.size(), {});
+  for (const auto v : triangulation.finite_vertex_handles()) cgal_->vertex[v->info()] = v;
+  forget_hidden_points();
+}
+
+template <int Dimension>
+bool RegularTriangulation<Dimension>::is_solid() const requires(Dimension == 3) {
+  return cgal_->triangulation.dimension() == Dimension;
+}
+
+template <int Dimension>
+std::vector<CellId> RegularTriangulation<Dimension>::mirror_changes() requires(Dimension == 3) {
+  std::fill(live_.begin(), live_.end(), 0);
+  std::vector<typename Cgal::CellHandle> made;
+  for (const auto c : Cgal::Types::all_cells(cgal_->triangulation)) {
+    if (c->info() == no_cell) {
+      made.push_back(c);
+    } else {
+      live_[c->info()] = 1;
+    }
+  }
+  cgal_->free.clear();
+  for (CellId id = 0; id < live_.size(); ++id) {
+    if (live_[id] != 0) continue;
+    cgal_->cell[id] = {};
+    cgal_->free.push_back(id);
+  }
+  std::vector<CellId> ids;
+  for (const auto c : made) ids.push_back(cgal_->new_id(c));
+  for (const CellId id : ids) enliven(id);
+  for (const auto c : made) cgal_->mirror(c, cells_);
+  return ids;
+}
+
+template <int Dimension>
+auto RegularTriangulation<Dimension>::sample(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                                             std::size_t stride) const -> Sample {
+  Sample sample;
+  const auto& triangulation = cgal_->triangulation;
+  const auto infinite = triangulation.infinite_vertex();
+  const auto moved = [&](typename Cgal::VertexHandle v) {
+    return weighted_point<Dimension>(centers, weights, v->info());
+  };
+  for (std::size_t b = 0; b < cgal_->vertex.size(); b += stride) {
+    if (cgal_->vertex[b] == typename Cgal::VertexHandle()) continue;
+    const auto c = Cgal::Types::cell_beside(cgal_->vertex[b]);
+    if (triangulation.is_infinite(c)) continue;
+    for (int i = 0; i <= Dimension; ++i) {
+      const auto n = c->neighbor(i);
+      const auto apex = n->vertex(n->index(c));
+      if (apex == infinite) continue;
+      ++sample.tested;
+      sample.failed += Cgal::Types::in_power_sphere(c, moved, moved(apex)) ? 1 : 0;
+    }
+  }
+  return sample;
 }
 
 template <int Dimension>

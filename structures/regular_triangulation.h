@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,6 +23,7 @@ namespace kds {
 
 inline constexpr BeadId infinite_bead = no_bead;
 using CellId = std::uint32_t;
+inline constexpr CellId no_cell = std::numeric_limits<CellId>::max();
 template <int Dimension>
 using CellBeads = std::array<BeadId, static_cast<std::size_t>(Dimension) + 1>;
 
@@ -79,6 +81,10 @@ class RegularTriangulation {
 
   /// By CGAL from doubles; returns the hidden beads and the dimension, no cells.
   StaticTriangulation<Dimension> build(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+  /// The same, with no mirror of the cells until it is asked for.
+  StaticTriangulation<Dimension> build_bare(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+  void make_mirror();
+  [[nodiscard]] bool has_mirror() const { return mirrored_; }
   /// From oriented cells, infinite ones included, of some of the beads. The points are those last set.
   void assign(std::size_t beads, std::span<const Beads> oriented_cells);
   void set_points(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
@@ -112,6 +118,25 @@ class RegularTriangulation {
   /// The cell with these vertices in any order.
   [[nodiscard]] std::optional<CellId> find_cell(const Beads& beads) const;
 
+  /// In space, by CGAL: takes vertices away, other cells fill the holes; what stays must span the space.
+  void take_out(std::span<const BeadId> beads) requires(Dimension == 3);
+  /// In space, by CGAL: puts beads in at these positions; the points of all others are set already. Others
+  /// may lose their vertices, and some of these get none: hidden beads are those that are no vertex.
+  void put_in(std::span<const BeadId> beads, const Eigen::Matrix3Xd& centers,
+              std::span<const double> weights) requires(Dimension == 3);
+  /// Whether there are cells, as there are not where all vertices lie in one plane.
+  [[nodiscard]] bool is_solid() const requires(Dimension == 3);
+  /// Brings the mirror up to date after these; returns the cells that are new.
+  std::vector<CellId> mirror_changes() requires(Dimension == 3);
+
+  /// How many of some facets, near beads `stride` apart, would fail their test at other positions. Needs no
+  /// mirror.
+  struct Sample {
+    std::uint64_t tested = 0, failed = 0;
+  };
+  [[nodiscard]] Sample sample(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                              std::size_t stride) const;
+
   /// CGAL's own check of combinatorics, orientation and power tests at the points set.
   [[nodiscard]] bool is_valid() const;
   /// The least orientation of a finite cell at the points set: 1, or 0 for a flat, -1 for an inverted one.
@@ -122,11 +147,13 @@ class RegularTriangulation {
  private:
   struct Cgal;
   void mirror_all();
+  void forget_hidden_points();
   void enliven(CellId id);
 
   std::unique_ptr<Cgal> cgal_;
   std::vector<Cell> cells_;
   std::vector<char> live_;
+  bool mirrored_ = false;
 };
 
 }  // namespace kds
