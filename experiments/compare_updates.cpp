@@ -130,8 +130,10 @@ class Comparison {
       sum.events += counts.events;
       sum.rebuilds += counts.rebuilds;
       if (first && audit_) {
-        const auto found = update->diagram();
-        check(row, k, found, [&] { return update->fault(); });
+        ++row.audits;
+        audit_update(
+            update->diagram(), frames_.diagrams[k], [&] { return update->fault(); },
+            fmt::format("{} at stride {}, frame {} of those left", row.technique, row.task.stride, k));
       }
     }
     if (!first) return seconds;
@@ -178,17 +180,6 @@ class Comparison {
     }
   }
 
-  template <class Fault>
-  void check(UpdateRow& row, std::size_t k, const StaticTriangulation<3>& found, const Fault& fault) const {
-    ++row.audits;
-    const StaticTriangulation<3>& expected = frames_.diagrams[k];
-    if (found.cells == expected.cells && found.hidden == expected.hidden) return;
-    // Degenerate positions have several regular triangulations.
-    if (const auto wrong = fault())
-      throw AuditError(fmt::format("audit of {} failed at stride {}, frame {} (of those left): {}",
-                                   row.technique, row.task.stride, k, *wrong));
-  }
-
   std::vector<Trajectory> necklaces_;
   const std::vector<double>& radii_;
   bool audit_;
@@ -198,6 +189,12 @@ class Comparison {
 };
 
 }  // namespace
+
+void audit_update(const StaticTriangulation<3>& found, const StaticTriangulation<3>& expected,
+                  const std::function<std::optional<std::string>()>& fault, const std::string& what) {
+  if (found.cells == expected.cells && found.hidden == expected.hidden) return;
+  if (const auto wrong = fault()) throw AuditError(fmt::format("{}: audit failed: {}", what, *wrong));
+}
 
 std::vector<UpdateRow> compare_updates(const std::vector<Trajectory>& necklaces,
                                        const std::vector<double>& radii, const UpdateOptions& options,

@@ -10,6 +10,7 @@
 
 #include "experiments/update_options.h"
 #include "motions/trajectory.h"
+#include "structures/regular_triangulation.h"
 
 namespace kds {
 
@@ -38,12 +39,17 @@ struct UpdateRow {
   double seconds = 0;  ///< of the processor, median of all rounds
   double ratio = 1;    ///< to rebuilding's
 
-  /// Events a changed cell; none where nothing changed, or where nothing moves.
+  /// Events a changed cell; none where nothing changed, and where not all changes are events.
   [[nodiscard]] std::optional<double> efficiency() const {
-    if (!events || task.cells_changed == 0) return std::nullopt;
+    if (!events || rebuilds > 0 || task.cells_changed == 0) return std::nullopt;
     return static_cast<double>(*events) / static_cast<double>(task.cells_changed);
   }
 };
+
+/// Throws AuditError, beginning with `what`, where a diagram is not the static one and `fault` says what is
+/// wrong with it: degenerate positions have several.
+void audit_update(const StaticTriangulation<3>& found, const StaticTriangulation<3>& expected,
+                  const std::function<std::optional<std::string>()>& fault, const std::string& what);
 
 /// Throws InputError where a stride leaves fewer than two frames, AuditError where a diagram is wrong.
 [[nodiscard]] std::vector<UpdateRow> compare_updates(

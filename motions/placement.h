@@ -27,6 +27,16 @@ class Placement {
     }
   }
 
+  /// Where a motion's k-th control points are: its ends for k = 0 and k = degree.
+  template <Motion M>
+  requires(M::dimension == dimension) void set(const M& motion, int k) {
+    records_.resize(motion.bead_count());
+    for (BeadId b = 0; b < records_.size(); ++b) {
+      for (int axis = 0; axis < dimension; ++axis) records_[b].control[axis] = motion.coordinate(b, k, axis);
+      records_[b].control[dimension] = motion.weight(b, k);
+    }
+  }
+
   [[nodiscard]] std::size_t bead_count() const { return records_.size(); }
   [[nodiscard]] double coordinate(BeadId bead, int, int axis) const { return records_[bead].control[axis]; }
   [[nodiscard]] double weight(BeadId bead, int) const { return records_[bead].control[dimension]; }

@@ -69,9 +69,14 @@ class Activation final : public MovingDiagram<BezierMotion<3, 1>> {
   UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
 };
 
+/// What it has seen fail counts the less the longer ago: motion goes on much as before, and a sample of one
+/// frame is small.
 class AutomaticUpdate final : public MovingDiagram<BezierMotion<3, 1>> {
  public:
   UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
+
+ private:
+  double tested_ = 0, failed_ = 0;
 };
 
 extern template class MovingDiagram<BezierMotion<3, 1>>;

@@ -3,6 +3,7 @@
 // (facet_certificate.h), and that its finite cells are positive. Exact. What is zero is listed too: the
 // triangulation may be valid then, but is not the only one.
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstdint>
@@ -91,7 +92,7 @@ template <int Dimension, class Cells>
     }
     for (int i = 0; i <= Dimension; ++i) {
       const FacetId beyond = triangulation.beyond(cell, i);
-      const BeadId apex = triangulation.apex(beyond);
+      const BeadId apex = triangulation.apex_beyond(cell, i);
       if (apex == infinite_bead || v[static_cast<std::size_t>(i)] == infinite_bead) {
         if (finite || apex != infinite_bead) continue;  // the finite cell's own orientation
       }
@@ -116,6 +117,23 @@ template <int Dimension, class Cells>
 }
 
 }  // namespace detail
+
+/// The least sign of a finite cell's orientation: 1, or 0 for a flat, -1 for an inverted one.
+template <int Dimension>
+[[nodiscard]] int least_orientation(const RegularTriangulation<Dimension>& triangulation,
+                                    const Placement<Dimension>& placement) {
+  int least = 1;
+  const auto fails = [&](CellId, int sign) { least = std::min(least, sign); };
+  detail::FourPlaced<Orientation<Dimension>, Dimension> orientations(placement);
+  const auto all = triangulation.cells();
+  for (CellId cell = 0; cell < all.size(); ++cell) {
+    const CellBeads<Dimension>& v = all[cell].vertex;
+    if (triangulation.is_live(cell) && std::find(v.begin(), v.end(), infinite_bead) == v.end())
+      orientations.test(v, cell, fails);
+  }
+  orientations.flush(fails);
+  return least;
+}
 
 /// Of all facets and finite cells.
 template <int Dimension>

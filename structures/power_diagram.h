@@ -23,6 +23,8 @@
 #include "structures/facet_certificate.h"
 #include "structures/facet_tolerances.h"
 #include "structures/hidden_beads.h"
+#include "structures/placed_faults.h"
+#include "structures/positive_facets.h"
 #include "structures/regular_triangulation.h"
 #include "structures/triangulation_fault.h"
 
@@ -85,7 +87,7 @@ class PowerDiagram final : public KineticStructure {
       if (moving_.empty()) tolerances_.start_step(motion_, triangulation_);
     }
     rebuilds_in_step_ = 0;
-    guards_.clear();  // those of the step before are gone
+    guarded_ = false;  // the guards of the step before are gone
     hidden_guards_.clear();
     if (affine_dimension_ < dimension || (flat_ && is_wrong_just_after())) {
       rebuild_at_first_time_that_works();
@@ -129,8 +131,9 @@ class PowerDiagram final : public KineticStructure {
   [[nodiscard]] CellId some_finite_cell() const;
   /// All beads are where the motion's step ends.
   void reach_frame(bool last) {
-    triangulation_.set_points(control_points(motion_, M::degree), control_weights(motion_, M::degree));
-    const int least = triangulation_.least_orientation();
+    reached_.set(motion_, M::degree);
+    triangulation_.set_points(reached_);
+    const int least = least_orientation(triangulation_, reached_);
     if (least < 0 && !std::same_as<K, Fast>)
       throw std::logic_error("a cell of the power diagram is inverted");
     flat_ = least == 0;
@@ -176,6 +179,20 @@ class PowerDiagram final : public KineticStructure {
   struct FacetGuard {
     Guard guard = Guard::violated;
     About about = About::power;
+
+    /// As the cell notes it: 0 is the guard of a new cell.
+    [[nodiscard]] std::uint32_t packed() const {
+      return static_cast<std::uint32_t>(about) << 30U |
+             ((static_cast<std::uint32_t>(guard) - static_cast<std::uint32_t>(Guard::violated)) & mask);
+    }
+    [[nodiscard]] static FacetGuard of(std::uint32_t note) {
+      const std::uint32_t low = note & mask;  // violated, zero, never, then the slots
+      constexpr std::uint32_t names = 3;
+      return {
+          static_cast<Guard>(low < names ? static_cast<std::uint32_t>(Guard::violated) + low : low - names),
+          static_cast<About>(note >> 30U)};
+    }
+    static constexpr std::uint32_t mask = (1U << 30U) - 1;
   };
 
   // Building.
@@ -210,14 +227,16 @@ class PowerDiagram final : public KineticStructure {
     return {cell_of(beyond), index_of(beyond)};
   }
   /// The bead beyond facet i.
-  [[nodiscard]] BeadId apex(CellId cell, int i) const {
-    return triangulation_.apex(triangulation_.beyond(cell, i));
+  [[nodiscard]] BeadId apex(CellId cell, int i) const { return triangulation_.apex_beyond(cell, i); }
+  [[nodiscard]] FacetGuard guard(CellId cell, int i) const {
+    return FacetGuard::of(triangulation_.cells()[cell].note[static_cast<std::size_t>(i)]);
   }
-  FacetGuard& guard(CellId cell, int i) { return guards_[cell][static_cast<std::size_t>(i)]; }
+  /// As this cell has it alone.
+  void set_own_guard(CellId cell, int i, FacetGuard value) { triangulation_.note(cell, i) = value.packed(); }
   void set_guard(CellId cell, int i, FacetGuard value) {
-    guard(cell, i) = value;
+    set_own_guard(cell, i, value);
     const auto [other, k] = across(cell, i);
-    guard(other, k) = value;
+    set_own_guard(other, k, value);
   }
   void forget(CellId cell, int i) { set_guard(cell, i, {}); }
 
@@ -236,7 +255,7 @@ class PowerDiagram final : public KineticStructure {
   template <class Certificate>
   void give_up(CertificateTable<Certificate, M, K>& table, Guard guard);
   void watch_all();
-  void watch_moving();
+  void watch_moving(std::uint32_t resting);
   template <class Visit>
   void for_all_facets(Visit visit) const {
     for (CellId cell = 0; cell < triangulation_.cells().size(); ++cell) {
@@ -311,10 +330,11 @@ class PowerDiagram final : public KineticStructure {
   CertificateTable<PowerTest<dimension>, M, K> appearances_;  // of hidden beads
   CertificateTable<Orientation<dimension>, M, K> departures_;
   RegularTriangulation<dimension> triangulation_;
-  std::vector<std::array<FacetGuard, dimension + 1>> guards_;
+  bool guarded_ = false;
   FacetTolerances<M> tolerances_;
   std::vector<char> moving_;  // of each bead; empty: all move
   std::vector<CellId> flipped_;
+  Placement<dimension> reached_;  // at the end of the step
   HiddenBeads hidden_;
   std::vector<Guards> hidden_guards_;  // of each bead, if any is hidden
   std::vector<BeadId> displaced_;

@@ -70,7 +70,7 @@ bool PowerDiagram<M, K>::assign_static(const Dyadic& time) {
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::drop_all() {
   tolerances_.forget_all();  // what follows is another triangulation
-  if (guards_.empty()) return;
+  if (!guarded_) return;
   for_all_facets([this](CellId cell, int i) { drop(cell, i); });
   for (BeadId bead = 0; bead < hidden_guards_.size(); ++bead) drop_hidden(bead);
 }

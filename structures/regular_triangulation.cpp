@@ -111,8 +111,12 @@ struct RegularTriangulation<Dimension>::Cgal {
     for (int i = 0; i <= Dimension; ++i) {
       const auto n = c->neighbor(i);
       const int back = n->index(c);
-      copy.beyond[static_cast<std::size_t>(i)] = facet_id(n->info(), back);
-      cells[n->info()].beyond[static_cast<std::size_t>(back)] = facet_id(c->info(), i);
+      const auto here = static_cast<std::size_t>(i), there = static_cast<std::size_t>(back);
+      copy.beyond[here] = facet_id(n->info(), back);
+      copy.apex[here] = n->vertex(back)->info();
+      TriangulationCell<Dimension>& neighbor = cells[n->info()];
+      neighbor.beyond[there] = facet_id(c->info(), i);
+      neighbor.apex[there] = copy.vertex[here];
     }
   }
 };
@@ -226,6 +230,16 @@ void RegularTriangulation<Dimension>::mirror_all() {
   cells_.assign(cgal_->cell.size(), {});
   live_.assign(cgal_->cell.size(), 1);
   for (const auto c : cgal_->cell) cgal_->mirror(c, cells_);
+  count_cells();
+}
+
+template <int Dimension>
+void RegularTriangulation<Dimension>::count_cells() {
+  cells_at_.assign(cgal_->vertex.size(), 0);
+  for (CellId cell = 0; cell < cells_.size(); ++cell) {
+    if (!is_live(cell)) continue;
+    for (const BeadId b : cells_[cell].vertex) add_cells(b, 1);
+  }
 }
 
 template <int Dimension>
@@ -234,6 +248,15 @@ void RegularTriangulation<Dimension>::set_points(const Eigen::Matrix3Xd& centers
   for (std::size_t b = 0; b < cgal_->vertex.size(); ++b) {
     if (cgal_->vertex[b] != typename Cgal::VertexHandle())
       cgal_->vertex[b]->set_point(weighted_point<Dimension>(centers, weights, b));
+  }
+}
+
+template <int Dimension>
+void RegularTriangulation<Dimension>::set_points(const Placement<Dimension>& placement) {
+  for (BeadId b = 0; b < cgal_->vertex.size(); ++b) {
+    if (cgal_->vertex[b] == typename Cgal::VertexHandle()) continue;
+    const double* c = placement.control_point(b, 0);
+    cgal_->vertex[b]->set_point({Cgal::Types::point(c[0], c[1], c[2]), placement.weight(b, 0)});
   }
 }
 
@@ -247,11 +270,31 @@ void RegularTriangulation<Dimension>::enliven(CellId id) {
 }
 
 template <int Dimension>
+void RegularTriangulation<Dimension>::fetch_around(CellId cell, int i) const {
+  const auto fetch = [this](CellId id) {
+    __builtin_prefetch(&cells_[id], 1);
+    const auto* c = &*cgal_->cell[id];
+    __builtin_prefetch(c, 1);
+    __builtin_prefetch(reinterpret_cast<const char*>(c) + 64, 1);
+  };
+  for (const CellId id : {cell, cell_of(beyond(cell, i))}) {
+    fetch(id);
+    for (int k = 0; k <= Dimension; ++k) fetch(cell_of(beyond(id, k)));
+  }
+}
+
+template <int Dimension>
 std::array<CellId, static_cast<std::size_t>(Dimension)> RegularTriangulation<Dimension>::flip_facet(
     CellId cell, int i) {
   const auto c = cgal_->cell[cell];
   const auto n = c->neighbor(i);
+  constexpr int more_at_apices = Dimension - 1;
+  add_cells(cells_[cell].vertex[static_cast<std::size_t>(i)], more_at_apices);
+  add_cells(apex_beyond(cell, i), more_at_apices);
   if constexpr (Dimension == 2) {
+    for (int k = 0; k < 3; ++k) {
+      if (k != i) add_cells(cells_[cell].vertex[static_cast<std::size_t>(k)], -1);
+    }
     cgal_->triangulation.tds().flip(c, i);
     for (const auto changed : {c, n}) cgal_->mirror(changed, cells_);
     return {cell, n->info()};
@@ -273,6 +316,7 @@ std::array<CellId, 2> RegularTriangulation<Dimension>::flip_edge(CellId cell, in
   const auto c = cgal_->cell[cell];
   // The other two cells around the edge are across the facets that contain it.
   std::array<typename Cgal::CellHandle, 2> rest;
+  for (const int end : {i, j}) add_cells(cells_[cell].vertex[static_cast<std::size_t>(end)], -2);
   for (int k = 0, r = 0; k < 4; ++k) {
     if (k != i && k != j) rest[static_cast<std::size_t>(r++)] = c->neighbor(k);
   }
@@ -296,6 +340,8 @@ template <int Dimension>
 auto RegularTriangulation<Dimension>::flip_in(CellId cell, BeadId bead) -> Star {
   const auto c = cgal_->cell[cell];
   auto& tds = cgal_->triangulation.tds();
+  for (const BeadId b : cells_[cell].vertex) add_cells(b, Dimension - 1);
+  add_cells(bead, Dimension + 1);
   typename Cgal::VertexHandle v;
   if constexpr (Dimension == 2) {
     v = tds.insert_in_face(c);
@@ -320,6 +366,12 @@ CellId RegularTriangulation<Dimension>::flip_out(CellId cell, int i) {
   const auto c = cgal_->cell[cell];
   const auto v = c->vertex(i);
   cgal_->vertex[v->info()] = {};
+  for (int k = 0; k <= Dimension; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    add_cells(cells_[cell].vertex[at], k == i ? -(Dimension + 1) : 1 - Dimension);
+  }
+  // The cells share all but one vertex: the one beyond the facet of each.
+  add_cells(apex_beyond(cell, i == 0 ? 1 : 0), 1 - Dimension);
   for (const CellId gone : star(cell, i)) {
     live_[gone] = 0;
     if (gone != cell) cgal_->free.push_back(gone);
@@ -387,6 +439,7 @@ std::vector<CellId> RegularTriangulation<Dimension>::mirror_changes() requires(D
   for (const auto c : made) ids.push_back(cgal_->new_id(c));
   for (const CellId id : ids) enliven(id);
   for (const auto c : made) cgal_->mirror(c, cells_);
+  count_cells();
   return ids;
 }
 
@@ -401,7 +454,10 @@ auto RegularTriangulation<Dimension>::sample(const Eigen::Matrix3Xd& centers, st
   };
   for (std::size_t b = 0; b < cgal_->vertex.size(); b += stride) {
     if (cgal_->vertex[b] == typename Cgal::VertexHandle()) continue;
-    const auto c = Cgal::Types::cell_beside(cgal_->vertex[b]);
+    // Beside a bead lies one of its latest cells: some way from there it may be any.
+    auto c = Cgal::Types::cell_beside(cgal_->vertex[b]);
+    for (std::size_t hop = 0; hop < 5; ++hop)
+      c = c->neighbor(static_cast<int>((b / stride + hop * hop) % (Dimension + 1)));
     if (triangulation.is_infinite(c)) continue;
     for (int i = 0; i <= Dimension; ++i) {
       const auto n = c->neighbor(i);

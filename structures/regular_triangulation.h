@@ -8,6 +8,7 @@
 // when a step ends. Centres have three rows; in the plane the third is not looked at.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -18,6 +19,7 @@
 
 #include "motions/bead.h"
 #include "motions/exact_number.h"
+#include "motions/placement.h"
 
 namespace kds {
 
@@ -33,11 +35,15 @@ using FacetId = std::uint32_t;
 [[nodiscard]] constexpr CellId cell_of(FacetId facet) { return facet / 4; }
 [[nodiscard]] constexpr int index_of(FacetId facet) { return static_cast<int>(facet % 4); }
 
+/// In space just a cache line.
 template <int Dimension>
-struct TriangulationCell {
+struct alignas(Dimension == 3 ? 64 : 4) TriangulationCell {
   CellBeads<Dimension> vertex{};
   std::array<FacetId, static_cast<std::size_t>(Dimension) + 1>
-      beyond{};  ///< its facets as the neighbours have them
+      beyond{};                 ///< its facets as the neighbours have them
+  CellBeads<Dimension> apex{};  ///< the bead beyond each facet
+  /// What the triangulation's owner notes of its facets. 0 where a cell is new; flips leave it as it is.
+  std::array<std::uint32_t, static_cast<std::size_t>(Dimension) + 1> note{};
 };
 
 /// Position and weight of a bead at one time, exactly.
@@ -88,6 +94,7 @@ class RegularTriangulation {
   /// From oriented cells, infinite ones included, of some of the beads. The points are those last set.
   void assign(std::size_t beads, std::span<const Beads> oriented_cells);
   void set_points(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+  void set_points(const Placement<Dimension>& placement);
 
   /// Live cells and, among them, free slots: see is_live.
   [[nodiscard]] std::span<const Cell> cells() const { return cells_; }
@@ -98,7 +105,26 @@ class RegularTriangulation {
   }
   /// The bead opposite to a facet.
   [[nodiscard]] BeadId apex(FacetId facet) const { return cells_[cell_of(facet)].vertex[facet % 4]; }
+  /// The same of facet i as the cell beyond has it.
+  [[nodiscard]] BeadId apex_beyond(CellId cell, int i) const {
+    return cells_[cell].apex[static_cast<std::size_t>(i)];
+  }
+  /// How many cells each bead is a vertex of, infinite ones included.
+  [[nodiscard]] std::span<const std::uint32_t> cells_at() const { return cells_at_; }
 
+  [[nodiscard]] std::uint32_t& note(CellId cell, int i) {
+    return cells_[cell].note[static_cast<std::size_t>(i)];
+  }
+  /// Notes the same of all facets of a cell.
+  void note_all(CellId cell, std::uint32_t value) {
+    auto& note = cells_[cell].note;
+    // Most say so already: lines that are not written need not be written back.
+    if (std::any_of(note.begin(), note.end(), [value](std::uint32_t n) { return n != value; }))
+      note.fill(value);
+  }
+
+  /// A flip there is near: fetches what it will touch, lying anywhere in memory.
+  void fetch_around(CellId cell, int i) const;
   /// Replaces `cell` and its neighbour across facet i by the cells around the edge of their apices: three in
   /// space, two in the plane.
   std::array<CellId, static_cast<std::size_t>(Dimension)> flip_facet(CellId cell, int i);
@@ -149,10 +175,15 @@ class RegularTriangulation {
   void mirror_all();
   void forget_hidden_points();
   void enliven(CellId id);
+  void count_cells();
+  void add_cells(BeadId bead, int more) {
+    if (bead != infinite_bead) cells_at_[bead] += static_cast<std::uint32_t>(more);
+  }
 
   std::unique_ptr<Cgal> cgal_;
   std::vector<Cell> cells_;
   std::vector<char> live_;
+  std::vector<std::uint32_t> cells_at_;  // of each bead
   bool mirrored_ = false;
 };
 

@@ -27,8 +27,7 @@ std::vector<Suspects> suspects_of(const RegularTriangulation<3>& triangulation, 
     all.push_back(beads);
   };
   for (const auto* facets : {&faults.facets, &faults.zero_facets})
-    for (const FacetId f : *facets)
-      add(cell_of(f), triangulation.apex(triangulation.beyond(cell_of(f), index_of(f))));
+    for (const FacetId f : *facets) add(cell_of(f), triangulation.apex_beyond(cell_of(f), index_of(f)));
   for (const auto* cells : {&faults.cells, &faults.flat_cells})
     for (const CellId cell : *cells) add(cell, infinite_bead);
   std::sort(all.begin(), all.end());  // whatever cells are called, the same beads
