@@ -104,17 +104,23 @@ struct RegularTriangulation<Dimension>::Cgal {
     return c->info();
   }
 
-  // Copies a cell into the mirror, and itself into its neighbours there.
-  void mirror(CellHandle c, std::vector<TriangulationCell<Dimension>>& cells) const {
+  // Copies cells into the mirror, and themselves into their neighbours there, whose beads it has already.
+  template <class Cells>
+  void mirror(const Cells& changed, std::vector<TriangulationCell<Dimension>>& cells) const {
+    for (const CellHandle c : changed) cells[c->info()].vertex = beads_of<Dimension>(c);
+    for (const CellHandle c : changed) link(c, cells);
+  }
+
+ private:
+  void link(CellHandle c, std::vector<TriangulationCell<Dimension>>& cells) const {
     TriangulationCell<Dimension>& copy = cells[c->info()];
-    copy.vertex = beads_of<Dimension>(c);
     for (int i = 0; i <= Dimension; ++i) {
       const auto n = c->neighbor(i);
       const int back = n->index(c);
       const auto here = static_cast<std::size_t>(i), there = static_cast<std::size_t>(back);
-      copy.beyond[here] = facet_id(n->info(), back);
-      copy.apex[here] = n->vertex(back)->info();
       TriangulationCell<Dimension>& neighbor = cells[n->info()];
+      copy.beyond[here] = facet_id(n->info(), back);
+      copy.apex[here] = neighbor.vertex[there];
       neighbor.beyond[there] = facet_id(c->info(), i);
       neighbor.apex[there] = copy.vertex[here];
     }
@@ -229,7 +235,7 @@ void RegularTriangulation<Dimension>::mirror_all() {
   for (const auto c : Cgal::Types::all_cells(cgal_->triangulation)) cgal_->new_id(c);
   cells_.assign(cgal_->cell.size(), {});
   live_.assign(cgal_->cell.size(), 1);
-  for (const auto c : cgal_->cell) cgal_->mirror(c, cells_);
+  cgal_->mirror(cgal_->cell, cells_);
   count_cells();
 }
 
@@ -296,7 +302,7 @@ std::array<CellId, static_cast<std::size_t>(Dimension)> RegularTriangulation<Dim
       if (k != i) add_cells(cells_[cell].vertex[static_cast<std::size_t>(k)], -1);
     }
     cgal_->triangulation.tds().flip(c, i);
-    for (const auto changed : {c, n}) cgal_->mirror(changed, cells_);
+    cgal_->mirror(std::array{c, n}, cells_);
     return {cell, n->info()};
   } else {
     const int i2 = (i + 2) & 3;
@@ -305,7 +311,7 @@ std::array<CellId, static_cast<std::size_t>(Dimension)> RegularTriangulation<Dim
     const auto made = c->neighbor(i2);
     const CellId id = cgal_->new_id(made);
     enliven(id);
-    for (const auto changed : {c, n, made}) cgal_->mirror(changed, cells_);
+    cgal_->mirror(std::array{c, n, made}, cells_);
     return {cell, n->info(), id};
   }
 }
@@ -323,7 +329,7 @@ std::array<CellId, 2> RegularTriangulation<Dimension>::flip_edge(CellId cell, in
   cgal_->triangulation.tds().flip_flippable(c, i, j);
   cgal_->free.push_back(cell);
   live_[cell] = 0;
-  for (const auto changed : rest) cgal_->mirror(changed, cells_);
+  cgal_->mirror(rest, cells_);
   return {rest[0]->info(), rest[1]->info()};
 }
 
@@ -351,13 +357,13 @@ auto RegularTriangulation<Dimension>::flip_in(CellId cell, BeadId bead) -> Star 
   v->info() = bead;
   cgal_->vertex[bead] = v;
   const int i = c->index(v);
-  for (int k = 0; k <= Dimension; ++k) {
-    if (k != i) enliven(cgal_->new_id(c->neighbor(k)));
+  std::array<typename Cgal::CellHandle, Dimension + 1> around{c};
+  for (int k = 0, next = 1; k <= Dimension; ++k) {
+    if (k == i) continue;
+    enliven(cgal_->new_id(c->neighbor(k)));
+    around[static_cast<std::size_t>(next++)] = c->neighbor(k);
   }
-  cgal_->mirror(c, cells_);
-  for (int k = 0; k <= Dimension; ++k) {
-    if (k != i) cgal_->mirror(c->neighbor(k), cells_);
-  }
+  cgal_->mirror(around, cells_);
   return star(cell, i);
 }
 
@@ -384,7 +390,7 @@ CellId RegularTriangulation<Dimension>::flip_out(CellId cell, int i) {
     cgal_->cell[cell]->info() = cell;
   }
   enliven(cell);
-  cgal_->mirror(cgal_->cell[cell], cells_);
+  cgal_->mirror(std::array{cgal_->cell[cell]}, cells_);
   return cell;
 }
 
@@ -438,7 +444,7 @@ std::vector<CellId> RegularTriangulation<Dimension>::mirror_changes() requires(D
   std::vector<CellId> ids;
   for (const auto c : made) ids.push_back(cgal_->new_id(c));
   for (const CellId id : ids) enliven(id);
-  for (const auto c : made) cgal_->mirror(c, cells_);
+  cgal_->mirror(made, cells_);
   count_cells();
   return ids;
 }

@@ -170,14 +170,18 @@ TEST(Update, OfATrajectoryWithPlots) {
     EXPECT_THAT(page, HasSubstr(std::string(plot) + "-"));
 }
 
-TEST(Update, EveryAtomABallOfItsElement) {
-  const ProgramRun run = run_program({"update", data_file("trajectories/ubiquitin_pull_first30.pdb"),
-                                      "--select", "all", "--radius", "element", "--frames", ":3",
+TEST(Update, BeadsThatHideOthers) {
+  const ScratchDirectory directory;
+  std::string radii;
+  for (int bead = 0; bead < 108; ++bead) radii += bead % 4 == 0 ? "3\n" : "0.5\n";
+  const ProgramRun run = run_program({"update", data_file("trajectories/villin_hp36_300K.dcd"), "--frames",
+                                      "::100", "--radius", "file:" + directory.file("radii", radii),
                                       "--techniques", "reinsert,kinetic,lifted,activate,auto", "--audit",
                                       "frames", "--rounds", "1", "--json", "-"});
   ASSERT_EQ(run.code, 0) << run.err;
   const Json json = Json::parse(run.out);
-  EXPECT_GT(json["rows"][0]["hidden"], 0);
+  ASSERT_EQ(json["rows"].size(), 6U);
+  EXPECT_GT(json["rows"][0]["hidden"], 20);
 }
 
 TEST(Update, RefusesBeforeItReads) {
