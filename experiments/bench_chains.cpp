@@ -5,10 +5,10 @@
 
 namespace kds {
 
-Eigen::Matrix3Xd model_at_rest(std::string_view name, std::size_t beads) {
+Eigen::Matrix3Xd model_at_rest(std::string_view name, std::size_t beads, double jitter) {
   const models::Model* model = models::find_model(name);
   models::Settings settings{.beads = beads, .motion = models::ShapeMotion::rest};
-  if (model->takes(models::Setting::jitter)) settings.jitter = 0.05;
+  if (model->takes(models::Setting::jitter)) settings.jitter = jitter;
   return models::generate(*model, settings).front().frames.front();
 }
 

@@ -6,8 +6,10 @@
 #include <array>
 #include <charconv>
 #include <filesystem>
+#include <optional>
 
 #include "experiments/bench_hierarchies.h"
+#include "experiments/bench_power.h"
 #include "experiments/progress_bar.h"
 #include "experiments/table_results.h"
 #include "experiments/text.h"
@@ -18,7 +20,7 @@ namespace kds {
 namespace {
 
 constexpr std::array kOptions{
-    OptionSpec{"--sizes", "LIST", "beads of generated chains (default: 640,10240,102400)"},
+    OptionSpec{"--sizes", "LIST", "beads of generated chains (default: 640,10240,102400; power: 10240)"},
     OptionSpec{"--trajectories", "LIST",
                "trajectory files (default: those of data/trajectories here, *.dcd)"},
     OptionSpec{"--rounds", "N", "interleaved runs of ours and the peer, at least 5 (default: 5)"},
@@ -31,10 +33,11 @@ constexpr CommandSpec kCommand{
     "kds bench",
     "Measures ours beside a peer in the same process: medians of interleaved runs, processor time.",
     "SUBJECT",
-    "hierarchies: wrapped and layered hierarchies, beside CGAL at every node",
+    "hierarchies: wrapped and layered hierarchies, beside CGAL at every node; power: the power diagram from "
+    "frame to frame, beside CGAL's static build",
     kOptions,
     "kds bench hierarchies\n"
-    "kds bench hierarchies --sizes 10240 --trajectories data/trajectories/villin_hp36_300K.dcd --json -",
+    "kds bench power --sizes 10240 --trajectories data/trajectories/villin_hp36_300K.dcd --json -",
 };
 
 std::size_t parse_count(std::string_view option, const std::string& text, std::size_t least) {
@@ -59,20 +62,24 @@ std::vector<std::filesystem::path> trajectories_here() {
 
 int bench_command(const Arguments& arguments) {
   const ParsedArguments parsed = parse_arguments(kCommand, arguments);
-  if (parsed.operands().size() != 1 || parsed.operands()[0] != "hierarchies")
-    throw InputError("kds bench: expected one subject, hierarchies");
-  HierarchyBenchOptions options;
+  const std::vector<std::string>& subject = parsed.operands();
+  if (subject.size() != 1 || (subject[0] != "hierarchies" && subject[0] != "power"))
+    throw InputError("kds bench: expected one subject, hierarchies or power");
+  std::optional<std::vector<std::size_t>> sizes;
   if (const auto list = parsed.value("--sizes")) {
-    options.sizes.clear();
+    sizes.emplace();
+    // A power diagram in space needs four beads, and beads that do not all lie in one plane.
     for (const std::string& text : split(*list, ','))
-      options.sizes.push_back(parse_count("--sizes", text, 2));
+      sizes->push_back(parse_count("--sizes", text, subject[0] == "power" ? 20 : 2));
   }
+  std::vector<std::filesystem::path> trajectories;
   if (const auto list = parsed.value("--trajectories")) {
-    for (const std::string& path : split(*list, ',')) options.trajectories.emplace_back(path);
+    for (const std::string& path : split(*list, ',')) trajectories.emplace_back(path);
   } else {
-    options.trajectories = trajectories_here();
+    trajectories = trajectories_here();
   }
-  if (const auto text = parsed.value("--rounds")) options.rounds = parse_count("--rounds", *text, 5);
+  std::size_t rounds = 5;
+  if (const auto text = parsed.value("--rounds")) rounds = parse_count("--rounds", *text, 5);
   Destinations destinations;
   if (const auto text = parsed.value("--out")) {
     if (*text == "-") throw InputError("--out needs a path; - is for --json only");
@@ -83,8 +90,15 @@ int bench_command(const Arguments& arguments) {
   check_table_destinations(destinations, "bench");
 
   ProgressBar bar(!destinations.quiet);
-  const std::vector<BenchRow> rows =
-      bench_hierarchies(options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
+  const auto progress = [&bar](std::size_t done, std::size_t total) { bar.update(done, total); };
+  const auto run = [&](auto options, auto bench) {
+    if (sizes) options.sizes = *sizes;
+    options.trajectories = trajectories;
+    options.rounds = rounds;
+    return bench(options, progress);
+  };
+  const std::vector<BenchRow> rows = subject[0] == "power" ? run(PowerBenchOptions{}, bench_power)
+                                                           : run(HierarchyBenchOptions{}, bench_hierarchies);
   bar.erase();
   deliver_table(destinations, "bench", {bench_json(rows), bench_csv(rows), bench_table(rows)});
   return 0;

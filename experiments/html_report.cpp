@@ -101,10 +101,6 @@ std::string table(const RunReport& report) {
   return html + "</tbody>\n</table></div>\n";
 }
 
-std::string figure(const std::string& svg, const std::string& caption) {
-  return fmt::format("<figure>\n{}<figcaption>{}</figcaption>\n</figure>\n", svg, caption);
-}
-
 std::string plots_over_time(const RunReport& report) {
   const std::size_t width = bin_width(step_count(report), kMostBins);
   LinePlot rate{"rate", "frame", "events per frame", true, {}};
@@ -129,7 +125,7 @@ std::string plots_over_time(const RunReport& report) {
         fmt::format("Events between a frame and the next, each point the mean over {} frames.", width);
     sum_caption += fmt::format(" One point for {} frames.", width);
   }
-  return figure(svg_plot(rate), rate_caption) + figure(svg_plot(sum), sum_caption);
+  return html_figure(svg_plot(rate), rate_caption) + html_figure(svg_plot(sum), sum_caption);
 }
 
 // One motion step has no course over frames: what happened is drawn instead of when.
@@ -141,8 +137,8 @@ std::string plots_by_kind(const RunReport& report) {
     for (const auto& [kind, count] : structure.events_by_kind)
       plot.bars.emplace_back(kind_label(kind), static_cast<double>(count));
     if (plot.bars.empty()) plot.bars.emplace_back("all", static_cast<double>(structure.events_total));
-    html += figure(svg_plot(plot), fmt::format("Events of the {} structure by kind, in one motion step.",
-                                               html_escaped(structure.name)));
+    html += html_figure(svg_plot(plot), fmt::format("Events of the {} structure by kind, in one motion step.",
+                                                    html_escaped(structure.name)));
   }
   return html;
 }
@@ -150,13 +146,6 @@ std::string plots_by_kind(const RunReport& report) {
 std::string plots(const RunReport& report) {
   if (report.structures.empty()) return "";
   return step_count(report) > 1 ? plots_over_time(report) : plots_by_kind(report);
-}
-
-std::string footer() {
-  const Machine machine = this_machine();
-  return html_escaped(fmt::format("kds {} on {}, {} {}, {}; built with {}.", program_version(), machine.cpu,
-                                  machine.cores, machine.cores == 1 ? "core" : "cores", machine.os,
-                                  machine.compiler));
 }
 
 }  // namespace
@@ -187,15 +176,34 @@ std::string html_escaped(std::string_view text) {
   return html;
 }
 
-std::string html_report(const RunReport& report) {
-  const std::string name = html_escaped(title(report));
+std::string html_escaped_lines(std::string_view text) {
+  std::string html;
+  for (const std::string& line : split(text, '\n')) html += html_escaped(line) + "\n";
+  return html;
+}
+
+std::string html_figure(const std::string& svg, const std::string& caption) {
+  return fmt::format("<figure>\n{}<figcaption>{}</figcaption>\n</figure>\n", svg, caption);
+}
+
+std::string html_page(const std::string& name, const std::string& body) {
+  const Machine machine = this_machine();
+  const std::string footer = html_escaped(
+      fmt::format("kds {} on {}, {} {}, {}; built with {}.", program_version(), machine.cpu, machine.cores,
+                  machine.cores == 1 ? "core" : "cores", machine.os, machine.compiler));
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n{2}{3}"
-      "<h2>Events</h2>\n{4}<h2>Comparison</h2>\n{5}<h2>How to read this</h2>\n<p>{6}</p>\n"
-      "<footer>{7}</footer>\n</main>\n</body>\n</html>\n",
-      name, kStyle, inputs(report), findings(report), plots(report), table(report), kWords, footer());
+      "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n{2}"
+      "<footer>{3}</footer>\n</main>\n</body>\n</html>\n",
+      html_escaped(name), kStyle, body, footer);
+}
+
+std::string html_report(const RunReport& report) {
+  return html_page(title(report),
+                   fmt::format("{}{}<h2>Events</h2>\n{}<h2>Comparison</h2>\n{}<h2>How to read "
+                               "this</h2>\n<p>{}</p>\n",
+                               inputs(report), findings(report), plots(report), table(report), kWords));
 }
 
 }  // namespace kds

@@ -21,6 +21,7 @@
 #include "experiments/run_results.h"
 #include "experiments/stability_command.h"
 #include "experiments/text.h"
+#include "experiments/update_command.h"
 #include "motions/input_error.h"
 
 namespace kds {
@@ -36,6 +37,7 @@ constexpr std::array kCommands{
     Command{"info", "describe trajectories and the conditions of a necklace they violate", info_command},
     Command{"generate", "write a model necklace", generate_command},
     Command{"replay", "run a logged run again and compare", replay_command},
+    Command{"update", "compare techniques that bring the power diagram from frame to frame", update_command},
     Command{"bench", "measure ours beside what users would pick today", bench_command},
     Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},
 };

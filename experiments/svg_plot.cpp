@@ -14,7 +14,8 @@ namespace kds {
 namespace {
 
 // Told apart by the colour-blind too.
-constexpr std::array<std::string_view, 4> kColours{"#2563a8", "#d9791e", "#2f855a", "#8a3f8f"};
+constexpr std::array<std::string_view, 8> kColours{"#2563a8", "#d9791e", "#2f855a", "#8a3f8f",
+                                                   "#c0392b", "#5b6570", "#17a2b8", "#b7950b"};
 
 // gnuplot takes what stands between single quotes as it is; a quote is doubled.
 std::string gnuplot_text(std::string_view text) {

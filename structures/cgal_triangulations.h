@@ -20,6 +20,20 @@
 
 namespace kds {
 
+/// The name of a vertex or cell: none while CGAL alone knows it.
+template <class Id, Id none>
+class Name {
+ public:
+  Name() = default;
+  Name(Id id) : id_(id) {}
+  operator Id() const { return id_; }
+
+ private:
+  Id id_ = none;
+};
+using VertexName = Name<BeadId, no_bead>;
+using CellName = Name<CellId, no_cell>;
+
 /// Vertices know their bead, cells their id.
 template <class Geometry, int Dimension>
 struct CgalTriangulation;
@@ -27,9 +41,9 @@ struct CgalTriangulation;
 template <class Geometry>
 struct CgalTriangulation<Geometry, 2> {
   using Vertex =
-      CGAL::Triangulation_vertex_base_with_info_2<BeadId, Geometry,
+      CGAL::Triangulation_vertex_base_with_info_2<VertexName, Geometry,
                                                   CGAL::Regular_triangulation_vertex_base_2<Geometry>>;
-  using Face = CGAL::Triangulation_face_base_with_info_2<CellId, Geometry,
+  using Face = CGAL::Triangulation_face_base_with_info_2<CellName, Geometry,
                                                          CGAL::Regular_triangulation_face_base_2<Geometry>>;
   using Type = CGAL::Regular_triangulation_2<Geometry, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
   using Cell = typename Type::Face_handle;
@@ -59,15 +73,26 @@ struct CgalTriangulation<Geometry, 2> {
     return CGAL::orientation(c->vertex(0)->point().point(), c->vertex(1)->point().point(),
                              c->vertex(2)->point().point());
   }
+  template <class VertexHandle>
+  static Cell cell_beside(VertexHandle v) {
+    return v->face();
+  }
+  /// Whether a point would be in the power circle of the cell's vertices where these are `moved`, or on it.
+  template <class Moved, class Point>
+  static bool in_power_sphere(Cell c, const Moved& moved, const Point& point) {
+    return
+        typename Geometry::Power_side_of_oriented_power_circle_2()(
+            moved(c->vertex(0)), moved(c->vertex(1)), moved(c->vertex(2)), point) != CGAL::ON_NEGATIVE_SIDE;
+  }
 };
 
 template <class Geometry>
 struct CgalTriangulation<Geometry, 3> {
   using Vertex =
-      CGAL::Triangulation_vertex_base_with_info_3<BeadId, Geometry,
+      CGAL::Triangulation_vertex_base_with_info_3<VertexName, Geometry,
                                                   CGAL::Regular_triangulation_vertex_base_3<Geometry>>;
   using CellBase =
-      CGAL::Triangulation_cell_base_with_info_3<CellId, Geometry,
+      CGAL::Triangulation_cell_base_with_info_3<CellName, Geometry,
                                                 CGAL::Regular_triangulation_cell_base_3<Geometry>>;
   using Type =
       CGAL::Regular_triangulation_3<Geometry, CGAL::Triangulation_data_structure_3<Vertex, CellBase>>;
@@ -97,6 +122,17 @@ struct CgalTriangulation<Geometry, 3> {
   static int orientation(Cell c) {
     return CGAL::orientation(c->vertex(0)->point().point(), c->vertex(1)->point().point(),
                              c->vertex(2)->point().point(), c->vertex(3)->point().point());
+  }
+  template <class VertexHandle>
+  static Cell cell_beside(VertexHandle v) {
+    return v->cell();
+  }
+  /// Whether a point would be in the power sphere of the cell's vertices where these are `moved`, or on it.
+  template <class Moved, class Point>
+  static bool in_power_sphere(Cell c, const Moved& moved, const Point& point) {
+    return typename Geometry::Power_side_of_oriented_power_sphere_3()(
+               moved(c->vertex(0)), moved(c->vertex(1)), moved(c->vertex(2)), moved(c->vertex(3)), point) !=
+           CGAL::ON_NEGATIVE_SIDE;
   }
 };
 

@@ -28,11 +28,12 @@ class FacetTolerances {
     cells_ = triangulation.cells();
     if (cells_.empty()) return forget_all();
     const double rest = settle(motion, triangulation);
-    if (rest >= 1 - worth_a_reference) return;
+    const double wanted = std::max(rest + worth_a_reference, least_share);
+    if (wanted > 1) return;
     Wandering<M> fresh;
     fresh.set_reference(motion);
     fresh.look_at(motion);
-    if (sampled(motion, triangulation, fresh.strays()) < rest + worth_a_reference) return;
+    if (sampled(motion, triangulation, fresh.strays()) < wanted) return;
     wandering_ = std::move(fresh);
     take_all(motion, triangulation);
     static_cast<void>(settle(motion, triangulation));
@@ -59,6 +60,8 @@ class FacetTolerances {
   /// Taking tolerances costs about as much as settling in double, so a reference must let this share of all
   /// facets rest that do not yet.
   static constexpr double worth_a_reference = 0.25;
+  /// And this share of all: looking at a tolerance and keeping it up to date is not free either.
+  static constexpr double least_share = 0.4;
   static constexpr std::size_t sample_size = 128;
   static constexpr double unknown = -1;
 
@@ -114,7 +117,7 @@ class FacetTolerances {
       std::array<BeadId, dimension + 2> beads{};
       const auto& vertex = triangulation_.cells()[cell].vertex;
       std::copy(vertex.begin(), vertex.end(), beads.begin());
-      beads.back() = triangulation_.apex(triangulation_.beyond(cell, i));
+      beads.back() = triangulation_.apex_beyond(cell, i);
       if (std::find(beads.begin(), beads.end(), infinite_bead) != beads.end()) return use_(cell, i, 0);
       tuples_[count_] = beads;
       facets_[count_] = {cell, i};
@@ -162,7 +165,7 @@ class FacetTolerances {
     const auto cells = triangulation.cells();
     std::size_t looked_at = 0, resting = 0;
     FourAtOnce four(motion, triangulation, [&](CellId cell, int i, double tolerance) {
-      const BeadId apex = triangulation.apex(triangulation.beyond(cell, i));
+      const BeadId apex = triangulation.apex_beyond(cell, i);
       const double apex_strays = apex == infinite_bead ? 0 : strays[apex];
       ++looked_at;
       resting += std::max(stray_of(cells[cell].vertex, strays), apex_strays) < tolerance ? 1 : 0;

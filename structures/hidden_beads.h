@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,8 +12,6 @@
 #include "structures/regular_triangulation.h"
 
 namespace kds {
-
-inline constexpr CellId no_cell = std::numeric_limits<CellId>::max();
 
 struct HiddenBead {
   BeadId bead;

@@ -27,6 +27,8 @@
 #include "structures/facet_certificate.h"
 #include "structures/facet_tolerances.h"
 #include "structures/hidden_beads.h"
+#include "structures/placed_faults.h"
+#include "structures/positive_facets.h"
 #include "structures/regular_triangulation.h"
 #include "structures/triangulation_fault.h"
 
@@ -97,10 +99,13 @@ class PowerDiagram final : public KineticStructure {
   }
 
   void start_step() override {
+    triangulation_.make_mirror();
     // Tolerances take weights as constant.
-    if constexpr (!std::same_as<K, Exact> && !lifted<M>) tolerances_.start_step(motion_, triangulation_);
+    if constexpr (!std::same_as<K, Exact> && !lifted<M>) {
+      if (moving_.empty()) tolerances_.start_step(motion_, triangulation_);
+    }
     rebuilds_in_step_ = 0;
-    guards_.clear();  // those of the step before are gone
+    guarded_ = false;  // the guards of the step before are gone
     hidden_guards_.clear();
     if (affine_dimension_ < dimension || (flat_ && is_wrong_just_after())) {
       rebuild_at_first_time_that_works();
@@ -109,15 +114,46 @@ class PowerDiagram final : public KineticStructure {
     }
     flat_ = false;
     within_step_ = true;
-    count_certificates_per_bead();
+    if (moving_.empty()) count_certificates_per_bead();
   }
 
   void fail(unsigned table, std::uint32_t slot) override;
   void settle() override;
   void finish_step(bool last) override {
     within_step_ = false;
-    triangulation_.set_points(control_points(motion_, M::degree), control_weights(motion_, M::degree));
-    const int least = triangulation_.least_orientation();
+    if (moving_.empty()) reach_frame(last);
+  }
+
+  // Steps that bring but a part of the beads to the next frame (diagram_update.h).
+
+  /// From now on only the beads marked, one entry a bead, move in a step, and a step does not end at a frame:
+  /// that is for reach_frame. Facets of beads that all rest need no certificate. Empty: all beads move.
+  void move_only(std::vector<char> moving) {
+    moving_ = std::move(moving);
+    flipped_.clear();
+    if (!moving_.empty()) tolerances_.forget_all();
+  }
+  /// Cells that flips made since then, some more than once, some gone again.
+  [[nodiscard]] std::span<const CellId> flipped() const { return flipped_; }
+  /// Whether cells are neither missing nor flat, so that flips alone lead on.
+  [[nodiscard]] bool is_solid() const { return affine_dimension_ == dimension && !flat_; }
+  /// Built anew at the end of the motion's step, as CGAL does it; the mirror is made when a step starts.
+  void build_at_end() {
+    const auto built =
+        triangulation_.build_bare(control_points(motion_, M::degree), control_weights(motion_, M::degree));
+    forget_steps(built);
+  }
+  [[nodiscard]] RegularTriangulation<dimension>& triangulation() { return triangulation_; }
+  [[nodiscard]] const HiddenBeads& hidden() const { return hidden_; }
+  void house(BeadId hidden, CellId host) {
+    if (host != no_cell) hidden_.enter(hidden, host);
+  }
+  [[nodiscard]] CellId some_finite_cell() const;
+  /// All beads are where the motion's step ends.
+  void reach_frame(bool last) {
+    reached_.set(motion_, M::degree);
+    triangulation_.set_points(reached_);
+    const int least = least_orientation(triangulation_, reached_);
     if (least < 0 && !std::same_as<K, Fast>)
       throw std::logic_error("a cell of the power diagram is inverted");
     flat_ = least == 0;
@@ -190,11 +226,26 @@ class PowerDiagram final : public KineticStructure {
   struct FacetGuard {
     Guard guard = Guard::violated;
     About about = About::power;
+
+    /// As the cell notes it: 0 is the guard of a new cell.
+    [[nodiscard]] std::uint32_t packed() const {
+      return static_cast<std::uint32_t>(about) << 30U |
+             ((static_cast<std::uint32_t>(guard) - static_cast<std::uint32_t>(Guard::violated)) & mask);
+    }
+    [[nodiscard]] static FacetGuard of(std::uint32_t note) {
+      const std::uint32_t low = note & mask;  // violated, zero, never, then the slots
+      constexpr std::uint32_t names = 3;
+      return {
+          static_cast<Guard>(low < names ? static_cast<std::uint32_t>(Guard::violated) + low : low - names),
+          static_cast<About>(note >> 30U)};
+    }
+    static constexpr std::uint32_t mask = (1U << 30U) - 1;
   };
 
   // Building.
 
   void build_from_control_points(int k);
+  void forget_steps(const StaticTriangulation<dimension>& built);
   [[nodiscard]] std::vector<BeadId> beads_present() const;
   /// Of some beads, ascending.
   [[nodiscard]] StaticTriangulation<dimension> exact_static(std::span<const BeadId> beads, const Dyadic& time,
@@ -231,14 +282,16 @@ class PowerDiagram final : public KineticStructure {
     return {cell_of(beyond), index_of(beyond)};
   }
   /// The bead beyond facet i.
-  [[nodiscard]] BeadId apex(CellId cell, int i) const {
-    return triangulation_.apex(triangulation_.beyond(cell, i));
+  [[nodiscard]] BeadId apex(CellId cell, int i) const { return triangulation_.apex_beyond(cell, i); }
+  [[nodiscard]] FacetGuard guard(CellId cell, int i) const {
+    return FacetGuard::of(triangulation_.cells()[cell].note[static_cast<std::size_t>(i)]);
   }
-  FacetGuard& guard(CellId cell, int i) { return guards_[cell][static_cast<std::size_t>(i)]; }
+  /// As this cell has it alone.
+  void set_own_guard(CellId cell, int i, FacetGuard value) { triangulation_.note(cell, i) = value.packed(); }
   void set_guard(CellId cell, int i, FacetGuard value) {
-    guard(cell, i) = value;
+    set_own_guard(cell, i, value);
     const auto [other, k] = across(cell, i);
-    guard(other, k) = value;
+    set_own_guard(other, k, value);
   }
   void forget(CellId cell, int i) { set_guard(cell, i, {}); }
 
@@ -257,6 +310,7 @@ class PowerDiagram final : public KineticStructure {
   template <class Certificate>
   void give_up(CertificateTable<Certificate, M, K>& table, Guard guard);
   void watch_all();
+  void watch_moving(std::uint32_t resting);
   template <class Visit>
   void for_all_facets(Visit visit) const {
     for (CellId cell = 0; cell < triangulation_.cells().size(); ++cell) {
@@ -284,7 +338,6 @@ class PowerDiagram final : public KineticStructure {
   void show(BeadId bead, CellId cell);
   void hide(CellId cell, int i);
   [[nodiscard]] CellId find_host(BeadId bead, CellId cell, int came_from = -1);
-  [[nodiscard]] CellId some_finite_cell() const;
   [[nodiscard]] bool is_infinite(CellId cell) const { return place_of(cell, infinite_bead) <= dimension; }
   void enqueue_hidden(BeadId bead);
   void watch_all_hidden();
@@ -358,8 +411,11 @@ class PowerDiagram final : public KineticStructure {
   CertificateTable<PowerTest<dimension>, M, K> appearances_;  // of hidden beads
   CertificateTable<Orientation<dimension>, M, K> departures_;
   RegularTriangulation<dimension> triangulation_;
-  std::vector<std::array<FacetGuard, dimension + 1>> guards_;
+  bool guarded_ = false;
   FacetTolerances<M> tolerances_;
+  std::vector<char> moving_;  // of each bead; empty: all move
+  std::vector<CellId> flipped_;
+  Placement<dimension> reached_;  // at the end of the step
   HiddenBeads hidden_;
   std::vector<Guards> hidden_guards_;  // of each bead, if any is hidden
   std::vector<BeadId> displaced_;

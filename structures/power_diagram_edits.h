@@ -317,7 +317,6 @@ void PowerDiagram<M, K>::fill(std::span<const CellId> hole, std::span<const Bead
   const std::size_t hidden = hidden_.size();
   const std::vector<CellId> cells = exchange_cells(hole, filled);
   if (hidden_.size() != hidden) hidden_guards_.resize(motion_.bead_count(), no_guards);
-  grow_little(guards_, triangulation_.cells().size());
   watch_around(cells);
   rehouse(cells[0]);
 }

@@ -12,22 +12,63 @@ void PowerDiagram<M, K>::enqueue(CellId cell, int i) {
   });
 }
 
-/// Guards all facets; those that rest in this step need no certificate.
+/// Guards all facets; those that rest in this step need no certificate, and those whose test is positive all
+/// over the step, as most are, nothing but to be counted.
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::watch_all() {
-  std::array<FacetGuard, dimension + 1> all_resting;
-  all_resting.fill({Guard::never, About::power});
-  guards_.assign(triangulation_.cells().size(), all_resting);
+  const std::uint32_t resting = FacetGuard{Guard::never, About::power}.packed();
+  guarded_ = true;
+  if (!moving_.empty()) return watch_moving(resting);
   std::uint64_t at_rest = 0;
-  for_all_facets([&](CellId cell, int i) {
-    if (tolerances_.holds(cell, i, neighbor(cell, i))) {
-      ++at_rest;
-    } else {
-      enqueue(cell, i);
+  PositiveFacets<M> positive(motion_);
+  const auto guard_it = [this](FacetId facet) { enqueue(cell_of(facet), index_of(facet)); };
+  const auto cells = triangulation_.cells();
+  for (CellId cell = 0; cell < cells.size(); ++cell) {
+    if (!triangulation_.is_live(cell)) continue;
+    triangulation_.note_all(cell, resting);
+    const bool in_lanes = std::same_as<K, Filtered> && !is_infinite(cell);
+    for (int i = 0; i <= dimension; ++i) {
+      const CellId other = neighbor(cell, i);
+      if (other < cell) continue;
+      if (tolerances_.holds(cell, i, other)) {
+        ++at_rest;
+      } else if (in_lanes && apex(cell, i) != infinite_bead) {
+        positive.look_at(cells[cell], i, facet_id(cell, i), guard_it);
+      } else {
+        enqueue(cell, i);
+      }
     }
-  });
-  power_tests_.hold_never(at_rest);
+  }
+  positive.finish(guard_it);
+  power_tests_.hold_never(at_rest + positive.count());
+  statistics.stages.coefficients += positive.count();
   statistics.stages.tolerance += at_rest;
+  watch_enqueued();
+  watch_all_hidden();
+}
+
+/// Guards the facets with a bead that moves.
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::watch_moving(std::uint32_t resting) {
+  const auto moves = [this](BeadId bead) { return bead != infinite_bead && moving_[bead] != 0; };
+  std::vector<char> has_moving(triangulation_.cells().size(), 0);
+  for (CellId cell = 0; cell < has_moving.size(); ++cell) {
+    triangulation_.note_all(cell, resting);
+    const Beads& v = triangulation_.cells()[cell].vertex;
+    has_moving[cell] = triangulation_.is_live(cell) && std::any_of(v.begin(), v.end(), moves) ? 1 : 0;
+  }
+  std::uint64_t watched = 0, all = 0;
+  for (CellId cell = 0; cell < has_moving.size(); ++cell) {
+    if (triangulation_.is_live(cell)) all += dimension + 1;
+    if (has_moving[cell] == 0) continue;
+    for (int i = 0; i <= dimension; ++i) {
+      const CellId other = neighbor(cell, i);
+      if (has_moving[other] != 0 && other < cell) continue;
+      enqueue(cell, i);
+      ++watched;
+    }
+  }
+  power_tests_.hold_never(all / 2 - watched);
   watch_enqueued();
   watch_all_hidden();
 }
@@ -62,8 +103,9 @@ void PowerDiagram<M, K>::watch_cells_beside(CellId cell, int i) {
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::watch_cell(CellId cell, int i) {
   const Orientation<dimension> orientation(triangulation_.cells()[cell].vertex, 1);
-  guard(cell, i) = {orientations_.watch(orientation, facet_id(cell, i), birth_of(orientation)), About::cell};
-  if (guard(cell, i).guard == Guard::violated) suspect(Doubt::wrong);
+  const Guard guard = orientations_.watch(orientation, facet_id(cell, i), birth_of(orientation));
+  set_own_guard(cell, i, {guard, About::cell});
+  if (guard == Guard::violated) suspect(Doubt::wrong);
 }
 
 /// Gives up a guard. One of other beads that fails right now as well would have meant another change.
@@ -94,6 +136,7 @@ void PowerDiagram<M, K>::drop(CellId cell, int i) {
 /// Guards all facets of the new cells.
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::watch_around(std::span<const CellId> cells) {
+  if (!moving_.empty()) flipped_.insert(flipped_.end(), cells.begin(), cells.end());
   for (std::size_t c = 0; c < cells.size(); ++c) {
     for (int i = 0; i <= dimension; ++i) {
       // A facet between two new cells is met twice.
@@ -108,23 +151,25 @@ void PowerDiagram<M, K>::watch_around(std::span<const CellId> cells) {
   watch_enqueued();
 }
 
+/// A cell's own facets name all of its vertices but one each, and the beads beyond them: a bead is named by
+/// half its cells' facets with it, each shared by two of its cells, and once by each of its cells for the
+/// facet opposite to it. In space that makes 5/2 for each cell, in the plane 2.
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::count_certificates_per_bead() {
-  std::vector<std::uint64_t> count(motion_.bead_count(), 0);
-  for_all_facets([&](CellId cell, int i) {
-    for (int k = 0; k <= dimension; ++k) {
-      if (vertex(cell, k) != infinite_bead) ++count[vertex(cell, k)];
+  const auto count_of = [](std::uint64_t cells) { return cells * (dimension + 2) / 2; };
+  const auto cells_at = triangulation_.cells_at();
+  std::uint64_t most = 0;
+  if (!cells_at.empty()) most = count_of(*std::max_element(cells_at.begin(), cells_at.end()));
+  if (!hidden_.empty()) {
+    std::vector<std::uint64_t> more(motion_.bead_count(), 0);
+    for (const BeadId bead : hidden_.beads()) {
+      if (hidden_.host(bead) == no_cell) continue;
+      more[bead] += dimension + 2;
+      for (int k = 0; k <= dimension; ++k) more[vertex(hidden_.host(bead), k)] += dimension + 1;
     }
-    if (apex(cell, i) != infinite_bead) ++count[apex(cell, i)];
-  });
-  for (const BeadId bead : hidden_.beads()) {
-    if (hidden_.host(bead) == no_cell) continue;
-    count[bead] += dimension + 2;
-    for (int k = 0; k <= dimension; ++k) count[vertex(hidden_.host(bead), k)] += dimension + 1;
+    for (BeadId b = 0; b < more.size(); ++b) most = std::max(most, more[b] + count_of(cells_at[b]));
   }
-  for (const std::uint64_t c : count) {
-    statistics.certificates.per_bead_max = std::max(statistics.certificates.per_bead_max, c);
-  }
+  statistics.certificates.per_bead_max = std::max(statistics.certificates.per_bead_max, most);
 }
 
 }  // namespace kds

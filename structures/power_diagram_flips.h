@@ -17,10 +17,11 @@ void PowerDiagram<M, K>::fail(unsigned table, std::uint32_t slot) {
       table == 0 ? power_tests_.place_in_structure(slot) : orientations_.place_in_structure(slot);
   const CellId cell = cell_of(place);
   const int facet = index_of(place);
+  triangulation_.fetch_around(cell, facet);
   const bool touch = table == 0 ? power_tests_.touches(slot) : orientations_.touches(slot);
   if (touch) suspect(Doubt::unclear);
-  if (FacetGuard& held = guard(cell, facet); held.about == About::cell) {
-    held.guard = Guard::violated;
+  if (guard(cell, facet).about == About::cell) {
+    set_own_guard(cell, facet, {Guard::violated, About::cell});
     if (!touch) return suspect(Doubt::wrong);  // cospherical cells turn over: no flip tells how to go on
     return watch_cell(cell, facet);
   }
@@ -87,13 +88,14 @@ bool PowerDiagram<M, K>::can_replace(std::span<const Beads> old, std::span<const
       if (sign_just_after<K>(finite[i], motion_, now, statistics.stages) <= 0) return false;
     }
   }
-  std::vector<std::array<BeadId, dimension>> hull;
+  std::array<std::array<BeadId, dimension>, 2 * (dimension + 1)> hull;
+  std::size_t on_hull = 0;
   for (const auto cells : {old, made}) {
     for (const Beads& cell : cells) {
-      if (const auto face = hull_face<dimension>(cell)) hull.push_back(*face);
+      if (const auto face = hull_face<dimension>(cell)) hull[on_hull++] = *face;
     }
   }
-  for (std::size_t t = 1; t < hull.size(); ++t) {
+  for (std::size_t t = 1; t < on_hull; ++t) {
     if (sign_now<K>(same_turn<dimension>(hull[0], hull[t]), motion_, now, statistics.stages) <= 0)
       return false;
   }
@@ -131,7 +133,6 @@ void PowerDiagram<M, K>::flip_to_edge(CellId cell, int facet) {
     if (neighbor(other, i) != cell) drop(other, i);
   }
   const auto made = triangulation_.flip_facet(cell, facet);
-  grow_little(guards_, triangulation_.cells().size());
   simulator_.record(index_, change);
   watch_around(made);
   rehouse(made[0]);

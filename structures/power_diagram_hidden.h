@@ -171,7 +171,6 @@ void PowerDiagram<M, K>::show(BeadId bead, CellId cell) {
   displace(std::array{cell});
   for (int i = 0; i <= dimension; ++i) drop(cell, i);
   const auto made = triangulation_.flip_in(cell, bead);
-  grow_little(guards_, triangulation_.cells().size());
   simulator_.record(index_, change_of(shows, v, bead));
   watch_around(made);
   rehouse(cell);

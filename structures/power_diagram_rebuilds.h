@@ -46,14 +46,16 @@ bool PowerDiagram<M, K>::is_wrong_just_after() {
 
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::build_from_control_points(int k) {
-  StaticTriangulation<dimension> built;
-  if (absent_count_ == 0) {
-    built = triangulation_.build(control_points(motion_, k), control_weights(motion_, k));
-  } else {
-    built = exact_static(Dyadic(k == 0 ? 0.0 : 1.0), true);
-    triangulation_.assign(motion_.bead_count(), built.cells);
-    triangulation_.set_points(control_points(motion_, k), control_weights(motion_, k));
-  }
+  if (absent_count_ == 0)
+    return forget_steps(triangulation_.build(control_points(motion_, k), control_weights(motion_, k)));
+  const auto built = exact_static(Dyadic(k == 0 ? 0.0 : 1.0), true);
+  triangulation_.assign(motion_.bead_count(), built.cells);
+  triangulation_.set_points(control_points(motion_, k), control_weights(motion_, k));
+  forget_steps(built);
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::forget_steps(const StaticTriangulation<dimension>& built) {
   tolerances_.forget_all();
   hidden_.assign(motion_.bead_count(), built.hidden);
   affine_dimension_ = built.dimension;
@@ -109,7 +111,7 @@ bool PowerDiagram<M, K>::assign_static(const Dyadic& time) {
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::drop_all() {
   tolerances_.forget_all();  // what follows is another triangulation
-  if (guards_.empty()) return;
+  if (!guarded_) return;
   for_all_facets([this](CellId cell, int i) { drop(cell, i); });
   for (BeadId bead = 0; bead < hidden_guards_.size(); ++bead) drop_hidden(bead);
 }

@@ -122,15 +122,25 @@ struct RegularTriangulation<Dimension>::Cgal {
     return c->info();
   }
 
-  // Copies a cell into the mirror, and itself into its neighbours there.
-  void mirror(CellHandle c, std::vector<TriangulationCell<Dimension>>& cells) const {
+  // Copies cells into the mirror, and themselves into their neighbours there, whose beads it has already.
+  template <class Cells>
+  void mirror(const Cells& changed, std::vector<TriangulationCell<Dimension>>& cells) const {
+    for (const CellHandle c : changed) cells[c->info()].vertex = beads_of<Dimension>(c);
+    for (const CellHandle c : changed) link(c, cells);
+  }
+
+ private:
+  void link(CellHandle c, std::vector<TriangulationCell<Dimension>>& cells) const {
     TriangulationCell<Dimension>& copy = cells[c->info()];
-    copy.vertex = beads_of<Dimension>(c);
     for (int i = 0; i <= Dimension; ++i) {
       const auto n = c->neighbor(i);
       const int back = n->index(c);
-      copy.beyond[static_cast<std::size_t>(i)] = facet_id(n->info(), back);
-      cells[n->info()].beyond[static_cast<std::size_t>(back)] = facet_id(c->info(), i);
+      const auto here = static_cast<std::size_t>(i), there = static_cast<std::size_t>(back);
+      TriangulationCell<Dimension>& neighbor = cells[n->info()];
+      copy.beyond[here] = facet_id(n->info(), back);
+      copy.apex[here] = neighbor.vertex[there];
+      neighbor.beyond[there] = facet_id(c->info(), i);
+      neighbor.apex[there] = copy.vertex[here];
     }
   }
 };
@@ -143,27 +153,50 @@ RegularTriangulation<Dimension>::~RegularTriangulation() = default;
 template <int Dimension>
 StaticTriangulation<Dimension> RegularTriangulation<Dimension>::build(const Eigen::Matrix3Xd& centers,
                                                                       std::span<const double> weights) {
+  auto built = build_bare(centers, weights);
+  make_mirror();
+  return built;
+}
+
+template <int Dimension>
+StaticTriangulation<Dimension> RegularTriangulation<Dimension>::build_bare(const Eigen::Matrix3Xd& centers,
+                                                                           std::span<const double> weights) {
+  mirrored_ = false;
   auto& triangulation = cgal_->triangulation;
   triangulation.clear();
   insert_all<Dimension>(triangulation, centers, weights);
   triangulation.infinite_vertex()->info() = infinite_bead;
   cgal_->vertex.assign(weights.size(), {});
   for (const auto v : triangulation.finite_vertex_handles()) cgal_->vertex[v->info()] = v;
-  StaticTriangulation<Dimension> result{
-      {}, hidden_beads(triangulation, weights.size()), triangulation.dimension()};
-  if (result.dimension < Dimension) {
+  return {{}, hidden_beads(triangulation, weights.size()), triangulation.dimension()};
+}
+
+template <int Dimension>
+void RegularTriangulation<Dimension>::make_mirror() {
+  if (mirrored_) return;
+  mirrored_ = true;
+  if (cgal_->triangulation.dimension() < Dimension) {
     cells_.clear();
     live_.clear();
-    return result;
+    return;
   }
   mirror_all();
-  if (!result.hidden.empty()) {  // CGAL keeps hidden points with its cells, which flips would not keep up
+  forget_hidden_points();
+}
+
+/// CGAL keeps hidden points with its cells, which flips would not keep up.
+template <int Dimension>
+void RegularTriangulation<Dimension>::forget_hidden_points() {
+  if constexpr (Dimension == 3) {
+    if (cgal_->triangulation.number_of_vertices() == cgal_->vertex.size()) return;
+    for (const auto c : Cgal::Types::all_cells(cgal_->triangulation)) {
+      while (c->hidden_points_begin() != c->hidden_points_end()) c->unhide_point(c->hidden_points_begin());
+    }
+  } else if (cgal_->triangulation.number_of_hidden_vertices() > 0) {
     std::vector<Beads> cells;
     for (const Cell& cell : cells_) cells.push_back(cell.vertex);
-    assign(weights.size(), cells);
-    set_points(centers, weights);
+    assign(cgal_->vertex.size(), cells);
   }
-  return result;
 }
 
 template <int Dimension>
@@ -209,6 +242,7 @@ void RegularTriangulation<Dimension>::assign(std::size_t beads, std::span<const 
     }
   }
   if (!open.empty()) throw std::logic_error("the cells to assign do not close up");
+  mirrored_ = true;
   mirror_all();
 }
 
@@ -219,7 +253,17 @@ void RegularTriangulation<Dimension>::mirror_all() {
   for (const auto c : Cgal::Types::all_cells(cgal_->triangulation)) cgal_->new_id(c);
   cells_.assign(cgal_->cell.size(), {});
   live_.assign(cgal_->cell.size(), 1);
-  for (const auto c : cgal_->cell) cgal_->mirror(c, cells_);
+  cgal_->mirror(cgal_->cell, cells_);
+  count_cells();
+}
+
+template <int Dimension>
+void RegularTriangulation<Dimension>::count_cells() {
+  cells_at_.assign(cgal_->vertex.size(), 0);
+  for (CellId cell = 0; cell < cells_.size(); ++cell) {
+    if (!is_live(cell)) continue;
+    for (const BeadId b : cells_[cell].vertex) add_cells(b, 1);
+  }
 }
 
 template <int Dimension>
@@ -228,6 +272,15 @@ void RegularTriangulation<Dimension>::set_points(const Eigen::Matrix3Xd& centers
   for (std::size_t b = 0; b < cgal_->vertex.size(); ++b) {
     if (cgal_->vertex[b] != typename Cgal::VertexHandle())
       cgal_->vertex[b]->set_point(weighted_point<Dimension>(centers, weights, b));
+  }
+}
+
+template <int Dimension>
+void RegularTriangulation<Dimension>::set_points(const Placement<Dimension>& placement) {
+  for (BeadId b = 0; b < cgal_->vertex.size(); ++b) {
+    if (cgal_->vertex[b] == typename Cgal::VertexHandle()) continue;
+    const double* c = placement.control_point(b, 0);
+    cgal_->vertex[b]->set_point({Cgal::Types::point(c[0], c[1], c[2]), placement.weight(b, 0)});
   }
 }
 
@@ -241,13 +294,33 @@ void RegularTriangulation<Dimension>::enliven(CellId id) {
 }
 
 template <int Dimension>
+void RegularTriangulation<Dimension>::fetch_around(CellId cell, int i) const {
+  const auto fetch = [this](CellId id) {
+    __builtin_prefetch(&cells_[id], 1);
+    const auto* c = &*cgal_->cell[id];
+    __builtin_prefetch(c, 1);
+    __builtin_prefetch(reinterpret_cast<const char*>(c) + 64, 1);
+  };
+  for (const CellId id : {cell, cell_of(beyond(cell, i))}) {
+    fetch(id);
+    for (int k = 0; k <= Dimension; ++k) fetch(cell_of(beyond(id, k)));
+  }
+}
+
+template <int Dimension>
 std::array<CellId, static_cast<std::size_t>(Dimension)> RegularTriangulation<Dimension>::flip_facet(
     CellId cell, int i) {
   const auto c = cgal_->cell[cell];
   const auto n = c->neighbor(i);
+  constexpr int more_at_apices = Dimension - 1;
+  add_cells(cells_[cell].vertex[static_cast<std::size_t>(i)], more_at_apices);
+  add_cells(apex_beyond(cell, i), more_at_apices);
   if constexpr (Dimension == 2) {
+    for (int k = 0; k < 3; ++k) {
+      if (k != i) add_cells(cells_[cell].vertex[static_cast<std::size_t>(k)], -1);
+    }
     cgal_->triangulation.tds().flip(c, i);
-    for (const auto changed : {c, n}) cgal_->mirror(changed, cells_);
+    cgal_->mirror(std::array{c, n}, cells_);
     return {cell, n->info()};
   } else {
     const int i2 = (i + 2) & 3;
@@ -256,7 +329,7 @@ std::array<CellId, static_cast<std::size_t>(Dimension)> RegularTriangulation<Dim
     const auto made = c->neighbor(i2);
     const CellId id = cgal_->new_id(made);
     enliven(id);
-    for (const auto changed : {c, n, made}) cgal_->mirror(changed, cells_);
+    cgal_->mirror(std::array{c, n, made}, cells_);
     return {cell, n->info(), id};
   }
 }
@@ -267,13 +340,14 @@ std::array<CellId, 2> RegularTriangulation<Dimension>::flip_edge(CellId cell, in
   const auto c = cgal_->cell[cell];
   // The other two cells around the edge are across the facets that contain it.
   std::array<typename Cgal::CellHandle, 2> rest;
+  for (const int end : {i, j}) add_cells(cells_[cell].vertex[static_cast<std::size_t>(end)], -2);
   for (int k = 0, r = 0; k < 4; ++k) {
     if (k != i && k != j) rest[static_cast<std::size_t>(r++)] = c->neighbor(k);
   }
   cgal_->triangulation.tds().flip_flippable(c, i, j);
   cgal_->free.push_back(cell);
   live_[cell] = 0;
-  for (const auto changed : rest) cgal_->mirror(changed, cells_);
+  cgal_->mirror(rest, cells_);
   return {rest[0]->info(), rest[1]->info()};
 }
 
@@ -290,6 +364,8 @@ template <int Dimension>
 auto RegularTriangulation<Dimension>::flip_in(CellId cell, BeadId bead) -> Star {
   const auto c = cgal_->cell[cell];
   auto& tds = cgal_->triangulation.tds();
+  for (const BeadId b : cells_[cell].vertex) add_cells(b, Dimension - 1);
+  add_cells(bead, Dimension + 1);
   typename Cgal::VertexHandle v;
   if constexpr (Dimension == 2) {
     v = tds.insert_in_face(c);
@@ -299,13 +375,13 @@ auto RegularTriangulation<Dimension>::flip_in(CellId cell, BeadId bead) -> Star 
   v->info() = bead;
   cgal_->vertex[bead] = v;
   const int i = c->index(v);
-  for (int k = 0; k <= Dimension; ++k) {
-    if (k != i) enliven(cgal_->new_id(c->neighbor(k)));
+  std::array<typename Cgal::CellHandle, Dimension + 1> around{c};
+  for (int k = 0, next = 1; k <= Dimension; ++k) {
+    if (k == i) continue;
+    enliven(cgal_->new_id(c->neighbor(k)));
+    around[static_cast<std::size_t>(next++)] = c->neighbor(k);
   }
-  cgal_->mirror(c, cells_);
-  for (int k = 0; k <= Dimension; ++k) {
-    if (k != i) cgal_->mirror(c->neighbor(k), cells_);
-  }
+  cgal_->mirror(around, cells_);
   return star(cell, i);
 }
 
@@ -314,6 +390,12 @@ CellId RegularTriangulation<Dimension>::flip_out(CellId cell, int i) {
   const auto c = cgal_->cell[cell];
   const auto v = c->vertex(i);
   cgal_->vertex[v->info()] = {};
+  for (int k = 0; k <= Dimension; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    add_cells(cells_[cell].vertex[at], k == i ? -(Dimension + 1) : 1 - Dimension);
+  }
+  // The cells share all but one vertex: the one beyond the facet of each.
+  add_cells(apex_beyond(cell, i == 0 ? 1 : 0), 1 - Dimension);
   for (const CellId gone : star(cell, i)) {
     live_[gone] = 0;
     if (gone != cell) cgal_->free.push_back(gone);
@@ -326,7 +408,7 @@ CellId RegularTriangulation<Dimension>::flip_out(CellId cell, int i) {
     cgal_->cell[cell]->info() = cell;
   }
   enliven(cell);
-  cgal_->mirror(cgal_->cell[cell], cells_);
+  cgal_->mirror(std::array{cgal_->cell[cell]}, cells_);
   return cell;
 }
 
@@ -442,6 +524,7 @@ std::vector<CellId> RegularTriangulation<Dimension>::replace(std::span<const Cel
     b->set_neighbor(index_of(m.second), a);
   }
   for (const CellId c : old) {
+    for (const BeadId b : cells_[c].vertex) add_cells(b, -1);
     Types::delete_cell(tds, cgal_->cell[c]);
     cgal_->free.push_back(c);
     live_[c] = 0;
@@ -454,8 +537,93 @@ std::vector<CellId> RegularTriangulation<Dimension>::replace(std::span<const Cel
     ids.push_back(cgal_->new_id(c));
     enliven(ids.back());
   }
-  for (const auto c : made) cgal_->mirror(c, cells_);
+  cgal_->mirror(made, cells_);
+  for (const CellId id : ids) {
+    for (const BeadId b : cells_[id].vertex) add_cells(b, 1);
+  }
   return ids;
+}
+
+template <int Dimension>
+void RegularTriangulation<Dimension>::take_out(std::span<const BeadId> beads) requires(Dimension == 3) {
+  for (const BeadId bead : beads) {
+    cgal_->triangulation.remove(cgal_->vertex[bead]);
+    cgal_->vertex[bead] = {};
+  }
+}
+
+template <int Dimension>
+void RegularTriangulation<Dimension>::put_in(std::span<const BeadId> beads, const Eigen::Matrix3Xd& centers,
+                                             std::span<const double> weights) requires(Dimension == 3) {
+  auto& triangulation = cgal_->triangulation;
+  typename Cgal::VertexHandle last = triangulation.infinite_vertex();
+  for (const BeadId bead : beads) {
+    const auto hint = Cgal::Types::cell_beside(last);
+    const auto v = triangulation.insert(weighted_point<Dimension>(centers, weights, bead), hint);
+    if (v == typename Cgal::VertexHandle()) continue;
+    last = v;
+    if (v->info() == no_bead) v->info() = bead;  // else a coincident bead has it
+  }
+  cgal_->vertex.assign(weights.size(), {});
+  for (const auto v : triangulation.finite_vertex_handles()) cgal_->vertex[v->info()] = v;
+  forget_hidden_points();
+}
+
+template <int Dimension>
+bool RegularTriangulation<Dimension>::is_solid() const requires(Dimension == 3) {
+  return cgal_->triangulation.dimension() == Dimension;
+}
+
+template <int Dimension>
+std::vector<CellId> RegularTriangulation<Dimension>::mirror_changes() requires(Dimension == 3) {
+  std::fill(live_.begin(), live_.end(), 0);
+  std::vector<typename Cgal::CellHandle> made;
+  for (const auto c : Cgal::Types::all_cells(cgal_->triangulation)) {
+    if (c->info() == no_cell) {
+      made.push_back(c);
+    } else {
+      live_[c->info()] = 1;
+    }
+  }
+  cgal_->free.clear();
+  for (CellId id = 0; id < live_.size(); ++id) {
+    if (live_[id] != 0) continue;
+    cgal_->cell[id] = {};
+    cgal_->free.push_back(id);
+  }
+  std::vector<CellId> ids;
+  for (const auto c : made) ids.push_back(cgal_->new_id(c));
+  for (const CellId id : ids) enliven(id);
+  cgal_->mirror(made, cells_);
+  count_cells();
+  return ids;
+}
+
+template <int Dimension>
+auto RegularTriangulation<Dimension>::sample(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                                             std::size_t stride) const -> Sample {
+  Sample sample;
+  const auto& triangulation = cgal_->triangulation;
+  const auto infinite = triangulation.infinite_vertex();
+  const auto moved = [&](typename Cgal::VertexHandle v) {
+    return weighted_point<Dimension>(centers, weights, v->info());
+  };
+  for (std::size_t b = 0; b < cgal_->vertex.size(); b += stride) {
+    if (cgal_->vertex[b] == typename Cgal::VertexHandle()) continue;
+    // Beside a bead lies one of its latest cells: some way from there it may be any.
+    auto c = Cgal::Types::cell_beside(cgal_->vertex[b]);
+    for (std::size_t hop = 0; hop < 5; ++hop)
+      c = c->neighbor(static_cast<int>((b / stride + hop * hop) % (Dimension + 1)));
+    if (triangulation.is_infinite(c)) continue;
+    for (int i = 0; i <= Dimension; ++i) {
+      const auto n = c->neighbor(i);
+      const auto apex = n->vertex(n->index(c));
+      if (apex == infinite) continue;
+      ++sample.tested;
+      sample.failed += Cgal::Types::in_power_sphere(c, moved, moved(apex)) ? 1 : 0;
+    }
+  }
+  return sample;
 }
 
 template <int Dimension>

@@ -8,8 +8,10 @@
 // when a step ends. Centres have three rows; in the plane the third is not looked at.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -17,11 +19,13 @@
 
 #include "motions/bead.h"
 #include "motions/exact_number.h"
+#include "motions/placement.h"
 
 namespace kds {
 
 inline constexpr BeadId infinite_bead = no_bead;
 using CellId = std::uint32_t;
+inline constexpr CellId no_cell = std::numeric_limits<CellId>::max();
 template <int Dimension>
 using CellBeads = std::array<BeadId, static_cast<std::size_t>(Dimension) + 1>;
 
@@ -31,11 +35,15 @@ using FacetId = std::uint32_t;
 [[nodiscard]] constexpr CellId cell_of(FacetId facet) { return facet / 4; }
 [[nodiscard]] constexpr int index_of(FacetId facet) { return static_cast<int>(facet % 4); }
 
+/// In space just a cache line.
 template <int Dimension>
-struct TriangulationCell {
+struct alignas(Dimension == 3 ? 64 : 4) TriangulationCell {
   CellBeads<Dimension> vertex{};
   std::array<FacetId, static_cast<std::size_t>(Dimension) + 1>
-      beyond{};  ///< its facets as the neighbours have them
+      beyond{};                 ///< its facets as the neighbours have them
+  CellBeads<Dimension> apex{};  ///< the bead beyond each facet
+  /// What the triangulation's owner notes of its facets. 0 where a cell is new; flips leave it as it is.
+  std::array<std::uint32_t, static_cast<std::size_t>(Dimension) + 1> note{};
 };
 
 /// Position and weight of a bead at one time, exactly.
@@ -79,9 +87,14 @@ class RegularTriangulation {
 
   /// By CGAL from doubles; returns the hidden beads and the dimension, no cells.
   StaticTriangulation<Dimension> build(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+  /// The same, with no mirror of the cells until it is asked for.
+  StaticTriangulation<Dimension> build_bare(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+  void make_mirror();
+  [[nodiscard]] bool has_mirror() const { return mirrored_; }
   /// From oriented cells, infinite ones included, of some of the beads. The points are those last set.
   void assign(std::size_t beads, std::span<const Beads> oriented_cells);
   void set_points(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+  void set_points(const Placement<Dimension>& placement);
 
   /// Live cells and, among them, free slots: see is_live.
   [[nodiscard]] std::span<const Cell> cells() const { return cells_; }
@@ -92,7 +105,26 @@ class RegularTriangulation {
   }
   /// The bead opposite to a facet.
   [[nodiscard]] BeadId apex(FacetId facet) const { return cells_[cell_of(facet)].vertex[facet % 4]; }
+  /// The same of facet i as the cell beyond has it.
+  [[nodiscard]] BeadId apex_beyond(CellId cell, int i) const {
+    return cells_[cell].apex[static_cast<std::size_t>(i)];
+  }
+  /// How many cells each bead is a vertex of, infinite ones included.
+  [[nodiscard]] std::span<const std::uint32_t> cells_at() const { return cells_at_; }
 
+  [[nodiscard]] std::uint32_t& note(CellId cell, int i) {
+    return cells_[cell].note[static_cast<std::size_t>(i)];
+  }
+  /// Notes the same of all facets of a cell.
+  void note_all(CellId cell, std::uint32_t value) {
+    auto& note = cells_[cell].note;
+    // Most say so already: lines that are not written need not be written back.
+    if (std::any_of(note.begin(), note.end(), [value](std::uint32_t n) { return n != value; }))
+      note.fill(value);
+  }
+
+  /// A flip there is near: fetches what it will touch, lying anywhere in memory.
+  void fetch_around(CellId cell, int i) const;
   /// Replaces `cell` and its neighbour across facet i by the cells around the edge of their apices: three in
   /// space, two in the plane.
   std::array<CellId, static_cast<std::size_t>(Dimension)> flip_facet(CellId cell, int i);
@@ -121,6 +153,25 @@ class RegularTriangulation {
   /// The cell with these vertices in any order.
   [[nodiscard]] std::optional<CellId> find_cell(const Beads& beads) const;
 
+  /// In space, by CGAL: takes vertices away, other cells fill the holes; what stays must span the space.
+  void take_out(std::span<const BeadId> beads) requires(Dimension == 3);
+  /// In space, by CGAL: puts beads in at these positions; the points of all others are set already. Others
+  /// may lose their vertices, and some of these get none: hidden beads are those that are no vertex.
+  void put_in(std::span<const BeadId> beads, const Eigen::Matrix3Xd& centers,
+              std::span<const double> weights) requires(Dimension == 3);
+  /// Whether there are cells, as there are not where all vertices lie in one plane.
+  [[nodiscard]] bool is_solid() const requires(Dimension == 3);
+  /// Brings the mirror up to date after these; returns the cells that are new.
+  std::vector<CellId> mirror_changes() requires(Dimension == 3);
+
+  /// How many of some facets, near beads `stride` apart, would fail their test at other positions. Needs no
+  /// mirror.
+  struct Sample {
+    std::uint64_t tested = 0, failed = 0;
+  };
+  [[nodiscard]] Sample sample(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                              std::size_t stride) const;
+
   /// CGAL's own check of combinatorics, orientation and power tests at the points set.
   [[nodiscard]] bool is_valid() const;
   /// The least orientation of a finite cell at the points set: 1, or 0 for a flat, -1 for an inverted one.
@@ -138,11 +189,18 @@ class RegularTriangulation {
   [[nodiscard]] std::optional<std::vector<Meeting>> meetings(std::span<const CellId> old,
                                                              std::span<const Beads> made) const;
   void mirror_all();
+  void forget_hidden_points();
   void enliven(CellId id);
+  void count_cells();
+  void add_cells(BeadId bead, int more) {
+    if (bead != infinite_bead) cells_at_[bead] += static_cast<std::uint32_t>(more);
+  }
 
   std::unique_ptr<Cgal> cgal_;
   std::vector<Cell> cells_;
   std::vector<char> live_;
+  std::vector<std::uint32_t> cells_at_;  // of each bead
+  bool mirrored_ = false;
 };
 
 }  // namespace kds

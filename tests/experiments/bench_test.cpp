@@ -72,10 +72,33 @@ TEST(Bench, HierarchiesGiveARowForEachMeasureAndInput) {
   EXPECT_EQ(inputs.size(), 9U);  // four inputs, equal and unequal radii, and the query
 }
 
+TEST(Bench, PowerGivesARowForEachTechniqueAndInput) {
+  const test::ProgramRun result =
+      test::run_program({"bench", "power", "--sizes", "64", "--trajectories",
+                         test::data_file("trajectories/villin_hp36_300K.dcd"), "--json", "-", "--quiet"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json json = Json::parse(result.out);
+  std::set<std::string> names, inputs, goals;
+  for (const Json& row : json["rows"]) {
+    names.insert(row["name"]);
+    inputs.insert(row["input"]);
+    EXPECT_GT(row["value"].get<double>(), 0);
+    EXPECT_EQ(row["unit"], "us/frame");
+    EXPECT_DOUBLE_EQ(row["ratio"].get<double>(),
+                     row["value"].get<double>() / row["peer_value"].get<double>());
+    if (!row["goal"].is_null()) goals.insert(row["name"]);
+  }
+  EXPECT_THAT(names, testing::ElementsAre("activate", "auto to best", "auto to rebuild", "greedy", "kinetic",
+                                          "lifted", "reinsert"));
+  EXPECT_THAT(goals, testing::ElementsAre("auto to best", "auto to rebuild", "kinetic"));
+  EXPECT_EQ(inputs.size(), 8U);  // four strides, four chains
+}
+
 TEST(Bench, RefusesWhatItDoesNotKnow) {
   for (const Arguments& arguments :
        {Arguments{"bench"}, Arguments{"bench", "spheres"}, Arguments{"bench", "hierarchies", "--sizes", "1"},
-        Arguments{"bench", "hierarchies", "--rounds", "4"},
+        Arguments{"bench", "hierarchies", "--rounds", "4"}, Arguments{"bench", "power", "--sizes", "3"},
+        Arguments{"bench", "power", "hierarchies"},
         Arguments{"bench", "hierarchies", "--sizes", "10", "--trajectories", "none.dcd"}}) {
     const test::ProgramRun result = test::run_program(arguments);
     EXPECT_EQ(result.code, 2);

@@ -1,4 +1,4 @@
-// Whatever is typed after `kds generate` and `kds info`, options, help or one line come out.
+// Whatever is typed after `kds generate`, `kds info` and `kds update`, options, help or one line come out.
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 #include "experiments/generate_options.h"
 #include "experiments/info_options.h"
 #include "experiments/text.h"
+#include "experiments/update_options.h"
 #include "motions/input_error.h"
 
 namespace kds {
@@ -92,7 +93,16 @@ const std::vector<std::string> kWords{"--beads",
                                       "-oa.xyz",
                                       "-o=a.xyz",
                                       "--rho=2",
-                                      "%%"};
+                                      "%%",
+                                      "--techniques",
+                                      "--strides",
+                                      "--rounds",
+                                      "--audit",
+                                      "frames",
+                                      "kinetic,lifted",
+                                      "rebuild,",
+                                      "1,2,4",
+                                      "2,2"};
 
 std::string random_word(std::mt19937& random) {
   std::string word = kWords[random() % kWords.size()];
@@ -158,6 +168,17 @@ TEST(InfoOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
     const InfoOptions options = parse_info_options(arguments);
     EXPECT_FALSE(options.input.inputs.empty());
     EXPECT_GE(options.validate.rho, 1);
+  });
+}
+
+TEST(UpdateOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
+  fuzz({{}, {"a.xyz"}, {"a.xyz", "--strides", "1,8"}}, [](const Arguments& arguments) {
+    const UpdateOptions options = parse_update_options(arguments);
+    EXPECT_FALSE(options.input.inputs.empty());
+    EXPECT_EQ(options.techniques.front(), "rebuild");
+    EXPECT_FALSE(options.strides.empty());
+    EXPECT_GE(options.strides.front(), 1U);
+    EXPECT_GE(options.rounds, 1U);
   });
 }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "structures/necklace_tree.h"
+#include "structures/placed_faults.h"
 #include "structures/sorted_cells.h"
 #include "structures/static_build.h"
 #include "tests/support/exact_checks.h"
@@ -72,6 +73,7 @@ void check_mirror(const RegularTriangulation<3>& triangulation, std::size_t bead
       ASSERT_NE(n, cell);
       const int back = index_of(c.beyond[at(i)]);
       ASSERT_EQ(cells[n].beyond[at(back)], facet_id(cell, i));
+      ASSERT_EQ(c.apex[at(i)], cells[n].vertex[at(back)]);
       // The neighbour is this cell with one bead exchanged, and turns the other way for it.
       CellBeads<3> exchanged = c.vertex;
       exchanged[at(i)] = cells[n].vertex[at(back)];
@@ -86,9 +88,26 @@ void check_mirror(const RegularTriangulation<3>& triangulation, std::size_t bead
   }
   sort_cells(finite);
   ASSERT_EQ(finite, triangulation.finite_cells());
+  // Cells of each bead, and what follows for the facets whose two cells name it.
+  std::vector<std::uint32_t> cells_at(beads, 0), facets_with(beads, 0);
+  for (const CellId cell : live) {
+    for (int i = 0; i < 4; ++i) {
+      const BeadId own = cells[cell].vertex[at(i)];
+      if (own != infinite_bead) ++cells_at[own];
+      if (cell_of(cells[cell].beyond[at(i)]) < cell) continue;
+      for (const BeadId b : cells[cell].vertex)
+        if (b != infinite_bead) ++facets_with[b];
+      if (cells[cell].apex[at(i)] != infinite_bead) ++facets_with[cells[cell].apex[at(i)]];
+    }
+  }
+  for (BeadId b = 0; b < beads; ++b) {
+    ASSERT_EQ(triangulation.cells_at()[b], cells_at[b]) << b;
+    ASSERT_EQ(2 * facets_with[b], 5 * cells_at[b]) << b;
+  }
   for (BeadId a = 0; a <= beads; ++a) {
     for (BeadId b = 0; b < a; ++b) {
       const BeadId bead = a == beads ? infinite_bead : a;
+      if (!triangulation.is_vertex(b) || !triangulation.is_vertex(bead)) continue;
       ASSERT_EQ(triangulation.is_edge(b, bead), edges.count({b, bead}) == 1) << b << " " << bead;
       ASSERT_EQ(triangulation.is_edge(bead, b), edges.count({b, bead}) == 1);
     }
@@ -191,6 +210,60 @@ TEST(RegularTriangulation, AssignsOrientedCells) {
   }
 }
 
+TEST(RegularTriangulation, TakesBeadsOutAndPutsThemIn) {
+  std::mt19937 random(12);
+  for (const std::size_t beads : {20U, 60U}) {
+    Cloud cloud(beads, static_cast<unsigned>(beads));
+    RegularTriangulation<3> t;
+    (void)t.build(cloud.centers, cloud.weights);
+    for (int round = 0; round < 4; ++round) {
+      std::vector<BeadId> some;
+      for (BeadId b = 0; b < beads; ++b)
+        if (random() % 4 == 0) some.push_back(b);
+      t.take_out(some);
+      ASSERT_TRUE(t.is_solid());
+      std::set<CellId> made;
+      for (const CellId cell : t.mirror_changes()) {
+        EXPECT_TRUE(t.is_live(cell));
+        EXPECT_TRUE(made.insert(cell).second);
+      }
+      check_mirror(t, beads);
+      if (HasFatalFailure()) return;
+      EXPECT_TRUE(t.is_valid());
+      for (const BeadId b : some) {
+        EXPECT_FALSE(t.is_vertex(b));
+        // Elsewhere, and one so heavy that it hides others.
+        cloud.centers.col(b).x() = static_cast<double>(random() % 1000000);
+        cloud.weights[b] = b == some.front() ? 4e10 : 0;
+      }
+      t.put_in(some, cloud.centers, cloud.weights);
+      (void)t.mirror_changes();
+      const auto expected = static_triangulation<3>(cloud.centers, cloud.weights);
+      EXPECT_EQ(t.finite_cells(), expected.cells);
+      for (BeadId b = 0; b < beads; ++b)
+        EXPECT_NE(t.is_vertex(b), std::binary_search(expected.hidden.begin(), expected.hidden.end(), b));
+      for (double& w : cloud.weights) w = 0;  // all come back
+      (void)t.build(cloud.centers, cloud.weights);
+    }
+  }
+}
+
+TEST(RegularTriangulation, ASampleTellsTheShareOfFailedCertificates) {
+  const Cloud cloud(400, 3);
+  RegularTriangulation<3> t;
+  (void)t.build_bare(cloud.centers, cloud.weights);
+  EXPECT_FALSE(t.has_mirror());
+  const auto still = t.sample(cloud.centers, cloud.weights, 1);
+  EXPECT_GT(still.tested, 1000U);
+  EXPECT_EQ(still.failed, 0U);
+  const auto apart = t.sample(Cloud(400, 4).centers, cloud.weights, 1);  // all else
+  EXPECT_GT(3 * apart.failed, apart.tested);
+  EXPECT_LT(t.sample(cloud.centers, cloud.weights, 8).tested, still.tested / 4);
+  EXPECT_EQ(t.finite_cells(), static_triangulation<3>(cloud.centers, cloud.weights).cells);
+  t.make_mirror();
+  check_mirror(t, 400);
+}
+
 TEST(RegularTriangulation, RefusesCellsThatDoNotCloseUp) {
   auto cells = static_triangulation<3>(exact_beads(Cloud(8)), true).cells;
   cells.pop_back();
@@ -230,6 +303,9 @@ TEST(RegularTriangulation, ValidityFollowsThePoints) {
   for (auto& p : mirrored) p[0] = -p[0];
   triangulation.set_points(centers(mirrored), weights);
   EXPECT_LT(triangulation.least_orientation(), 1);
+  EXPECT_EQ(least_orientation(triangulation, Placement<3>(centers(mirrored), weights)), -1);
+  EXPECT_EQ(least_orientation(triangulation, Placement<3>(centers(after), weights)), 1);
+  EXPECT_EQ(least_orientation(triangulation, Placement<3>(Eigen::Matrix3Xd::Zero(3, 5), weights)), 0);
 }
 
 // Mutate, validate, repeat.

@@ -1,0 +1,259 @@
+#include "structures/moving_update.h"
+
+#include <cmath>
+
+namespace kds {
+
+template <Motion M>
+void MovingDiagram<M>::build(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  machine_ = std::make_unique<Machine>(weights.size());
+  for (BeadId b = 0; b < weights.size(); ++b) {
+    set_end(b, centers, weights);
+    rest_at_end(b);
+  }
+  machine_->simulator.build();
+}
+
+template <Motion M>
+std::optional<std::string> MovingDiagram<M>::fault() const {
+  return machine_->power.audit(Dyadic(1.0));
+}
+
+template <Motion M>
+void MovingDiagram<M>::set_end(BeadId bead, const Eigen::Matrix3Xd& centers,
+                               std::span<const double> weights) {
+  for (int axis = 0; axis < 3; ++axis) machine_->motion.set_coordinate(bead, 1, axis, centers(axis, bead));
+  machine_->motion.set_weight(bead, 1, weights[bead]);
+}
+
+template <Motion M>
+void MovingDiagram<M>::rest_at_end(BeadId bead) {
+  M& motion = machine_->motion;
+  for (int axis = 0; axis < 3; ++axis) motion.set_coordinate(bead, 0, axis, motion.coordinate(bead, 1, axis));
+  motion.set_weight(bead, 0, motion.weight(bead, 1));
+}
+
+template <Motion M>
+void MovingDiagram<M>::load(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+  for (BeadId b = 0; b < weights.size(); ++b) {
+    rest_at_end(b);
+    set_end(b, centers, weights);
+    if constexpr (lifted<M>) {
+      for (int axis = 0; axis < 3; ++axis)
+        moved[axis] += machine_->motion.coordinate(b, 1, axis) - machine_->motion.coordinate(b, 0, axis);
+    }
+  }
+  if constexpr (lifted<M>) {  // any vector makes a motion, the mean dips weights the least
+    typename M::Vector drift{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double mean = moved[axis] / static_cast<double>(weights.size());
+      drift[static_cast<std::size_t>(axis)] = std::isfinite(mean) ? mean : 0;
+    }
+    machine_->motion.set_drift(drift);
+  }
+}
+
+template <Motion M>
+void MovingDiagram<M>::run_step(UpdateCounts& counts) {
+  machine_->simulator.run_step(true);
+  counts.events += machine_->power.statistics.events_per_step.back();
+  machine_->power.statistics.events_per_step.clear();
+  counts.rebuilds += std::exchange(machine_->power.statistics.rebuilds, 0);
+}
+
+template <Motion M>
+void MovingDiagram<M>::move_all(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                                UpdateCounts& counts) {
+  load(centers, weights);
+  counts.activated += weights.size();
+  run_step(counts);
+}
+
+template <Motion M>
+void MovingDiagram<M>::rebuild(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                               UpdateCounts& counts) {
+  load(centers, weights);
+  machine_->power.build_at_end();
+  ++counts.rebuilds;
+}
+
+/// All beads of failed certificates.
+template <Motion M>
+void MovingDiagram<M>::activate(const PlacedFaults& faults, std::vector<char>& moves) const {
+  const RegularTriangulation<3>& t = machine_->power.triangulation();
+  const auto add = [&](BeadId bead) {
+    if (bead != infinite_bead) moves[bead] = 1;
+  };
+  for (const auto* facets : {&faults.facets, &faults.zero_facets}) {
+    for (const FacetId f : *facets) {
+      for (const BeadId b : t.cells()[cell_of(f)].vertex) add(b);
+      add(t.apex_beyond(cell_of(f), index_of(f)));
+    }
+  }
+  for (const auto* cells : {&faults.cells, &faults.flat_cells}) {
+    for (const CellId cell : *cells)
+      for (const BeadId b : t.cells()[cell].vertex) add(b);
+  }
+}
+
+namespace {
+
+/// The finite cell that a bead is in where beads are put, on a walk from some cell; no_cell where there is
+/// none, or the walk gets lost among inverted cells.
+CellId placed_host(const RegularTriangulation<3>& t, BeadId bead, CellId cell,
+                   const Placement<3>& placement) {
+  for (std::size_t step = 0; step <= t.cells().size(); ++step) {
+    const auto& v = t.cells()[cell].vertex;
+    if (const auto at = std::find(v.begin(), v.end(), infinite_bead); at != v.end()) {
+      if (step > 0) return no_cell;
+      cell = cell_of(t.beyond(cell, static_cast<int>(at - v.begin())));
+      continue;
+    }
+    int leaves_by = -1;
+    for (int i = 0; i <= 3 && leaves_by < 0; ++i) {
+      auto part = v;
+      part[static_cast<std::size_t>(i)] = bead;
+      if (placed_sign(Orientation<3>(part, 1), placement) < 0) leaves_by = i;
+    }
+    if (leaves_by < 0) return cell;
+    cell = cell_of(t.beyond(cell, leaves_by));
+  }
+  return no_cell;
+}
+
+}  // namespace
+
+/// Hidden beads, wherever they are hidden, and the beads of the cell they will be in if it does not hide
+/// them.
+template <Motion M>
+void MovingDiagram<M>::hidden_that_show(const Placement<3>& next, std::vector<char>& moves) {
+  PowerDiagram<M, Filtered>& power = machine_->power;
+  const RegularTriangulation<3>& t = power.triangulation();
+  const auto move_cell = [&](CellId cell) {
+    for (const BeadId b : t.cells()[cell].vertex)
+      if (b != infinite_bead) moves[b] = 1;
+  };
+  for (const HiddenBead& hidden : power.hidden().with_hosts()) {
+    moves[hidden.bead] = 1;
+    const CellId near = hidden.host == no_cell ? power.some_finite_cell() : hidden.host;
+    const CellId host = placed_host(t, hidden.bead, near, next);
+    const auto hides = [&](const auto& certificate) { return placed_sign(certificate, next) >= 0; };
+    if (host == no_cell) {
+      move_cell(near);
+    } else if (!with_facet_certificate(t.cells()[host].vertex, hidden.bead, hides)) {
+      move_cell(host);
+    }
+  }
+}
+
+/// Cells that hidden beads are in now.
+template <Motion M>
+void MovingDiagram<M>::house_hidden(const Placement<3>& next) {
+  PowerDiagram<M, Filtered>& power = machine_->power;
+  for (const HiddenBead& hidden : power.hidden().with_hosts()) {
+    const CellId near = hidden.host == no_cell ? power.some_finite_cell() : hidden.host;
+    power.house(hidden.bead, placed_host(power.triangulation(), hidden.bead, near, next));
+  }
+}
+
+template <Motion M>
+void MovingDiagram<M>::move_some(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                                 UpdateCounts& counts) {
+  PowerDiagram<M, Filtered>& power = machine_->power;
+  triangulation().make_mirror();
+  const Placement<3> next(centers, weights);
+  PlacedFaults faults = power.is_solid() ? placed_faults(triangulation(), next) : PlacedFaults{};
+  counts.tested = faults.tested;
+  counts.failed = faults.failed();
+  std::vector<char> moved(weights.size(), 0), moves(weights.size(), 0);
+  activate(faults, moves);
+  hidden_that_show(next, moves);
+  const auto count = static_cast<std::size_t>(std::count(moves.begin(), moves.end(), 1));
+  // Then hardly any facet would rest.
+  if (!power.is_solid() || 4 * count > 3 * weights.size()) return move_all(centers, weights, counts);
+
+  for (BeadId b = 0; b < weights.size(); ++b) rest_at_end(b);
+  while (true) {
+    // Those that have moved rest where they are.
+    bool any = false;
+    for (BeadId b = 0; b < weights.size(); ++b) {
+      if (moved[b] != 0) {
+        rest_at_end(b);
+        moves[b] = 0;
+      } else if (moves[b] != 0) {
+        set_end(b, centers, weights);
+        moved[b] = 1;
+        any = true;
+        ++counts.activated;
+      }
+    }
+    if (!any) break;
+    power.move_only(moves);
+    const std::uint64_t before = counts.rebuilds;
+    run_step(counts);
+    // What no flip has touched was tested at the new positions before.
+    std::vector<CellId> flipped(power.flipped().begin(), power.flipped().end());
+    std::sort(flipped.begin(), flipped.end());
+    flipped.erase(std::unique(flipped.begin(), flipped.end()), flipped.end());
+    faults = counts.rebuilds > before
+                 ? placed_faults(triangulation(), next)
+                 : placed_faults(triangulation(), std::span<const CellId>(flipped), next);
+    moves.assign(weights.size(), 0);
+    activate(faults, moves);
+    hidden_that_show(next, moves);
+  }
+  // The others hold where they go: nothing happens on the way that matters.
+  for (BeadId b = 0; b < weights.size(); ++b) set_end(b, centers, weights);
+  power.move_only({});
+  house_hidden(next);
+  power.reach_frame(true);
+}
+
+template class MovingDiagram<BezierMotion<3, 1>>;
+template class MovingDiagram<LiftedMotion<3>>;
+
+UpdateCounts KineticUpdate::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  UpdateCounts counts;
+  move_all(centers, weights, counts);
+  return counts;
+}
+
+UpdateCounts LiftedUpdate::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  UpdateCounts counts;
+  move_all(centers, weights, counts);
+  return counts;
+}
+
+UpdateCounts Activation::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  UpdateCounts counts;
+  move_some(centers, weights, counts);
+  return counts;
+}
+
+UpdateCounts AutomaticUpdate::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  // Measured (kds bench power): at about this share of failed certificates moving takes as long as
+  // rebuilding. A sample near every 16th bead, of four facets each, costs a hundredth of it.
+  constexpr double worth_rebuilding = 0.125;
+  constexpr std::size_t every = 16, every_at_first = 4, most_sampled = 64;
+  constexpr double remembered = 0.75;
+  UpdateCounts counts;
+  if (!is_solid()) {
+    rebuild(centers, weights, counts);
+    return counts;
+  }
+  const auto sample = triangulation().sample(
+      centers, weights, std::max(tested_ == 0 ? every_at_first : every, bead_count() / most_sampled));
+  counts.tested = sample.tested;
+  counts.failed = sample.failed;
+  tested_ = remembered * tested_ + static_cast<double>(sample.tested);
+  failed_ = remembered * failed_ + static_cast<double>(sample.failed);
+  if (failed_ > worth_rebuilding * tested_) {
+    rebuild(centers, weights, counts);
+  } else {
+    move_all(centers, weights, counts);
+  }
+  return counts;
+}
+
+}  // namespace kds

@@ -1,0 +1,85 @@
+#pragma once
+// Updates of a power diagram by motion (diagram_update.h): all beads in time order, or only those that have
+// to move.
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "motions/lifted_motion.h"
+#include "motions/placement.h"
+#include "structures/diagram_update.h"
+#include "structures/placed_faults.h"
+#include "structures/power_diagram.h"
+
+namespace kds {
+
+/// A power diagram on a clock of its own that goes from frame to frame.
+template <Motion M>
+class MovingDiagram : public DiagramUpdate {
+ public:
+  void build(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
+  [[nodiscard]] StaticTriangulation<3> diagram() const override { return machine_->power.at_frame(false); }
+  [[nodiscard]] std::optional<std::string> fault() const override;
+
+ protected:
+  /// All beads move, in one step.
+  void move_all(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
+  /// Only beads that must, in as many steps as it takes. Falls back on move_all where cells are flat or
+  /// missing, and where most beads would have to move at once.
+  void move_some(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
+  void rebuild(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
+  [[nodiscard]] RegularTriangulation<3>& triangulation() { return machine_->power.triangulation(); }
+  [[nodiscard]] bool is_solid() const { return machine_->power.is_solid(); }
+  [[nodiscard]] std::size_t bead_count() const { return machine_->motion.bead_count(); }
+
+ private:
+  struct Machine {
+    explicit Machine(std::size_t beads) : motion(beads), power(simulator, motion) {}
+    M motion;
+    Simulator simulator;
+    PowerDiagram<M, Filtered> power;
+  };
+
+  void load(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+  void set_end(BeadId bead, const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+  void rest_at_end(BeadId bead);
+  void run_step(UpdateCounts& counts);
+  void activate(const PlacedFaults& faults, std::vector<char>& moves) const;
+  void hidden_that_show(const Placement<3>& next, std::vector<char>& moves);
+  void house_hidden(const Placement<3>& next);
+
+  std::unique_ptr<Machine> machine_;
+};
+
+class KineticUpdate final : public MovingDiagram<BezierMotion<3, 1>> {
+ public:
+  UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
+};
+
+class LiftedUpdate final : public MovingDiagram<LiftedMotion<3>> {
+ public:
+  UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
+};
+
+class Activation final : public MovingDiagram<BezierMotion<3, 1>> {
+ public:
+  UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
+};
+
+/// What it has seen fail counts the less the longer ago: motion goes on much as before, and a sample of one
+/// frame is small.
+class AutomaticUpdate final : public MovingDiagram<BezierMotion<3, 1>> {
+ public:
+  UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
+
+ private:
+  double tested_ = 0, failed_ = 0;
+};
+
+extern template class MovingDiagram<BezierMotion<3, 1>>;
+extern template class MovingDiagram<LiftedMotion<3>>;
+
+}  // namespace kds

@@ -1,0 +1,47 @@
+#pragma once
+// Updates of a power diagram that know no time: rebuilding it, or taking beads out and putting them in again
+// (diagram_update.h).
+
+#include "motions/placement.h"
+#include "structures/diagram_update.h"
+#include "structures/placed_faults.h"
+
+namespace kds {
+
+/// What the updates by CGAL share. Hidden beads are those without a vertex.
+class StaticUpdate : public DiagramUpdate {
+ public:
+  void build(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
+  [[nodiscard]] StaticTriangulation<3> diagram() const override;
+  [[nodiscard]] std::optional<std::string> fault() const override;
+
+ protected:
+  void rebuild(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+  void find_hidden();
+
+  RegularTriangulation<3> triangulation_;
+  std::vector<BeadId> hidden_;  ///< ascending
+  Placement<3> placement_;      ///< of the frame reached
+  int affine_dimension_ = 3;
+};
+
+class Rebuild final : public StaticUpdate {
+ public:
+  UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
+};
+
+/// Which bead of a failed certificate is taken out: any, or one of most failed certificates.
+enum class Choice : std::uint8_t { any, most_failed };
+
+class Reinsertion final : public StaticUpdate {
+ public:
+  explicit Reinsertion(Choice choice) : choice_(choice) {}
+  UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
+
+ private:
+  [[nodiscard]] std::vector<BeadId> choose(const PlacedFaults& faults) const;
+
+  Choice choice_;
+};
+
+}  // namespace kds

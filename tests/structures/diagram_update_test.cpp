@@ -1,0 +1,202 @@
+// Updates from frame to frame: whatever the technique, the diagram is CGAL's static one, or, where a frame is
+// degenerate, regular by the definition.
+
+#include "structures/diagram_update.h"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "motions/input_error.h"
+#include "tests/support/moving_beads.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+
+struct Frame {
+  Eigen::Matrix3Xd centers;
+  std::vector<double> weights;
+};
+
+constexpr std::array all_techniques{
+    UpdateTechnique::rebuild, UpdateTechnique::reinsert, UpdateTechnique::greedy,   UpdateTechnique::kinetic,
+    UpdateTechnique::lifted,  UpdateTechnique::activate, UpdateTechnique::automatic};
+
+std::string name_of(UpdateTechnique technique) {
+  constexpr std::array names{"rebuild", "reinsert", "greedy", "kinetic", "lifted", "activate", "automatic"};
+  return names[static_cast<std::size_t>(technique)];
+}
+
+/// Runs over all frames and checks at each; the sum of what was done.
+UpdateCounts run(UpdateTechnique technique, const std::vector<Frame>& frames) {
+  SCOPED_TRACE(name_of(technique));
+  const auto update = make_diagram_update(technique);
+  UpdateCounts sum;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    SCOPED_TRACE(testing::Message() << "frame " << k);
+    if (k == 0) {
+      update->build(frames[0].centers, frames[0].weights);
+    } else {
+      const UpdateCounts counts = update->advance(frames[k].centers, frames[k].weights);
+      sum.tested += counts.tested;
+      sum.failed += counts.failed;
+      sum.activated += counts.activated;
+      sum.removed += counts.removed;
+      sum.events += counts.events;
+      sum.rebuilds += counts.rebuilds;
+    }
+    const auto expected = static_triangulation<3>(frames[k].centers, frames[k].weights);
+    const auto found = update->diagram();
+    if (found.cells != expected.cells || found.hidden != expected.hidden) {
+      EXPECT_EQ(update->fault().value_or("none"), "none");
+    }
+  }
+  return sum;
+}
+
+std::vector<Frame> frames_of(const std::vector<Space>& steps) {
+  std::vector<Frame> frames;
+  const auto add = [&](const Space& step, int k) {
+    frames.push_back({Eigen::Matrix3Xd(3, static_cast<Eigen::Index>(step.bead_count())), {}});
+    for (BeadId b = 0; b < step.bead_count(); ++b) {
+      for (int axis = 0; axis < 3; ++axis) frames.back().centers(axis, b) = step.coordinate(b, k, axis);
+      frames.back().weights.push_back(step.weight(b, k));
+    }
+  };
+  add(steps.front(), 0);
+  for (const Space& step : steps) add(step, 1);
+  return frames;
+}
+
+/// Random points in a cube, each moved by up to `step` a frame; weights from 0 to `weight`, changing too if
+/// `weights_move`.
+std::vector<Frame> random_frames(unsigned seed, Eigen::Index beads, std::size_t count, double step,
+                                 double weight, bool weights_move) {
+  std::mt19937 random(seed);
+  const auto uniform = [&](double from, double to) {
+    return from + (to - from) * static_cast<double>(random()) / 4294967296.0;
+  };
+  std::vector<Frame> frames(1);
+  frames[0].centers = Eigen::Matrix3Xd::NullaryExpr(3, beads, [&] { return uniform(0, 1); });
+  for (Eigen::Index b = 0; b < beads; ++b) frames[0].weights.push_back(uniform(0, weight));
+  while (frames.size() < count) {
+    frames.push_back(frames.back());
+    for (double& x : frames.back().centers.reshaped()) x += uniform(-step, step);
+    if (!weights_move) continue;
+    for (double& w : frames.back().weights) w = std::max(0.0, w + uniform(-0.1, 0.1) * weight);
+  }
+  return frames;
+}
+
+TEST(DiagramUpdate, AllTechniquesReachTheStaticDiagram) {
+  for (const double step : {0.001, 0.02, 0.3}) {
+    for (const UpdateTechnique technique : all_techniques)
+      run(technique, random_frames(1, 150, 6, step, 0, false));
+  }
+}
+
+TEST(DiagramUpdate, HiddenBeadsWeightsThatMoveAndBeadsThatComeBack) {
+  std::uint64_t hidden = 0;
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    for (const double step : {0.002, 0.05}) {
+      const auto frames = random_frames(seed, 80, 6, step, 0.08, seed != 1);
+      for (const Frame& f : frames) hidden += static_triangulation<3>(f.centers, f.weights).hidden.size();
+      for (const UpdateTechnique technique : all_techniques) run(technique, frames);
+    }
+  }
+  EXPECT_GT(hidden, 100U);
+}
+
+TEST(DiagramUpdate, TrajectoriesAndTheirStrides) {
+  for (const std::size_t stride : {1U, 20U}) {
+    const auto frames = frames_of(trajectory_steps("villin_hp36_300K.dcd", 0, 4 * stride, stride));
+    for (const UpdateTechnique technique : all_techniques) run(technique, frames);
+  }
+}
+
+TEST(DiagramUpdate, DegenerateFrames) {
+  // Whole coordinates: many beads on one sphere, flat hulls, coincident beads.
+  for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+    std::mt19937 random(seed);
+    std::vector<Frame> frames;
+    for (int k = 0; k < 4; ++k) {
+      const Points points = random_grid_points(random, 40, seed < 3 ? 5 : 4);
+      frames.push_back({Eigen::Matrix3Xd(3, 40), std::vector<double>(40, 0.0)});
+      for (Eigen::Index b = 0; b < 40; ++b) {
+        for (Eigen::Index axis = 0; axis < 3; ++axis)
+          frames.back().centers(axis, b) =
+              points[static_cast<std::size_t>(b)][static_cast<std::size_t>(axis)];
+        if (seed % 2 == 0) frames.back().weights[static_cast<std::size_t>(b)] = static_cast<double>(b % 3);
+      }
+    }
+    for (const UpdateTechnique technique : all_techniques) run(technique, frames);
+  }
+}
+
+TEST(DiagramUpdate, NothingHappensWhereNothingMoves) {
+  auto frames = random_frames(7, 100, 1, 0, 0.05, false);
+  frames.resize(3, frames[0]);
+  for (const UpdateTechnique technique : all_techniques) {
+    const UpdateCounts counts = run(technique, frames);
+    EXPECT_EQ(counts.failed, 0U);
+    EXPECT_EQ(counts.events, 0U);
+    EXPECT_EQ(counts.removed, 0U);
+    EXPECT_EQ(counts.rebuilds, technique == UpdateTechnique::rebuild ? 2U : 0U);
+  }
+}
+
+TEST(DiagramUpdate, OneBeadMovesAlone) {
+  auto frames = random_frames(8, 200, 1, 0, 0, false);
+  frames.resize(2, frames[0]);
+  // Two of a hundred: it is in the midst of the others.
+  frames[1].centers.col(50) += Eigen::Vector3d(0.08, 0.03, -0.02);
+  const UpdateCounts activate = run(UpdateTechnique::activate, frames);
+  EXPECT_GT(activate.failed, 0U);
+  EXPECT_GT(activate.activated, 0U);
+  EXPECT_LT(activate.activated, 60U);
+  EXPECT_GT(activate.events, 0U);
+  EXPECT_EQ(activate.rebuilds, 0U);
+  const UpdateCounts kinetic = run(UpdateTechnique::kinetic, frames);
+  EXPECT_EQ(kinetic.activated, 200U);
+  EXPECT_LE(kinetic.events, activate.events);
+  // All failed certificates name it.
+  const UpdateCounts greedy = run(UpdateTechnique::greedy, frames);
+  EXPECT_EQ(greedy.removed, 1U);
+  EXPECT_EQ(greedy.rebuilds, 0U);
+  const UpdateCounts reinsert = run(UpdateTechnique::reinsert, frames);
+  EXPECT_GE(reinsert.removed, greedy.removed);
+}
+
+TEST(DiagramUpdate, TooManyToTakeOutIsARebuildAndSaysSo) {
+  const auto frames = random_frames(9, 150, 2, 0.5, 0, false);
+  for (const UpdateTechnique technique : {UpdateTechnique::reinsert, UpdateTechnique::greedy}) {
+    const UpdateCounts counts = run(technique, frames);
+    EXPECT_EQ(counts.rebuilds, 1U);
+    EXPECT_GT(counts.removed, 15U);
+  }
+}
+
+TEST(DiagramUpdate, AutomaticMovesWhereLittleHappensAndRebuildsWhereMuchDoes) {
+  EXPECT_EQ(run(UpdateTechnique::automatic, random_frames(3, 300, 4, 0.001, 0, false)).rebuilds, 0U);
+  EXPECT_EQ(run(UpdateTechnique::automatic, random_frames(3, 300, 4, 0.5, 0, false)).rebuilds, 3U);
+}
+
+TEST(DiagramUpdate, FramesInOnePlaneOnTheWay) {
+  auto frames = random_frames(4, 30, 3, 0.1, 0, false);
+  frames[1].centers.row(2).setConstant(0.5);
+  for (const UpdateTechnique technique :
+       {UpdateTechnique::rebuild, UpdateTechnique::reinsert, UpdateTechnique::kinetic,
+        UpdateTechnique::lifted, UpdateTechnique::activate, UpdateTechnique::automatic})
+    run(technique, frames);
+}
+
+TEST(DiagramUpdate, TooFewBeads) {
+  const Eigen::Matrix3Xd three = Eigen::Matrix3Xd::Identity(3, 3);
+  for (const UpdateTechnique technique : all_techniques)
+    EXPECT_THROW(make_diagram_update(technique)->build(three, std::vector<double>(3)), InputError);
+}
+
+}  // namespace
+}  // namespace kds
