@@ -149,7 +149,7 @@ class Comparison {
   double run_hermite(UpdateRow& row, bool first) const {
     if (first && audit_) row.audits = audited_hermite(row);
     const Scene scene(necklaces_, radii_, FrameMotion::hermite);
-    const auto session = make_session(scene, {"power"}, KernelName::filtered, AuditMode::none);
+    const auto session = make_session(scene, {{"power"}, KernelName::filtered, AuditMode::none, {}});
     session->load(0);
     session->simulator().build();
     const double seconds = processor_seconds_of([&] { run_steps(scene, *session); });
@@ -163,7 +163,7 @@ class Comparison {
   }
   std::uint64_t audited_hermite(const UpdateRow& row) const {
     const Scene scene(necklaces_, radii_, FrameMotion::hermite);
-    const auto session = make_session(scene, {"power"}, KernelName::filtered, AuditMode::frames);
+    const auto session = make_session(scene, {{"power"}, KernelName::filtered, AuditMode::frames, {}});
     session->load(0);
     session->simulator().build();
     try {
