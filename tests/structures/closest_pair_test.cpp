@@ -80,7 +80,7 @@ enum class Sizes { equal, unequal, wild, grid, wild_on_a_line };
 
 Eigen::Vector3d random_direction(Random& random, int dimension) {
   while (true) {
-    Eigen::Vector3d d(uniform(random), uniform(random), dimension == 3 ? uniform(random) : 0);
+    const Eigen::Vector3d d{uniform(random), uniform(random), dimension == 3 ? uniform(random) : 0.0};
     if (d.norm() > 0.1 && d.norm() < 1) return d.normalized();
   }
 }
@@ -106,7 +106,8 @@ void grow(Balls& balls, Random& random, std::size_t beads, int dimension, Sizes 
     if (sizes == Sizes::grid) r = 0.625;
     Eigen::Vector3d c = Eigen::Vector3d::Zero();
     if (balls.centers.size() == first) {
-      c = 2.0 * uniform(random, 0, 1) * random_direction(random, dimension);
+      const double away = uniform(random, 0, 2);
+      c = away * random_direction(random, dimension);
       if (sizes == Sizes::grid) c = c.array().round();
       if (on_a_line) c = Eigen::Vector3d(uniform(random, 0, 4), 0, 0);
     } else {
@@ -144,7 +145,8 @@ Seen run_necklaces(unsigned cases, unsigned flaws) {
       grow(balls, random, 1 + random() % (few ? 3 : necklaces == 1 ? 16 : 8), Dimension, sizes, flaws);
     if (sizes == Sizes::wild_on_a_line) {  // and some beside it
       for (unsigned k = random() % 6; k > 0; --k) {
-        const Eigen::Vector3d c = uniform(random, 3, 7) * random_direction(random, Dimension);
+        const double away = uniform(random, 3, 7);
+        const Eigen::Vector3d c = away * random_direction(random, Dimension);
         bool free = true;
         for (BeadId b = 0; b < balls.centers.size(); ++b)
           free &= compare_distance(c, balls.centers[b], 0.25, balls.radii[b]) > 0;
@@ -203,7 +205,7 @@ Seen run_families(unsigned cases) {
     const double spread = uniform(random, 1, 5);
     Balls balls;
     for (unsigned b = 0; b < beads; ++b) {
-      Eigen::Vector3d c = spread * Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
+      Eigen::Vector3d c = spread * Eigen::Vector3d{uniform(random), uniform(random), uniform(random)};
       if (grid) c = c.array().round();
       if (Dimension == 2) c[2] = 0;
       balls.centers.push_back(c);
@@ -276,7 +278,7 @@ TEST(ClosestPair, OfThinBeads) {
     Random random(seed);
     Balls balls;
     for (unsigned b = 0; b < 150; ++b) {
-      balls.centers.push_back(8 * Eigen::Vector3d(uniform(random), uniform(random), uniform(random)));
+      balls.centers.push_back(8 * Eigen::Vector3d{uniform(random), uniform(random), uniform(random)});
       balls.radii.push_back(seed % 2 == 0 ? 0.01 : 0.02 * uniform(random, 0, 1));
     }
     balls.necklaces = {{0, 79}, {80, 149}};
@@ -381,12 +383,17 @@ TEST(BallDistance, ComparesGapsAndPowers) {
   unsigned equal = 0, close = 0;
   for (int round = 0; round < 20000; ++round) {
     const auto whole = [&] {
-      return Eigen::Vector3d(pick(random, -3, 3), pick(random, -3, 3), pick(random, -3, 3));
+      const double x = pick(random, -3, 3), y = pick(random, -3, 3), z = pick(random, -3, 3);
+      return Eigen::Vector3d(x, y, z);
     };
     const auto off = [&] { return random() % 3 == 0 ? 0x1p-50 * pick(random, -2, 2) : 0.0; };
     const Eigen::Vector3d a = whole(), b = whole(), c = whole(), d = whole();
-    const double r = 0.5 * pick(random, 0, 3) + std::abs(off()), s = 0.5 * pick(random, 0, 3);
-    const double t = 0.5 * pick(random, 0, 3), u = 0.5 * pick(random, 0, 3) + std::abs(off());
+    double r = 0.5 * pick(random, 0, 3);
+    r += std::abs(off());
+    const double s = 0.5 * pick(random, 0, 3);
+    const double t = 0.5 * pick(random, 0, 3);
+    double u = 0.5 * pick(random, 0, 3);
+    u += std::abs(off());
     const int gaps = compare_gap_units(gap_in_units(a, b, r, s), gap_in_units(c, d, t, u));
     EXPECT_EQ(compare_gaps(a, b, {r, s}, c, d, {t, u}), gaps);
     EXPECT_EQ(compare_gaps(c, d, {t, u}, a, b, {r, s}), -gaps);
