@@ -113,8 +113,8 @@ class PowerDiagram final : public KineticStructure {
       watch_all();
     }
     flat_ = false;
-    within_step_ = true;
-    if (moving_.empty()) count_certificates_per_bead();
+    within_step_ = moving_.empty();
+    if (within_step_) count_certificates_per_bead();
   }
 
   void fail(unsigned table, std::uint32_t slot) override;

@@ -536,6 +536,7 @@ std::vector<CellId> RegularTriangulation<Dimension>::replace(std::span<const Cel
   for (const auto c : made) {
     ids.push_back(cgal_->new_id(c));
     enliven(ids.back());
+    cells_[ids.back()] = {};  // the notes of a cell that was there before, too
   }
   cgal_->mirror(made, cells_);
   for (const CellId id : ids) {
