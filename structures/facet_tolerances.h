@@ -28,16 +28,27 @@ class FacetTolerances {
     cells_ = triangulation.cells();
     if (cells_.empty()) return forget_all();
     const double rest = settle(motion, triangulation);
+    if (wandering_.has_reference() && rest < least_worth) forget_all();  // too far away to be of use
     const double wanted = std::max(rest + worth_a_reference, least_share);
     if (wanted > 1) return;
+    if (skip_ > 0) {
+      --skip_;
+      return;
+    }
     Wandering<M> fresh;
     fresh.set_reference(motion);
     fresh.look_at(motion);
-    if (sampled(motion, triangulation, fresh.strays()) < wanted) return;
+    if (sampled(motion, triangulation, fresh.strays()) < wanted) {
+      skip_ = std::exchange(next_skip_, std::min(2 * next_skip_ + 1, most_skipped));
+      return;
+    }
+    next_skip_ = 0;
     wandering_ = std::move(fresh);
     take_all(motion, triangulation);
     static_cast<void>(settle(motion, triangulation));
   }
+  /// Whether any facet may rest.
+  [[nodiscard]] bool any() const { return wandering_.has_reference(); }
   /// Whether the facet needs no certificate in this step. Asked before any flip in the step.
   [[nodiscard]] bool holds(CellId cell, int i, CellId neighbor) const {
     if (!wandering_.has_reference()) return false;
@@ -62,6 +73,10 @@ class FacetTolerances {
   static constexpr double worth_a_reference = 0.25;
   /// And this share of all: looking at a tolerance and keeping it up to date is not free either.
   static constexpr double least_share = 0.4;
+  /// Below this share a reference is given up.
+  static constexpr double least_worth = 0.05;
+  /// Motion that is fast is so for a while: after each sample in vain so many steps more go by without one.
+  static constexpr unsigned most_skipped = 15;
   static constexpr std::size_t sample_size = 128;
   static constexpr double unknown = -1;
 
@@ -175,6 +190,7 @@ class FacetTolerances {
     return share_of(resting, looked_at);
   }
 
+  unsigned skip_ = 0, next_skip_ = 0;
   Wandering<M> wandering_;
   std::vector<std::array<double, dimension + 1>> tolerances_;  ///< of each facet, as each cell has it
   double farthest_ = 0;                                        ///< any bead strays no more

@@ -31,15 +31,16 @@ class PositiveFacets {
 
   explicit PositiveFacets(const M& motion) : motion_(motion) {}
 
-  /// Facet i of a cell, all beads finite. Calls `doubt` with the facets, this or earlier ones, that are not
-  /// found positive.
+  /// Facet i of a cell, all beads finite, if it is wanted: each second one is not, which no branch foretells.
+  /// Calls `doubt` with the facets, this or earlier ones, that are not found positive.
   template <class Doubt>
-  void look_at(const TriangulationCell<dimension>& cell, int i, FacetId facet, Doubt doubt) {
+  void look_at(const TriangulationCell<dimension>& cell, int i, FacetId facet, bool wanted, Doubt doubt) {
     auto& beads = beads_[waiting_];
     for (std::size_t k = 0; k <= dimension; ++k) beads[k] = cell.vertex[k];
     beads[dimension + 1] = cell.apex[static_cast<std::size_t>(i)];
     facets_[waiting_] = facet;
-    if (++waiting_ == Lanes::width) flush(doubt);
+    waiting_ += wanted ? 1 : 0;
+    if (waiting_ == Lanes::width) flush(doubt);
   }
   template <class Doubt>
   void finish(Doubt doubt) {

@@ -29,11 +29,14 @@ void PowerDiagram<M, K>::watch_all() {
     const bool in_lanes = std::same_as<K, Filtered> && !is_infinite(cell);
     for (int i = 0; i <= dimension; ++i) {
       const CellId other = neighbor(cell, i);
-      if (other < cell) continue;
-      if (tolerances_.holds(cell, i, other)) {
+      if (in_lanes && !tolerances_.any() && apex(cell, i) != infinite_bead) {
+        positive.look_at(cells[cell], i, facet_id(cell, i), cell < other, guard_it);
+      } else if (other < cell) {
+        continue;
+      } else if (tolerances_.holds(cell, i, other)) {
         ++at_rest;
       } else if (in_lanes && apex(cell, i) != infinite_bead) {
-        positive.look_at(cells[cell], i, facet_id(cell, i), guard_it);
+        positive.look_at(cells[cell], i, facet_id(cell, i), true, guard_it);
       } else {
         enqueue(cell, i);
       }

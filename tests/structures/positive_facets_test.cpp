@@ -50,13 +50,15 @@ void compare(std::uint64_t least_found) {
       std::multiset<FacetId> doubts;
       const auto doubt = [&](FacetId facet) { doubts.insert(facet); };
       PositiveFacets<M> positive(motion);
-      positive.look_at(cell, 1, 10, doubt);
-      positive.look_at(turned, 0, 20, doubt);
-      positive.look_at(cell, 2, 30, doubt);
+      positive.look_at(cell, 1, 10, true, doubt);
+      positive.look_at(turned, 1, 40, false, doubt);
+      positive.look_at(turned, 0, 20, true, doubt);
+      positive.look_at(cell, 2, 30, true, doubt);
       positive.finish(doubt);
       positive.finish(doubt);  // nothing is left
       EXPECT_EQ(positive.count() + doubts.size(), 3U);
       EXPECT_EQ(doubts.count(10), doubts.count(30));
+      EXPECT_FALSE(doubts.contains(40));
       EXPECT_TRUE(doubts.contains(10) || holds(motion, cell));
       EXPECT_TRUE(doubts.contains(20) || holds(motion, turned));
       found += positive.count();
