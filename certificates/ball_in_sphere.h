@@ -35,12 +35,13 @@
 // that sphere's rho, a rho^2 + 2 b rho + c = g (|Qy|^2 - rho^2) <= 0, since Qy is its centre seen in the
 // basis' span; hence b^2 - ac >= 0 and sqrt(b^2 - ac) - b > 0. That is why no sign of D is ever asked for.
 //
-// `inside` certificates guard a ball that must stay in, others a basis
-// ball that must stay out of the sphere of its fellows: it leaves the basis when it gets in. Exact.
+// `inside` certificates guard a ball that must stay in, others a basis ball that must stay out of the sphere
+// of its fellows: it leaves the basis when it gets in. Exact.
 
 #include <array>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "certificates/determinant.h"
 #include "certificates/radical.h"
@@ -166,7 +167,12 @@ struct BallInSphere {
   bool inside = true;
   int orientation = 1;  ///< of a full basis (orientation.h): the sign of q
 
-  [[nodiscard]] Identity identity() const { return identity_of(CertificateType::ball_in_sphere, beads); }
+  /// A full basis that has turned over has another function: its name begins with the first two exchanged.
+  [[nodiscard]] Identity identity() const {
+    Beads named = beads;
+    if (full && orientation < 0) std::swap(named[0], named[1]);
+    return identity_of(CertificateType::ball_in_sphere, named);
+  }
 
   [[nodiscard]] bool side() const { return inside; }
   [[nodiscard]] int root_sign() const { return full ? orientation : 1; }

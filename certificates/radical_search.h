@@ -342,7 +342,8 @@ template <Kernel K, class Certificate, Motion M>
 }  // namespace detail
 
 /// The sign just after a failure of another certificate with the same norm, as doubles know it, or 0: at the
-/// end of a bracket that holds no other root of the norm.
+/// end of a bracket that holds no other root of the norm. Up to there the basis must be one
+/// (ball_in_sphere.h).
 template <class Certificate, Motion M>
 requires RadicalCertificateFor<Certificate, M>
 [[nodiscard]] int sign_after_root_of_norm(const Certificate& certificate, const M& motion, const Instant& now,

@@ -227,8 +227,12 @@ Sphere exact_sphere_of(const Basis& basis, const Balls<Dimension>& balls) {
   for (const BeadId b : basis) unit = std::min(unit, whole_unit(balls, b, b));
   std::vector<WholeBall<Dimension>> members;
   for (const BeadId b : basis) members.push_back(whole_ball(balls, b, unit));
-  const auto sphere = ExactSphere<Dimension>::touching(members);
-  if (!sphere) throw std::invalid_argument("no sphere touches these balls");
+  auto sphere = ExactSphere<Dimension>::touching(members);
+  if (!sphere || !sphere->is_proper()) {
+    std::vector<WholeBall<Dimension>> proper;
+    for (const std::size_t place : exact_basis_among<Dimension>(members)) proper.push_back(members[place]);
+    sphere = ExactSphere<Dimension>::touching(proper);
+  }
   return sphere->rounded(unit);
 }
 

@@ -91,7 +91,7 @@ class WrappedHierarchy final : public KineticStructure {
 
   /// Certificates of a full basis: it may turn over where one touches zero.
   template <class C>
-  static constexpr bool turns_over = C{}.beads.size() == full && !std::same_as<C, PowerTest<dimension>>;
+  static constexpr bool turns_over = C{}.beads.size() == full;
 
   struct Node {
     Basis basis;
@@ -326,7 +326,8 @@ std::optional<Basis> WrappedHierarchy<M, K, radii>::proved_next_basis(const Basi
     const Basis rest = without(old, bead);
     return is_proved(rest, no_bead) ? std::optional(rest) : std::nullopt;
   }
-  // It is outside the sphere of the others now, so that its barycentric coordinate becomes positive.
+  // It is outside the sphere of the others now: where their coordinates are positive and all is proved that
+  // a path proves, its own barycentric coordinate has the sign that says so.
   Basis next = old;
   if (old.size < full) {
     insert_bead(next, bead);
@@ -358,7 +359,7 @@ bool WrappedHierarchy<M, K, radii>::repair(NodeId id, BeadId bead) {
   const auto among = std::span(all).first(count);
   std::optional<Basis> next;
   if constexpr (prunes) {
-    if (present_ && bead == present_bead_) next = proved_next_basis(basis, bead);
+    if (present_ && bead != no_bead && bead == present_bead_) next = proved_next_basis(basis, bead);
   }
   if (!next) next = basis_just_after(among, basis, escaped ? bead : no_bead);
   if (!next) {
@@ -392,15 +393,17 @@ void WrappedHierarchy<M, K, radii>::hold(NodeId id, Guard guard, unsigned table)
 template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::enqueue(NodeId id, const Basis& basis, BeadId bead, bool inside,
                                             int orientation) {
-  visit_membership<radii>(motion_, std::span(basis.begin(), basis.end()), bead, inside, orientation,
-                          [&]<class C>(const C& c) {
-                            const bool own_root = present_ && c.identity() == present_->identity;
-                            if (own_root && c.side() == present_->side) failed_again_ = bead;
-                            tables_.template of<C>().enqueue(
-                                c, id, own_root || has_present_root(c) ? Birth::at_own_root : Birth::unknown);
-                            watched_[Tables::template number_of<C>].push_back(bead);
-                            named_.insert(named_.end(), c.beads.begin(), c.beads.end());
-                          });
+  visit_membership<radii>(
+      motion_, std::span(basis.begin(), basis.end()), bead, inside, orientation, [&]<class C>(const C& c) {
+        const bool own_root = present_ && c.identity() == present_->identity;
+        if (own_root && c.side() == present_->side) failed_again_ = bead;
+        tables_.template of<C>().enqueue(c, id,
+                                         own_root || (std::same_as<K, Filtered> && has_present_root(c))
+                                             ? Birth::at_own_root
+                                             : Birth::unknown);
+        watched_[Tables::template number_of<C>].push_back(bead);
+        named_.insert(named_.end(), c.beads.begin(), c.beads.end());
+      });
 }
 
 /// Guards the node by the certificates enqueued; the first bead whose certificate is violated or, unless
@@ -578,6 +581,8 @@ void WrappedHierarchy<M, K, radii>::apply(const Change& change) {
     if (b < change.ids[0] || b > change.ids[1])
       throw std::invalid_argument("a basis bead is not of its node");
   }
+  if (std::adjacent_find(basis.begin(), basis.end()) != basis.end())
+    throw std::invalid_argument("a basis bead stands twice");
   nodes_[*node].basis = basis;
 }
 

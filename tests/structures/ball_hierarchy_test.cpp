@@ -172,6 +172,28 @@ TEST(BallHierarchy, ABallThatHoldsOthers) {
   }
 }
 
+// Four balls of three sizes pass through a plane, their centres on an ellipse, and a fifth comes to their
+// sphere at that moment.
+TEST(BallHierarchy, AFullBasisTurnsOverWhileABallEnters) {
+  const double bead[5][3] = {{0, 16, 1}, {0, -16, 1}, {10, 0, -1}, {-40, 0, -1}, {1, 2, 0.125}};
+  for (const double last : {1.0, 20.0, 24.0, 30.0, 36.0}) {
+    const double radius[5] = {25, 25, 31, 1, last};
+    Space motion(5);
+    for (BeadId b = 0; b < 5; ++b) {
+      for (int k = 0; k <= 1; ++k) {
+        for (int axis = 0; axis < 3; ++axis)
+          motion.set_coordinate(b, k, axis, bead[b][axis] * (axis == 2 && k == 1 && b < 4 ? -1 : 1));
+        motion.set_radius(b, k, radius[b]);
+        motion.set_weight(b, k, radius[b] * radius[b]);
+      }
+    }
+    SCOPED_TRACE(last);
+    run_audited<Radii::any>(there_and_back(motion));
+    EXPECT_EQ((fingerprint_of<Radii::any, Exact>(std::vector{motion})),
+              (fingerprint_of<Radii::any, Filtered>(std::vector{motion})));
+  }
+}
+
 TEST(BallHierarchy, AProteinWithTwoSizesOfBeads) {
   std::vector<Space> steps = trajectory_steps("villin_hp36_300K.dcd", 0, 2);
   for (Space& motion : steps) {
@@ -233,6 +255,23 @@ TEST(NodeSelection, OtherNodesMakeNoDifference) {
   }
   EXPECT_EQ(kept, 12U);
   EXPECT_LT(some.structure.statistics.certificates.created, all.structure.statistics.certificates.created);
+}
+
+// At the frame between two steps a basis may be flat, or its beads in one place.
+TEST(NodeSelection, AQueryAtADegenerateFrame) {
+  const auto square = [](double z) { return Points{{4, 0, z}, {-4, 0, z}, {0, 4, -z}, {0, -4, -z}}; };
+  const Points apart{{-1, 0, 0}, {1, 0, 0}}, together{{0, 0, 0}, {0, 0, 0}};
+  for (const auto& frames :
+       {std::vector{square(1), square(0), square(-1)}, std::vector{apart, together, apart}}) {
+    const auto steps = through(frames);
+    const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(steps.front().bead_count() - 1)}};
+    BallRig<Space, Filtered, Radii::equal> rig(steps.front(), AuditMode::frames, necklace);
+    std::vector<double> radii;
+    rig.structure.keep_what_is_asked_for([&](const auto& sphere) { radii.push_back(sphere(0).radius); });
+    rig.run(steps);
+    ASSERT_EQ(radii.size(), 2U);
+    EXPECT_DOUBLE_EQ(radii[1], steps.front().bead_count() == 4 ? 4 : 0);
+  }
 }
 
 // A query that goes down to whichever child is wider.
