@@ -63,6 +63,15 @@ SessionOptions session_options(const RunOptions& options, const Scene& scene, Au
   const auto& names = session.structures;
   if (options.nodes.restricts() && std::find(names.begin(), names.end(), "wrapped") == names.end())
     throw InputError("--levels, --nodes: they choose nodes of wrapped, which is not among the structures");
+  if (options.nodes.restricts()) {
+    const NecklaceTree tree(scene.necklaces());
+    const std::vector<std::uint8_t> kept = select_nodes(tree, options.nodes);
+    if (std::find(kept.begin(), kept.end(), 1) == kept.end())
+      throw InputError(
+          fmt::format("--levels, --nodes: no node is left of {}; expected levels and beads of the input, "
+                      "which has {} beads",
+                      tree.node_count(), scene.bead_count()));
+  }
   return session;
 }
 

@@ -329,6 +329,10 @@ TEST(Program, KeepsOnlyTheNodesAskedFor) {
   EXPECT_EQ(std::count(dump.begin(), dump.end(), '\n'), 4);  // a header and three nodes
   EXPECT_EQ(run_program({"replay", log, "--quiet"}).code, 0);
   expect_refused({"run", kSmall, "--structures", "power", "--levels", "0:2"}, {"--levels", "wrapped"});
+  for (const char* option : {"--levels", "--nodes"})
+    expect_refused(
+        {"run", data_file("kinetic/d3_n50_linear.txt"), "--structures", "wrapped", option, "60:70"},
+        {option, "no node", "50 beads"});
 }
 
 TEST(Program, RunsSeveralNecklacesOnOneClock) {
