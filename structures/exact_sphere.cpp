@@ -228,7 +228,7 @@ Sphere exact_sphere_of(const Basis& basis, const Balls<Dimension>& balls) {
   std::vector<WholeBall<Dimension>> members;
   for (const BeadId b : basis) members.push_back(whole_ball(balls, b, unit));
   auto sphere = ExactSphere<Dimension>::touching(members);
-  if (!sphere || !sphere->is_proper()) {
+  if (!sphere) {
     std::vector<WholeBall<Dimension>> proper;
     for (const std::size_t place : exact_basis_among<Dimension>(members)) proper.push_back(members[place]);
     sphere = ExactSphere<Dimension>::touching(proper);
