@@ -63,8 +63,7 @@ class ExactSphere {
 template <int Dimension>
 [[nodiscard]] std::vector<std::size_t> exact_basis_among(std::span<const WholeBall<Dimension>> balls);
 
-/// The sphere that touches the balls of a basis, rounded as above; where there is none, as some are to spare,
-/// the smallest around them.
+/// The smallest sphere around the balls of a basis, rounded as above; some may be to spare.
 template <int Dimension>
 [[nodiscard]] Sphere exact_sphere_of(const Basis& basis, const Balls<Dimension>& balls);
 
