@@ -120,11 +120,8 @@ template <SphereSigns Signs>
 template <SphereSigns Signs>
 class BasisOfBalls {
  public:
-  /// Ascending, at most dimension + 2. `likely`: beads that may be the basis, to look there first.
-  BasisOfBalls(std::span<const BeadId> beads, Signs& signs, const Basis& likely = {})
-      : beads_(beads), signs_(signs) {
-    for (std::size_t b = 0; b < beads.size(); ++b) likely_ |= likely.contains(beads[b]) ? 1U << b : 0U;
-  }
+  /// Ascending, at most dimension + 2.
+  BasisOfBalls(std::span<const BeadId> beads, Signs& signs) : beads_(beads), signs_(signs) {}
 
   [[nodiscard]] std::optional<Basis> find() { return of((1U << beads_.size()) - 1U); }
 
@@ -143,13 +140,11 @@ class BasisOfBalls {
   }
   std::optional<Basis> look(unsigned subset) {
     if (std::has_single_bit(subset)) return beads_of(subset);
-    for (const bool likely : {false, true}) {  // those that are likely to be to spare first
-      for (std::size_t b = 0; b < beads_.size(); ++b) {
-        const unsigned bit = 1U << b;
-        if ((subset & bit) == 0 || ((likely_ & bit) != 0) != likely) continue;
-        const std::optional<Basis> others = of(subset & ~bit);
-        if (others && is_inside(*others, beads_[b], orientation_of(*others, signs_), signs_)) return others;
-      }
+    for (std::size_t b = 0; b < beads_.size(); ++b) {
+      const unsigned bit = 1U << b;
+      if ((subset & bit) == 0) continue;
+      const std::optional<Basis> others = of(subset & ~bit);
+      if (others && is_inside(*others, beads_[b], orientation_of(*others, signs_), signs_)) return others;
     }
     if (static_cast<std::size_t>(std::popcount(subset)) > full_size<Signs>) return std::nullopt;
     return beads_of(subset);
@@ -165,7 +160,6 @@ class BasisOfBalls {
   static constexpr std::size_t subsets = 1U << (Basis::max_size + 1);
   std::span<const BeadId> beads_;
   Signs& signs_;
-  unsigned likely_ = 0;
   std::array<Basis, subsets> bases_;
   std::array<State, subsets> states_{};
 };
