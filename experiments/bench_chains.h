@@ -1,16 +1,28 @@
 #pragma once
-// Chains that benchmarks of hierarchies run on, beads of radius 1: models (motions/models/model.h) at rest,
-// and how their beads are moved.
+// Chains that benchmarks run on: trajectories, and models (motions/models/model.h) whose beads are moved.
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace kds {
 
-/// Centres of the model with its defaults, moved by up to `jitter` radii where it takes that. Throws
-/// InputError where there are too few beads for it.
+/// One necklace, frame after frame.
+struct BenchChain {
+  std::string name;
+  std::vector<Eigen::Matrix3Xd> frames;
+  std::vector<double> radii;  ///< one a bead
+};
+
+/// The first 100 frames of every `stride`-th, radii as `--radius auto` has them; NAME.pdb names the atoms of
+/// NAME.dcd and of NAME_first20.dcd. Throws InputError, also where the file has one frame.
+[[nodiscard]] BenchChain read_bench_chain(const std::filesystem::path& path, std::size_t stride = 1);
+
+/// Centres of the model with its defaults, radius 1, moved by up to `jitter` radii where it takes that.
+/// Throws InputError where there are too few beads for it.
 [[nodiscard]] Eigen::Matrix3Xd model_at_rest(std::string_view model, std::size_t beads, double jitter = 0.05);
 
 /// Frame after frame every bead moves `distance` in a direction of its own.

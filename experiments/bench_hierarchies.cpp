@@ -8,9 +8,6 @@
 
 #include "experiments/bench_chains.h"
 #include "experiments/bench_timing.h"
-#include "motions/input_error.h"
-#include "motions/radii.h"
-#include "motions/read_trajectory.h"
 #include "structures/layered_hierarchy.h"
 #include "structures/static_build.h"
 #include "structures/static_wrapped_hierarchy.h"
@@ -20,13 +17,8 @@ namespace kds {
 namespace {
 
 constexpr std::string_view peer_name = "CGAL Min_sphere_of_spheres_d";
-constexpr std::size_t most_frames = 100;  // of a trajectory
 
-// One necklace, frame after frame.
-struct Input {
-  std::string name;
-  std::vector<Eigen::Matrix3Xd> frames;
-  std::vector<double> radii;
+struct Input : BenchChain {
   // Factors that are asked for.
   double build = 6, update = 10, trust = 25;
 };
@@ -128,32 +120,18 @@ void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& ro
                   apart > 0 ? std::string(peer_name) : "", median_of(peer) * 1e9, 1.0 / 25});
 }
 
-Input read_input(const std::filesystem::path& path) {
-  ReadOptions options;
-  // NAME.pdb names the atoms of NAME.dcd and of NAME_first20.dcd.
-  const std::string stem = path.stem().string();
-  const std::filesystem::path topology = path.parent_path() / (stem.substr(0, stem.find("_first")) + ".pdb");
-  if (path.extension() == ".dcd" && std::filesystem::exists(topology)) options.topology = topology;
-  Trajectory trajectory = read_trajectory(path, options);
-  Input input{stem, {}, bead_radii("auto", std::span(&trajectory, 1))};
-  input.frames = std::move(trajectory.frames);
-  if (input.frames.size() > most_frames) input.frames.resize(most_frames);
-  if (input.frames.size() < 2) throw InputError(path.string() + ": expected two frames or more");
-  return input;
-}
-
 }  // namespace
 
 std::vector<BenchRow> bench_hierarchies(const HierarchyBenchOptions& options,
                                         const std::function<void(std::size_t, std::size_t)>& progress) {
   std::vector<std::function<Input()>> inputs;
   for (const std::filesystem::path& path : options.trajectories)
-    inputs.emplace_back([path] { return read_input(path); });
+    inputs.emplace_back([path] { return Input{read_bench_chain(path)}; });
   for (const std::size_t beads : options.sizes) {
     for (const char* model : {"helix", "random-chain", "grid"}) {
       inputs.emplace_back([name = std::string(model), beads] {
-        Input input{name, jostled_frames(model_at_rest(name, beads), 0.01, 8),
-                    std::vector<double>(beads, 1.0)};
+        Input input{
+            {name, jostled_frames(model_at_rest(name, beads), 0.01, 8), std::vector<double>(beads, 1.0)}};
         input.update = name == "random-chain" ? 18 : 10;
         return input;
       });

@@ -12,9 +12,6 @@
 
 #include "experiments/bench_chains.h"
 #include "experiments/bench_timing.h"
-#include "motions/input_error.h"
-#include "motions/radii.h"
-#include "motions/read_trajectory.h"
 #include "structures/diagram_update.h"
 
 namespace kds {
@@ -22,14 +19,20 @@ namespace kds {
 namespace {
 
 constexpr std::string_view peer_name = "CGAL Regular_triangulation_3";
-constexpr std::size_t most_frames = 100;  // of a trajectory
 
-// Balls of one radius, frame after frame.
 struct Input {
   std::string name;
   std::vector<Eigen::Matrix3Xd> frames;
   std::vector<double> weights;
   std::optional<double> goal;  ///< of the kinetic step: its time to the peer's, at most
+
+  Input(BenchChain chain, std::optional<double> time)
+      : name(std::move(chain.name)),
+        frames(std::move(chain.frames)),
+        weights(std::move(chain.radii)),
+        goal(time) {
+    for (double& w : weights) w *= w;
+  }
 };
 
 struct Technique {
@@ -91,22 +94,9 @@ std::optional<double> goal_of(std::string_view name) {
 }
 
 Input read_input(const std::filesystem::path& path, std::size_t stride) {
-  ReadOptions options;
-  // NAME.pdb names the atoms of NAME.dcd and of NAME_first20.dcd.
-  const std::string stem = path.stem().string();
-  const std::filesystem::path topology = path.parent_path() / (stem.substr(0, stem.find("_first")) + ".pdb");
-  if (path.extension() == ".dcd" && std::filesystem::exists(topology)) options.topology = topology;
-  Trajectory trajectory = read_trajectory(path, options);
-  const double radius = bead_radii("auto", std::span(&trajectory, 1)).front();
-  Input input{stride == 1 ? stem : fmt::format("{} stride {}", stem, stride),
-              {},
-              {},
-              stride == 1 ? goal_of(stem) : std::nullopt};
-  if (trajectory.frames.size() < 2) throw InputError(path.string() + ": expected two frames or more");
-  for (std::size_t k = 0; k < trajectory.frames.size() && input.frames.size() < most_frames; k += stride)
-    input.frames.push_back(std::move(trajectory.frames[k]));
-  input.weights.assign(static_cast<std::size_t>(input.frames[0].cols()), radius * radius);
-  return input;
+  BenchChain chain = read_bench_chain(path, stride);
+  const auto goal = stride == 1 ? goal_of(chain.name) : std::nullopt;
+  return Input(std::move(chain), goal);
 }
 
 }  // namespace
@@ -120,9 +110,9 @@ std::vector<BenchRow> bench_power(const PowerBenchOptions& options,
   }
   const auto add_chain = [&](const char* name, const auto& start, double step, double factor) {
     inputs.emplace_back([=] {
-      Input input{fmt::format("{} {} r", name, step), jostled_frames(start(), step, 9), {}, 1 / factor};
-      input.weights.assign(static_cast<std::size_t>(input.frames[0].cols()), 1.0);
-      return input;
+      BenchChain chain{fmt::format("{} {} r", name, step), jostled_frames(start(), step, 9), {}};
+      chain.radii.assign(static_cast<std::size_t>(chain.frames[0].cols()), 1.0);
+      return Input(std::move(chain), 1 / factor);
     });
   };
   for (const std::size_t beads : options.sizes) {

@@ -5,9 +5,8 @@
 //   insert   on a walk to where the bead is; the cells whose power spheres hold it are replaced by those that
 //            join it to the facets around them (Bowyer-Watson), or it is hidden. Beads in their midst are
 //            hidden from then on.
-//   erase    the cells around it are replaced by those of the static triangulation of their other beads, and
-//   of
-//            the beads hidden there, that fill the same place: all of these are cells of the whole, and
+//   erase    the cells around it are replaced by those of the static triangulation of their other beads and
+//            of the beads hidden there that fill the same place: all of these are cells of the whole, and
 //            hidden beads come back as they are in it.
 //   change   the certificates that name the bead are made anew.
 //

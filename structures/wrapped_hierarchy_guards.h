@@ -1,0 +1,144 @@
+#pragma once
+// Kinetic wrapped hierarchy: the certificates of a node.
+
+#include "structures/wrapped_hierarchy.h"
+
+namespace kds {
+
+template <Motion M, Kernel K, Radii radii>
+void WrappedHierarchy<M, K, radii>::hold(NodeId id, Guard guard, unsigned table) {
+  if (guard == Guard::violated) return;
+  if (!has_slot(guard)) {
+    ++nodes_[id].never_failing;
+    return;
+  }
+  std::uint32_t place = 0;
+  if (free_.empty()) {
+    place = static_cast<std::uint32_t>(held_.size());
+    held_.emplace_back();
+  } else {
+    place = free_.back();
+    free_.pop_back();
+  }
+  held_[place] = {guard, nodes_[id].held, static_cast<std::uint8_t>(table)};
+  nodes_[id].held = place;
+}
+
+template <Motion M, Kernel K, Radii radii>
+void WrappedHierarchy<M, K, radii>::enqueue(NodeId id, const Basis& basis, BeadId bead, bool inside,
+                                            int orientation) {
+  visit_membership<radii>(
+      motion_, std::span(basis.begin(), basis.end()), bead, inside, orientation, [&]<class C>(const C& c) {
+        const bool own_root = present_ && c.identity() == present_->identity;
+        if (own_root && c.side() == present_->side) failed_again_ = bead;
+        tables_.template of<C>().enqueue(c, id,
+                                         own_root || (std::same_as<K, Filtered> && has_present_root(c))
+                                             ? Birth::at_own_root
+                                             : Birth::unknown);
+        watched_[Tables::template number_of<C>].push_back(bead);
+        named_.insert(named_.end(), c.beads.begin(), c.beads.end());
+      });
+}
+
+/// Guards the node by the certificates enqueued; the first bead whose certificate is violated or, unless
+/// `zero_will_do`, zero for the whole step.
+template <Motion M, Kernel K, Radii radii>
+std::optional<BeadId> WrappedHierarchy<M, K, radii>::watch_enqueued(NodeId id, bool zero_will_do) {
+  std::optional<BeadId> first = failed_again_;
+  for (unsigned number = 1; number <= Tables::count; ++number) {
+    if (watched_[number].empty()) continue;
+    tables_.visit(number, [&](auto& table) {
+      if (failed_again_) return table.forget_enqueued();
+      std::size_t i = 0;
+      table.watch_enqueued([&](NodeId, Guard guard) {
+        if (!first && (guard == Guard::violated || (guard == Guard::zero && !zero_will_do)))
+          first = watched_[number][i];
+        hold(id, guard, number);
+        ++i;
+      });
+    });
+    watched_[number].clear();
+  }
+  failed_again_.reset();
+  return first;
+}
+
+/// Sets `beyond_`; a bit for each bead of the basis that is proved to stay in it.
+template <Motion M, Kernel K, Radii radii>
+unsigned WrappedHierarchy<M, K, radii>::find_beads_to_watch(NodeId id) {
+  const BeadRange range = tree_.range(id);
+  if constexpr (prunes) {
+    const Basis& basis = nodes_[id].basis;
+    const SphereChord<dimension>& chord = chord_of(basis);
+    if (chord.proved) {
+      find_beyond(paths_, range, basis.beads[0], chord, chord_from_, beyond_);
+      return chord.stays;
+    }
+  }
+  beyond_.resize(range.last - range.first + 1U);
+  std::iota(beyond_.begin(), beyond_.end(), range.first);
+  return 0;
+}
+
+template <Motion M, Kernel K, Radii radii>
+std::optional<BeadId> WrappedHierarchy<M, K, radii>::watch_node(NodeId id) {
+  const Basis basis = nodes_[id].basis;
+  named_.clear();
+  // Beads that leave first: outside their proper domain the other certificates say nothing. Nor do they where
+  // a bead is to spare all the time, its function zero. Two beads of one radius never part, but they may be
+  // one all the time.
+  bool parts = basis.size >= 2;
+  if (radii == Radii::equal && basis.size == 2) {
+    if (move_together(basis.beads[0], basis.beads[1])) return basis.beads[1];
+    const BeadRange& range = tree_.range(id);
+    if (range.last - range.first == 1) return std::nullopt;  // half of all nodes
+    parts = false;
+  }
+  const unsigned stays = find_beads_to_watch(id);
+  if (parts) {
+    for (std::size_t i = 0; i < basis.size; ++i) {
+      if ((stays >> i & 1U) == 0) enqueue(id, without(basis, basis.beads[i]), basis.beads[i], false, 0);
+    }
+    if (const auto to_spare = watch_enqueued(id, false)) return to_spare;
+  }
+  std::erase_if(beyond_, [&](BeadId b) { return basis.contains(b); });
+  if (beyond_.empty()) return std::nullopt;
+  auto signs = signs_just_after();
+  const int orientation = orientation_of(basis, signs);
+  for (const BeadId b : beyond_) enqueue(id, basis, b, true, orientation);
+  return watch_enqueued(id, true);
+}
+
+template <Motion M, Kernel K, Radii radii>
+void WrappedHierarchy<M, K, radii>::guard_node(NodeId id, Basis before) {
+  for (int repairs = 0;; ++repairs) {
+    const std::optional<BeadId> violated = watch_node(id);
+    if (!violated) break;
+    // `fast` lives with a contradiction until the next event of the node or the next step.
+    if (std::same_as<K, Fast> && repairs >= most_repairs) break;
+    drop_node(id);
+    if (!repair(id, *violated)) {
+      if constexpr (!std::same_as<K, Fast>) {
+        throw std::logic_error(name_of(id) + ": a basis is violated and right at once, at bead " +
+                               std::to_string(*violated));
+      }
+      ++statistics.rebuilds;
+      break;
+    }
+  }
+  if (!(nodes_[id].basis == before)) record(id, before);
+}
+
+template <Motion M, Kernel K, Radii radii>
+void WrappedHierarchy<M, K, radii>::drop_node(NodeId id) {
+  Node& node = nodes_[id];
+  statistics.certificates.alive -= node.never_failing;
+  node.never_failing = 0;
+  for (std::uint32_t place = node.held; place != none; place = held_[place].next) {
+    tables_.visit(held_[place].table, [&](auto& table) { table.drop(held_[place].guard); });
+    free_.push_back(place);
+  }
+  node.held = none;
+}
+
+}  // namespace kds
