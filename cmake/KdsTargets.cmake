@@ -9,7 +9,6 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
-  set(ENV{CCACHE_SLOPPINESS} "pch_defines,time_macros")
 endif()
 
 add_library(kds_options INTERFACE)
@@ -24,8 +23,10 @@ if(KDS_WERROR)
   target_compile_options(kds_options INTERFACE -Werror)
 endif()
 if(KDS_SANITIZE)
-  target_compile_options(kds_options INTERFACE -fsanitize=${KDS_SANITIZE} -fno-omit-frame-pointer
-                                               -fno-sanitize-recover=all)
+  # Bad pointers are the address sanitizer's; checking each for null and alignment as well takes half of the time to
+  # compile.
+  target_compile_options(kds_options INTERFACE -fsanitize=${KDS_SANITIZE} -fno-sanitize=null,alignment,object-size
+                                               -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(kds_options INTERFACE -fsanitize=${KDS_SANITIZE})
 endif()
 

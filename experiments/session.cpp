@@ -37,7 +37,10 @@ std::unique_ptr<Session> make_session_in(const Scene& scene, const SessionOption
 }  // namespace
 
 std::unique_ptr<Session> make_session(const Scene& scene, const SessionOptions& options) {
-  if (scene.is_lifted()) return make_session_of<LiftedMotion<3>>(scene, options);
+  if (scene.is_lifted()) {
+    return scene.dimension() == 2 ? make_session_of<LiftedMotion<2>>(scene, options)
+                                  : make_session_of<LiftedMotion<3>>(scene, options);
+  }
   switch (scene.dimension()) {
     case 1:
       return make_session_in<1>(scene, options);

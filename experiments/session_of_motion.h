@@ -24,7 +24,7 @@ inline constexpr bool has_wrapped = M::dimension >= 2 && !lifted<M>;
 /// Motions of trajectories; radical certificates take long to compile.
 template <Motion M>
 inline constexpr bool has_unequal_wrapped =
-    M::dimension == 3 && !elevated<M> && (M::degree == 1 || M::degree == 3) && has_wrapped<M>;
+    !elevated<M> && (M::degree == 1 || M::degree == 3) && has_wrapped<M>;
 template <Motion M>
 inline constexpr bool has_power = M::dimension >= 2;
 
@@ -120,8 +120,10 @@ class SessionOf final : public Session {
           const Balls<M::dimension> balls(scene_.centers(frame), scene_.radii());
           std::vector<WrappedNode> nodes;
           for (NodeId id = 0; id < bases.size(); ++id) {
-            if (wrapped->keeps(id))
-              nodes.push_back({wrapped->tree().range(id), bases[id], exact_sphere_of(bases[id], balls)});
+            if (!wrapped->keeps(id)) continue;
+            Sphere sphere = exact_sphere_of(bases[id], balls);
+            sphere.center = scene_.in_input(sphere.center);
+            nodes.push_back({wrapped->tree().range(id), bases[id], sphere});
           }
           files.push_back(dump_wrapped(nodes));
         },

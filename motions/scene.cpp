@@ -80,6 +80,32 @@ Scene::Scene(std::span<const Trajectory> necklaces, std::vector<double> radii, F
     }
   }
   check_radii(radii_);
+  lay_in_plane();
+}
+
+void Scene::lay_in_plane() {
+  for (const auto& axes : {std::array<Eigen::Index, 3>{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}) {
+    const double height = frames_[0](axes[2], 0);
+    const auto at_height = [&](const Eigen::Matrix3Xd& frame) {
+      return (frame.row(axes[2]).array() == height).all();
+    };
+    if (!std::all_of(frames_.begin(), frames_.end(), at_height)) continue;
+    for (Eigen::Matrix3Xd& frame : frames_) {
+      frame = frame(axes, Eigen::all).eval();
+      frame.row(2).setZero();
+    }
+    dimension_ = 2;
+    axes_ = axes;
+    height_ = height;
+    return;
+  }
+}
+
+Eigen::Vector3d Scene::in_input(const Eigen::Vector3d& point) const {
+  Eigen::Vector3d there = Eigen::Vector3d::Constant(height_);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(dimension_); ++k)
+    there[axes_[k]] = point[static_cast<Eigen::Index>(k)];
+  return there;
 }
 
 Scene::Scene(Instance instance)

@@ -3,6 +3,7 @@
 // instance file gives one step by itself. Beads are numbered necklace after necklace.
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -32,6 +33,8 @@ class Scene {
  public:
   /// Necklaces of equal frame counts; one of a single frame is at rest. `radii`: one a bead in scene order.
   /// Throws InputError where the counts differ, and where a number has no exact value (NaN, infinities).
+  /// Where all beads keep to one plane x, y or z = constant in all frames, the scene is planar:
+  /// two-dimensional, in that plane's coordinates.
   Scene(std::span<const Trajectory> necklaces, std::vector<double> radii,
         FrameMotion motion = FrameMotion::linear);
   explicit Scene(Instance instance);
@@ -60,11 +63,14 @@ class Scene {
     if constexpr (elevated<M>) motion.set_own_degree(degree_);
     if constexpr (lifted<M>) motion.set_drift(drift<M>(step));
   }
-  /// Centres and weights at a frame.
+  /// Centres and weights at a frame; from the dimension on coordinates are zero.
   [[nodiscard]] Eigen::Matrix3Xd centers(std::size_t frame) const;
   [[nodiscard]] std::vector<double> weights(std::size_t frame) const;
+  /// Where a point of a planar scene is in the input's coordinates; others are there.
+  [[nodiscard]] Eigen::Vector3d in_input(const Eigen::Vector3d& point) const;
 
  private:
+  void lay_in_plane();
   [[nodiscard]] double coordinate(std::size_t step, BeadId bead, int k, int axis) const;
   /// A third of a bead's velocity at a frame, per step.
   [[nodiscard]] double third_of_velocity(std::size_t frame, BeadId bead, int axis) const;
@@ -94,7 +100,9 @@ class Scene {
   std::size_t frame_count_ = 0;
   std::vector<BeadRange> necklaces_;
   std::vector<double> radii_;
-  std::vector<Eigen::Matrix3Xd> frames_;  // of the whole scene; empty for an instance
+  std::vector<Eigen::Matrix3Xd> frames_;       // of the whole scene; empty for an instance
+  std::array<Eigen::Index, 3> axes_{0, 1, 2};  // the input's, of each axis of the scene
+  double height_ = 0;                          // of a planar scene along the last of them
   Instance instance_;
 };
 

@@ -125,6 +125,37 @@ TEST(Scene, ANecklaceOfOneFrameIsAtRest) {
   }
 }
 
+TEST(Scene, BeadsThatKeepToAPlaneMakeAPlanarScene) {
+  std::mt19937_64 random(57);
+  for (const Eigen::Index across : {0, 1, 2}) {
+    std::vector<Trajectory> necklaces{random_trajectory(random, "a", 4, 3),
+                                      random_trajectory(random, "b", 2, 1)};
+    for (Trajectory& necklace : necklaces)
+      for (Eigen::Matrix3Xd& frame : necklace.frames) frame.row(across).setConstant(-2.5);
+    const Scene scene(necklaces, std::vector<double>(6, 1), FrameMotion::hermite);
+    ASSERT_EQ(scene.dimension(), 2);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Matrix3Xd centers = scene.centers(k);
+      EXPECT_TRUE((centers.row(2).array() == 0).all());
+      for (Eigen::Index b = 0; b < 4; ++b)
+        EXPECT_EQ(scene.in_input(centers.col(b)), necklaces[0].frames[k].col(b));
+      for (Eigen::Index b = 4; b < 6; ++b)
+        EXPECT_EQ(scene.in_input(centers.col(b)), necklaces[1].frames[0].col(b - 4));
+    }
+    BezierMotion<2, 3> motion(6);
+    scene.load(1, motion);
+    for (BeadId b = 0; b < 6; ++b)
+      for (int axis = 0; axis < 2; ++axis)
+        EXPECT_EQ(motion.coordinate(b, 3, axis), scene.centers(2)(axis, b));
+
+    necklaces[0].frames[1](across, 3) = std::nextafter(-2.5, 0);  // out of the plane once
+    const Scene solid(necklaces, std::vector<double>(6, 1));
+    EXPECT_EQ(solid.dimension(), 3);
+    EXPECT_EQ(solid.centers(1).leftCols(4), necklaces[0].frames[1]);
+    EXPECT_EQ(solid.in_input(Eigen::Vector3d(1, 2, 3)), Eigen::Vector3d(1, 2, 3));
+  }
+}
+
 void expect_refused(const std::vector<Trajectory>& necklaces, std::initializer_list<std::string> parts) {
   try {
     const Scene scene(necklaces, {});
