@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "experiments/session.h"
+#include "experiments/stability_radii.h"
 #include "experiments/stability_subjects.h"
 #include "kds/event_log.h"
 #include "motions/input_error.h"
@@ -42,11 +43,17 @@ struct Outcome {
   }
 };
 
-Outcome outcome_of(const Instance& instance, const std::string& structure, KernelName kernel,
-                   AuditMode audits) {
+/// Points, or balls where there are radii.
+struct Case {
+  std::size_t number;
+  Instance instance;
+  std::vector<double> radii;
+};
+
+Outcome outcome_of(const Case& one, const std::string& structure, KernelName kernel, AuditMode audits) {
   Outcome outcome;
   try {
-    const Scene scene(instance);
+    const Scene scene(one.instance, one.radii);
     const auto session = make_session(scene, {{structure}, kernel, audits, {}});
     Recorder recorder;
     Simulator& simulator = session->simulator();
@@ -87,18 +94,20 @@ struct Times {
   std::vector<double> fast, filtered, exact;
 };
 
-void add_case(StabilityRow& row, Times& times, std::size_t number, const Instance& instance) {
-  const Outcome fast = outcome_of(instance, row.subject, KernelName::fast, AuditMode::none);
-  const Outcome filtered = outcome_of(instance, row.subject, KernelName::filtered, AuditMode::none);
-  const Outcome audited = outcome_of(instance, row.subject, KernelName::filtered, AuditMode::events);
-  const Outcome exact = outcome_of(instance, row.subject, KernelName::exact, AuditMode::none);
+void add_case(StabilityRow& row, Times& times, const std::string& structure, const Case& one) {
+  const Outcome fast = outcome_of(one, structure, KernelName::fast, AuditMode::none);
+  const Outcome filtered = outcome_of(one, structure, KernelName::filtered, AuditMode::none);
+  const Outcome audited = outcome_of(one, structure, KernelName::filtered, AuditMode::events);
+  const Outcome exact = outcome_of(one, structure, KernelName::exact, AuditMode::none);
   ++row.cases;
   row.audits_run += audited.statistics.audits_run;
   row.audits_failed += audited.failed_audit ? 1 : 0;
   if (const auto trouble = trouble_of(filtered, audited, exact)) {
     const bool failure = !(filtered.failure + audited.failure + exact.failure).empty();
     ++(failure ? row.failed : row.disagreements);
-    note_trouble(row, number, *trouble, instance_text(instance));
+    note_trouble(row, one.number, *trouble,
+                 instance_text(one.instance) +
+                     (one.radii.empty() ? "" : fmt::format("# radii {}\n", fmt::join(one.radii, " "))));
     return;
   }
   if (!exact.refusal.empty()) {
@@ -114,14 +123,18 @@ void add_case(StabilityRow& row, Times& times, std::size_t number, const Instanc
     times.fast.push_back(fast.seconds);
     add(row.fast, event_difference(exact.events, fast.events));
   } else {
-    if (row.fast_gave_up++ == 0) row.fast_reason = fmt::format("case {}: {}", number, fast.in_words());
+    if (row.fast_gave_up++ == 0) row.fast_reason = fmt::format("case {}: {}", one.number, fast.in_words());
   }
 }
 
+enum class Of { points, balls };
+
 // Weights are those of points in space (motions/instance.h), and the sorted list asks for none.
-StabilitySubject structure_subject(std::string name, int dimension, int degree, std::size_t beads) {
+StabilitySubject structure_subject(const std::string& structure, Of of, int dimension, int degree,
+                                   std::size_t beads) {
   const std::size_t cases_a_run = degree == 1 ? 50 : 100;  // a run has many certificates
-  StabilitySubject subject{name, true, dimension, degree, 0, dimension == 3, {}};
+  const std::string name = structure + (of == Of::balls ? ":balls" : "");
+  StabilitySubject subject{name, true, dimension, degree, 0, dimension == 3 || of == Of::balls, {}};
   subject.run = [=](const Extreme& extreme, const StabilityCases& cases) {
     StabilityRow row;
     row.subject = name;
@@ -131,8 +144,13 @@ StabilitySubject structure_subject(std::string name, int dimension, int degree, 
     const std::size_t runs = (cases.cases + cases_a_run - 1) / cases_a_run;
     for (std::size_t number = 0; number < runs; ++number) {
       SceneRandom random = scene_random(cases.seed, extreme.name, number);
-      add_case(row, times, number,
-               extreme.make({dimension, degree, beads}, random).instance(std::string(extreme.name)));
+      BeadCurves curves = extreme.make({dimension, degree, beads}, random);
+      Case one{number, curves.instance(std::string(extreme.name)), {}};
+      if (of == Of::balls) {
+        give_radii(curves, random);
+        for (std::size_t b = 0; b < beads; ++b) one.radii.push_back(curves.radius(b, 0));
+      }
+      add_case(row, times, structure, one);
     }
     row.seconds = {median(std::move(times.fast)), median(std::move(times.filtered)),
                    median(std::move(times.exact))};
@@ -146,13 +164,16 @@ StabilitySubject structure_subject(std::string name, int dimension, int degree, 
 std::vector<StabilitySubject> kinetic_structures() {
   std::vector<StabilitySubject> subjects;
   for (const int degree : {1, 3}) {
-    subjects.push_back(structure_subject("sorted", 1, degree, 10));
+    subjects.push_back(structure_subject("sorted", Of::points, 1, degree, 10));
     const std::size_t few = degree == 1 ? 8 : 6;
-    subjects.push_back(structure_subject("wrapped", 2, degree, few));
-    subjects.push_back(structure_subject("wrapped", 3, degree, few));
-    subjects.push_back(structure_subject("power", 2, degree, few));
-    subjects.push_back(structure_subject("power", 3, degree, few));
+    for (const int dimension : {2, 3}) {
+      subjects.push_back(structure_subject("wrapped", Of::points, dimension, degree, few));
+      subjects.push_back(structure_subject("power", Of::points, dimension, degree, few));
+    }
   }
+  // In whole numbers curves take minutes: their functions have degree 36.
+  for (const int dimension : {2, 3})
+    subjects.push_back(structure_subject("wrapped", Of::balls, dimension, 1, 6));
   return subjects;
 }
 

@@ -108,14 +108,17 @@ Eigen::Vector3d Scene::in_input(const Eigen::Vector3d& point) const {
   return there;
 }
 
-Scene::Scene(Instance instance)
+Scene::Scene(Instance instance, std::vector<double> radii)
     : dimension_(instance.dimension()),
       degree_(instance.degree),
+      has_radii_(!radii.empty()),
       frame_count_(2),
+      radii_(std::move(radii)),
       instance_(std::move(instance)) {
   check_control_points(instance_);
   const std::size_t points = instance_.point_count();
   necklaces_.push_back({0, static_cast<BeadId>(points - 1)});
+  if (has_radii_) return check_radii(radii_);
   radii_.assign(points, 0);
   if (instance_.weighted()) {
     for (std::size_t p = 0; p < points; ++p)
@@ -124,7 +127,7 @@ Scene::Scene(Instance instance)
 }
 
 bool Scene::equal_radii() const {
-  if (instance_.weighted()) {
+  if (!has_radii_ && instance_.weighted()) {
     for (BeadId b = 0; b < bead_count(); ++b) {
       for (int k = 0; k <= degree_; ++k) {
         if (weight(b, k) != weight(0, k)) return false;
@@ -158,7 +161,7 @@ double Scene::third_of_velocity(std::size_t frame, BeadId bead, int axis) const 
 }
 
 double Scene::weight(BeadId bead, int k) const {
-  if (instance_.weighted()) return instance_.control_point(bead, 3, k);
+  if (!has_radii_ && instance_.weighted()) return instance_.control_point(bead, 3, k);
   return radii_[bead] * radii_[bead];
 }
 

@@ -37,7 +37,8 @@ class Scene {
   /// two-dimensional, in that plane's coordinates.
   Scene(std::span<const Trajectory> necklaces, std::vector<double> radii,
         FrameMotion motion = FrameMotion::linear);
-  explicit Scene(Instance instance);
+  /// Points, or balls of these radii where they are given, one a point.
+  explicit Scene(Instance instance, std::vector<double> radii = {});
 
   [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] int degree() const { return degree_; }
@@ -49,8 +50,8 @@ class Scene {
   [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   [[nodiscard]] bool equal_radii() const;
-  /// An instance has weights at most, no radii.
-  [[nodiscard]] bool has_radii() const { return !frames_.empty(); }
+  /// Those of an instance file have weights at most.
+  [[nodiscard]] bool has_radii() const { return has_radii_; }
 
   /// Sets the motion of step k, between frames k and k+1. Both frames are met exactly, whatever the kind of
   /// motion. Radii do not change during a step; the points of an instance have none, only weights.
@@ -80,7 +81,7 @@ class Scene {
     for (int axis = 0; axis < M::dimension; ++axis)
       motion.set_coordinate(b, place, axis, coordinate(step, b, k, axis));
     motion.set_weight(b, place, weight(b, k));
-    motion.set_radius(b, place, frames_.empty() ? 0 : radii_[b]);
+    motion.set_radius(b, place, has_radii_ ? radii_[b] : 0);
   }
   /// The mean displacement; any vector makes a motion, this one dips weights the least on average.
   template <Motion M>
@@ -97,6 +98,7 @@ class Scene {
   int dimension_ = 3;
   int degree_ = 1;
   bool is_lifted_ = false;
+  bool has_radii_ = true;
   std::size_t frame_count_ = 0;
   std::vector<BeadRange> necklaces_;
   std::vector<double> radii_;

@@ -202,10 +202,35 @@ TEST(Program, TwoBeadsInOnePlaceAreAHierarchyButHiddenInTheDiagram) {
   expect_refused({"run", twins, "--structures", "power", "--audit", "events"}, {"bead", "hidden"});
 }
 
-TEST(Program, BeadsThatStayInOnePlaneAreRefusedByTheDiagramInSpace) {
+TEST(Program, BeadsThatKeepToAPlaneOfTwoAxesRunInTwoDimensions) {
   const ScratchDirectory directory;
-  const std::string flat = directory.file("flat.xyz", xyz({"0 0 0", "1 0 0", "2 1 0", "3 0 0", "4 1 0"}) +
-                                                          xyz({"0 1 0", "1 0 0", "2 2 0", "3 0 0", "4 2 0"}));
+  const std::string flat = directory.file("flat.xyz", xyz({"0 7 0", "1 7 0", "2 7 1", "3 7 0", "4 7 1"}) +
+                                                          xyz({"0 7 1", "1 7 0", "2 7 2", "3 7 3", "4 7 2"}));
+  const std::string radii = "file:" + directory.file("radii.txt", "0.5\n0.6\n0.5\n0.7\n0.6\n");
+  for (const char* motion : {"linear", "hermite", "lifted"}) {
+    const std::string structures = motion == std::string("lifted") ? "power" : "wrapped,power";
+    for (const std::string& rule : {std::string("auto"), radii}) {
+      SCOPED_TRACE(motion + (" " + rule));
+      const ProgramRun run =
+          run_program({"run", flat, "--structures", structures, "--motion", motion, "--radius", rule,
+                       "--audit", "events", "--dump", directory.path().string(), "--quiet", "--json", "-"});
+      ASSERT_EQ(run.code, 0) << run.err;
+      const Json result = Json::parse(run.out);
+      EXPECT_EQ(result["input"]["dimension"], 2);
+      EXPECT_GT(result["structures"]["power"]["events"]["total"], 0);
+      EXPECT_EQ(content_of(directory.path() / "frame-1.power.csv").substr(0, 6), "a,b,c\n");
+    }
+  }
+  EXPECT_THAT(content_of(directory.path() / "frame-1.wrapped.csv"), HasSubstr(",7,"));
+  const std::string line = directory.file(
+      "line.xyz", xyz({"0 0 0", "1 0 0", "2 0 0", "3 0 0"}) + xyz({"0 0 0", "1 0 0", "2.5 0 0", "3 0 0"}));
+  expect_refused({"run", line, "--structures", "power"}, {"line"});
+}
+
+TEST(Program, BeadsThatStayInATiltedPlaneAreRefusedByTheDiagramInSpace) {
+  const ScratchDirectory directory;
+  const std::string flat = directory.file("flat.xyz", xyz({"0 0 0", "1 0 1", "2 1 2", "3 0 3", "4 1 4"}) +
+                                                          xyz({"0 1 0", "1 0 1", "2 2 2", "3 0 3", "4 2 4"}));
   expect_refused({"run", flat, "--structures", "power"}, {"plane"});
   EXPECT_EQ(run_program({"run", flat, "--structures", "wrapped", "--audit", "events"}).code, 0);
 }
