@@ -52,6 +52,32 @@ void WrappedHierarchy<M, K, radii>::ask_query() {
 }
 
 template <Motion M, Kernel K, Radii radii>
+void WrappedHierarchy<M, K, radii>::find_chords() {
+  struct Waiting {
+    std::array<NodeId, Lanes::width> nodes;
+    std::array<Basis, Lanes::width> bases;
+    std::size_t count = 0;
+  };
+  std::array<Waiting, full + 1> of_size;
+  const auto find = [this](Waiting& w) {
+    std::array<SphereChord<dimension>, Lanes::width> chords;
+    sphere_chords<dimension>(paths_, std::span(w.bases).first(w.count), 0, std::span(chords).first(w.count));
+    for (std::size_t i = 0; i < w.count; ++i) chords_[w.nodes[i]] = chords[i];
+    w.count = 0;
+  };
+  chords_.resize(nodes_.size());
+  for (NodeId id = 0; id < nodes_.size(); ++id) {
+    if (!keeps(id) || is_lone_pair(id)) continue;
+    Waiting& w = of_size[nodes_[id].basis.size];
+    w.nodes[w.count] = id;
+    w.bases[w.count] = nodes_[id].basis;
+    if (++w.count == Lanes::width) find(w);
+  }
+  for (Waiting& w : of_size)
+    if (w.count > 0) find(w);
+}
+
+template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::start_step() {
   if (query_) ask_query();
   for (Node& node : nodes_) {
@@ -62,16 +88,27 @@ void WrappedHierarchy<M, K, radii>::start_step() {
   free_.clear();
   if constexpr (prunes) {
     paths_.set(motion_);
-    chord_from_ = -1;
+    find_chords();
   }
-  // Balls that are not independent need not have a sphere: then the basis is found anew before it is guarded.
   std::optional<Balls> balls;
-  if constexpr (radii == Radii::any) balls = balls_at_start();
   per_bead_.assign(motion_.bead_count(), 0);
   for (NodeId id = 0; id < nodes_.size(); ++id) {
     if (!keeps(id)) continue;
     const Basis before = nodes_[id].basis;
-    if (balls && !is_certainly_proper(*balls, before)) static_cast<void>(repair(id, no_bead));
+    bool proper = radii == Radii::equal;
+    if constexpr (prunes) {
+      if (!is_lone_pair(id)) {
+        chord_ = chords_[id];
+        chord_basis_ = before;
+        chord_from_ = 0;
+        proper |= is_proved(before, no_bead);
+      }
+    }
+    if (!proper) {
+      // Balls that are not independent need not have a sphere: then the basis is found anew.
+      if (!balls) balls = balls_at_start();
+      if (!is_certainly_proper(*balls, before)) static_cast<void>(repair(id, no_bead));
+    }
     guard_node(id, before);
     for (const BeadId b : named_) ++per_bead_[b];
   }

@@ -105,8 +105,7 @@ void WrappedHierarchy<M, K, radii>::fail(unsigned table, std::uint32_t slot) {
     if (touch) return;
     bead = present_bead_ = bead_of(certificate, nodes_[id].basis);
     present_ = Present{certificate.identity(), certificate.side(), {}};
-    if constexpr (of_full_balls<std::remove_cvref_t<decltype(certificate)>>)
-      present_->tangent = ascending(certificate);
+    if constexpr (of_full_balls<std::remove_cvref_t<decltype(certificate)>>) present_->of_full = certificate;
   });
   for (std::uint32_t place = nodes_[id].held; place != none; place = held_[place].next) {
     Held& held = held_[place];

@@ -1,0 +1,100 @@
+#include "structures/beads_beyond.h"
+
+#include <bit>
+
+#include "certificates/narrow_lanes.h"
+
+namespace kds {
+
+namespace {
+
+/// One bit each.
+[[gnu::always_inline]] inline unsigned bits_of(const Lanes::Mask& mask) {
+  constexpr Lanes::Mask bit{1, 2, 4, 8};
+  const Lanes::Mask some = mask & bit;
+  return static_cast<unsigned>((some[0] | some[1]) | (some[2] | some[3]));
+}
+
+/// Which of the four beads from `first` on are up to `last`, and not in the basis: one bit each.
+[[gnu::always_inline]] inline unsigned bits_to_look_at(const Basis& basis, BeadId first, BeadId last) {
+  unsigned bits = last - first < 3 ? (2U << (last - first)) - 1U : 15U;
+  for (std::size_t i = 0; i < Basis::max_size; ++i) {
+    const BeadId place = basis.beads[i] - first;  // wraps around where it is before
+    bits &= ~(place < Lanes::width && i < basis.size ? 1U << (place & 3U) : 0U);
+  }
+  return bits;
+}
+
+template <int D, int K, bool equal>
+[[KDS_LANES_TARGETS]] void beyond_of(const BeadPaths<D>& paths, const BeadRange& range, const Basis& basis,
+                                     const SphereChord<D>& chord, double from, std::vector<BeadId>& beyond) {
+  constexpr double below = 1 - 0x1p-40;
+  constexpr int columns = D + (equal ? 0 : 1);
+  std::array<std::array<Lanes, D>, K + 1> center;
+  std::array<Lanes, K + 1> limit;
+  std::array<std::array<const double*, K + 1>, columns> column;
+  std::array<std::array<Lanes, K + 1>, columns> base;
+  for (std::size_t k = 0; k <= K; ++k) {
+    const double t = static_cast<double>(k) / K;
+    for (std::size_t axis = 0; axis < D; ++axis)
+      center[k][axis] = Lanes((1 - t) * chord.center[0][axis] + t * chord.center[1][axis]);
+    limit[k] = Lanes(((1 - t) * chord.limit[0] + t * chord.limit[1]) * below);
+    for (std::size_t axis = 0; axis < columns; ++axis) {
+      column[axis][k] = paths.column(static_cast<int>(k), static_cast<int>(axis));
+      base[axis][k] = Lanes(column[axis][k][basis.beads[0]]);
+    }
+  }
+  for (BeadId b = range.first; b <= range.last; b += Lanes::width) {
+    std::array<Lanes, K + 1> square, room = limit;
+    for (std::size_t axis = 0; axis < columns; ++axis) {
+      std::array<Lanes, K + 1> control;
+      for (std::size_t k = 0; k <= K; ++k)
+        control[k] = Lanes(Lanes::load(column[axis][k] + b)) - base[axis][k];
+      if (from > 0) casteljau(control, Lanes(from));
+      for (std::size_t k = 0; k <= K; ++k) {
+        if (axis < D) {
+          const Lanes v = control[k] - center[k][axis];
+          square[k] = axis == 0 ? v * v : square[k] + v * v;
+        } else {
+          room[k] -= control[k];
+        }
+      }
+    }
+    Lanes::Mask inside = (room[0] >= Lanes(0.0)) & (square[0] <= room[0] * room[0]);
+    for (std::size_t k = 1; k <= K; ++k) inside &= (room[k] >= Lanes(0.0)) & (square[k] <= room[k] * room[k]);
+    // Basis beads never lie inside: looked at they would often be, and no one could foretell in which four.
+    for (unsigned bits = ~bits_of(inside) & bits_to_look_at(basis, b, range.last); bits != 0;
+         bits &= bits - 1)
+      beyond.push_back(b + static_cast<BeadId>(std::countr_zero(bits)));
+  }
+}
+
+template <int D, int K>
+void beyond_of_degree(const BeadPaths<D>& paths, const BeadRange& range, const Basis& basis,
+                      const SphereChord<D>& chord, double from, std::vector<BeadId>& beyond) {
+  return paths.equal_radii() ? beyond_of<D, K, true>(paths, range, basis, chord, from, beyond)
+                             : beyond_of<D, K, false>(paths, range, basis, chord, from, beyond);
+}
+
+}  // namespace
+
+template <int Dimension>
+void find_beyond(const BeadPaths<Dimension>& paths, const BeadRange& range, const Basis& basis,
+                 const SphereChord<Dimension>& chord, double from, std::vector<BeadId>& beyond) {
+  beyond.clear();
+  switch (paths.degree()) {
+    case 1:
+      return beyond_of_degree<Dimension, 1>(paths, range, basis, chord, from, beyond);
+    case 2:
+      return beyond_of_degree<Dimension, 2>(paths, range, basis, chord, from, beyond);
+    default:
+      return beyond_of_degree<Dimension, 3>(paths, range, basis, chord, from, beyond);
+  }
+}
+
+template void find_beyond(const BeadPaths<2>&, const BeadRange&, const Basis&, const SphereChord<2>&, double,
+                          std::vector<BeadId>&);
+template void find_beyond(const BeadPaths<3>&, const BeadRange&, const Basis&, const SphereChord<3>&, double,
+                          std::vector<BeadId>&);
+
+}  // namespace kds
