@@ -15,4 +15,10 @@ template <int Dimension>
 void find_beyond(const BeadPaths<Dimension>& paths, const BeadRange& range, const Basis& basis,
                  const SphereChord<Dimension>& chord, double from, std::vector<BeadId>& beyond);
 
+/// Takes out of `beyond` the beads that are proved to stay inside in each of four periods.
+template <int Dimension>
+void keep_beyond(const BeadPaths<Dimension>& paths, const Basis& basis,
+                 std::span<const SphereChord<Dimension>, 4> chords, std::span<const Period, 4> periods,
+                 std::vector<BeadId>& beyond);
+
 }  // namespace kds

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "certificates/determinant.h"
-#include "certificates/narrow_lanes.h"
+#include "certificates/isolate_lanes.h"
 #include "structures/lane_bounds.h"
 #include "structures/point_sphere.h"
 
@@ -34,6 +34,29 @@ BeadLanes<Size> beads_of(std::span<const Basis> bases) {
 }
 [[gnu::always_inline]] inline Lanes gather(const double* column, const std::array<BeadId, Lanes::width>& at) {
   return Lanes::Vector{column[at[0]], column[at[1]], column[at[2]], column[at[3]]};
+}
+
+/// Four periods side by side: what is cut off before, and then after.
+struct PeriodLanes {
+  Lanes from, to;
+  bool whole = true;  // nothing at all
+};
+
+PeriodLanes lanes_of(std::span<const Period> periods) {
+  PeriodLanes lanes;
+  for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+    const Period& period = periods[std::min(lane, periods.size() - 1)];
+    lanes.from.v[lane] = period.from;
+    lanes.to.v[lane] = (period.to - period.from) / (1 - period.from);
+    lanes.whole &= period.from == 0 && period.to == 1;
+  }
+  return lanes;
+}
+template <std::size_t N>
+[[gnu::always_inline]] inline void cut(std::array<Lanes, N>& control, const PeriodLanes& period) {
+  if (period.whole) return;
+  casteljau(control, period.from);
+  casteljau_left(control, period.to);
 }
 
 /// Four chords side by side.
@@ -142,8 +165,8 @@ template <int D, std::size_t M, int K>
 }
 
 template <int D, std::size_t M, int K, bool equal>
-[[KDS_LANES_TARGETS]] void find_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads, double from,
-                                       ChordLanes<D>& chords) {
+[[KDS_LANES_TARGETS]] void find_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads,
+                                       const PeriodLanes& period, ChordLanes<D>& chords) {
   // Curves seen from the first ball; their ends.
   std::array<CurveLanes<K, D>, M> d;
   std::array<PolynomialLanes<K>, M> s;
@@ -163,7 +186,7 @@ template <int D, std::size_t M, int K, bool equal>
       }
     }
     for (std::size_t i = 0; i < M; ++i) {
-      if (from > 0) casteljau(control[i], Lanes(from));
+      cut(control[i], period);
       auto& curve = axis < D ? d[i][place] : s[i];
       for (std::size_t k = 0; k <= K; ++k)
         curve.scaled[k] = control[i][k] * Lanes(static_cast<double>(binomial(K, static_cast<int>(k))));
@@ -255,7 +278,7 @@ template <int D, std::size_t M, int K, bool equal>
 /// Of two balls of one radius in linear motion: the midpoint moves linearly, and the two never part.
 template <int D>
 [[KDS_LANES_TARGETS]] void find_chords_of_pairs(const BeadPaths<D>& paths, const BeadLanes<2>& beads,
-                                                double from, ChordLanes<D>& chords) {
+                                                const PeriodLanes& period, ChordLanes<D>& chords) {
   std::array<Lanes, 2> square{Lanes(0.0), Lanes(0.0)};
   Lanes change(0.0);
   for (int axis = 0; axis < D; ++axis) {
@@ -264,7 +287,7 @@ template <int D>
       const double* column = paths.column(static_cast<int>(e), axis);
       d[e] = gather(column, beads[1]) - gather(column, beads[0]);
     }
-    if (from > 0) casteljau(d, Lanes(from));
+    cut(d, period);
     for (std::size_t e = 0; e < 2; ++e) {
       chords.center[e][static_cast<std::size_t>(axis)] = Lanes(0.5) * d[e];
       square[e] += d[e] * d[e];
@@ -284,8 +307,8 @@ template <int D>
 }
 
 template <int D, int K, bool equal>
-void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bases, double from,
-                           std::span<SphereChord<D>> chords) {
+void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bases,
+                           std::span<const Period> periods, std::span<SphereChord<D>> chords) {
   const std::size_t size = bases.front().size;
   if (size == 1) {  // a ball that holds the others
     for (SphereChord<D>& chord : chords) {
@@ -296,45 +319,46 @@ void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bas
     }
     return;
   }
+  const PeriodLanes period = lanes_of(periods);
   ChordLanes<D> lanes;
   if (size == 2) {
     if constexpr (equal) {
-      find_chords_of_pairs(paths, beads_of<2>(bases), from, lanes);
+      find_chords_of_pairs(paths, beads_of<2>(bases), period, lanes);
     } else {
-      find_chords<D, 1, K, equal>(paths, beads_of<2>(bases), from, lanes);
+      find_chords<D, 1, K, equal>(paths, beads_of<2>(bases), period, lanes);
     }
   } else if (D == 2 || size == 3) {
-    find_chords<D, 2, K, equal>(paths, beads_of<3>(bases), from, lanes);
+    find_chords<D, 2, K, equal>(paths, beads_of<3>(bases), period, lanes);
   } else if constexpr (D == 3) {
-    find_chords<D, 3, K, equal>(paths, beads_of<4>(bases), from, lanes);
+    find_chords<D, 3, K, equal>(paths, beads_of<4>(bases), period, lanes);
   }
   give(lanes, chords);
 }
 
 template <int D, int K>
-void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bases, double from,
-                           std::span<SphereChord<D>> chords) {
+void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bases,
+                           std::span<const Period> periods, std::span<SphereChord<D>> chords) {
   // A form of its own where it matters.
-  return K == 1 && paths.equal_radii() ? find_chords_of_degree<D, K, K == 1>(paths, bases, from, chords)
-                                       : find_chords_of_degree<D, K, false>(paths, bases, from, chords);
+  return K == 1 && paths.equal_radii() ? find_chords_of_degree<D, K, K == 1>(paths, bases, periods, chords)
+                                       : find_chords_of_degree<D, K, false>(paths, bases, periods, chords);
 }
 
 }  // namespace
 
 template <int Dimension>
-void sphere_chords(const BeadPaths<Dimension>& paths, std::span<const Basis> bases, double from,
-                   std::span<SphereChord<Dimension>> chords) {
+void sphere_chords(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
+                   std::span<const Period> periods, std::span<SphereChord<Dimension>> chords) {
   switch (paths.degree()) {
     case 1:
-      return find_chords_of_degree<Dimension, 1>(paths, bases, from, chords);
+      return find_chords_of_degree<Dimension, 1>(paths, bases, periods, chords);
     case 2:
-      return find_chords_of_degree<Dimension, 2>(paths, bases, from, chords);
+      return find_chords_of_degree<Dimension, 2>(paths, bases, periods, chords);
     default:
-      return find_chords_of_degree<Dimension, 3>(paths, bases, from, chords);
+      return find_chords_of_degree<Dimension, 3>(paths, bases, periods, chords);
   }
 }
 
-template void sphere_chords(const BeadPaths<2>&, std::span<const Basis>, double, std::span<SphereChord<2>>);
-template void sphere_chords(const BeadPaths<3>&, std::span<const Basis>, double, std::span<SphereChord<3>>);
+template void sphere_chords(const BeadPaths<2>&, std::span<const Basis>, std::span<const Period>, std::span<SphereChord<2>>);
+template void sphere_chords(const BeadPaths<3>&, std::span<const Basis>, std::span<const Period>, std::span<SphereChord<3>>);
 
 }  // namespace kds

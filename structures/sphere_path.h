@@ -1,5 +1,5 @@
 #pragma once
-// Which beads a minimum enclosing sphere can lose during a step, and which its basis can, without a
+// Which beads a minimum enclosing sphere can lose during a step or a part of it, and which its basis can, without a
 // certificate for each: balls of any radii in motions of degree 1 to 3, in the plane and in space.
 //
 // All is seen from the basis' first ball: centres c_i(u), radii s_i(u), those of the first are zero. The
@@ -37,16 +37,20 @@ struct SphereChord {
   std::array<double, 2> limit{};  ///< of a bead's distance plus its radius less the first bead's
 };
 
-/// Of up to four bases of one size, from time `from` to the end of the step: four cost little more than one.
+struct Period {
+  double from = 0, to = 1;
+};
+
+/// Of up to four bases of one size, each in a period of its own: four cost little more than one.
 template <int Dimension>
-void sphere_chords(const BeadPaths<Dimension>& paths, std::span<const Basis> bases, double from,
-                   std::span<SphereChord<Dimension>> chords);
+void sphere_chords(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
+                   std::span<const Period> periods, std::span<SphereChord<Dimension>> chords);
 
 template <int Dimension>
 [[nodiscard]] SphereChord<Dimension> sphere_chord(const BeadPaths<Dimension>& paths, const Basis& basis,
-                                                  double from) {
+                                                  const Period& period) {
   SphereChord<Dimension> chord;
-  sphere_chords<Dimension>(paths, {&basis, 1}, from, {&chord, 1});
+  sphere_chords<Dimension>(paths, {&basis, 1}, {&period, 1}, {&chord, 1});
   return chord;
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <functional>
 #include <numeric>
 #include <optional>
@@ -84,6 +85,8 @@ class WrappedHierarchy final : public KineticStructure {
   static constexpr std::uint32_t none = 0xffffffffU;
   static constexpr std::size_t full = dimension + 1;
   static constexpr int most_repairs = 64;  // of one node at one time, in `fast`
+  /// As many certificates at least are worth a closer look.
+  static constexpr std::size_t few = 4;
   /// Doubles prove some certificates without looking at them one by one.
   static constexpr bool prunes = !std::same_as<K, Exact>;
   using Tables = MembershipTables<M, K, radii>;
@@ -157,6 +160,7 @@ class WrappedHierarchy final : public KineticStructure {
   [[nodiscard]] Balls balls_at_start() const {
     return Balls(control_points(motion_, 0), control_radii(motion_, 0));
   }
+  [[nodiscard]] static unsigned all_of(const Basis& basis) { return (1U << basis.size) - 1U; }
   /// Two beads of one radius and no others: nothing to guard unless they are one.
   [[nodiscard]] bool is_lone_pair(NodeId node) const {
     const BeadRange& range = tree_.range(node);
@@ -171,6 +175,7 @@ class WrappedHierarchy final : public KineticStructure {
   /// Of all nodes that are kept, at the start of a step.
   void find_chords();
   [[nodiscard]] unsigned find_beads_to_watch(NodeId node);
+  [[nodiscard]] unsigned look_closely(const Basis& basis);
   /// Guards the node's present basis; the first bead whose certificate is violated, if any.
   [[nodiscard]] std::optional<BeadId> watch_node(NodeId node);
   [[nodiscard]] std::optional<BeadId> watch_enqueued(NodeId node, bool zero_will_do);
@@ -183,7 +188,7 @@ class WrappedHierarchy final : public KineticStructure {
   /// proves it.
   [[nodiscard]] std::optional<Basis> proved_next_basis(const Basis& old, BeadId bead);
   [[nodiscard]] const SphereChord<dimension>& chord_of(const Basis& basis);
-  [[nodiscard]] bool is_proved(const Basis& basis, BeadId newcomer);
+  [[nodiscard]] unsigned are_proved(std::span<const Basis> bases, BeadId newcomer);
   [[nodiscard]] std::optional<Basis> basis_just_after(std::span<const BeadId> among, const Basis& old,
                                                       BeadId escaped);
   void record(NodeId node, const Basis& before);
@@ -221,5 +226,6 @@ class WrappedHierarchy final : public KineticStructure {
 
 #include "structures/wrapped_hierarchy_audit.h"
 #include "structures/wrapped_hierarchy_build.h"
+#include "structures/wrapped_hierarchy_chords.h"
 #include "structures/wrapped_hierarchy_guards.h"
 #include "structures/wrapped_hierarchy_repairs.h"

@@ -52,32 +52,6 @@ void WrappedHierarchy<M, K, radii>::ask_query() {
 }
 
 template <Motion M, Kernel K, Radii radii>
-void WrappedHierarchy<M, K, radii>::find_chords() {
-  struct Waiting {
-    std::array<NodeId, Lanes::width> nodes;
-    std::array<Basis, Lanes::width> bases;
-    std::size_t count = 0;
-  };
-  std::array<Waiting, full + 1> of_size;
-  const auto find = [this](Waiting& w) {
-    std::array<SphereChord<dimension>, Lanes::width> chords;
-    sphere_chords<dimension>(paths_, std::span(w.bases).first(w.count), 0, std::span(chords).first(w.count));
-    for (std::size_t i = 0; i < w.count; ++i) chords_[w.nodes[i]] = chords[i];
-    w.count = 0;
-  };
-  chords_.resize(nodes_.size());
-  for (NodeId id = 0; id < nodes_.size(); ++id) {
-    if (!keeps(id) || is_lone_pair(id)) continue;
-    Waiting& w = of_size[nodes_[id].basis.size];
-    w.nodes[w.count] = id;
-    w.bases[w.count] = nodes_[id].basis;
-    if (++w.count == Lanes::width) find(w);
-  }
-  for (Waiting& w : of_size)
-    if (w.count > 0) find(w);
-}
-
-template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::start_step() {
   if (query_) ask_query();
   for (Node& node : nodes_) {
@@ -101,7 +75,7 @@ void WrappedHierarchy<M, K, radii>::start_step() {
         chord_ = chords_[id];
         chord_basis_ = before;
         chord_from_ = 0;
-        proper |= is_proved(before, no_bead);
+        proper |= chord_.proved && chord_.stays == all_of(before);
       }
     }
     if (!proper) {

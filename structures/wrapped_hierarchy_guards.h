@@ -63,24 +63,6 @@ std::optional<BeadId> WrappedHierarchy<M, K, radii>::watch_enqueued(NodeId id, b
   return first;
 }
 
-/// Sets `beyond_` to what is not proved to stay inside; a bit for each bead of the basis that is proved to
-/// stay in it.
-template <Motion M, Kernel K, Radii radii>
-unsigned WrappedHierarchy<M, K, radii>::find_beads_to_watch(NodeId id) {
-  const BeadRange range = tree_.range(id);
-  if constexpr (prunes) {
-    const SphereChord<dimension>& chord = chord_of(nodes_[id].basis);
-    if (chord.proved) {
-      find_beyond(paths_, range, nodes_[id].basis, chord, chord_from_, beyond_);
-      return chord.stays;
-    }
-  }
-  beyond_.clear();
-  for (BeadId b = range.first; b <= range.last; ++b)
-    if (!nodes_[id].basis.contains(b)) beyond_.push_back(b);
-  return 0;
-}
-
 template <Motion M, Kernel K, Radii radii>
 std::optional<BeadId> WrappedHierarchy<M, K, radii>::watch_node(NodeId id) {
   const Basis basis = nodes_[id].basis;
@@ -95,7 +77,7 @@ std::optional<BeadId> WrappedHierarchy<M, K, radii>::watch_node(NodeId id) {
     parts = false;
   }
   const unsigned stays = find_beads_to_watch(id);
-  if (parts && stays != (1U << basis.size) - 1U) {
+  if (parts && stays != all_of(basis)) {
     for (std::size_t i = 0; i < basis.size; ++i) {
       if ((stays >> i & 1U) == 0) enqueue(id, without(basis, basis.beads[i]), basis.beads[i], false, 0);
     }
