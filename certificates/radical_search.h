@@ -116,6 +116,17 @@ class RadicalInDouble {
     const int b = root_.function.certain_sign_on(lower, upper);
     return a == b ? a : sign_of_radical(a, b, norm().certain_sign_on(lower, upper));
   }
+  /// The same where the norm's sign is known, or 0.
+  [[nodiscard]] int sign_by_norm(int norm_sign, double lower, double upper) const {
+    return sign_of_radical(rational_.function.certain_sign_on(lower, upper),
+                           root_.function.certain_sign_on(lower, upper), norm_sign);
+  }
+  /// The sign of A, if B certainly has the other, all over [lower, upper], else 0. The norm has this sign
+  /// where the radical is positive, and the other where that is negative.
+  [[nodiscard]] int sign_against_root_on(double lower, double upper) const {
+    const int a = rational_.function.certain_sign_on(lower, upper);
+    return root_.function.certain_sign_on(lower, upper) == -a ? a : 0;
+  }
   /// The same all over the step, by A and B alone.
   [[nodiscard]] bool certainly_positive() const { return rational_.positive && root_.positive; }
 
@@ -147,6 +158,16 @@ class CertificateInDouble {
   /// 1 or -1 if that is the sign all over [lower, upper] for certain, else 0.
   [[nodiscard]] int certain_sign_on(double lower, double upper) const {
     return side_ * with_condition(side_ * wanted_.certain_sign_on(lower, upper), lower, upper);
+  }
+  /// The norm's sign where the certificate holds, as A and B of opposite signs all over [lower, upper] tell,
+  /// else 0.
+  [[nodiscard]] int norm_while_it_holds(double lower, double upper) const {
+    return wanted_.sign_against_root_on(lower, upper);
+  }
+  /// 1 or -1 if that is the sign for certain where A and B have the signs they have on all of [lower, upper],
+  /// and the norm this one, else 0.
+  [[nodiscard]] int sign_by_norm(int norm, double lower, double upper) const {
+    return side_ * with_condition(side_ * wanted_.sign_by_norm(norm, lower, upper), lower, upper);
   }
   /// Holds for the whole step, as A and B alone tell.
   [[nodiscard]] bool certainly_holds() const {
@@ -181,15 +202,16 @@ template <int Degree>
 }
 
 /// Walks from candidate to candidate while they prove not to be failures, from `from` on, where the
-/// certificate holds.
+/// certificate holds and the norm has the sign `known`, if that is not 0.
 template <class InDouble>
-[[nodiscard]] std::optional<Failure> walk_candidates(const InDouble& certificate, double from) {
+[[nodiscard]] std::optional<Failure> walk_candidates(const InDouble& certificate, double from,
+                                                     int known = 0) {
   constexpr int most_candidates = 8;
-  for (int candidate = 0; candidate < most_candidates; ++candidate) {
+  for (int candidate = 0; candidate < most_candidates; ++candidate, known = 0) {
     const auto& norm = certificate.norm();
-    const int sign = norm.certain_sign_at(from);
+    const int sign = known != 0 ? known : norm.certain_sign_at(from);
     if (sign == 0) return std::nullopt;
-    const auto next = (sign > 0 ? norm : negative(norm)).first_descent(from);
+    const auto next = (sign > 0 ? norm : negative(norm)).first_descent(from, known != 0);
     if (next.verdict == Verdict::never) return Failure{};
     if (next.verdict == Verdict::undecided) return std::nullopt;
     const auto& [lower, upper] = next.bracket;
@@ -202,14 +224,17 @@ template <class InDouble>
   return std::nullopt;
 }
 
-/// Settles a certificate in double, or nothing. At its own root the bracket holds no other one, and its upper
-/// end tells.
+/// Settles a certificate in double, or nothing. At its own root the bracket holds no other one, so at its
+/// upper end it still holds.
 template <class InDouble>
 [[nodiscard]] std::optional<Failure> settle_radical(const InDouble& certificate, const Instant& now,
                                                     Birth birth) {
-  const bool at_own_root = birth == Birth::at_own_root;
-  if (at_own_root && !now.isolating()) return std::nullopt;
-  const int sign = certificate.certain_sign_on(at_own_root ? now.upper() : now.lower(), now.upper());
+  if (birth == Birth::at_own_root) {
+    if (!now.isolating()) return std::nullopt;
+    const int norm = certificate.norm_while_it_holds(now.lower(), now.upper());
+    return norm == 0 ? std::nullopt : walk_candidates(certificate, now.upper(), norm);
+  }
+  const int sign = certificate.certain_sign_on(now.lower(), now.upper());
   // A sign below zero may belong to a sphere that is none, its beads in one place: integers know.
   if (sign <= 0) return std::nullopt;
   return walk_candidates(certificate, now.upper());
@@ -228,10 +253,16 @@ template <class Certificate, Motion M>
   return exact;
 }
 
+/// So wide a bracket will overlap others, and few signs are certain all over it: integers would be asked.
+[[nodiscard]] inline bool is_wide(const Failure& failure) {
+  return failure.kind == Failure::Kind::later && failure.time.upper - failure.time.lower > 0x1p-30;
+}
+
 template <class Certificate, Motion M>
 [[nodiscard]] Failure filtered_first_failure(const Certificate& certificate, const M& motion,
                                              const Instant& now, Birth birth, StageCounts& stages,
                                              Touches touches) {
+  std::optional<Failure> wide;
   {
     const CertificateInDouble<OwnFilter, Certificate, M> bounded(certificate, motion);
     if (bounded.certainly_holds()) {
@@ -239,12 +270,16 @@ template <class Certificate, Motion M>
       return {};
     }
     if (const auto failure = settle_radical(bounded, now, birth)) {
-      ++stages.isolation;
-      return *failure;
+      if (!is_wide(*failure)) {
+        ++stages.isolation;
+        return *failure;
+      }
+      wide = failure;
     }
   }
   const CertificateInDouble<TrackedErrors, Certificate, M> tracked(certificate, motion);
   auto failure = settle_radical(tracked, now, birth);
+  if (!failure) failure = wide;
   // As in careful_first_failure.
   if (!failure && now.narrow()) failure = settle_radical(tracked, now, birth);
   if (failure) {
@@ -341,20 +376,21 @@ template <Kernel K, class Certificate, Motion M>
 
 }  // namespace detail
 
-/// The sign just after a failure of another certificate with the same norm, as doubles know it, or 0: at the
-/// end of a bracket that holds no other root of the norm. Up to there the basis must be one
-/// (ball_in_sphere.h).
+/// The sign of `certificate` just after `failed` has, of the same type and with the same norm, as doubles
+/// know it, or 0. Up to there the basis must be one (ball_in_sphere.h).
 template <class Certificate, Motion M>
 requires RadicalCertificateFor<Certificate, M>
-[[nodiscard]] int sign_after_root_of_norm(const Certificate& certificate, const M& motion, const Instant& now,
-                                          StageCounts& stages) {
+[[nodiscard]] int sign_after_failure(const Certificate& certificate, const Certificate& failed,
+                                     const M& motion, const Instant& now, StageCounts& stages) {
+  const auto sign_by = [&]<class Errors>(Errors) {
+    const detail::CertificateInDouble<Errors, Certificate, M> asked(certificate, motion);
+    return asked.sign_by_norm(-detail::CertificateInDouble<Errors, Certificate, M>(failed, motion)
+                                   .norm_while_it_holds(now.lower(), now.upper()),
+                              now.lower(), now.upper());
+  };
   if (!now.isolating()) return 0;
-  int sign = detail::CertificateInDouble<detail::OwnFilter, Certificate, M>(certificate, motion)
-                 .certain_sign_on(now.upper(), now.upper());
-  if (sign == 0) {
-    sign = detail::CertificateInDouble<detail::TrackedErrors, Certificate, M>(certificate, motion)
-               .certain_sign_on(now.upper(), now.upper());
-  }
+  int sign = sign_by(detail::OwnFilter{});
+  if (sign == 0) sign = sign_by(detail::TrackedErrors{});
   stages.signs_double += sign != 0 ? 1 : 0;
   return sign;
 }

@@ -36,7 +36,10 @@ struct Basis {
     }
   }
   friend bool operator==(const Basis& a, const Basis& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+    if (a.size != b.size) return false;
+    for (std::size_t i = 0; i < a.size; ++i)
+      if (a.beads[i] != b.beads[i]) return false;
+    return true;
   }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which beads a minimum enclosing sphere can lose during a step, and which its basis can, without a
+// Which beads a minimum enclosing sphere can lose during a step or a part of it, and which its basis can, without a
 // certificate for each: balls of any radii in motions of degree 1 to 3, in the plane and in space.
 //
 // All is seen from the basis' first ball: centres c_i(u), radii s_i(u), those of the first are zero. The
@@ -22,56 +22,12 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <span>
 
-#include "motions/bead_range.h"
-#include "motions/bezier_motion.h"
 #include "structures/basis.h"
+#include "structures/bead_paths.h"
 
 namespace kds {
-
-/// Control points of all beads' centres and radii during a step, a column each.
-template <int Dimension>
-class BeadPaths {
- public:
-  static constexpr int most_degree = 3;
-  static constexpr std::size_t padding = 3;  ///< read four at a time
-
-  template <Motion M>
-  void set(const M& motion) {
-    static_assert(M::dimension == Dimension && M::degree <= most_degree);
-    degree_ = M::degree;
-    equal_radii_ = true;
-    beads_ = motion.bead_count();
-    for (int k = 0; k <= degree_; ++k) {
-      for (int axis = 0; axis <= Dimension; ++axis) {
-        std::vector<double>& column = columns_[place(k, axis)];
-        column.resize(beads_ + padding);
-        for (BeadId b = 0; b < beads_; ++b)
-          column[b] = axis < Dimension ? motion.coordinate(b, k, axis) : motion.radius(b, k);
-      }
-    }
-    measure();
-  }
-
-  [[nodiscard]] int degree() const { return degree_; }
-  /// Of all beads for the whole step.
-  [[nodiscard]] bool equal_radii() const { return equal_radii_; }
-  /// The k-th control points along an axis, or (axis = Dimension) of the radius.
-  [[nodiscard]] const double* column(int k, int axis) const { return columns_[place(k, axis)].data(); }
-  /// No difference within a column is larger, coordinates or radii.
-  [[nodiscard]] double extent() const { return extent_; }
-
- private:
-  static std::size_t place(int k, int axis) { return static_cast<std::size_t>(k * (Dimension + 1) + axis); }
-  void measure();
-
-  int degree_ = 1;
-  std::size_t beads_ = 0;
-  bool equal_radii_ = true;
-  std::array<std::vector<double>, (most_degree + 1) * (Dimension + 1)> columns_;
-  double extent_ = 0;
-};
 
 template <int Dimension>
 struct SphereChord {
@@ -81,14 +37,21 @@ struct SphereChord {
   std::array<double, 2> limit{};  ///< of a bead's distance plus its radius less the first bead's
 };
 
-/// From time `from` to the end of the step.
+struct Period {
+  double from = 0, to = 1;
+};
+
+/// Of up to four bases of one size, each in a period of its own: four cost little more than one.
+template <int Dimension>
+void sphere_chords(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
+                   std::span<const Period> periods, std::span<SphereChord<Dimension>> chords);
+
 template <int Dimension>
 [[nodiscard]] SphereChord<Dimension> sphere_chord(const BeadPaths<Dimension>& paths, const Basis& basis,
-                                                  double from);
-
-/// Sets `beyond` to the beads of a range that are not proved to stay inside, basis beads among them.
-template <int Dimension>
-void find_beyond(const BeadPaths<Dimension>& paths, const BeadRange& range, BeadId base,
-                 const SphereChord<Dimension>& chord, double from, std::vector<BeadId>& beyond);
+                                                  const Period& period) {
+  SphereChord<Dimension> chord;
+  sphere_chords<Dimension>(paths, {&basis, 1}, {&period, 1}, {&chord, 1});
+  return chord;
+}
 
 }  // namespace kds

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <functional>
 #include <numeric>
 #include <optional>
@@ -20,12 +21,12 @@
 #include "structures/basis.h"
 #include "structures/basis_edit.h"
 #include "structures/bead_names.h"
+#include "structures/beads_beyond.h"
 #include "structures/membership_signs.h"
 #include "structures/membership_tables.h"
 #include "structures/necklace_tree.h"
 #include "structures/node_selection.h"
 #include "structures/smallest_sphere.h"
-#include "structures/sphere_path.h"
 #include "structures/whole_balls_at.h"
 
 namespace kds {
@@ -84,6 +85,8 @@ class WrappedHierarchy final : public KineticStructure {
   static constexpr std::uint32_t none = 0xffffffffU;
   static constexpr std::size_t full = dimension + 1;
   static constexpr int most_repairs = 64;  // of one node at one time, in `fast`
+  /// As many certificates at least are worth a closer look.
+  static constexpr std::size_t few = 4;
   /// Doubles prove some certificates without looking at them one by one.
   static constexpr bool prunes = !std::same_as<K, Exact>;
   using Tables = MembershipTables<M, K, radii>;
@@ -106,9 +109,9 @@ class WrappedHierarchy final : public KineticStructure {
   struct Present {
     Identity identity;
     bool side;  // which side of zero its certificate wants
-    /// Balls of a full basis and the one that came to its sphere, ascending: all certificates of theirs have
-    /// one norm (ball_in_sphere.h).
-    std::optional<std::array<BeadId, full + 1>> tangent;
+    /// The certificate itself, of the balls of a full basis and the one that came to its sphere: all
+    /// certificates of these have one norm (ball_in_sphere.h).
+    std::optional<BallInSphere<dimension, full>> of_full;
   };
   template <class C>
   static constexpr bool of_full_balls = std::same_as<C, BallInSphere<dimension, full>>;
@@ -121,7 +124,8 @@ class WrappedHierarchy final : public KineticStructure {
   /// Whether a certificate has the present root, though it is another function.
   template <class C>
   [[nodiscard]] bool has_present_root(const C& c) const {
-    if constexpr (of_full_balls<C>) return present_ && present_->tangent == ascending(c);
+    if constexpr (of_full_balls<C>)
+      return present_ && present_->of_full && ascending(*present_->of_full) == ascending(c);
     return false;
   }
 
@@ -135,8 +139,8 @@ class WrappedHierarchy final : public KineticStructure {
         return c.side() == self.present_->side ? -1 : 1;
       if constexpr (of_full_balls<Certificate> && std::same_as<K, Filtered>) {
         if (self.has_present_root(c)) {
-          const int sign =
-              sign_after_root_of_norm(c, self.motion_, self.simulator_.now(), self.statistics.stages);
+          const int sign = sign_after_failure(c, *self.present_->of_full, self.motion_, self.simulator_.now(),
+                                              self.statistics.stages);
           if (sign != 0) return sign;
         }
       }
@@ -156,13 +160,22 @@ class WrappedHierarchy final : public KineticStructure {
   [[nodiscard]] Balls balls_at_start() const {
     return Balls(control_points(motion_, 0), control_radii(motion_, 0));
   }
+  [[nodiscard]] static unsigned all_of(const Basis& basis) { return (1U << basis.size) - 1U; }
+  /// Two beads of one radius and no others: nothing to guard unless they are one.
+  [[nodiscard]] bool is_lone_pair(NodeId node) const {
+    const BeadRange& range = tree_.range(node);
+    return radii == Radii::equal && nodes_[node].basis.size == 2 && range.last - range.first == 1;
+  }
   /// Its basis at the start, ties aside.
   void build_node(NodeId node, const Balls& balls);
   void ask_query();
   /// Guards a node, repairing its basis while a certificate is violated already; logs the change from
   /// `before`.
   void guard_node(NodeId node, Basis before);
+  /// Of all nodes that are kept, at the start of a step.
+  void find_chords();
   [[nodiscard]] unsigned find_beads_to_watch(NodeId node);
+  [[nodiscard]] unsigned look_closely(const Basis& basis);
   /// Guards the node's present basis; the first bead whose certificate is violated, if any.
   [[nodiscard]] std::optional<BeadId> watch_node(NodeId node);
   [[nodiscard]] std::optional<BeadId> watch_enqueued(NodeId node, bool zero_will_do);
@@ -175,7 +188,7 @@ class WrappedHierarchy final : public KineticStructure {
   /// proves it.
   [[nodiscard]] std::optional<Basis> proved_next_basis(const Basis& old, BeadId bead);
   [[nodiscard]] const SphereChord<dimension>& chord_of(const Basis& basis);
-  [[nodiscard]] bool is_proved(const Basis& basis, BeadId newcomer);
+  [[nodiscard]] unsigned are_proved(std::span<const Basis> bases, BeadId newcomer);
   [[nodiscard]] std::optional<Basis> basis_just_after(std::span<const BeadId> among, const Basis& old,
                                                       BeadId escaped);
   void record(NodeId node, const Basis& before);
@@ -195,7 +208,8 @@ class WrappedHierarchy final : public KineticStructure {
   std::vector<Held> held_;
   std::vector<std::uint32_t> free_;
   BeadPaths<dimension> paths_;
-  SphereChord<dimension> chord_;  // of this basis from that time on
+  std::vector<SphereChord<dimension>> chords_;  // of the nodes' bases at the start of the step
+  SphereChord<dimension> chord_;                // of this basis from that time on
   Basis chord_basis_;
   double chord_from_ = -1;
   std::array<std::vector<BeadId>, Tables::count + 1>
@@ -212,5 +226,6 @@ class WrappedHierarchy final : public KineticStructure {
 
 #include "structures/wrapped_hierarchy_audit.h"
 #include "structures/wrapped_hierarchy_build.h"
+#include "structures/wrapped_hierarchy_chords.h"
 #include "structures/wrapped_hierarchy_guards.h"
 #include "structures/wrapped_hierarchy_repairs.h"

@@ -62,16 +62,27 @@ void WrappedHierarchy<M, K, radii>::start_step() {
   free_.clear();
   if constexpr (prunes) {
     paths_.set(motion_);
-    chord_from_ = -1;
+    find_chords();
   }
-  // Balls that are not independent need not have a sphere: then the basis is found anew before it is guarded.
   std::optional<Balls> balls;
-  if constexpr (radii == Radii::any) balls = balls_at_start();
   per_bead_.assign(motion_.bead_count(), 0);
   for (NodeId id = 0; id < nodes_.size(); ++id) {
     if (!keeps(id)) continue;
     const Basis before = nodes_[id].basis;
-    if (balls && !is_certainly_proper(*balls, before)) static_cast<void>(repair(id, no_bead));
+    bool proper = radii == Radii::equal;
+    if constexpr (prunes) {
+      if (!is_lone_pair(id)) {
+        chord_ = chords_[id];
+        chord_basis_ = before;
+        chord_from_ = 0;
+        proper |= chord_.proved && chord_.stays == all_of(before);
+      }
+    }
+    if (!proper) {
+      // Balls that are not independent need not have a sphere: then the basis is found anew.
+      if (!balls) balls = balls_at_start();
+      if (!is_certainly_proper(*balls, before)) static_cast<void>(repair(id, no_bead));
+    }
     guard_node(id, before);
     for (const BeadId b : named_) ++per_bead_[b];
   }

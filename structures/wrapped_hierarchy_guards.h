@@ -63,23 +63,6 @@ std::optional<BeadId> WrappedHierarchy<M, K, radii>::watch_enqueued(NodeId id, b
   return first;
 }
 
-/// Sets `beyond_`; a bit for each bead of the basis that is proved to stay in it.
-template <Motion M, Kernel K, Radii radii>
-unsigned WrappedHierarchy<M, K, radii>::find_beads_to_watch(NodeId id) {
-  const BeadRange range = tree_.range(id);
-  if constexpr (prunes) {
-    const Basis& basis = nodes_[id].basis;
-    const SphereChord<dimension>& chord = chord_of(basis);
-    if (chord.proved) {
-      find_beyond(paths_, range, basis.beads[0], chord, chord_from_, beyond_);
-      return chord.stays;
-    }
-  }
-  beyond_.resize(range.last - range.first + 1U);
-  std::iota(beyond_.begin(), beyond_.end(), range.first);
-  return 0;
-}
-
 template <Motion M, Kernel K, Radii radii>
 std::optional<BeadId> WrappedHierarchy<M, K, radii>::watch_node(NodeId id) {
   const Basis basis = nodes_[id].basis;
@@ -90,18 +73,16 @@ std::optional<BeadId> WrappedHierarchy<M, K, radii>::watch_node(NodeId id) {
   bool parts = basis.size >= 2;
   if (radii == Radii::equal && basis.size == 2) {
     if (move_together(basis.beads[0], basis.beads[1])) return basis.beads[1];
-    const BeadRange& range = tree_.range(id);
-    if (range.last - range.first == 1) return std::nullopt;  // half of all nodes
+    if (is_lone_pair(id)) return std::nullopt;  // half of all nodes
     parts = false;
   }
   const unsigned stays = find_beads_to_watch(id);
-  if (parts) {
+  if (parts && stays != all_of(basis)) {
     for (std::size_t i = 0; i < basis.size; ++i) {
       if ((stays >> i & 1U) == 0) enqueue(id, without(basis, basis.beads[i]), basis.beads[i], false, 0);
     }
     if (const auto to_spare = watch_enqueued(id, false)) return to_spare;
   }
-  std::erase_if(beyond_, [&](BeadId b) { return basis.contains(b); });
   if (beyond_.empty()) return std::nullopt;
   auto signs = signs_just_after();
   const int orientation = orientation_of(basis, signs);

@@ -20,48 +20,30 @@ std::optional<Basis> WrappedHierarchy<M, K, radii>::basis_just_after(std::span<c
 }
 
 template <Motion M, Kernel K, Radii radii>
-const SphereChord<WrappedHierarchy<M, K, radii>::dimension>& WrappedHierarchy<M, K, radii>::chord_of(
-    const Basis& basis) {
-  const double from = simulator_.now().lower();
-  if (!(chord_basis_ == basis && chord_from_ == from)) {
-    chord_basis_ = basis;
-    chord_from_ = from;
-    chord_ = sphere_chord(paths_, basis, from);
-  }
-  return chord_;
-}
-
-/// All beads but the newcomer are proved to stay.
-template <Motion M, Kernel K, Radii radii>
-bool WrappedHierarchy<M, K, radii>::is_proved(const Basis& basis, BeadId newcomer) {
-  const SphereChord<dimension>& chord = chord_of(basis);
-  if (!chord.proved) return false;
-  for (std::size_t i = 0; i < basis.size; ++i) {
-    if ((chord.stays >> i & 1U) == 0 && basis.beads[i] != newcomer) return false;
-  }
-  return true;
-}
-
-template <Motion M, Kernel K, Radii radii>
 std::optional<Basis> WrappedHierarchy<M, K, radii>::proved_next_basis(const Basis& old, BeadId bead) {
   if (old.contains(bead)) {  // it is inside the sphere of its fellows now
     const Basis rest = without(old, bead);
-    return is_proved(rest, no_bead) ? std::optional(rest) : std::nullopt;
+    return are_proved({&rest, 1}, no_bead) == 0 ? std::nullopt : std::optional(rest);
   }
   // It is outside the sphere of the others now: where their coordinates are positive and all is proved that
   // a path proves, its own barycentric coordinate has the sign that says so.
-  Basis next = old;
+  std::array<Basis, full> next;
   if (old.size < full) {
-    insert_bead(next, bead);
-    return is_proved(next, bead) ? std::optional(next) : std::nullopt;
+    next[0] = old;
+    insert_bead(next[0], bead);
+    return are_proved({next.data(), 1}, bead) == 0 ? std::nullopt : std::optional(next[0]);
   }
+  for (std::size_t place = 0; place < full; ++place) {
+    next[place] = old;
+    erase_place(next[place], place);
+    insert_bead(next[place], bead);
+  }
+  const unsigned proved = are_proved(next, no_bead);
   auto signs = signs_just_after();
   for (std::size_t place = 0; place < full; ++place) {
-    next = old;
-    erase_place(next, place);
-    insert_bead(next, bead);
-    if (is_proved(next, no_bead) && is_inside(next, old.beads[place], orientation_of(next, signs), signs))
-      return next;
+    if ((proved >> place & 1U) != 0 &&
+        is_inside(next[place], old.beads[place], orientation_of(next[place], signs), signs))
+      return next[place];
   }
   return std::nullopt;
 }
@@ -105,8 +87,7 @@ void WrappedHierarchy<M, K, radii>::fail(unsigned table, std::uint32_t slot) {
     if (touch) return;
     bead = present_bead_ = bead_of(certificate, nodes_[id].basis);
     present_ = Present{certificate.identity(), certificate.side(), {}};
-    if constexpr (of_full_balls<std::remove_cvref_t<decltype(certificate)>>)
-      present_->tangent = ascending(certificate);
+    if constexpr (of_full_balls<std::remove_cvref_t<decltype(certificate)>>) present_->of_full = certificate;
   });
   for (std::uint32_t place = nodes_[id].held; place != none; place = held_[place].next) {
     Held& held = held_[place];

@@ -1,0 +1,172 @@
+#include "structures/beads_beyond.h"
+
+#include <bit>
+
+#include "certificates/isolate_lanes.h"
+
+namespace kds {
+
+namespace {
+
+/// One bit each.
+[[gnu::always_inline]] inline unsigned bits_of(const Lanes::Mask& mask) {
+  constexpr Lanes::Mask bit{1, 2, 4, 8};
+  const Lanes::Mask some = mask & bit;
+  return static_cast<unsigned>((some[0] | some[1]) | (some[2] | some[3]));
+}
+
+/// Which of the four beads from `first` on are up to `last`, and not in the basis: one bit each.
+[[gnu::always_inline]] inline unsigned bits_to_look_at(const Basis& basis, BeadId first, BeadId last) {
+  unsigned bits = last - first < 3 ? (2U << (last - first)) - 1U : 15U;
+  for (std::size_t i = 0; i < Basis::max_size; ++i) {
+    const BeadId place = basis.beads[i] - first;  // wraps around where it is before
+    bits &= ~(place < Lanes::width && i < basis.size ? 1U << (place & 3U) : 0U);
+  }
+  return bits;
+}
+
+constexpr double below = 1 - 0x1p-40;
+
+template <int D, int K, bool equal>
+[[KDS_LANES_TARGETS]] void beyond_of(const BeadPaths<D>& paths, const BeadRange& range, const Basis& basis,
+                                     const SphereChord<D>& chord, double from, std::vector<BeadId>& beyond) {
+  constexpr int columns = D + (equal ? 0 : 1);
+  std::array<std::array<Lanes, D>, K + 1> center;
+  std::array<Lanes, K + 1> limit;
+  std::array<std::array<const double*, K + 1>, columns> column;
+  std::array<std::array<Lanes, K + 1>, columns> base;
+  for (std::size_t k = 0; k <= K; ++k) {
+    const double t = static_cast<double>(k) / K;
+    for (std::size_t axis = 0; axis < D; ++axis)
+      center[k][axis] = Lanes((1 - t) * chord.center[0][axis] + t * chord.center[1][axis]);
+    limit[k] = Lanes(((1 - t) * chord.limit[0] + t * chord.limit[1]) * below);
+    for (std::size_t axis = 0; axis < columns; ++axis) {
+      column[axis][k] = paths.column(static_cast<int>(k), static_cast<int>(axis));
+      base[axis][k] = Lanes(column[axis][k][basis.beads[0]]);
+    }
+  }
+  for (BeadId b = range.first; b <= range.last; b += Lanes::width) {
+    std::array<Lanes, K + 1> square, room = limit;
+    for (std::size_t axis = 0; axis < columns; ++axis) {
+      std::array<Lanes, K + 1> control;
+      for (std::size_t k = 0; k <= K; ++k)
+        control[k] = Lanes(Lanes::load(column[axis][k] + b)) - base[axis][k];
+      if (from > 0) casteljau(control, Lanes(from));
+      for (std::size_t k = 0; k <= K; ++k) {
+        if (axis < D) {
+          const Lanes v = control[k] - center[k][axis];
+          square[k] = axis == 0 ? v * v : square[k] + v * v;
+        } else {
+          room[k] -= control[k];
+        }
+      }
+    }
+    Lanes::Mask inside = (room[0] >= Lanes(0.0)) & (square[0] <= room[0] * room[0]);
+    for (std::size_t k = 1; k <= K; ++k) inside &= (room[k] >= Lanes(0.0)) & (square[k] <= room[k] * room[k]);
+    // Basis beads never lie inside: looked at they would often be, and no one could foretell in which four.
+    for (unsigned bits = ~bits_of(inside) & bits_to_look_at(basis, b, range.last); bits != 0;
+         bits &= bits - 1)
+      beyond.push_back(b + static_cast<BeadId>(std::countr_zero(bits)));
+  }
+}
+
+/// Four chords, and their periods, side by side.
+template <int D>
+struct Parts {
+  std::array<std::array<Lanes, D>, 2> center;
+  std::array<Lanes, 2> limit;
+  Lanes from, to;
+
+  Parts(std::span<const SphereChord<D>, 4> chords, std::span<const Period, 4> periods) {
+    for (std::size_t part = 0; part < 4; ++part) {
+      from.v[part] = periods[part].from;
+      to.v[part] = (periods[part].to - periods[part].from) / (1 - periods[part].from);
+      for (std::size_t e = 0; e < 2; ++e) {
+        limit[e].v[part] = chords[part].limit[e];
+        for (std::size_t axis = 0; axis < D; ++axis) center[e][axis].v[part] = chords[part].center[e][axis];
+      }
+    }
+  }
+};
+
+template <int D, int K>
+[[KDS_LANES_TARGETS]] void keep_beyond_of(const BeadPaths<D>& paths, const Basis& basis,
+                                          const Parts<D>& parts, std::vector<BeadId>& beyond) {
+  std::size_t kept = 0;
+  for (const BeadId b : beyond) {
+    std::array<Lanes, K + 1> square, room;
+    for (std::size_t axis = 0; axis <= D; ++axis) {
+      std::array<Lanes, K + 1> control;
+      for (std::size_t k = 0; k <= K; ++k) {
+        const double* column = paths.column(static_cast<int>(k), static_cast<int>(axis));
+        control[k] = Lanes(column[b] - column[basis.beads[0]]);
+      }
+      casteljau(control, parts.from);
+      casteljau_left(control, parts.to);
+      for (std::size_t k = 0; k <= K; ++k) {
+        const double t = static_cast<double>(k) / K;
+        if (axis < D) {
+          const Lanes v = control[k] - (Lanes(1 - t) * parts.center[0][axis] + Lanes(t) * parts.center[1][axis]);
+          square[k] = axis == 0 ? v * v : square[k] + v * v;
+        } else {
+          room[k] = (Lanes(1 - t) * parts.limit[0] + Lanes(t) * parts.limit[1]) * Lanes(below) - control[k];
+        }
+      }
+    }
+    Lanes::Mask inside = (room[0] >= Lanes(0.0)) & (square[0] <= room[0] * room[0]);
+    for (std::size_t k = 1; k <= K; ++k)
+      inside &= (room[k] >= Lanes(0.0)) & (square[k] <= room[k] * room[k]);
+    beyond[kept] = b;
+    kept += Lanes::all(inside) ? 0 : 1;
+  }
+  beyond.resize(kept);
+}
+
+template <int D, int K>
+void beyond_of_degree(const BeadPaths<D>& paths, const BeadRange& range, const Basis& basis,
+                      const SphereChord<D>& chord, double from, std::vector<BeadId>& beyond) {
+  return paths.equal_radii() ? beyond_of<D, K, true>(paths, range, basis, chord, from, beyond)
+                             : beyond_of<D, K, false>(paths, range, basis, chord, from, beyond);
+}
+
+}  // namespace
+
+template <int Dimension>
+void find_beyond(const BeadPaths<Dimension>& paths, const BeadRange& range, const Basis& basis,
+                 const SphereChord<Dimension>& chord, double from, std::vector<BeadId>& beyond) {
+  beyond.clear();
+  switch (paths.degree()) {
+    case 1:
+      return beyond_of_degree<Dimension, 1>(paths, range, basis, chord, from, beyond);
+    case 2:
+      return beyond_of_degree<Dimension, 2>(paths, range, basis, chord, from, beyond);
+    default:
+      return beyond_of_degree<Dimension, 3>(paths, range, basis, chord, from, beyond);
+  }
+}
+
+template <int Dimension>
+void keep_beyond(const BeadPaths<Dimension>& paths, const Basis& basis,
+                 std::span<const SphereChord<Dimension>, 4> chords, std::span<const Period, 4> periods,
+                 std::vector<BeadId>& beyond) {
+  const Parts<Dimension> parts(chords, periods);
+  switch (paths.degree()) {
+    case 1:
+      return keep_beyond_of<Dimension, 1>(paths, basis, parts, beyond);
+    case 2:
+      return keep_beyond_of<Dimension, 2>(paths, basis, parts, beyond);
+    default:
+      return keep_beyond_of<Dimension, 3>(paths, basis, parts, beyond);
+  }
+}
+
+template void find_beyond(const BeadPaths<2>&, const BeadRange&, const Basis&, const SphereChord<2>&, double,
+                          std::vector<BeadId>&);
+template void find_beyond(const BeadPaths<3>&, const BeadRange&, const Basis&, const SphereChord<3>&, double,
+                          std::vector<BeadId>&);
+template void keep_beyond(const BeadPaths<2>&, const Basis&, std::span<const SphereChord<2>, 4>,
+                          std::span<const Period, 4>, std::vector<BeadId>&);
+template void keep_beyond(const BeadPaths<3>&, const Basis&, std::span<const SphereChord<3>, 4>,
+                          std::span<const Period, 4>, std::vector<BeadId>&);
+
+}  // namespace kds

@@ -1,0 +1,123 @@
+#pragma once
+// Kinetic wrapped hierarchy: what the paths of spheres prove, so that no certificate is needed.
+
+#include "structures/wrapped_hierarchy.h"
+
+namespace kds {
+
+template <Motion M, Kernel K, Radii radii>
+void WrappedHierarchy<M, K, radii>::find_chords() {
+  struct Waiting {
+    std::array<NodeId, Lanes::width> nodes;
+    std::array<Basis, Lanes::width> bases;
+    std::size_t count = 0;
+  };
+  std::array<Waiting, full + 1> of_size;
+  const auto find = [this](Waiting& w) {
+    constexpr std::array<Period, Lanes::width> step{};
+    std::array<SphereChord<dimension>, Lanes::width> chords;
+    sphere_chords<dimension>(paths_, std::span(w.bases).first(w.count), step,
+                             std::span(chords).first(w.count));
+    for (std::size_t i = 0; i < w.count; ++i) chords_[w.nodes[i]] = chords[i];
+    w.count = 0;
+  };
+  chords_.resize(nodes_.size());
+  for (NodeId id = 0; id < nodes_.size(); ++id) {
+    if (!keeps(id) || is_lone_pair(id)) continue;
+    Waiting& w = of_size[nodes_[id].basis.size];
+    w.nodes[w.count] = id;
+    w.bases[w.count] = nodes_[id].basis;
+    if (++w.count == Lanes::width) find(w);
+  }
+  for (Waiting& w : of_size)
+    if (w.count > 0) find(w);
+}
+
+template <Motion M, Kernel K, Radii radii>
+const SphereChord<WrappedHierarchy<M, K, radii>::dimension>& WrappedHierarchy<M, K, radii>::chord_of(
+    const Basis& basis) {
+  const double from = simulator_.now().lower();
+  if (!(chord_basis_ == basis && chord_from_ == from)) {
+    chord_basis_ = basis;
+    chord_from_ = from;
+    chord_ = sphere_chord(paths_, basis, {from, 1});
+  }
+  return chord_;
+}
+
+/// Sets `beyond_` to what is not proved to stay inside; a bit for each bead of the basis that is proved to stay
+/// in it.
+template <Motion M, Kernel K, Radii radii>
+unsigned WrappedHierarchy<M, K, radii>::find_beads_to_watch(NodeId id) {
+  const BeadRange range = tree_.range(id);
+  const Basis& basis = nodes_[id].basis;
+  if constexpr (prunes) {
+    const SphereChord<dimension>& chord = chord_of(basis);
+    if (chord.proved) {
+      find_beyond(paths_, range, basis, chord, chord_from_, beyond_);
+      const std::size_t unproved = beyond_.size() + static_cast<std::size_t>(
+                                                         std::popcount(all_of(basis) & ~chord.stays));
+      return unproved < few ? chord.stays : chord.stays | look_closely(basis);
+    }
+  }
+  beyond_.clear();
+  for (BeadId b = range.first; b <= range.last; ++b)
+    if (!basis.contains(b)) beyond_.push_back(b);
+  return prunes ? look_closely(basis) : 0;
+}
+
+/// The same by the sphere's chords in the quarters of the time that is left: a sixteenth as far from it.
+template <Motion M, Kernel K, Radii radii>
+unsigned WrappedHierarchy<M, K, radii>::look_closely(const Basis& basis) {
+  constexpr std::size_t parts = Lanes::width;
+  const double from = simulator_.now().lower();
+  std::array<Period, parts> periods;
+  std::array<Basis, parts> bases;
+  std::array<SphereChord<dimension>, parts> chords;
+  bases.fill(basis);
+  for (std::size_t i = 0; i < parts; ++i) {
+    periods[i].from = i == 0 ? from : periods[i - 1].to;
+    periods[i].to = i + 1 == parts ? 1 : from + 0.25 * static_cast<double>(i + 1) * (1 - from);
+  }
+  sphere_chords<dimension>(paths_, bases, periods, chords);
+  unsigned stays = all_of(basis);
+  for (const auto& chord : chords) {
+    if (!chord.proved) return 0;
+    stays &= chord.stays;
+  }
+  keep_beyond<dimension>(paths_, basis, chords, periods, beyond_);
+  return stays;
+}
+
+/// A bit for each of up to four that is proved to be the basis of its beads just after now, if the newcomer
+/// does not have to be. Of one alone the chord is known then.
+template <Motion M, Kernel K, Radii radii>
+unsigned WrappedHierarchy<M, K, radii>::are_proved(std::span<const Basis> bases, BeadId newcomer) {
+  const double from = simulator_.now().lower();
+  Period soon{from, from + 0x1p-6 * (1 - from)};
+  if (!(soon.to > simulator_.now().upper())) soon.to = 1;
+  std::array<Basis, Lanes::width> asked;
+  std::array<Period, Lanes::width> periods;
+  std::array<SphereChord<dimension>, Lanes::width> chords;
+  asked.fill(bases.front());
+  std::copy(bases.begin(), bases.end(), asked.begin());
+  periods.fill(soon);
+  const bool alone = bases.size() == 1;
+  if (alone) periods[1] = {from, 1};
+  sphere_chords<dimension>(paths_, asked, periods, chords);
+  if (alone) {
+    chord_ = chords[1];
+    chord_basis_ = bases.front();
+    chord_from_ = from;
+  }
+  unsigned proved = 0;
+  for (std::size_t i = 0; i < bases.size(); ++i) {
+    unsigned stay = chords[i].stays;
+    for (std::size_t place = 0; place < bases[i].size; ++place)
+      if (bases[i].beads[place] == newcomer) stay |= 1U << place;
+    if (chords[i].proved && stay == all_of(bases[i])) proved |= 1U << i;
+  }
+  return proved;
+}
+
+}  // namespace kds
