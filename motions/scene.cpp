@@ -118,7 +118,10 @@ Scene::Scene(Instance instance, std::vector<double> radii)
   check_control_points(instance_);
   const std::size_t points = instance_.point_count();
   necklaces_.push_back({0, static_cast<BeadId>(points - 1)});
-  if (has_radii_) return check_radii(radii_);
+  if (has_radii_) {
+    check_radii(radii_);
+    return;
+  }
   radii_.assign(points, 0);
   if (instance_.weighted()) {
     for (std::size_t p = 0; p < points; ++p)
