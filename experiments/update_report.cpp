@@ -142,6 +142,10 @@ std::string update_table(std::span<const UpdateRow> rows) {
                         efficiency ? fmt::format("{:.3f}", *efficiency) : "-", with_thousands(row.rebuilds),
                         1e6 * per_step(row, row.seconds), row.ratio);
   }
+  std::uint64_t audits = 0;  // one that fails ends the program
+  for (const UpdateRow& row : rows) audits += row.audits;
+  if (audits > 0)
+    text += fmt::format("\n{} audits against the static diagram, none failed\n", with_thousands(audits));
   return text;
 }
 
@@ -149,8 +153,7 @@ std::string update_page(std::span<const UpdateRow> rows, const std::string& inpu
   constexpr std::string_view words =
       "Each <em>technique</em> brings the power diagram from one frame to the next and ends in the same "
       "diagram. <em>Activated</em>: beads that moved on a path in time; <em>removed</em>: beads taken out "
-      "and "
-      "put in again; <em>events</em>: flips, and beads that vanish from the diagram or come back; <em>a "
+      "and put in again; <em>events</em>: flips, and beads that vanish from the diagram or come back; <em>a "
       "change</em>: events divided by the cells that are in one frame's diagram and not in the other's; "
       "<em>ratio</em>: time as a multiple of building the diagram anew with CGAL.";
   return html_page("kds update: " + input,

@@ -119,6 +119,7 @@ TEST(CompareUpdates, CountsWhatChangesAndWhatIsDone) {
   }
   UpdateOptions far = options;
   far.strides = {4};
+  EXPECT_THAT(update_table(rows), HasSubstr(std::to_string(3 * rows.size()) + " audits"));
   EXPECT_THROW(static_cast<void>(compare_updates(passing(), std::vector<double>(5, 1.0), far,
                                                  [](std::size_t, std::size_t) {})),
                InputError);
