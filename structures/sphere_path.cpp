@@ -358,7 +358,9 @@ void sphere_chords(const BeadPaths<Dimension>& paths, std::span<const Basis> bas
   }
 }
 
-template void sphere_chords(const BeadPaths<2>&, std::span<const Basis>, std::span<const Period>, std::span<SphereChord<2>>);
-template void sphere_chords(const BeadPaths<3>&, std::span<const Basis>, std::span<const Period>, std::span<SphereChord<3>>);
+template void sphere_chords(const BeadPaths<2>&, std::span<const Basis>, std::span<const Period>,
+                            std::span<SphereChord<2>>);
+template void sphere_chords(const BeadPaths<3>&, std::span<const Basis>, std::span<const Period>,
+                            std::span<SphereChord<3>>);
 
 }  // namespace kds

@@ -1,6 +1,6 @@
 #pragma once
-// Which beads a minimum enclosing sphere can lose during a step or a part of it, and which its basis can, without a
-// certificate for each: balls of any radii in motions of degree 1 to 3, in the plane and in space.
+// Which beads a minimum enclosing sphere can lose during a step or a part of it, and which its basis can,
+// without a certificate for each: balls of any radii in motions of degree 1 to 3, in the plane and in space.
 //
 // All is seen from the basis' first ball: centres c_i(u), radii s_i(u), those of the first are zero. The
 // sphere touches all of them from outside: its centre x(u), in their affine hull, and radius rho(u), less the
