@@ -24,7 +24,7 @@ void judge(const M& motion, Random& random, Tally& tally) {
   Polynomial polynomial;
   for (std::size_t i = 0; i < polynomial.beads.size(); ++i) polynomial.beads[i] = static_cast<BeadId>(i);
   const ExactPolynomial exact = exact_function(polynomial, motion);
-  const double lower = uniform(random);
+  const double lower = uniform(random, 0, 1);
   const double length = std::ldexp(1.0, -static_cast<int>(random() % 60));
   const double upper = random() % 3 == 0 ? lower : std::min(1.0, lower + length);
   const TrackedMoment<M, std::tuple_size_v<decltype(polynomial.beads)>> view(motion, polynomial.beads, lower,
