@@ -22,8 +22,7 @@ void WrappedHierarchy<M, K, radii>::find_chords() {
     w.count = 0;
   };
   chords_.resize(nodes_.size());
-  for (NodeId id = 0; id < nodes_.size(); ++id) {
-    if (!keeps(id) || is_lone_pair(id)) continue;
+  for (const NodeId id : guarded_) {
     Waiting& w = of_size[nodes_[id].basis.size];
     w.nodes[w.count] = id;
     w.bases[w.count] = nodes_[id].basis;
