@@ -63,6 +63,9 @@ struct BoundedPolynomial {
   /// certainly positive on [from, lower], negative at upper, and one root between. `from` must be certainly
   /// positive, by its value or `known` to be.
   [[nodiscard]] Result first_descent(double from, bool known = false) const;
+
+  /// Near the root of its only descent between these, as far as the coefficients themselves tell: no proof.
+  [[nodiscard]] double root_between(double lower, double upper) const;
 };
 
 template <int Degree>
@@ -80,6 +83,16 @@ auto BoundedPolynomial<Degree>::first_descent(double from, bool known) const -> 
   if (search.found[0] == 0) return {Verdict::undecided, {}};
   narrow_lanes(descent, first);
   return {Verdict::found, {descent.lower.v[0], descent.upper.v[0]}};
+}
+
+template <int Degree>
+double BoundedPolynomial<Degree>::root_between(double lower, double upper) const {
+  LanesCoefficients<Degree> part;
+  for (std::size_t k = 0; k <= Degree; ++k) part[k] = Lanes(bernstein[k]);
+  casteljau_left(part, Lanes(upper));
+  casteljau(part, Lanes(lower / upper));
+  Lanes slope;
+  return lower + (upper - lower) * detail::halley(part, Lanes::Mask{-1, 0, 0, 0}, slope).v[0];
 }
 
 }  // namespace kds

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "certificates/failure_search.h"
 #include "certificates/radical.h"
+#include "certificates/tracked_moment.h"
 
 namespace kds {
 
@@ -72,74 +74,66 @@ template <class Radical, class Certificate, Motion M>
           exact_function(part_of<typename Radical::Norm>(certificate), motion)};
 }
 
-/// The certificate type's own filter, and errors followed operation by operation.
+/// What is known of a radical in double: of its norm, a polynomial with errors, by the certificate type's own
+/// filter or followed operation by operation, and of signs during a short time, without polynomials.
 struct OwnFilter {
   template <class Part, Motion M>
   [[nodiscard]] static auto bounded(const Part& part, const M& motion) {
-    return bounded_function(part, motion);
+    return bounded_function(part, motion).function;
   }
+  [[nodiscard]] static int sign_of(const TrackedDouble& number) { return certain_sign(number); }
 };
 struct TrackedErrors {
   template <class Part, Motion M>
   [[nodiscard]] static auto bounded(const Part& part, const M& motion) {
-    return tracked_function(part, motion);
+    return tracked_function(part, motion).function;
   }
+  [[nodiscard]] static int sign_of(const TrackedDouble& number) { return certain_sign(number); }
 };
 /// Nothing certain, everything taken to be.
 struct NoErrors {
   template <class Part, Motion M>
   [[nodiscard]] static auto bounded(const Part& part, const M& motion) {
-    auto result = bounded_function(part, motion);
-    result.function.value_error = result.function.local_error = 0;
-    return result;
+    auto function = bounded_function(part, motion).function;
+    function.value_error = function.local_error = 0;
+    return function;
+  }
+  [[nodiscard]] static int sign_of(const TrackedDouble& number) {
+    return number.value > 0 ? 1 : number.value < 0 ? -1 : 0;
   }
 };
 
-/// A radical's polynomials in double with their errors; the norm, the longest by far, when it is asked for.
-template <class Radical, class Errors, class Certificate, Motion M>
-class RadicalInDouble {
+/// The signs of a radical's polynomials during a short time, each when it is asked for.
+template <class Radical, class Errors, MotionView View>
+class RadicalSigns {
  public:
   /// Times `sign`, and the root by `root_sign` too.
-  RadicalInDouble(const Certificate& certificate, const M& motion, int sign, int root_sign)
-      : certificate_(certificate),
-        motion_(motion),
-        rational_(Errors::bounded(part_of<typename Radical::Rational>(certificate, sign), motion)),
-        root_(Errors::bounded(part_of<typename Radical::Root>(certificate, sign * root_sign), motion)) {}
+  RadicalSigns(const View& view, int sign, int root_sign) : view_(view), sign_(sign), root_sign_(root_sign) {}
 
-  [[nodiscard]] const auto& norm() const {
-    if (!norm_) norm_ = Errors::bounded(part_of<typename Radical::Norm>(certificate_), motion_);
-    return norm_->function;
-  }
-  /// 1 or -1 if that is the sign all over [lower, upper] for certain, else 0.
-  [[nodiscard]] int certain_sign_on(double lower, double upper) const {
-    const int a = rational_.function.certain_sign_on(lower, upper);
-    const int b = root_.function.certain_sign_on(lower, upper);
-    return a == b ? a : sign_of_radical(a, b, norm().certain_sign_on(lower, upper));
+  [[nodiscard]] int rational() const { return of<typename Radical::Rational>(sign_); }
+  [[nodiscard]] int root() const { return of<typename Radical::Root>(sign_ * root_sign_); }
+  [[nodiscard]] int norm() const { return of<typename Radical::Norm>(1); }
+
+  /// Of the whole, or 0; the norm's sign may be known.
+  [[nodiscard]] int whole(int norm_sign = 0) const {
+    const int a = rational(), b = root();
+    return a == b ? a : sign_of_radical(a, b, norm_sign != 0 ? norm_sign : norm());
   }
   /// The same where the norm's sign is known, or 0.
-  [[nodiscard]] int sign_by_norm(int norm_sign, double lower, double upper) const {
-    return sign_of_radical(rational_.function.certain_sign_on(lower, upper),
-                           root_.function.certain_sign_on(lower, upper), norm_sign);
+  [[nodiscard]] int whole_by_norm(int norm_sign) const {
+    return sign_of_radical(rational(), root(), norm_sign);
   }
-  /// The sign of A, if B certainly has the other, all over [lower, upper], else 0. The norm has this sign
-  /// where the radical is positive, and the other where that is negative.
-  [[nodiscard]] int sign_against_root_on(double lower, double upper) const {
-    const int a = rational_.function.certain_sign_on(lower, upper);
-    return root_.function.certain_sign_on(lower, upper) == -a ? a : 0;
-  }
-  /// The same all over the step, by A and B alone.
-  [[nodiscard]] bool certainly_positive() const { return rational_.positive && root_.positive; }
 
  private:
   template <class Polynomial>
-  using InDouble = decltype(Errors::bounded(part_of<Polynomial>(std::declval<const Certificate&>()),
-                                            std::declval<const M&>()));
+  [[nodiscard, gnu::flatten, gnu::noinline]] int of(int sign) const {
+    auto places = Polynomial{}.beads;
+    std::iota(places.begin(), places.end(), 0U);
+    return sign * Errors::sign_of(Polynomial::formula(view_, places).scaled[0]);
+  }
 
-  const Certificate& certificate_;
-  const M& motion_;
-  InDouble<typename Radical::Rational> rational_;
-  InDouble<typename Radical::Root> root_;
-  mutable std::optional<InDouble<typename Radical::Norm>> norm_;
+  const View& view_;
+  int sign_, root_sign_;
 };
 
 /// A radical certificate in double.
@@ -147,41 +141,54 @@ template <class Errors, class Certificate, Motion M>
 class CertificateInDouble {
  public:
   CertificateInDouble(const Certificate& certificate, const M& motion)
-      : certificate_(certificate),
-        motion_(motion),
-        side_(certificate.side() ? 1 : -1),
-        wanted_(certificate, motion, side_, certificate.root_sign()) {
+      : certificate_(certificate), motion_(motion), side_(certificate.side() ? 1 : -1) {
     if constexpr (ConditionalFor<Certificate, M>) conditional_ = certificate.conditional(motion);
   }
 
-  [[nodiscard]] const auto& norm() const { return wanted_.norm(); }
+  [[nodiscard]] const auto& norm() const {
+    if (!norm_) norm_ = Errors::bounded(part_of<Norm>(certificate_), motion_);
+    return *norm_;
+  }
   /// 1 or -1 if that is the sign all over [lower, upper] for certain, else 0.
   [[nodiscard]] int certain_sign_on(double lower, double upper) const {
-    return side_ * with_condition(side_ * wanted_.certain_sign_on(lower, upper), lower, upper);
+    const View view(motion_, certificate_.beads, lower, upper);
+    const int norm_sign = norm_ ? norm_->certain_sign_on(lower, upper) : 0;
+    return side_ * with_condition(side_ * wanted(view).whole(norm_sign), view);
+  }
+  /// The same where the norm's sign is known, or 0.
+  [[nodiscard]] int sign_by_norm(int norm_sign, double lower, double upper) const {
+    const View view(motion_, certificate_.beads, lower, upper);
+    return side_ * with_condition(side_ * wanted(view).whole_by_norm(norm_sign), view);
   }
   /// The norm's sign where the certificate holds, as A and B of opposite signs all over [lower, upper] tell,
-  /// else 0.
+  /// else 0. Where it fails the norm has the other.
   [[nodiscard]] int norm_while_it_holds(double lower, double upper) const {
-    return wanted_.sign_against_root_on(lower, upper);
+    const View view(motion_, certificate_.beads, lower, upper);
+    const int a = wanted(view).rational();
+    return a != 0 && wanted(view).root() == -a ? a : 0;
   }
-  /// 1 or -1 if that is the sign for certain where A and B have the signs they have on all of [lower, upper],
-  /// and the norm this one, else 0.
-  [[nodiscard]] int sign_by_norm(int norm, double lower, double upper) const {
-    return side_ * with_condition(side_ * wanted_.sign_by_norm(norm, lower, upper), lower, upper);
-  }
-  /// Holds for the whole step, as A and B alone tell.
-  [[nodiscard]] bool certainly_holds() const {
-    return wanted_.certainly_positive() && (side_ < 0 || with_condition(1, 0, 0) > 0);
+  /// The norm's sign at a time, or 0.
+  [[nodiscard]] int certain_norm_at(double u) const {
+    if (norm_)
+      if (const int sign = norm_->certain_sign_at(u)) return sign;
+    const View view(motion_, certificate_.beads, u, u);
+    return wanted(view).norm();
   }
 
  private:
+  using Norm = typename Certificate::Radical::Norm;
+  using View = TrackedMoment<M, bead_places<Certificate>>;
+  using NormInDouble =
+      decltype(Errors::bounded(part_of<Norm>(std::declval<const Certificate&>()), std::declval<const M&>()));
+
+  [[nodiscard]] auto wanted(const View& view) const {
+    return RadicalSigns<typename Certificate::Radical, Errors, View>(view, side_, certificate_.root_sign());
+  }
   /// The sign where the radical has this one.
-  [[nodiscard]] int with_condition(int radical, double lower, double upper) const {
+  [[nodiscard]] int with_condition(int radical, const View& view) const {
     if constexpr (ConditionalFor<Certificate, M>) {
       if (conditional_ && radical >= 0) {
-        const RadicalInDouble<typename Certificate::Condition, Errors, Certificate, M> condition(
-            certificate_, motion_, 1, 1);
-        const int sign = condition.certain_sign_on(lower, upper);
+        const int sign = RadicalSigns<typename Certificate::Condition, Errors, View>(view, 1, 1).whole();
         return sign < 0 ? -1 : sign > 0 ? radical : 0;
       }
     }
@@ -192,7 +199,7 @@ class CertificateInDouble {
   const M& motion_;
   int side_;
   bool conditional_ = false;
-  RadicalInDouble<typename Certificate::Radical, Errors, Certificate, M> wanted_;
+  mutable std::optional<NormInDouble> norm_;
 };
 
 template <int Degree>
@@ -201,22 +208,46 @@ template <int Degree>
   return p;
 }
 
+/// A narrower bracket around the only root of the norm in this one, where it turns from `sign`: around the
+/// root of the polynomial as it is in double, as far as signs are certain.
+template <class InDouble, class Bracket>
+[[nodiscard]] Bracket narrowed(const InDouble& certificate, Bracket bracket, int sign) {
+  const double root = (sign > 0 ? certificate.norm() : negative(certificate.norm()))
+                          .root_between(bracket.lower, bracket.upper);
+  bool below = true, above = true;  // ends still to be found
+  for (double reach = 0x1p-38; (below || above) && reach < 0.1; reach *= 64) {
+    if (below && root - reach > bracket.lower && certificate.certain_norm_at(root - reach) == sign) {
+      bracket.lower = root - reach;
+      below = false;
+    }
+    if (above && root + reach < bracket.upper && certificate.certain_norm_at(root + reach) == -sign) {
+      bracket.upper = root + reach;
+      above = false;
+    }
+  }
+  return bracket;
+}
+
 /// Walks from candidate to candidate while they prove not to be failures, from `from` on, where the
 /// certificate holds and the norm has the sign `known`, if that is not 0.
 template <class InDouble>
 [[nodiscard]] std::optional<Failure> walk_candidates(const InDouble& certificate, double from,
                                                      int known = 0) {
   constexpr int most_candidates = 8;
+  // So wide a bracket would overlap others, and few signs would be certain all over it.
+  constexpr double wide = 0x1p-30;
   for (int candidate = 0; candidate < most_candidates; ++candidate, known = 0) {
     const auto& norm = certificate.norm();
-    const int sign = known != 0 ? known : norm.certain_sign_at(from);
+    const int sign = known != 0 ? known : certificate.certain_norm_at(from);
     if (sign == 0) return std::nullopt;
-    const auto next = (sign > 0 ? norm : negative(norm)).first_descent(from, known != 0);
+    const auto next = (sign > 0 ? norm : negative(norm)).first_descent(from, true);
     if (next.verdict == Verdict::never) return Failure{};
     if (next.verdict == Verdict::undecided) return std::nullopt;
-    const auto& [lower, upper] = next.bracket;
+    auto bracket = next.bracket;
+    if (bracket.upper - bracket.lower > wide) bracket = narrowed(certificate, bracket, sign);
+    const auto [lower, upper] = bracket;
     // The norm has one zero in the bracket, so the sign at its end is the one just after.
-    const int after = certificate.certain_sign_on(upper, upper);
+    const int after = certificate.sign_by_norm(-sign, upper, upper);
     if (after < 0) return Failure{Failure::Kind::later, {lower, upper, 0, true}};
     if (after == 0) return std::nullopt;
     from = upper;
@@ -234,6 +265,7 @@ template <class InDouble>
     const int norm = certificate.norm_while_it_holds(now.lower(), now.upper());
     return norm == 0 ? std::nullopt : walk_candidates(certificate, now.upper(), norm);
   }
+  static_cast<void>(certificate.norm());  // it is wanted soon, and knows signs already
   const int sign = certificate.certain_sign_on(now.lower(), now.upper());
   // A sign below zero may belong to a sphere that is none, its beads in one place: integers know.
   if (sign <= 0) return std::nullopt;
@@ -253,33 +285,17 @@ template <class Certificate, Motion M>
   return exact;
 }
 
-/// So wide a bracket will overlap others, and few signs are certain all over it: integers would be asked.
-[[nodiscard]] inline bool is_wide(const Failure& failure) {
-  return failure.kind == Failure::Kind::later && failure.time.upper - failure.time.lower > 0x1p-30;
-}
-
 template <class Certificate, Motion M>
 [[nodiscard]] Failure filtered_first_failure(const Certificate& certificate, const M& motion,
                                              const Instant& now, Birth birth, StageCounts& stages,
                                              Touches touches) {
-  std::optional<Failure> wide;
-  {
-    const CertificateInDouble<OwnFilter, Certificate, M> bounded(certificate, motion);
-    if (bounded.certainly_holds()) {
-      ++stages.coefficients;
-      return {};
-    }
-    if (const auto failure = settle_radical(bounded, now, birth)) {
-      if (!is_wide(*failure)) {
-        ++stages.isolation;
-        return *failure;
-      }
-      wide = failure;
-    }
+  if (const auto failure =
+          settle_radical(CertificateInDouble<OwnFilter, Certificate, M>(certificate, motion), now, birth)) {
+    ++stages.isolation;
+    return *failure;
   }
   const CertificateInDouble<TrackedErrors, Certificate, M> tracked(certificate, motion);
   auto failure = settle_radical(tracked, now, birth);
-  if (!failure) failure = wide;
   // As in careful_first_failure.
   if (!failure && now.narrow()) failure = settle_radical(tracked, now, birth);
   if (failure) {
@@ -357,12 +373,8 @@ template <Kernel K, class Certificate, Motion M>
         .certain_sign_on(now.upper(), now.upper());
   }
   if constexpr (std::same_as<K, Filtered>) {
-    int sign = CertificateInDouble<OwnFilter, Certificate, M>(certificate, motion)
-                   .certain_sign_on(now.lower(), now.upper());
-    if (sign == 0) {
-      sign = CertificateInDouble<TrackedErrors, Certificate, M>(certificate, motion)
-                 .certain_sign_on(now.lower(), now.upper());
-    }
+    const int sign = CertificateInDouble<TrackedErrors, Certificate, M>(certificate, motion)
+                         .certain_sign_on(now.lower(), now.upper());
     if (sign != 0) {
       ++stages.signs_double;
       return sign;
@@ -382,15 +394,10 @@ template <class Certificate, Motion M>
 requires RadicalCertificateFor<Certificate, M>
 [[nodiscard]] int sign_after_failure(const Certificate& certificate, const Certificate& failed,
                                      const M& motion, const Instant& now, StageCounts& stages) {
-  const auto sign_by = [&]<class Errors>(Errors) {
-    const detail::CertificateInDouble<Errors, Certificate, M> asked(certificate, motion);
-    return asked.sign_by_norm(-detail::CertificateInDouble<Errors, Certificate, M>(failed, motion)
-                                   .norm_while_it_holds(now.lower(), now.upper()),
-                              now.lower(), now.upper());
-  };
+  using InDouble = detail::CertificateInDouble<detail::TrackedErrors, Certificate, M>;
   if (!now.isolating()) return 0;
-  int sign = sign_by(detail::OwnFilter{});
-  if (sign == 0) sign = sign_by(detail::TrackedErrors{});
+  const int norm = -InDouble(failed, motion).norm_while_it_holds(now.lower(), now.upper());
+  const int sign = InDouble(certificate, motion).sign_by_norm(norm, now.lower(), now.upper());
   stages.signs_double += sign != 0 ? 1 : 0;
   return sign;
 }

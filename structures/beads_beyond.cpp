@@ -106,7 +106,8 @@ template <int D, int K>
       for (std::size_t k = 0; k <= K; ++k) {
         const double t = static_cast<double>(k) / K;
         if (axis < D) {
-          const Lanes v = control[k] - (Lanes(1 - t) * parts.center[0][axis] + Lanes(t) * parts.center[1][axis]);
+          const Lanes v =
+              control[k] - (Lanes(1 - t) * parts.center[0][axis] + Lanes(t) * parts.center[1][axis]);
           square[k] = axis == 0 ? v * v : square[k] + v * v;
         } else {
           room[k] = (Lanes(1 - t) * parts.limit[0] + Lanes(t) * parts.limit[1]) * Lanes(below) - control[k];
@@ -114,8 +115,7 @@ template <int D, int K>
       }
     }
     Lanes::Mask inside = (room[0] >= Lanes(0.0)) & (square[0] <= room[0] * room[0]);
-    for (std::size_t k = 1; k <= K; ++k)
-      inside &= (room[k] >= Lanes(0.0)) & (square[k] <= room[k] * room[k]);
+    for (std::size_t k = 1; k <= K; ++k) inside &= (room[k] >= Lanes(0.0)) & (square[k] <= room[k] * room[k]);
     beyond[kept] = b;
     kept += Lanes::all(inside) ? 0 : 1;
   }

@@ -280,12 +280,13 @@ template <int D>
 [[KDS_LANES_TARGETS]] void find_chords_of_pairs(const BeadPaths<D>& paths, const BeadLanes<2>& beads,
                                                 const PeriodLanes& period, ChordLanes<D>& chords) {
   std::array<Lanes, 2> square{Lanes(0.0), Lanes(0.0)};
-  Lanes change(0.0);
+  Lanes change(0.0), size(0.0);
   for (int axis = 0; axis < D; ++axis) {
     std::array<Lanes, 2> d;
     for (std::size_t e = 0; e < 2; ++e) {
       const double* column = paths.column(static_cast<int>(e), axis);
       d[e] = gather(column, beads[1]) - gather(column, beads[0]);
+      size = Lanes::max(size, abs(d[e]));
     }
     cut(d, period);
     for (std::size_t e = 0; e < 2; ++e) {
@@ -295,7 +296,7 @@ template <int D>
     change += (d[1] - d[0]) * (d[1] - d[0]);
   }
   const std::array<Lanes, 2> length{root(square[0]), root(square[1])};
-  const Lanes longest = Lanes::max(length[0], length[1]);
+  const Lanes longest = size * Lanes(detail::root_of[3]);  // or more
   // Half of what bounds the length from below.
   const Lanes nearest = Lanes(0.25) * (length[0] + length[1] - root(change)) - Lanes(margin) * longest;
   chords.proved =
@@ -358,7 +359,9 @@ void sphere_chords(const BeadPaths<Dimension>& paths, std::span<const Basis> bas
   }
 }
 
-template void sphere_chords(const BeadPaths<2>&, std::span<const Basis>, std::span<const Period>, std::span<SphereChord<2>>);
-template void sphere_chords(const BeadPaths<3>&, std::span<const Basis>, std::span<const Period>, std::span<SphereChord<3>>);
+template void sphere_chords(const BeadPaths<2>&, std::span<const Basis>, std::span<const Period>,
+                            std::span<SphereChord<2>>);
+template void sphere_chords(const BeadPaths<3>&, std::span<const Basis>, std::span<const Period>,
+                            std::span<SphereChord<3>>);
 
 }  // namespace kds

@@ -1,6 +1,6 @@
 #pragma once
-// Which beads a minimum enclosing sphere can lose during a step or a part of it, and which its basis can, without a
-// certificate for each: balls of any radii in motions of degree 1 to 3, in the plane and in space.
+// Which beads a minimum enclosing sphere can lose during a step or a part of it, and which its basis can,
+// without a certificate for each: balls of any radii in motions of degree 1 to 3, in the plane and in space.
 //
 // All is seen from the basis' first ball: centres c_i(u), radii s_i(u), those of the first are zero. The
 // sphere touches all of them from outside: its centre x(u), in their affine hull, and radius rho(u), less the
@@ -17,8 +17,8 @@
 // distance of x from sum w_i c_i by the height of ball i. Where all are, and rho >= s_i, the sphere is the
 // smallest, whatever was known before.
 //
-// All in double, with margins far above its rounding: what is proved here holds; what is not needs a
-// certificate.
+// All in double, with margins far above its rounding, that of cutting a period out of the step included: what
+// is proved here holds; what is not needs a certificate.
 
 #include <array>
 #include <cstdint>

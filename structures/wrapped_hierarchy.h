@@ -164,21 +164,34 @@ class WrappedHierarchy final : public KineticStructure {
   /// Two beads of one radius and no others: nothing to guard unless they are one.
   [[nodiscard]] bool is_lone_pair(NodeId node) const {
     const BeadRange& range = tree_.range(node);
-    return radii == Radii::equal && nodes_[node].basis.size == 2 && range.last - range.first == 1;
+    return (radii == Radii::equal) & (nodes_[node].basis.size == 2) & (range.last - range.first == 1);
+  }
+  /// A basis of two beads that are one all the time.
+  [[nodiscard]] bool is_one_bead(NodeId node) const {
+    const Basis& basis = nodes_[node].basis;
+    return radii == Radii::equal && basis.size == 2 && move_together(basis.beads[0], basis.beads[1]);
   }
   /// Its basis at the start, ties aside.
   void build_node(NodeId node, const Balls& balls);
   void ask_query();
+  /// Sets `guarded_`: the nodes that are kept and have something to guard.
+  void list_guarded_nodes();
+  /// Guards them all at the start of a step; sets `amiss_` of those whose basis is not right.
+  void watch_all_nodes();
   /// Guards a node, repairing its basis while a certificate is violated already; logs the change from
   /// `before`.
   void guard_node(NodeId node, Basis before);
-  /// Of all nodes that are kept, at the start of a step.
+  /// Of all guarded nodes, at the start of a step.
   void find_chords();
   [[nodiscard]] unsigned find_beads_to_watch(NodeId node);
   [[nodiscard]] unsigned look_closely(const Basis& basis);
   /// Guards the node's present basis; the first bead whose certificate is violated, if any.
   [[nodiscard]] std::optional<BeadId> watch_node(NodeId node);
-  [[nodiscard]] std::optional<BeadId> watch_enqueued(NodeId node, bool zero_will_do);
+  void enqueue_basis(NodeId node, unsigned stays);
+  void enqueue_beyond(NodeId node, std::span<const BeadId> beyond);
+  template <class Report>
+  void watch_enqueued(bool zero_will_do, Report report);
+  [[nodiscard]] std::optional<BeadId> watch_enqueued(bool zero_will_do);
   void enqueue(NodeId node, const Basis& basis, BeadId bead, bool inside, int orientation);
   void hold(NodeId node, Guard guard, unsigned table);
   void drop_node(NodeId node);
@@ -209,13 +222,18 @@ class WrappedHierarchy final : public KineticStructure {
   std::vector<std::uint32_t> free_;
   BeadPaths<dimension> paths_;
   std::vector<SphereChord<dimension>> chords_;  // of the nodes' bases at the start of the step
-  SphereChord<dimension> chord_;                // of this basis from that time on
+  std::vector<NodeId> guarded_;
+  enum class Amiss : std::uint8_t { no, violated, improper };
+  std::vector<Amiss> amiss_;      // a node
+  SphereChord<dimension> chord_;  // of this basis from that time on
   Basis chord_basis_;
   double chord_from_ = -1;
   std::array<std::vector<BeadId>, Tables::count + 1>
-      watched_;                          // of the certificates that are enqueued, a table
-  std::vector<BeadId> beyond_;           // beads of a node that are not proved to stay inside
-  std::vector<BeadId> named_;            // by the certificates of the node watched last
+      watched_;                     // of the certificates that are enqueued, a table
+  std::vector<BeadId> beyond_;      // beads of a node that are not proved to stay inside
+  std::vector<BeadId> all_beyond_;  // of all nodes at the start of a step, one after another
+  std::vector<std::size_t> beyond_ends_;
+  std::vector<BeadId> named_;            // by the certificates of the nodes watched last
   std::vector<std::uint64_t> per_bead_;  // certificates that name it, at the start of a step
   std::optional<Present> present_;
   BeadId present_bead_ = no_bead;
@@ -229,3 +247,4 @@ class WrappedHierarchy final : public KineticStructure {
 #include "structures/wrapped_hierarchy_chords.h"
 #include "structures/wrapped_hierarchy_guards.h"
 #include "structures/wrapped_hierarchy_repairs.h"
+#include "structures/wrapped_hierarchy_start.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Kinetic wrapped hierarchy: the bases at the start of a step, and what a query asks for.
+// Kinetic wrapped hierarchy: the bases at the start of a run, and what a query asks for.
 
 #include "structures/wrapped_hierarchy.h"
 
@@ -49,46 +49,6 @@ void WrappedHierarchy<M, K, radii>::ask_query() {
     kept_[id] = 1;
     return exact_sphere_of(nodes_[id].basis, balls);
   });
-}
-
-template <Motion M, Kernel K, Radii radii>
-void WrappedHierarchy<M, K, radii>::start_step() {
-  if (query_) ask_query();
-  for (Node& node : nodes_) {
-    node.held = none;
-    node.never_failing = 0;
-  }
-  held_.clear();
-  free_.clear();
-  if constexpr (prunes) {
-    paths_.set(motion_);
-    find_chords();
-  }
-  std::optional<Balls> balls;
-  per_bead_.assign(motion_.bead_count(), 0);
-  for (NodeId id = 0; id < nodes_.size(); ++id) {
-    if (!keeps(id)) continue;
-    const Basis before = nodes_[id].basis;
-    bool proper = radii == Radii::equal;
-    if constexpr (prunes) {
-      if (!is_lone_pair(id)) {
-        chord_ = chords_[id];
-        chord_basis_ = before;
-        chord_from_ = 0;
-        proper |= chord_.proved && chord_.stays == all_of(before);
-      }
-    }
-    if (!proper) {
-      // Balls that are not independent need not have a sphere: then the basis is found anew.
-      if (!balls) balls = balls_at_start();
-      if (!is_certainly_proper(*balls, before)) static_cast<void>(repair(id, no_bead));
-    }
-    guard_node(id, before);
-    for (const BeadId b : named_) ++per_bead_[b];
-  }
-  const auto most = std::max_element(per_bead_.begin(), per_bead_.end());
-  auto& per_bead_max = statistics.certificates.per_bead_max;
-  if (most != per_bead_.end()) per_bead_max = std::max(per_bead_max, *most);
 }
 
 }  // namespace kds

@@ -22,8 +22,7 @@ void WrappedHierarchy<M, K, radii>::find_chords() {
     w.count = 0;
   };
   chords_.resize(nodes_.size());
-  for (NodeId id = 0; id < nodes_.size(); ++id) {
-    if (!keeps(id) || is_lone_pair(id)) continue;
+  for (const NodeId id : guarded_) {
     Waiting& w = of_size[nodes_[id].basis.size];
     w.nodes[w.count] = id;
     w.bases[w.count] = nodes_[id].basis;
@@ -45,8 +44,8 @@ const SphereChord<WrappedHierarchy<M, K, radii>::dimension>& WrappedHierarchy<M,
   return chord_;
 }
 
-/// Sets `beyond_` to what is not proved to stay inside; a bit for each bead of the basis that is proved to stay
-/// in it.
+/// Sets `beyond_` to what is not proved to stay inside; a bit for each bead of the basis that is proved to
+/// stay in it.
 template <Motion M, Kernel K, Radii radii>
 unsigned WrappedHierarchy<M, K, radii>::find_beads_to_watch(NodeId id) {
   const BeadRange range = tree_.range(id);
@@ -55,8 +54,8 @@ unsigned WrappedHierarchy<M, K, radii>::find_beads_to_watch(NodeId id) {
     const SphereChord<dimension>& chord = chord_of(basis);
     if (chord.proved) {
       find_beyond(paths_, range, basis, chord, chord_from_, beyond_);
-      const std::size_t unproved = beyond_.size() + static_cast<std::size_t>(
-                                                         std::popcount(all_of(basis) & ~chord.stays));
+      const std::size_t unproved =
+          beyond_.size() + static_cast<std::size_t>(std::popcount(all_of(basis) & ~chord.stays));
       return unproved < few ? chord.stays : chord.stays | look_closely(basis);
     }
   }
@@ -94,7 +93,7 @@ unsigned WrappedHierarchy<M, K, radii>::look_closely(const Basis& basis) {
 template <Motion M, Kernel K, Radii radii>
 unsigned WrappedHierarchy<M, K, radii>::are_proved(std::span<const Basis> bases, BeadId newcomer) {
   const double from = simulator_.now().lower();
-  Period soon{from, from + 0x1p-6 * (1 - from)};
+  Period soon{from, from + 0x1p-16 * (1 - from)};
   if (!(soon.to > simulator_.now().upper())) soon.to = 1;
   std::array<Basis, Lanes::width> asked;
   std::array<Period, Lanes::width> periods;

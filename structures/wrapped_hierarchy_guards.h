@@ -40,54 +40,69 @@ void WrappedHierarchy<M, K, radii>::enqueue(NodeId id, const Basis& basis, BeadI
       });
 }
 
-/// Guards the node by the certificates enqueued; the first bead whose certificate is violated or, unless
-/// `zero_will_do`, zero for the whole step.
+/// The basis beads that are not known to stay must leave no sphere of their fellows.
 template <Motion M, Kernel K, Radii radii>
-std::optional<BeadId> WrappedHierarchy<M, K, radii>::watch_enqueued(NodeId id, bool zero_will_do) {
-  std::optional<BeadId> first = failed_again_;
+void WrappedHierarchy<M, K, radii>::enqueue_basis(NodeId id, unsigned stays) {
+  const Basis& basis = nodes_[id].basis;
+  if (basis.size < 2 || (radii == Radii::equal && basis.size == 2)) return;  // two of one radius never part
+  for (std::size_t i = 0; i < basis.size; ++i) {
+    if ((stays >> i & 1U) == 0) enqueue(id, without(basis, basis.beads[i]), basis.beads[i], false, 0);
+  }
+}
+
+template <Motion M, Kernel K, Radii radii>
+void WrappedHierarchy<M, K, radii>::enqueue_beyond(NodeId id, std::span<const BeadId> beyond) {
+  if (beyond.empty()) return;
+  auto signs = signs_just_after();
+  const int orientation = orientation_of(nodes_[id].basis, signs);
+  for (const BeadId b : beyond) enqueue(id, nodes_[id].basis, b, true, orientation);
+}
+
+/// Guards nodes by the certificates enqueued. Calls `report` with node and bead of each that is violated or,
+/// unless `zero_will_do`, zero for the whole step.
+template <Motion M, Kernel K, Radii radii>
+template <class Report>
+void WrappedHierarchy<M, K, radii>::watch_enqueued(bool zero_will_do, Report report) {
   for (unsigned number = 1; number <= Tables::count; ++number) {
     if (watched_[number].empty()) continue;
     tables_.visit(number, [&](auto& table) {
-      if (failed_again_) return table.forget_enqueued();
       std::size_t i = 0;
-      table.watch_enqueued([&](NodeId, Guard guard) {
-        if (!first && (guard == Guard::violated || (guard == Guard::zero && !zero_will_do)))
-          first = watched_[number][i];
+      table.watch_enqueued([&](NodeId id, Guard guard) {
+        const BeadId bead = watched_[number][i++];
+        if (guard == Guard::violated || (guard == Guard::zero && !zero_will_do)) report(id, bead);
         hold(id, guard, number);
-        ++i;
       });
     });
     watched_[number].clear();
   }
-  failed_again_.reset();
+}
+
+/// The same for one node: the first such bead, if any.
+template <Motion M, Kernel K, Radii radii>
+std::optional<BeadId> WrappedHierarchy<M, K, radii>::watch_enqueued(bool zero_will_do) {
+  if (failed_again_) {
+    for (unsigned number = 1; number <= Tables::count; ++number) {
+      tables_.visit(number, [](auto& table) { table.forget_enqueued(); });
+      watched_[number].clear();
+    }
+    return std::exchange(failed_again_, std::nullopt);
+  }
+  std::optional<BeadId> first;
+  watch_enqueued(zero_will_do, [&](NodeId, BeadId bead) { first = first.value_or(bead); });
   return first;
 }
 
 template <Motion M, Kernel K, Radii radii>
 std::optional<BeadId> WrappedHierarchy<M, K, radii>::watch_node(NodeId id) {
-  const Basis basis = nodes_[id].basis;
   named_.clear();
-  // Beads that leave first: outside their proper domain the other certificates say nothing. Nor do they where
-  // a bead is to spare all the time, its function zero. Two beads of one radius never part, but they may be
-  // one all the time.
-  bool parts = basis.size >= 2;
-  if (radii == Radii::equal && basis.size == 2) {
-    if (move_together(basis.beads[0], basis.beads[1])) return basis.beads[1];
-    if (is_lone_pair(id)) return std::nullopt;  // half of all nodes
-    parts = false;
-  }
-  const unsigned stays = find_beads_to_watch(id);
-  if (parts && stays != all_of(basis)) {
-    for (std::size_t i = 0; i < basis.size; ++i) {
-      if ((stays >> i & 1U) == 0) enqueue(id, without(basis, basis.beads[i]), basis.beads[i], false, 0);
-    }
-    if (const auto to_spare = watch_enqueued(id, false)) return to_spare;
-  }
-  if (beyond_.empty()) return std::nullopt;
-  auto signs = signs_just_after();
-  const int orientation = orientation_of(basis, signs);
-  for (const BeadId b : beyond_) enqueue(id, basis, b, true, orientation);
-  return watch_enqueued(id, true);
+  if (is_one_bead(id)) return nodes_[id].basis.beads[1];
+  if (is_lone_pair(id)) return std::nullopt;
+  // Basis beads first: where one leaves the other certificates say nothing. Nor do they where a bead is to
+  // spare all the time, its function zero.
+  enqueue_basis(id, find_beads_to_watch(id));
+  if (const auto to_spare = watch_enqueued(false)) return to_spare;
+  enqueue_beyond(id, beyond_);
+  return watch_enqueued(true);
 }
 
 template <Motion M, Kernel K, Radii radii>

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "certificates/failure_search.h"
 #include "certificates/membership.h"
@@ -58,7 +59,7 @@ void judge(const M& motion, double from, Tally& tally) {
   const Basis basis = basis_at(motion, {0, count - 1}, from);
   BeadPaths<M::dimension> paths;
   paths.set(motion);
-  const auto chord = sphere_chord(paths, basis, from);
+  const auto chord = sphere_chord(paths, basis, {from, 1});
   if (!chord.proved) return;
   ++tally.proved;
   std::vector<BeadId> beyond;
@@ -155,6 +156,85 @@ TEST(SpherePath, ScalesWithTheInput) {
   }
 }
 
+/// Whether the bead's certificate against the basis holds in a period that begins at `now`.
+template <Radii radii, class M>
+bool holds_until(const M& motion, const Basis& basis, BeadId bead, const Instant& now, double to) {
+  StageCounts stages;
+  int orientation = 0;
+  if (basis.size == M::dimension + 1) {
+    Orientation<M::dimension> certificate;
+    std::copy(basis.begin(), basis.end(), certificate.beads.begin());
+    orientation = sign_just_after<Exact>(certificate, motion, now, stages);
+  }
+  return visit_membership<radii>(
+      motion, std::span(basis.begin(), basis.end()), bead, true, orientation, [&](const auto& certificate) {
+        const Failure failure = first_failure<Exact>(certificate, motion, now, Birth::unknown, stages);
+        return failure.kind != Failure::Kind::at_birth &&
+               (failure.kind != Failure::Kind::later || failure.time.upper > to);
+      });
+}
+
+template <class M, Radii radii>
+void judge_parts(unsigned seed, Tally& tally) {
+  Random random(seed);
+  auto motion = random_motion<M>(random, 12, MotionKind::generic);
+  const double pace = std::ldexp(1.0, -static_cast<int>(1 + seed % 8));
+  for (BeadId b = 0; b < motion.bead_count(); ++b) {
+    for (int k = 0; k <= M::degree; ++k) {
+      for (int axis = 0; axis < M::dimension; ++axis) {
+        const double start = motion.coordinate(b, 0, axis);
+        motion.set_coordinate(b, k, axis, start + pace * (motion.coordinate(b, k, axis) - start));
+      }
+      motion.set_radius(b, k, radii == Radii::equal ? 0.5 : 0.01 * (b % 7));
+      motion.set_weight(b, k, 0);
+    }
+  }
+  BeadPaths<M::dimension> paths;
+  paths.set(motion);
+  const auto count = static_cast<BeadId>(motion.bead_count());
+  const double from = 0.125 * (seed % 4);
+  const Basis basis = basis_at(motion, {0, count - 1}, from);
+  std::array<Basis, 4> bases;
+  std::array<Period, 4> periods;
+  std::array<SphereChord<M::dimension>, 4> chords;
+  bases.fill(basis);
+  for (std::size_t i = 0; i < 4; ++i) periods[i] = {from + 0.125 * i, from + 0.125 * (i + 1)};
+  sphere_chords<M::dimension>(paths, bases, periods, chords);
+  if (!std::all_of(chords.begin(), chords.end(), [](const auto& chord) { return chord.proved; })) return;
+  ++tally.proved;
+  std::vector<BeadId> beyond(count);
+  std::iota(beyond.begin(), beyond.end(), 0U);
+  keep_beyond<M::dimension>(paths, basis, chords, periods, beyond);
+  const bool stay = std::all_of(chords.begin(), chords.end(),
+                                [&](const auto& chord) { return chord.stays == (1U << basis.size) - 1U; });
+  for (BeadId b = 0; b < count; ++b) {
+    if (std::binary_search(beyond.begin(), beyond.end(), b)) {
+      ++tally.beyond;
+    } else {
+      ++tally.inside;
+      ASSERT_FALSE(basis.contains(b)) << "basis beads lie on the sphere";
+      if (stay) {
+        EXPECT_TRUE((holds_until<radii>(motion, basis, b, Instant(from), periods.back().to)))
+            << "bead " << b << ", seed " << seed;
+      }
+    }
+  }
+}
+
+TEST(SpherePath, ProvesPartsOfAStep) {
+  Tally equal, any;
+  for (unsigned seed = 0; seed < 400; ++seed) judge_parts<Space, Radii::equal>(seed, equal);
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    judge_parts<Space, Radii::any>(seed, any);
+    judge_parts<BezierMotion<2, 3>, Radii::any>(seed, any);
+  }
+  for (const Tally& tally : {equal, any}) {
+    EXPECT_GT(tally.proved, 50);
+    EXPECT_GT(tally.inside, 200);
+    EXPECT_GT(tally.beyond, 200);
+  }
+}
+
 // Four bases at once are bounded as each alone, bit for bit.
 template <class M>
 void judge_four(Random& random, std::size_t size) {
@@ -162,15 +242,17 @@ void judge_four(Random& random, std::size_t size) {
   BeadPaths<M::dimension> paths;
   paths.set(motion);
   std::array<Basis, 4> bases;
+  constexpr std::array<Period, 4> periods{{{0, 1}, {0.25, 1}, {0, 0.25}, {0.3, 0.9}}};
   for (std::size_t i = 0; i < bases.size(); ++i) {
     for (std::size_t k = 0; k < size; ++k) bases[i].beads[k] = static_cast<BeadId>(6 * i + k);
     bases[i].size = static_cast<std::uint8_t>(size);
   }
   for (std::size_t count = 1; count <= 4; ++count) {
     std::array<SphereChord<M::dimension>, 4> chords;
-    sphere_chords<M::dimension>(paths, std::span(bases).first(count), 0.25, std::span(chords).first(count));
+    sphere_chords<M::dimension>(paths, std::span(bases).first(count), periods,
+                                std::span(chords).first(count));
     for (std::size_t i = 0; i < count; ++i) {
-      const auto alone = sphere_chord(paths, bases[i], 0.25);
+      const auto alone = sphere_chord(paths, bases[i], periods[i]);
       ASSERT_EQ(chords[i].proved, alone.proved);
       if (!alone.proved) continue;
       EXPECT_EQ(chords[i].stays, alone.stays);
@@ -208,7 +290,7 @@ TEST(SpherePath, SeesTheDipOfATurningBasis) {
     BeadPaths<3> paths;
     paths.set(motion);
     const Basis basis(std::array<BeadId, 3>{0, 1, 2});
-    const auto chord = sphere_chord(paths, basis, 0);
+    const auto chord = sphere_chord(paths, basis, {});
     ASSERT_TRUE(chord.proved && chord.stays == 7);
     std::vector<BeadId> beyond;
     find_beyond(paths, {3, 3}, basis, chord, 0, beyond);
@@ -234,7 +316,7 @@ TEST(SpherePath, PrunesCertificatesInSlowMotion) {
   for (BeadId first = 0; first < 200; first += 25) {
     const BeadRange range{first, first + 24};
     const Basis basis = basis_at(motion, range, 0);
-    const auto chord = sphere_chord(paths, basis, 0);
+    const auto chord = sphere_chord(paths, basis, {});
     ASSERT_TRUE(chord.proved);
     std::vector<BeadId> beyond;
     find_beyond(paths, range, basis, chord, 0, beyond);

@@ -1,0 +1,96 @@
+#pragma once
+// Kinetic wrapped hierarchy: the start of a step. Certificates of all nodes are looked at together, since
+// four cost little more than one; nodes whose basis is not right any more come after that, one by one.
+
+#include "structures/wrapped_hierarchy.h"
+
+namespace kds {
+
+template <Motion M, Kernel K, Radii radii>
+void WrappedHierarchy<M, K, radii>::list_guarded_nodes() {
+  guarded_.resize(nodes_.size());
+  std::size_t count = 0;
+  for (NodeId id = 0; id < nodes_.size(); ++id) {
+    // Half of all nodes are pairs: no branch, for no one foretells which.
+    const BeadRange& range = tree_.range(id);
+    const bool apart = motion_.coordinate(range.first, 0, 0) != motion_.coordinate(range.last, 0, 0);
+    guarded_[count] = id;
+    count += keeps(id) & !(is_lone_pair(id) & apart) ? 1 : 0;
+  }
+  guarded_.resize(count);
+}
+
+template <Motion M, Kernel K, Radii radii>
+void WrappedHierarchy<M, K, radii>::watch_all_nodes() {
+  amiss_.assign(nodes_.size(), Amiss::no);
+  std::optional<Balls> balls;
+  std::vector<std::size_t>& ends = beyond_ends_;  // of the nodes in all_beyond_
+  ends.clear();
+  all_beyond_.clear();
+  named_.clear();
+  for (const NodeId id : guarded_) {
+    const Basis& basis = nodes_[id].basis;
+    bool proper = radii == Radii::equal;
+    if constexpr (prunes) {
+      chord_ = chords_[id];
+      chord_basis_ = basis;
+      chord_from_ = 0;
+      proper |= chord_.proved && chord_.stays == all_of(basis);
+    }
+    if (!proper) {
+      // Balls that are not independent need not have a sphere.
+      if (!balls) balls = balls_at_start();
+      proper = is_certainly_proper(*balls, basis);
+    }
+    if (!proper) {
+      amiss_[id] = Amiss::improper;
+    } else if (is_one_bead(id)) {
+      amiss_[id] = Amiss::violated;
+    } else if (!is_lone_pair(id)) {
+      enqueue_basis(id, find_beads_to_watch(id));
+      all_beyond_.insert(all_beyond_.end(), beyond_.begin(), beyond_.end());
+    }
+    ends.push_back(all_beyond_.size());
+  }
+  const auto report = [this](NodeId id, BeadId) { amiss_[id] = Amiss::violated; };
+  watch_enqueued(false, report);
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < guarded_.size(); ++i) {
+    const auto beyond = std::span(all_beyond_).subspan(begin, ends[i] - begin);
+    begin = ends[i];
+    if (amiss_[guarded_[i]] == Amiss::no) enqueue_beyond(guarded_[i], beyond);
+  }
+  watch_enqueued(true, report);
+}
+
+template <Motion M, Kernel K, Radii radii>
+void WrappedHierarchy<M, K, radii>::start_step() {
+  if (query_) ask_query();
+  for (Node& node : nodes_) {
+    node.held = none;
+    node.never_failing = 0;
+  }
+  held_.clear();
+  free_.clear();
+  list_guarded_nodes();
+  if constexpr (prunes) {
+    paths_.set(motion_);
+    find_chords();
+  }
+  watch_all_nodes();
+  per_bead_.assign(motion_.bead_count(), 0);
+  for (const BeadId b : named_) ++per_bead_[b];
+  for (const NodeId id : guarded_) {
+    if (amiss_[id] == Amiss::no) continue;
+    const Basis before = nodes_[id].basis;
+    drop_node(id);
+    if (amiss_[id] == Amiss::improper) static_cast<void>(repair(id, no_bead));
+    guard_node(id, before);
+    for (const BeadId b : named_) ++per_bead_[b];
+  }
+  const auto most = std::max_element(per_bead_.begin(), per_bead_.end());
+  auto& per_bead_max = statistics.certificates.per_bead_max;
+  if (most != per_bead_.end()) per_bead_max = std::max(per_bead_max, *most);
+}
+
+}  // namespace kds
