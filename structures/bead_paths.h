@@ -40,6 +40,8 @@ class BeadPaths {
   [[nodiscard]] bool equal_radii() const { return equal_radii_; }
   /// The k-th control points along an axis, or (axis = Dimension) of the radius.
   [[nodiscard]] const double* column(int k, int axis) const { return columns_[place(k, axis)].data(); }
+  /// Neither ball holds the other at any time of the step.
+  [[nodiscard]] bool are_apart(BeadId a, BeadId b) const;
   /// No difference within a column is larger, coordinates or radii.
   [[nodiscard]] double extent() const { return extent_; }
 

@@ -161,11 +161,13 @@ class WrappedHierarchy final : public KineticStructure {
     return Balls(control_points(motion_, 0), control_radii(motion_, 0));
   }
   [[nodiscard]] static unsigned all_of(const Basis& basis) { return (1U << basis.size) - 1U; }
-  /// Two beads of one radius and no others: nothing to guard unless they are one.
-  [[nodiscard]] bool is_lone_pair(NodeId node) const {
+  /// Two beads and no others, both in the basis.
+  [[nodiscard]] bool is_pair(NodeId node) const {
     const BeadRange& range = tree_.range(node);
-    return (radii == Radii::equal) & (nodes_[node].basis.size == 2) & (range.last - range.first == 1);
+    return (nodes_[node].basis.size == 2) & (range.last - range.first == 1);
   }
+  /// Of one radius: nothing to guard unless they are one.
+  [[nodiscard]] bool is_lone_pair(NodeId node) const { return radii == Radii::equal && is_pair(node); }
   /// A basis of two beads that are one all the time.
   [[nodiscard]] bool is_one_bead(NodeId node) const {
     const Basis& basis = nodes_[node].basis;

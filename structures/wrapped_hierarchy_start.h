@@ -11,11 +11,16 @@ void WrappedHierarchy<M, K, radii>::list_guarded_nodes() {
   guarded_.resize(nodes_.size());
   std::size_t count = 0;
   for (NodeId id = 0; id < nodes_.size(); ++id) {
-    // Half of all nodes are pairs: no branch, for no one foretells which.
+    // Half of all nodes are pairs, and no one foretells which: as few branches on that as may be.
     const BeadRange& range = tree_.range(id);
-    const bool apart = motion_.coordinate(range.first, 0, 0) != motion_.coordinate(range.last, 0, 0);
+    bool settled = is_pair(id);
+    if constexpr (radii == Radii::equal) {
+      settled &= motion_.coordinate(range.first, 0, 0) != motion_.coordinate(range.last, 0, 0);
+    } else {
+      settled = prunes && settled && paths_.are_apart(range.first, range.last);
+    }
     guarded_[count] = id;
-    count += keeps(id) & !(is_lone_pair(id) & apart) ? 1 : 0;
+    count += keeps(id) & !settled ? 1 : 0;
   }
   guarded_.resize(count);
 }
@@ -72,11 +77,9 @@ void WrappedHierarchy<M, K, radii>::start_step() {
   }
   held_.clear();
   free_.clear();
+  if constexpr (prunes) paths_.set(motion_);
   list_guarded_nodes();
-  if constexpr (prunes) {
-    paths_.set(motion_);
-    find_chords();
-  }
+  if constexpr (prunes) find_chords();
   watch_all_nodes();
   per_bead_.assign(motion_.bead_count(), 0);
   for (const BeadId b : named_) ++per_bead_[b];

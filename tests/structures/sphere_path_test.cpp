@@ -235,6 +235,40 @@ TEST(SpherePath, ProvesPartsOfAStep) {
   }
 }
 
+// Two balls are said to be apart only where neither ever holds the other, and mostly where that is so.
+template <class M>
+void judge_pairs(unsigned seed, int& said, int& missed) {
+  Random random(seed);
+  auto motion = random_motion<M>(random, 8, all_motion_kinds[seed % std::size(all_motion_kinds)]);
+  if (seed % 2 == 0) {
+    for (BeadId b = 0; b < 8; ++b)
+      for (int k = 0; k <= M::degree; ++k) motion.set_radius(b, k, uniform(random, 0, 1));
+  }
+  BeadPaths<M::dimension> paths;
+  paths.set(motion);
+  for (BeadId b = 0; b < 8; b += 2) {
+    bool apart = true;
+    for (const auto& [holder, held] : {std::pair(b, b + 1), std::pair(b + 1, b)}) {
+      const Basis basis(std::array<BeadId, 1>{holder});
+      apart &= holds<Radii::any>(motion, basis, held, false, Instant(0));
+    }
+    const bool claimed = paths.are_apart(b, b + 1);
+    EXPECT_TRUE(apart || !claimed) << "beads " << b << " and " << b + 1 << ", seed " << seed;
+    said += claimed ? 1 : 0;
+    missed += apart && !claimed ? 1 : 0;
+  }
+}
+
+TEST(SpherePath, KnowsBallsThatStayApart) {
+  int said = 0, missed = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    judge_pairs<Space>(seed, said, missed);
+    judge_pairs<BezierMotion<2, 3>>(seed, said, missed);
+  }
+  EXPECT_GT(said, 300);
+  EXPECT_GT(missed, 10);
+}
+
 // Four bases at once are bounded as each alone, bit for bit.
 template <class M>
 void judge_four(Random& random, std::size_t size) {
