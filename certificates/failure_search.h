@@ -214,7 +214,7 @@ void filtered_first_failures(std::span<const Certificate> certificates, std::spa
     return;
   }
   LanesDescent<degree>& descent = outcome.descent;
-  LanesSearch search{outcome.positive | outcome.never, outcome.found};
+  LanesSearch search{outcome.positive | outcome.never, outcome.found, outcome.found};
   if (Lanes::any(outcome.unclear))
     isolate_lanes(descent, now.upper(), outcome.unclear, outcome.known, search);
   if (Lanes::any(search.found)) narrow_lanes(descent, search.found);
@@ -225,7 +225,9 @@ void filtered_first_failures(std::span<const Certificate> certificates, std::spa
       failures[place] = {};
     } else if (search.found[lane] != 0) {
       ++stages.isolation;
-      failures[place] = {Failure::Kind::later, {descent.lower.v[lane], descent.upper.v[lane], 0, true}};
+      failures[place] = {
+          Failure::Kind::later,
+          {descent.lower.v[lane], descent.upper.v[lane], 0, true, false, search.last[lane] != 0}};
     } else if (outcome.violated[lane] != 0) {
       ++stages.isolation;
       failures[place] = failed_at_birth(now);
@@ -267,6 +269,11 @@ void first_failures(std::span<const Certificate> certificates, const M& motion, 
     if (births[i] == Birth::at_own_root) {
       if (at_own_root) continue;
       at_own_root = i;
+      if (std::same_as<K, Filtered> && now.last()) {  // it has none after that
+        failures[i] = {};
+        ++stages.isolation;
+        continue;
+      }
     }
     places[count++] = i;
     if (count == at_once) search();

@@ -18,6 +18,7 @@ struct FailureTime {
   std::uint16_t ordinal = 0;
   bool isolating = true;
   bool touch = false;  ///< the function only touches zero there: no failure, see Touches
+  bool last = false;   ///< known to be the function's last root in the step, and not at its end
 };
 
 /// Whether a function that touches zero without changing sign is worth an event. It is no failure. But a

@@ -42,6 +42,7 @@ template <std::size_t N>
 struct LanesSearch {
   Lanes::Mask never{};  ///< positive to the end
   Lanes::Mask found{};  ///< isolated
+  Lanes::Mask last{};   ///< of those, the last root
 };
 
 /// The value at the start of a part, made certainly positive where it is known to be, close to a root as it
@@ -99,6 +100,7 @@ template <int Degree>
     descent.lower = Lanes::choose(found, lower, descent.lower);
     descent.upper = Lanes::choose(found, upper, descent.upper);
     result.found |= found;
+    result.last |= found & (upper >= Lanes(1.0));
     result.never |= never;
     lower = Lanes::choose(shape.positive, upper, lower);
     step = Lanes::choose(shape.positive, step + step, step * Lanes(0.5));

@@ -12,6 +12,18 @@
 
 namespace kds {
 
+/// The last number of a row of the determinant: of beads x and p, whose centres differ by `centre`.
+template <MotionView View>
+[[nodiscard, gnu::always_inline]] inline auto power_lift(
+    const View& view, BeadId x, BeadId p,
+    [[maybe_unused]] const BernsteinVector<typename View::Number, View::degree, View::dimension>& centre) {
+  if constexpr (LiftedView<View>) {
+    return view.lift_difference(x, p);
+  } else {
+    return dot(centre, centre) - elevate<2 * View::degree>(view.weight_difference(x, p));
+  }
+}
+
 template <int Dimension>
 struct PowerTest {
   static_assert(Dimension == 2 || Dimension == 3);
@@ -33,18 +45,11 @@ struct PowerTest {
 
   template <MotionView View>
   [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, size>& beads) {
-    const auto lift = [&](BeadId x, BeadId p, [[maybe_unused]] const auto& d) {
-      if constexpr (LiftedView<View>) {
-        return view.lift_difference(x, p);
-      } else {
-        return dot(d, d) - elevate<2 * View::degree>(view.weight_difference(x, p));
-      }
-    };
     std::array<BernsteinVector<typename View::Number, View::degree, Dimension>, Dimension + 1> rows;
-    std::array<decltype(lift(beads[1], beads[0], rows[0])), Dimension + 1> lifts;
+    std::array<decltype(power_lift(view, beads[1], beads[0], rows[0])), Dimension + 1> lifts;
     for (std::size_t i = 0; i <= Dimension; ++i) {
       rows[i] = view.difference(beads[i + 1], beads[0]);
-      lifts[i] = lift(beads[i + 1], beads[0], rows[i]);
+      lifts[i] = power_lift(view, beads[i + 1], beads[0], rows[i]);
     }
     return determinant(rows, lifts);
   }

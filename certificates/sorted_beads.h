@@ -10,25 +10,52 @@
 
 namespace kds {
 
-/// Sorts ascending; 1 if an even number of exchanges did it, else -1. Always the same exchanges, without
-/// branches and, as it is not a loop, in registers: this runs for every certificate.
+namespace detail {
+
+// Always the same exchanges, without branches and, as they are not loops, in registers: these run for every
+// certificate. Each counts the exchanges it made.
+
+[[gnu::always_inline]] constexpr unsigned put_in_order(BeadId& a, BeadId& b) {
+  const BeadId low = b < a ? b : a, high = b < a ? a : b;
+  const unsigned exchanged = b < a ? 1 : 0;
+  a = low;
+  b = high;
+  return exchanged;
+}
+
+/// The greatest of all but some to the end of them.
+template <std::size_t N, std::size_t... I>
+[[gnu::always_inline]] constexpr unsigned raise_greatest(std::array<BeadId, N>& beads,
+                                                         std::index_sequence<I...>) {
+  return (put_in_order(beads[I], beads[I + 1]) + ... + 0);
+}
+
+template <std::size_t N, std::size_t... Done>
+[[gnu::always_inline]] constexpr unsigned raise_all(std::array<BeadId, N>& beads,
+                                                    std::index_sequence<Done...>) {
+  return (raise_greatest(beads, std::make_index_sequence<N - 1 - Done>{}) + ...);
+}
+
+template <std::size_t N, std::size_t... I>
+[[gnu::always_inline]] constexpr unsigned lower_last(std::array<BeadId, N>& beads,
+                                                     std::index_sequence<I...>) {
+  return (put_in_order(beads[N - 2 - I], beads[N - 1 - I]) + ...);
+}
+
+[[nodiscard]] constexpr int sign_of_exchanges(unsigned count) { return 1 - 2 * static_cast<int>(count % 2); }
+
+}  // namespace detail
+
+/// Sorts ascending; 1 if an even number of exchanges did it, else -1.
 template <std::size_t N>
 [[nodiscard, gnu::always_inline]] constexpr int sort_beads(std::array<BeadId, N>& beads) {
-  unsigned exchanges = 0;
-  const auto exchange = [&](BeadId& a, BeadId& b) {
-    const BeadId low = b < a ? b : a, high = b < a ? a : b;
-    exchanges += b < a ? 1 : 0;
-    a = low;
-    b = high;
-  };
-  const auto raise_greatest = [&]<std::size_t... I>(std::index_sequence<I...>) {
-    (exchange(beads[I], beads[I + 1]), ...);
-  };
-  [&]<std::size_t... Done>(std::index_sequence<Done...>) {
-    (raise_greatest(std::make_index_sequence<N - 1 - Done>{}), ...);
-  }
-  (std::make_index_sequence<N - 1>{});
-  return exchanges % 2 == 0 ? 1 : -1;
+  return detail::sign_of_exchanges(detail::raise_all(beads, std::make_index_sequence<N - 1>{}));
+}
+
+/// The same where all but the last are ascending already.
+template <std::size_t N>
+[[nodiscard, gnu::always_inline]] constexpr int sort_last_bead(std::array<BeadId, N>& beads) {
+  return detail::sign_of_exchanges(detail::lower_last(beads, std::make_index_sequence<N - 1>{}));
 }
 
 }  // namespace kds

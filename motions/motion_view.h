@@ -231,43 +231,43 @@ class TrackedView {
   double scale_;
 };
 
-template <int DimensionValue, int DegreeValue, bool Lifted = false>
+template <int DimensionValue, int DegreeValue, bool Lifted = false, class NumberType = Magnitude>
 class MagnitudeView {
  public:
-  using Number = Magnitude;
+  using Number = NumberType;
   static constexpr int dimension = DimensionValue;
   static constexpr int degree = DegreeValue;
 
-  [[nodiscard]] BernsteinVector<Magnitude, degree, dimension> difference(BeadId, BeadId) const {
-    BernsteinVector<Magnitude, degree, dimension> result;
+  [[nodiscard]] BernsteinVector<Number, degree, dimension> difference(BeadId, BeadId) const {
+    BernsteinVector<Number, degree, dimension> result;
     for (auto& coordinate : result) coordinate = polynomial(1);
     return result;
   }
-  [[nodiscard]] Bernstein<Magnitude, degree> weight_difference(BeadId, BeadId) const { return polynomial(2); }
-  [[nodiscard]] Bernstein<Magnitude, degree> radius_difference(BeadId, BeadId) const { return polynomial(1); }
-  [[nodiscard]] Bernstein<Magnitude, degree> radius_sum(BeadId, BeadId) const { return polynomial(1); }
-  [[nodiscard]] Bernstein<Magnitude, 1> lift_difference(BeadId i, BeadId j) const requires(Lifted) {
+  [[nodiscard]] Bernstein<Number, degree> weight_difference(BeadId, BeadId) const { return polynomial(2); }
+  [[nodiscard]] Bernstein<Number, degree> radius_difference(BeadId, BeadId) const { return polynomial(1); }
+  [[nodiscard]] Bernstein<Number, degree> radius_sum(BeadId, BeadId) const { return polynomial(1); }
+  [[nodiscard]] Bernstein<Number, 1> lift_difference(BeadId i, BeadId j) const requires(Lifted) {
     return lift_of(*this, i, j);
   }
-  [[nodiscard]] std::array<Magnitude, dimension> displacement(BeadId) const requires(Lifted) {
-    std::array<Magnitude, dimension> result;
-    result.fill(Magnitude::input_difference(1) - Magnitude::input_difference(1));
+  [[nodiscard]] std::array<Number, dimension> displacement(BeadId) const requires(Lifted) {
+    std::array<Number, dimension> result;
+    result.fill(Number::input_difference(1) - Number::input_difference(1));
     return result;
   }
 
  private:
-  static Bernstein<Magnitude, degree> polynomial(int power) {
-    Bernstein<Magnitude, degree> result;
+  static Bernstein<Number, degree> polynomial(int power) {
+    Bernstein<Number, degree> result;
     for (int k = 0; k <= degree; ++k) {
       result.scaled[static_cast<std::size_t>(k)] =
-          Magnitude::constant(static_cast<double>(binomial(degree, k))) * Magnitude::input_difference(power);
+          Number::constant(static_cast<double>(binomial(degree, k))) * Number::input_difference(power);
     }
     return result;
   }
 };
 
-template <Motion M>
-using MagnitudeViewOf = MagnitudeView<M::dimension, M::degree, lifted<M>>;
+template <Motion M, class Number = Magnitude>
+using MagnitudeViewOf = MagnitudeView<M::dimension, M::degree, lifted<M>, Number>;
 
 static_assert(MotionView<DoubleView<BezierMotion<3, 1>>>);
 static_assert(MotionView<TrackedView<BezierMotion<3, 1>>>);

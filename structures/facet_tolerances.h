@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,8 +26,7 @@ class FacetTolerances {
 
   /// At the start of a step, its motion loaded.
   void start_step(const M& motion, const Triangulation& triangulation) {
-    cells_ = triangulation.cells();
-    if (cells_.empty()) return forget_all();
+    if (triangulation.cells().empty()) return forget_all();
     const double rest = settle(motion, triangulation);
     if (wandering_.has_reference() && rest < least_worth) forget_all();  // too far away to be of use
     const double wanted = std::max(rest + worth_a_reference, least_share);
@@ -38,7 +38,7 @@ class FacetTolerances {
     Wandering<M> fresh;
     fresh.set_reference(motion);
     fresh.look_at(motion);
-    if (sampled(motion, triangulation, fresh.strays()) < wanted) {
+    if (sampled(motion, triangulation, rounded_up(fresh.strays())) < wanted) {
       skip_ = std::exchange(next_skip_, std::min(2 * next_skip_ + 1, most_skipped));
       return;
     }
@@ -49,12 +49,19 @@ class FacetTolerances {
   }
   /// Whether any facet may rest.
   [[nodiscard]] bool any() const { return wandering_.has_reference(); }
-  /// Whether the facet needs no certificate in this step. Asked before any flip in the step.
-  [[nodiscard]] bool holds(CellId cell, int i, CellId neighbor) const {
-    if (!wandering_.has_reference()) return false;
-    const double tolerance = tolerances_[cell][static_cast<std::size_t>(i)];
-    if (farthest_ < tolerance) return true;  // which bead does not matter: most facets, where motion is slow
-    return stray_of(cell) < tolerance && stray_of(neighbor) < tolerance;
+  /// Of these facets of a cell, one bit each, those that need no certificate in this step. Asked before any
+  /// flip in the step.
+  [[nodiscard]] unsigned resting(const TriangulationCell<dimension>& cell, CellId id, unsigned facets) const {
+    const auto& tolerance = tolerances_[id];
+    unsigned rest = 0;
+    for (std::size_t i = 0; i <= dimension; ++i) rest |= (farthest_ < tolerance[i] ? 1U : 0U) << i;
+    if ((facets & ~rest) == 0) return facets;  // whichever beads they have: most, where motion is slow
+    const float stray = stray_of(cell.vertex, strays_);
+    for (std::size_t i = 0; i <= dimension; ++i) {
+      const float most = std::max(stray, stray_of(std::span(&cell.apex[i], 1), strays_));
+      rest |= (most < tolerance[i] ? 1U : 0U) << i;
+    }
+    return facets & rest;
   }
   /// The facet, as this cell has it, has got other beads.
   void forget(CellId cell, int i) {
@@ -78,29 +85,35 @@ class FacetTolerances {
   /// Motion that is fast is so for a while: after each sample in vain so many steps more go by without one.
   static constexpr unsigned most_skipped = 15;
   static constexpr std::size_t sample_size = 128;
-  static constexpr double unknown = -1;
 
   /// How far beads stray; of a sample, the share of facets that may rest.
   double settle(const M& motion, const Triangulation& triangulation) {
     if (!wandering_.has_reference()) return 0;
     wandering_.look_at(motion);
-    const auto strays = wandering_.strays();
-    farthest_ = *std::max_element(strays.begin(), strays.end());
-    grow_little(tolerances_, cells_.size());
-    strays_.assign(cells_.size(), unknown);
-    std::size_t looked_at = 0, resting = 0;
+    strays_ = rounded_up(wandering_.strays());
+    farthest_ = *std::max_element(strays_.begin(), strays_.end());
+    grow_little(tolerances_, triangulation.cells().size());
+    std::size_t looked_at = 0, rest = 0;
     for_sample(triangulation, [&](CellId cell, int i) {
       ++looked_at;
-      resting += holds(cell, i, cell_of(triangulation.beyond(cell, i))) ? 1 : 0;
+      rest += resting(triangulation.cells()[cell], cell, 1U << i) != 0 ? 1 : 0;
     });
-    return share_of(resting, looked_at);
+    return share_of(rest, looked_at);
   }
 
-  /// What a cell's beads stray at most, worked out when first asked for.
-  [[nodiscard]] double stray_of(CellId cell) const {
-    double& stray = strays_[cell];
-    if (stray == unknown) stray = stray_of(cells_[cell].vertex, wandering_.strays());
-    return stray;
+  // Floats are half as long to read. A stray is no smaller than it was, a tolerance no larger.
+
+  [[nodiscard]] static std::vector<float> rounded_up(std::span<const double> strays) {
+    std::vector<float> floats(strays.size());
+    for (std::size_t b = 0; b < strays.size(); ++b) {
+      const float least = strays[b] > 0 ? std::numeric_limits<float>::min() : 0.0F;
+      floats[b] = std::max(static_cast<float>(strays[b] * (1 + 0x1p-23)), least);
+    }
+    return floats;
+  }
+  [[nodiscard]] static float rounded_down(double tolerance) {
+    return tolerance < std::numeric_limits<float>::min() ? 0.0F
+                                                         : static_cast<float>(tolerance * (1 - 0x1p-23));
   }
 
   /// Some facets of live cells.
@@ -116,9 +129,9 @@ class FacetTolerances {
     return all == 0 ? 0 : static_cast<double>(some) / static_cast<double>(all);
   }
 
-  static double stray_of(std::span<const BeadId> beads, std::span<const double> strays) {
-    double most = 0;
-    for (const BeadId b : beads) most = std::max(most, b == infinite_bead ? 0 : strays[b]);
+  [[nodiscard]] static float stray_of(std::span<const BeadId> beads, std::span<const float> strays) {
+    float most = 0;
+    for (const BeadId b : beads) most = std::max(most, b == infinite_bead ? 0.0F : strays[b]);
     return most;
   }
 
@@ -145,7 +158,7 @@ class FacetTolerances {
       tolerance_lanes<PowerTest<dimension>>(motion_, tuples_, Lanes(1.0), tolerance);
       // A difference moves by what both of its beads stray.
       for (std::size_t lane = 0; lane < count_; ++lane)
-        use_(facets_[lane].first, facets_[lane].second, 0.5 * tolerance.v[lane]);
+        use_(facets_[lane].first, facets_[lane].second, rounded_down(0.5 * tolerance.v[lane]));
       count_ = 0;
     }
 
@@ -160,7 +173,7 @@ class FacetTolerances {
 
   void take_all(const M& motion, const Triangulation& triangulation) {
     tolerances_.assign(triangulation.cells().size(), {});
-    FourAtOnce four(motion, triangulation, [&](CellId cell, int i, double tolerance) {
+    FourAtOnce four(motion, triangulation, [&](CellId cell, int i, float tolerance) {
       const FacetId beyond = triangulation.beyond(cell, i);
       tolerances_[cell][static_cast<std::size_t>(i)] = tolerance;
       tolerances_[cell_of(beyond)][static_cast<std::size_t>(index_of(beyond))] = tolerance;
@@ -176,26 +189,26 @@ class FacetTolerances {
 
   /// The share of some facets that a reference at this step's start would let rest.
   [[nodiscard]] double sampled(const M& motion, const Triangulation& triangulation,
-                               std::span<const double> strays) const {
+                               std::span<const float> strays) const {
     const auto cells = triangulation.cells();
-    std::size_t looked_at = 0, resting = 0;
-    FourAtOnce four(motion, triangulation, [&](CellId cell, int i, double tolerance) {
+    std::size_t looked_at = 0, rest = 0;
+    FourAtOnce four(motion, triangulation, [&](CellId cell, int i, float tolerance) {
       const BeadId apex = triangulation.apex_beyond(cell, i);
-      const double apex_strays = apex == infinite_bead ? 0 : strays[apex];
+      const float most =
+          std::max(stray_of(cells[cell].vertex, strays), stray_of(std::span(&apex, 1), strays));
       ++looked_at;
-      resting += std::max(stray_of(cells[cell].vertex, strays), apex_strays) < tolerance ? 1 : 0;
+      rest += most < tolerance ? 1 : 0;
     });
     for_sample(triangulation, [&](CellId cell, int i) { four.add(cell, i); });
     four.flush();
-    return share_of(resting, looked_at);
+    return share_of(rest, looked_at);
   }
 
   unsigned skip_ = 0, next_skip_ = 0;
   Wandering<M> wandering_;
-  std::vector<std::array<double, dimension + 1>> tolerances_;  ///< of each facet, as each cell has it
-  double farthest_ = 0;                                        ///< any bead strays no more
-  std::span<const TriangulationCell<dimension>> cells_;        ///< at the start of the step
-  mutable std::vector<double> strays_;                         ///< of each cell, or unknown
+  std::vector<std::array<float, dimension + 1>> tolerances_;  ///< of each facet, as each cell has it
+  std::vector<float> strays_;                                 ///< of each bead
+  float farthest_ = 0;                                        ///< any bead strays no more
 };
 
 }  // namespace kds

@@ -234,7 +234,7 @@ UpdateCounts Activation::advance(const Eigen::Matrix3Xd& centers, std::span<cons
 UpdateCounts AutomaticUpdate::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
   // Measured (kds bench power): at about this share of failed certificates moving takes as long as
   // rebuilding. A sample near every eighth bead, of four facets each, costs a hundredth of it.
-  constexpr double worth_rebuilding = 0.14;
+  constexpr double worth_rebuilding = 0.165;
   constexpr std::size_t every = 8, every_at_first = 2, most_sampled = 64;
   constexpr double remembered = 0.9;
   UpdateCounts counts;

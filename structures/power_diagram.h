@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <concepts>
 #include <optional>
 #include <span>
@@ -303,7 +304,9 @@ class PowerDiagram final : public KineticStructure {
   auto& table_of(const Orientation<dimension>&) { return orientations_; }
   /// Facets are guarded together: enqueue some, then watch them.
   void enqueue(CellId cell, int i);
+  void enqueue(const FacetCertificates<dimension + 1>& certificates, CellId cell, int i, Birth birth);
   void watch_enqueued();
+  void hold_inner(CellId cell, int i);
   void watch_cells_beside(CellId cell, int i);
   void watch_cell(CellId cell, int i);
   void drop(CellId cell, int i);

@@ -7,8 +7,14 @@ namespace kds {
 
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::enqueue(CellId cell, int i) {
-  with_facet_certificate(triangulation_.cells()[cell].vertex, apex(cell, i), [&](const auto& certificate) {
-    table_of(certificate).enqueue_one_of_many(certificate, facet_id(cell, i), birth_of(certificate));
+  enqueue(FacetCertificates(triangulation_.cells()[cell].vertex), cell, i, Birth::unknown);
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::enqueue(const FacetCertificates<dimension + 1>& certificates, CellId cell, int i,
+                                 Birth birth) {
+  certificates.to(apex(cell, i), [&](const auto& certificate) {
+    table_of(certificate).enqueue_one_of_many(certificate, facet_id(cell, i), birth);
   });
 }
 
@@ -23,24 +29,20 @@ void PowerDiagram<M, K>::watch_all() {
   PositiveFacets<M> positive(motion_);
   const auto guard_it = [this](FacetId facet) { enqueue(cell_of(facet), index_of(facet)); };
   const auto cells = triangulation_.cells();
+  FacetCover cover(cells.size());
   for (CellId cell = 0; cell < cells.size(); ++cell) {
     if (!triangulation_.is_live(cell)) continue;
     triangulation_.note_all(cell, resting);
-    const bool in_lanes = std::same_as<K, Filtered> && !is_infinite(cell);
-    for (int i = 0; i <= dimension; ++i) {
-      const CellId other = neighbor(cell, i);
-      if (in_lanes && !tolerances_.any() && apex(cell, i) != infinite_bead) {
-        positive.look_at(cells[cell], i, facet_id(cell, i), cell < other, guard_it);
-      } else if (other < cell) {
-        continue;
-      } else if (tolerances_.holds(cell, i, other)) {
-        ++at_rest;
-      } else if (in_lanes && apex(cell, i) != infinite_bead) {
-        positive.look_at(cells[cell], i, facet_id(cell, i), true, guard_it);
-      } else {
-        enqueue(cell, i);
-      }
+    const unsigned in_lanes = std::same_as<K, Filtered> ? finite_facets(cells[cell]) : 0;
+    unsigned mine =
+        cover.facets_of(cells[cell], cell, in_lanes == all_facets<dimension> && !tolerances_.any());
+    if (tolerances_.any()) {
+      const unsigned rest = tolerances_.resting(cells[cell], cell, mine);
+      at_rest += static_cast<unsigned>(std::popcount(rest));
+      mine &= ~rest;
     }
+    positive.look_at(cells[cell], cell, mine & in_lanes, guard_it);
+    for (unsigned left = mine & ~in_lanes; left != 0; left &= left - 1) enqueue(cell, std::countr_zero(left));
   }
   positive.finish(guard_it);
   power_tests_.hold_never(at_rest + positive.count());
@@ -136,22 +138,45 @@ void PowerDiagram<M, K>::drop(CellId cell, int i) {
   forget(cell, i);
 }
 
-/// Guards all facets of the new cells.
+/// Guards all facets of the new cells. Those between two of them, where an event made these, have all of its
+/// beads, and its function.
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::watch_around(std::span<const CellId> cells) {
   if (!moving_.empty()) flipped_.insert(flipped_.end(), cells.begin(), cells.end());
+  const bool in_event = present_ != Identity{};
+  const Birth birth = in_event ? Birth::at_own_root : Birth::unknown;
+  const bool inner_hold = in_event && simulator_.now().last();
+  bool first_inner = true;
   for (std::size_t c = 0; c < cells.size(); ++c) {
+    const CellId cell = cells[c];
+    const FacetCertificates certificates(triangulation_.cells()[cell].vertex);
     for (int i = 0; i <= dimension; ++i) {
-      // A facet between two new cells is met twice.
-      const auto before = cells.begin() + static_cast<std::ptrdiff_t>(c);
-      if (std::find(cells.begin(), before, neighbor(cells[c], i)) != before) continue;
-      const auto [other, k] = across(cells[c], i);
-      tolerances_.forget(cells[c], i);
+      const auto [other, k] = across(cell, i);
+      tolerances_.forget(cell, i);
       tolerances_.forget(other, k);
-      enqueue(cells[c], i);
+      const auto at = std::find(cells.begin(), cells.end(), other) - cells.begin();
+      if (at == static_cast<std::ptrdiff_t>(cells.size())) {
+        enqueue(certificates, cell, i, Birth::unknown);
+      } else if (at < static_cast<std::ptrdiff_t>(c)) {
+        continue;  // met already
+      } else if (inner_hold) {
+        hold_inner(cell, i);
+        ++(first_inner ? statistics.stages.isolation : statistics.stages.shared);
+        first_inner = false;
+      } else {
+        enqueue(certificates, cell, i, birth);
+      }
     }
   }
   watch_enqueued();
+}
+
+/// A facet between two cells of an event whose function has no root any more.
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::hold_inner(CellId cell, int i) {
+  const bool on_hull = present_.type == static_cast<std::uint32_t>(CertificateType::orientation);
+  set_guard(cell, i, {Guard::never, on_hull ? About::hull : About::power});
+  power_tests_.hold_never(1);
 }
 
 /// A cell's own facets name all of its vertices but one each, and the beads beyond them: a bead is named by

@@ -75,9 +75,13 @@ bool PowerDiagram<M, K>::can_replace(std::span<const Beads> old, std::span<const
   const Instant& now = simulator_.now();
   std::array<Orientation<dimension>, dimension + 1> finite;
   std::size_t count = 0;
+  bool all_finite = true;
   for (const Beads& cell : made) {
     const Orientation<dimension> orientation(cell, 1);
-    if (orientation.beads.back() == infinite_bead) continue;
+    if (orientation.beads.back() == infinite_bead) {
+      all_finite = false;
+      continue;
+    }
     if (orientation.identity() == present_) continue;  // flat now, and opening: that is the event
     finite[count++] = orientation;
   }
@@ -88,6 +92,7 @@ bool PowerDiagram<M, K>::can_replace(std::span<const Beads> old, std::span<const
       if (sign_just_after<K>(finite[i], motion_, now, statistics.stages) <= 0) return false;
     }
   }
+  if (all_finite) return true;
   std::array<std::array<BeadId, dimension>, 2 * (dimension + 1)> hull;
   std::size_t on_hull = 0;
   for (const auto cells : {old, made}) {

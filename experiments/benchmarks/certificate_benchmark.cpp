@@ -29,6 +29,7 @@
 #include "motions/positions.h"
 #include "motions/scene.h"
 #include "structures/facet_certificate.h"
+#include "structures/positive_facets.h"
 
 namespace kds::bench {
 
@@ -177,6 +178,34 @@ void settle(benchmark::State& state, I input) {
                           input.stages.exact + input.stages.identically_zero);
 }
 
+// All facets of a triangulation as they lie in its cells; those not found positive are left.
+template <Motion M>
+void settle_in_cells(benchmark::State& state, const M& motion) {
+  RegularTriangulation<3> triangulation;
+  static_cast<void>(triangulation.build(control_points(motion, 0), control_weights(motion, 0)));
+  const auto cells = triangulation.cells();
+  const Input<Facet, M> input = facets(motion);
+  const auto beads = input.beads();
+  const StaticPredicates peer = input.predicates();
+  std::uint64_t positive = 0;
+  measure_in_turn(
+      state, beads.size(),
+      [&] {
+        FacetCover cover(cells.size());
+        PositiveFacets<M> facets(motion);
+        const auto leave = [](FacetId) {};
+        for (CellId cell = 0; cell < cells.size(); ++cell) {
+          const unsigned finite = finite_facets(cells[cell]);
+          const unsigned mine = cover.facets_of(cells[cell], cell, finite == all_facets<3>);
+          facets.look_at(cells[cell], cell, mine & finite, leave);
+        }
+        facets.finish(leave);
+        positive = facets.count();
+      },
+      [&] { return peer.seconds_for(beads); });
+  state.counters["settled"] = static_cast<double>(positive) / static_cast<double>(beads.size());
+}
+
 template <Kernel K, class I>
 void failure(benchmark::State& state, I input) {
   input.keep(Failure::Kind::later, enough);
@@ -310,6 +339,7 @@ void add_certificate_benchmarks() {
   constexpr std::size_t window = 16;
 
   add_benchmark("settle/facet/linear", [=](State& s) { settle(s, facets(near())); });
+  add_benchmark("settle/facet/cells/linear", [=](State& s) { settle_in_cells(s, near()); });
   add_benchmark("settle/sphere2/linear",
                 [=](State& s) { settle(s, spheres<BeadInSphere<2>>(near(), many, window)); });
   add_benchmark("settle/sphere3/linear",

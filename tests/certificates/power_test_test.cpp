@@ -136,5 +136,14 @@ TEST(SortBeads, TellsTheSignOfThePermutation) {
   EXPECT_EQ(sort_beads(cycle), 1);
 }
 
+TEST(SortBeads, BringsTheLastToItsPlace) {
+  for (BeadId last = 0; last <= 8; last += 2) {
+    std::array<BeadId, 5> beads{1, 3, 5, 7, last};
+    std::array<BeadId, 5> all = beads;
+    EXPECT_EQ(sort_last_bead(beads), sort_beads(all)) << last;
+    EXPECT_EQ(beads, all);
+  }
+}
+
 }  // namespace
 }  // namespace kds

@@ -1,0 +1,114 @@
+#pragma once
+// Which power tests of a cell's beads and the beads beyond its facets are positive all over a step, by their
+// Bernstein coefficients in float: eight cells at once, and what the tests of a cell share is worked out
+// once. What is not found positive is not known. No allocation.
+//
+// The bound of the errors. Let m be the largest difference in a row of the determinant, rounded to float, M
+// the largest of all rows, and weights differ by no more than m^2. Any number computed on the way has from
+// some rows one factor each, a difference, at most m, or, at most once, a lift, a small multiple of m^2 <= m
+// M. Its size is Q, the product of those m and, with a lift, of M; sums are of numbers of one size. So the
+// magnitudes (motions/magnitude.h, 24 digits), each times its Q, bound them all, and coefficient k errs by at
+// most coefficient[k] times M times the product of all m. Claimed where M <= 2^10 and that product is at
+// least 2^-60: then nothing overflows, and Q >= 2^-60 / M^4 >= 2^-100, so that what an operation that
+// underflows errs more, 2^-150, is less than 2^-25 of the roundoff 2^-24 Q it is charged with anyway. The
+// constants are inflated by 2^-8, for that and for the comparison.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "certificates/power_tests_of_cell.h"
+#include "motions/float_lanes_view.h"
+#include "motions/motion_view.h"
+
+namespace kds {
+
+namespace detail {
+
+template <class View, class RowOf>
+[[gnu::always_inline]] inline PowerCofactors<View> power_cofactors(const RowOf& row_of) {
+  const PowerRow<View> a = row_of(1), b = row_of(2);
+  if constexpr (View::dimension == 2) {
+    return {a, b};
+  } else {
+    return {a, b, row_of(3)};
+  }
+}
+
+template <Motion M>
+auto derive_float_power_bound() {
+  constexpr double inflation = 1 + 0x1p-8;
+  using View = MagnitudeViewOf<M, MagnitudeIn<24>>;
+  const PowerRow<View> row(View(), 1, 0);
+  const auto magnitudes = power_cofactors<View>([&](std::size_t) { return row; }).with(row);
+  std::array<float, decltype(magnitudes)::degree + 1> coefficient{};
+  for (std::size_t k = 0; k < coefficient.size(); ++k)
+    coefficient[k] = static_cast<float>(magnitudes.scaled[k].error * inflation);
+  return coefficient;
+}
+
+template <Motion M>
+inline const auto float_power_bound = derive_float_power_bound<M>();
+
+class RowSizes {
+ public:
+  /// A row that was made of this view.
+  template <Motion M>
+  [[gnu::always_inline]] void take(const FloatLanesView<M>& view) {
+    const FloatLanes& length = view.largest_length();
+    product_ = product_ * length;
+    largest_ = FloatLanes::max(largest_, length);
+    weights_small_ &= view.largest_weight() <= length * length;
+  }
+  /// M times the product of all rows' m, or a NaN that fails every comparison where the bound is not proved.
+  [[nodiscard, gnu::always_inline]] FloatLanes error_scale() const {
+    const FloatLanes scale = product_ * largest_;
+    const FloatLanes::Mask proved =
+        weights_small_ & (largest_ <= FloatLanes(0x1p10F)) & (scale >= FloatLanes(0x1p-60F));
+    return proved ? scale.v : FloatLanes(__builtin_nanf("")).v;
+  }
+
+ private:
+  FloatLanes product_{1.0F}, largest_{0.0F};
+  FloatLanes::Mask weights_small_ = product_ > largest_;  // so far
+};
+
+}  // namespace detail
+
+/// Eight cells: the beads of each, then those beyond its facets, in the order of the beads opposite.
+template <Motion M>
+using CellsInLanes = typename FloatLanesView<M>::template Tuples<2 * (M::dimension + 1)>;
+
+/// Of each cell one bit a facet: whether its power test, of the cell and the bead beyond, is certainly
+/// positive.
+template <Motion M>
+[[KDS_LANES_TARGETS]] void positive_cells(const M& motion, const CellsInLanes<M>& cells,
+                                          std::array<std::uint32_t, FloatLanes::width>& positive) {
+  constexpr std::size_t vertices = M::dimension + 1;
+  const auto& bound = detail::float_power_bound<M>;
+  detail::RowSizes cell_sizes;
+  const auto row_of = [&](std::size_t place) __attribute__((always_inline)) {
+    const FloatLanesView<M> view(motion, cells, place);
+    const PowerRow<FloatLanesView<M>> row(view, 1, 0);
+    cell_sizes.take(view);
+    return row;
+  };
+  const auto cofactors = detail::power_cofactors<FloatLanesView<M>>(row_of);
+  FloatLanes::Mask bits{};
+  for (std::size_t facet = 0; facet < vertices; ++facet) {
+    const FloatLanesView<M> view(motion, cells, vertices + facet);
+    const PowerRow<FloatLanesView<M>> row(view, 1, 0);
+    const auto function = cofactors.with(row);
+    detail::RowSizes sizes = cell_sizes;
+    sizes.take(view);
+    const FloatLanes scale = sizes.error_scale();
+    FloatLanes::Mask all = scale >= scale;
+    for (std::size_t k = 0; k < function.scaled.size(); ++k)
+      all &= function.scaled[k] > FloatLanes(bound[k]) * scale;
+    bits |= all & (1 << facet);
+  }
+  for (std::size_t lane = 0; lane < FloatLanes::width; ++lane)
+    positive[lane] = static_cast<std::uint32_t>(bits[lane]);
+}
+
+}  // namespace kds
