@@ -38,7 +38,7 @@ class Instant {
   [[nodiscard]] double upper() const { return time_.upper; }
   /// The bracket separates this time from the other roots of its certificate's function.
   [[nodiscard]] bool isolating() const { return time_.isolating; }
-  /// It is known to be the last root of that function in the step.
+  /// It is known to be the last root of that function in the step; of no other function this tells anything.
   [[nodiscard]] bool last() const { return time_.last; }
   /// Narrows the bracket as far as doubles go, once: true if that was still to be done.
   bool narrow() const;

@@ -13,7 +13,7 @@ namespace kds {
 namespace detail {
 
 // Always the same exchanges, without branches and, as they are not loops, in registers: these run for every
-// certificate. Each counts the exchanges it made.
+// certificate. Each counts the exchanges it made; their order matters, so they stand between commas.
 
 [[gnu::always_inline]] constexpr unsigned put_in_order(BeadId& a, BeadId& b) {
   const BeadId low = b < a ? b : a, high = b < a ? a : b;
@@ -27,19 +27,25 @@ namespace detail {
 template <std::size_t N, std::size_t... I>
 [[gnu::always_inline]] constexpr unsigned raise_greatest(std::array<BeadId, N>& beads,
                                                          std::index_sequence<I...>) {
-  return (put_in_order(beads[I], beads[I + 1]) + ... + 0);
+  unsigned count = 0;
+  ((count += put_in_order(beads[I], beads[I + 1])), ...);
+  return count;
 }
 
 template <std::size_t N, std::size_t... Done>
 [[gnu::always_inline]] constexpr unsigned raise_all(std::array<BeadId, N>& beads,
                                                     std::index_sequence<Done...>) {
-  return (raise_greatest(beads, std::make_index_sequence<N - 1 - Done>{}) + ...);
+  unsigned count = 0;
+  ((count += raise_greatest(beads, std::make_index_sequence<N - 1 - Done>{})), ...);
+  return count;
 }
 
 template <std::size_t N, std::size_t... I>
 [[gnu::always_inline]] constexpr unsigned lower_last(std::array<BeadId, N>& beads,
                                                      std::index_sequence<I...>) {
-  return (put_in_order(beads[N - 2 - I], beads[N - 1 - I]) + ...);
+  unsigned count = 0;
+  ((count += put_in_order(beads[N - 2 - I], beads[N - 1 - I])), ...);
+  return count;
 }
 
 [[nodiscard]] constexpr int sign_of_exchanges(unsigned count) { return 1 - 2 * static_cast<int>(count % 2); }

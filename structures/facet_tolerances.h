@@ -112,8 +112,9 @@ class FacetTolerances {
     return floats;
   }
   [[nodiscard]] static float rounded_down(double tolerance) {
-    return tolerance < std::numeric_limits<float>::min() ? 0.0F
-                                                         : static_cast<float>(tolerance * (1 - 0x1p-23));
+    if (tolerance < std::numeric_limits<float>::min()) return 0;
+    constexpr double most = std::numeric_limits<float>::max();
+    return static_cast<float>(std::min(tolerance, most) * (1 - 0x1p-23));
   }
 
   /// Some facets of live cells.

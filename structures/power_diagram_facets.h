@@ -41,10 +41,10 @@ void PowerDiagram<M, K>::watch_all() {
       at_rest += static_cast<unsigned>(std::popcount(rest));
       mine &= ~rest;
     }
-    positive.look_at(cells[cell], cell, mine & in_lanes, guard_it);
+    if constexpr (std::same_as<K, Filtered>) positive.look_at(cells[cell], cell, mine & in_lanes, guard_it);
     for (unsigned left = mine & ~in_lanes; left != 0; left &= left - 1) enqueue(cell, std::countr_zero(left));
   }
-  positive.finish(guard_it);
+  if constexpr (std::same_as<K, Filtered>) positive.finish(guard_it);
   power_tests_.hold_never(at_rest + positive.count());
   statistics.stages.coefficients += positive.count();
   statistics.stages.tolerance += at_rest;

@@ -277,5 +277,32 @@ TYPED_TEST(FailureSearch, FastSurvivesEverything) {
   }
 }
 
+// What holds just after a function's last root holds for the rest of the step, and needs no search.
+TEST(LastRoot, IsToldWhereNoOtherFollows) {
+  struct Curve {
+    std::array<double, 4> control;
+    bool last;  // the first root is
+  };
+  for (const Curve& curve :
+       {Curve{{1, 0.5, -0.5, -1}, true}, Curve{{1, -1, -1, -0.5}, true}, Curve{{1, -1, -1, 1}, false},
+        Curve{{1, -2, 2, -1}, false}, Curve{{1, 0.25, -0.5, 0}, false}}) {
+    BezierMotion<1, 3> motion(2);
+    for (int k = 0; k <= 3; ++k) motion.set_coordinate(1, k, 0, curve.control[static_cast<std::size_t>(k)]);
+    const Precedes before({0, 1});
+    Precedes after = before;
+    after.sign = -after.sign;
+    StageCounts stages;
+    const Failure first = first_failure<Filtered>(before, motion, Instant(0.0), Birth::unknown, stages);
+    ASSERT_EQ(first.kind, Failure::Kind::later);
+    EXPECT_EQ(first.time.last, curve.last);
+    test::Functions functions;
+    const Instant now(first.time, functions, functions.add(exact_function(before, motion)));
+    const Failure next = first_failure<Filtered>(after, motion, now, Birth::at_own_root, stages);
+    if (curve.last) {
+      EXPECT_EQ(next.kind, Failure::Kind::never);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kds
