@@ -120,7 +120,7 @@ class CertificateInDouble {
     return side_ * with_condition(side_ * wanted(view).whole_by_norm(norm_sign), view);
   }
   /// The norm's sign where the certificate holds, as A and B of opposite signs all over [lower, upper] tell,
-  /// else 0. Where it fails the norm has the other.
+  /// else 0. At an isolating failure time, where the norm changes its sign, it has the other just after.
   [[nodiscard]] int norm_while_it_holds(double lower, double upper) const {
     const View view(motion_, certificate_.beads, lower, upper);
     const int a = wanted(view).rational();

@@ -64,6 +64,7 @@ Scene::Scene(std::span<const Trajectory> necklaces, std::vector<double> radii, F
                                  longest == nullptr ? "no input" : longest->file,
                                  longest == nullptr ? 0 : longest->frames.size()));
   }
+  if (beads == 0) throw InputError(fmt::format("{}: expected beads, found none", longest->file));
   frame_count_ = longest->frames.size();
   frames_.assign(frame_count_, Eigen::Matrix3Xd(3, static_cast<Eigen::Index>(beads)));
   for (std::size_t n = 0; n < necklaces.size(); ++n) {
@@ -119,6 +120,10 @@ Scene::Scene(Instance instance, std::vector<double> radii)
   const std::size_t points = instance_.point_count();
   necklaces_.push_back({0, static_cast<BeadId>(points - 1)});
   if (has_radii_) {
+    if (radii_.size() != points) {
+      throw InputError(fmt::format("{}: {} points, expected as many radii, found {}", instance_.file, points,
+                                   radii_.size()));
+    }
     check_radii(radii_);
     return;
   }

@@ -37,7 +37,7 @@ class Scene {
   /// two-dimensional, in that plane's coordinates.
   Scene(std::span<const Trajectory> necklaces, std::vector<double> radii,
         FrameMotion motion = FrameMotion::linear);
-  /// Points, or balls of these radii where they are given, one a point.
+  /// Points, or balls of these radii where they are given, one a point. Throws InputError likewise.
   explicit Scene(Instance instance, std::vector<double> radii = {});
 
   [[nodiscard]] int dimension() const { return dimension_; }

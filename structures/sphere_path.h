@@ -17,8 +17,8 @@
 // distance of x from sum w_i c_i by the height of ball i. Where all are, and rho >= s_i, the sphere is the
 // smallest, whatever was known before.
 //
-// All in double, with margins far above its rounding, that of cutting a period out of the step included: what
-// is proved here holds; what is not needs a certificate.
+// All in double, with margins of eight times its rounding, that of cutting a period out of the step included:
+// what is proved here holds; what is not needs a certificate.
 
 #include <array>
 #include <cstdint>

@@ -3,8 +3,8 @@
 // balanced tree over a necklace the minimum enclosing sphere of all its beads, kept as a basis of at most
 // dimension + 1 beads. Certificates of a node: each other bead stays inside the sphere of the basis; each
 // basis bead stays outside the sphere of its fellows. Those that a bound on the sphere's path proves at once
-// (sphere_path.h) are not made. When one fails, the new basis is found among the basis and the bead, just
-// after the event. Exact with any kernel but `Fast`.
+// (sphere_path.h) are not made. When one fails, the new basis is found among the basis and the bead: by such
+// a bound on what is next, or by signs just after the event. Exact with any kernel but `Fast`.
 
 #include <algorithm>
 #include <array>

@@ -77,7 +77,10 @@ void WrappedHierarchy<M, K, radii>::start_step() {
   }
   held_.clear();
   free_.clear();
-  if constexpr (prunes) paths_.set(motion_);
+  if constexpr (prunes) {
+    paths_.set(motion_);
+    chord_from_ = -1;  // the chord at hand was of the last step
+  }
   list_guarded_nodes();
   if constexpr (prunes) find_chords();
   watch_all_nodes();
