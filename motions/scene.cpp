@@ -85,6 +85,7 @@ Scene::Scene(std::span<const Trajectory> necklaces, std::vector<double> radii, F
 }
 
 void Scene::lay_in_plane() {
+  if (bead_count() < 4) return;  // always in some plane
   for (const auto& axes : {std::array<Eigen::Index, 3>{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}) {
     const double height = frames_[0](axes[2], 0);
     const auto at_height = [&](const Eigen::Matrix3Xd& frame) {

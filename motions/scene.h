@@ -34,7 +34,7 @@ class Scene {
   /// Necklaces of equal frame counts; one of a single frame is at rest. `radii`: one a bead in scene order.
   /// Throws InputError where the counts differ, and where a number has no exact value (NaN, infinities).
   /// Where all beads keep to one plane x, y or z = constant in all frames, the scene is planar:
-  /// two-dimensional, in that plane's coordinates.
+  /// two-dimensional, in that plane's coordinates (from four beads on, as fewer always keep to some plane).
   Scene(std::span<const Trajectory> necklaces, std::vector<double> radii,
         FrameMotion motion = FrameMotion::linear);
   /// Points, or balls of these radii where they are given, one a point. Throws InputError likewise.
