@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "certificates/isolate_lanes.h"
+#include "structures/period_lanes.h"
 
 namespace kds {
 
@@ -61,8 +61,7 @@ template <int D, int K, bool equal>
         }
       }
     }
-    Lanes::Mask inside = (room[0] >= Lanes(0.0)) & (square[0] <= room[0] * room[0]);
-    for (std::size_t k = 1; k <= K; ++k) inside &= (room[k] >= Lanes(0.0)) & (square[k] <= room[k] * room[k]);
+    const Lanes::Mask inside = are_within(square, room);
     // Basis beads never lie inside: looked at they would often be, and no one could foretell in which four.
     for (unsigned bits = ~bits_of(inside) & bits_to_look_at(basis, b, range.last); bits != 0;
          bits &= bits - 1)
@@ -75,12 +74,10 @@ template <int D>
 struct Parts {
   std::array<std::array<Lanes, D>, 2> center;
   std::array<Lanes, 2> limit;
-  Lanes from, to;
+  PeriodLanes period;
 
-  Parts(std::span<const SphereChord<D>, 4> chords, std::span<const Period, 4> periods) {
+  Parts(std::span<const SphereChord<D>, 4> chords, std::span<const Period, 4> periods) : period(periods) {
     for (std::size_t part = 0; part < 4; ++part) {
-      from.v[part] = periods[part].from;
-      to.v[part] = (periods[part].to - periods[part].from) / (1 - periods[part].from);
       for (std::size_t e = 0; e < 2; ++e) {
         limit[e].v[part] = chords[part].limit[e];
         for (std::size_t axis = 0; axis < D; ++axis) center[e][axis].v[part] = chords[part].center[e][axis];
@@ -101,8 +98,7 @@ template <int D, int K>
         const double* column = paths.column(static_cast<int>(k), static_cast<int>(axis));
         control[k] = Lanes(column[b] - column[basis.beads[0]]);
       }
-      casteljau(control, parts.from);
-      casteljau_left(control, parts.to);
+      cut(control, parts.period);
       for (std::size_t k = 0; k <= K; ++k) {
         const double t = static_cast<double>(k) / K;
         if (axis < D) {
@@ -114,10 +110,8 @@ template <int D, int K>
         }
       }
     }
-    Lanes::Mask inside = (room[0] >= Lanes(0.0)) & (square[0] <= room[0] * room[0]);
-    for (std::size_t k = 1; k <= K; ++k) inside &= (room[k] >= Lanes(0.0)) & (square[k] <= room[k] * room[k]);
     beyond[kept] = b;
-    kept += Lanes::all(inside) ? 0 : 1;
+    kept += Lanes::all(are_within(square, room)) ? 0 : 1;
   }
   beyond.resize(kept);
 }

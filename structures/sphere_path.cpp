@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "certificates/determinant.h"
-#include "certificates/isolate_lanes.h"
 #include "structures/lane_bounds.h"
+#include "structures/period_lanes.h"
 #include "structures/point_sphere.h"
 
 namespace kds {
@@ -36,29 +36,6 @@ BeadLanes<Size> beads_of(std::span<const Basis> bases) {
 }
 [[gnu::always_inline]] inline Lanes gather(const double* column, const std::array<BeadId, Lanes::width>& at) {
   return Lanes::Vector{column[at[0]], column[at[1]], column[at[2]], column[at[3]]};
-}
-
-/// Four periods side by side: what is cut off before, and then after.
-struct PeriodLanes {
-  Lanes from, to;
-  bool whole = true;  // nothing at all
-};
-
-PeriodLanes lanes_of(std::span<const Period> periods) {
-  PeriodLanes lanes;
-  for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
-    const Period& period = periods[std::min(lane, periods.size() - 1)];
-    lanes.from.v[lane] = period.from;
-    lanes.to.v[lane] = (period.to - period.from) / (1 - period.from);
-    lanes.whole &= period.from == 0 && period.to == 1;
-  }
-  return lanes;
-}
-template <std::size_t N>
-[[gnu::always_inline]] inline void cut(std::array<Lanes, N>& control, const PeriodLanes& period) {
-  if (period.whole) return;
-  casteljau(control, period.from);
-  casteljau_left(control, period.to);
 }
 
 /// Four chords side by side.
@@ -322,7 +299,7 @@ void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bas
     }
     return;
   }
-  const PeriodLanes period = lanes_of(periods);
+  const PeriodLanes period(periods);
   ChordLanes<D> lanes;
   if (size == 2) {
     if constexpr (equal) {

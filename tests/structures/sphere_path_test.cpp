@@ -30,9 +30,9 @@ Basis basis_at(const M& motion, const BeadRange& range, double time) {
   return smallest_sphere(balls, range.first, range.last).basis;
 }
 
-/// Whether the bead's certificate against the basis holds from `now` to the end of the step.
+/// Of the bead's certificate against the basis, from `now` on.
 template <Radii radii, class M>
-bool holds(const M& motion, const Basis& basis, BeadId bead, bool inside, const Instant& now) {
+Failure failure_of(const M& motion, const Basis& basis, BeadId bead, bool inside, const Instant& now) {
   StageCounts stages;
   int orientation = 0;
   if (basis.size == M::dimension + 1) {
@@ -42,10 +42,16 @@ bool holds(const M& motion, const Basis& basis, BeadId bead, bool inside, const 
   }
   return visit_membership<radii>(
       motion, std::span(basis.begin(), basis.end()), bead, inside, orientation, [&](const auto& certificate) {
-        const Failure::Kind kind =
-            first_failure<Exact>(certificate, motion, now, Birth::unknown, stages).kind;
-        return kind != Failure::Kind::later && kind != Failure::Kind::at_birth;
+        return first_failure<Exact>(certificate, motion, now, Birth::unknown, stages);
       });
+}
+
+/// Whether it holds from `now` to the end of the step, or to an earlier time.
+template <Radii radii, class M>
+bool holds(const M& motion, const Basis& basis, BeadId bead, bool inside, const Instant& now, double to = 1) {
+  const Failure failure = failure_of<radii>(motion, basis, bead, inside, now);
+  return failure.kind != Failure::Kind::at_birth &&
+         (failure.kind != Failure::Kind::later || (to < 1 && failure.time.upper > to));
 }
 
 struct Tally {
@@ -156,24 +162,6 @@ TEST(SpherePath, ScalesWithTheInput) {
   }
 }
 
-/// Whether the bead's certificate against the basis holds in a period that begins at `now`.
-template <Radii radii, class M>
-bool holds_until(const M& motion, const Basis& basis, BeadId bead, const Instant& now, double to) {
-  StageCounts stages;
-  int orientation = 0;
-  if (basis.size == M::dimension + 1) {
-    Orientation<M::dimension> certificate;
-    std::copy(basis.begin(), basis.end(), certificate.beads.begin());
-    orientation = sign_just_after<Exact>(certificate, motion, now, stages);
-  }
-  return visit_membership<radii>(
-      motion, std::span(basis.begin(), basis.end()), bead, true, orientation, [&](const auto& certificate) {
-        const Failure failure = first_failure<Exact>(certificate, motion, now, Birth::unknown, stages);
-        return failure.kind != Failure::Kind::at_birth &&
-               (failure.kind != Failure::Kind::later || failure.time.upper > to);
-      });
-}
-
 template <class M, Radii radii>
 void judge_parts(unsigned seed, Tally& tally) {
   Random random(seed);
@@ -192,13 +180,18 @@ void judge_parts(unsigned seed, Tally& tally) {
   BeadPaths<M::dimension> paths;
   paths.set(motion);
   const auto count = static_cast<BeadId>(motion.bead_count());
-  const double from = 0.125 * (seed % 4);
+  const double from = seed % 4 == 0 ? 0 : std::uniform_real_distribution<double>(0, 0.9)(random);
   const Basis basis = basis_at(motion, {0, count - 1}, from);
   std::array<Basis, 4> bases;
   std::array<Period, 4> periods;
   std::array<SphereChord<M::dimension>, 4> chords;
   bases.fill(basis);
-  for (std::size_t i = 0; i < 4; ++i) periods[i] = {from + 0.125 * i, from + 0.125 * (i + 1)};
+  // Ends that are rounded, the last of them that of the step in half of all cases.
+  const double end = seed % 2 == 0 ? 1 : from + 0.5 * (1 - from);
+  for (std::size_t i = 0; i < 4; ++i) {
+    periods[i].from = i == 0 ? from : periods[i - 1].to;
+    periods[i].to = i == 3 ? end : from + 0.25 * static_cast<double>(i + 1) * (end - from);
+  }
   sphere_chords<M::dimension>(paths, bases, periods, chords);
   if (!std::all_of(chords.begin(), chords.end(), [](const auto& chord) { return chord.proved; })) return;
   ++tally.proved;
@@ -214,7 +207,7 @@ void judge_parts(unsigned seed, Tally& tally) {
       ++tally.inside;
       ASSERT_FALSE(basis.contains(b)) << "basis beads lie on the sphere";
       if (stay) {
-        EXPECT_TRUE((holds_until<radii>(motion, basis, b, Instant(from), periods.back().to)))
+        EXPECT_TRUE((holds<radii>(motion, basis, b, true, Instant(from), periods.back().to)))
             << "bead " << b << ", seed " << seed;
       }
     }
