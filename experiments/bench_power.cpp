@@ -45,7 +45,7 @@ constexpr std::array techniques{
     Technique{"activate", UpdateTechnique::activate}, Technique{"auto", UpdateTechnique::automatic}};
 
 double seconds_by(UpdateTechnique technique, const Input& input) {
-  const auto update = make_diagram_update(technique);
+  const auto update = make_diagram_update<3>(technique);
   update->build(input.frames[0], input.weights);
   return processor_seconds_of([&] {
     for (std::size_t k = 1; k < input.frames.size(); ++k)

@@ -17,15 +17,16 @@ namespace kds {
 namespace {
 
 /// The frames of one stride, with the static diagrams that all techniques must arrive at.
+template <int Dimension>
 struct Frames {
   Frames(const Scene& scene, bool keep_diagrams) {
     for (std::size_t k = 0; k < scene.frame_count(); ++k) {
       centers.push_back(scene.centers(k));
       weights.push_back(scene.weights(k));
     }
-    StaticTriangulation<3> before;
+    StaticTriangulation<Dimension> before;
     for (std::size_t k = 0; k < centers.size(); ++k) {
-      StaticTriangulation<3> now = static_triangulation<3>(centers[k], weights[k]);
+      auto now = static_triangulation<Dimension>(centers[k], weights[k]);
       if (k > 0) compare(before, now, k);
       if (keep_diagrams) diagrams.push_back(now);
       before = std::move(now);
@@ -35,21 +36,22 @@ struct Frames {
   UpdateTask task;
   std::vector<Eigen::Matrix3Xd> centers;
   std::vector<std::vector<double>> weights;
-  std::vector<StaticTriangulation<3>> diagrams;
+  std::vector<StaticTriangulation<Dimension>> diagrams;
 
  private:
-  void compare(const StaticTriangulation<3>& before, const StaticTriangulation<3>& now, std::size_t k) {
+  void compare(const StaticTriangulation<Dimension>& before, const StaticTriangulation<Dimension>& now,
+               std::size_t k) {
     ++task.steps;
     task.cells += now.cells.size();
     task.hidden += now.hidden.size();
-    std::vector<CellBeads<3>> changed;
+    std::vector<CellBeads<Dimension>> changed;
     std::set_symmetric_difference(before.cells.begin(), before.cells.end(), now.cells.begin(),
                                   now.cells.end(), std::back_inserter(changed));
     task.cells_changed += changed.size();
-    if (before.dimension < 3) return;
-    RegularTriangulation<3> triangulation;
+    if (before.dimension < Dimension) return;
+    RegularTriangulation<Dimension> triangulation;
     triangulation.build(centers[k - 1], weights[k - 1]);
-    const PlacedFaults faults = placed_faults(triangulation, Placement<3>(centers[k], weights[k]));
+    const PlacedFaults faults = placed_faults(triangulation, Placement<Dimension>(centers[k], weights[k]));
     task.certificates += faults.tested;
     task.failed += faults.failed();
   }
@@ -80,11 +82,12 @@ UpdateTechnique technique_of(std::string_view name) {
   return UpdateTechnique::automatic;
 }
 
+template <int Dimension>
 class Comparison {
  public:
-  Comparison(const std::vector<Trajectory>& necklaces, const std::vector<double>& radii,
+  Comparison(std::vector<Trajectory> necklaces, const std::vector<double>& radii,
              const UpdateOptions& options, std::size_t stride)
-      : necklaces_(strided(necklaces, stride)),
+      : necklaces_(std::move(necklaces)),
         radii_(radii),
         audit_(options.audit == AuditMode::frames),
         frames_(Scene(necklaces_, radii), audit_) {
@@ -117,7 +120,7 @@ class Comparison {
   /// Counts and audits in the first round only: all are alike.
   double run(UpdateRow& row, bool first) const {
     const UpdateTechnique technique = technique_of(row.technique);
-    const auto update = make_diagram_update(technique);
+    const auto update = make_diagram_update<Dimension>(technique);
     update->build(frames_.centers[0], frames_.weights[0]);
     double seconds = 0;
     UpdateCounts sum;
@@ -131,7 +134,7 @@ class Comparison {
       sum.rebuilds += counts.rebuilds;
       if (first && audit_) {
         ++row.audits;
-        audit_update(
+        audit_update<Dimension>(
             update->diagram(), frames_.diagrams[k], [&] { return update->fault(); },
             fmt::format("{} at stride {}, frame {} of those left", row.technique, row.task.stride, k));
       }
@@ -183,18 +186,24 @@ class Comparison {
   std::vector<Trajectory> necklaces_;
   const std::vector<double>& radii_;
   bool audit_;
-  Frames frames_;
+  Frames<Dimension> frames_;
   std::vector<UpdateRow> rows_;
   std::vector<std::vector<double>> seconds_;
 };
 
 }  // namespace
 
-void audit_update(const StaticTriangulation<3>& found, const StaticTriangulation<3>& expected,
+template <int Dimension>
+void audit_update(const StaticTriangulation<Dimension>& found, const StaticTriangulation<Dimension>& expected,
                   const std::function<std::optional<std::string>()>& fault, const std::string& what) {
   if (found.cells == expected.cells && found.hidden == expected.hidden) return;
   if (const auto wrong = fault()) throw AuditError(fmt::format("{}: audit failed: {}", what, *wrong));
 }
+
+template void audit_update(const StaticTriangulation<2>&, const StaticTriangulation<2>&,
+                           const std::function<std::optional<std::string>()>&, const std::string&);
+template void audit_update(const StaticTriangulation<3>&, const StaticTriangulation<3>&,
+                           const std::function<std::optional<std::string>()>&, const std::string&);
 
 std::vector<UpdateRow> compare_updates(const std::vector<Trajectory>& necklaces,
                                        const std::vector<double>& radii, const UpdateOptions& options,
@@ -204,12 +213,19 @@ std::vector<UpdateRow> compare_updates(const std::vector<Trajectory>& necklaces,
   std::vector<UpdateRow> rows;
   std::size_t done = 0;
   for (const std::size_t stride : options.strides) {
-    Comparison comparison(necklaces, radii, options, stride);
-    for (std::size_t round = 0; round < options.rounds; ++round) {
-      comparison.round();
-      progress(++done, options.strides.size() * options.rounds);
+    std::vector<Trajectory> some = strided(necklaces, stride);
+    const auto compare = [&](auto comparison) {
+      for (std::size_t round = 0; round < options.rounds; ++round) {
+        comparison.round();
+        progress(++done, options.strides.size() * options.rounds);
+      }
+      for (UpdateRow& row : comparison.rows()) rows.push_back(std::move(row));
+    };
+    if (Scene(some, radii).dimension() == 2) {
+      compare(Comparison<2>(std::move(some), radii, options, stride));
+    } else {
+      compare(Comparison<3>(std::move(some), radii, options, stride));
     }
-    for (UpdateRow& row : comparison.rows()) rows.push_back(std::move(row));
   }
   return rows;
 }

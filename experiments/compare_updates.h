@@ -48,10 +48,12 @@ struct UpdateRow {
 
 /// Throws AuditError, beginning with `what`, where a diagram is not the static one and `fault` says what is
 /// wrong with it: degenerate positions have several.
-void audit_update(const StaticTriangulation<3>& found, const StaticTriangulation<3>& expected,
+template <int Dimension>
+void audit_update(const StaticTriangulation<Dimension>& found, const StaticTriangulation<Dimension>& expected,
                   const std::function<std::optional<std::string>()>& fault, const std::string& what);
 
-/// Throws InputError where a stride leaves fewer than two frames, AuditError where a diagram is wrong.
+/// In the plane where the scene is planar. Throws InputError where a stride leaves fewer than two frames,
+/// AuditError where a diagram is wrong.
 [[nodiscard]] std::vector<UpdateRow> compare_updates(
     const std::vector<Trajectory>& necklaces, const std::vector<double>& radii, const UpdateOptions& options,
     const std::function<void(std::size_t, std::size_t)>& progress);

@@ -37,7 +37,7 @@ Json input_json(const UpdateOptions& options, const std::vector<Trajectory>& nec
   for (const Trajectory& necklace : necklaces) frames = std::max(frames, necklace.frames.size());
   const auto [least, most] = std::minmax_element(radii.begin(), radii.end());
   return {{"files", files}, {"beads", radii.size()}, {"frames", frames},
-          {"dimension", 3}, {"radius_min", *least},  {"radius_max", *most}};
+          {"dimension", Scene(necklaces, radii).dimension()}, {"radius_min", *least},  {"radius_max", *most}};
 }
 
 Json settings_json(const UpdateOptions& options) {

@@ -5,24 +5,28 @@
 
 namespace kds {
 
-std::unique_ptr<DiagramUpdate> make_diagram_update(UpdateTechnique technique) {
+template <int Dimension>
+std::unique_ptr<DiagramUpdate<Dimension>> make_diagram_update(UpdateTechnique technique) {
   switch (technique) {
     case UpdateTechnique::rebuild:
-      return std::make_unique<Rebuild>();
+      return std::make_unique<Rebuild<Dimension>>();
     case UpdateTechnique::reinsert:
-      return std::make_unique<Reinsertion>(Choice::any);
+      return std::make_unique<Reinsertion<Dimension>>(Choice::any);
     case UpdateTechnique::greedy:
-      return std::make_unique<Reinsertion>(Choice::most_failed);
+      return std::make_unique<Reinsertion<Dimension>>(Choice::most_failed);
     case UpdateTechnique::kinetic:
-      return std::make_unique<KineticUpdate>();
+      return std::make_unique<KineticUpdate<BezierMotion<Dimension, 1>>>();
     case UpdateTechnique::lifted:
-      return std::make_unique<LiftedUpdate>();
+      return std::make_unique<KineticUpdate<LiftedMotion<Dimension>>>();
     case UpdateTechnique::activate:
-      return std::make_unique<Activation>();
+      return std::make_unique<Activation<Dimension>>();
     case UpdateTechnique::automatic:
       break;
   }
-  return std::make_unique<AutomaticUpdate>();
+  return std::make_unique<AutomaticUpdate<Dimension>>();
 }
+
+template std::unique_ptr<DiagramUpdate<2>> make_diagram_update(UpdateTechnique);
+template std::unique_ptr<DiagramUpdate<3>> make_diagram_update(UpdateTechnique);
 
 }  // namespace kds

@@ -1,6 +1,7 @@
 #pragma once
-// The power diagram in space from one frame to the next, by several techniques. All end in the static diagram
-// of the next frame, cells and hidden beads, exactly; they differ in what they look at on the way:
+// The power diagram from one frame to the next, in the plane or in space, by several techniques. All end in
+// the static diagram of the next frame, cells and hidden beads, exactly; they differ in what they look at on
+// the way:
 //
 //   rebuild    CGAL builds it anew.
 //   reinsert   Beads of failed certificates, one of each, are taken out until what is left holds at the old
@@ -13,9 +14,9 @@
 //              comparison of techniques for updating Delaunay triangulations, 2004).
 //   automatic  Rebuilds, or moves all beads or some, as the share of failed certificates in a sample tells.
 //
-// Certificates are tested exactly: signs of power tests and orientations. A triangulation in space is never
-// flipped towards positions that no motion leads to. Positions: centres and weights (squared lengths) in
-// doubles, as many beads as at the start.
+// Certificates are tested exactly: signs of power tests and orientations. A triangulation is never flipped
+// towards positions that no motion leads to. Positions: centres and weights (squared lengths) in doubles, as
+// many beads as at the start; centres have three rows, in the plane the third is not looked at.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -40,6 +41,7 @@ struct UpdateCounts {
   std::uint64_t rebuilds = 0;   ///< whole diagrams built anew, asked for or not
 };
 
+template <int Dimension>
 class DiagramUpdate {
  public:
   virtual ~DiagramUpdate() = default;
@@ -48,13 +50,14 @@ class DiagramUpdate {
   /// To the next frame.
   virtual UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) = 0;
   /// At the frame reached.
-  [[nodiscard]] virtual StaticTriangulation<3> diagram() const = 0;
+  [[nodiscard]] virtual StaticTriangulation<Dimension> diagram() const = 0;
   /// What is wrong with it by the definition, exactly, or nothing: for degenerate frames, whose diagram is
   /// not the only one.
   [[nodiscard]] virtual std::optional<std::string> fault() const = 0;
 };
 
-[[nodiscard]] std::unique_ptr<DiagramUpdate> make_diagram_update(UpdateTechnique technique);
+template <int Dimension>
+[[nodiscard]] std::unique_ptr<DiagramUpdate<Dimension>> make_diagram_update(UpdateTechnique technique);
 
 /// Above this share of beads taken out it is cheaper to rebuild: so reinsert and greedy do.
 inline constexpr double most_taken_out = 0.1;

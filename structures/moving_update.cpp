@@ -22,14 +22,16 @@ std::optional<std::string> MovingDiagram<M>::fault() const {
 template <Motion M>
 void MovingDiagram<M>::set_end(BeadId bead, const Eigen::Matrix3Xd& centers,
                                std::span<const double> weights) {
-  for (int axis = 0; axis < 3; ++axis) machine_->motion.set_coordinate(bead, 1, axis, centers(axis, bead));
+  for (int axis = 0; axis < dimension; ++axis)
+    machine_->motion.set_coordinate(bead, 1, axis, centers(axis, bead));
   machine_->motion.set_weight(bead, 1, weights[bead]);
 }
 
 template <Motion M>
 void MovingDiagram<M>::rest_at_end(BeadId bead) {
   M& motion = machine_->motion;
-  for (int axis = 0; axis < 3; ++axis) motion.set_coordinate(bead, 0, axis, motion.coordinate(bead, 1, axis));
+  for (int axis = 0; axis < dimension; ++axis)
+    motion.set_coordinate(bead, 0, axis, motion.coordinate(bead, 1, axis));
   motion.set_weight(bead, 0, motion.weight(bead, 1));
 }
 
@@ -40,13 +42,13 @@ void MovingDiagram<M>::load(const Eigen::Matrix3Xd& centers, std::span<const dou
     rest_at_end(b);
     set_end(b, centers, weights);
     if constexpr (lifted<M>) {
-      for (int axis = 0; axis < 3; ++axis)
+      for (int axis = 0; axis < dimension; ++axis)
         moved[axis] += machine_->motion.coordinate(b, 1, axis) - machine_->motion.coordinate(b, 0, axis);
     }
   }
   if constexpr (lifted<M>) {  // any vector makes a motion, the mean dips weights the least
     typename M::Vector drift{};
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < dimension; ++axis) {
       const double mean = moved[axis] / static_cast<double>(weights.size());
       drift[static_cast<std::size_t>(axis)] = std::isfinite(mean) ? mean : 0;
     }
@@ -81,7 +83,7 @@ void MovingDiagram<M>::rebuild(const Eigen::Matrix3Xd& centers, std::span<const 
 /// All beads of failed certificates.
 template <Motion M>
 void MovingDiagram<M>::activate(const PlacedFaults& faults, std::vector<char>& moves) const {
-  const RegularTriangulation<3>& t = machine_->power.triangulation();
+  const RegularTriangulation<dimension>& t = machine_->power.triangulation();
   const auto add = [&](BeadId bead) {
     if (bead != infinite_bead) moves[bead] = 1;
   };
@@ -101,8 +103,9 @@ namespace {
 
 /// The finite cell that a bead is in where beads are put, on a walk from some cell; no_cell where there is
 /// none, or the walk gets lost among inverted cells.
-CellId placed_host(const RegularTriangulation<3>& t, BeadId bead, CellId cell,
-                   const Placement<3>& placement) {
+template <int Dimension>
+CellId placed_host(const RegularTriangulation<Dimension>& t, BeadId bead, CellId cell,
+                   const Placement<Dimension>& placement) {
   for (std::size_t step = 0; step <= t.cells().size(); ++step) {
     const auto& v = t.cells()[cell].vertex;
     if (const auto at = std::find(v.begin(), v.end(), infinite_bead); at != v.end()) {
@@ -111,10 +114,10 @@ CellId placed_host(const RegularTriangulation<3>& t, BeadId bead, CellId cell,
       continue;
     }
     int leaves_by = -1;
-    for (int i = 0; i <= 3 && leaves_by < 0; ++i) {
+    for (int i = 0; i <= Dimension && leaves_by < 0; ++i) {
       auto part = v;
       part[static_cast<std::size_t>(i)] = bead;
-      if (placed_sign(Orientation<3>(part, 1), placement) < 0) leaves_by = i;
+      if (placed_sign(Orientation<Dimension>(part, 1), placement) < 0) leaves_by = i;
     }
     if (leaves_by < 0) return cell;
     cell = cell_of(t.beyond(cell, leaves_by));
@@ -127,9 +130,9 @@ CellId placed_host(const RegularTriangulation<3>& t, BeadId bead, CellId cell,
 /// Hidden beads, wherever they are hidden, and the beads of the cell they will be in if it does not hide
 /// them.
 template <Motion M>
-void MovingDiagram<M>::hidden_that_show(const Placement<3>& next, std::vector<char>& moves) {
+void MovingDiagram<M>::hidden_that_show(const Placement<dimension>& next, std::vector<char>& moves) {
   PowerDiagram<M, Filtered>& power = machine_->power;
-  const RegularTriangulation<3>& t = power.triangulation();
+  const RegularTriangulation<dimension>& t = power.triangulation();
   const auto move_cell = [&](CellId cell) {
     for (const BeadId b : t.cells()[cell].vertex)
       if (b != infinite_bead) moves[b] = 1;
@@ -149,7 +152,7 @@ void MovingDiagram<M>::hidden_that_show(const Placement<3>& next, std::vector<ch
 
 /// Cells that hidden beads are in now.
 template <Motion M>
-void MovingDiagram<M>::house_hidden(const Placement<3>& next) {
+void MovingDiagram<M>::house_hidden(const Placement<dimension>& next) {
   PowerDiagram<M, Filtered>& power = machine_->power;
   for (const HiddenBead& hidden : power.hidden().with_hosts()) {
     const CellId near = hidden.host == no_cell ? power.some_finite_cell() : hidden.host;
@@ -162,7 +165,7 @@ void MovingDiagram<M>::move_some(const Eigen::Matrix3Xd& centers, std::span<cons
                                  UpdateCounts& counts) {
   PowerDiagram<M, Filtered>& power = machine_->power;
   triangulation().make_mirror();
-  const Placement<3> next(centers, weights);
+  const Placement<dimension> next(centers, weights);
   PlacedFaults faults = power.is_solid() ? placed_faults(triangulation(), next) : PlacedFaults{};
   counts.tested = faults.tested;
   counts.failed = faults.failed();
@@ -210,50 +213,59 @@ void MovingDiagram<M>::move_some(const Eigen::Matrix3Xd& centers, std::span<cons
   power.reach_frame(true);
 }
 
-template class MovingDiagram<BezierMotion<3, 1>>;
-template class MovingDiagram<LiftedMotion<3>>;
-
-UpdateCounts KineticUpdate::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+template <Motion M>
+UpdateCounts KineticUpdate<M>::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
   UpdateCounts counts;
-  move_all(centers, weights, counts);
+  this->move_all(centers, weights, counts);
   return counts;
 }
 
-UpdateCounts LiftedUpdate::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+template <int Dimension>
+UpdateCounts Activation<Dimension>::advance(const Eigen::Matrix3Xd& centers,
+                                            std::span<const double> weights) {
   UpdateCounts counts;
-  move_all(centers, weights, counts);
+  this->move_some(centers, weights, counts);
   return counts;
 }
 
-UpdateCounts Activation::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
-  UpdateCounts counts;
-  move_some(centers, weights, counts);
-  return counts;
-}
-
-UpdateCounts AutomaticUpdate::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+template <int Dimension>
+UpdateCounts AutomaticUpdate<Dimension>::advance(const Eigen::Matrix3Xd& centers,
+                                                 std::span<const double> weights) {
   // Measured (kds bench power): at about this share of failed certificates moving takes as long as
   // rebuilding. A sample near every eighth bead, of four facets each, costs a hundredth of it.
   constexpr double worth_rebuilding = 0.165;
   constexpr std::size_t every = 8, every_at_first = 2, most_sampled = 64;
   constexpr double remembered = 0.9;
   UpdateCounts counts;
-  if (!is_solid()) {
-    rebuild(centers, weights, counts);
+  if (!this->is_solid()) {
+    this->rebuild(centers, weights, counts);
     return counts;
   }
-  const auto sample = triangulation().sample(
-      centers, weights, std::max(tested_ == 0 ? every_at_first : every, bead_count() / most_sampled));
+  const auto sample = this->triangulation().sample(
+      centers, weights, std::max(tested_ == 0 ? every_at_first : every, this->bead_count() / most_sampled));
   counts.tested = sample.tested;
   counts.failed = sample.failed;
   tested_ = remembered * tested_ + static_cast<double>(sample.tested);
   failed_ = remembered * failed_ + static_cast<double>(sample.failed);
   if (failed_ > worth_rebuilding * tested_) {
-    rebuild(centers, weights, counts);
+    this->rebuild(centers, weights, counts);
   } else {
-    move_all(centers, weights, counts);
+    this->move_all(centers, weights, counts);
   }
   return counts;
 }
+
+template class MovingDiagram<BezierMotion<2, 1>>;
+template class MovingDiagram<BezierMotion<3, 1>>;
+template class MovingDiagram<LiftedMotion<2>>;
+template class MovingDiagram<LiftedMotion<3>>;
+template class KineticUpdate<BezierMotion<2, 1>>;
+template class KineticUpdate<BezierMotion<3, 1>>;
+template class KineticUpdate<LiftedMotion<2>>;
+template class KineticUpdate<LiftedMotion<3>>;
+template class Activation<2>;
+template class Activation<3>;
+template class AutomaticUpdate<2>;
+template class AutomaticUpdate<3>;
 
 }  // namespace kds

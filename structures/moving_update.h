@@ -18,10 +18,14 @@ namespace kds {
 
 /// A power diagram on a clock of its own that goes from frame to frame.
 template <Motion M>
-class MovingDiagram : public DiagramUpdate {
+class MovingDiagram : public DiagramUpdate<M::dimension> {
  public:
+  static constexpr int dimension = M::dimension;
+
   void build(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
-  [[nodiscard]] StaticTriangulation<3> diagram() const override { return machine_->power.at_frame(false); }
+  [[nodiscard]] StaticTriangulation<dimension> diagram() const override {
+    return machine_->power.at_frame(false);
+  }
   [[nodiscard]] std::optional<std::string> fault() const override;
 
  protected:
@@ -31,7 +35,7 @@ class MovingDiagram : public DiagramUpdate {
   /// missing, and where most beads would have to move at once.
   void move_some(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
   void rebuild(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
-  [[nodiscard]] RegularTriangulation<3>& triangulation() { return machine_->power.triangulation(); }
+  [[nodiscard]] RegularTriangulation<dimension>& triangulation() { return machine_->power.triangulation(); }
   [[nodiscard]] bool is_solid() const { return machine_->power.is_solid(); }
   [[nodiscard]] std::size_t bead_count() const { return machine_->motion.bead_count(); }
 
@@ -48,30 +52,28 @@ class MovingDiagram : public DiagramUpdate {
   void rest_at_end(BeadId bead);
   void run_step(UpdateCounts& counts);
   void activate(const PlacedFaults& faults, std::vector<char>& moves) const;
-  void hidden_that_show(const Placement<3>& next, std::vector<char>& moves);
-  void house_hidden(const Placement<3>& next);
+  void hidden_that_show(const Placement<dimension>& next, std::vector<char>& moves);
+  void house_hidden(const Placement<dimension>& next);
 
   std::unique_ptr<Machine> machine_;
 };
 
-class KineticUpdate final : public MovingDiagram<BezierMotion<3, 1>> {
+template <Motion M>
+class KineticUpdate final : public MovingDiagram<M> {
  public:
   UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
 };
 
-class LiftedUpdate final : public MovingDiagram<LiftedMotion<3>> {
- public:
-  UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
-};
-
-class Activation final : public MovingDiagram<BezierMotion<3, 1>> {
+template <int Dimension>
+class Activation final : public MovingDiagram<BezierMotion<Dimension, 1>> {
  public:
   UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
 };
 
 /// What it has seen fail counts the less the longer ago: motion goes on much as before, and a sample of one
 /// frame is small.
-class AutomaticUpdate final : public MovingDiagram<BezierMotion<3, 1>> {
+template <int Dimension>
+class AutomaticUpdate final : public MovingDiagram<BezierMotion<Dimension, 1>> {
  public:
   UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
 
@@ -79,7 +81,9 @@ class AutomaticUpdate final : public MovingDiagram<BezierMotion<3, 1>> {
   double tested_ = 0, failed_ = 0;
 };
 
+extern template class MovingDiagram<BezierMotion<2, 1>>;
 extern template class MovingDiagram<BezierMotion<3, 1>>;
+extern template class MovingDiagram<LiftedMotion<2>>;
 extern template class MovingDiagram<LiftedMotion<3>>;
 
 }  // namespace kds

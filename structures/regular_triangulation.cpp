@@ -57,10 +57,10 @@ void RegularTriangulation<Dimension>::forget_hidden_points() {
     for (const auto c : Cgal::Types::all_cells(cgal_->triangulation)) {
       while (c->hidden_points_begin() != c->hidden_points_end()) c->unhide_point(c->hidden_points_begin());
     }
-  } else if (cgal_->triangulation.number_of_hidden_vertices() > 0) {
-    std::vector<Beads> cells;
-    for (const Cell& cell : cells_) cells.push_back(cell.vertex);
-    assign(cgal_->vertex.size(), cells);
+  } else {
+    std::vector<typename Cgal::VertexHandle> hidden;
+    for (const auto v : cgal_->triangulation.hidden_vertex_handles()) hidden.push_back(v);
+    for (const auto v : hidden) cgal_->triangulation.remove(v);
   }
 }
 

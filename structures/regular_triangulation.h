@@ -153,16 +153,17 @@ class RegularTriangulation {
   /// The cell with these vertices in any order.
   [[nodiscard]] std::optional<CellId> find_cell(const Beads& beads) const;
 
-  /// In space, by CGAL: takes vertices away, other cells fill the holes; what stays must span the space.
-  void take_out(std::span<const BeadId> beads) requires(Dimension == 3);
-  /// In space, by CGAL: puts beads in at these positions; the points of all others are set already. Others
-  /// may lose their vertices, and some of these get none: hidden beads are those that are no vertex.
+  /// By CGAL: takes vertices away, other cells fill the holes; what stays must span the space. Only
+  /// mirror_changes, put_in and is_solid may follow.
+  void take_out(std::span<const BeadId> beads);
+  /// By CGAL: puts beads in at these positions; the points of all others are set already. Others may lose
+  /// their vertices, and some of these get none: hidden beads are those that are no vertex.
   void put_in(std::span<const BeadId> beads, const Eigen::Matrix3Xd& centers,
-              std::span<const double> weights) requires(Dimension == 3);
-  /// Whether there are cells, as there are not where all vertices lie in one plane.
-  [[nodiscard]] bool is_solid() const requires(Dimension == 3);
+              std::span<const double> weights);
+  /// Whether there are cells, as there are not where all vertices lie in one plane (on one line).
+  [[nodiscard]] bool is_solid() const;
   /// Brings the mirror up to date after these; returns the cells that are new.
-  std::vector<CellId> mirror_changes() requires(Dimension == 3);
+  std::vector<CellId> mirror_changes();
 
   /// How many of some facets, near beads `stride` apart, would fail their test at other positions. Needs no
   /// mirror.

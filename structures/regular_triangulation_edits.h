@@ -127,7 +127,7 @@ std::vector<CellId> RegularTriangulation<Dimension>::replace(std::span<const Cel
 }
 
 template <int Dimension>
-void RegularTriangulation<Dimension>::take_out(std::span<const BeadId> beads) requires(Dimension == 3) {
+void RegularTriangulation<Dimension>::take_out(std::span<const BeadId> beads) {
   for (const BeadId bead : beads) {
     cgal_->triangulation.remove(cgal_->vertex[bead]);
     cgal_->vertex[bead] = {};
@@ -136,7 +136,7 @@ void RegularTriangulation<Dimension>::take_out(std::span<const BeadId> beads) re
 
 template <int Dimension>
 void RegularTriangulation<Dimension>::put_in(std::span<const BeadId> beads, const Eigen::Matrix3Xd& centers,
-                                             std::span<const double> weights) requires(Dimension == 3) {
+                                             std::span<const double> weights) {
   auto& triangulation = cgal_->triangulation;
   typename Cgal::VertexHandle last = triangulation.infinite_vertex();
   for (const BeadId bead : beads) {
@@ -152,15 +152,17 @@ void RegularTriangulation<Dimension>::put_in(std::span<const BeadId> beads, cons
 }
 
 template <int Dimension>
-bool RegularTriangulation<Dimension>::is_solid() const requires(Dimension == 3) {
+bool RegularTriangulation<Dimension>::is_solid() const {
   return cgal_->triangulation.dimension() == Dimension;
 }
 
 template <int Dimension>
-std::vector<CellId> RegularTriangulation<Dimension>::mirror_changes() requires(Dimension == 3) {
+std::vector<CellId> RegularTriangulation<Dimension>::mirror_changes() {
   std::fill(live_.begin(), live_.end(), 0);
   std::vector<typename Cgal::CellHandle> made;
   for (const auto c : Cgal::Types::all_cells(cgal_->triangulation)) {
+    // In the plane CGAL goes on using a cell for other beads: it is new.
+    if (c->info() != no_cell && beads_of<Dimension>(c) != cells_[c->info()].vertex) c->info() = no_cell;
     if (c->info() == no_cell) {
       made.push_back(c);
     } else {
@@ -175,7 +177,10 @@ std::vector<CellId> RegularTriangulation<Dimension>::mirror_changes() requires(D
   }
   std::vector<CellId> ids;
   for (const auto c : made) ids.push_back(cgal_->new_id(c));
-  for (const CellId id : ids) enliven(id);
+  for (const CellId id : ids) {
+    enliven(id);
+    cells_[id] = {};  // the notes of a cell that was there before, too
+  }
   cgal_->mirror(made, cells_);
   count_cells();
   return ids;

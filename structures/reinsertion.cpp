@@ -14,12 +14,15 @@ namespace kds {
 namespace {
 
 /// The finite beads of a failed certificate; places left over hold infinity.
-using Suspects = std::array<BeadId, 5>;
+template <int Dimension>
+using Suspects = std::array<BeadId, Dimension + 2>;
 
-std::vector<Suspects> suspects_of(const RegularTriangulation<3>& triangulation, const PlacedFaults& faults) {
-  std::vector<Suspects> all;
+template <int Dimension>
+std::vector<Suspects<Dimension>> suspects_of(const RegularTriangulation<Dimension>& triangulation,
+                                             const PlacedFaults& faults) {
+  std::vector<Suspects<Dimension>> all;
   const auto add = [&](CellId cell, BeadId apex) {
-    Suspects beads{};
+    Suspects<Dimension> beads{};
     const auto& v = triangulation.cells()[cell].vertex;
     std::copy(v.begin(), v.end(), beads.begin());
     beads.back() = apex;
@@ -34,6 +37,7 @@ std::vector<Suspects> suspects_of(const RegularTriangulation<3>& triangulation, 
   return all;
 }
 
+template <class Suspects>
 std::vector<BeadId> one_of_each(const std::vector<Suspects>& failed) {
   std::vector<BeadId> chosen;
   for (const Suspects& beads : failed) {
@@ -45,6 +49,7 @@ std::vector<BeadId> one_of_each(const std::vector<Suspects>& failed) {
   return chosen;
 }
 
+template <class Suspects>
 std::vector<BeadId> most_failed_first(const std::vector<Suspects>& failed, std::size_t bead_count) {
   std::vector<std::vector<std::uint32_t>> of_bead(bead_count);
   for (std::uint32_t f = 0; f < failed.size(); ++f) {
@@ -84,32 +89,38 @@ std::vector<BeadId> most_failed_first(const std::vector<Suspects>& failed, std::
 
 }  // namespace
 
-void StaticUpdate::build(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
-  if (weights.size() < 4)
-    throw InputError("the power diagram needs at least 4 beads, the input has " +
-                     std::to_string(weights.size()));
+template <int Dimension>
+void StaticUpdate<Dimension>::build(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  if (weights.size() <= Dimension) {
+    throw InputError("the power diagram needs at least " + std::to_string(Dimension + 1) +
+                     " beads, the input has " + std::to_string(weights.size()));
+  }
   rebuild(centers, weights);
 }
 
-void StaticUpdate::rebuild(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+template <int Dimension>
+void StaticUpdate<Dimension>::rebuild(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
   auto built = triangulation_.build_bare(centers, weights);
   hidden_ = std::move(built.hidden);
   affine_dimension_ = built.dimension;
-  placement_ = Placement<3>(centers, weights);
+  placement_ = Placement<Dimension>(centers, weights);
 }
 
-void StaticUpdate::find_hidden() {
+template <int Dimension>
+void StaticUpdate<Dimension>::find_hidden() {
   hidden_.clear();
   for (BeadId b = 0; b < placement_.bead_count(); ++b)
     if (!triangulation_.is_vertex(b)) hidden_.push_back(b);
 }
 
-StaticTriangulation<3> StaticUpdate::diagram() const {
-  if (affine_dimension_ < 3) return {{}, hidden_, affine_dimension_};
-  return {triangulation_.finite_cells(), hidden_, 3};
+template <int Dimension>
+StaticTriangulation<Dimension> StaticUpdate<Dimension>::diagram() const {
+  if (affine_dimension_ < Dimension) return {{}, hidden_, affine_dimension_};
+  return {triangulation_.finite_cells(), hidden_, Dimension};
 }
 
-std::optional<std::string> StaticUpdate::fault() const {
+template <int Dimension>
+std::optional<std::string> StaticUpdate<Dimension>::fault() const {
   if (!triangulation_.has_mirror()) return std::nullopt;  // as CGAL built it
   std::vector<HiddenBead> hidden;
   for (const BeadId b : hidden_) hidden.push_back({b, no_cell});
@@ -117,27 +128,32 @@ std::optional<std::string> StaticUpdate::fault() const {
                              [this](const auto& function) { return placed_sign(function, placement_); });
 }
 
-UpdateCounts Rebuild::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
-  rebuild(centers, weights);
+template <int Dimension>
+UpdateCounts Rebuild<Dimension>::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  this->rebuild(centers, weights);
   return {.rebuilds = 1};
 }
 
-std::vector<BeadId> Reinsertion::choose(const PlacedFaults& faults) const {
-  const std::vector<Suspects> failed = suspects_of(triangulation_, faults);
-  return choice_ == Choice::any ? one_of_each(failed) : most_failed_first(failed, placement_.bead_count());
+template <int Dimension>
+std::vector<BeadId> Reinsertion<Dimension>::choose(const PlacedFaults& faults) const {
+  const auto failed = suspects_of(this->triangulation_, faults);
+  return choice_ == Choice::any ? one_of_each(failed)
+                                : most_failed_first(failed, this->placement_.bead_count());
 }
 
-UpdateCounts Reinsertion::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+template <int Dimension>
+UpdateCounts Reinsertion<Dimension>::advance(const Eigen::Matrix3Xd& centers,
+                                             std::span<const double> weights) {
   UpdateCounts counts;
   const auto give_up = [&] {
-    rebuild(centers, weights);
+    this->rebuild(centers, weights);
     counts.rebuilds = 1;
     return counts;
   };
-  if (affine_dimension_ < 3) return give_up();
-  triangulation_.make_mirror();
-  const Placement<3> next(centers, weights);
-  PlacedFaults faults = placed_faults(triangulation_, next);
+  if (this->affine_dimension_ < Dimension) return give_up();
+  this->triangulation_.make_mirror();
+  const Placement<Dimension> next(centers, weights);
+  PlacedFaults faults = placed_faults(this->triangulation_, next);
   counts.tested = faults.tested;
   counts.failed = faults.failed();
   // Where a test is zero another triangulation is as good, and CGAL would take its own: those beads too.
@@ -146,23 +162,30 @@ UpdateCounts Reinsertion::advance(const Eigen::Matrix3Xd& centers, std::span<con
   while (!faults.none_strictly()) {
     const std::vector<BeadId> chosen = choose(faults);
     counts.removed = out.size() + chosen.size();
-    if (counts.removed > most || counts.removed + hidden_.size() + 8 > weights.size()) return give_up();
-    triangulation_.take_out(chosen);
+    if (counts.removed > most || counts.removed + this->hidden_.size() + 8 > weights.size()) return give_up();
+    this->triangulation_.take_out(chosen);
     out.insert(out.end(), chosen.begin(), chosen.end());
-    if (!triangulation_.is_solid()) return give_up();
-    const std::vector<CellId> made = triangulation_.mirror_changes();
-    faults = placed_faults(triangulation_, std::span<const CellId>(made), next);
+    if (!this->triangulation_.is_solid()) return give_up();
+    const std::vector<CellId> made = this->triangulation_.mirror_changes();
+    faults = placed_faults(this->triangulation_, std::span<const CellId>(made), next);
   }
-  triangulation_.set_points(centers, weights);
-  out.insert(out.end(), hidden_.begin(), hidden_.end());  // any of them may have come back
+  this->triangulation_.set_points(centers, weights);
+  out.insert(out.end(), this->hidden_.begin(), this->hidden_.end());  // any of them may have come back
   std::sort(out.begin(), out.end());
-  placement_ = next;
+  this->placement_ = next;
   if (!out.empty()) {
-    triangulation_.put_in(out, centers, weights);
-    static_cast<void>(triangulation_.mirror_changes());
-    find_hidden();
+    this->triangulation_.put_in(out, centers, weights);
+    static_cast<void>(this->triangulation_.mirror_changes());
+    this->find_hidden();
   }
   return counts;
 }
+
+template class StaticUpdate<2>;
+template class StaticUpdate<3>;
+template class Rebuild<2>;
+template class Rebuild<3>;
+template class Reinsertion<2>;
+template class Reinsertion<3>;
 
 }  // namespace kds

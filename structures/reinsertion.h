@@ -9,23 +9,25 @@
 namespace kds {
 
 /// What the updates by CGAL share. Hidden beads are those without a vertex.
-class StaticUpdate : public DiagramUpdate {
+template <int Dimension>
+class StaticUpdate : public DiagramUpdate<Dimension> {
  public:
   void build(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
-  [[nodiscard]] StaticTriangulation<3> diagram() const override;
+  [[nodiscard]] StaticTriangulation<Dimension> diagram() const override;
   [[nodiscard]] std::optional<std::string> fault() const override;
 
  protected:
   void rebuild(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
   void find_hidden();
 
-  RegularTriangulation<3> triangulation_;
-  std::vector<BeadId> hidden_;  ///< ascending
-  Placement<3> placement_;      ///< of the frame reached
-  int affine_dimension_ = 3;
+  RegularTriangulation<Dimension> triangulation_;
+  std::vector<BeadId> hidden_;      ///< ascending
+  Placement<Dimension> placement_;  ///< of the frame reached
+  int affine_dimension_ = Dimension;
 };
 
-class Rebuild final : public StaticUpdate {
+template <int Dimension>
+class Rebuild final : public StaticUpdate<Dimension> {
  public:
   UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
 };
@@ -33,7 +35,8 @@ class Rebuild final : public StaticUpdate {
 /// Which bead of a failed certificate is taken out: any, or one of most failed certificates.
 enum class Choice : std::uint8_t { any, most_failed };
 
-class Reinsertion final : public StaticUpdate {
+template <int Dimension>
+class Reinsertion final : public StaticUpdate<Dimension> {
  public:
   explicit Reinsertion(Choice choice) : choice_(choice) {}
   UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;

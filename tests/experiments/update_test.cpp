@@ -185,6 +185,27 @@ TEST(Update, BeadsThatHideOthers) {
   EXPECT_GT(json["rows"][0]["hidden"], 20);
 }
 
+TEST(Update, PlanarTrajectoriesInThePlane) {
+  const ScratchDirectory directory;
+  const std::string chain = (directory / "chain.xyz").string();
+  ASSERT_EQ(run_program({"generate", "grid", "--dimension", "2", "--beads", "100", "--frames", "6",
+                         "--motion", "wander", "--step", "0.1", "-o", chain})
+                .code,
+            0);
+  const ProgramRun run =
+      run_program({"update", chain, "--strides", "1,2", "--audit", "frames", "--rounds", "1", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["input"]["dimension"], 2);
+  ASSERT_EQ(json["rows"].size(), 2 * kTechniques.size());
+  for (const Json& row : json["rows"]) {
+    EXPECT_EQ(row["audits"], row["steps"]);
+    // At most two triangles a bead.
+    EXPECT_LT(row["cells"], row["steps"].get<double>() * 200);
+    EXPECT_GT(row["cells"], row["steps"].get<double>() * 100);
+  }
+}
+
 TEST(Update, RefusesBeforeItReads) {
   const ScratchDirectory directory;
   const std::string input = directory.file("a.xyz", "2\n\nX 0 0 0\nX 1 0 0\n2\n\nX 0 0 0\nX 1 0 0\n");

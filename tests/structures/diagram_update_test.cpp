@@ -30,9 +30,10 @@ std::string name_of(UpdateTechnique technique) {
 }
 
 /// Runs over all frames and checks at each; the sum of what was done.
-UpdateCounts run(UpdateTechnique technique, const std::vector<Frame>& frames) {
+template <int Dimension>
+UpdateCounts run_in(UpdateTechnique technique, const std::vector<Frame>& frames) {
   SCOPED_TRACE(name_of(technique));
-  const auto update = make_diagram_update(technique);
+  const auto update = make_diagram_update<Dimension>(technique);
   UpdateCounts sum;
   for (std::size_t k = 0; k < frames.size(); ++k) {
     SCOPED_TRACE(testing::Message() << "frame " << k);
@@ -47,13 +48,17 @@ UpdateCounts run(UpdateTechnique technique, const std::vector<Frame>& frames) {
       sum.events += counts.events;
       sum.rebuilds += counts.rebuilds;
     }
-    const auto expected = static_triangulation<3>(frames[k].centers, frames[k].weights);
+    const auto expected = static_triangulation<Dimension>(frames[k].centers, frames[k].weights);
     const auto found = update->diagram();
     if (found.cells != expected.cells || found.hidden != expected.hidden) {
       EXPECT_EQ(update->fault().value_or("none"), "none");
     }
   }
   return sum;
+}
+
+UpdateCounts run(UpdateTechnique technique, const std::vector<Frame>& frames) {
+  return run_in<3>(technique, frames);
 }
 
 std::vector<Frame> frames_of(const std::vector<Space>& steps) {
@@ -192,10 +197,60 @@ TEST(DiagramUpdate, FramesInOnePlaneOnTheWay) {
     run(technique, frames);
 }
 
+TEST(DiagramUpdateInPlane, AllTechniquesReachTheStaticDiagram) {
+  for (const double step : {0.001, 0.02, 0.3}) {
+    for (const UpdateTechnique technique : all_techniques)
+      run_in<2>(technique, random_frames(1, 150, 6, step, 0, false));
+  }
+}
+
+TEST(DiagramUpdateInPlane, HiddenBeadsWeightsThatMoveAndBeadsThatComeBack) {
+  std::uint64_t hidden = 0, removed = 0, rebuilds = 0;
+  for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+    for (const double step : {0.0005, 0.002, 0.05}) {
+      const auto frames = random_frames(seed, 120, 8, step, 0.02, seed != 1);
+      for (const Frame& f : frames) hidden += static_triangulation<2>(f.centers, f.weights).hidden.size();
+      for (const UpdateTechnique technique : all_techniques) {
+        const UpdateCounts counts = run_in<2>(technique, frames);
+        if (technique == UpdateTechnique::greedy) {
+          removed += counts.removed;
+          rebuilds += counts.rebuilds;
+        }
+      }
+    }
+  }
+  EXPECT_GT(hidden, 500U);
+  // Beads were taken out and put in, not always too many.
+  EXPECT_GT(removed, 100U);
+  EXPECT_LT(rebuilds, 60U);
+}
+
+TEST(DiagramUpdateInPlane, DegenerateFrames) {
+  // Whole coordinates: many beads on one circle, flat hulls, coincident beads; once all on one line.
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    std::mt19937 random(seed);
+    std::vector<Frame> frames;
+    for (int k = 0; k < 5; ++k) {
+      const Points points = random_grid_points(random, 40, seed < 4 ? 8 : 5);
+      frames.push_back({Eigen::Matrix3Xd(3, 40), std::vector<double>(40, 0.0)});
+      for (Eigen::Index b = 0; b < 40; ++b) {
+        const auto& point = points[static_cast<std::size_t>(b)];
+        frames.back().centers.col(b) << point[0], point[1], 0;
+        if (seed % 2 == 0) frames.back().weights[static_cast<std::size_t>(b)] = static_cast<double>(b % 3);
+      }
+      if (k == 2 && seed == 3) frames.back().centers.row(1).setConstant(1);
+    }
+    for (const UpdateTechnique technique : all_techniques) run_in<2>(technique, frames);
+  }
+}
+
 TEST(DiagramUpdate, TooFewBeads) {
   const Eigen::Matrix3Xd three = Eigen::Matrix3Xd::Identity(3, 3);
   for (const UpdateTechnique technique : all_techniques)
-    EXPECT_THROW(make_diagram_update(technique)->build(three, std::vector<double>(3)), InputError);
+    EXPECT_THROW(make_diagram_update<3>(technique)->build(three, std::vector<double>(3)), InputError);
+  for (const UpdateTechnique technique : all_techniques)
+    EXPECT_THROW(make_diagram_update<2>(technique)->build(three.leftCols(2), std::vector<double>(2)),
+                 InputError);
 }
 
 }  // namespace
