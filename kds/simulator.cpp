@@ -55,6 +55,18 @@ void Simulator::leave_step(bool last) {
   finish_step(last);
 }
 
+bool Simulator::try_step(std::uint64_t most, bool last) {
+  enter_step();
+  if (run_events(nullptr, most)) {
+    finish_step(last);
+    return true;
+  }
+  clear_step();
+  watch_.charge(Stopwatch::stopped);
+  ++step_;
+  return false;
+}
+
 void Simulator::begin_step() {
   now_ = Instant(0);
   present_ = {};
@@ -62,11 +74,15 @@ void Simulator::begin_step() {
   if (audits_ != AuditMode::none && step_ == 0) audit(Dyadic(0.0));
 }
 
-void Simulator::finish_step(bool last) {
+void Simulator::clear_step() {
   now_ = Instant(1);
   present_ = {};
   for (FailureSource* table : tables_) table->clear();
   queue_.clear();
+}
+
+void Simulator::finish_step(bool last) {
+  clear_step();
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     watch_.charge(s + 1);
     structures_[s]->finish_step(last);
@@ -98,7 +114,7 @@ void Simulator::replay_step(std::span<const Replayed> events, bool last) {
   finish_step(last);
 }
 
-void Simulator::run_events(const Dyadic* until) {
+bool Simulator::run_events(const Dyadic* until, std::uint64_t most) {
   const bool alone = structures_.size() == 1;  // then the engine's time is the structure's
   watch_.charge(alone ? 1 : nobody);
   while (true) {
@@ -107,7 +123,8 @@ void Simulator::run_events(const Dyadic* until) {
         present_.source != nullptr && !queue_.empty() && order_.compare_times(present_, queue_.top()) == 0;
     if (!tied) ++moment_;
     retire_present();
-    if (queue_.empty() || (until != nullptr && is_after(queue_.top(), *until))) break;
+    if (queue_.empty() || (until != nullptr && is_after(queue_.top(), *until))) return true;
+    if (most-- == 0) return false;
     present_ = queue_.top();
     queue_.pop();
     auto& source = static_cast<FailureSource&>(*present_.source);

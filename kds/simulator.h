@@ -2,6 +2,7 @@
 // One clock and one queue for all structures of a run. Knows no geometry.
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,6 +51,9 @@ class Simulator {
   void enter_step();
   void run_until(const Dyadic& time);
   void leave_step(bool last);
+  /// As run_step, but not beyond `most` failures: if there are more the step is given up, and false. Then
+  /// the structures stand somewhere within it, are not asked to finish, and must be built anew at its end.
+  [[nodiscard]] bool try_step(std::uint64_t most, bool last);
 
   /// A logged event, to be made again; `where` names it in messages.
   struct Replayed {
@@ -83,9 +87,11 @@ class Simulator {
   static constexpr std::size_t nobody = 0;  // the stopwatch's lane of the engine; structures follow
 
   void begin_step();
+  void clear_step();
   void finish_step(bool last);
-  /// Those until a time, or all of the step.
-  void run_events(const Dyadic* until);
+  static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
+  /// Those until a time, or all of the step; false where `most` were not enough.
+  bool run_events(const Dyadic* until, std::uint64_t most = no_limit);
   [[nodiscard]] static bool is_after(const ScheduledFailure& failure, const Dyadic& time);
   void advance(ScheduledFailure* next);
   void retire_present();

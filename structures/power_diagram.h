@@ -41,7 +41,7 @@ class PowerDiagram final : public KineticStructure {
 
  public:
   static constexpr int dimension = M::dimension;
-  static constexpr unsigned finest_grid = 200;  // binary places of a rebuild's time
+  static constexpr unsigned coarsest_grid = 8, finest_grid = 200;  // binary places of a rebuild's time
   using Beads = CellBeads<dimension>;
 
   PowerDiagram(Simulator& simulator, const M& motion)
@@ -106,6 +106,7 @@ class PowerDiagram final : public KineticStructure {
       if (moving_.empty()) tolerances_.start_step(motion_, triangulation_);
     }
     rebuilds_in_step_ = 0;
+    coarsest_that_worked_ = coarsest_grid;
     guarded_ = false;  // the guards of the step before are gone
     hidden_guards_.clear();
     if (affine_dimension_ < dimension || (flat_ && is_wrong_just_after())) {
@@ -425,6 +426,7 @@ class PowerDiagram final : public KineticStructure {
   int affine_dimension_ = dimension;  // of the beads; below, no cells
   bool flat_ = false;                 // some cell is flat at the frame just reached
   int rebuilds_in_step_ = 0;
+  unsigned coarsest_that_worked_ = coarsest_grid;  // in this step: blocked flips come in crowds
   Doubt doubt_ = Doubt::none;
   std::vector<char> absent_;  // of each bead, if any was ever left out
   std::size_t absent_count_ = 0;

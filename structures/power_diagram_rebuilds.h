@@ -166,7 +166,7 @@ void PowerDiagram<M, K>::rebuild_at_first_time_that_works() {
   drop_all();
   present_ = {};
   bool always_flat = true;
-  for (unsigned bits = 8; bits <= finest_grid; bits += bits < 32 ? 4 : 12) {
+  for (unsigned bits = coarsest_that_worked_; bits <= finest_grid; bits += bits < 32 ? 4 : 12) {
     const Dyadic time = next_on_grid(simulator_.now().exact(), bits);
     if (!(time < Dyadic(1.0))) continue;
     always_flat = !assign_static(time);
@@ -175,6 +175,7 @@ void PowerDiagram<M, K>::rebuild_at_first_time_that_works() {
     watch_all();
     if (doubt_ != Doubt::wrong && nothing_fails_until(time)) {
       settled();
+      coarsest_that_worked_ = bits;
       record_rebuild(time);
       return;
     }

@@ -38,6 +38,24 @@ TEST_F(SimulatorTest, DispatchesInTheOrderOfTime) {
   EXPECT_EQ(a.cleared, 1);
 }
 
+TEST_F(SimulatorTest, AStepOfTooManyFailuresIsGivenUp) {
+  a.on_start = [&] {
+    a.schedule("3/4", falling(3, 4), 1);
+    a.schedule("1/3", falling(1, 3), 2);
+    a.schedule("1/2", falling(1, 2), 3);
+  };
+  simulator.build();
+  EXPECT_FALSE(simulator.try_step(2, false));
+  EXPECT_THAT(log, ElementsAre("a build", "a start", "a 1/3", "a 1/2"));
+  EXPECT_EQ(a.cleared, 1);
+  EXPECT_EQ(simulator.step(), 1U);
+  // The next step is as any other.
+  log.clear();
+  EXPECT_TRUE(simulator.try_step(3, true));
+  EXPECT_THAT(log, ElementsAre("a start", "a 1/3", "a 1/2", "a 3/4", "a finish last"));
+  EXPECT_EQ(simulator.step(), 2U);
+}
+
 TEST_F(SimulatorTest, NowIsTheBracketOfTheEvent) {
   a.on_start = [&] {
     EXPECT_EQ(simulator.now().lower(), 0);
