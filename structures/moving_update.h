@@ -77,6 +77,7 @@ class AutomaticUpdate final : public MovingDiagram<BezierMotion<3, 1>> {
 
  private:
   double tested_ = 0, failed_ = 0;
+  unsigned skip_ = 0, next_skip_ = 0;  // updates without a sample
 };
 
 extern template class MovingDiagram<BezierMotion<3, 1>>;
