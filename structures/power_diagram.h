@@ -242,6 +242,10 @@ class PowerDiagram final : public KineticStructure {
     }
     static constexpr std::uint32_t mask = (1U << 30U) - 1;
   };
+  static constexpr std::uint32_t resting_note =
+      static_cast<std::uint32_t>(About::power) << 30U |
+      ((static_cast<std::uint32_t>(Guard::never) - static_cast<std::uint32_t>(Guard::violated)) &
+       FacetGuard::mask);
 
   // Building.
 
@@ -288,7 +292,12 @@ class PowerDiagram final : public KineticStructure {
     return FacetGuard::of(triangulation_.cells()[cell].note[static_cast<std::size_t>(i)]);
   }
   /// As this cell has it alone.
-  void set_own_guard(CellId cell, int i, FacetGuard value) { triangulation_.note(cell, i) = value.packed(); }
+  void set_own_guard(CellId cell, int i, FacetGuard value) {
+    triangulation_.note(cell, i) = value.packed();
+    if (notes_ == Notes::any || value.packed() == resting_note) return;
+    append_little(noted_, cell);
+    if (8 * noted_.size() > triangulation_.cells().size()) notes_ = Notes::any;  // then it does not pay
+  }
   void set_guard(CellId cell, int i, FacetGuard value) {
     set_own_guard(cell, i, value);
     const auto [other, k] = across(cell, i);
@@ -313,7 +322,8 @@ class PowerDiagram final : public KineticStructure {
   template <class Certificate>
   void give_up(CertificateTable<Certificate, M, K>& table, Guard guard);
   void watch_all();
-  void watch_moving(std::uint32_t resting);
+  void watch_moving();
+  void note_resting();
   template <class Visit>
   void for_all_facets(Visit visit) const {
     for (CellId cell = 0; cell < triangulation_.cells().size(); ++cell) {
@@ -405,6 +415,7 @@ class PowerDiagram final : public KineticStructure {
            present_.type == static_cast<std::uint32_t>(CertificateType::orientation);
   }
   void watch_around(std::span<const CellId> cells);
+  void fetch_around(CellId cell, int facet) const;
 
   Simulator& simulator_;
   const M& motion_;
@@ -415,6 +426,11 @@ class PowerDiagram final : public KineticStructure {
   CertificateTable<Orientation<dimension>, M, K> departures_;
   RegularTriangulation<dimension> triangulation_;
   bool guarded_ = false;
+  /// What the notes of cells say: anything, or that all facets rest but perhaps those of `noted_`.
+  enum class Notes : std::uint8_t { any, resting };
+  Notes notes_ = Notes::any;
+  std::vector<CellId> noted_;
+  FacetCover cover_;
   FacetTolerances<M> tolerances_;
   std::vector<char> moving_;  // of each bead; empty: all move
   std::vector<CellId> flipped_;
