@@ -1,7 +1,7 @@
 #pragma once
 // Which power tests of a cell's beads and the beads beyond its facets are positive all over a step, by their
-// Bernstein coefficients in float: eight cells at once, and what the tests of a cell share is worked out
-// once. What is not found positive is not known. No allocation.
+// Bernstein coefficients in float: eight cells at once (four where the processor has no AVX2), and what the
+// tests of a cell share is worked out once. What is not found positive is not known. No allocation.
 //
 // The bound of the errors. Let m be the largest difference in a row of the determinant, rounded to float, M
 // the largest of all rows, and weights differ by no more than m^2. Any number computed on the way has from
@@ -9,9 +9,9 @@
 // M. Its size is Q, the product of those m and, with a lift, of M; sums are of numbers of one size. So the
 // magnitudes (motions/magnitude.h, 24 digits), each times its Q, bound them all, and coefficient k errs by at
 // most coefficient[k] times M times the product of all m. Claimed where M <= 2^10 and that product is at
-// least 2^-60: then nothing overflows, and Q >= 2^-60 / M^4 >= 2^-100, so that what an operation that
-// underflows errs more, 2^-150, is less than 2^-25 of the roundoff 2^-24 Q it is charged with anyway. The
-// constants are inflated by 2^-8, for that and for the comparison.
+// least 2^-60, in the unit of length that the caller chose: then nothing overflows, and Q >= 2^-60 / M^4 >=
+// 2^-100, so that what an operation that underflows errs more, 2^-150, is less than 2^-25 of the roundoff
+// 2^-24 Q it is charged with anyway. The constants are inflated by 2^-8, for that and for the comparison.
 
 #include <array>
 #include <cstddef>
@@ -50,11 +50,12 @@ auto derive_float_power_bound() {
 template <Motion M>
 inline const auto float_power_bound = derive_float_power_bound<M>();
 
+template <class FloatLanes>
 class RowSizes {
  public:
   /// A row that was made of this view.
   template <Motion M>
-  [[gnu::always_inline]] void take(const FloatLanesView<M>& view) {
+  [[gnu::always_inline]] void take(const FloatLanesView<M, FloatLanes>& view) {
     const FloatLanes& length = view.largest_length();
     product_ = product_ * length;
     largest_ = FloatLanes::max(largest_, length);
@@ -63,52 +64,101 @@ class RowSizes {
   /// M times the product of all rows' m, or a NaN that fails every comparison where the bound is not proved.
   [[nodiscard, gnu::always_inline]] FloatLanes error_scale() const {
     const FloatLanes scale = product_ * largest_;
-    const FloatLanes::Mask proved =
+    const typename FloatLanes::Mask proved =
         weights_small_ & (largest_ <= FloatLanes(0x1p10F)) & (scale >= FloatLanes(0x1p-60F));
     return proved ? scale.v : FloatLanes(__builtin_nanf("")).v;
   }
 
  private:
   FloatLanes product_{1.0F}, largest_{0.0F};
-  FloatLanes::Mask weights_small_ = product_ > largest_;  // so far
+  typename FloatLanes::Mask weights_small_ = product_ > largest_;  // so far
 };
 
 }  // namespace detail
 
 /// Eight cells: the beads of each, then those beyond its facets, in the order of the beads opposite.
 template <Motion M>
-using CellsInLanes = typename FloatLanesView<M>::template Tuples<2 * (M::dimension + 1)>;
+using CellsInLanes = std::array<std::array<BeadId, 2 * (M::dimension + 1)>, FloatLanes::width>;
 
 /// Of each cell one bit a facet: whether its power test, of the cell and the bead beyond, is certainly
 /// positive.
-template <Motion M>
-[[KDS_LANES_TARGETS]] void positive_cells(const M& motion, const CellsInLanes<M>& cells,
-                                          std::array<std::uint32_t, FloatLanes::width>& positive) {
+using PositiveBits = std::array<std::uint32_t, FloatLanes::width>;
+
+namespace detail {
+
+/// As many cells from the first on as there are lanes.
+template <class FloatLanes, Motion M>
+[[gnu::always_inline]] inline void find_positive_cells(const M& motion, const CellsInLanes<M>& all_cells,
+                                                       std::size_t first, const LengthUnit& unit,
+                                                       PositiveBits& positive) {
+  using View = FloatLanesView<M, FloatLanes>;
   constexpr std::size_t vertices = M::dimension + 1;
-  const auto& bound = detail::float_power_bound<M>;
-  detail::RowSizes cell_sizes;
+  const auto& bound = float_power_bound<M>;
+  const auto* cells = &all_cells[first];
+  RowSizes<FloatLanes> cell_sizes;
   const auto row_of = [&](std::size_t place) __attribute__((always_inline)) {
-    const FloatLanesView<M> view(motion, cells, place);
-    const PowerRow<FloatLanesView<M>> row(view, 1, 0);
+    const View view(motion, cells, place, unit);
+    const PowerRow<View> row(view, 1, 0);
     cell_sizes.take(view);
     return row;
   };
-  const auto cofactors = detail::power_cofactors<FloatLanesView<M>>(row_of);
-  FloatLanes::Mask bits{};
+  const auto cofactors = power_cofactors<View>(row_of);
+  typename FloatLanes::Mask bits{};
   for (std::size_t facet = 0; facet < vertices; ++facet) {
-    const FloatLanesView<M> view(motion, cells, vertices + facet);
-    const PowerRow<FloatLanesView<M>> row(view, 1, 0);
+    const View view(motion, cells, vertices + facet, unit);
+    const PowerRow<View> row(view, 1, 0);
     const auto function = cofactors.with(row);
-    detail::RowSizes sizes = cell_sizes;
+    RowSizes<FloatLanes> sizes = cell_sizes;
     sizes.take(view);
     const FloatLanes scale = sizes.error_scale();
-    FloatLanes::Mask all = scale >= scale;
+    typename FloatLanes::Mask all = scale >= scale;
     for (std::size_t k = 0; k < function.scaled.size(); ++k)
       all &= function.scaled[k] > FloatLanes(bound[k]) * scale;
     bits |= all & (1 << facet);
   }
   for (std::size_t lane = 0; lane < FloatLanes::width; ++lane)
-    positive[lane] = static_cast<std::uint32_t>(bits[lane]);
+    positive[first + lane] = static_cast<std::uint32_t>(bits[lane]);
 }
+
+}  // namespace detail
+
+/// On any processor: four at a time.
+template <Motion M>
+[[gnu::flatten, gnu::noinline]] void positive_cells_anywhere(const M& motion, const CellsInLanes<M>& cells,
+                                                             const LengthUnit& unit, PositiveBits& positive) {
+  for (std::size_t first = 0; first < FloatLanes::width; first += 4)
+    detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, first, unit, positive);
+}
+
+// As KDS_LANES_TARGETS (motions/lanes.h), but the code for other processors is another.
+#if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+
+template <Motion M>
+[[gnu::target("avx2"), gnu::flatten, gnu::noinline]] void positive_cells_at_once(const M& motion,
+                                                                                 const CellsInLanes<M>& cells,
+                                                                                 const LengthUnit& unit,
+                                                                                 PositiveBits& positive) {
+  detail::find_positive_cells<FloatLanes>(motion, cells, 0, unit, positive);
+}
+
+template <Motion M>
+void positive_cells(const M& motion, const CellsInLanes<M>& cells, const LengthUnit& unit,
+                    PositiveBits& positive) {
+  if (__builtin_cpu_supports("avx2") != 0) {
+    positive_cells_at_once(motion, cells, unit, positive);
+  } else {
+    positive_cells_anywhere(motion, cells, unit, positive);
+  }
+}
+
+#else
+
+template <Motion M>
+void positive_cells(const M& motion, const CellsInLanes<M>& cells, const LengthUnit& unit,
+                    PositiveBits& positive) {
+  positive_cells_anywhere(motion, cells, unit, positive);
+}
+
+#endif
 
 }  // namespace kds

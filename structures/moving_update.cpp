@@ -59,6 +59,11 @@ void MovingDiagram<M>::load(const Eigen::Matrix3Xd& centers, std::span<const dou
 template <Motion M>
 void MovingDiagram<M>::run_step(UpdateCounts& counts) {
   machine_->simulator.run_step(true);
+  add_up(counts);
+}
+
+template <Motion M>
+void MovingDiagram<M>::add_up(UpdateCounts& counts) {
   counts.events += machine_->power.statistics.events_per_step.back();
   machine_->power.statistics.events_per_step.clear();
   counts.rebuilds += std::exchange(machine_->power.statistics.rebuilds, 0);
@@ -70,6 +75,19 @@ void MovingDiagram<M>::move_all(const Eigen::Matrix3Xd& centers, std::span<const
   load(centers, weights);
   counts.activated += weights.size();
   run_step(counts);
+}
+
+template <Motion M>
+bool MovingDiagram<M>::try_to_move_all(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                                       UpdateCounts& counts) {
+  load(centers, weights);
+  counts.activated += weights.size();
+  // A rebuild takes the time of about two events a bead in space, of one in the plane.
+  constexpr std::uint64_t most_of_a_bead = dimension == 3 ? 3 : 2;
+  const std::uint64_t most = most_of_a_bead * weights.size();
+  const bool moved = machine_->simulator.try_step(most, true);
+  add_up(counts);
+  return moved;
 }
 
 template <Motion M>
@@ -231,26 +249,47 @@ UpdateCounts Activation<Dimension>::advance(const Eigen::Matrix3Xd& centers,
 template <int Dimension>
 UpdateCounts AutomaticUpdate<Dimension>::advance(const Eigen::Matrix3Xd& centers,
                                                  std::span<const double> weights) {
-  // Measured (kds bench power): at about this share of failed certificates moving takes as long as
-  // rebuilding. A sample near every eighth bead, of four facets each, costs a hundredth of it.
-  constexpr double worth_rebuilding = 0.165;
+  // Moving takes as long as rebuilding at about these shares of failed certificates: kds bench power,
+  // November 2026, AMD EPYC (Zen 4, 1 MB of second cache). Moving goes from place to place and pays for
+  // memory out of reach, where beads are many.
+  constexpr double worth_rebuilding_few = 0.185, worth_rebuilding_many = 0.165;
+  constexpr std::size_t many = 4096;
+  // A sample near every eighth bead, of four facets each, costs a hundredth of it. Where the answer is clear
+  // the next samples are further and further apart.
   constexpr std::size_t every = 8, every_at_first = 2, most_sampled = 64;
-  constexpr double remembered = 0.9;
+  constexpr double remembered = 0.9, clearly = 0.2, very_clearly = 0.5;
+  constexpr unsigned most_skipped = 7;
   UpdateCounts counts;
   if (!this->is_solid()) {
     this->rebuild(centers, weights, counts);
     return counts;
   }
-  const auto sample = this->triangulation().sample(
-      centers, weights, std::max(tested_ == 0 ? every_at_first : every, this->bead_count() / most_sampled));
-  counts.tested = sample.tested;
-  counts.failed = sample.failed;
-  tested_ = remembered * tested_ + static_cast<double>(sample.tested);
-  failed_ = remembered * failed_ + static_cast<double>(sample.failed);
-  if (failed_ > worth_rebuilding * tested_) {
-    this->rebuild(centers, weights, counts);
+  const double limit = this->bead_count() < many ? worth_rebuilding_few : worth_rebuilding_many;
+  if (skip_ > 0) {
+    --skip_;
   } else {
-    this->move_all(centers, weights, counts);
+    const auto sample = this->triangulation().sample(
+        centers, weights, std::max(tested_ == 0 ? every_at_first : every, this->bead_count() / most_sampled));
+    counts.tested = sample.tested;
+    counts.failed = sample.failed;
+    const auto tested = static_cast<double>(sample.tested), failed = static_cast<double>(sample.failed);
+    const auto is_clear = [&](double some, double all, double by) {
+      return std::abs(some - limit * all) > by * limit * all;
+    };
+    // Another motion than before.
+    if ((failed > limit * tested) != (failed_ > limit * tested_) && is_clear(failed, tested, very_clearly))
+      tested_ = failed_ = 0;
+    tested_ = remembered * tested_ + tested;
+    failed_ = remembered * failed_ + failed;
+    skip_ = next_skip_ = is_clear(failed_, tested_, clearly) ? std::min(2 * next_skip_ + 1, most_skipped) : 0;
+  }
+  if (failed_ > limit * tested_) {
+    this->rebuild(centers, weights, counts);
+  } else if (!this->try_to_move_all(centers, weights, counts)) {
+    // Much happens on the way that is undone again: the frames do not tell.
+    this->rebuild(centers, weights, counts);
+    failed_ = tested_;
+    skip_ = next_skip_ = most_skipped;
   }
   return counts;
 }

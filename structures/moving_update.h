@@ -31,6 +31,10 @@ class MovingDiagram : public DiagramUpdate<M::dimension> {
  protected:
   /// All beads move, in one step.
   void move_all(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
+  /// The same, but given up, and false, where many more events come than a rebuild takes time for: it is to
+  /// be rebuilt then.
+  [[nodiscard]] bool try_to_move_all(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                                     UpdateCounts& counts);
   /// Only beads that must, in as many steps as it takes. Falls back on move_all where cells are flat or
   /// missing, and where most beads would have to move at once.
   void move_some(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
@@ -51,6 +55,7 @@ class MovingDiagram : public DiagramUpdate<M::dimension> {
   void set_end(BeadId bead, const Eigen::Matrix3Xd& centers, std::span<const double> weights);
   void rest_at_end(BeadId bead);
   void run_step(UpdateCounts& counts);
+  void add_up(UpdateCounts& counts);
   void activate(const PlacedFaults& faults, std::vector<char>& moves) const;
   void hidden_that_show(const Placement<dimension>& next, std::vector<char>& moves);
   void house_hidden(const Placement<dimension>& next);
@@ -79,6 +84,7 @@ class AutomaticUpdate final : public MovingDiagram<BezierMotion<Dimension, 1>> {
 
  private:
   double tested_ = 0, failed_ = 0;
+  unsigned skip_ = 0, next_skip_ = 0;  // updates without a sample
 };
 
 extern template class MovingDiagram<BezierMotion<2, 1>>;

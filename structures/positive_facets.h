@@ -3,8 +3,10 @@
 // lie in the cells, in lanes (certificates/positive_cells.h), without a certificate made for each. What is
 // not found positive here is for the certificates.
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,6 +19,13 @@ namespace kds {
 /// One bit for each facet of a cell.
 template <int Dimension>
 inline constexpr unsigned all_facets = (2U << Dimension) - 1;
+
+/// How many facets; without a call where the processor it is compiled for need not be able to count.
+template <int Dimension>
+[[nodiscard]] constexpr unsigned count_of(unsigned facets) {
+  constexpr std::uint64_t counts = 0x4332322132212110;  // a digit each
+  return static_cast<unsigned>(counts >> (4 * (facets & all_facets<Dimension>)) & 0xfU);
+}
 
 /// Facets of a finite cell to finite ones, one bit each; of an infinite cell none.
 template <int Dimension>
@@ -34,7 +43,7 @@ template <int Dimension>
 /// one is left out where none of its neighbours is, in space a third of them.
 class FacetCover {
  public:
-  explicit FacetCover(std::size_t cells) : left_out_(cells, 0) {}
+  void start(std::size_t cells) { left_out_.assign(cells, 0); }
 
   /// Facets to look at from a cell, one bit each; asked of all that count, ascending.
   template <int Dimension>
@@ -55,12 +64,41 @@ class FacetCover {
   std::vector<std::uint8_t> left_out_;
 };
 
+/// The binary exponent of a length that cells have in the motion's step: of the longest side at its start, by
+/// a median over some cells. 0 where there is nothing to be measured.
 template <Motion M>
+[[nodiscard]] int exponent_of_length(const M& motion,
+                                     std::span<const TriangulationCell<M::dimension>> cells) {
+  constexpr std::size_t looked_at = 15;
+  std::array<double, looked_at> longest;
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < looked_at && n < cells.size(); ++n) {
+    const auto& v = cells[n * cells.size() / looked_at].vertex;
+    double most = 0;
+    for (const BeadId b : v) {
+      if (b == infinite_bead || v[0] == infinite_bead) continue;
+      for (int axis = 0; axis < M::dimension; ++axis)
+        most = std::max(most, std::abs(motion.coordinate(b, 0, axis) - motion.coordinate(v[0], 0, axis)));
+    }
+    if (most > 0 && std::isfinite(most)) longest[count++] = most;
+  }
+  if (count == 0) return 0;
+  const auto middle = longest.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(longest.begin(), middle, longest.begin() + static_cast<std::ptrdiff_t>(count));
+  constexpr int most = 500;  // so that its square is a double
+  return std::clamp(std::ilogb(*middle), -most, most);
+}
+
+/// Processors to look for: the best there is, or what any has.
+enum class Processor : std::uint8_t { best, any };
+
+template <Motion M, Processor processor = Processor::best>
 class PositiveFacets {
  public:
   static constexpr int dimension = M::dimension;
 
-  explicit PositiveFacets(const M& motion) : motion_(motion) {}
+  /// Lengths are about 2^exponent: where they are a thousand times as long or as short, nothing is found.
+  PositiveFacets(const M& motion, int exponent) : motion_(motion), unit_(exponent) {}
 
   /// Those facets of a cell, one bit each, that are wanted, of finite_facets. Calls `doubt` with the facets,
   /// these or earlier ones, that are not found positive.
@@ -88,10 +126,14 @@ class PositiveFacets {
  private:
   template <class Doubt>
   void flush(Doubt doubt) {
-    std::array<std::uint32_t, FloatLanes::width> positive;
-    positive_cells(motion_, beads_, positive);
+    PositiveBits positive;
+    if constexpr (processor == Processor::best) {
+      positive_cells(motion_, beads_, unit_, positive);
+    } else {
+      positive_cells_anywhere(motion_, beads_, unit_, positive);
+    }
     for (std::size_t lane = 0; lane < waiting_; ++lane) {
-      count_ += static_cast<unsigned>(std::popcount(wanted_[lane] & positive[lane]));
+      count_ += count_of<dimension>(wanted_[lane] & positive[lane]);
       for (unsigned left = wanted_[lane] & ~positive[lane]; left != 0; left &= left - 1)
         doubt(facet_id(cells_[lane], std::countr_zero(left)));
     }
@@ -99,6 +141,7 @@ class PositiveFacets {
   }
 
   const M& motion_;
+  LengthUnit unit_;
   CellsInLanes<M> beads_{};
   std::array<CellId, FloatLanes::width> cells_{};
   std::array<unsigned, FloatLanes::width> wanted_{};

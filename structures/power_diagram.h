@@ -139,8 +139,10 @@ class PowerDiagram final : public KineticStructure {
   [[nodiscard]] std::span<const CellId> flipped() const { return flipped_; }
   /// Whether cells are neither missing nor flat, so that flips alone lead on.
   [[nodiscard]] bool is_solid() const { return affine_dimension_ == dimension && !flat_; }
-  /// Built anew at the end of the motion's step, as CGAL does it; the mirror is made when a step starts.
+  /// Built anew at the end of the motion's step, run to its end or given up, as CGAL does it; the mirror is
+  /// made when a step starts.
   void build_at_end() {
+    settled();
     const auto built =
         triangulation_.build_bare(control_points(motion_, M::degree), control_weights(motion_, M::degree));
     forget_steps(built);
@@ -243,6 +245,10 @@ class PowerDiagram final : public KineticStructure {
     }
     static constexpr std::uint32_t mask = (1U << 30U) - 1;
   };
+  static constexpr std::uint32_t resting_note =
+      static_cast<std::uint32_t>(About::power) << 30U |
+      ((static_cast<std::uint32_t>(Guard::never) - static_cast<std::uint32_t>(Guard::violated)) &
+       FacetGuard::mask);
 
   // Building.
 
@@ -289,7 +295,12 @@ class PowerDiagram final : public KineticStructure {
     return FacetGuard::of(triangulation_.cells()[cell].note[static_cast<std::size_t>(i)]);
   }
   /// As this cell has it alone.
-  void set_own_guard(CellId cell, int i, FacetGuard value) { triangulation_.note(cell, i) = value.packed(); }
+  void set_own_guard(CellId cell, int i, FacetGuard value) {
+    triangulation_.note(cell, i) = value.packed();
+    if (notes_ == Notes::any || value.packed() == resting_note) return;
+    append_little(noted_, cell);
+    if (8 * noted_.size() > triangulation_.cells().size()) notes_ = Notes::any;  // then it does not pay
+  }
   void set_guard(CellId cell, int i, FacetGuard value) {
     set_own_guard(cell, i, value);
     const auto [other, k] = across(cell, i);
@@ -314,7 +325,8 @@ class PowerDiagram final : public KineticStructure {
   template <class Certificate>
   void give_up(CertificateTable<Certificate, M, K>& table, Guard guard);
   void watch_all();
-  void watch_moving(std::uint32_t resting);
+  void watch_moving();
+  void note_resting();
   template <class Visit>
   void for_all_facets(Visit visit) const {
     for (CellId cell = 0; cell < triangulation_.cells().size(); ++cell) {
@@ -406,6 +418,7 @@ class PowerDiagram final : public KineticStructure {
            present_.type == static_cast<std::uint32_t>(CertificateType::orientation);
   }
   void watch_around(std::span<const CellId> cells);
+  void fetch_around(CellId cell, int facet) const;
 
   Simulator& simulator_;
   const M& motion_;
@@ -416,6 +429,11 @@ class PowerDiagram final : public KineticStructure {
   CertificateTable<Orientation<dimension>, M, K> departures_;
   RegularTriangulation<dimension> triangulation_;
   bool guarded_ = false;
+  /// What the notes of cells say: anything, or that all facets rest but perhaps those of `noted_`.
+  enum class Notes : std::uint8_t { any, resting };
+  Notes notes_ = Notes::any;
+  std::vector<CellId> noted_;
+  FacetCover cover_;
   FacetTolerances<M> tolerances_;
   std::vector<char> moving_;  // of each bead; empty: all move
   std::vector<CellId> flipped_;

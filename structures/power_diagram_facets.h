@@ -22,27 +22,37 @@ void PowerDiagram<M, K>::enqueue(const FacetCertificates<dimension + 1>& certifi
 /// over the step, as most are, nothing but to be counted.
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::watch_all() {
-  const std::uint32_t resting = FacetGuard{Guard::never, About::power}.packed();
   guarded_ = true;
-  if (!moving_.empty()) return watch_moving(resting);
-  std::uint64_t at_rest = 0;
-  PositiveFacets<M> positive(motion_);
+  if (!moving_.empty()) return watch_moving();
+  PositiveFacets<M> positive(motion_, exponent_of_length(motion_, triangulation_.cells()));
   const auto guard_it = [this](FacetId facet) { enqueue(cell_of(facet), index_of(facet)); };
   const auto cells = triangulation_.cells();
-  FacetCover cover(cells.size());
-  for (CellId cell = 0; cell < cells.size(); ++cell) {
-    if (!triangulation_.is_live(cell)) continue;
-    triangulation_.note_all(cell, resting);
-    const unsigned in_lanes = std::same_as<K, Filtered> ? finite_facets(cells[cell]) : 0;
-    unsigned mine =
-        cover.facets_of(cells[cell], cell, in_lanes == all_facets<dimension> && !tolerances_.any());
-    if (tolerances_.any()) {
-      const unsigned rest = tolerances_.resting(cells[cell], cell, mine);
-      at_rest += static_cast<unsigned>(std::popcount(rest));
-      mine &= ~rest;
+  const auto look_at = [&](CellId cell, unsigned facets, unsigned in_lanes) {
+    if constexpr (std::same_as<K, Filtered>) positive.look_at(cells[cell], cell, facets & in_lanes, guard_it);
+    for (unsigned left = facets & ~in_lanes; left != 0; left &= left - 1)
+      enqueue(cell, std::countr_zero(left));
+  };
+  const auto lanes_of = [&](CellId cell) {
+    return std::same_as<K, Filtered> ? finite_facets(cells[cell]) : 0;
+  };
+  std::uint64_t at_rest = 0;
+  if (tolerances_.any()) {
+    note_resting();
+    std::uint64_t others = 0;
+    tolerances_.for_the_others(triangulation_, [&](CellId cell, unsigned facets) {
+      others += count_of<dimension>(facets);
+      look_at(cell, facets, lanes_of(cell));
+    });
+    at_rest = triangulation_.live_count() * (dimension + 1) / 2 - others;
+  } else {
+    notes_ = Notes::any;
+    cover_.start(cells.size());
+    for (CellId cell = 0; cell < cells.size(); ++cell) {
+      if (!triangulation_.is_live(cell)) continue;
+      triangulation_.note_all(cell, resting_note);
+      const unsigned in_lanes = lanes_of(cell);
+      look_at(cell, cover_.facets_of(cells[cell], cell, in_lanes == all_facets<dimension>), in_lanes);
     }
-    if constexpr (std::same_as<K, Filtered>) positive.look_at(cells[cell], cell, mine & in_lanes, guard_it);
-    for (unsigned left = mine & ~in_lanes; left != 0; left &= left - 1) enqueue(cell, std::countr_zero(left));
   }
   if constexpr (std::same_as<K, Filtered>) positive.finish(guard_it);
   power_tests_.hold_never(at_rest + positive.count());
@@ -52,13 +62,27 @@ void PowerDiagram<M, K>::watch_all() {
   watch_all_hidden();
 }
 
+/// Notes of all facets that they rest: cells whose notes say so already are not touched.
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::note_resting() {
+  if (notes_ == Notes::resting) {
+    for (const CellId cell : noted_) triangulation_.note_all(cell, resting_note);
+  } else {
+    for (CellId cell = 0; cell < triangulation_.cells().size(); ++cell)
+      triangulation_.note_all(cell, resting_note);
+  }
+  noted_.clear();
+  notes_ = Notes::resting;
+}
+
 /// Guards the facets with a bead that moves.
 template <Motion M, Kernel K>
-void PowerDiagram<M, K>::watch_moving(std::uint32_t resting) {
+void PowerDiagram<M, K>::watch_moving() {
+  notes_ = Notes::any;
   const auto moves = [this](BeadId bead) { return bead != infinite_bead && moving_[bead] != 0; };
   std::vector<char> has_moving(triangulation_.cells().size(), 0);
   for (CellId cell = 0; cell < has_moving.size(); ++cell) {
-    triangulation_.note_all(cell, resting);
+    triangulation_.note_all(cell, resting_note);
     const Beads& v = triangulation_.cells()[cell].vertex;
     has_moving[cell] = triangulation_.is_live(cell) && std::any_of(v.begin(), v.end(), moves) ? 1 : 0;
   }

@@ -4,8 +4,9 @@
 // cells, flat and fast to scan. The infinite vertex takes part like any other, as `infinite_bead`.
 //
 // A cell is a triangle or tetrahedron of positive orientation; in an infinite one the infinite vertex counts
-// as a point far outside the hull. Flips are combinatorial and look at no coordinates; the points are set
-// when a step ends. Centres have three rows; in the plane the third is not looked at.
+// as a point far outside the hull. Flips are combinatorial and look at no coordinates. They change the mirror
+// at once and CGAL's structure when it is asked for, at the latest when the points are set, as a step ends.
+// Centres have three rows; in the plane the third is not looked at.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -44,6 +45,13 @@ struct alignas(Dimension == 3 ? 64 : 4) TriangulationCell {
   CellBeads<Dimension> apex{};  ///< the bead beyond each facet
   /// What the triangulation's owner notes of its facets. 0 where a cell is new; flips leave it as it is.
   std::array<std::uint32_t, static_cast<std::size_t>(Dimension) + 1> note{};
+
+  /// dimension + 1 where the bead is no vertex.
+  [[nodiscard]] int place_of(BeadId bead) const {
+    int place = 0;
+    while (place <= Dimension && vertex[static_cast<std::size_t>(place)] != bead) ++place;
+    return place;
+  }
 };
 
 /// Position and weight of a bead at one time, exactly.
@@ -99,6 +107,7 @@ class RegularTriangulation {
   /// Live cells and, among them, free slots: see is_live.
   [[nodiscard]] std::span<const Cell> cells() const { return cells_; }
   [[nodiscard]] bool is_live(CellId cell) const { return live_[cell] != 0; }
+  [[nodiscard]] std::size_t live_count() const { return cells_.size() - free_.size(); }
   /// Facet i of `cell` as its neighbour there has it.
   [[nodiscard]] FacetId beyond(CellId cell, int i) const {
     return cells_[cell].beyond[static_cast<std::size_t>(i)];
@@ -123,8 +132,8 @@ class RegularTriangulation {
       note.fill(value);
   }
 
-  /// A flip there is near: fetches what it will touch, lying anywhere in memory.
-  void fetch_around(CellId cell, int i) const;
+  /// Fetches what will be looked at soon, lying anywhere in memory.
+  void fetch(CellId cell) const { __builtin_prefetch(&cells_[cell], 1); }
   /// Replaces `cell` and its neighbour across facet i by the cells around the edge of their apices: three in
   /// space, two in the plane.
   std::array<CellId, static_cast<std::size_t>(Dimension)> flip_facet(CellId cell, int i);
@@ -191,8 +200,18 @@ class RegularTriangulation {
                                                              std::span<const Beads> made) const;
   void mirror_all();
   void forget_hidden_points();
-  void enliven(CellId id);
   void count_cells();
+  /// CGAL's side, once what flips did is done there too.
+  [[nodiscard]] Cgal& up_to_date() const;
+  // Flips.
+  [[nodiscard]] CellId new_cell();
+  void free_cell(CellId id);
+  /// `cell` gets the vertices of an old one, with another bead in place i.
+  void exchange(CellId cell, const Cell& old, int i, BeadId bead);
+  /// Beyond facet i lies what lay beyond facet k of an old cell.
+  void border(CellId cell, int i, const Cell& old, int k);
+  /// Two new cells meet.
+  void join(CellId a, int i, CellId b, int k);
   void add_cells(BeadId bead, int more) {
     if (bead != infinite_bead) cells_at_[bead] += static_cast<std::uint32_t>(more);
   }
@@ -200,6 +219,7 @@ class RegularTriangulation {
   std::unique_ptr<Cgal> cgal_;
   std::vector<Cell> cells_;
   std::vector<char> live_;
+  std::vector<CellId> free_;             // slots that are not live
   std::vector<std::uint32_t> cells_at_;  // of each bead
   bool mirrored_ = false;
 };

@@ -49,8 +49,11 @@ struct RegularTriangulation<Dimension>::Cgal {
 
   Triangulation triangulation;
   std::vector<VertexHandle> vertex;  // of each bead
-  std::vector<CellHandle> cell;      // of each id
-  std::vector<CellId> free;
+  std::vector<CellHandle> cell;      // of each id; none where there is no such cell
+  // What the mirror is ahead by.
+  std::vector<BeadId> turned;  // beads that have become vertices, or are none any more
+  std::vector<CellId> changed;
+  std::vector<char> is_changed;  // of each id
 
   [[nodiscard]] VertexHandle handle(BeadId bead) const {
     if (bead == infinite_bead) return triangulation.infinite_vertex();
@@ -66,26 +69,91 @@ struct RegularTriangulation<Dimension>::Cgal {
     return vertex[bead];
   }
 
-  CellId new_id(CellHandle c) {
-    if (free.empty()) {
-      c->info() = static_cast<CellId>(cell.size());
-      append_little(cell, c);
-    } else {
-      c->info() = free.back();
-      free.pop_back();
-      cell[c->info()] = c;
-    }
-    return c->info();
+  void name(CellHandle c, CellId id) {
+    grow_little(cell, id + 1);
+    cell[id] = c;
+    c->info() = id;
   }
 
-  // Copies cells into the mirror, and themselves into their neighbours there, whose beads it has already.
+  /// A cell is made or goes.
+  void change(CellId id) {
+    grow_little(is_changed, id + 1);
+    if (is_changed[id] != 0) return;
+    is_changed[id] = 1;
+    append_little(changed, id);
+  }
+  [[nodiscard]] bool is_behind() const { return !changed.empty(); }
+  void forget_changes() {
+    turned.clear();
+    changed.clear();
+    std::fill(is_changed.begin(), is_changed.end(), char{0});
+  }
+
+  /// Makes here what the mirror has.
+  void follow(std::span<const TriangulationCell<Dimension>> cells, std::span<const char> live,
+              std::span<const std::uint32_t> cells_at) {
+    auto& tds = triangulation.tds();
+    for (const BeadId bead : turned) {
+      if (cells_at[bead] > 0) {
+        vertex_of(bead);
+      } else if (vertex[bead] != VertexHandle()) {
+        tds.delete_vertex(vertex[bead]);
+        vertex[bead] = {};
+      }
+    }
+    grow_little(cell, cells.size());
+    for (const CellId id : changed) {
+      is_changed[id] = 0;
+      if (live[id] != 0 || cell[id] == CellHandle()) continue;
+      Types::delete_cell(tds, cell[id]);
+      cell[id] = {};
+    }
+    for (const CellId id : changed) {
+      if (live[id] != 0 && cell[id] == CellHandle()) name(Types::create_cell(tds), id);
+    }
+    for (std::size_t k = 0; k < changed.size(); ++k) {
+      if (k + 12 < changed.size()) fetch(changed[k + 12], cells);
+      if (k + 8 < changed.size()) fetch(changed[k + 8]);
+      if (k + 4 < changed.size()) fetch_around(cells[changed[k + 4]]);
+      if (live[changed[k]] != 0) rewrite(changed[k], cells[changed[k]]);
+    }
+    turned.clear();
+    changed.clear();
+  }
+
+  /// Copies cells into the mirror, and themselves into their neighbours there, whose beads it has already.
   template <class Cells>
-  void mirror(const Cells& changed, std::vector<TriangulationCell<Dimension>>& cells) const {
-    for (const CellHandle c : changed) cells[c->info()].vertex = beads_of<Dimension>(c);
-    for (const CellHandle c : changed) link(c, cells);
+  void mirror(const Cells& some, std::vector<TriangulationCell<Dimension>>& cells) const {
+    for (const CellHandle c : some) cells[c->info()].vertex = beads_of<Dimension>(c);
+    for (const CellHandle c : some) link(c, cells);
   }
 
  private:
+  // Cells lie anywhere in memory.
+  void fetch(CellId id, std::span<const TriangulationCell<Dimension>> cells) const {
+    __builtin_prefetch(&cells[id]);
+    __builtin_prefetch(&cell[id]);
+  }
+  void fetch(CellId id) const {
+    if (cell[id] != CellHandle()) __builtin_prefetch(&*cell[id], 1);
+  }
+  void fetch_around(const TriangulationCell<Dimension>& copy) const {
+    for (const FacetId beyond : copy.beyond) fetch(cell_of(beyond));
+  }
+
+  void rewrite(CellId id, const TriangulationCell<Dimension>& copy) {
+    const CellHandle c = cell[id];
+    for (int i = 0; i <= Dimension; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const VertexHandle v = handle(copy.vertex[at]);
+      c->set_vertex(i, v);
+      Types::set_cell(v, c);
+      const CellHandle n = cell[cell_of(copy.beyond[at])];
+      c->set_neighbor(i, n);
+      n->set_neighbor(index_of(copy.beyond[at]), c);
+    }
+  }
+
   void link(CellHandle c, std::vector<TriangulationCell<Dimension>>& cells) const {
     TriangulationCell<Dimension>& copy = cells[c->info()];
     for (int i = 0; i <= Dimension; ++i) {

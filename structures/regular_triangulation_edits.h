@@ -75,7 +75,7 @@ std::vector<CellId> RegularTriangulation<Dimension>::replace(std::span<const Cel
   using Types = typename Cgal::Types;
   const auto meeting = meetings(old, oriented_cells);
   if (!meeting || oriented_cells.empty()) throw std::logic_error("the cells to put in do not fit");
-  auto& tds = cgal_->triangulation.tds();
+  auto& tds = up_to_date().triangulation.tds();
   std::vector<BeadId> kept;
   for (const Beads& beads : oriented_cells) kept.insert(kept.end(), beads.begin(), beads.end());
   std::sort(kept.begin(), kept.end());
@@ -107,7 +107,8 @@ std::vector<CellId> RegularTriangulation<Dimension>::replace(std::span<const Cel
   for (const CellId c : old) {
     for (const BeadId b : cells_[c].vertex) add_cells(b, -1);
     Types::delete_cell(tds, cgal_->cell[c]);
-    cgal_->free.push_back(c);
+    cgal_->cell[c] = {};
+    free_.push_back(c);
     live_[c] = 0;
   }
   for (const BeadId b : left) {
@@ -115,8 +116,8 @@ std::vector<CellId> RegularTriangulation<Dimension>::replace(std::span<const Cel
     cgal_->vertex[b] = {};
   }
   for (const auto c : made) {
-    ids.push_back(cgal_->new_id(c));
-    enliven(ids.back());
+    ids.push_back(new_cell());
+    cgal_->name(c, ids.back());
     cells_[ids.back()] = {};  // the notes of a cell that was there before, too
   }
   cgal_->mirror(made, cells_);
@@ -129,7 +130,7 @@ std::vector<CellId> RegularTriangulation<Dimension>::replace(std::span<const Cel
 template <int Dimension>
 void RegularTriangulation<Dimension>::take_out(std::span<const BeadId> beads) {
   for (const BeadId bead : beads) {
-    cgal_->triangulation.remove(cgal_->vertex[bead]);
+    up_to_date().triangulation.remove(cgal_->vertex[bead]);
     cgal_->vertex[bead] = {};
   }
 }
@@ -137,7 +138,7 @@ void RegularTriangulation<Dimension>::take_out(std::span<const BeadId> beads) {
 template <int Dimension>
 void RegularTriangulation<Dimension>::put_in(std::span<const BeadId> beads, const Eigen::Matrix3Xd& centers,
                                              std::span<const double> weights) {
-  auto& triangulation = cgal_->triangulation;
+  auto& triangulation = up_to_date().triangulation;
   typename Cgal::VertexHandle last = triangulation.infinite_vertex();
   for (const BeadId bead : beads) {
     const auto hint = Cgal::Types::cell_beside(last);
@@ -153,7 +154,7 @@ void RegularTriangulation<Dimension>::put_in(std::span<const BeadId> beads, cons
 
 template <int Dimension>
 bool RegularTriangulation<Dimension>::is_solid() const {
-  return cgal_->triangulation.dimension() == Dimension;
+  return up_to_date().triangulation.dimension() == Dimension;
 }
 
 template <int Dimension>
@@ -169,17 +170,17 @@ std::vector<CellId> RegularTriangulation<Dimension>::mirror_changes() {
       live_[c->info()] = 1;
     }
   }
-  cgal_->free.clear();
+  free_.clear();
   for (CellId id = 0; id < live_.size(); ++id) {
     if (live_[id] != 0) continue;
     cgal_->cell[id] = {};
-    cgal_->free.push_back(id);
+    free_.push_back(id);
   }
   std::vector<CellId> ids;
-  for (const auto c : made) ids.push_back(cgal_->new_id(c));
-  for (const CellId id : ids) {
-    enliven(id);
-    cells_[id] = {};  // the notes of a cell that was there before, too
+  for (const auto c : made) {
+    ids.push_back(new_cell());
+    cells_[ids.back()] = {};  // the notes of a cell that was there before, too
+    cgal_->name(c, ids.back());
   }
   cgal_->mirror(made, cells_);
   count_cells();
@@ -190,7 +191,7 @@ template <int Dimension>
 auto RegularTriangulation<Dimension>::sample(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
                                              std::size_t stride) const -> Sample {
   Sample sample;
-  const auto& triangulation = cgal_->triangulation;
+  const auto& triangulation = up_to_date().triangulation;
   const auto infinite = triangulation.infinite_vertex();
   const auto moved = [&](typename Cgal::VertexHandle v) {
     return weighted_point<Dimension>(centers, weights, v->info());

@@ -179,7 +179,7 @@ void settle(benchmark::State& state, I input) {
 }
 
 // All facets of a triangulation as they lie in its cells; those not found positive are left.
-template <Motion M>
+template <Processor processor, Motion M>
 void settle_in_cells(benchmark::State& state, const M& motion) {
   RegularTriangulation<3> triangulation;
   static_cast<void>(triangulation.build(control_points(motion, 0), control_weights(motion, 0)));
@@ -188,11 +188,12 @@ void settle_in_cells(benchmark::State& state, const M& motion) {
   const auto beads = input.beads();
   const StaticPredicates peer = input.predicates();
   std::uint64_t positive = 0;
+  FacetCover cover;
   measure_in_turn(
       state, beads.size(),
       [&] {
-        FacetCover cover(cells.size());
-        PositiveFacets<M> facets(motion);
+        cover.start(cells.size());
+        PositiveFacets<M, processor> facets(motion, exponent_of_length(motion, cells));
         const auto leave = [](FacetId) {};
         for (CellId cell = 0; cell < cells.size(); ++cell) {
           const unsigned finite = finite_facets(cells[cell]);
@@ -339,7 +340,9 @@ void add_certificate_benchmarks() {
   constexpr std::size_t window = 16;
 
   add_benchmark("settle/facet/linear", [=](State& s) { settle(s, facets(near())); });
-  add_benchmark("settle/facet/cells/linear", [=](State& s) { settle_in_cells(s, near()); });
+  add_benchmark("settle/facet/cells/linear", [=](State& s) { settle_in_cells<Processor::best>(s, near()); });
+  add_benchmark("settle/facet/cells/linear/any_processor",
+                [=](State& s) { settle_in_cells<Processor::any>(s, near()); });
   add_benchmark("settle/sphere2/linear",
                 [=](State& s) { settle(s, spheres<BeadInSphere<2>>(near(), many, window)); });
   add_benchmark("settle/sphere3/linear",

@@ -188,6 +188,41 @@ TEST(DiagramUpdate, AutomaticMovesWhereLittleHappensAndRebuildsWhereMuchDoes) {
   EXPECT_EQ(run(UpdateTechnique::automatic, random_frames(3, 300, 4, 0.5, 0, false)).rebuilds, 3U);
 }
 
+// Where the answer is clear samples become rare; a change is noticed by the next one.
+TEST(DiagramUpdate, AutomaticSamplesSeldomWhereTheAnswerIsClear) {
+  auto frames = random_frames(3, 300, 21, 0.001, 0, false);
+  const std::size_t slow = frames.size() - 1;
+  for (Frame& frame : random_frames(5, 300, 12, 0.5, 0, false)) frames.push_back(std::move(frame));
+  const auto update = make_diagram_update(UpdateTechnique::automatic);
+  update->build(frames[0].centers, frames[0].weights);
+  std::vector<std::size_t> sampled;
+  std::uint64_t rebuilds = 0;
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    const UpdateCounts counts = update->advance(frames[k].centers, frames[k].weights);
+    if (counts.tested > 0) sampled.push_back(k);
+    rebuilds += counts.rebuilds;
+    EXPECT_TRUE(k > slow || counts.rebuilds == 0);
+  }
+  ASSERT_GE(sampled.size(), 5U);
+  EXPECT_EQ(std::vector<std::size_t>(sampled.begin(), sampled.begin() + 5),
+            (std::vector<std::size_t>{1, 3, 7, 15, 23}));
+  EXPECT_GE(rebuilds, 8U);
+}
+
+TEST(DiagramUpdate, AutomaticGivesUpWhereMuchHappensThatTheFramesDoNotShow) {
+  // One crowd passes through another, to and fro: each is as it was, but for what lies between them.
+  auto frames = random_frames(5, 400, 1, 0, 0, false);
+  frames.resize(8, frames[0]);
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    frames[k].centers.leftCols(200).row(0).array() += k % 2 == 0 ? -1.5 : 1.5;
+  const UpdateCounts moved = run(UpdateTechnique::kinetic, frames);
+  EXPECT_GT(moved.events, 7U * 3 * 400);
+  const UpdateCounts counts = run(UpdateTechnique::automatic, frames);
+  EXPECT_EQ(counts.rebuilds, 7U);
+  EXPECT_EQ(counts.activated, 400U);  // tried once
+  EXPECT_LE(counts.events, 3U * 400);
+}
+
 TEST(DiagramUpdate, FramesInOnePlaneOnTheWay) {
   auto frames = random_frames(4, 30, 3, 0.1, 0, false);
   frames[1].centers.row(2).setConstant(0.5);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <set>
 #include <vector>
@@ -41,13 +42,13 @@ std::array<TriangulationCell<dimension>, 2> cell_both_ways() {
   return {cell, turned};
 }
 
-/// Looks at all facets of some cells, and judges them.
+/// Looks at all facets of some cells, and judges them; in a unit of length that is off by 2^off.
 template <Motion M>
 void expect_right(const M& motion, std::span<const TriangulationCell<M::dimension>> cells,
-                  std::uint64_t& found) {
+                  std::uint64_t& found, int off = 0) {
   std::set<FacetId> doubts;
   const auto doubt = [&](FacetId facet) { EXPECT_TRUE(doubts.insert(facet).second); };
-  PositiveFacets<M> positive(motion);
+  PositiveFacets<M> positive(motion, exponent_of_length(motion, cells) + off);
   for (CellId id = 0; id < cells.size(); ++id)
     positive.look_at(cells[id], id, all_facets<M::dimension>, doubt);
   positive.finish(doubt);
@@ -119,24 +120,70 @@ TEST(PositiveFacets, HoldNextToZero) {
   EXPECT_GT(found, 1000U);
 }
 
-// Far from where the bound is claimed nothing is found; near its ends what is found is right.
-TEST(PositiveFacets, HoldAtAnyScale) {
+/// All lengths times 2^exponent, exactly.
+template <Motion M>
+void scale(M& motion, int exponent) {
+  for (BeadId b = 0; b < motion.bead_count(); ++b) {
+    for (int k = 0; k <= M::degree; ++k) {
+      for (int axis = 0; axis < M::dimension; ++axis)
+        motion.set_coordinate(b, k, axis, std::ldexp(motion.coordinate(b, k, axis), exponent));
+      motion.set_weight(b, k, std::ldexp(motion.weight(b, k), 2 * exponent));
+    }
+  }
+  if constexpr (lifted<M>) {
+    auto drift = typename M::Vector{};
+    for (int axis = 0; axis < M::dimension; ++axis)
+      drift[static_cast<std::size_t>(axis)] = std::ldexp(motion.drift(axis), exponent);
+    motion.set_drift(drift);
+  }
+}
+
+// The unit of length does not matter: what is found is the same, as far as doubles hold the numbers.
+template <Motion M>
+void expect_same_at_any_scale() {
+  test::Random random(6);
+  constexpr int rounds = 4;
+  std::array<std::uint64_t, rounds> expected{};
+  std::uint64_t all = 0;
+  for (int round = 0; round < rounds; ++round) {
+    M base = test::random_motion<M>(random, 2 * (M::dimension + 1), test::MotionKind::generic);
+    slow_down(base);
+    if constexpr (lifted<M>) {
+      auto drift = typename M::Vector{};
+      for (double& x : drift) x = 0.01 * test::uniform(random);
+      base.set_drift(drift);
+    }
+    const auto cells = cell_both_ways<M::dimension>();
+    expect_right<M>(base, cells, expected[static_cast<std::size_t>(round)]);
+    all += expected[static_cast<std::size_t>(round)];
+    for (const int exponent : {-300, -150, -60, -20, -11, -1, 1, 11, 20, 60, 150, 300}) {
+      M motion = base;
+      scale(motion, exponent);
+      std::uint64_t found = 0;
+      expect_right<M>(motion, cells, found);
+      EXPECT_EQ(found, expected[static_cast<std::size_t>(round)]) << exponent;
+    }
+  }
+  EXPECT_GT(all, 0U);
+}
+
+TEST(PositiveFacets, FindTheSameAtAnyScale) {
+  expect_same_at_any_scale<BezierMotion<3, 1>>();
+  expect_same_at_any_scale<BezierMotion<2, 1>>();
+  expect_same_at_any_scale<LiftedMotion<3>>();
+}
+
+// In a unit that is far off nothing is found, near the ends of what the bound is claimed for what is right.
+TEST(PositiveFacets, HoldInAnyUnit) {
   using M = BezierMotion<3, 1>;
   test::Random random(6);
-  for (int exponent = -320; exponent <= 320; exponent += 4) {
+  for (int exponent = -160; exponent <= 160; exponent += 4) {
     std::uint64_t found = 0;
     for (int round = 0; round < 4; ++round) {
       M motion = test::random_motion<M>(random, 8, test::MotionKind::generic);
       slow_down(motion);
-      for (BeadId b = 0; b < 8; ++b) {
-        for (int k = 0; k < 2; ++k) {
-          for (int axis = 0; axis < 3; ++axis)
-            motion.set_coordinate(b, k, axis, std::ldexp(motion.coordinate(b, k, axis), exponent));
-          motion.set_weight(b, k, std::ldexp(motion.weight(b, k), 2 * exponent));
-        }
-      }
       const auto cells = cell_both_ways<3>();
-      expect_right<M>(motion, cells, found);
+      expect_right<M>(motion, cells, found, exponent);
     }
     if (std::abs(exponent) <= 8) {
       EXPECT_GT(found, 0U) << exponent;
@@ -144,6 +191,93 @@ TEST(PositiveFacets, HoldAtAnyScale) {
     if (std::abs(exponent) >= 20) {
       EXPECT_EQ(found, 0U) << exponent;
     }
+  }
+}
+
+// Rows of unlike size: some beads a thousand times farther away, or nearer, than others.
+TEST(PositiveFacets, HoldWhereRowsAreUnlike) {
+  using M = BezierMotion<3, 1>;
+  test::Random random(8);
+  std::uint64_t found = 0;
+  for (int round = 0; round < 300; ++round) {
+    M motion = test::random_motion<M>(random, 8, test::MotionKind::generic);
+    slow_down(motion);
+    for (BeadId b = 1; b < 8; ++b) {
+      const int exponent = static_cast<int>(random() % 13) - 6;
+      for (int k = 0; k < 2; ++k) {
+        for (int axis = 0; axis < 3; ++axis) {
+          const double origin = motion.coordinate(0, k, axis);
+          motion.set_coordinate(b, k, axis,
+                                origin + std::ldexp(motion.coordinate(b, k, axis) - origin, exponent));
+        }
+        motion.set_weight(b, k, motion.weight(0, k));
+      }
+    }
+    const auto cells = cell_both_ways<3>();
+    expect_right<M>(motion, cells, found);
+  }
+  EXPECT_GT(found, 200U);
+}
+
+// Weights that differ by just what the bound lets them, m^2 of a row, by an ulp more and by an ulp less.
+TEST(PositiveFacets, HoldWhereWeightsAreAsLargeAsTheyMayBe) {
+  using M = BezierMotion<3, 1>;
+  test::Random random(9);
+  std::uint64_t found = 0;
+  for (int round = 0; round < 600; ++round) {
+    M motion = test::random_motion<M>(random, 8, test::MotionKind::generic);
+    slow_down(motion);
+    for (BeadId b = 1; b < 8; ++b) {
+      float m = 0;
+      for (int k = 0; k < 2; ++k) {
+        for (int axis = 0; axis < 3; ++axis)
+          m = std::max(
+              m, std::abs(static_cast<float>(motion.coordinate(b, k, axis) - motion.coordinate(0, k, axis))));
+      }
+      double square = static_cast<double>(m * m);
+      if (round % 3 != 0) square = std::nextafter(square, round % 3 == 1 ? 0.0 : 1e9);
+      for (int k = 0; k < 2; ++k)
+        motion.set_weight(b, k, motion.weight(0, k) + (random() % 2 == 0 ? square : -square));
+    }
+    const auto cells = cell_both_ways<3>();
+    expect_right<M>(motion, cells, found);
+  }
+  EXPECT_GT(found, 50U);
+}
+
+// What all beads share is taken off, whatever is taken for it: the verdicts stay right.
+TEST(PositiveFacets, HoldWithDrift) {
+  using M = LiftedMotion<3>;
+  test::Random random(10);
+  std::uint64_t found = 0;
+  for (int round = 0; round < 300; ++round) {
+    M motion = test::random_motion<M>(random, 8, test::MotionKind::generic);
+    slow_down(motion);
+    const double size = std::ldexp(1.0, static_cast<int>(random() % 12) - 10);
+    M::Vector drift;
+    for (double& x : drift) x = size * test::uniform(random);
+    motion.set_drift(drift);
+    const auto cells = cell_both_ways<3>();
+    expect_right<M>(motion, cells, found);
+  }
+  EXPECT_GT(found, 100U);
+}
+
+// The code for any processor gives the same bits.
+TEST(PositiveFacets, AreTheSameOnAnyProcessor) {
+  using M = BezierMotion<3, 1>;
+  test::Random random(11);
+  for (int round = 0; round < 100; ++round) {
+    M motion = test::random_motion<M>(random, 8, test::MotionKind::generic);
+    slow_down(motion);
+    CellsInLanes<M> cells;
+    for (auto& beads : cells) {
+      for (BeadId i = 0; i < beads.size(); ++i) beads[i] = (i + static_cast<BeadId>(random() % 8)) % 8;
+    }
+    PositiveBits best, any;
+    positive_cells(motion, cells, LengthUnit(), best);
+    positive_cells_anywhere(motion, cells, LengthUnit(), any);
+    EXPECT_EQ(best, any);
   }
 }
 
@@ -155,7 +289,8 @@ void expect_each_once() {
   RegularTriangulation<dimension> triangulation;
   static_cast<void>(triangulation.build(centers, std::vector<double>(200, 0.0)));
   const auto cells = triangulation.cells();
-  FacetCover cover(cells.size());
+  FacetCover cover;
+  cover.start(cells.size());
   std::map<FacetId, int> times;
   std::size_t left_out = 0;
   for (CellId id = 0; id < cells.size(); ++id) {
