@@ -26,6 +26,7 @@
 #include "structures/membership_tables.h"
 #include "structures/necklace_tree.h"
 #include "structures/node_selection.h"
+#include "structures/resting_nodes.h"
 #include "structures/smallest_sphere.h"
 #include "structures/whole_balls_at.h"
 
@@ -86,7 +87,7 @@ class WrappedHierarchy final : public KineticStructure {
   static constexpr std::size_t full = dimension + 1;
   static constexpr int most_repairs = 64;  // of one node at one time, in `fast`
   /// As many certificates at least are worth a closer look.
-  static constexpr std::size_t few = 4;
+  static constexpr std::size_t few = radii == Radii::equal ? 4 : 1;
   /// Doubles prove some certificates without looking at them one by one.
   static constexpr bool prunes = !std::same_as<K, Exact>;
   using Tables = MembershipTables<M, K, radii>;
@@ -105,6 +106,11 @@ class WrappedHierarchy final : public KineticStructure {
     Guard guard;
     std::uint32_t next;
     std::uint8_t table;
+  };
+  /// A bead, by a certificate of a node.
+  struct Named {
+    NodeId node;
+    BeadId bead;
   };
   struct Present {
     Identity identity;
@@ -178,6 +184,7 @@ class WrappedHierarchy final : public KineticStructure {
   void ask_query();
   /// Sets `guarded_`: the nodes that are kept and have something to guard.
   void list_guarded_nodes();
+  void count_per_bead(std::span<const Named> named);
   /// Guards them all at the start of a step; sets `amiss_` of those whose basis is not right.
   void watch_all_nodes();
   /// Guards a node, repairing its basis while a certificate is violated already; logs the change from
@@ -223,6 +230,7 @@ class WrappedHierarchy final : public KineticStructure {
   std::vector<Held> held_;
   std::vector<std::uint32_t> free_;
   BeadPaths<dimension> paths_;
+  RestingNodes<dimension> resting_{tree_};
   std::vector<SphereChord<dimension>> chords_;  // of the nodes' bases at the start of the step
   std::vector<NodeId> guarded_;
   enum class Amiss : std::uint8_t { no, violated, improper };
@@ -235,8 +243,9 @@ class WrappedHierarchy final : public KineticStructure {
   std::vector<BeadId> beyond_;      // beads of a node that are not proved to stay inside
   std::vector<BeadId> all_beyond_;  // of all nodes at the start of a step, one after another
   std::vector<std::size_t> beyond_ends_;
-  std::vector<BeadId> named_;            // by the certificates of the nodes watched last
-  std::vector<std::uint64_t> per_bead_;  // certificates that name it, at the start of a step
+  std::vector<Named> named_;  // by the certificates of the nodes watched last
+  std::vector<Named> named_at_start_;
+  std::vector<std::uint32_t> per_bead_;  // certificates that name it, while they are counted
   std::optional<Present> present_;
   BeadId present_bead_ = no_bead;
   std::optional<BeadId> failed_again_;  // whose certificate has just failed and would be watched once more

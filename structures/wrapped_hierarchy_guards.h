@@ -36,7 +36,7 @@ void WrappedHierarchy<M, K, radii>::enqueue(NodeId id, const Basis& basis, BeadI
                                              ? Birth::at_own_root
                                              : Birth::unknown);
         watched_[Tables::template number_of<C>].push_back(bead);
-        named_.insert(named_.end(), c.beads.begin(), c.beads.end());
+        for (const BeadId b : c.beads) named_.push_back({id, b});
       });
 }
 
