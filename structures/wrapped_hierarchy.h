@@ -28,6 +28,7 @@
 #include "structures/node_selection.h"
 #include "structures/resting_nodes.h"
 #include "structures/smallest_sphere.h"
+#include "structures/sphere_crossing.h"
 #include "structures/whole_balls_at.h"
 
 namespace kds {
@@ -87,7 +88,7 @@ class WrappedHierarchy final : public KineticStructure {
   static constexpr std::size_t full = dimension + 1;
   static constexpr int most_repairs = 64;  // of one node at one time, in `fast`
   /// As many certificates at least are worth a closer look.
-  static constexpr std::size_t few = radii == Radii::equal ? 4 : 1;
+  static constexpr std::size_t few = 4;
   /// Doubles prove some certificates without looking at them one by one.
   static constexpr bool prunes = !std::same_as<K, Exact>;
   using Tables = MembershipTables<M, K, radii>;
@@ -121,6 +122,9 @@ class WrappedHierarchy final : public KineticStructure {
   };
   template <class C>
   static constexpr bool of_full_balls = std::same_as<C, BallInSphere<dimension, full>>;
+  template <class C>
+  static constexpr bool radical_of_two_or_more =
+      RadicalCertificateFor<C, M>&& std::tuple_size_v<decltype(C{}.beads)> >= 3;
   template <class C>
   static std::array<BeadId, full + 1> ascending(const C& c) {
     std::array<BeadId, full + 1> beads = c.beads;
@@ -201,6 +205,9 @@ class WrappedHierarchy final : public KineticStructure {
   template <class Report>
   void watch_enqueued(bool zero_will_do, Report report);
   [[nodiscard]] std::optional<BeadId> watch_enqueued(bool zero_will_do);
+  template <class C>
+  [[nodiscard]] std::optional<Failure> crossing_of(const Basis& basis, BeadId bead, bool inside,
+                                                   bool at_own_root);
   void enqueue(NodeId node, const Basis& basis, BeadId bead, bool inside, int orientation);
   void hold(NodeId node, Guard guard, unsigned table);
   void drop_node(NodeId node);
@@ -231,6 +238,7 @@ class WrappedHierarchy final : public KineticStructure {
   std::vector<std::uint32_t> free_;
   BeadPaths<dimension> paths_;
   RestingNodes<dimension> resting_{tree_};
+  SphereCrossings<dimension> crossings_;
   std::vector<SphereChord<dimension>> chords_;  // of the nodes' bases at the start of the step
   std::vector<NodeId> guarded_;
   enum class Amiss : std::uint8_t { no, violated, improper };

@@ -79,6 +79,7 @@ void WrappedHierarchy<M, K, radii>::start_step() {
   free_.clear();
   if constexpr (prunes) {
     paths_.set(motion_);
+    crossings_.forget();
     chord_from_ = -1;  // the chord at hand was of the last step
   }
   list_guarded_nodes();
