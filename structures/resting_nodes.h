@@ -38,7 +38,7 @@ class RestingNodes {
     look_at(paths);
     // A few nodes from all over the tree tell whether it is worth while.
     std::vector<NodeId> some;
-    const std::size_t stride = std::max<std::size_t>(1, nodes.size() / sample_size);
+    const std::size_t stride = nodes.size() / sample_size + 1;
     for (std::size_t i = 0; i < nodes.size(); i += stride) some.push_back(nodes[i]);
     take_tolerances(paths, some, basis_of);
     const double share = resting(some);
@@ -58,11 +58,11 @@ class RestingNodes {
 
  private:
   static constexpr double none = -1;
-  static constexpr std::size_t sample_size = 32;
+  static constexpr std::size_t sample_size = 16;
   /// Of all nodes asked about: taking a tolerance costs nearly as much as what it saves in a step.
   static constexpr double least_share = 0.5;
   /// Of the share that rested at the reference frame.
-  static constexpr double still_worth = 0.85;
+  static constexpr double still_worth = 0.72;
   /// Motion that is fast is so for a while: after each sample in vain so many steps more go by without one.
   static constexpr unsigned most_skipped = 31;
   /// No tolerance is larger than a node strays in so many steps.

@@ -22,6 +22,7 @@
 #include "structures/basis_edit.h"
 #include "structures/bead_names.h"
 #include "structures/beads_beyond.h"
+#include "structures/latest_chord.h"
 #include "structures/membership_signs.h"
 #include "structures/membership_tables.h"
 #include "structures/necklace_tree.h"
@@ -216,7 +217,6 @@ class WrappedHierarchy final : public KineticStructure {
   /// The next basis of a node where `bead` is the one whose certificate has just failed, if the sphere's path
   /// proves it.
   [[nodiscard]] std::optional<Basis> proved_next_basis(const Basis& old, BeadId bead);
-  [[nodiscard]] const SphereChord<dimension>& chord_of(const Basis& basis);
   [[nodiscard]] unsigned are_proved(std::span<const Basis> bases, BeadId newcomer);
   [[nodiscard]] std::optional<Basis> basis_just_after(std::span<const BeadId> among, const Basis& old,
                                                       BeadId escaped);
@@ -242,10 +242,8 @@ class WrappedHierarchy final : public KineticStructure {
   std::vector<SphereChord<dimension>> chords_;  // of the nodes' bases at the start of the step
   std::vector<NodeId> guarded_;
   enum class Amiss : std::uint8_t { no, violated, improper };
-  std::vector<Amiss> amiss_;      // a node
-  SphereChord<dimension> chord_;  // of this basis from that time on
-  Basis chord_basis_;
-  double chord_from_ = -1;
+  std::vector<Amiss> amiss_;  // a node
+  LatestChord<dimension> latest_chord_;
   std::array<std::vector<BeadId>, Tables::count + 1>
       watched_;                     // of the certificates that are enqueued, a table
   std::vector<BeadId> beyond_;      // beads of a node that are not proved to stay inside

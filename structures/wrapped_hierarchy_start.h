@@ -37,10 +37,9 @@ void WrappedHierarchy<M, K, radii>::watch_all_nodes() {
     const Basis& basis = nodes_[id].basis;
     bool proper = radii == Radii::equal;
     if constexpr (prunes) {
-      chord_ = chords_[id];
-      chord_basis_ = basis;
-      chord_from_ = 0;
-      proper |= chord_.proved && chord_.stays == all_of(basis);
+      const SphereChord<dimension>& chord = chords_[id];
+      latest_chord_.keep(basis, 0, chord);
+      proper |= chord.proved && chord.stays == all_of(basis);
     }
     if (!proper) {
       // Balls that are not independent need not have a sphere.
@@ -80,7 +79,7 @@ void WrappedHierarchy<M, K, radii>::start_step() {
   if constexpr (prunes) {
     paths_.set(motion_);
     crossings_.forget();
-    chord_from_ = -1;  // the chord at hand was of the last step
+    latest_chord_.forget();
   }
   list_guarded_nodes();
   if constexpr (prunes) {
