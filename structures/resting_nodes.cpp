@@ -143,6 +143,13 @@ void RestingNodes<Dimension>::forget_all() {
   std::fill(tolerance_.begin(), tolerance_.end(), none);
 }
 
+template <int Dimension>
+void RestingNodes<Dimension>::give_up() {
+  has_reference_ = false;
+  forget_all();
+  skip_ = std::exchange(next_skip_, std::min(2 * next_skip_ + 1, most_skipped));
+}
+
 template class RestingNodes<2>;
 template class RestingNodes<3>;
 

@@ -29,7 +29,12 @@ class RestingNodes {
   void take_out_resting(const BeadPaths<Dimension>& paths, std::vector<NodeId>& nodes, BasisOf basis_of) {
     if (has_reference_) {
       look_at(paths);
-      if (resting(nodes) >= worth_keeping_) return take_out(nodes);
+      if (resting(nodes) >= worth_keeping_) {
+        next_skip_ = 0;
+        lasted_ = true;
+        return take_out(nodes);
+      }
+      if (!lasted_) return give_up();
     } else if (skip_ > 0) {
       --skip_;
       return;
@@ -43,12 +48,8 @@ class RestingNodes {
     take_tolerances(paths, some, basis_of);
     const double share = resting(some);
     has_reference_ = share >= least_share;
-    if (!has_reference_) {
-      forget_all();
-      skip_ = std::exchange(next_skip_, std::min(2 * next_skip_ + 1, most_skipped));
-      return;
-    }
-    next_skip_ = 0;
+    if (!has_reference_) return give_up();
+    lasted_ = false;
     worth_keeping_ = still_worth * share;
     take_tolerances(paths, nodes, basis_of);
     take_out(nodes);
@@ -59,8 +60,9 @@ class RestingNodes {
  private:
   static constexpr double none = -1;
   static constexpr std::size_t sample_size = 16;
-  /// Of all nodes asked about: taking a tolerance costs nearly as much as what it saves in a step.
-  static constexpr double least_share = 0.5;
+  /// Of all nodes asked about: taking a tolerance costs nearly as much as what it saves in a step. A
+  /// reference must also last for another step.
+  static constexpr double least_share = 0.7;
   /// Of the share that rested at the reference frame.
   static constexpr double still_worth = 0.72;
   /// Motion that is fast is so for a while: after each sample in vain so many steps more go by without one.
@@ -72,6 +74,8 @@ class RestingNodes {
   /// How far beads and nodes stray in the step from the reference.
   void look_at(const BeadPaths<Dimension>& paths);
   void forget_all();
+  /// Motion is too fast for now.
+  void give_up();
   [[nodiscard]] bool rests(NodeId node) const { return stray_[node] <= tolerance_[node]; }
   /// The share of some nodes.
   [[nodiscard]] double resting(std::span<const NodeId> nodes) const;
@@ -102,7 +106,7 @@ class RestingNodes {
   std::vector<double> tolerance_;  ///< of each node, or `none`
   std::array<std::vector<double>, Dimension + 1> reference_;  ///< where beads were, and their radii
   std::array<Waiting, Basis::max_size> waiting_;
-  bool has_reference_ = false;
+  bool has_reference_ = false, lasted_ = false;
   double worth_keeping_ = 0;
   unsigned skip_ = 0, next_skip_ = 0;
 };
