@@ -57,7 +57,15 @@ class CertificateTable : public FailureSource {
     waiting_[waiting_count_] = certificate;
     places_[waiting_count_] = place;
     births_[waiting_count_] = birth;
+    known_[waiting_count_] = 0;
     ++waiting_count_;
+  }
+  /// The same of one whose failure is known already.
+  void enqueue_known(const Certificate& certificate, std::uint32_t place, const Failure& failure) {
+    enqueue(certificate, place, Birth::unknown);
+    known_[waiting_count_ - 1] = 1;
+    failures_[waiting_count_ - 1] = failure;
+    any_known_ = true;
   }
   /// Enqueues where many may be: a few at a time are searched at once, so that they need little room. They
   /// cannot be forgotten.
@@ -74,7 +82,10 @@ class CertificateTable : public FailureSource {
     settled_.clear();
     settle_enqueued(visit);
   }
-  void forget_enqueued() { waiting_count_ = 0; }
+  void forget_enqueued() {
+    waiting_count_ = 0;
+    any_known_ = false;
+  }
 
   /// Gives up a certificate that has not failed.
   void drop(Guard guard) {
@@ -151,8 +162,20 @@ class CertificateTable : public FailureSource {
   template <std::invocable<std::uint32_t, Guard> Visit>
   void settle_enqueued(Visit visit) {
     const std::size_t count = waiting_count_;
-    search(std::span(waiting_).first(count), std::span(births_).first(count),
-           std::span(failures_).first(count));
+    for (std::size_t from = 0; from < count;) {  // those between known ones at once
+      std::size_t to = count;
+      if (any_known_) {
+        while (from < count && known_[from] != 0) ++from;
+        to = from;
+        while (to < count && known_[to] == 0) ++to;
+      }
+      if (from < to) {
+        search(std::span(waiting_).subspan(from, to - from), std::span(births_).subspan(from, to - from),
+               std::span(failures_).subspan(from, to - from));
+      }
+      from = to;
+    }
+    any_known_ = false;
     for (std::size_t i = 0; i < count; ++i) visit(places_[i], hold(waiting_[i], places_[i], failures_[i]));
     waiting_count_ = 0;
   }
@@ -162,6 +185,7 @@ class CertificateTable : public FailureSource {
     waiting_.resize(room);
     places_.resize(room);
     births_.resize(room);
+    known_.resize(room);
     failures_.resize(room);
   }
 
@@ -221,6 +245,8 @@ class CertificateTable : public FailureSource {
   std::vector<std::uint32_t> places_;
   std::vector<Birth> births_;
   std::vector<Failure> failures_;
+  std::vector<std::uint8_t> known_;  // a flag each
+  bool any_known_ = false;
   std::size_t waiting_count_ = 0;
   std::vector<Settled> settled_;  // of many
   std::uint64_t created_in_step_ = 0;

@@ -36,6 +36,7 @@ class BeadPaths {
   }
 
   [[nodiscard]] int degree() const { return degree_; }
+  [[nodiscard]] std::size_t bead_count() const { return beads_; }
   /// Of all beads for the whole step.
   [[nodiscard]] bool equal_radii() const { return equal_radii_; }
   /// The k-th control points along an axis, or (axis = Dimension) of the radius.

@@ -1,6 +1,8 @@
 #include "structures/beads_beyond.h"
 
+#include <algorithm>
 #include <bit>
+#include <cstdint>
 
 #include "structures/period_lanes.h"
 
@@ -8,22 +10,39 @@ namespace kds {
 
 namespace {
 
-/// One bit each.
-[[gnu::always_inline]] inline unsigned bits_of(const Lanes::Mask& mask) {
-  constexpr Lanes::Mask bit{1, 2, 4, 8};
-  const Lanes::Mask some = mask & bit;
-  return static_cast<unsigned>((some[0] | some[1]) | (some[2] | some[3]));
-}
+/// Beads one after another, four at a time: a bit of lane i for number i of each four.
+class BeadBits {
+ public:
+  static constexpr BeadId most = 256;
 
-/// Which of the four beads from `first` on are up to `last`, and not in the basis: one bit each.
-[[gnu::always_inline]] inline unsigned bits_to_look_at(const Basis& basis, BeadId first, BeadId last) {
-  unsigned bits = last - first < 3 ? (2U << (last - first)) - 1U : 15U;
-  for (std::size_t i = 0; i < Basis::max_size; ++i) {
-    const BeadId place = basis.beads[i] - first;  // wraps around where it is before
-    bits &= ~(place < Lanes::width && i < basis.size ? 1U << (place & 3U) : 0U);
+  explicit BeadBits(BeadId first) : first_(first) {}
+
+  [[gnu::always_inline]] void add(const Lanes::Mask& four) {
+    bits_ |= four & next_;
+    next_ += next_;
   }
-  return bits;
-}
+  /// Those up to `last` that are not in the basis. Basis beads never lie inside: looked at on the way they
+  /// would often be, and no one could foretell in which four.
+  [[gnu::always_inline]] void append_to(std::vector<BeadId>& beads, const Basis& basis, BeadId last) const {
+    std::array<std::uint64_t, Lanes::width> lane;
+    for (std::size_t i = 0; i < Lanes::width; ++i) lane[i] = static_cast<std::uint64_t>(bits_[i]);
+    for (const BeadId member : basis) {
+      const BeadId place = member - first_;  // wraps around where it is before
+      lane[place % Lanes::width] &= ~(place < most ? 1ULL << (place / Lanes::width) : 0ULL);
+    }
+    for (BeadId place = last - first_ + 1; place % Lanes::width != 0; ++place)
+      lane[place % Lanes::width] &= ~(1ULL << (place / Lanes::width));
+    for (std::uint64_t some = lane[0] | lane[1] | lane[2] | lane[3]; some != 0; some &= some - 1) {
+      const auto four = static_cast<unsigned>(std::countr_zero(some));
+      for (unsigned i = 0; i < Lanes::width; ++i)
+        if ((lane[i] >> four & 1U) != 0) beads.push_back(first_ + 4 * four + i);
+    }
+  }
+
+ private:
+  BeadId first_;
+  Lanes::Mask bits_{}, next_{1, 1, 1, 1};
+};
 
 constexpr double below = 1 - 0x1p-40;
 
@@ -45,27 +64,28 @@ template <int D, int K, bool equal>
       base[axis][k] = Lanes(column[axis][k][basis.beads[0]]);
     }
   }
-  for (BeadId b = range.first; b <= range.last; b += Lanes::width) {
-    std::array<Lanes, K + 1> square, room = limit;
-    for (std::size_t axis = 0; axis < columns; ++axis) {
-      std::array<Lanes, K + 1> control;
-      for (std::size_t k = 0; k <= K; ++k)
-        control[k] = Lanes(Lanes::load(column[axis][k] + b)) - base[axis][k];
-      if (from > 0) casteljau(control, Lanes(from));
-      for (std::size_t k = 0; k <= K; ++k) {
-        if (axis < D) {
-          const Lanes v = control[k] - center[k][axis];
-          square[k] = axis == 0 ? v * v : square[k] + v * v;
-        } else {
-          room[k] -= control[k];
+  for (BeadId first = range.first; first <= range.last; first += BeadBits::most) {
+    const BeadId last = std::min(range.last, first + BeadBits::most - 1);
+    BeadBits outside(first);
+    for (BeadId b = first; b <= last; b += Lanes::width) {
+      std::array<Lanes, K + 1> square, room = limit;
+      for (std::size_t axis = 0; axis < columns; ++axis) {
+        std::array<Lanes, K + 1> control;
+        for (std::size_t k = 0; k <= K; ++k)
+          control[k] = Lanes(Lanes::load(column[axis][k] + b)) - base[axis][k];
+        if (from > 0) casteljau(control, Lanes(from));
+        for (std::size_t k = 0; k <= K; ++k) {
+          if (axis < D) {
+            const Lanes v = control[k] - center[k][axis];
+            square[k] = axis == 0 ? v * v : square[k] + v * v;
+          } else {
+            room[k] -= control[k];
+          }
         }
       }
+      outside.add(~are_within(square, room));
     }
-    const Lanes::Mask inside = are_within(square, room);
-    // Basis beads never lie inside: looked at they would often be, and no one could foretell in which four.
-    for (unsigned bits = ~bits_of(inside) & bits_to_look_at(basis, b, range.last); bits != 0;
-         bits &= bits - 1)
-      beyond.push_back(b + static_cast<BeadId>(std::countr_zero(bits)));
+    outside.append_to(beyond, basis, last);
   }
 }
 

@@ -22,11 +22,14 @@
 #include "structures/basis_edit.h"
 #include "structures/bead_names.h"
 #include "structures/beads_beyond.h"
+#include "structures/latest_chord.h"
 #include "structures/membership_signs.h"
 #include "structures/membership_tables.h"
 #include "structures/necklace_tree.h"
 #include "structures/node_selection.h"
+#include "structures/resting_nodes.h"
 #include "structures/smallest_sphere.h"
+#include "structures/sphere_crossing.h"
 #include "structures/whole_balls_at.h"
 
 namespace kds {
@@ -106,6 +109,11 @@ class WrappedHierarchy final : public KineticStructure {
     std::uint32_t next;
     std::uint8_t table;
   };
+  /// A bead, by a certificate of a node.
+  struct Named {
+    NodeId node;
+    BeadId bead;
+  };
   struct Present {
     Identity identity;
     bool side;  // which side of zero its certificate wants
@@ -115,6 +123,9 @@ class WrappedHierarchy final : public KineticStructure {
   };
   template <class C>
   static constexpr bool of_full_balls = std::same_as<C, BallInSphere<dimension, full>>;
+  template <class C>
+  static constexpr bool radical_of_two_or_more =
+      RadicalCertificateFor<C, M>&& std::tuple_size_v<decltype(C{}.beads)> >= 3;
   template <class C>
   static std::array<BeadId, full + 1> ascending(const C& c) {
     std::array<BeadId, full + 1> beads = c.beads;
@@ -178,6 +189,7 @@ class WrappedHierarchy final : public KineticStructure {
   void ask_query();
   /// Sets `guarded_`: the nodes that are kept and have something to guard.
   void list_guarded_nodes();
+  void count_per_bead(std::span<const Named> named);
   /// Guards them all at the start of a step; sets `amiss_` of those whose basis is not right.
   void watch_all_nodes();
   /// Guards a node, repairing its basis while a certificate is violated already; logs the change from
@@ -194,6 +206,9 @@ class WrappedHierarchy final : public KineticStructure {
   template <class Report>
   void watch_enqueued(bool zero_will_do, Report report);
   [[nodiscard]] std::optional<BeadId> watch_enqueued(bool zero_will_do);
+  template <class C>
+  [[nodiscard]] std::optional<Failure> crossing_of(const Basis& basis, BeadId bead, bool inside,
+                                                   bool at_own_root);
   void enqueue(NodeId node, const Basis& basis, BeadId bead, bool inside, int orientation);
   void hold(NodeId node, Guard guard, unsigned table);
   void drop_node(NodeId node);
@@ -202,7 +217,6 @@ class WrappedHierarchy final : public KineticStructure {
   /// The next basis of a node where `bead` is the one whose certificate has just failed, if the sphere's path
   /// proves it.
   [[nodiscard]] std::optional<Basis> proved_next_basis(const Basis& old, BeadId bead);
-  [[nodiscard]] const SphereChord<dimension>& chord_of(const Basis& basis);
   [[nodiscard]] unsigned are_proved(std::span<const Basis> bases, BeadId newcomer);
   [[nodiscard]] std::optional<Basis> basis_just_after(std::span<const BeadId> among, const Basis& old,
                                                       BeadId escaped);
@@ -223,20 +237,21 @@ class WrappedHierarchy final : public KineticStructure {
   std::vector<Held> held_;
   std::vector<std::uint32_t> free_;
   BeadPaths<dimension> paths_;
+  RestingNodes<dimension> resting_{tree_};
+  SphereCrossings<dimension> crossings_;
   std::vector<SphereChord<dimension>> chords_;  // of the nodes' bases at the start of the step
   std::vector<NodeId> guarded_;
   enum class Amiss : std::uint8_t { no, violated, improper };
-  std::vector<Amiss> amiss_;      // a node
-  SphereChord<dimension> chord_;  // of this basis from that time on
-  Basis chord_basis_;
-  double chord_from_ = -1;
+  std::vector<Amiss> amiss_;  // a node
+  LatestChord<dimension> latest_chord_;
   std::array<std::vector<BeadId>, Tables::count + 1>
       watched_;                     // of the certificates that are enqueued, a table
   std::vector<BeadId> beyond_;      // beads of a node that are not proved to stay inside
   std::vector<BeadId> all_beyond_;  // of all nodes at the start of a step, one after another
   std::vector<std::size_t> beyond_ends_;
-  std::vector<BeadId> named_;            // by the certificates of the nodes watched last
-  std::vector<std::uint64_t> per_bead_;  // certificates that name it, at the start of a step
+  std::vector<Named> named_;  // by the certificates of the nodes watched last
+  std::vector<Named> named_at_start_;
+  std::vector<std::uint32_t> per_bead_;  // certificates that name it, while they are counted
   std::optional<Present> present_;
   BeadId present_bead_ = no_bead;
   std::optional<BeadId> failed_again_;  // whose certificate has just failed and would be watched once more

@@ -20,6 +20,7 @@ void WrappedHierarchy<M, K, radii>::apply(const Change& change) {
   if (std::adjacent_find(basis.begin(), basis.end()) != basis.end())
     throw std::invalid_argument("a basis bead stands twice");
   nodes_[*node].basis = basis;
+  resting_.forget(*node);
 }
 
 template <Motion M, Kernel K, Radii radii>

@@ -14,6 +14,7 @@ void WrappedHierarchy<M, K, radii>::build_node(NodeId id, const Balls& balls) {
       guess.insert(guess.end(), nodes_[child].basis.begin(), nodes_[child].basis.end());
   }
   nodes_[id].basis = smallest_sphere(balls, range.first, range.last, guess).basis;
+  resting_.forget(id);
 }
 
 template <Motion M, Kernel K, Radii radii>

@@ -32,18 +32,6 @@ void WrappedHierarchy<M, K, radii>::find_chords() {
     if (w.count > 0) find(w);
 }
 
-template <Motion M, Kernel K, Radii radii>
-const SphereChord<WrappedHierarchy<M, K, radii>::dimension>& WrappedHierarchy<M, K, radii>::chord_of(
-    const Basis& basis) {
-  const double from = simulator_.now().lower();
-  if (!(chord_basis_ == basis && chord_from_ == from)) {
-    chord_basis_ = basis;
-    chord_from_ = from;
-    chord_ = sphere_chord(paths_, basis, {from, 1});
-  }
-  return chord_;
-}
-
 /// Sets `beyond_` to what is not proved to stay inside; a bit for each bead of the basis that is proved to
 /// stay in it.
 template <Motion M, Kernel K, Radii radii>
@@ -51,9 +39,10 @@ unsigned WrappedHierarchy<M, K, radii>::find_beads_to_watch(NodeId id) {
   const BeadRange range = tree_.range(id);
   const Basis& basis = nodes_[id].basis;
   if constexpr (prunes) {
-    const SphereChord<dimension>& chord = chord_of(basis);
+    const double from = simulator_.now().lower();
+    const SphereChord<dimension>& chord = latest_chord_.of(paths_, basis, from);
     if (chord.proved) {
-      find_beyond(paths_, range, basis, chord, chord_from_, beyond_);
+      find_beyond(paths_, range, basis, chord, from, beyond_);
       const std::size_t unproved =
           beyond_.size() + static_cast<std::size_t>(std::popcount(all_of(basis) & ~chord.stays));
       return unproved < few ? chord.stays : chord.stays | look_closely(basis);
@@ -104,11 +93,7 @@ unsigned WrappedHierarchy<M, K, radii>::are_proved(std::span<const Basis> bases,
   const bool alone = bases.size() == 1;
   if (alone) periods[1] = {from, 1};
   sphere_chords<dimension>(paths_, asked, periods, chords);
-  if (alone) {
-    chord_ = chords[1];
-    chord_basis_ = bases.front();
-    chord_from_ = from;
-  }
+  if (alone) latest_chord_.keep(bases.front(), from, chords[1]);
   unsigned proved = 0;
   for (std::size_t i = 0; i < bases.size(); ++i) {
     unsigned stay = chords[i].stays;

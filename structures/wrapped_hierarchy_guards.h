@@ -24,6 +24,23 @@ void WrappedHierarchy<M, K, radii>::hold(NodeId id, Guard guard, unsigned table)
   nodes_[id].held = place;
 }
 
+/// The first failure of a radical certificate, where the path of the sphere proves it. At its own root it is
+/// known to hold just after now.
+template <Motion M, Kernel K, Radii radii>
+template <class C>
+std::optional<Failure> WrappedHierarchy<M, K, radii>::crossing_of(const Basis& basis, BeadId bead,
+                                                                  bool inside, bool at_own_root) {
+  if constexpr (std::same_as<K, Filtered> && M::degree == 1 && radical_of_two_or_more<C>) {
+    const Instant& now = simulator_.now();
+    if (at_own_root && !now.isolating()) return std::nullopt;
+    const auto failure =
+        crossings_.first_failure(paths_, basis, bead, inside, now.lower(), now.upper(), at_own_root);
+    if (failure) ++statistics.stages.isolation;
+    return failure;
+  }
+  return std::nullopt;
+}
+
 template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::enqueue(NodeId id, const Basis& basis, BeadId bead, bool inside,
                                             int orientation) {
@@ -31,12 +48,14 @@ void WrappedHierarchy<M, K, radii>::enqueue(NodeId id, const Basis& basis, BeadI
       motion_, std::span(basis.begin(), basis.end()), bead, inside, orientation, [&]<class C>(const C& c) {
         const bool own_root = present_ && c.identity() == present_->identity;
         if (own_root && c.side() == present_->side) failed_again_ = bead;
-        tables_.template of<C>().enqueue(c, id,
-                                         own_root || (std::same_as<K, Filtered> && has_present_root(c))
-                                             ? Birth::at_own_root
-                                             : Birth::unknown);
+        const bool at_own_root = own_root || (std::same_as<K, Filtered> && has_present_root(c));
+        if (const auto known = crossing_of<C>(basis, bead, inside, at_own_root)) {
+          tables_.template of<C>().enqueue_known(c, id, *known);
+        } else {
+          tables_.template of<C>().enqueue(c, id, at_own_root ? Birth::at_own_root : Birth::unknown);
+        }
         watched_[Tables::template number_of<C>].push_back(bead);
-        named_.insert(named_.end(), c.beads.begin(), c.beads.end());
+        for (const BeadId b : c.beads) named_.push_back({id, b});
       });
 }
 

@@ -37,10 +37,9 @@ void WrappedHierarchy<M, K, radii>::watch_all_nodes() {
     const Basis& basis = nodes_[id].basis;
     bool proper = radii == Radii::equal;
     if constexpr (prunes) {
-      chord_ = chords_[id];
-      chord_basis_ = basis;
-      chord_from_ = 0;
-      proper |= chord_.proved && chord_.stays == all_of(basis);
+      const SphereChord<dimension>& chord = chords_[id];
+      latest_chord_.keep(basis, 0, chord);
+      proper |= chord.proved && chord.stays == all_of(basis);
     }
     if (!proper) {
       // Balls that are not independent need not have a sphere.
@@ -71,32 +70,46 @@ void WrappedHierarchy<M, K, radii>::watch_all_nodes() {
 template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::start_step() {
   if (query_) ask_query();
-  for (Node& node : nodes_) {
-    node.held = none;
-    node.never_failing = 0;
+  for (const NodeId id : guarded_) {  // no others held any
+    nodes_[id].held = none;
+    nodes_[id].never_failing = 0;
   }
   held_.clear();
   free_.clear();
   if constexpr (prunes) {
     paths_.set(motion_);
-    chord_from_ = -1;  // the chord at hand was of the last step
+    crossings_.forget();
+    latest_chord_.forget();
   }
   list_guarded_nodes();
-  if constexpr (prunes) find_chords();
+  if constexpr (prunes) {
+    resting_.take_out_resting(paths_, guarded_,
+                              [this](NodeId id) -> const Basis& { return nodes_[id].basis; });
+    find_chords();
+  }
   watch_all_nodes();
-  per_bead_.assign(motion_.bead_count(), 0);
-  for (const BeadId b : named_) ++per_bead_[b];
+  std::vector<Named>& named = named_at_start_;
+  named.clear();
+  for (const Named& one : named_)
+    if (amiss_[one.node] == Amiss::no) named.push_back(one);
   for (const NodeId id : guarded_) {
     if (amiss_[id] == Amiss::no) continue;
     const Basis before = nodes_[id].basis;
     drop_node(id);
     if (amiss_[id] == Amiss::improper) static_cast<void>(repair(id, no_bead));
     guard_node(id, before);
-    for (const BeadId b : named_) ++per_bead_[b];
+    named.insert(named.end(), named_.begin(), named_.end());
   }
-  const auto most = std::max_element(per_bead_.begin(), per_bead_.end());
-  auto& per_bead_max = statistics.certificates.per_bead_max;
-  if (most != per_bead_.end()) per_bead_max = std::max(per_bead_max, *most);
+  count_per_bead(named);
+}
+
+/// How many certificates name a bead, the most of all beads.
+template <Motion M, Kernel K, Radii radii>
+void WrappedHierarchy<M, K, radii>::count_per_bead(std::span<const Named> named) {
+  per_bead_.resize(motion_.bead_count());  // all zero in between
+  std::uint64_t& most = statistics.certificates.per_bead_max;
+  for (const Named& one : named) most = std::max<std::uint64_t>(most, ++per_bead_[one.bead]);
+  for (const Named& one : named) per_bead_[one.bead] = 0;
 }
 
 }  // namespace kds

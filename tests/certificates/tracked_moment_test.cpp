@@ -41,6 +41,26 @@ void judge(const M& motion, Random& random, Tally& tally) {
   }
 }
 
+/// As many signs are certain at any scale.
+TEST(TrackedMoment, ScalesWithTheInput) {
+  using Radical = BallInSphere<3, 4>::Radical;
+  const auto tally_at = [](int exponent) {
+    Tally tally;
+    for (unsigned seed = 0; seed < 30; ++seed) {
+      Random random(seed);
+      auto motion = random_motion<BezierMotion<3, 1>>(random, 6, MotionKind::generic);
+      scale(motion, exponent);
+      judge<Radical::Rational>(motion, random, tally);
+      judge<Radical::Norm>(motion, random, tally);
+    }
+    return tally;
+  };
+  const Tally tally = tally_at(0);
+  EXPECT_GT(tally.certain, 30);
+  for (const int exponent : {-900, -300, 300, 900})
+    EXPECT_EQ(tally_at(exponent).certain, tally.certain) << exponent;
+}
+
 template <class Radical, class M>
 void judge_radical(Tally& tally) {
   for (unsigned seed = 0; seed < 60; ++seed) {

@@ -139,27 +139,80 @@ TEST(SpherePath, OfBallsInThePlaneAndOfCurvedMotion) {
   }
 }
 
-TEST(SpherePath, ScalesWithTheInput) {
+template <class M, Radii radii>
+void judge_scales() {
   for (const int exponent : {-300, -140, 100, 140, 300, 900}) {
     Tally tally;
-    for (unsigned seed = 0; seed < 20; ++seed) {
+    for (unsigned seed = 0; seed < (radii == Radii::equal && M::degree == 1 ? 20U : 6U); ++seed) {
       Random random(seed);
-      auto motion = random_motion<Space>(random, 9, MotionKind::generic);
+      auto motion = random_motion<M>(random, 9, MotionKind::generic);
       for (BeadId b = 0; b < motion.bead_count(); ++b) {
-        for (int axis = 0; axis < 3; ++axis) {
-          const double x = motion.coordinate(b, 0, axis);
-          motion.set_coordinate(b, 1, axis, x + 0.01 * (motion.coordinate(b, 1, axis) - x));
-        }
-        for (int k = 0; k <= 1; ++k) {
+        for (int k = 0; k <= M::degree; ++k) {
+          for (int axis = 0; axis < M::dimension; ++axis) {
+            const double x = motion.coordinate(b, 0, axis);
+            motion.set_coordinate(b, k, axis, x + 0.01 * (motion.coordinate(b, k, axis) - x));
+          }
           motion.set_weight(b, k, 0);
-          motion.set_radius(b, k, 0);
+          motion.set_radius(b, k, radii == Radii::equal ? 0 : 0.01 * (1 + b % 5));
         }
       }
       scale(motion, exponent);
-      judge<Radii::equal>(motion, 0, tally);
+      judge<radii>(motion, 0, tally);
     }
     EXPECT_EQ(tally.proved > 0, std::abs(exponent) <= 140) << exponent;
   }
+}
+
+TEST(SpherePath, ScalesWithTheInput) {
+  judge_scales<Space, Radii::equal>();
+  judge_scales<Space, Radii::any>();
+  judge_scales<BezierMotion<2, 1>, Radii::any>();
+  judge_scales<BezierMotion<2, 3>, Radii::equal>();
+  judge_scales<BezierMotion<3, 3>, Radii::equal>();
+}
+
+// Beads a hair from the chord's limit, at either end: who is said to stay inside does.
+TEST(SpherePath, BeadsNextToTheLimit) {
+  int inside = 0, beyond = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    Random random(seed);
+    auto motion = random_motion<Space>(random, 5, MotionKind::generic);
+    for (BeadId b = 0; b < 5; ++b) {
+      for (int k = 0; k <= 1; ++k) {
+        for (int axis = 0; axis < 3; ++axis) {
+          const double x = motion.coordinate(b, 0, axis);
+          motion.set_coordinate(b, k, axis, x + 0x1p-20 * (motion.coordinate(b, k, axis) - x));
+        }
+        motion.set_radius(b, k, 0.5);
+        motion.set_weight(b, k, 0);
+      }
+    }
+    const Basis basis = basis_at(motion, {0, 3}, 0);
+    BeadPaths<3> paths;
+    paths.set(motion);
+    const auto chord = sphere_chord(paths, basis, {});
+    if (!chord.proved || (chord.stays + 1U) != 1U << basis.size) continue;
+    Eigen::Vector3d way(uniform(random), uniform(random), uniform(random));
+    way.normalize();
+    for (const double off : {-1e-12, -1e-13, 0.0, 1e-13, 1e-12}) {
+      for (std::size_t k = 0; k <= 1; ++k) {
+        for (int axis = 0; axis < 3; ++axis) {
+          motion.set_coordinate(4, static_cast<int>(k), axis,
+                                motion.coordinate(basis.beads[0], static_cast<int>(k), axis) +
+                                    chord.center[k][static_cast<std::size_t>(axis)] +
+                                    way[axis] * chord.limit[k] * (1 + off));
+        }
+      }
+      paths.set(motion);
+      std::vector<BeadId> found;
+      find_beyond(paths, {4, 4}, basis, chord, 0, found);
+      ++(found.empty() ? inside : beyond);
+      if (!found.empty()) continue;
+      EXPECT_TRUE((holds<Radii::equal>(motion, basis, 4, true, Instant(0)))) << seed;
+    }
+  }
+  EXPECT_GT(inside, 50);
+  EXPECT_GT(beyond, 50);
 }
 
 template <class M, Radii radii>

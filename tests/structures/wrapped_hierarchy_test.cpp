@@ -9,6 +9,7 @@
 #include "tests/support/cgal_sphere.h"
 #include "tests/support/exact_checks.h"
 #include "tests/support/moving_beads.h"
+#include "tests/support/random_motion.h"
 
 namespace kds {
 namespace {
@@ -479,6 +480,26 @@ TEST(WrappedHierarchy, ATranslationGivesNoEvent) {
   EXPECT_EQ(rig.structure.statistics.certificates.failed, 0U);
   EXPECT_EQ(rig.structure.statistics.certificates.never_failing,
             rig.structure.statistics.certificates.created);
+}
+
+// Beads that jostle in slow motion: most nodes rest, some wake up, and the reference moves up. Now and then
+// the chain jumps.
+TEST(WrappedHierarchy, NodesRestInSlowMotion) {
+  Random random(5);
+  std::vector<Points> frames(1, Points(60));
+  for (std::size_t b = 1; b < 60; ++b) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      frames[0][b][axis] = frames[0][b - 1][axis] + uniform(random);
+  }
+  for (int k = 1; k < 40; ++k) {
+    frames.push_back(frames.back());
+    for (auto& point : frames.back())
+      for (double& x : point) x += (k % 13 == 0 ? 0.5 : 0.01) * uniform(random) + 0.3;
+  }
+  const auto steps = through(frames);
+  run_audited(steps);
+  EXPECT_EQ(fingerprint_of<Filtered>(steps, one_necklace(steps.front())),
+            fingerprint_of<Exact>(steps, one_necklace(steps.front())));
 }
 
 }  // namespace

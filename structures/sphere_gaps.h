@@ -1,0 +1,35 @@
+#pragma once
+// The gap between a ball and a moving sphere (sphere_motion.h) in four parts of a step: G = rho - s_b - |c_b
+// - x|, positive while the ball is inside.
+//
+// With p = c_b - z', linear, it is rho' - s_b - |p|, concave, to within E + H, and at the ends of a period to
+// within rounding. Its slope is rho'' - s_b' - p.p'/|p|, falling, to within |xi'| + |eta'| + 2 E |p'| / |p|.
+//
+// Its roots are among those of the radical's norm (ball_in_sphere.h). Where G = 0 is simple the norm changes
+// sign as well, if its other factor A - B sqrt(D) does not vanish there: with W = c_b.q - s_b (times g) and T
+// = c_b.x - e_b - s_b rho = ((rho - s_b)^2 - |c_b - x|^2) / 2 (times g) it is 2 W rho sqrt(D) - T (b +
+// sqrt(D)), and |q| < 0.98 makes |b| < 5 sqrt(D): it does not vanish while 2 |W| rho > 6 |T|.
+
+#include "structures/sphere_motion.h"
+
+namespace kds {
+
+/// Times 1 or -1: what is positive while a certificate holds.
+struct SphereGaps {
+  using Four = std::array<double, 4>;
+
+  std::array<Four, 2> at_end;      // of the chord
+  Four loss_at_ends, least;        // and its least value
+  Four slowest, fastest;           // slopes, in units of the period
+  std::array<Four, 3> square;      // coefficients of (rho' - s)^2 - |p|^2, by powers
+  Four loss, clear;                // what |c_b - x| is at least, less the gap
+  std::array<Four, 2> lever;       // W at both ends
+  Four lever_error, other_factor;  // and 6 |T| / (2 rho), roughly at most
+};
+
+/// `side`: 1 of a ball that is to be inside, else -1.
+template <int Dimension>
+void find_gaps(const BeadPaths<Dimension>& paths, const SphereMotion<Dimension>& sphere, BeadId base,
+               BeadId bead, double side, SphereGaps& gaps);
+
+}  // namespace kds

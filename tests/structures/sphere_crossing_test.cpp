@@ -1,0 +1,172 @@
+// When balls cross spheres, as paths of spheres prove it, against radical certificates on integers.
+
+#include "structures/sphere_crossing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "certificates/membership.h"
+#include "certificates/orientation.h"
+#include "certificates/radical_search.h"
+#include "motions/positions.h"
+#include "structures/smallest_sphere.h"
+#include "tests/support/moving_beads.h"
+#include "tests/support/polynomial_source.h"
+#include "tests/support/random_motion.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+
+struct Tally {
+  int asked = 0, never = 0, later = 0, never_again = 0, again = 0;
+};
+
+/// Calls `visit` with the certificate, if it is a radical one.
+template <class M, class Visit>
+void visit_radical(const M& motion, const Basis& basis, BeadId bead, bool inside, const Instant& now,
+                   Visit visit) {
+  int orientation = 0;
+  if (basis.size == M::dimension + 1) {
+    StageCounts stages;
+    Orientation<M::dimension> certificate;
+    std::copy(basis.begin(), basis.end(), certificate.beads.begin());
+    orientation = sign_just_after<Exact>(certificate, motion, now, stages);
+  }
+  visit_membership<Radii::any>(motion, std::span(basis.begin(), basis.end()), bead, inside, orientation,
+                               [&]<class C>(const C& certificate) {
+                                 if constexpr (RadicalCertificateFor<C, M>) visit(certificate);
+                               });
+}
+
+/// The same time, in a bracket that holds no other root of the norm.
+void expect_same_time(const ExactPolynomial& function, const FailureTime& ours, const FailureTime& exact) {
+  ASSERT_LT(ours.lower, ours.upper);
+  const ExactPolynomial simple = function.square_free();
+  ASSERT_EQ(isolate_roots(simple, Dyadic(ours.lower), Dyadic(ours.upper)).size(), 1U);
+  ASSERT_EQ(function.sign_at(Dyadic(ours.lower)) * function.sign_at(Dyadic(ours.upper)), -1);
+  ExactTime a = exact_time(function, ours), b = exact_time(function, exact);
+  EXPECT_EQ(ExactTime::compare(a, b), 0);
+}
+
+/// All that is claimed of a bead and a sphere from a time on, and from the time of its failure.
+template <class M>
+void judge(const M& motion, const BeadPaths<M::dimension>& paths, const Basis& basis, BeadId bead,
+           bool inside, double from, Tally& tally) {
+  SphereCrossings<M::dimension> crossings;
+  visit_radical(motion, basis, bead, inside, Instant(from), [&]<class C>(const C& certificate) {
+    ++tally.asked;
+    const auto ours = crossings.first_failure(paths, basis, bead, inside, from, from, false);
+    if (!ours) return;
+    StageCounts stages;
+    const Failure exact = first_failure<Exact>(certificate, motion, Instant(from), Birth::unknown, stages);
+    ASSERT_EQ(ours->kind, exact.kind);
+    ++(ours->kind == Failure::Kind::never ? tally.never : tally.later);
+    if (ours->kind == Failure::Kind::never) return;
+    const ExactPolynomial function = exact_function(certificate, motion);
+    ASSERT_NO_FATAL_FAILURE(expect_same_time(function, ours->time, exact.time));
+
+    // From then on it lies on the other side, at first.
+    PolynomialSource source;
+    source.add(function.scaled(), {});
+    const Instant now(ours->time, source, 0);
+    C opposite = certificate;
+    opposite.inside = !inside;
+    const auto next = crossings.first_failure(paths, basis, bead, !inside, now.lower(), now.upper(), true);
+    if (!next) return;
+    const Failure exact_next = first_failure<Exact>(opposite, motion, now, Birth::at_own_root, stages);
+    ASSERT_EQ(next->kind, exact_next.kind);
+    ++(next->kind == Failure::Kind::never ? tally.never_again : tally.again);
+    if (next->kind == Failure::Kind::later) expect_same_time(function, next->time, exact_next.time);
+  });
+}
+
+template <class M>
+void judge_all(unsigned seed, MotionKind kind, int exponent, Tally& tally) {
+  SCOPED_TRACE(testing::Message() << "seed " << seed << ", kind " << static_cast<int>(kind));
+  Random random(1000 * seed + static_cast<unsigned>(kind));
+  auto motion = random_motion<M>(random, 4 + random() % 6, kind);
+  const double pace = std::ldexp(1.0, -static_cast<int>(seed % 7));
+  const auto count = static_cast<BeadId>(motion.bead_count());
+  for (BeadId b = 0; b < count; ++b) {
+    const double radius = uniform(random, 0.1, 0.3), growth = seed % 3 == 0 ? uniform(random) * 0.1 : 0;
+    for (int k = 0; k <= 1; ++k) {
+      for (int axis = 0; axis < M::dimension; ++axis) {
+        const double start = motion.coordinate(b, 0, axis);
+        motion.set_coordinate(b, k, axis, start + pace * (motion.coordinate(b, k, axis) - start));
+      }
+      motion.set_radius(b, k, radius + k * growth);
+      motion.set_weight(b, k, 0);
+    }
+  }
+  scale(motion, exponent);
+  BeadPaths<M::dimension> paths;
+  paths.set(motion);
+  const double from = seed % 2 == 0 ? 0 : uniform(random, 0, 0.9);
+  const Balls<M::dimension> balls(approximate_positions(motion, from), approximate_radii(motion, from));
+  const Basis basis = smallest_sphere(balls, 0, count - 1).basis;
+  if (basis.size < 2) return;
+  for (BeadId b = 0; b < count; ++b) {
+    if (!basis.contains(b)) {
+      judge(motion, paths, basis, b, true, from, tally);
+    } else if (basis.size > 2) {
+      judge(motion, paths, without(basis, b), b, false, from, tally);
+    }
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+TEST(SphereCrossing, IsWhenRadicalCertificatesFail) {
+  Tally space, plane;
+  for (unsigned seed = 0; seed < 150; ++seed) {
+    judge_all<Space>(seed, MotionKind::generic, 0, space);
+    judge_all<BezierMotion<2, 1>>(seed, MotionKind::generic, 0, plane);
+  }
+  for (const Tally& tally : {space, plane}) {
+    EXPECT_GT(tally.never + tally.later, tally.asked / 2);
+    EXPECT_GT(tally.never, 100);
+    EXPECT_GT(tally.later, 50);
+    EXPECT_GT(tally.never_again, 25);
+    EXPECT_GT(tally.again, 2);
+  }
+}
+
+TEST(SphereCrossing, OfDegenerateMotions) {
+  Tally tally;
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    for (const MotionKind kind : all_motion_kinds) judge_all<Space>(seed, kind, 0, tally);
+  }
+  EXPECT_GT(tally.never, 50);
+  EXPECT_GT(tally.later, 10);
+}
+
+TEST(SphereCrossing, ScalesWithTheInput) {
+  for (const int exponent : {-300, -140, 140, 300}) {
+    Tally tally;
+    for (unsigned seed = 0; seed < 12; ++seed) judge_all<Space>(seed, MotionKind::generic, exponent, tally);
+    EXPECT_EQ(tally.never + tally.later > 10, std::abs(exponent) <= 140) << exponent;
+    EXPECT_EQ(tally.never + tally.later == 0, std::abs(exponent) > 140) << exponent;
+  }
+}
+
+// A pair turns and is shortest in the middle, where its sphere cuts a third ball by less than rounding.
+TEST(SphereCrossing, TouchesAreLeftToIntegers) {
+  const Points from{{-2, -1, 0}, {2, 1, 0}, {0, 2, 0}}, to{{-2, 1, 0}, {2, -1, 0}, {0, 2, 0}};
+  Space motion = moving(from, to);
+  for (int k = 0; k <= 1; ++k) {
+    motion.set_radius(0, k, 0.25);
+    motion.set_radius(1, k, 0.25);
+    motion.set_radius(2, k, 0.25 + 0x1p-50);
+  }
+  BeadPaths<3> paths;
+  paths.set(motion);
+  SphereCrossings<3> crossings;
+  const Basis pair(std::array<BeadId, 2>{0, 1});
+  EXPECT_FALSE(crossings.first_failure(paths, pair, 2, true, 0, 0, false).has_value());
+}
+
+}  // namespace
+}  // namespace kds
