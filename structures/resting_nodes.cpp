@@ -42,7 +42,9 @@ template <int D>
                                           std::sqrt(square.v[2]), std::sqrt(square.v[3])}) *
                           Lanes(1 + 0x1p-40) +
                       Lanes(rounding);
-    const Lanes most = Lanes::max(far, Lanes(Lanes::load(stray + b)));
+    // What overflows is no number perhaps, which a maximum would not keep.
+    const Lanes known = Lanes::choose(far < Lanes(HUGE_VAL), far, Lanes(HUGE_VAL));
+    const Lanes most = Lanes::max(known, Lanes(Lanes::load(stray + b)));
     __builtin_memcpy(stray + b, &most.v, sizeof most.v);
   }
 }

@@ -28,24 +28,25 @@ template <int D>
     __builtin_memcpy(to.data(), &from.v, sizeof from.v);
   };
   std::array<std::array<Lanes, D + 1>, 2> c;
+  Lanes l = get(sphere.scale);
   for (std::size_t axis = 0; axis <= D; ++axis) {
     std::array<Lanes, 2> control;
     for (std::size_t e = 0; e < 2; ++e) {
       const double* column = paths.column(static_cast<int>(e), static_cast<int>(axis));
       control[e] = Lanes(column[bead] - column[base]);
+      // Before it is cut: times are rounded, and a part of a long path is as uncertain as the whole.
+      l = Lanes::max(l, abs(control[e]));
     }
     cut(control, period);
     for (std::size_t e = 0; e < 2; ++e) c[e][axis] = control[e];
   }
   std::array<Vec<D>, 2> p;
   std::array<Lanes, 2> reach, distance, lever;
-  Lanes l = get(sphere.scale);
   for (std::size_t e = 0; e < 2; ++e) {
     lever[e] = -c[e][D];
     for (std::size_t axis = 0; axis < D; ++axis) {
       p[e][axis] = c[e][axis] - get(sphere.center[e][axis]);
       lever[e] += c[e][axis] * get(sphere.q[axis]);
-      l = Lanes::max(l, abs(c[e][axis]));
     }
     reach[e] = get(sphere.rho[e]) - c[e][D];
     l = Lanes::max(l, abs(reach[e]));

@@ -50,6 +50,7 @@ std::optional<Basis> WrappedHierarchy<M, K, radii>::proved_next_basis(const Basi
 
 template <Motion M, Kernel K, Radii radii>
 bool WrappedHierarchy<M, K, radii>::repair(NodeId id, BeadId bead) {
+  resting_.forget(id);
   Basis& basis = nodes_[id].basis;
   std::array<BeadId, Basis::max_size + 1> all{};
   std::copy(basis.begin(), basis.end(), all.begin());
@@ -110,6 +111,7 @@ void WrappedHierarchy<M, K, radii>::fail(unsigned table, std::uint32_t slot) {
     std::vector<double> wide = approximate_radii(motion_, now);
     for (double& r : wide) r = std::max(r, 0.0);  // it is rounded
     const BeadRange range = tree_.range(id);
+    resting_.forget(id);
     nodes_[id].basis = smallest_sphere(Balls(approximate_positions(motion_, now), wide), range.first,
                                        range.last, std::span(before.begin(), before.end()))
                            .basis;

@@ -168,5 +168,49 @@ TEST(SphereCrossing, TouchesAreLeftToIntegers) {
   EXPECT_FALSE(crossings.first_failure(paths, pair, 2, true, 0, 0, false).has_value());
 }
 
+// Next to the root of a ball that flies by, however fast, the signs that are claimed at a period's ends.
+TEST(SphereCrossing, SignsOfAFastBall) {
+  std::mt19937_64 random(5);
+  const auto uniform = [&] { return 0.3 + 0.7 * static_cast<double>(random() >> 11U) * 0x1p-53; };
+  for (const int exponent : {4, 12, 16, 24, 30}) {
+    int claimed = 0;
+    for (int trial = 0; trial < 3000; ++trial) {
+      const double from_x = -std::ldexp(uniform(), exponent), to_x = std::ldexp(uniform(), exponent);
+      const Points start{{0, -1, 0}, {0, 1, 0}, {from_x, 0, 0}}, end{{0, -1, 0}, {0, 1, 0}, {to_x, 0, 0}};
+      Space motion = moving(start, end);
+      const std::array radii{0.25, 0.3, 0.125};
+      for (BeadId b = 0; b < 3; ++b)
+        for (int k = 0; k <= 1; ++k) motion.set_radius(b, k, radii[b]);
+      BeadPaths<3> paths;
+      paths.set(motion);
+      // The pair's sphere rests: radius R around (0, y, 0).
+      const Rational radius = (Rational(2) + Rational(0.25) + Rational(0.3)) / 2;
+      const Rational y = radius - Rational(0.25) - 1, room = radius - Rational(0.125);
+      const auto sign_of_gap = [&](double u) {
+        const Rational x = (1 - Rational(u)) * Rational(from_x) + Rational(u) * Rational(to_x);
+        const Rational left = room * room - x * x - y * y;
+        return left > 0 ? 1 : left < 0 ? -1 : 0;
+      };
+      const double half = std::sqrt(static_cast<double>(Rational(room * room - y * y)));
+      const double root = (-half - from_x) / (to_x - from_x);
+      const double from = root + (static_cast<double>(random() % 5) - 2) * 0x1p-54, to = from + 0x1p-37;
+      SphereMotion<3> sphere;
+      const Period period{from, to};
+      find_motion(paths, Basis(std::array<BeadId, 2>{0, 1}), {period, period, period, period}, sphere);
+      if ((sphere.proved & 1U) == 0) continue;
+      SphereGaps gaps;
+      find_gaps(paths, sphere, 0, 2, -1, gaps);
+      for (const std::size_t e : {0U, 1U}) {
+        const double gap = gaps.at_end[e][0];
+        if (!(std::abs(gap) > gaps.loss_at_ends[0])) continue;
+        ++claimed;
+        ASSERT_EQ(gap > 0 ? 1 : -1, -sign_of_gap(e == 0 ? from : to)) << from_x << ' ' << to_x << ' ' << from;
+      }
+    }
+    // Slow ones are known at some ends, fast ones of all that far away.
+    if (exponent <= 16) EXPECT_GT(claimed, 100) << exponent;
+  }
+}
+
 }  // namespace
 }  // namespace kds

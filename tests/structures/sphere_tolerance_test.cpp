@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "structures/resting_nodes.h"
 #include "structures/smallest_sphere.h"
 #include "tests/support/moving_beads.h"
 #include "tests/support/random_motion.h"
@@ -140,6 +141,35 @@ TEST(SphereTolerance, NoneWhereTheBasisIsAboutToChange) {
     sphere_tolerances<3>(cloud.paths(), {&all, 1}, {&basis, 1}, {&wanted, 1}, {&tolerance, 1});
     EXPECT_LE(tolerance, 0);
   }
+}
+
+// A pair and two beads well inside its sphere, of which one goes `away` in the middle of the step. All swing
+// along x, so far perhaps that differences are no numbers.
+TEST(RestingNodes, ABeadThatGoesAwayAndBackWithinAStep) {
+  const std::array y{-1.0, 1.0, 0.0, 0.0}, z{0.0, 0.0, 0.3, 0.2};
+  const std::array necklace{BeadRange{0, 3}};
+  const NecklaceTree tree(necklace);
+  const Basis pair(std::array<BeadId, 2>{0, 1});
+  const auto rests = [&](double swing, double away) {
+    BezierMotion<3, 2> motion(4);
+    for (BeadId b = 0; b < 4; ++b) {
+      for (int k = 0; k <= 2; ++k) {
+        motion.set_coordinate(b, k, 0, k == 1 ? -swing : swing);
+        motion.set_coordinate(b, k, 1, y[b]);
+        motion.set_coordinate(b, k, 2, z[b] + (k == 1 && b == 2 ? away : 0));
+        motion.set_radius(b, k, 1);
+      }
+    }
+    BeadPaths<3> paths;
+    paths.set(motion);
+    RestingNodes<3> resting(tree);
+    std::vector<NodeId> nodes{*tree.find(necklace[0])};
+    resting.take_out_resting(paths, nodes, [&](NodeId) -> const Basis& { return pair; });
+    return nodes.empty();
+  };
+  EXPECT_TRUE(rests(0, 0));
+  EXPECT_TRUE(rests(1, 0));
+  for (const double swing : {0.0, 1.0, 1e10, 1.2e308}) EXPECT_FALSE(rests(swing, 50)) << swing;
 }
 
 }  // namespace
