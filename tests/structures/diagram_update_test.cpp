@@ -193,7 +193,7 @@ TEST(DiagramUpdate, AutomaticSamplesSeldomWhereTheAnswerIsClear) {
   auto frames = random_frames(3, 300, 21, 0.001, 0, false);
   const std::size_t slow = frames.size() - 1;
   for (Frame& frame : random_frames(5, 300, 12, 0.5, 0, false)) frames.push_back(std::move(frame));
-  const auto update = make_diagram_update(UpdateTechnique::automatic);
+  const auto update = make_diagram_update<3>(UpdateTechnique::automatic);
   update->build(frames[0].centers, frames[0].weights);
   std::vector<std::size_t> sampled;
   std::uint64_t rebuilds = 0;

@@ -12,6 +12,7 @@
 #include "certificates/radical_search.h"
 #include "motions/positions.h"
 #include "structures/smallest_sphere.h"
+#include "structures/sphere_gaps.h"
 #include "tests/support/moving_beads.h"
 #include "tests/support/polynomial_source.h"
 #include "tests/support/random_motion.h"
@@ -208,7 +209,9 @@ TEST(SphereCrossing, SignsOfAFastBall) {
       }
     }
     // Slow ones are known at some ends, fast ones of all that far away.
-    if (exponent <= 16) EXPECT_GT(claimed, 100) << exponent;
+    if (exponent <= 16) {
+      EXPECT_GT(claimed, 100) << exponent;
+    }
   }
 }
 
