@@ -130,35 +130,20 @@ template <Motion M>
     detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, first, unit, positive);
 }
 
-// As KDS_LANES_TARGETS (motions/lanes.h), but the code for other processors is another.
-#if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-
+/// Eight at once: for processors with vectors as long as that, on others slower than four.
 template <Motion M>
-[[gnu::target("avx2"), gnu::flatten, gnu::noinline]] void positive_cells_at_once(const M& motion,
-                                                                                 const CellsInLanes<M>& cells,
-                                                                                 const LengthUnit& unit,
-                                                                                 PositiveBits& positive) {
+[[KDS_LANES_TARGETS]] void positive_cells_at_once(const M& motion, const CellsInLanes<M>& cells,
+                                                  const LengthUnit& unit, PositiveBits& positive) {
   detail::find_positive_cells<FloatLanes>(motion, cells, 0, unit, positive);
 }
 
 template <Motion M>
 void positive_cells(const M& motion, const CellsInLanes<M>& cells, const LengthUnit& unit,
                     PositiveBits& positive) {
-  if (__builtin_cpu_supports("avx2") != 0) {
-    positive_cells_at_once(motion, cells, unit, positive);
-  } else {
-    positive_cells_anywhere(motion, cells, unit, positive);
-  }
-}
-
-#else
-
-template <Motion M>
-void positive_cells(const M& motion, const CellsInLanes<M>& cells, const LengthUnit& unit,
-                    PositiveBits& positive) {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") != 0) return positive_cells_at_once(motion, cells, unit, positive);
+#endif
   positive_cells_anywhere(motion, cells, unit, positive);
 }
-
-#endif
 
 }  // namespace kds

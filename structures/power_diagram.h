@@ -418,7 +418,6 @@ class PowerDiagram final : public KineticStructure {
            present_.type == static_cast<std::uint32_t>(CertificateType::orientation);
   }
   void watch_around(std::span<const CellId> cells);
-  void fetch_around(CellId cell, int facet) const;
 
   Simulator& simulator_;
   const M& motion_;

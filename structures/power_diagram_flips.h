@@ -17,7 +17,7 @@ void PowerDiagram<M, K>::fail(unsigned table, std::uint32_t slot) {
       table == 0 ? power_tests_.place_in_structure(slot) : orientations_.place_in_structure(slot);
   const CellId cell = cell_of(place);
   const int facet = index_of(place);
-  fetch_around(cell, facet);
+  triangulation_.fetch_around(cell, facet);
   const bool touch = table == 0 ? power_tests_.touches(slot) : orientations_.touches(slot);
   if (touch) suspect(Doubt::unclear);
   if (guard(cell, facet).about == About::cell) {
@@ -34,17 +34,6 @@ void PowerDiagram<M, K>::fail(unsigned table, std::uint32_t slot) {
   begin_event(table == 0 ? power_tests_.identity(slot) : orientations_.identity(slot));
   repair(cell, facet);
   present_ = {};
-}
-
-/// What a flip there will touch, lying anywhere in memory: the cells around, and the beads beyond.
-template <Motion M, Kernel K>
-void PowerDiagram<M, K>::fetch_around(CellId cell, int facet) const {
-  for (const CellId id : {cell, neighbor(cell, facet)}) {
-    for (int i = 0; i <= dimension; ++i) {
-      triangulation_.fetch(neighbor(id, i));
-      if (apex(id, i) != infinite_bead) __builtin_prefetch(motion_.control_point(apex(id, i), 0));
-    }
-  }
 }
 
 template <Motion M, Kernel K>

@@ -132,8 +132,8 @@ class RegularTriangulation {
       note.fill(value);
   }
 
-  /// Fetches what will be looked at soon, lying anywhere in memory.
-  void fetch(CellId cell) const { __builtin_prefetch(&cells_[cell], 1); }
+  /// A flip there is near: fetches what it will touch, lying anywhere in memory.
+  void fetch_around(CellId cell, int i) const;
   /// Replaces `cell` and its neighbour across facet i by the cells around the edge of their apices: three in
   /// space, two in the plane.
   std::array<CellId, static_cast<std::size_t>(Dimension)> flip_facet(CellId cell, int i);

@@ -112,9 +112,7 @@ struct RegularTriangulation<Dimension>::Cgal {
       if (live[id] != 0 && cell[id] == CellHandle()) name(Types::create_cell(tds), id);
     }
     for (std::size_t k = 0; k < changed.size(); ++k) {
-      if (k + 12 < changed.size()) fetch(changed[k + 12], cells);
-      if (k + 8 < changed.size()) fetch(changed[k + 8]);
-      if (k + 4 < changed.size()) fetch_around(cells[changed[k + 4]]);
+      if (k + 4 < changed.size()) fetch(changed[k + 4], cells);
       if (live[changed[k]] != 0) rewrite(changed[k], cells[changed[k]]);
     }
     turned.clear();
@@ -132,13 +130,9 @@ struct RegularTriangulation<Dimension>::Cgal {
   // Cells lie anywhere in memory.
   void fetch(CellId id, std::span<const TriangulationCell<Dimension>> cells) const {
     __builtin_prefetch(&cells[id]);
-    __builtin_prefetch(&cell[id]);
-  }
-  void fetch(CellId id) const {
-    if (cell[id] != CellHandle()) __builtin_prefetch(&*cell[id], 1);
-  }
-  void fetch_around(const TriangulationCell<Dimension>& copy) const {
-    for (const FacetId beyond : copy.beyond) fetch(cell_of(beyond));
+    if (cell[id] == CellHandle()) return;
+    __builtin_prefetch(&*cell[id], 1);
+    __builtin_prefetch(reinterpret_cast<const char*>(&*cell[id]) + 64, 1);
   }
 
   void rewrite(CellId id, const TriangulationCell<Dimension>& copy) {

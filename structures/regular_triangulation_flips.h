@@ -59,6 +59,13 @@ void RegularTriangulation<Dimension>::join(CellId a, int i, CellId b, int k) {
 }
 
 template <int Dimension>
+void RegularTriangulation<Dimension>::fetch_around(CellId cell, int i) const {
+  for (const CellId id : {cell, cell_of(beyond(cell, i))}) {
+    for (int k = 0; k <= Dimension; ++k) __builtin_prefetch(&cells_[cell_of(beyond(id, k))], 1);
+  }
+}
+
+template <int Dimension>
 std::array<CellId, static_cast<std::size_t>(Dimension)> RegularTriangulation<Dimension>::flip_facet(
     CellId cell, int i) {
   const Cell here = cells_[cell];
