@@ -285,11 +285,15 @@ UpdateCounts AutomaticUpdate<Dimension>::advance(const Eigen::Matrix3Xd& centers
   }
   if (failed_ > limit * tested_) {
     this->rebuild(centers, weights, counts);
-  } else if (!this->try_to_move_all(centers, weights, counts)) {
-    // Much happens on the way that is undone again: the frames do not tell.
+  } else if (this->try_to_move_all(centers, weights, counts)) {
+    skip_after_giving_up_ = 0;
+  } else {
+    // Another motion, or much happens on the way that is undone again, which no sample tells: the less often
+    // it is tried.
     this->rebuild(centers, weights, counts);
     failed_ = tested_;
-    skip_ = next_skip_ = most_skipped;
+    next_skip_ = 0;
+    skip_ = skip_after_giving_up_ = std::clamp(2 * skip_after_giving_up_ + 1, most_skipped, 8 * most_skipped);
   }
   return counts;
 }
