@@ -36,8 +36,9 @@ Json input_json(const UpdateOptions& options, const std::vector<Trajectory>& nec
   std::size_t frames = 1;
   for (const Trajectory& necklace : necklaces) frames = std::max(frames, necklace.frames.size());
   const auto [least, most] = std::minmax_element(radii.begin(), radii.end());
-  return {{"files", files}, {"beads", radii.size()}, {"frames", frames},
-          {"dimension", Scene(necklaces, radii).dimension()}, {"radius_min", *least},  {"radius_max", *most}};
+  return {{"files", files},       {"beads", radii.size()},
+          {"frames", frames},     {"dimension", Scene(necklaces, radii).dimension()},
+          {"radius_min", *least}, {"radius_max", *most}};
 }
 
 Json settings_json(const UpdateOptions& options) {

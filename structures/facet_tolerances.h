@@ -142,7 +142,9 @@ class FacetTolerances {
       rest += among_others ? 0 : 1;
       by_beads += !among_others && !coarsely ? 1 : 0;
     });
-    by_beads_ = share_of(by_beads, looked_at) > worth_a_look;
+    // Where nothing bounds all beads a facet's two cells must be told apart by their beads.
+    by_beads_ =
+        share_of(by_beads, looked_at) > worth_a_look || !(farthest_ < std::numeric_limits<float>::infinity());
     return share_of(rest, looked_at);
   }
 

@@ -28,6 +28,7 @@ template <int Dimension>
 StaticTriangulation<Dimension> RegularTriangulation<Dimension>::build_bare(const Eigen::Matrix3Xd& centers,
                                                                            std::span<const double> weights) {
   mirrored_ = false;
+  cgal_->forget_changes();
   auto& triangulation = cgal_->triangulation;
   triangulation.clear();
   insert_all<Dimension>(triangulation, centers, weights);
@@ -44,6 +45,9 @@ void RegularTriangulation<Dimension>::make_mirror() {
   if (cgal_->triangulation.dimension() < Dimension) {
     cells_.clear();
     live_.clear();
+    free_.clear();
+    cgal_->cell.clear();
+    count_cells();
     return;
   }
   mirror_all();
@@ -73,6 +77,8 @@ void RegularTriangulation<Dimension>::assign(std::size_t beads, std::span<const 
   for (std::size_t b = 0; b < beads && b < cgal_->vertex.size(); ++b) {
     if (cgal_->vertex[b] != typename Cgal::VertexHandle()) points[b] = cgal_->vertex[b]->point();
   }
+  mirrored_ = false;
+  cgal_->forget_changes();
   triangulation.clear();
   auto& tds = triangulation.tds();
   tds.clear();

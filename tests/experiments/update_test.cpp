@@ -188,8 +188,8 @@ TEST(Update, BeadsThatHideOthers) {
 TEST(Update, PlanarTrajectoriesInThePlane) {
   const ScratchDirectory directory;
   const std::string chain = (directory / "chain.xyz").string();
-  ASSERT_EQ(run_program({"generate", "grid", "--dimension", "2", "--beads", "100", "--frames", "6",
-                         "--motion", "wander", "--step", "0.1", "-o", chain})
+  ASSERT_EQ(run_program(
+                {"generate", "spiral", "--beads", "100", "--frames", "6", "--rolled", "0.3:0.5", "-o", chain})
                 .code,
             0);
   const ProgramRun run =

@@ -34,6 +34,11 @@ std::vector<CellId> live_cells(const RegularTriangulation<3>& triangulation) {
   return live;
 }
 
+int place(const RegularTriangulation<3>& t, CellId cell, BeadId bead) {
+  const auto& v = t.cells()[cell].vertex;
+  return static_cast<int>(std::find(v.begin(), v.end(), bead) - v.begin());
+}
+
 /// All cells, infinite ones too, beads ascending.
 std::set<CellBeads<3>> all_cells(const RegularTriangulation<3>& triangulation) {
   std::set<CellBeads<3>> cells;
@@ -289,9 +294,7 @@ TEST(RegularTriangulation, ValidityFollowsThePoints) {
   EXPECT_EQ(triangulation.least_orientation(), 1);
   const auto cell = triangulation.find_cell({0, 1, 2, 3});
   ASSERT_TRUE(cell);
-  const auto& v = triangulation.cells()[*cell].vertex;
-  const auto made =
-      triangulation.flip_facet(*cell, static_cast<int>(std::find(v.begin(), v.end(), 3U) - v.begin()));
+  const auto made = triangulation.flip_facet(*cell, place(triangulation, *cell, 3));
   EXPECT_TRUE(triangulation.is_valid());
   EXPECT_TRUE(triangulation.is_edge(3, 4));
   EXPECT_EQ(triangulation.finite_cells(), static_triangulation<3>(centers(after), weights).cells);
@@ -306,6 +309,38 @@ TEST(RegularTriangulation, ValidityFollowsThePoints) {
   EXPECT_EQ(least_orientation(triangulation, Placement<3>(centers(mirrored), weights)), -1);
   EXPECT_EQ(least_orientation(triangulation, Placement<3>(centers(after), weights)), 1);
   EXPECT_EQ(least_orientation(triangulation, Placement<3>(Eigen::Matrix3Xd::Zero(3, 5), weights)), 0);
+}
+
+// Flips that CGAL's side has not done yet do not outlive what they were of.
+TEST(RegularTriangulation, FlipsBeforeABuildAreForgotten) {
+  const std::vector<double> weights(5, 0.25);
+  const auto centers = [](const Points& points) { return control_points(moving(points, points), 0); };
+  const Points solid{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 5}, {0, 0, -5}};
+  Points flat = solid;
+  for (auto& point : flat) point[2] = 0;
+  RegularTriangulation<3> triangulation;
+  for (const Points& next : {flat, solid}) {
+    (void)triangulation.build(centers(solid), weights);
+    const auto cell = triangulation.find_cell({0, 1, 2, 3});
+    ASSERT_TRUE(cell);
+    (void)triangulation.flip_facet(*cell, place(triangulation, *cell, 3));
+    (void)triangulation.build(centers(next), weights);
+    EXPECT_EQ(triangulation.is_solid(), next == solid);
+    triangulation.set_points(centers(next), weights);
+    EXPECT_TRUE(triangulation.is_valid());
+    EXPECT_EQ(triangulation.finite_cells(), static_triangulation<3>(centers(next), weights).cells);
+  }
+  const auto oriented = static_triangulation<3>(
+      std::vector<ExactBead>{
+          {{3, 0, 0}, 1}, {{-3, 3, 0}, 1}, {{-3, -3, 0}, 1}, {{0, 0, 5}, 1}, {{0, 0, -5}, 1}},
+      true);
+  const auto cell = triangulation.find_cell({0, 1, 2, 3});
+  ASSERT_TRUE(cell);
+  (void)triangulation.flip_facet(*cell, place(triangulation, *cell, 3));
+  triangulation.assign(5, oriented.cells);
+  triangulation.set_points(centers(solid), weights);
+  EXPECT_TRUE(triangulation.is_valid());
+  check_mirror(triangulation, 5);
 }
 
 // Mutate, validate, repeat.
@@ -327,11 +362,6 @@ bool has_facet(const RegularTriangulation<3>& t, const std::array<BeadId, 3>& fa
       return true;
   }
   return false;
-}
-
-int place(const RegularTriangulation<3>& t, CellId cell, BeadId bead) {
-  const auto& v = t.cells()[cell].vertex;
-  return static_cast<int>(std::find(v.begin(), v.end(), bead) - v.begin());
 }
 
 /// Makes a flip and checks the cells it says it made.
