@@ -10,6 +10,7 @@
 
 #include "experiments/bench_hierarchies.h"
 #include "experiments/bench_power.h"
+#include "experiments/bench_subjects.h"
 #include "experiments/progress_bar.h"
 #include "experiments/table_results.h"
 #include "experiments/text.h"
@@ -20,9 +21,12 @@ namespace kds {
 namespace {
 
 constexpr std::array kOptions{
-    OptionSpec{"--sizes", "LIST", "beads of generated chains (default: 640,10240,102400; power: 10240)"},
+    OptionSpec{"--sizes", "LIST",
+               "hierarchies, power: beads of generated chains (default: 640,10240,102400; power: 10240)"},
     OptionSpec{"--trajectories", "LIST",
-               "trajectory files (default: those of data/trajectories here, *.dcd)"},
+               "hierarchies, power: trajectory files (default: those of data/trajectories here, *.dcd)"},
+    OptionSpec{"--instances", "DIR",
+               "certificates, engine: the folder of moving-point files (default: data/kinetic)"},
     OptionSpec{"--rounds", "N", "interleaved runs of ours and the peer, at least 5 (default: 5)"},
     OptionSpec{"--out", "DIR", "write bench.json and bench.csv there (default: none)"},
     OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
@@ -33,9 +37,12 @@ constexpr CommandSpec kCommand{
     "kds bench",
     "Measures ours beside a peer in the same process: medians of interleaved runs, processor time.",
     "SUBJECT",
-    "hierarchies: wrapped and layered hierarchies, beside CGAL at every node; power: the power diagram from "
-    "frame to frame, beside CGAL's static build",
+    "certificates: from beads to failure times, beside CGAL's predicates and algebraic numbers; engine: "
+    "whole "
+    "runs of moving points, beside CGAL's static build; hierarchies: wrapped and layered hierarchies, beside "
+    "CGAL at every node; power: the power diagram from frame to frame, beside CGAL's static build",
     kOptions,
+    "kds bench certificates\n"
     "kds bench hierarchies\n"
     "kds bench power --sizes 10240 --trajectories data/trajectories/villin_hp36_300K.dcd --json -",
 };
@@ -63,8 +70,15 @@ std::vector<std::filesystem::path> trajectories_here() {
 int bench_command(const Arguments& arguments) {
   const ParsedArguments parsed = parse_arguments(kCommand, arguments);
   const std::vector<std::string>& subject = parsed.operands();
-  if (subject.size() != 1 || (subject[0] != "hierarchies" && subject[0] != "power"))
-    throw InputError("kds bench: expected one subject, hierarchies or power");
+  constexpr std::array<std::string_view, 4> subjects{"certificates", "engine", "hierarchies", "power"};
+  if (subject.size() != 1 || std::find(subjects.begin(), subjects.end(), subject[0]) == subjects.end())
+    throw InputError("kds bench: expected one subject of certificates, engine, hierarchies, power");
+  const bool on_chains = subject[0] == "hierarchies" || subject[0] == "power";
+  for (const char* option : {"--sizes", "--trajectories"})
+    if (!on_chains && parsed.has(option))
+      throw InputError(fmt::format("{}: {} takes none", option, subject[0]));
+  if (on_chains && parsed.has("--instances"))
+    throw InputError(fmt::format("--instances: {} takes none", subject[0]));
   std::optional<std::vector<std::size_t>> sizes;
   if (const auto list = parsed.value("--sizes")) {
     sizes.emplace();
@@ -97,8 +111,12 @@ int bench_command(const Arguments& arguments) {
     options.rounds = rounds;
     return bench(options, progress);
   };
-  const std::vector<BenchRow> rows = subject[0] == "power" ? run(PowerBenchOptions{}, bench_power)
-                                                           : run(HierarchyBenchOptions{}, bench_hierarchies);
+  const SubjectBenchOptions on_instances{parsed.value("--instances").value_or("data/kinetic"), rounds};
+  const std::vector<BenchRow> rows = subject[0] == "certificates" ? bench_certificates(on_instances, progress)
+                                     : subject[0] == "engine"     ? bench_engine(on_instances, progress)
+                                     : subject[0] == "power"
+                                         ? run(PowerBenchOptions{}, bench_power)
+                                         : run(HierarchyBenchOptions{}, bench_hierarchies);
   bar.erase();
   deliver_table(destinations, "bench", {bench_json(rows), bench_csv(rows), bench_table(rows)});
   return 0;

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "experiments/bench_chains.h"
+#include "experiments/bench_kinetic.h"
 #include "experiments/bench_timing.h"
+#include "motions/models/model.h"
 #include "structures/layered_hierarchy.h"
 #include "structures/static_build.h"
 #include "structures/static_wrapped_hierarchy.h"
@@ -21,6 +25,7 @@ constexpr std::string_view peer_name = "CGAL Min_sphere_of_spheres_d";
 struct Input : BenchChain {
   // Factors that are asked for.
   double build = 6, update = 10, trust = 25;
+  std::optional<double> kinetic = std::nullopt;
 };
 
 // Every third bead a fifth smaller, every seventh a tenth: half of each factor is asked for.
@@ -31,7 +36,15 @@ Input with_unequal_radii(Input input) {
   }
   input.name += " unequal";
   for (double* factor : {&input.build, &input.update, &input.trust}) *factor /= 2;
+  if (input.kinetic) *input.kinetic /= 2;
   return input;
+}
+
+/// Of the kinetic step on a trajectory, by its name's start.
+std::optional<double> kinetic_factor(std::string_view name) {
+  if (name.starts_with("random100") || name.starts_with("villin")) return 4;
+  if (name.starts_with("dhodh")) return 1.5;
+  return std::nullopt;
 }
 
 class Measured {
@@ -65,7 +78,7 @@ class Measured {
       trust.push_back(over_frames(trusting, [](auto& h, const auto& now) { h.update(now, Update::trust); }));
       peer.push_back(0);
       for (std::size_t k = 1; k < balls_.size(); ++k)
-        peer.back() += processor_seconds_to_wrap(built.tree().ranges(), input_.frames[k], input_.radii);
+        peer.back() += seconds_to_wrap<3>(built.tree().ranges(), input_.frames[k], input_.radii).processor;
     }
     const double nodes = static_cast<double>(built.tree().node_count() * later.size());
     const double cgal = median_of(peer) / nodes * 1e9;
@@ -88,6 +101,38 @@ class Measured {
   std::vector<BeadRange> necklace_;
   std::vector<Balls<3>> balls_;
 };
+
+// Rigid, from frame to frame: whatever events there are linear motion makes, since it squeezes.
+BenchChain rotating_chain(std::size_t beads) {
+  const models::Settings settings{.beads = beads, .frames = 20, .motion = models::ShapeMotion::rotate};
+  return {"rotating random-chain",
+          models::generate(*models::find_model("random-chain"), settings).front().frames,
+          std::vector<double>(beads, 1.0)};
+}
+
+// On all threads beside one, by the clock.
+void all_threads(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& rows) {
+  const auto frames = jostled_frames(model_at_rest("random-chain", beads), 0.01, 2);
+  const std::vector<double> radii(beads, 1.0);
+  const std::array<Balls<3>, 2> balls{Balls<3>(frames[0], radii), Balls<3>(frames[1], radii)};
+  const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(beads - 1)}};
+  StaticWrappedHierarchy<3> hierarchy(necklace);
+  std::array<std::vector<double>, 2> build, update;  // on one, on all
+  for (std::size_t round = 0; round < rounds; ++round) {
+    for (const Threads threads : {Threads::one, Threads::all}) {
+      const std::size_t all = threads == Threads::all ? 1 : 0;
+      build[all].push_back(seconds_of([&] { hierarchy.build(balls[0], threads); }).clock);
+      update[all].push_back(seconds_of([&] { hierarchy.update(balls[1], Update::blocks, threads); }).clock);
+    }
+  }
+  const double nanoseconds = 1e9 / static_cast<double>(hierarchy.tree().node_count());
+  const auto row = [&](const char* name, const std::array<std::vector<double>, 2>& seconds) {
+    rows.push_back({name, "random-chain", beads, median_of(seconds[1]) * nanoseconds, "ns/node", "one thread",
+                    median_of(seconds[0]) * nanoseconds, std::nullopt});
+  };
+  row("wrapped build, all threads", build);
+  row("wrapped update, all threads", update);
+}
 
 // Two distant necklaces, of which a query looks at the two roots: what a frame costs in all.
 void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& rows) {
@@ -114,7 +159,7 @@ void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& ro
                      }
                    }) /
                    queries);
-    peer.push_back(processor_seconds_to_wrap(hierarchy.tree().ranges(), both, radii));
+    peer.push_back(seconds_to_wrap<3>(hierarchy.tree().ranges(), both, radii).processor);
   }
   rows.push_back({"lazy update and query", "far helices", radii.size(), median_of(ours) * 1e9, "ns/frame",
                   apart > 0 ? std::string(peer_name) : "", median_of(peer) * 1e9, 1.0 / 25});
@@ -125,14 +170,22 @@ void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& ro
 std::vector<BenchRow> bench_hierarchies(const HierarchyBenchOptions& options,
                                         const std::function<void(std::size_t, std::size_t)>& progress) {
   std::vector<std::function<Input()>> inputs;
-  for (const std::filesystem::path& path : options.trajectories)
-    inputs.emplace_back([path] { return Input{read_bench_chain(path)}; });
+  for (const std::filesystem::path& path : options.trajectories) {
+    inputs.emplace_back([path] {
+      Input input{read_bench_chain(path)};
+      input.kinetic = kinetic_factor(input.name);
+      return input;
+    });
+  }
   for (const std::size_t beads : options.sizes) {
     for (const char* model : {"helix", "random-chain", "grid"}) {
       inputs.emplace_back([name = std::string(model), beads] {
         Input input{
             {name, jostled_frames(model_at_rest(name, beads), 0.01, 8), std::vector<double>(beads, 1.0)}};
-        input.update = name == "random-chain" ? 18 : 10;
+        if (name == "random-chain") {
+          input.update = 18;
+          input.kinetic = 10;
+        }
         return input;
       });
     }
@@ -144,11 +197,18 @@ std::vector<BenchRow> bench_hierarchies(const HierarchyBenchOptions& options,
     for (const bool equal : {true, false}) {
       const Input one = equal ? input : with_unequal_radii(input);
       // A small hierarchy is done many times.
-      Measured(one, rows).run(std::max(options.rounds, 50000 / (one.radii.size() * one.frames.size())));
+      const std::size_t rounds = std::max(options.rounds, 50000 / (one.radii.size() * one.frames.size()));
+      Measured(one, rows).run(rounds);
+      bench_kinetic_steps(one, rounds, one.kinetic, rows);
+      bench_kinetic_events(one, rows);
       progress(++done, 2 * inputs.size());
     }
   }
-  for (const std::size_t beads : options.sizes) lazy_query(beads, options.rounds, rows);
+  if (!options.sizes.empty()) bench_kinetic_events(rotating_chain(options.sizes.front()), rows);
+  for (const std::size_t beads : options.sizes) {
+    all_threads(beads, options.rounds, rows);
+    lazy_query(beads, options.rounds, rows);
+  }
   return rows;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// `kds bench hierarchies`: wrapped and layered hierarchies, built and brought from frame to frame, beside
-// CGAL's Min_sphere_of_spheres_d at every node.
+// `kds bench hierarchies`: wrapped and layered hierarchies, built and brought from frame to frame, in steps
+// and kinetically, beside CGAL's Min_sphere_of_spheres_d at every node; events beside what they come to.
 
 #include <cstddef>
 #include <filesystem>

@@ -15,16 +15,18 @@ struct BenchRow {
   std::string unit;
   std::string peer;                  ///< empty: none
   std::optional<double> peer_value;  ///< in the same unit
-  /// What the ratio ours / peer, or the value where there is no peer, is to be at most; none where no figure
-  /// is asked for.
+  /// What the ratio ours / peer is to be at most, or the value where there is no peer or the goal is in its
+  /// unit; none where no figure is asked for.
   std::optional<double> goal;
+  bool goal_in_unit = false;
 
+  /// None beside nothing.
   [[nodiscard]] std::optional<double> ratio() const {
-    return peer_value ? std::optional(value / *peer_value) : std::nullopt;
+    return peer_value && *peer_value != 0 ? std::optional(value / *peer_value) : std::nullopt;
   }
   /// None without a goal.
   [[nodiscard]] std::optional<bool> holds() const {
-    return goal ? std::optional(ratio().value_or(value) <= *goal) : std::nullopt;
+    return goal ? std::optional((goal_in_unit ? value : ratio().value_or(value)) <= *goal) : std::nullopt;
   }
 };
 

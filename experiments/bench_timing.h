@@ -1,25 +1,18 @@
 #pragma once
-// Times of ours and of a peer in turn: machines drift, so a claim is a ratio of medians beside each other.
-// Processor time of the process: other programs on the machine do not count.
+// Times of ours and of a peer in turn: machines drift, so a claim is a ratio of medians beside each other. Of
+// the processor, but for work that threads share.
 
 #include <algorithm>
 #include <cstddef>
-#include <ctime>
 #include <vector>
+
+#include "kds/seconds.h"
 
 namespace kds {
 
-inline double processor_seconds() {
-  std::timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 template <class Work>
 double processor_seconds_of(const Work& work) {
-  const double start = processor_seconds();
-  work();
-  return processor_seconds() - start;
+  return seconds_of(work).processor;
 }
 
 inline double median_of(std::vector<double> values) {

@@ -75,7 +75,7 @@ class SessionOf final : public Session {
     if (name == "sorted") {
       auto* list = own(std::make_unique<SortedList<M, K>>(simulator_, motion_));
       add([list](std::size_t, auto& files) { files.push_back(dump_sorted(list->order())); },
-          [this](std::size_t frame) { return seconds_to_sort(scene_.centers(frame)); });
+          [this](std::size_t frame) { return seconds_to_sort(scene_.centers(frame)).clock; });
       return;
     }
     if (lifted<M> && name != "power") {
@@ -128,7 +128,7 @@ class SessionOf final : public Session {
           files.push_back(dump_wrapped(nodes));
         },
         [this, kept](std::size_t frame) {
-          return seconds_to_wrap<M::dimension>(kept, scene_.centers(frame), scene_.radii());
+          return seconds_to_wrap<M::dimension>(kept, scene_.centers(frame), scene_.radii()).clock;
         });
   }
 
@@ -141,7 +141,7 @@ class SessionOf final : public Session {
           files.push_back(dump_hidden(at_frame.hidden));
         },
         [this](std::size_t frame) {
-          return seconds_to_triangulate<M::dimension>(scene_.centers(frame), scene_.weights(frame));
+          return seconds_to_triangulate<M::dimension>(scene_.centers(frame), scene_.weights(frame)).clock;
         });
   }
 

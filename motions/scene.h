@@ -57,9 +57,13 @@ class Scene {
   /// motion. Radii do not change during a step; the points of an instance have none, only weights.
   template <Motion M>
   void load(std::size_t step, M& motion) const {
-    for (BeadId b = 0; b < bead_count(); ++b) {
-      for (int k = 0; k <= degree_; ++k) set_control_point(step, b, k, motion, k);
-      if constexpr (elevated<M>) set_control_point(step, b, degree_, motion, M::degree);
+    if (M::degree == 1 && !frames_.empty()) {
+      load_between_frames(step, motion);
+    } else {
+      for (BeadId b = 0; b < bead_count(); ++b) {
+        for (int k = 0; k <= degree_; ++k) set_control_point(step, b, k, motion, k);
+        if constexpr (elevated<M>) set_control_point(step, b, degree_, motion, M::degree);
+      }
     }
     if constexpr (elevated<M>) motion.set_own_degree(degree_);
     if constexpr (lifted<M>) motion.set_drift(drift<M>(step));
@@ -82,6 +86,19 @@ class Scene {
       motion.set_coordinate(b, place, axis, coordinate(step, b, k, axis));
     motion.set_weight(b, place, weight(b, k));
     motion.set_radius(b, place, has_radii_ ? radii_[b] : 0);
+  }
+  /// The same on straight lines, where it is a good part of a step.
+  template <Motion M>
+  void load_between_frames(std::size_t step, M& motion) const {
+    for (BeadId b = 0; b < bead_count(); ++b) {
+      const double radius = radii_[b];
+      for (int k = 0; k <= 1; ++k) {
+        const double* const center = frames_[step + static_cast<std::size_t>(k)].data() + 3 * std::size_t{b};
+        for (int axis = 0; axis < M::dimension; ++axis) motion.set_coordinate(b, k, axis, center[axis]);
+        motion.set_weight(b, k, radius * radius);
+        motion.set_radius(b, k, radius);
+      }
+    }
   }
   /// The mean displacement; any vector makes a motion, this one dips weights the least on average.
   template <Motion M>

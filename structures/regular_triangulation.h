@@ -18,6 +18,7 @@
 #include <span>
 #include <vector>
 
+#include "kds/seconds.h"
 #include "motions/bead.h"
 #include "motions/exact_number.h"
 #include "motions/placement.h"
@@ -77,9 +78,9 @@ template <int Dimension>
 [[nodiscard]] StaticTriangulation<Dimension> static_triangulation(std::span<const ExactBead> beads,
                                                                   bool oriented);
 
-/// Seconds that CGAL takes for the same from doubles, which is what a user would do at every frame instead.
+/// What CGAL takes for the same from doubles, which is what a user would do at every frame instead.
 template <int Dimension>
-[[nodiscard]] double seconds_to_triangulate(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+[[nodiscard]] Seconds seconds_to_triangulate(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
 
 template <int Dimension>
 class RegularTriangulation {

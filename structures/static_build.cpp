@@ -6,22 +6,13 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <type_traits>
 #include <vector>
 
 namespace kds {
 
 namespace {
-
-template <class Work>
-double seconds_of(Work&& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 using Geometry = CGAL::Simple_cartesian<double>;
 template <int Dimension>
@@ -59,31 +50,18 @@ void wrap(std::span<const BeadRange> nodes,
 }  // namespace
 
 template <int Dimension>
-double seconds_to_wrap(std::span<const BeadRange> nodes, const Eigen::Matrix3Xd& centers,
-                       std::span<const double> radii) {
+Seconds seconds_to_wrap(std::span<const BeadRange> nodes, const Eigen::Matrix3Xd& centers,
+                        std::span<const double> radii) {
   const auto spheres = cgal_spheres<Dimension>(centers, radii);
   return seconds_of([&] { wrap<Dimension>(nodes, spheres); });
 }
 
-template double seconds_to_wrap<2>(std::span<const BeadRange>, const Eigen::Matrix3Xd&,
-                                   std::span<const double>);
-template double seconds_to_wrap<3>(std::span<const BeadRange>, const Eigen::Matrix3Xd&,
-                                   std::span<const double>);
+template Seconds seconds_to_wrap<2>(std::span<const BeadRange>, const Eigen::Matrix3Xd&,
+                                    std::span<const double>);
+template Seconds seconds_to_wrap<3>(std::span<const BeadRange>, const Eigen::Matrix3Xd&,
+                                    std::span<const double>);
 
-double processor_seconds_to_wrap(std::span<const BeadRange> nodes, const Eigen::Matrix3Xd& centers,
-                                 std::span<const double> radii) {
-  const auto spheres = cgal_spheres<3>(centers, radii);
-  const auto now = [] {
-    std::timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-  };
-  const double start = now();
-  wrap<3>(nodes, spheres);
-  return now() - start;
-}
-
-double seconds_to_sort(const Eigen::Matrix3Xd& centers) {
+Seconds seconds_to_sort(const Eigen::Matrix3Xd& centers) {
   std::vector<double> x(static_cast<std::size_t>(centers.cols()));
   for (std::size_t b = 0; b < x.size(); ++b) x[b] = centers(0, static_cast<Eigen::Index>(b));
   return seconds_of([&] { std::sort(x.begin(), x.end()); });

@@ -1,4 +1,3 @@
-#include <chrono>
 
 #include "structures/diagram_edges.h"
 #include "structures/regular_triangulation_cgal.h"
@@ -29,21 +28,20 @@ DiagramEdges static_edges(const Eigen::Matrix3Xd& centers, std::span<const doubl
 }
 
 template <int Dimension>
-double seconds_to_triangulate(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+Seconds seconds_to_triangulate(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
   std::vector<typename CgalOf<Dimension>::Type::Weighted_point> points;
   points.reserve(weights.size());
   for (std::size_t b = 0; b < weights.size(); ++b)
     points.push_back(weighted_point<Dimension>(centers, weights, b));
-  const auto start = std::chrono::steady_clock::now();
-  const typename CgalOf<Dimension>::Type triangulation(points.begin(), points.end());
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return seconds_of(
+      [&] { const typename CgalOf<Dimension>::Type triangulation(points.begin(), points.end()); });
 }
 
 template StaticTriangulation<2> static_triangulation(const Eigen::Matrix3Xd&, std::span<const double>);
 template StaticTriangulation<3> static_triangulation(const Eigen::Matrix3Xd&, std::span<const double>);
 template DiagramEdges static_edges<2>(const Eigen::Matrix3Xd&, std::span<const double>);
 template DiagramEdges static_edges<3>(const Eigen::Matrix3Xd&, std::span<const double>);
-template double seconds_to_triangulate<2>(const Eigen::Matrix3Xd&, std::span<const double>);
-template double seconds_to_triangulate<3>(const Eigen::Matrix3Xd&, std::span<const double>);
+template Seconds seconds_to_triangulate<2>(const Eigen::Matrix3Xd&, std::span<const double>);
+template Seconds seconds_to_triangulate<3>(const Eigen::Matrix3Xd&, std::span<const double>);
 
 }  // namespace kds

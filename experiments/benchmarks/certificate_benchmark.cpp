@@ -8,8 +8,6 @@
 //   kds_benchmarks --benchmark_filter=compare   two failure times apart; peer: two algebraic numbers
 //   kds_benchmarks --benchmark_filter=sign      at or just after another's failure; peer: predicate
 
-#include <benchmark/benchmark.h>
-
 #include <algorithm>
 #include <limits>
 #include <span>
@@ -20,10 +18,9 @@
 
 #include "certificates/bead_in_sphere.h"
 #include "certificates/failure_search.h"
-#include "experiments/benchmarks/benchmarks.h"
 #include "experiments/benchmarks/certificate_peers.h"
-#include "experiments/benchmarks/in_turn.h"
 #include "experiments/benchmarks/random_chain.h"
+#include "experiments/benchmarks/subject.h"
 #include "kds/failure_order.h"
 #include "motions/instance.h"
 #include "motions/positions.h"
@@ -96,8 +93,8 @@ M chain(double distance) {
 }
 
 template <Motion M>
-M instance(const std::string& name) {
-  const Scene scene(read_instance(std::string(KDS_DATA_DIR) + "/kinetic/" + name + ".txt"));
+M instance(const std::filesystem::path& file) {
+  const Scene scene(read_instance(file));
   M motion(scene.bead_count());
   scene.load(0, motion);
   return motion;
@@ -165,22 +162,22 @@ void search(I& input) {
 }
 
 template <class I>
-void settle(benchmark::State& state, I input) {
+void settle(Turns& turns, I input) {
   input.keep(Failure::Kind::never);
   const auto beads = input.beads();
   const StaticPredicates peer = input.predicates();
   input.stages = {};
-  measure_in_turn(
-      state, beads.size(), [&] { search<Filtered>(input); }, [&] { return peer.seconds_for(beads); });
-  state.counters["by_coefficients"] =
-      static_cast<double>(input.stages.coefficients) /
-      static_cast<double>(input.stages.coefficients + input.stages.isolation + input.stages.refined +
-                          input.stages.exact + input.stages.identically_zero);
+  turns.take(
+      beads.size(), [&] { search<Filtered>(input); }, [&] { return peer.seconds_for(beads); });
+  turns.note("by_coefficients", static_cast<double>(input.stages.coefficients) /
+                                    static_cast<double>(input.stages.coefficients + input.stages.isolation +
+                                                        input.stages.refined + input.stages.exact +
+                                                        input.stages.identically_zero));
 }
 
 // All facets of a triangulation as they lie in its cells; those not found positive are left.
 template <Processor processor, Motion M>
-void settle_in_cells(benchmark::State& state, const M& motion) {
+void settle_in_cells(Turns& turns, const M& motion) {
   RegularTriangulation<3> triangulation;
   static_cast<void>(triangulation.build(control_points(motion, 0), control_weights(motion, 0)));
   const auto cells = triangulation.cells();
@@ -189,8 +186,8 @@ void settle_in_cells(benchmark::State& state, const M& motion) {
   const StaticPredicates peer = input.predicates();
   std::uint64_t positive = 0;
   FacetCover cover;
-  measure_in_turn(
-      state, beads.size(),
+  turns.take(
+      beads.size(),
       [&] {
         cover.start(cells.size());
         PositiveFacets<M, processor> facets(motion, exponent_of_length(motion, cells));
@@ -204,39 +201,38 @@ void settle_in_cells(benchmark::State& state, const M& motion) {
         positive = facets.count();
       },
       [&] { return peer.seconds_for(beads); });
-  state.counters["settled"] = static_cast<double>(positive) / static_cast<double>(beads.size());
+  turns.note("settled", static_cast<double>(positive) / static_cast<double>(beads.size()));
 }
 
 template <Kernel K, class I>
-void failure(benchmark::State& state, I input) {
+void failure(Turns& turns, I input) {
   input.keep(Failure::Kind::later, enough);
   const AlgebraicKernel peer(input.polynomials());
-  measure_in_turn(
-      state, input.certificates.size(), [&] { search<K>(input); }, [&] { return peer.seconds_to_isolate(); });
+  turns.take(
+      input.certificates.size(), [&] { search<K>(input); }, [&] { return peer.seconds_to_isolate(); });
 }
 
 // Beads to polynomials.
 template <class I>
-void exact_function(benchmark::State& state, I input) {
+void exact_function(Turns& turns, I input) {
   input.keep(Failure::Kind::later, enough);
-  measure_in_turn(
-      state, input.certificates.size(), [&] { benchmark::DoNotOptimize(input.polynomials().data()); },
-      [] { return std::numeric_limits<double>::quiet_NaN(); });
+  turns.take(
+      input.certificates.size(), [&] { keep(input.polynomials().data()); }, [] { return no_peer; });
 }
 
 // The polynomials are given, the first failure wanted.
 template <class I>
-void exact_failure(benchmark::State& state, I input) {
+void exact_failure(Turns& turns, I input) {
   input.keep(Failure::Kind::later, enough);
   const std::vector<ExactPolynomial> polynomials = input.polynomials();
   const AlgebraicKernel peer(polynomials);
   const ExactTime start(Dyadic(0.0));
-  measure_in_turn(
-      state, polynomials.size(),
+  turns.take(
+      polynomials.size(),
       [&] {
         for (const ExactPolynomial& p : polynomials) {
           const auto found = first_failure_after(p, start);
-          benchmark::DoNotOptimize(found->touch);
+          keep(found->touch);
         }
       },
       [&] { return peer.seconds_to_isolate(); });
@@ -244,23 +240,23 @@ void exact_failure(benchmark::State& state, I input) {
 
 // The polynomials are given, all roots in [0,1] wanted.
 template <class I>
-void exact_isolation(benchmark::State& state, I input) {
+void exact_isolation(Turns& turns, I input) {
   input.keep(Failure::Kind::later, enough);
   const std::vector<ExactPolynomial> polynomials = input.polynomials();
   const AlgebraicKernel peer(polynomials);
-  measure_in_turn(
-      state, polynomials.size(),
+  turns.take(
+      polynomials.size(),
       [&] {
         for (const ExactPolynomial& p : polynomials) {
           const auto roots = isolate_roots(p.square_free(), Dyadic(0.0), Dyadic(1.0));
-          benchmark::DoNotOptimize(roots.data());
+          keep(roots.data());
         }
       },
       [&] { return peer.seconds_to_isolate(); });
 }
 
 template <class I>
-void compare(benchmark::State& state, I input) {
+void compare(Turns& turns, I input) {
   input.keep(Failure::Kind::later, enough);
   AlgebraicKernel peer(input.polynomials());
   std::vector<ScheduledFailure> times;
@@ -274,19 +270,19 @@ void compare(benchmark::State& state, I input) {
   }
   FailureOrder order;
   static_cast<void>(peer.seconds_to_compare(pairs));  // it narrows as it goes
-  measure_in_turn(
-      state, pairs.size(),
+  turns.take(
+      pairs.size(),
       [&] {
         int sum = 0;
         for (const auto& [a, b] : pairs) sum += order.before(times[a], times[b]) ? 1 : 0;
-        benchmark::DoNotOptimize(sum);
+        keep(sum);
       },
       [&] { return peer.seconds_to_compare(pairs); });
 }
 
 // At the failure times of some, signs of others.
 template <class I>
-void sign(benchmark::State& state, I input, bool four_at_once) {
+void sign(Turns& turns, I input, bool four_at_once) {
   input.keep(Failure::Kind::later, enough);
   std::vector<Instant> instants;
   for (std::uint32_t i = 0; i < input.certificates.size(); ++i)
@@ -314,8 +310,8 @@ void sign(benchmark::State& state, I input, bool four_at_once) {
   for (const Facet& c : others) beads.push_back(c.beads);
   const StaticPredicates peer = input.predicates();
   const std::span<const Facet> all(others);
-  measure_in_turn(
-      state, others.size(),
+  turns.take(
+      others.size(),
       [&] {
         int sum = 0;
         for (std::size_t i = 0; i < instants.size(); ++i) {
@@ -323,68 +319,95 @@ void sign(benchmark::State& state, I input, bool four_at_once) {
                                                                instants[i], input.stages)}
                               : sign_just_after<Filtered>(all[i], input.motion, instants[i], input.stages);
         }
-        benchmark::DoNotOptimize(sum);
+        keep(sum);
       },
       [&] { return peer.seconds_for(beads); });
 }
 
 }  // namespace
 
-void add_certificate_benchmarks() {
-  using benchmark::State;
+std::vector<Subject> certificate_subjects(const std::filesystem::path& instances) {
   const auto near = [] { return chain<Linear>(0.01); };
   const auto near_cubic = [] { return chain<Cubic>(0.01); };
-  const auto linear = [] { return instance<Linear>("d3_n200_linear"); };
-  const auto cubic = [] { return instance<Cubic>("d3_n100_degree3"); };
+  const auto linear = [motion = instance<Linear>(instances / "d3_n200_linear.txt")] { return motion; };
+  const auto cubic = [motion = instance<Cubic>(instances / "d3_n100_degree3.txt")] { return motion; };
   constexpr std::size_t many = 20000;
   constexpr std::size_t window = 16;
+  const std::string predicate = "CGAL predicate at one moment", algebraic = "CGAL Algebraic_kernel_d_1";
+  constexpr std::optional<double> none;
 
-  add_benchmark("settle/facet/linear", [=](State& s) { settle(s, facets(near())); });
-  add_benchmark("settle/facet/cells/linear", [=](State& s) { settle_in_cells<Processor::best>(s, near()); });
-  add_benchmark("settle/facet/cells/linear/any_processor",
-                [=](State& s) { settle_in_cells<Processor::any>(s, near()); });
-  add_benchmark("settle/sphere2/linear",
-                [=](State& s) { settle(s, spheres<BeadInSphere<2>>(near(), many, window)); });
-  add_benchmark("settle/sphere3/linear",
-                [=](State& s) { settle(s, spheres<BeadInSphere<3>>(near(), many, window)); });
-  add_benchmark("settle/sphere4/linear", [=](State& s) { settle(s, spheres<Facet>(near(), many, window)); });
-  add_benchmark("settle/facet/hermite", [=](State& s) { settle(s, facets(near_cubic())); });
-  add_benchmark("settle/sphere2/hermite",
-                [=](State& s) { settle(s, spheres<BeadInSphere<2>>(near_cubic(), many, window)); });
-  add_benchmark("settle/sphere3/hermite",
-                [=](State& s) { settle(s, spheres<BeadInSphere<3>>(near_cubic(), many, window)); });
-  add_benchmark("settle/sphere4/hermite",
-                [=](State& s) { settle(s, spheres<Facet>(near_cubic(), many, window)); });
+  std::vector<Subject> all;
+  const auto on_chain = [&](const char* name, std::optional<double> most_ns, auto run) {
+    all.push_back({name, "random-chain 0.01 r", 10240, predicate, most_ns, none, run});
+  };
+  const auto on_linear = [&](const char* name, const std::string& peer, std::optional<double> most_ns,
+                             std::optional<double> most_ratio, auto run) {
+    all.push_back({name, "d3_n200_linear", 200, peer, most_ns, most_ratio, run});
+  };
+  const auto on_cubic = [&](const char* name, const std::string& peer, std::optional<double> most_ratio,
+                            auto run) {
+    all.push_back({name, "d3_n100_degree3", 100, peer, none, most_ratio, run});
+  };
 
-  add_benchmark("failure/facet/linear", [=](State& s) { failure<Filtered>(s, facets(linear())); });
-  add_benchmark("failure/sphere2/linear",
-                [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<2>>(linear(), many, 100)); });
-  add_benchmark("failure/sphere3/linear",
-                [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<3>>(linear(), many, 100)); });
-  add_benchmark("failure/sphere4/linear",
-                [=](State& s) { failure<Filtered>(s, spheres<Facet>(linear(), many, 100)); });
-  add_benchmark("failure/facet/cubic", [=](State& s) { failure<Filtered>(s, facets(cubic())); });
-  add_benchmark("failure/sphere2/cubic",
-                [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<2>>(cubic(), many, 50)); });
-  add_benchmark("failure/sphere3/cubic",
-                [=](State& s) { failure<Filtered>(s, spheres<BeadInSphere<3>>(cubic(), many, 50)); });
-  add_benchmark("failure/sphere4/cubic",
-                [=](State& s) { failure<Filtered>(s, spheres<Facet>(cubic(), many, 50)); });
+  on_chain("settle/facet/linear", none, [=](Turns& t) { settle(t, facets(near())); });
+  on_chain("settle/facet/cells/linear", 25, [=](Turns& t) { settle_in_cells<Processor::best>(t, near()); });
+  on_chain("settle/facet/cells/linear/any_processor", 60,
+           [=](Turns& t) { settle_in_cells<Processor::any>(t, near()); });
+  on_chain("settle/sphere2/linear", none,
+           [=](Turns& t) { settle(t, spheres<BeadInSphere<2>>(near(), many, window)); });
+  on_chain("settle/sphere3/linear", none,
+           [=](Turns& t) { settle(t, spheres<BeadInSphere<3>>(near(), many, window)); });
+  on_chain("settle/sphere4/linear", none, [=](Turns& t) { settle(t, spheres<Facet>(near(), many, window)); });
+  on_chain("settle/facet/hermite", none, [=](Turns& t) { settle(t, facets(near_cubic())); });
+  on_chain("settle/sphere2/hermite", none,
+           [=](Turns& t) { settle(t, spheres<BeadInSphere<2>>(near_cubic(), many, window)); });
+  on_chain("settle/sphere3/hermite", none,
+           [=](Turns& t) { settle(t, spheres<BeadInSphere<3>>(near_cubic(), many, window)); });
+  on_chain("settle/sphere4/hermite", none,
+           [=](Turns& t) { settle(t, spheres<Facet>(near_cubic(), many, window)); });
 
-  add_benchmark("exact/bracket/facet/linear", [=](State& s) { failure<Exact>(s, facets(linear())); });
-  add_benchmark("exact/bracket/facet/cubic", [=](State& s) { failure<Exact>(s, facets(cubic())); });
-  add_benchmark("exact/function/facet/linear", [=](State& s) { exact_function(s, facets(linear())); });
-  add_benchmark("exact/function/facet/cubic", [=](State& s) { exact_function(s, facets(cubic())); });
-  add_benchmark("exact/failure/facet/linear", [=](State& s) { exact_failure(s, facets(linear())); });
-  add_benchmark("exact/failure/facet/cubic", [=](State& s) { exact_failure(s, facets(cubic())); });
-  add_benchmark("exact/isolation/facet/linear", [=](State& s) { exact_isolation(s, facets(linear())); });
-  add_benchmark("exact/isolation/facet/cubic", [=](State& s) { exact_isolation(s, facets(cubic())); });
+  on_linear("failure/facet/linear", algebraic, 200, none,
+            [=](Turns& t) { failure<Filtered>(t, facets(linear())); });
+  on_linear("failure/sphere2/linear", algebraic, none, none,
+            [=](Turns& t) { failure<Filtered>(t, spheres<BeadInSphere<2>>(linear(), many, 100)); });
+  on_linear("failure/sphere3/linear", algebraic, none, none,
+            [=](Turns& t) { failure<Filtered>(t, spheres<BeadInSphere<3>>(linear(), many, 100)); });
+  on_linear("failure/sphere4/linear", algebraic, none, none,
+            [=](Turns& t) { failure<Filtered>(t, spheres<Facet>(linear(), many, 100)); });
+  on_cubic("failure/facet/cubic", algebraic, none, [=](Turns& t) { failure<Filtered>(t, facets(cubic())); });
+  on_cubic("failure/sphere2/cubic", algebraic, none,
+           [=](Turns& t) { failure<Filtered>(t, spheres<BeadInSphere<2>>(cubic(), many, 50)); });
+  on_cubic("failure/sphere3/cubic", algebraic, none,
+           [=](Turns& t) { failure<Filtered>(t, spheres<BeadInSphere<3>>(cubic(), many, 50)); });
+  on_cubic("failure/sphere4/cubic", algebraic, none,
+           [=](Turns& t) { failure<Filtered>(t, spheres<Facet>(cubic(), many, 50)); });
 
-  add_benchmark("compare/facet/linear", [=](State& s) { compare(s, facets(linear())); });
-  add_benchmark("sign/just_after/facet/linear", [=](State& s) { sign(s, facets(linear()), false); });
-  add_benchmark("sign/all_positive_now/facet/linear", [=](State& s) { sign(s, facets(linear()), true); });
-  add_benchmark("sign/just_after/facet/cubic", [=](State& s) { sign(s, facets(cubic()), false); });
-  add_benchmark("sign/all_positive_now/facet/cubic", [=](State& s) { sign(s, facets(cubic()), true); });
+  on_linear("exact/bracket/facet/linear", algebraic, none, none,
+            [=](Turns& t) { failure<Exact>(t, facets(linear())); });
+  on_cubic("exact/bracket/facet/cubic", algebraic, none,
+           [=](Turns& t) { failure<Exact>(t, facets(cubic())); });
+  on_linear("exact/function/facet/linear", "", none, none,
+            [=](Turns& t) { exact_function(t, facets(linear())); });
+  on_cubic("exact/function/facet/cubic", "", none, [=](Turns& t) { exact_function(t, facets(cubic())); });
+  on_linear("exact/failure/facet/linear", algebraic, none, none,
+            [=](Turns& t) { exact_failure(t, facets(linear())); });
+  on_cubic("exact/failure/facet/cubic", algebraic, none,
+           [=](Turns& t) { exact_failure(t, facets(cubic())); });
+  on_linear("exact/isolation/facet/linear", algebraic, none, 0.25,
+            [=](Turns& t) { exact_isolation(t, facets(linear())); });
+  on_cubic("exact/isolation/facet/cubic", algebraic, 0.25,
+           [=](Turns& t) { exact_isolation(t, facets(cubic())); });
+
+  on_linear("compare/facet/linear", algebraic, 5, none, [=](Turns& t) { compare(t, facets(linear())); });
+  on_linear("sign/just_after/facet/linear", predicate, none, none,
+            [=](Turns& t) { sign(t, facets(linear()), false); });
+  on_linear("sign/all_positive_now/facet/linear", predicate, none, none,
+            [=](Turns& t) { sign(t, facets(linear()), true); });
+  on_cubic("sign/just_after/facet/cubic", predicate, none,
+           [=](Turns& t) { sign(t, facets(cubic()), false); });
+  on_cubic("sign/all_positive_now/facet/cubic", predicate, none,
+           [=](Turns& t) { sign(t, facets(cubic()), true); });
+  return all;
 }
 
 }  // namespace kds::bench

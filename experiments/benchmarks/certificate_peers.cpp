@@ -8,9 +8,8 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 
-#include "experiments/benchmarks/in_turn.h"
+#include "experiments/benchmarks/turns.h"
 
 namespace kds::bench {
 
@@ -35,10 +34,10 @@ namespace {
 
 template <class Tuples, class Predicate>
 double seconds_for_all(const Tuples& tuples, const Predicate& predicate) {
-  return seconds_of([&] {
+  return processor_seconds_of([&] {
     int sum = 0;
     for (const auto& t : tuples) sum += static_cast<int>(predicate(t));
-    benchmark::DoNotOptimize(sum);
+    keep(sum);
   });
 }
 
@@ -100,11 +99,11 @@ AlgebraicKernel::AlgebraicKernel(std::span<const ExactPolynomial> polynomials)
 double AlgebraicKernel::seconds_to_isolate() const {
   const auto solve = polynomials_->kernel.solve_1_object();
   std::vector<Algebraic::Algebraic_real_1> roots;
-  return seconds_of([&] {
+  return processor_seconds_of([&] {
     for (const auto& p : polynomials_->all) {
       roots.clear();
       solve(p, true, std::back_inserter(roots));
-      benchmark::DoNotOptimize(roots.data());
+      keep(roots.data());
     }
   });
 }
@@ -131,9 +130,9 @@ struct AlgebraicKernel::Polynomials {};
 
 AlgebraicKernel::AlgebraicKernel(std::span<const ExactPolynomial>) {}
 
-double AlgebraicKernel::seconds_to_isolate() const { return std::numeric_limits<double>::quiet_NaN(); }
+double AlgebraicKernel::seconds_to_isolate() const { return no_peer; }
 double AlgebraicKernel::seconds_to_compare(std::span<const std::pair<std::size_t, std::size_t>>) {
-  return std::numeric_limits<double>::quiet_NaN();
+  return no_peer;
 }
 
 #endif

@@ -4,16 +4,13 @@
 //
 //   kds_benchmarks --benchmark_filter=tolerance
 
-#include <benchmark/benchmark.h>
-
 #include <array>
 #include <string>
 #include <vector>
 
-#include "experiments/benchmarks/benchmarks.h"
 #include "experiments/benchmarks/certificate_peers.h"
-#include "experiments/benchmarks/in_turn.h"
 #include "experiments/benchmarks/random_chain.h"
+#include "experiments/benchmarks/subject.h"
 #include "motions/positions.h"
 #include "structures/facet_tolerances.h"
 #include "structures/positive_facets.h"
@@ -24,7 +21,7 @@ namespace {
 
 // The beads move by `distance` times their radius in the step.
 template <Motion M>
-void rest(benchmark::State& state, double distance) {
+void rest(Turns& turns, double distance) {
   Random random(1);
   const auto beads = random_chain(10240);
   const M motion = jostled<M>(beads, distance, random);
@@ -56,17 +53,24 @@ void rest(benchmark::State& state, double distance) {
   step();  // takes the reference
   const StaticPredicates peer(control_points(motion, 0), control_weights(motion, 0));
   const double share = static_cast<double>(facets) / static_cast<double>(finite.size());
-  measure_in_turn(state, facets, step, [&] { return share * peer.seconds_for(finite); });
-  state.counters["resting"] = static_cast<double>(facets - others) / static_cast<double>(facets);
+  turns.take(facets, step, [&] { return share * peer.seconds_for(finite); });
+  turns.note("resting", static_cast<double>(facets - others) / static_cast<double>(facets));
 }
 
 }  // namespace
 
-void add_tolerance_benchmarks() {
-  using benchmark::State;
-  add_benchmark("tolerance/facet/linear/0.0001r", [](State& s) { rest<BezierMotion<3, 1>>(s, 0.0001); });
-  add_benchmark("tolerance/facet/linear/0.001r", [](State& s) { rest<BezierMotion<3, 1>>(s, 0.001); });
-  add_benchmark("tolerance/facet/hermite/0.001r", [](State& s) { rest<BezierMotion<3, 3>>(s, 0.001); });
+std::vector<Subject> tolerance_subjects() {
+  std::vector<Subject> all;
+  const auto add = [&](const char* name, const char* input, std::optional<double> most_ns, auto run) {
+    all.push_back({name, input, 10240, "CGAL predicate at one moment", most_ns, std::nullopt, run});
+  };
+  add("tolerance/facet/linear/0.0001r", "random-chain 0.0001 r", 3,
+      [](Turns& t) { rest<BezierMotion<3, 1>>(t, 0.0001); });
+  add("tolerance/facet/linear/0.001r", "random-chain 0.001 r", 3,
+      [](Turns& t) { rest<BezierMotion<3, 1>>(t, 0.001); });
+  add("tolerance/facet/hermite/0.001r", "random-chain 0.001 r", std::nullopt,
+      [](Turns& t) { rest<BezierMotion<3, 3>>(t, 0.001); });
+  return all;
 }
 
 }  // namespace kds::bench

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -12,6 +13,7 @@
 #include "experiments/bench_report.h"
 #include "experiments/command_line.h"
 #include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
 
 namespace kds {
 namespace {
@@ -32,7 +34,11 @@ TEST(BenchChains, EveryBeadMovesByTheDistance) {
 
 TEST(BenchReport, RatioGoalAndWhatHolds) {
   const BenchRow held{"a", "x", 3, 2, "ns", "peer", 10, 0.25}, missed{"b", "x", 3, 4, "ns", "peer", 10, 0.25},
-      alone{"c", "x", 3, 4, "ns", "", std::nullopt, 3}, free{"d", "x", 3, 4, "ns", "peer", 8, std::nullopt};
+      alone{"c", "x", 3, 4, "ns", "", std::nullopt, 3}, free{"d", "x", 3, 4, "ns", "peer", 8, std::nullopt},
+      in_ns{"e", "x", 3, 4, "ns", "peer", 1, 5, true}, nothing{"f", "x", 3, 4, "ns", "peer", 0, std::nullopt};
+  EXPECT_EQ(in_ns.holds(), true);
+  EXPECT_EQ(in_ns.ratio(), 4);
+  EXPECT_EQ(nothing.ratio(), std::nullopt);
   EXPECT_EQ(held.holds(), true);
   EXPECT_EQ(missed.holds(), false);
   EXPECT_EQ(alone.holds(), false);
@@ -68,8 +74,8 @@ TEST(Bench, HierarchiesGiveARowForEachMeasureAndInput) {
       EXPECT_EQ(row["holds"].get<bool>(), judged <= row["goal"].get<double>());
     }
   }
-  EXPECT_EQ(names.size(), 7U);
-  EXPECT_EQ(inputs.size(), 9U);  // four inputs, equal and unequal radii, and the query
+  EXPECT_EQ(names.size(), 12U);
+  EXPECT_EQ(inputs.size(), 10U);  // four inputs, equal and unequal radii, a query, a rotation
 }
 
 TEST(Bench, PowerGivesARowForEachTechniqueAndInput) {
@@ -94,11 +100,61 @@ TEST(Bench, PowerGivesARowForEachTechniqueAndInput) {
   EXPECT_EQ(inputs.size(), 8U);  // four strides, four chains
 }
 
+TEST(Bench, CertificatesGiveARowEachWithTheGoalsThatThereAre) {
+  const test::ProgramRun result = test::run_program(
+      {"bench", "certificates", "--instances", test::data_file("kinetic"), "--json", "-", "--quiet"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json json = Json::parse(result.out);
+  std::set<std::string> names, goals;
+  for (const Json& row : json["rows"]) {
+    names.insert(row["name"]);
+    EXPECT_GT(row["value"].get<double>(), 0);
+    EXPECT_EQ(row["unit"], "ns");
+    EXPECT_EQ(row["peer"].is_null(), row["ratio"].is_null());
+    if (row["goal"].is_null()) continue;
+    goals.insert(row["name"]);
+    const bool of_ratio = row["name"].get<std::string>().starts_with("exact/");
+    EXPECT_EQ(row["holds"].get<bool>(), row[of_ratio ? "ratio" : "value"] <= row["goal"]);
+  }
+  EXPECT_EQ(names.size(), json["rows"].size());
+  EXPECT_THAT(goals,
+              testing::ElementsAre("compare/facet/linear", "exact/isolation/facet/cubic",
+                                   "exact/isolation/facet/linear", "failure/facet/linear",
+                                   "settle/facet/cells/linear", "settle/facet/cells/linear/any_processor",
+                                   "tolerance/facet/linear/0.0001r", "tolerance/facet/linear/0.001r"));
+}
+
+TEST(Bench, EngineRunsEveryInstanceOfAFolder) {
+  const test::ScratchDirectory directory;
+  for (const char* name :
+       {"d1_n20_linear.txt", "d2_n20_degree2.txt", "d3_n50_degree3.txt", "w3_n20_linear.txt"})
+    std::filesystem::copy_file(test::data_file(std::string("kinetic/") + name), directory / name);
+  const test::ProgramRun result = test::run_program(
+      {"bench", "engine", "--instances", directory.path().string(), "--json", "-", "--quiet"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  std::set<std::string> inputs;
+  std::size_t goals = 0;
+  const Json json = Json::parse(result.out);
+  for (const Json& row : json["rows"]) {
+    inputs.insert(row["input"]);
+    EXPECT_GT(row["value"].get<double>(), 0);
+    goals += row["goal"].is_null() ? 0 : 1;
+    EXPECT_EQ(row["unit"], row["peer"].is_null() ? "ns" : "us");
+  }
+  EXPECT_EQ(json["rows"].size(), 18U);  // three instances, three kernels, an event and a run
+  EXPECT_THAT(inputs, testing::ElementsAre("d1_n20_linear", "d2_n20_degree2", "d3_n50_degree3"));
+  EXPECT_EQ(goals, 1U);
+}
+
 TEST(Bench, RefusesWhatItDoesNotKnow) {
   for (const Arguments& arguments :
        {Arguments{"bench"}, Arguments{"bench", "spheres"}, Arguments{"bench", "hierarchies", "--sizes", "1"},
         Arguments{"bench", "hierarchies", "--rounds", "4"}, Arguments{"bench", "power", "--sizes", "3"},
-        Arguments{"bench", "power", "hierarchies"},
+        Arguments{"bench", "power", "hierarchies"}, Arguments{"bench", "engine", "--sizes", "100"},
+        Arguments{"bench", "power", "--instances", "data"},
+        Arguments{"bench", "engine", "--instances", "none"},
+        Arguments{"bench", "certificates", "--instances", KDS_DATA_DIR},
+        Arguments{"bench", "engine", "--instances", KDS_DATA_DIR},
         Arguments{"bench", "hierarchies", "--sizes", "10", "--trajectories", "none.dcd"}}) {
     const test::ProgramRun result = test::run_program(arguments);
     EXPECT_EQ(result.code, 2);
