@@ -80,7 +80,8 @@ template <int Dimension>
 
 /// What CGAL takes for the same from doubles, which is what a user would do at every frame instead.
 template <int Dimension>
-[[nodiscard]] Seconds seconds_to_triangulate(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+[[nodiscard]] Seconds seconds_to_triangulate(const Eigen::Matrix3Xd& centers,
+                                             std::span<const double> weights);
 
 template <int Dimension>
 class RegularTriangulation {

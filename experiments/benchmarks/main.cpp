@@ -26,7 +26,7 @@ class GoogleTurns final : public kds::bench::Turns {
   benchmark::State& state_;
 };
 
-void add(const std::vector<kds::bench::Subject>& subjects, benchmark::IterationCount turns) {
+void add(const std::vector<kds::bench::Subject>& subjects, benchmark::IterationCount count) {
   for (const kds::bench::Subject& subject : subjects) {
     benchmark::RegisterBenchmark(subject.name.c_str(),
                                  [run = subject.run](benchmark::State& state) {
@@ -34,7 +34,7 @@ void add(const std::vector<kds::bench::Subject>& subjects, benchmark::IterationC
                                    run(turns);
                                  })
         ->UseManualTime()
-        ->Iterations(turns)
+        ->Iterations(count)
         ->Unit(benchmark::kMicrosecond);
   }
 }
