@@ -21,7 +21,7 @@ struct Crossing {
 
   static constexpr int most_looks = 12, most_cuts = 2;
   /// Narrow enough; and so wide a bracket would overlap others.
-  static constexpr double narrow = 0x1p-31, wide = 0x1p-26;
+  static constexpr double narrow = 0x1p-27, wide = 0x1p-26;
 
   [[nodiscard]] SphereGaps gaps_in(const SphereMotion<D>& sphere) const {
     SphereGaps gaps;
@@ -111,7 +111,7 @@ struct Crossing {
       const double reach = std::min(gaps.loss[lane] / slope * length + least, 0.25 * length);
       std::array<Period, 4> periods;
       for (std::size_t i = 0; i < 4; ++i) {
-        constexpr std::array<double, 4> share{0.01, 0.1, 1, 4}, errors{1, 16, 256, 0};
+        constexpr std::array<double, 4> share{0.01, 0.1, 1, 4}, errors{0.0625, 1, 64, 0};
         const bool by_guess = guessed && i < 3;
         const double r = std::max(by_guess ? errors[i] * guess.error * length : share[i] * reach, least);
         periods[i] = {std::max(root - r, bracket.from), std::min(root + r, bracket.to)};

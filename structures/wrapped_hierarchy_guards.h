@@ -120,6 +120,7 @@ std::optional<BeadId> WrappedHierarchy<M, K, radii>::watch_node(NodeId id) {
   // spare all the time, its function zero.
   enqueue_basis(id, find_beads_to_watch(id));
   if (const auto to_spare = watch_enqueued(false)) return to_spare;
+  take_out_later(id);
   enqueue_beyond(id, beyond_);
   return watch_enqueued(true);
 }
