@@ -16,9 +16,11 @@ class LatestChord {
   }
   void forget() { from_ = none; }
 
+  /// From the beginning of `period`, which ends with the step.
   [[nodiscard]] const SphereChord<Dimension>& of(const BeadPaths<Dimension>& paths, const Basis& basis,
-                                                 double from) {
-    if (!(from_ == from && basis_ == basis)) keep(basis, from, sphere_chord(paths, basis, {from, 1}));
+                                                 const Period& period) {
+    if (!(from_ == period.from && basis_ == basis))
+      keep(basis, period.from, sphere_chord(paths, basis, period));
     return chord_;
   }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Parts of a step side by side, and what the chords of four spheres need of them.
+// Parts of a step side by side, and what the chords of four spheres need of
+// them.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,8 @@ namespace kds {
 /// What is cut off before, and then after.
 struct PeriodLanes {
   Lanes from, to;
-  bool whole = true;  // nothing at all
+  Lanes sure = Lanes(0.0);  // as a share of the part
+  bool whole = true;        // nothing at all
 
   /// Up to four, the last one as often as there are lanes left.
   explicit PeriodLanes(std::span<const Period> periods) {
@@ -21,6 +23,7 @@ struct PeriodLanes {
       const Period& period = periods[std::min(lane, periods.size() - 1)];
       from.v[lane] = period.from;
       to.v[lane] = (period.to - period.from) / (1 - period.from);
+      if (period.sure > period.from) sure.v[lane] = (period.sure - period.from) / (period.to - period.from);
       whole &= period.from == 0 && period.to == 1;
     }
   }
@@ -34,7 +37,8 @@ template <std::size_t N>
   casteljau_left(control, period.to);
 }
 
-/// Where all distances, given by their squares, are within what there is room for.
+/// Where all distances, given by their squares, are within what there is room
+/// for.
 template <std::size_t N>
 [[gnu::always_inline]] inline Lanes::Mask are_within(const std::array<Lanes, N>& square,
                                                      const std::array<Lanes, N>& room) {

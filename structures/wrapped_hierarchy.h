@@ -198,7 +198,13 @@ class WrappedHierarchy final : public KineticStructure {
   void guard_node(NodeId node, Basis before);
   /// Of all guarded nodes, at the start of a step.
   void find_chords();
+  [[nodiscard]] Period rest_of_step() const {
+    return {simulator_.now().lower(), 1, simulator_.now().upper()};
+  }
   [[nodiscard]] unsigned find_beads_to_watch(NodeId node);
+  /// The bead whose certificate has just failed, in the new basis or left by it: its own root is the only one
+  /// in the bracket, and it is where it belongs just after. Or none.
+  [[nodiscard]] BeadId risen_bead(const Basis& old, const Basis& next, BeadId failed) const;
   [[nodiscard]] unsigned look_closely(const Basis& basis, double until);
   /// When the certificates of a node are made anew at the latest.
   [[nodiscard]] double guarded_until(NodeId node);
@@ -259,6 +265,7 @@ class WrappedHierarchy final : public KineticStructure {
   std::vector<std::uint32_t> per_bead_;  // certificates that name it, while they are counted
   std::optional<Present> present_;
   BeadId present_bead_ = no_bead;
+  BeadId risen_ = no_bead;              // while its node is watched
   std::optional<BeadId> failed_again_;  // whose certificate has just failed and would be watched once more
 };
 

@@ -39,13 +39,19 @@ unsigned WrappedHierarchy<M, K, radii>::find_beads_to_watch(NodeId id) {
   const BeadRange range = tree_.range(id);
   const Basis& basis = nodes_[id].basis;
   if constexpr (prunes) {
-    const double from = simulator_.now().lower();
-    const SphereChord<dimension>& chord = latest_chord_.of(paths_, basis, from);
+    const Period rest = rest_of_step();
+    const bool never_again = radii == Radii::equal && risen_ != no_bead && simulator_.now().last();
+    const SphereChord<dimension>& chord = latest_chord_.of(paths_, basis, rest);
     if (chord.proved) {
-      find_beyond(paths_, range, basis, chord, from, beyond_);
+      find_beyond(paths_, range, basis, chord, rest.from, beyond_);
+      if (never_again) std::erase(beyond_, risen_);
+      if (!beyond_.empty()) take_out_dipping(paths_, basis, chord, rest, risen_, beyond_);
+      unsigned stays = chord.stays;
+      for (std::size_t place = 0; place < basis.size; ++place)
+        if (basis.beads[place] == risen_) stays |= (never_again ? ~0U : chord.rises) & (1U << place);
       const std::size_t unproved =
-          beyond_.size() + static_cast<std::size_t>(std::popcount(all_of(basis) & ~chord.stays));
-      return unproved < few ? chord.stays : chord.stays | look_closely(basis, 1);
+          beyond_.size() + static_cast<std::size_t>(std::popcount(all_of(basis) & ~stays));
+      return unproved < few ? stays : stays | look_closely(basis, 1);
     }
   }
   beyond_.clear();
@@ -110,7 +116,7 @@ unsigned WrappedHierarchy<M, K, radii>::are_proved(std::span<const Basis> bases,
   std::copy(bases.begin(), bases.end(), asked.begin());
   periods.fill(soon);
   const bool alone = bases.size() == 1;
-  if (alone) periods[1] = {from, 1};
+  if (alone) periods[1] = rest_of_step();
   sphere_chords<dimension>(paths_, asked, periods, chords);
   if (alone) latest_chord_.keep(bases.front(), from, chords[1]);
   unsigned proved = 0;
