@@ -1,19 +1,19 @@
 #pragma once
-// The chords of four spheres side by side (sphere_path.h) in linear motion,
-// where all that comes between both ends is u (1-u) times something known.
+// The chords of four spheres side by side (sphere_path.h) in linear motion, where all that comes between both
+// ends is u (1-u) times something known.
 //
-// With D for the difference between both ends, the residual of ball i is linear
-// between its ends' roundings, less u (1-u) ((|D c_i|^2 - (D s_i)^2) / 2 + D
-// s_i D rho' - D c_i.D z'). sum w_i c_i, in the hull, differs from z' by u
-// (1-u) b, b = sum D w_i D c_i, so that z' leaves the hull by the part of that
-// along its normal. And |z'| sags by at most u (1-u) |D z'|^2 / (2 min |z'|).
-// So every bound here is R + 4 u (1-u) Q: R what is rounded, Q the most at u =
-// 1/2, and what is known to within that of a function linear from a to b is
-// known to be positive if a' = a - R and b' = b - R are and a' + b' + 2 sqrt(a'
-// b') > 4 Q; from u = d on if a' + d (b' - a') > 4 d Q and b' - a' > 4 Q, since
-// then it rises there. Normals and volumes are bounded by their Bernstein
-// coefficients; (a + b) / 2 less half of what is D of both factors is the one
-// in the middle of a product's.
+// With D for the difference between both ends, the residual of ball i is linear between its ends' roundings,
+// less u (1-u) ((|D c_i|^2 - (D s_i)^2) / 2 + D s_i D rho' - D c_i.D z'). sum w_i c_i, in the hull, differs
+// from z' by u (1-u) b, b = sum D w_i D c_i, so that z' leaves the hull by the part of that along its normal.
+// And |z'| sags by at most u (1-u) |D z'|^2 / (2 min |z'|). So every bound here is R + 4 u (1-u) Q: R what is
+// rounded, Q the most at u = 1/2. What is to within that a function linear from a to b is positive if a' =
+// a - R and b' = b - R are and a' + b' + 2 sqrt(a' b') > 4 Q; from u = d on if a' + d (b' - a') > 4 d Q and
+// b' - a' > 4 Q, since then it rises there.
+//
+// Normals and volumes are bounded by their Bernstein coefficients: of a product, bilinear, the one in the
+// middle is half of the sum of both ends' less that of the two D. Of the slope q, the least solution of c_i.q
+// = s_i, there is another bound than that by the heights: with q' that of the start, residuals s_i - c_i.q',
+// linear in u, bound how far q is from the part of q' in the hull, which is no longer than q'.
 
 #include <array>
 
@@ -46,8 +46,7 @@ struct Stray {
   [[gnu::always_inline]] Lanes most() const { return rounded + between; }
 };
 
-/// What all spheres of one size need of their balls, in the notation of
-/// touching_sphere.h; `off_hull` for b.
+/// What all spheres of one size need of their balls, in the notation of touching_sphere.h; `off_hull` for b.
 template <std::size_t M>
 struct LinearSimplex {
   std::array<Lanes, M> gain;
@@ -194,7 +193,8 @@ template <int D, std::size_t M, bool equal>
     stray.rounded += power * size * combined.rounded * over;
     stray.between = simplex.off_hull * over;
   }
-  Lanes slope(0.0);
+  Lanes slope(0.0), wander(0.0);
+  const Lanes slope_at_start = equal ? Lanes(0.0) : root(dot(end[0].q, end[0].q));
   for (std::size_t i = 0; i < M; ++i) {
     Lanes first = half * dot(a[i], a[i]) - dot(a[i], end[0].z);
     Lanes last = half * dot(b[i], b[i]) - dot(b[i], end[1].z);
@@ -207,11 +207,16 @@ template <int D, std::size_t M, bool equal>
     const Lanes gain = (simplex.gain[i] + Lanes(linear_margin) * power) * over;
     stray.rounded += gain * (Lanes::max(abs(first), abs(last)) + l * rounding);
     stray.between += gain * (Lanes(0.25) * abs(between));
-    if constexpr (!equal) slope += gain * (Lanes::max(abs(sa[i]), abs(sb[i])) + Lanes(linear_margin) * size);
+    if constexpr (!equal) {
+      slope += gain * (Lanes::max(abs(sa[i]), abs(sb[i])) + Lanes(linear_margin) * size);
+      const Lanes off = Lanes::max(abs(sa[i] - dot(a[i], end[0].q)), abs(sb[i] - dot(b[i], end[0].q)));
+      wander += gain * (off + Lanes(linear_margin) * size * (Lanes(1.0) + slope_at_start));
+    }
   }
+  slope = Lanes::min(slope, (slope_at_start + wander) * Lanes(up));
   const Lanes change = dot(turn, turn);
   const Lanes nearest = half * (length[0] + length[1] - root(change)) - rounding;
-  proved &= (nearest > Lanes(0.0)) & (slope < Lanes(0.9));
+  proved &= (nearest > Lanes(0.0)) & (slope < Lanes(0.98));
   const Stray sag{mismatch + rounding, change / (Lanes(8.0) * nearest) * Lanes(up)};
   Stray radius_strays = (sag + stray) * Lanes(up);
   Stray strays = stray * Lanes(up);

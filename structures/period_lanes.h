@@ -1,6 +1,5 @@
 #pragma once
-// Parts of a step side by side, and what the chords of four spheres need of
-// them.
+// Parts of a step side by side, and what the chords of four spheres need of them.
 
 #include <algorithm>
 #include <array>
@@ -37,8 +36,7 @@ template <std::size_t N>
   casteljau_left(control, period.to);
 }
 
-/// Where all distances, given by their squares, are within what there is room
-/// for.
+/// Where all distances, given by their squares, are within what there is room for.
 template <std::size_t N>
 [[gnu::always_inline]] inline Lanes::Mask are_within(const std::array<Lanes, N>& square,
                                                      const std::array<Lanes, N>& room) {

@@ -143,8 +143,7 @@ template <int D, std::size_t M, int K>
   chords.proved = proved & (loss < Lanes(4.0) * l);  // nor where a bound is no number
 }
 
-/// Of two balls of one radius in linear motion: the midpoint moves linearly,
-/// and the two never part.
+/// Of two balls of one radius in linear motion: the midpoint moves linearly, and the two never part.
 template <int D>
 [[KDS_LANES_TARGETS]] void find_chords_of_pairs(const BeadPaths<D>& paths, const BeadLanes<2>& beads,
                                                 const PeriodLanes& period, ChordLanes<D>& chords) {

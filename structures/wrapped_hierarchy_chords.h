@@ -118,7 +118,7 @@ unsigned WrappedHierarchy<M, K, radii>::are_proved(std::span<const Basis> bases,
   const bool alone = bases.size() == 1;
   if (alone) periods[1] = rest_of_step();
   sphere_chords<dimension>(paths_, asked, periods, chords);
-  if (alone) latest_chord_.keep(bases.front(), from, chords[1]);
+  if (alone) latest_chord_.keep(bases.front(), periods[1], chords[1]);
   unsigned proved = 0;
   for (std::size_t i = 0; i < bases.size(); ++i) {
     unsigned stay = chords[i].stays;

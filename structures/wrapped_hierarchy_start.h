@@ -38,7 +38,7 @@ void WrappedHierarchy<M, K, radii>::watch_all_nodes() {
     bool proper = radii == Radii::equal;
     if constexpr (prunes) {
       const SphereChord<dimension>& chord = chords_[id];
-      latest_chord_.keep(basis, 0, chord);
+      latest_chord_.keep(basis, {}, chord);
       proper |= chord.proved && chord.stays == all_of(basis);
     }
     if (!proper) {
