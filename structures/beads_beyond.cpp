@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "structures/period_lanes.h"
@@ -159,6 +160,42 @@ void find_beyond(const BeadPaths<Dimension>& paths, const BeadRange& range, cons
   }
 }
 
+// A bead's distance from the chord is below its own chord; see linear_chords.h.
+template <int Dimension>
+void take_out_dipping(const BeadPaths<Dimension>& paths, const Basis& basis,
+                      const SphereChord<Dimension>& chord, const Period& period, BeadId risen,
+                      std::vector<BeadId>& beyond) {
+  if (!(chord.dip > 0) || paths.degree() != 1) return;
+  const double sure = std::max(0.0, (period.sure - period.from) / (1 - period.from));
+  const double lost = 4 * chord.dip;
+  std::size_t kept = 0;
+  for (const BeadId b : beyond) {
+    std::array<double, 2> square{}, room;
+    for (std::size_t e = 0; e < 2; ++e) room[e] = (chord.limit[e] + chord.dip) * below;
+    for (std::size_t axis = 0; axis <= Dimension; ++axis) {
+      const double* const first = paths.column(0, static_cast<int>(axis));
+      const double* const last = paths.column(1, static_cast<int>(axis));
+      std::array<double, 2> control{first[b] - first[basis.beads[0]], last[b] - last[basis.beads[0]]};
+      control[0] = (1 - period.from) * control[0] + period.from * control[1];
+      for (std::size_t e = 0; e < 2; ++e) {
+        if (axis == Dimension) {
+          room[e] -= control[e];
+        } else {
+          const double v = control[e] - chord.center[e][axis];
+          square[e] += v * v;
+        }
+      }
+    }
+    const double a = room[0] - std::sqrt(square[0]), z = room[1] - std::sqrt(square[1]);
+    const double least = std::min(a, z);
+    const bool inside = (least > 0) & (a + z + 2 * least > lost);
+    const bool stays_so = (b == risen) & (a + sure * (z - a) > sure * lost) & (z - a > lost);
+    beyond[kept] = b;
+    kept += inside | stays_so ? 0 : 1;
+  }
+  beyond.resize(kept);
+}
+
 template <int Dimension>
 void keep_beyond(const BeadPaths<Dimension>& paths, const Basis& basis,
                  std::span<const SphereChord<Dimension>, 4> chords, std::span<const Period, 4> periods,
@@ -178,8 +215,12 @@ template void find_beyond(const BeadPaths<2>&, const BeadRange&, const Basis&, c
                           std::vector<BeadId>&);
 template void find_beyond(const BeadPaths<3>&, const BeadRange&, const Basis&, const SphereChord<3>&, double,
                           std::vector<BeadId>&);
+template void take_out_dipping(const BeadPaths<2>&, const Basis&, const SphereChord<2>&, const Period&,
+                               BeadId, std::vector<BeadId>&);
 template void keep_beyond(const BeadPaths<2>&, const Basis&, std::span<const SphereChord<2>, 4>,
                           std::span<const Period, 4>, std::vector<BeadId>&);
+template void take_out_dipping(const BeadPaths<3>&, const Basis&, const SphereChord<3>&, const Period&,
+                               BeadId, std::vector<BeadId>&);
 template void keep_beyond(const BeadPaths<3>&, const Basis&, std::span<const SphereChord<3>, 4>,
                           std::span<const Period, 4>, std::vector<BeadId>&);
 

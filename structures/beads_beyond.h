@@ -15,6 +15,14 @@ template <int Dimension>
 void find_beyond(const BeadPaths<Dimension>& paths, const BeadRange& range, const Basis& basis,
                  const SphereChord<Dimension>& chord, double from, std::vector<BeadId>& beyond);
 
+/// Takes out of `beyond` the beads that are proved to stay inside after all, the chord's dip allowed for: in
+/// linear motion, else none. `risen`, a bead or none, is on the sphere at a time before `sure`, and known to
+/// be inside from then to `sure`.
+template <int Dimension>
+void take_out_dipping(const BeadPaths<Dimension>& paths, const Basis& basis,
+                      const SphereChord<Dimension>& chord, const Period& period, BeadId risen,
+                      std::vector<BeadId>& beyond);
+
 /// Takes out of `beyond` the beads that are proved to stay inside in each of four periods.
 template <int Dimension>
 void keep_beyond(const BeadPaths<Dimension>& paths, const Basis& basis,

@@ -8,17 +8,19 @@ namespace kds {
 template <int Dimension>
 class LatestChord {
  public:
-  /// `chord` is that of `basis` from a time to the end of the step.
-  void keep(const Basis& basis, double from, const SphereChord<Dimension>& chord) {
+  /// `chord` is that of `basis` in a period that ends with the step.
+  void keep(const Basis& basis, const Period& period, const SphereChord<Dimension>& chord) {
     basis_ = basis;
-    from_ = from;
+    from_ = period.from;
+    sure_ = period.sure;
     chord_ = chord;
   }
   void forget() { from_ = none; }
 
   [[nodiscard]] const SphereChord<Dimension>& of(const BeadPaths<Dimension>& paths, const Basis& basis,
-                                                 double from) {
-    if (!(from_ == from && basis_ == basis)) keep(basis, from, sphere_chord(paths, basis, {from, 1}));
+                                                 const Period& period) {
+    if (!(from_ == period.from && sure_ == period.sure && basis_ == basis))
+      keep(basis, period, sphere_chord(paths, basis, period));
     return chord_;
   }
 
@@ -26,7 +28,7 @@ class LatestChord {
   static constexpr double none = -1;  // no time
 
   Basis basis_;
-  double from_ = none;
+  double from_ = none, sure_ = 0;
   SphereChord<Dimension> chord_;
 };
 

@@ -13,7 +13,8 @@ namespace kds {
 /// What is cut off before, and then after.
 struct PeriodLanes {
   Lanes from, to;
-  bool whole = true;  // nothing at all
+  Lanes sure = Lanes(0.0);  // as a share of the part
+  bool whole = true;        // nothing at all
 
   /// Up to four, the last one as often as there are lanes left.
   explicit PeriodLanes(std::span<const Period> periods) {
@@ -21,6 +22,7 @@ struct PeriodLanes {
       const Period& period = periods[std::min(lane, periods.size() - 1)];
       from.v[lane] = period.from;
       to.v[lane] = (period.to - period.from) / (1 - period.from);
+      if (period.sure > period.from) sure.v[lane] = (period.sure - period.from) / (period.to - period.from);
       whole &= period.from == 0 && period.to == 1;
     }
   }

@@ -21,7 +21,7 @@ struct Crossing {
 
   static constexpr int most_looks = 12, most_cuts = 2;
   /// Narrow enough; and so wide a bracket would overlap others.
-  static constexpr double narrow = 0x1p-31, wide = 0x1p-26;
+  static constexpr double narrow = 0x1p-27, wide = 0x1p-26;
 
   [[nodiscard]] SphereGaps gaps_in(const SphereMotion<D>& sphere) const {
     SphereGaps gaps;
@@ -107,11 +107,11 @@ struct Crossing {
       if (!(v >= 0 && v <= 1 && slope > 0)) return std::nullopt;
       const bool guessed = guess.root > 0 && guess.root < 1;
       const double root = bracket.from + (guessed ? guess.root : v) * length;
-      const double least = std::max(3 * gaps.loss_at_ends[lane] / slope * length, 0x1p-38);
+      const double least = std::max(3 * gaps.loss_at_ends[lane] / slope * length, 0x1p-33);
       const double reach = std::min(gaps.loss[lane] / slope * length + least, 0.25 * length);
       std::array<Period, 4> periods;
       for (std::size_t i = 0; i < 4; ++i) {
-        constexpr std::array<double, 4> share{0.01, 0.1, 1, 4}, errors{1, 16, 256, 0};
+        constexpr std::array<double, 4> share{0.01, 0.1, 1, 4}, errors{0.0625, 1, 64, 0};
         const bool by_guess = guessed && i < 3;
         const double r = std::max(by_guess ? errors[i] * guess.error * length : share[i] * reach, least);
         periods[i] = {std::max(root - r, bracket.from), std::min(root + r, bracket.to)};
@@ -125,8 +125,12 @@ struct Crossing {
         return (sphere.proved >> i & 1U) != 0 && gaps.at_end[0][i] > gaps.loss_at_ends[i] &&
                gaps.at_end[1][i] < -gaps.loss_at_ends[i];
       };
-      lane = 0;
-      while (lane < 4 && !holds_root(lane)) ++lane;
+      // The widest that will do: it tells most of what comes just after.
+      const auto length_of = [&](std::size_t i) { return periods[i].to - periods[i].from; };
+      lane = 4;
+      for (std::size_t i = 0; i < 4; ++i)
+        if (holds_root(i) && (lane == 4 || (length_of(i) <= narrow && length_of(i) > length_of(lane))))
+          lane = i;
       if (lane == 4) return std::nullopt;
       bracket = periods[lane];
       const double width = bracket.to - bracket.from;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "certificates/determinant.h"
+#include "structures/linear_chords.h"
 #include "structures/period_lanes.h"
 #include "structures/touching_sphere.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 using detail::BeadLanes;
 using detail::beads_of;
+using detail::ChordLanes;
 using detail::End;
 using detail::end_of;
 using detail::gather;
@@ -22,20 +24,14 @@ using detail::simplex_of;
 using detail::up;
 using detail::Vec;
 
-/// Four chords side by side.
-template <int D>
-struct ChordLanes {
-  std::array<Vec<D>, 2> center;
-  std::array<Lanes, 2> limit;
-  Lanes::Mask proved, stays;
-};
-
 template <int D>
 void give(const ChordLanes<D>& lanes, std::span<SphereChord<D>> chords) {
   for (std::size_t lane = 0; lane < chords.size(); ++lane) {
     SphereChord<D>& chord = chords[lane];
     chord.proved = lanes.proved[lane] != 0;
     chord.stays = static_cast<std::uint8_t>(lanes.stays[lane]);
+    chord.rises = static_cast<std::uint8_t>(lanes.rises[lane]);
+    chord.dip = lanes.dip.v[lane];
     for (std::size_t e = 0; e < 2; ++e) {
       chord.limit[e] = lanes.limit[e].v[lane];
       for (std::size_t axis = 0; axis < D; ++axis) chord.center[e][axis] = lanes.center[e][axis].v[lane];
@@ -43,17 +39,16 @@ void give(const ChordLanes<D>& lanes, std::span<SphereChord<D>> chords) {
   }
 }
 
-template <int D, std::size_t M, int K, bool equal>
-[[KDS_LANES_TARGETS]] void find_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads,
-                                       const PeriodLanes& period, ChordLanes<D>& chords) {
+template <int D, std::size_t M, int K>
+[[KDS_LANES_TARGETS]] void find_curved_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads,
+                                              const PeriodLanes& period, ChordLanes<D>& chords) {
   // Curves seen from the first ball; their ends.
   std::array<CurveLanes<K, D>, M> d;
   std::array<PolynomialLanes<K>, M> s;
   std::array<std::array<Vec<D>, M>, 2> d_at;
   std::array<std::array<Lanes, M>, 2> s_at;
-  for (auto& at_end : s_at) at_end.fill(Lanes(0.0));
   Lanes size(0.0);
-  for (int axis = 0; axis < D + (equal ? 0 : 1); ++axis) {
+  for (int axis = 0; axis <= D; ++axis) {
     const auto place = static_cast<std::size_t>(axis);
     std::array<std::array<Lanes, K + 1>, M> control;
     for (std::size_t k = 0; k <= K; ++k) {
@@ -75,8 +70,8 @@ template <int D, std::size_t M, int K, bool equal>
   size = size * Lanes(detail::root_of[3]);  // no longer curve
   // Within these, products keep clear of overflow and of subnormal numbers.
   Lanes::Mask proved = (size > Lanes(0x1p-150)) & (Lanes(paths.extent()) < Lanes(0x1p150));
-  const std::array<End<D, M>, 2> end{end_of<equal, D, M>(d_at[0], s_at[0]),
-                                     end_of<equal, D, M>(d_at[1], s_at[1])};
+  const std::array<End<D, M>, 2> end{end_of<false, D, M>(d_at[0], s_at[0]),
+                                     end_of<false, D, M>(d_at[1], s_at[1])};
   CurveLanes<1, D> z;
   for (std::size_t axis = 0; axis < D; ++axis) z[axis].scaled = {end[0].z[axis], end[1].z[axis]};
   const PolynomialLanes<1> rho{{end[0].rho, end[1].rho}};
@@ -95,14 +90,14 @@ template <int D, std::size_t M, int K, bool equal>
   for (std::size_t i = 0; i < M; ++i) {
     // 2 r_i = |c_i|^2 - s_i^2 + 2 s_i rho' - 2 c_i.z'
     auto product = dot(d[i], z);
-    if constexpr (!equal) product -= s[i] * rho;
+    product -= s[i] * rho;
     product += product;
     auto twice = dot(d[i], d[i]);
-    if constexpr (!equal) twice -= s[i] * s[i];
+    twice -= s[i] * s[i];
     twice -= elevate<2 * K>(product);
     const Lanes gain = (simplex.gain[i] + Lanes(margin) * power) * over;
     stray += gain * (Lanes(0.5) * most_between(twice) + l * rounding);
-    if constexpr (!equal) slope += gain * (most(s[i]) + Lanes(margin) * size);
+    slope += gain * (most(s[i]) + Lanes(margin) * size);
   }
   const Lanes nearest = least_length(z) - rounding;
   proved &= (nearest > Lanes(0.0)) & (slope < Lanes(0.9));
@@ -112,16 +107,12 @@ template <int D, std::size_t M, int K, bool equal>
     const Lanes step = end[1].z[axis] - end[0].z[axis];
     change += step * step;
   }
-  if constexpr (!equal) {
-    for (const End<D, M>& e : end) mismatch = Lanes::max(mismatch, abs(root(detail::dot(e.z, e.z)) - e.rho));
-  }
+  for (const End<D, M>& e : end) mismatch = Lanes::max(mismatch, abs(root(detail::dot(e.z, e.z)) - e.rho));
   const Lanes sag = change / (Lanes(8.0) * nearest) * Lanes(up) + mismatch + rounding;
   Lanes radius_strays = (sag + stray) * Lanes(up);
   Lanes strays = stray * Lanes(up);
-  if constexpr (!equal) {
-    radius_strays = radius_strays / (Lanes(1.0) - slope) * Lanes(up);
-    strays = (stray + slope * radius_strays) * Lanes(up);
-  }
+  radius_strays = radius_strays / (Lanes(1.0) - slope) * Lanes(up);
+  strays = (stray + slope * radius_strays) * Lanes(up);
 
   // How far z' is from sum w_i c_i.
   CurveLanes<K + 1, D> bend;
@@ -142,9 +133,7 @@ template <int D, std::size_t M, int K, bool equal>
   }
   // Each ball is touched from outside.
   Lanes room = Lanes::min(end[0].rho, end[1].rho);
-  if constexpr (!equal) {
-    for (std::size_t i = 0; i < M; ++i) room = Lanes::min(room, least(elevate<K>(rho) - s[i]));
-  }
+  for (std::size_t i = 0; i < M; ++i) room = Lanes::min(room, least(elevate<K>(rho) - s[i]));
   proved &= room > radius_strays + rounding;
   const Lanes loss = strays + radius_strays + Lanes(margin) * (Lanes(paths.extent()) + l);
   for (std::size_t e = 0; e < 2; ++e) {
@@ -181,9 +170,19 @@ template <int D>
   chords.proved =
       (longest > Lanes(0x1p-150)) & (Lanes(paths.extent()) < Lanes(0x1p150)) & (nearest > Lanes(0.0));
   chords.stays = Lanes::Mask{} + 3;
-  const Lanes loss =
-      Lanes(0.03125) * change / nearest * Lanes(up) + Lanes(margin) * (Lanes(paths.extent()) + longest);
+  chords.dip = Lanes(0.03125) * change / nearest * Lanes(up);
+  const Lanes loss = chords.dip + Lanes(margin) * (Lanes(paths.extent()) + longest);
   for (std::size_t e = 0; e < 2; ++e) chords.limit[e] = Lanes(0.5) * length[e] - loss;
+}
+
+template <int D, std::size_t M, int K, bool equal>
+void find_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads, const PeriodLanes& period,
+                 ChordLanes<D>& chords) {
+  if constexpr (K == 1) {
+    detail::find_linear_chords<D, M, equal>(paths, beads, period, chords);
+  } else {
+    find_curved_chords<D, M, K>(paths, beads, period, chords);
+  }
 }
 
 template <int D, int K, bool equal>

@@ -17,6 +17,9 @@
 // distance of x from sum w_i c_i by the height of ball i. Where all are, and rho >= s_i, the sphere is the
 // smallest, whatever was known before.
 //
+// In linear motion all that comes between both ends vanishes there (linear_chords.h): bounds are 4 u (1-u)
+// times a `dip`, and what has just risen from zero at the start can be told to stay so.
+//
 // All in double, with margins of eight times its rounding, that of cutting a period out of the step included:
 // what is proved here holds; what is not needs a certificate.
 
@@ -35,10 +38,14 @@ struct SphereChord {
   std::uint8_t stays = 0;  ///< a bit for each bead of the basis that cannot leave it: all, and it is a basis
   std::array<std::array<double, Dimension>, 2> center{};  ///< at both ends, from the basis' first bead
   std::array<double, 2> limit{};  ///< of a bead's distance plus its radius less the first bead's
+  double dip = 0;                 ///< by which the limit is lower than it need be, but for 4 u (1-u) of that
+  std::uint8_t rises = 0;  ///< a bit for each bead of the basis whose weight is positive from `sure` on
 };
 
 struct Period {
   double from = 0, to = 1;
+  double sure =
+      0;  ///< until then some bead's weight is known to be positive, for it has just risen from zero
 };
 
 /// Of up to four bases of one size, each in a period of its own: four cost little more than one.

@@ -90,6 +90,7 @@ class WrappedHierarchy final : public KineticStructure {
   static constexpr int most_repairs = 64;  // of one node at one time, in `fast`
   /// As many certificates at least are worth a closer look.
   static constexpr std::size_t few = 4;
+  static constexpr std::size_t worth_another_look = radii == Radii::equal ? 3 : 1;
   /// Doubles prove some certificates without looking at them one by one.
   static constexpr bool prunes = !std::same_as<K, Exact>;
   using Tables = MembershipTables<M, K, radii>;
@@ -197,8 +198,18 @@ class WrappedHierarchy final : public KineticStructure {
   void guard_node(NodeId node, Basis before);
   /// Of all guarded nodes, at the start of a step.
   void find_chords();
+  [[nodiscard]] Period rest_of_step() const {
+    return {simulator_.now().lower(), 1, simulator_.now().upper()};
+  }
   [[nodiscard]] unsigned find_beads_to_watch(NodeId node);
-  [[nodiscard]] unsigned look_closely(const Basis& basis);
+  /// The bead whose certificate has just failed, in the new basis or left by it: its own root is the only one
+  /// in the bracket, and it is where it belongs just after. Or none.
+  [[nodiscard]] BeadId risen_bead(const Basis& old, const Basis& next, BeadId failed) const;
+  [[nodiscard]] unsigned look_closely(const Basis& basis, double until);
+  /// When the certificates of a node are made anew at the latest.
+  [[nodiscard]] double guarded_until(NodeId node);
+  /// Takes out of `beyond_` what stays inside for as long as its certificates would be kept.
+  void take_out_later(NodeId node);
   /// Guards the node's present basis; the first bead whose certificate is violated, if any.
   [[nodiscard]] std::optional<BeadId> watch_node(NodeId node);
   void enqueue_basis(NodeId node, unsigned stays);
@@ -254,6 +265,7 @@ class WrappedHierarchy final : public KineticStructure {
   std::vector<std::uint32_t> per_bead_;  // certificates that name it, while they are counted
   std::optional<Present> present_;
   BeadId present_bead_ = no_bead;
+  BeadId risen_ = no_bead;              // while its node is watched
   std::optional<BeadId> failed_again_;  // whose certificate has just failed and would be watched once more
 };
 

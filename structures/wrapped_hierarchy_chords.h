@@ -39,24 +39,30 @@ unsigned WrappedHierarchy<M, K, radii>::find_beads_to_watch(NodeId id) {
   const BeadRange range = tree_.range(id);
   const Basis& basis = nodes_[id].basis;
   if constexpr (prunes) {
-    const double from = simulator_.now().lower();
-    const SphereChord<dimension>& chord = latest_chord_.of(paths_, basis, from);
+    const Period rest = rest_of_step();
+    const bool never_again = radii == Radii::equal && risen_ != no_bead && simulator_.now().last();
+    const SphereChord<dimension>& chord = latest_chord_.of(paths_, basis, rest);
     if (chord.proved) {
-      find_beyond(paths_, range, basis, chord, from, beyond_);
+      find_beyond(paths_, range, basis, chord, rest.from, beyond_);
+      if (never_again) std::erase(beyond_, risen_);
+      if (!beyond_.empty()) take_out_dipping(paths_, basis, chord, rest, risen_, beyond_);
+      unsigned stays = chord.stays;
+      for (std::size_t place = 0; place < basis.size; ++place)
+        if (basis.beads[place] == risen_) stays |= (never_again ? ~0U : chord.rises) & (1U << place);
       const std::size_t unproved =
-          beyond_.size() + static_cast<std::size_t>(std::popcount(all_of(basis) & ~chord.stays));
-      return unproved < few ? chord.stays : chord.stays | look_closely(basis);
+          beyond_.size() + static_cast<std::size_t>(std::popcount(all_of(basis) & ~stays));
+      return unproved < few ? stays : stays | look_closely(basis, 1);
     }
   }
   beyond_.clear();
   for (BeadId b = range.first; b <= range.last; ++b)
     if (!basis.contains(b)) beyond_.push_back(b);
-  return prunes ? look_closely(basis) : 0;
+  return prunes ? look_closely(basis, 1) : 0;
 }
 
-/// The same by the sphere's chords in the quarters of the time that is left: a sixteenth as far from it.
+/// The same by the sphere's chords in the quarters of the time until then: a sixteenth as far from it.
 template <Motion M, Kernel K, Radii radii>
-unsigned WrappedHierarchy<M, K, radii>::look_closely(const Basis& basis) {
+unsigned WrappedHierarchy<M, K, radii>::look_closely(const Basis& basis, double until) {
   constexpr std::size_t parts = Lanes::width;
   const double from = simulator_.now().lower();
   std::array<Period, parts> periods;
@@ -65,7 +71,7 @@ unsigned WrappedHierarchy<M, K, radii>::look_closely(const Basis& basis) {
   bases.fill(basis);
   for (std::size_t i = 0; i < parts; ++i) {
     periods[i].from = i == 0 ? from : periods[i - 1].to;
-    periods[i].to = i + 1 == parts ? 1 : from + 0.25 * static_cast<double>(i + 1) * (1 - from);
+    periods[i].to = i + 1 == parts ? until : from + 0.25 * static_cast<double>(i + 1) * (until - from);
   }
   sphere_chords<dimension>(paths_, bases, periods, chords);
   unsigned stays = all_of(basis);
@@ -75,6 +81,25 @@ unsigned WrappedHierarchy<M, K, radii>::look_closely(const Basis& basis) {
   }
   keep_beyond<dimension>(paths_, basis, chords, periods, beyond_);
   return stays;
+}
+
+template <Motion M, Kernel K, Radii radii>
+double WrappedHierarchy<M, K, radii>::guarded_until(NodeId id) {
+  double until = 1;
+  for (std::uint32_t place = nodes_[id].held; place != none; place = held_[place].next) {
+    tables_.visit(held_[place].table, [&](auto& table) {
+      until = std::min(until, table.time(slot_of(held_[place].guard)).upper);
+    });
+  }
+  return until;
+}
+
+/// The first failure of any certificate of the node makes all of them anew.
+template <Motion M, Kernel K, Radii radii>
+void WrappedHierarchy<M, K, radii>::take_out_later(NodeId id) {
+  if constexpr (!prunes) return;
+  if (beyond_.size() < worth_another_look || nodes_[id].held == none) return;
+  static_cast<void>(look_closely(nodes_[id].basis, guarded_until(id)));
 }
 
 /// A bit for each of up to four that is proved to be the basis of its beads just after now, if the newcomer
@@ -91,9 +116,9 @@ unsigned WrappedHierarchy<M, K, radii>::are_proved(std::span<const Basis> bases,
   std::copy(bases.begin(), bases.end(), asked.begin());
   periods.fill(soon);
   const bool alone = bases.size() == 1;
-  if (alone) periods[1] = {from, 1};
+  if (alone) periods[1] = rest_of_step();
   sphere_chords<dimension>(paths_, asked, periods, chords);
-  if (alone) latest_chord_.keep(bases.front(), from, chords[1]);
+  if (alone) latest_chord_.keep(bases.front(), periods[1], chords[1]);
   unsigned proved = 0;
   for (std::size_t i = 0; i < bases.size(); ++i) {
     unsigned stay = chords[i].stays;

@@ -120,6 +120,7 @@ std::optional<BeadId> WrappedHierarchy<M, K, radii>::watch_node(NodeId id) {
   // spare all the time, its function zero.
   enqueue_basis(id, find_beads_to_watch(id));
   if (const auto to_spare = watch_enqueued(false)) return to_spare;
+  take_out_later(id);
   enqueue_beyond(id, beyond_);
   return watch_enqueued(true);
 }
@@ -132,6 +133,7 @@ void WrappedHierarchy<M, K, radii>::guard_node(NodeId id, Basis before) {
     // `fast` lives with a contradiction until the next event of the node or the next step.
     if (std::same_as<K, Fast> && repairs >= most_repairs) break;
     drop_node(id);
+    risen_ = no_bead;
     if (!repair(id, *violated)) {
       if constexpr (!std::same_as<K, Fast>) {
         throw std::logic_error(name_of(id) + ": a basis is violated and right at once, at bead " +

@@ -77,6 +77,19 @@ bool WrappedHierarchy<M, K, radii>::repair(NodeId id, BeadId bead) {
 }
 
 template <Motion M, Kernel K, Radii radii>
+BeadId WrappedHierarchy<M, K, radii>::risen_bead(const Basis& old, const Basis& next, BeadId failed) const {
+  if (!prunes || !simulator_.now().isolating()) return no_bead;
+  std::array<BeadId, Basis::max_size> gone{};
+  std::size_t count = 0;
+  for (const BeadId b : old)
+    if (!next.contains(b)) gone[count++] = b;
+  if (old.contains(failed)) return count == 1 && gone[0] == failed ? failed : no_bead;
+  if (!next.contains(failed)) return no_bead;
+  if (count == 0) return failed;
+  return count == 1 && old.size == full ? gone[0] : no_bead;
+}
+
+template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::fail(unsigned table, std::uint32_t slot) {
   NodeId id = 0;
   BeadId bead = 0;
@@ -102,6 +115,7 @@ void WrappedHierarchy<M, K, radii>::fail(unsigned table, std::uint32_t slot) {
   bool repaired = true;
   if (!touch) {
     repaired = repair(id, bead);
+    risen_ = risen_bead(before, nodes_[id].basis, bead);
   } else if (radii == Radii::any) {
     static_cast<void>(repair(id, no_bead));
   }
@@ -118,6 +132,7 @@ void WrappedHierarchy<M, K, radii>::fail(unsigned table, std::uint32_t slot) {
   }
   present_bead_ = no_bead;  // what fails from here on is not known to be outside
   guard_node(id, before);
+  risen_ = no_bead;
   present_.reset();
 }
 

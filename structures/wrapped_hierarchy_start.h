@@ -38,7 +38,7 @@ void WrappedHierarchy<M, K, radii>::watch_all_nodes() {
     bool proper = radii == Radii::equal;
     if constexpr (prunes) {
       const SphereChord<dimension>& chord = chords_[id];
-      latest_chord_.keep(basis, 0, chord);
+      latest_chord_.keep(basis, {}, chord);
       proper |= chord.proved && chord.stays == all_of(basis);
     }
     if (!proper) {
@@ -62,7 +62,10 @@ void WrappedHierarchy<M, K, radii>::watch_all_nodes() {
   for (std::size_t i = 0; i < guarded_.size(); ++i) {
     const auto beyond = std::span(all_beyond_).subspan(begin, ends[i] - begin);
     begin = ends[i];
-    if (amiss_[guarded_[i]] == Amiss::no) enqueue_beyond(guarded_[i], beyond);
+    if (beyond.empty() || amiss_[guarded_[i]] != Amiss::no) continue;
+    beyond_.assign(beyond.begin(), beyond.end());
+    take_out_later(guarded_[i]);
+    enqueue_beyond(guarded_[i], beyond_);
   }
   watch_enqueued(true, report);
 }

@@ -55,7 +55,7 @@ bool holds(const M& motion, const Basis& basis, BeadId bead, bool inside, const 
 }
 
 struct Tally {
-  int proved = 0, inside = 0, beyond = 0, kept = 0;
+  int proved = 0, inside = 0, beyond = 0, kept = 0, dipping = 0, risen = 0;
 };
 
 /// Judges all that is claimed of the basis at `from` of all beads.
@@ -71,9 +71,12 @@ void judge(const M& motion, double from, Tally& tally) {
   std::vector<BeadId> beyond;
   find_beyond(paths, {0, count - 1}, basis, chord, from, beyond);
   ASSERT_TRUE(std::is_sorted(beyond.begin(), beyond.end()));
+  std::vector<BeadId> left = beyond;
+  take_out_dipping(paths, basis, chord, {from, 1}, no_bead, left);
+  tally.dipping += static_cast<int>(beyond.size() - left.size());
   const Instant now(from);
   for (BeadId b = 0; b < count; ++b) {
-    if (std::binary_search(beyond.begin(), beyond.end(), b)) {
+    if (std::binary_search(left.begin(), left.end(), b)) {
       ++tally.beyond;
       ASSERT_FALSE(basis.contains(b)) << "basis beads are not looked at";
       continue;
@@ -87,6 +90,35 @@ void judge(const M& motion, double from, Tally& tally) {
     ++tally.kept;
     EXPECT_TRUE((holds<radii>(motion, without(basis, basis.beads[i]), basis.beads[i], false, now)))
         << "basis bead " << basis.beads[i];
+  }
+}
+
+/// The same of what is claimed from a later time on only, when what has just risen from zero is sure: of the
+/// basis at `sure`, in chords that begin before that.
+template <Radii radii, class M>
+void judge_risen(const M& motion, double from, double sure, Tally& tally) {
+  const auto count = static_cast<BeadId>(motion.bead_count());
+  const Basis basis = basis_at(motion, {0, count - 1}, sure);
+  BeadPaths<M::dimension> paths;
+  paths.set(motion);
+  const Period period{from, 1, sure};
+  const auto chord = sphere_chord(paths, basis, period);
+  if (!chord.proved) return;
+  const Instant then(sure);
+  for (std::size_t i = 0; i < basis.size && basis.size > 1; ++i) {
+    if ((chord.rises >> i & 1U) == 0) continue;
+    tally.risen += (chord.stays >> i & 1U) == 0 ? 1 : 0;
+    EXPECT_TRUE((holds<radii>(motion, without(basis, basis.beads[i]), basis.beads[i], false, then)))
+        << "basis bead " << basis.beads[i] << " from " << sure;
+  }
+  for (BeadId b = 0; b < count; ++b) {
+    if (basis.contains(b)) continue;
+    std::vector<BeadId> one{b}, other{b};
+    take_out_dipping(paths, basis, chord, period, b, one);
+    take_out_dipping(paths, basis, chord, period, no_bead, other);
+    if (!one.empty()) continue;
+    tally.risen += other.empty() ? 0 : 1;
+    EXPECT_TRUE((holds<radii>(motion, basis, b, true, then))) << "bead " << b << " from " << sure;
   }
 }
 
@@ -112,6 +144,10 @@ Tally judge_random(unsigned seeds) {
         }
       }
       for (const double from : {0.0, 0.25, 0.9}) judge<radii>(motion, from, tally);
+      for (const double from : {0.0, 0.5}) {
+        for (const double later : {0x1p-20, 0.01, 0.25})
+          judge_risen<radii>(motion, from, from + later * (1 - from), tally);
+      }
       if (testing::Test::HasFailure()) return tally;
     }
   }
@@ -124,6 +160,8 @@ TEST(SpherePath, ProvesOnlyWhatHolds) {
   EXPECT_GT(tally.inside, 2000);
   EXPECT_GT(tally.beyond, 2000);
   EXPECT_GT(tally.kept, 200);
+  EXPECT_GT(tally.dipping, 100);
+  EXPECT_GT(tally.risen, 50);
 }
 
 TEST(SpherePath, OfBallsInThePlaneAndOfCurvedMotion) {
@@ -322,7 +360,7 @@ void judge_four(Random& random, std::size_t size) {
   BeadPaths<M::dimension> paths;
   paths.set(motion);
   std::array<Basis, 4> bases;
-  constexpr std::array<Period, 4> periods{{{0, 1}, {0.25, 1}, {0, 0.25}, {0.3, 0.9}}};
+  constexpr std::array<Period, 4> periods{{{0, 1}, {0.25, 1, 0.26}, {0, 0.25}, {0.3, 0.9, 0.5}}};
   for (std::size_t i = 0; i < bases.size(); ++i) {
     for (std::size_t k = 0; k < size; ++k) bases[i].beads[k] = static_cast<BeadId>(6 * i + k);
     bases[i].size = static_cast<std::uint8_t>(size);
@@ -336,6 +374,8 @@ void judge_four(Random& random, std::size_t size) {
       ASSERT_EQ(chords[i].proved, alone.proved);
       if (!alone.proved) continue;
       EXPECT_EQ(chords[i].stays, alone.stays);
+      EXPECT_EQ(chords[i].rises, alone.rises);
+      EXPECT_EQ(chords[i].dip, alone.dip);
       EXPECT_EQ(chords[i].center, alone.center);
       EXPECT_EQ(chords[i].limit, alone.limit);
     }
