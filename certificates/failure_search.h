@@ -17,6 +17,7 @@
 #include "certificates/failure_time.h"
 #include "certificates/instant.h"
 #include "certificates/kernel.h"
+#include "certificates/moment_lanes.h"
 #include "certificates/settle_lanes.h"
 #include "certificates/stage_counts.h"
 
@@ -349,11 +350,10 @@ template <Kernel K, class Function, Motion M>
   for (std::size_t i = 0; i < functions.size(); i += Lanes::width) {
     const auto some = functions.subspan(i, std::min(Lanes::width, functions.size() - i));
     if constexpr (std::same_as<K, Filtered>) {
-      LanesDescent<decltype(function_of(Function{}, DoubleView<M>(motion)))::degree> work;
       bool all_positive = false;
       const auto [tuples, sides] =
           detail::in_lanes<M>(some, std::span<const std::size_t>(places).first(some.size()));
-      positive_lanes<Function>(motion, tuples, sides, now.lower(), now.upper(), work, all_positive);
+      positive_at_moment<Function>(motion, tuples, sides, now.lower(), now.upper(), all_positive);
       if (all_positive) {
         stages.signs_double += some.size();
         continue;

@@ -130,6 +130,13 @@ template <Motion M>
     detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, first, unit, positive);
 }
 
+/// The first four alone.
+template <Motion M>
+[[KDS_LANES_TARGETS]] void four_positive_cells(const M& motion, const CellsInLanes<M>& cells,
+                                               const LengthUnit& unit, PositiveBits& positive) {
+  detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, 0, unit, positive);
+}
+
 /// Eight at once: for processors with vectors as long as that, on others slower than four.
 template <Motion M>
 [[KDS_LANES_TARGETS]] void positive_cells_at_once(const M& motion, const CellsInLanes<M>& cells,

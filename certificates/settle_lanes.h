@@ -134,18 +134,4 @@ template <class Certificate, Motion M, int Degree>
   out.descent.upper = Lanes(1.0);
 }
 
-/// Whether four functions are certainly positive all over [lower, upper].
-template <class Function, Motion M, int Degree>
-[[KDS_LANES_TARGETS]] void positive_lanes(const M& motion,
-                                          const typename LanesView<M, bead_places<Function>>::Tuples& tuples,
-                                          const Lanes& sides, double lower, double upper,
-                                          LanesDescent<Degree>& work, bool& all_positive) {
-  detail::ScaledLanes<Degree> given;
-  detail::evaluate_lanes<Function>(motion, tuples, sides, given);
-  detail::bound_lanes(given, error_bound<Function, M>.uniform, work);
-  work.part = work.bernstein;
-  const Lanes value = casteljau(work.part, Lanes(upper));
-  all_positive = Lanes::all(value > work.value_error + detail::change_within(work, lower, upper));
-}
-
 }  // namespace kds

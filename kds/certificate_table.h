@@ -53,12 +53,7 @@ class CertificateTable : public FailureSource {
 
   /// The same for many, of which four at once cost little more than one: enqueue them, then watch them all.
   void enqueue(const Certificate& certificate, std::uint32_t place, Birth birth) {
-    if (waiting_count_ == waiting_.size()) make_room();
-    waiting_[waiting_count_] = certificate;
-    places_[waiting_count_] = place;
-    births_[waiting_count_] = birth;
-    known_[waiting_count_] = 0;
-    ++waiting_count_;
+    enqueue_empty(place, birth) = certificate;
   }
   /// The same of one whose failure is known already.
   void enqueue_known(const Certificate& certificate, std::uint32_t place, const Failure& failure) {
@@ -70,10 +65,14 @@ class CertificateTable : public FailureSource {
   /// Enqueues where many may be: a few at a time are searched at once, so that they need little room. They
   /// cannot be forgotten.
   void enqueue_one_of_many(const Certificate& certificate, std::uint32_t place, Birth birth) {
+    one_of_many(place, birth) = certificate;
+  }
+  /// The same of one to be made where it will lie: one just made elsewhere is slow to copy.
+  [[nodiscard]] Certificate& one_of_many(std::uint32_t place, Birth birth) {
     constexpr std::size_t at_a_time = 512;
-    enqueue(certificate, place, birth);
-    if (waiting_count_ < at_a_time) return;
-    settle_enqueued([this](std::uint32_t at, Guard guard) { append_little(settled_, {at, guard}); });
+    if (waiting_count_ >= at_a_time)
+      settle_enqueued([this](std::uint32_t at, Guard guard) { append_little(settled_, {at, guard}); });
+    return enqueue_empty(place, birth);
   }
   /// Calls `visit` with the place and the guard of each, in the order in which they were enqueued.
   template <std::invocable<std::uint32_t, Guard> Visit>
@@ -108,6 +107,14 @@ class CertificateTable : public FailureSource {
   /// Gives up `count` certificates that never fail.
   void drop_never(std::uint64_t count) { owner_.statistics.certificates.alive -= count; }
 
+  /// It will soon be asked for.
+  void fetch(Guard guard) const {
+    if (has_slot(guard)) __builtin_prefetch(&entries_[slot_of(guard)]);
+  }
+  /// It will soon be given up.
+  void fetch_scheduled(Guard guard) const {
+    if (has_slot(guard)) simulator_.fetch(entries_[slot_of(guard)].handle);
+  }
   /// The failure time of a certificate in the queue.
   [[nodiscard]] const FailureTime& time(std::uint32_t slot) const {
     return simulator_.scheduled(entries_[slot].handle);
@@ -130,6 +137,13 @@ class CertificateTable : public FailureSource {
   [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override {
     return (static_cast<std::uint64_t>(structure_) << 36U) | (static_cast<std::uint64_t>(number_) << 32U) |
            entries_[slot].place;
+  }
+  void fetch(std::uint32_t slot, unsigned bins_ahead) const override {
+    if (bins_ahead == 2) {
+      __builtin_prefetch(&entries_[slot]);
+    } else {
+      owner_.fetch(number_, entries_[slot].place, bins_ahead == 0);
+    }
   }
   [[nodiscard]] unsigned number() const { return number_; }
   [[nodiscard]] std::size_t structure() const override { return structure_; }
@@ -180,6 +194,14 @@ class CertificateTable : public FailureSource {
     waiting_count_ = 0;
   }
 
+  [[nodiscard]] Certificate& enqueue_empty(std::uint32_t place, Birth birth) {
+    if (waiting_count_ == waiting_.size()) make_room();
+    places_[waiting_count_] = place;
+    births_[waiting_count_] = birth;
+    known_[waiting_count_] = 0;
+    return waiting_[waiting_count_++];
+  }
+
   void make_room() {
     const std::size_t room = std::max<std::size_t>(16, 2 * waiting_.size());
     waiting_.resize(room);
@@ -219,7 +241,7 @@ class CertificateTable : public FailureSource {
     std::uint32_t slot = 0;
     if (free_.empty()) {
       slot = static_cast<std::uint32_t>(entries_.size());
-      append_little(entries_, {});
+      extend_little(entries_);
     } else {
       slot = free_.back();
       free_.pop_back();

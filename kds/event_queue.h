@@ -8,13 +8,16 @@
 //
 // Where all times fall into one bin it is a heap. No allocation once it has grown. The order may narrow the
 // entries it compares (their bracket shrinks around the same time), which never changes how they compare.
+//
+// What an event needs lies anywhere in memory, and each piece tells where the next one is. An order that has
+// `fetch(key, bins_ahead)` is told which failures come near, bins_ahead = 2, 1, 0, so that each piece is on
+// its way while other events run. Not where entries are few: then all is at hand.
 // Slow obvious twin: tests/support/linear_queue.h.
 
 #include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace kds {
@@ -33,7 +36,7 @@ concept QueueOrder = requires(O& order, Key& a, Key& b) {
 template <class Key, QueueOrder<Key> Order>
 class EventQueue {
  public:
-  explicit EventQueue(Order& order) : order_(order) { bins_.fill(none); }
+  explicit EventQueue(Order& order) : order_(order) {}
 
   [[nodiscard]] bool empty() const { return size() == 0; }
   [[nodiscard]] std::size_t size() const { return near_.size() + far_count_; }
@@ -67,6 +70,8 @@ class EventQueue {
     return near_.front();
   }
   [[nodiscard]] Key& at(QueueHandle handle) { return entries_[handle].key; }
+  /// It will soon be asked for.
+  void fetch(QueueHandle handle) const { __builtin_prefetch(&entries_[handle], 1); }
 
   void pop() { erase(top_handle()); }
 
@@ -83,8 +88,10 @@ class EventQueue {
     entries_.clear();
     free_.clear();
     near_.clear();
-    bins_.fill(none);
-    far_count_ = 0;
+    for (std::uint32_t bin = first_far_; far_count_ != 0; ++bin) {
+      far_count_ -= bins_[bin].size();
+      bins_[bin].clear();
+    }
     first_far_ = 0;
   }
 
@@ -92,12 +99,12 @@ class EventQueue {
   static constexpr std::uint32_t bin_count = 1024;
   static constexpr std::uint32_t none = 0xffffffffU;
   static constexpr std::uint32_t in_heap = none;
+  static constexpr std::size_t many = 4096;  // below, fetching costs more than it spares
 
   struct Entry {
     Key key;
     std::uint32_t bin;    // or in_heap
-    std::uint32_t place;  // there, or the entry before it in its bin
-    QueueHandle next;     // in its bin
+    std::uint32_t place;  // there
   };
 
   // Far.
@@ -111,32 +118,40 @@ class EventQueue {
   [[nodiscard]] double far_from() const { return static_cast<double>(first_far_) / bin_count; }
 
   void push_far(QueueHandle handle, std::uint32_t bin) {
-    const QueueHandle next = bins_[bin];
     Entry& entry = entries_[handle];
     entry.bin = bin;
-    entry.place = none;
-    entry.next = next;
-    if (next != none) entries_[next].place = handle;
-    bins_[bin] = handle;
+    entry.place = static_cast<std::uint32_t>(bins_[bin].size());
+    bins_[bin].push_back(handle);
     ++far_count_;
   }
 
   void erase_far(const Entry& entry) {
-    if (entry.next != none) entries_[entry.next].place = entry.place;
-    (entry.place != none ? entries_[entry.place].next : bins_[entry.bin]) = entry.next;
+    std::vector<QueueHandle>& bin = bins_[entry.bin];
+    const QueueHandle last = bin.back();
+    bin[entry.place] = last;
+    entries_[last].place = entry.place;
+    bin.pop_back();
     --far_count_;
   }
 
   void bring_next_bin() {
-    while (bins_[first_far_] == none) ++first_far_;
-    QueueHandle handle = std::exchange(bins_[first_far_], none);
-    ++first_far_;
-    while (handle != none) {
-      const QueueHandle next = entries_[handle].next;
-      push_near(handle);
-      --far_count_;
-      handle = next;
+    while (bins_[first_far_].empty()) ++first_far_;
+    std::vector<QueueHandle>& bin = bins_[first_far_];
+    if constexpr (requires(Key & key) { order_.fetch(key, 0U); }) {
+      if (entries_.size() >= many) fetch_ahead(first_far_);
     }
+    ++first_far_;
+    for (const QueueHandle handle : bin) push_near(handle);
+    far_count_ -= bin.size();
+    bin.clear();
+  }
+
+  void fetch_ahead(std::uint32_t next) {
+    for (unsigned ahead = 0; ahead < 3 && next + ahead < bin_count; ++ahead) {
+      for (const QueueHandle handle : bins_[next + ahead]) order_.fetch(at(handle), ahead);
+    }
+    if (next + 3 >= bin_count) return;
+    for (const QueueHandle handle : bins_[next + 3]) __builtin_prefetch(&entries_[handle]);
   }
 
   // Near.
@@ -194,8 +209,8 @@ class EventQueue {
   Order& order_;
   std::vector<Entry> entries_;
   std::vector<QueueHandle> free_;
-  std::vector<QueueHandle> near_;            // heap
-  std::array<QueueHandle, bin_count> bins_;  // the first entry of each; those before first_far_ are empty
+  std::vector<QueueHandle> near_;                         // heap
+  std::array<std::vector<QueueHandle>, bin_count> bins_;  // those before first_far_ are empty
   std::size_t far_count_ = 0;
   std::uint32_t first_far_ = 0;
 };

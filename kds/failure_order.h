@@ -20,6 +20,11 @@ class ScheduledSource : public CertificateSource {
   [[nodiscard]] virtual bool side(std::uint32_t) const { return true; }
   /// Breaks ties between certificates of one function: unique within a run for live certificates.
   [[nodiscard]] virtual std::uint64_t place(std::uint32_t slot) const = 0;
+  /// The failure comes near: see EventQueue.
+  virtual void fetch(std::uint32_t slot, unsigned bins_ahead) const {
+    static_cast<void>(slot);
+    static_cast<void>(bins_ahead);
+  }
 };
 
 struct ScheduledFailure {
@@ -46,6 +51,7 @@ class FailureOrder {
   }
   [[nodiscard]] static double earliest(const ScheduledFailure& f) { return f.time.lower; }
   [[nodiscard]] static double latest(const ScheduledFailure& f) { return f.time.upper; }
+  static void fetch(const ScheduledFailure& f, unsigned bins_ahead) { f.source->fetch(f.slot, bins_ahead); }
   /// -1, 0, 1 by time alone.
   [[nodiscard]] int compare_times(ScheduledFailure& a, ScheduledFailure& b);
 

@@ -29,6 +29,13 @@ class KineticStructure {
   virtual void start_step() = 0;
   /// The certificate in `slot` of the table numbered `table` fails now; it is out of the queue already.
   virtual void fail(unsigned table, std::uint32_t slot) = 0;
+  /// A failure at this place of a table (CertificateTable::watch) comes near: memory to fetch, first that of
+  /// the place itself, then, `next`, what it is about.
+  virtual void fetch(unsigned table, std::uint32_t place, bool next) const {
+    static_cast<void>(table);
+    static_cast<void>(place);
+    static_cast<void>(next);
+  }
   /// All failures at this very time are handled. Asked only if `unsettled` was set.
   virtual void settle() {}
   /// The step's end is reached: positions are those at u = 1. No certificate is left.

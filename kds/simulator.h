@@ -75,6 +75,8 @@ class Simulator {
   QueueHandle schedule(const FailureTime& time, FailureSource& source, std::uint32_t slot);
   void cancel(QueueHandle handle) { queue_.erase(handle); }
   [[nodiscard]] const FailureTime& scheduled(QueueHandle handle) { return queue_.at(handle).time; }
+  /// It will soon be asked for, or cancelled.
+  void fetch(QueueHandle handle) const { queue_.fetch(handle); }
   /// A structure reports what it did now.
   void record(std::size_t structure, const Change& change);
 

@@ -19,4 +19,11 @@ void append_little(std::vector<T>& array, const T& value) {
   array.push_back(value);
 }
 
+/// The same of a new one, in place.
+template <class T>
+T& extend_little(std::vector<T>& array) {
+  if (array.size() == array.capacity()) array.reserve(array.size() + array.size() / 8 + 16);
+  return array.emplace_back();
+}
+
 }  // namespace kds

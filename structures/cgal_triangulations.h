@@ -77,12 +77,11 @@ struct CgalTriangulation<Geometry, 2> {
   static Cell cell_beside(VertexHandle v) {
     return v->face();
   }
-  /// Whether a point would be in the power circle of the cell's vertices where these are `moved`, or on it.
+  /// Whether a point would be in the power circle of a cell's beads where these are `moved`, or on it.
   template <class Moved, class Point>
-  static bool in_power_sphere(Cell c, const Moved& moved, const Point& point) {
-    return
-        typename Geometry::Power_side_of_oriented_power_circle_2()(
-            moved(c->vertex(0)), moved(c->vertex(1)), moved(c->vertex(2)), point) != CGAL::ON_NEGATIVE_SIDE;
+  static bool in_power_sphere(const CellBeads<2>& cell, const Moved& moved, const Point& point) {
+    return typename Geometry::Power_side_of_oriented_power_circle_2()(
+               moved(cell[0]), moved(cell[1]), moved(cell[2]), point) != CGAL::ON_NEGATIVE_SIDE;
   }
 };
 
@@ -127,12 +126,12 @@ struct CgalTriangulation<Geometry, 3> {
   static Cell cell_beside(VertexHandle v) {
     return v->cell();
   }
-  /// Whether a point would be in the power sphere of the cell's vertices where these are `moved`, or on it.
+  /// Whether a point would be in the power sphere of a cell's beads where these are `moved`, or on it.
   template <class Moved, class Point>
-  static bool in_power_sphere(Cell c, const Moved& moved, const Point& point) {
-    return typename Geometry::Power_side_of_oriented_power_sphere_3()(
-               moved(c->vertex(0)), moved(c->vertex(1)), moved(c->vertex(2)), moved(c->vertex(3)), point) !=
-           CGAL::ON_NEGATIVE_SIDE;
+  static bool in_power_sphere(const CellBeads<3>& cell, const Moved& moved, const Point& point) {
+    return
+        typename Geometry::Power_side_of_oriented_power_sphere_3()(
+            moved(cell[0]), moved(cell[1]), moved(cell[2]), moved(cell[3]), point) != CGAL::ON_NEGATIVE_SIDE;
   }
 };
 

@@ -22,19 +22,39 @@ class FacetCertificates {
   /// Calls `use` with the certificate of the facet to the cell with this apex beyond it.
   template <class Use>
   [[gnu::always_inline]] decltype(auto) to(BeadId apex, Use use) const {
-    PowerTest<dimension> test;
-    std::copy(sorted_.begin(), sorted_.end(), test.beads.begin());
-    test.beads.back() = apex;
-    test.sign = sign_ * sort_last_bead(test.beads);
-    if (test.beads.back() != infinite_bead) return use(test);
-    // Sorted, infinity is last: a row (0, ..., 0, 1) there leaves the determinant of the others.
+    if (!on_hull(apex)) {
+      PowerTest<dimension> test;
+      make(apex, test);
+      return use(test);
+    }
     Orientation<dimension> orientation;
-    std::copy(test.beads.begin(), test.beads.end() - 1, orientation.beads.begin());
-    orientation.sign = test.sign;
+    make(apex, orientation);
     return use(orientation);
+  }
+  /// The same without a call: whether it is an orientation, and it made in place.
+  [[nodiscard, gnu::always_inline]] bool on_hull(BeadId apex) const {
+    return sorted_.back() == infinite_bead || apex == infinite_bead;
+  }
+  [[gnu::always_inline]] void make(BeadId apex, PowerTest<dimension>& test) const {
+    auto beads = with(apex);
+    test.sign = sign_ * sort_last_bead(beads);
+    for (std::size_t i = 0; i < beads.size(); ++i) test.beads[i] = beads[i];
+  }
+  [[gnu::always_inline]] void make(BeadId apex, Orientation<dimension>& orientation) const {
+    auto beads = with(apex);
+    orientation.sign = sign_ * sort_last_bead(beads);
+    // Sorted, infinity is last: a row (0, ..., 0, 1) there leaves the determinant of the others.
+    std::copy(beads.begin(), beads.end() - 1, orientation.beads.begin());
   }
 
  private:
+  [[gnu::always_inline]] std::array<BeadId, N + 1> with(BeadId apex) const {
+    std::array<BeadId, N + 1> beads;
+    std::copy(sorted_.begin(), sorted_.end(), beads.begin());
+    beads.back() = apex;
+    return beads;
+  }
+
   std::array<BeadId, N> sorted_;
   int sign_;
 };

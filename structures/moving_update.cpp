@@ -249,11 +249,10 @@ UpdateCounts Activation<Dimension>::advance(const Eigen::Matrix3Xd& centers,
 template <int Dimension>
 UpdateCounts AutomaticUpdate<Dimension>::advance(const Eigen::Matrix3Xd& centers,
                                                  std::span<const double> weights) {
-  // Moving takes as long as rebuilding at about these shares of failed certificates: kds bench power,
-  // November 2026, AMD EPYC (Zen 4, 1 MB of second cache). Moving goes from place to place and pays for
-  // memory out of reach, where beads are many.
-  constexpr double worth_rebuilding_few = 0.185, worth_rebuilding_many = 0.165;
-  constexpr std::size_t many = 4096;
+  // Moving takes as long as rebuilding at about this share of failed certificates, on trajectories of 100 to
+  // 1100 beads at strides up to 64 and on chains and grids of 10240 beads that move 0.1 to 0.4 radii a frame:
+  // November 2026, AMD EPYC (Zen 4, 1 MB of second cache).
+  constexpr double limit = 0.165;
   // A sample near every eighth bead, of four facets each, costs a hundredth of it. Where the answer is clear
   // the next samples are further and further apart.
   constexpr std::size_t every = 8, every_at_first = 2, most_sampled = 64;
@@ -264,12 +263,12 @@ UpdateCounts AutomaticUpdate<Dimension>::advance(const Eigen::Matrix3Xd& centers
     this->rebuild(centers, weights, counts);
     return counts;
   }
-  const double limit = this->bead_count() < many ? worth_rebuilding_few : worth_rebuilding_many;
   if (skip_ > 0) {
     --skip_;
   } else {
     const auto sample = this->triangulation().sample(
-        centers, weights, std::max(tested_ == 0 ? every_at_first : every, this->bead_count() / most_sampled));
+        centers, weights, std::max(tested_ == 0 ? every_at_first : every, this->bead_count() / most_sampled),
+        samples_++);
     counts.tested = sample.tested;
     counts.failed = sample.failed;
     const auto tested = static_cast<double>(sample.tested), failed = static_cast<double>(sample.failed);

@@ -85,6 +85,7 @@ class AutomaticUpdate final : public MovingDiagram<BezierMotion<Dimension, 1>> {
  private:
   double tested_ = 0, failed_ = 0;
   unsigned skip_ = 0, next_skip_ = 0, skip_after_giving_up_ = 0;  // updates without a sample
+  std::uint64_t samples_ = 0;
 };
 
 extern template class MovingDiagram<BezierMotion<2, 1>>;

@@ -92,23 +92,53 @@ template <Motion M>
 /// Processors to look for: the best there is, or what any has.
 enum class Processor : std::uint8_t { best, any };
 
+/// As the certificates want them: the beads of a cell, then those beyond its facets. Where there is none a
+/// bead of the cell serves.
+template <int Dimension>
+void put_in_lane(const TriangulationCell<Dimension>& cell,
+                 std::array<BeadId, 2 * (static_cast<std::size_t>(Dimension) + 1)>& beads) {
+  for (std::size_t i = 0; i <= Dimension; ++i) {
+    beads[i] = cell.vertex[i];
+    beads[Dimension + 1 + i] = cell.apex[i] == infinite_bead ? cell.vertex[0] : cell.apex[i];
+  }
+}
+
+/// The cells that an event made, up to four: of each the facets that are found positive, one bit each.
+inline constexpr std::size_t few_cells = 4;
+template <Motion M>
+[[nodiscard]] std::array<unsigned, few_cells> positive_facets_of_few(
+    const M& motion, const LengthUnit& unit, std::span<const TriangulationCell<M::dimension>> cells,
+    std::span<const CellId> few) {
+  std::array<unsigned, few_cells> facets{};
+  CellsInLanes<M> beads;
+  std::size_t finite = 0;
+  for (std::size_t n = 0; n < few.size(); ++n) {
+    facets[n] = finite_facets(cells[few[n]]);
+    if (facets[n] != 0) put_in_lane(cells[few[n]], beads[finite++]);
+  }
+  if (finite == 0) return facets;
+  for (std::size_t lane = finite; lane < few_cells; ++lane) beads[lane] = beads[0];
+  PositiveBits positive;
+  four_positive_cells(motion, beads, unit, positive);
+  for (std::size_t n = 0, lane = 0; n < few.size(); ++n) {
+    if (facets[n] != 0) facets[n] &= positive[lane++];
+  }
+  return facets;
+}
+
 template <Motion M, Processor processor = Processor::best>
 class PositiveFacets {
  public:
   static constexpr int dimension = M::dimension;
 
-  /// Lengths are about 2^exponent: where they are a thousand times as long or as short, nothing is found.
-  PositiveFacets(const M& motion, int exponent) : motion_(motion), unit_(exponent) {}
+  /// Where lengths are a thousand times as long as the unit or as short, nothing is found.
+  PositiveFacets(const M& motion, const LengthUnit& unit) : motion_(motion), unit_(unit) {}
 
   /// Those facets of a cell, one bit each, that are wanted, of finite_facets. Calls `doubt` with the facets,
   /// these or earlier ones, that are not found positive.
   template <class Doubt>
   void look_at(const TriangulationCell<dimension>& cell, CellId id, unsigned wanted, Doubt doubt) {
-    auto& beads = beads_[waiting_];
-    for (std::size_t i = 0; i <= dimension; ++i) {
-      beads[i] = cell.vertex[i];
-      beads[dimension + 1 + i] = cell.apex[i] == infinite_bead ? cell.vertex[0] : cell.apex[i];
-    }
+    put_in_lane(cell, beads_[waiting_]);
     cells_[waiting_] = id;
     wanted_[waiting_] = wanted;
     waiting_ += wanted != 0 ? 1 : 0;  // no branch: no one foretells which cells are wanted

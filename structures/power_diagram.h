@@ -120,6 +120,9 @@ class PowerDiagram final : public KineticStructure {
   }
 
   void fail(unsigned table, std::uint32_t slot) override;
+  void fetch(unsigned table, std::uint32_t place, bool next) const override {
+    if (table < appearing) fetch_cell(cell_of(place), next);
+  }
   void settle() override;
   void finish_step(bool last) override {
     within_step_ = false;
@@ -155,9 +158,7 @@ class PowerDiagram final : public KineticStructure {
   [[nodiscard]] CellId some_finite_cell() const;
   /// All beads are where the motion's step ends.
   void reach_frame(bool last) {
-    reached_.set(motion_, M::degree);
-    triangulation_.set_points(reached_);
-    const int least = least_orientation(triangulation_, reached_);
+    const int least = least_orientation(triangulation_, triangulation_.set_points(motion_, M::degree));
     if (least < 0 && !std::same_as<K, Fast>)
       throw std::logic_error("a cell of the power diagram is inverted");
     flat_ = least == 0;
@@ -312,11 +313,10 @@ class PowerDiagram final : public KineticStructure {
   [[nodiscard]] Birth birth_of(const Certificate& certificate) const {
     return certificate.identity() == present_ ? Birth::at_own_root : Birth::unknown;
   }
-  auto& table_of(const PowerTest<dimension>&) { return power_tests_; }
-  auto& table_of(const Orientation<dimension>&) { return orientations_; }
   /// Facets are guarded together: enqueue some, then watch them.
   void enqueue(CellId cell, int i);
   void enqueue(const FacetCertificates<dimension + 1>& certificates, CellId cell, int i, Birth birth);
+  [[nodiscard]] std::array<unsigned, few_cells> positive_all_over(std::span<const CellId> cells) const;
   void watch_enqueued();
   void hold_inner(CellId cell, int i);
   void watch_cells_beside(CellId cell, int i);
@@ -397,6 +397,15 @@ class PowerDiagram final : public KineticStructure {
 
   // Flips.
 
+  /// A flip there comes near: first its cell, then what that names.
+  void fetch_cell(CellId cell, bool next) const;
+  /// Fetches the failures that the flip will cancel.
+  void fetch_scheduled(CellId cell) const {
+    for (int i = 0; i <= dimension; ++i) {
+      if (const FacetGuard facet = guard(cell, i); facet.about == About::power)
+        power_tests_.fetch_scheduled(facet.guard);
+    }
+  }
   /// The certificate that fails now.
   void begin_event(const Identity& identity);
   void repair(CellId cell, int facet);
@@ -417,6 +426,8 @@ class PowerDiagram final : public KineticStructure {
     return std::same_as<K, Fast> || doubt_ != Doubt::none ||
            present_.type == static_cast<std::uint32_t>(CertificateType::orientation);
   }
+  /// Whether a face of these beads stands, each of them a vertex of one of two cells.
+  [[nodiscard]] bool stands_already(std::span<const BeadId> face, CellId a, CellId b) const;
   void watch_around(std::span<const CellId> cells);
 
   Simulator& simulator_;
@@ -433,10 +444,10 @@ class PowerDiagram final : public KineticStructure {
   Notes notes_ = Notes::any;
   std::vector<CellId> noted_;
   FacetCover cover_;
+  LengthUnit unit_;  // near the cells' lengths in this step
   FacetTolerances<M> tolerances_;
   std::vector<char> moving_;  // of each bead; empty: all move
   std::vector<CellId> flipped_;
-  Placement<dimension> reached_;  // at the end of the step
   HiddenBeads hidden_;
   std::vector<Guards> hidden_guards_;  // of each bead, if any is hidden
   std::vector<BeadId> displaced_;

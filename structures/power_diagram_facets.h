@@ -13,9 +13,12 @@ void PowerDiagram<M, K>::enqueue(CellId cell, int i) {
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::enqueue(const FacetCertificates<dimension + 1>& certificates, CellId cell, int i,
                                  Birth birth) {
-  certificates.to(apex(cell, i), [&](const auto& certificate) {
-    table_of(certificate).enqueue_one_of_many(certificate, facet_id(cell, i), birth);
-  });
+  const BeadId beyond = apex(cell, i);
+  if (certificates.on_hull(beyond)) {
+    certificates.make(beyond, orientations_.one_of_many(facet_id(cell, i), birth));
+  } else {
+    certificates.make(beyond, power_tests_.one_of_many(facet_id(cell, i), birth));
+  }
 }
 
 /// Guards all facets; those that rest in this step need no certificate, and those whose test is positive all
@@ -23,8 +26,9 @@ void PowerDiagram<M, K>::enqueue(const FacetCertificates<dimension + 1>& certifi
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::watch_all() {
   guarded_ = true;
+  unit_ = LengthUnit(exponent_of_length(motion_, triangulation_.cells()));
   if (!moving_.empty()) return watch_moving();
-  PositiveFacets<M> positive(motion_, exponent_of_length(motion_, triangulation_.cells()));
+  PositiveFacets<M> positive(motion_, unit_);
   const auto guard_it = [this](FacetId facet) { enqueue(cell_of(facet), index_of(facet)); };
   const auto cells = triangulation_.cells();
   const auto look_at = [&](CellId cell, unsigned facets, unsigned in_lanes) {
@@ -162,6 +166,16 @@ void PowerDiagram<M, K>::drop(CellId cell, int i) {
   forget(cell, i);
 }
 
+/// Of each of a few new cells the facets whose power test is known to be positive all over the step, as most
+/// to other cells than these are.
+template <Motion M, Kernel K>
+auto PowerDiagram<M, K>::positive_all_over(std::span<const CellId> cells) const
+    -> std::array<unsigned, few_cells> {
+  if constexpr (std::same_as<K, Filtered>)
+    return positive_facets_of_few(motion_, unit_, triangulation_.cells(), cells);
+  return {};
+}
+
 /// Guards all facets of the new cells. Those between two of them, where an event made these, have all of its
 /// beads, and its function.
 template <Motion M, Kernel K>
@@ -171,8 +185,12 @@ void PowerDiagram<M, K>::watch_around(std::span<const CellId> cells) {
   const Birth birth = in_event ? Birth::at_own_root : Birth::unknown;
   const bool inner_hold = in_event && simulator_.now().last();
   bool first_inner = true;
+  std::uint64_t positive = 0;
+  std::array<unsigned, few_cells> known{};
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const CellId cell = cells[c];
+    if (c % few_cells == 0)
+      known = positive_all_over(cells.subspan(c, std::min(few_cells, cells.size() - c)));
     const FacetCertificates certificates(triangulation_.cells()[cell].vertex);
     for (int i = 0; i <= dimension; ++i) {
       const auto [other, k] = across(cell, i);
@@ -180,7 +198,12 @@ void PowerDiagram<M, K>::watch_around(std::span<const CellId> cells) {
       tolerances_.forget(other, k);
       const auto at = std::find(cells.begin(), cells.end(), other) - cells.begin();
       if (at == static_cast<std::ptrdiff_t>(cells.size())) {
-        enqueue(certificates, cell, i, Birth::unknown);
+        if ((known[c % few_cells] >> i & 1U) != 0) {
+          set_guard(cell, i, {Guard::never, About::power});
+          ++positive;
+        } else {
+          enqueue(certificates, cell, i, Birth::unknown);
+        }
       } else if (at < static_cast<std::ptrdiff_t>(c)) {
         continue;  // met already
       } else if (inner_hold) {
@@ -192,6 +215,8 @@ void PowerDiagram<M, K>::watch_around(std::span<const CellId> cells) {
       }
     }
   }
+  power_tests_.hold_never(positive);
+  statistics.stages.coefficients += positive;
   watch_enqueued();
 }
 

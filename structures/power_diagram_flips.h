@@ -18,6 +18,8 @@ void PowerDiagram<M, K>::fail(unsigned table, std::uint32_t slot) {
   const CellId cell = cell_of(place);
   const int facet = index_of(place);
   triangulation_.fetch_around(cell, facet);
+  fetch_scheduled(cell);
+  fetch_scheduled(neighbor(cell, facet));
   const bool touch = table == 0 ? power_tests_.touches(slot) : orientations_.touches(slot);
   if (touch) suspect(Doubt::unclear);
   if (guard(cell, facet).about == About::cell) {
@@ -34,6 +36,21 @@ void PowerDiagram<M, K>::fail(unsigned table, std::uint32_t slot) {
   begin_event(table == 0 ? power_tests_.identity(slot) : orientations_.identity(slot));
   repair(cell, facet);
   present_ = {};
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::fetch_cell(CellId cell, bool next) const {
+  triangulation_.fetch(cell, next);
+  if (!next) return;
+  for (int i = 0; i <= dimension; ++i) {
+    if (const FacetGuard facet = guard(cell, i); facet.about == About::power) power_tests_.fetch(facet.guard);
+  }
+  const auto& named = triangulation_.cells()[cell];
+  for (const auto* beads : {&named.vertex, &named.apex}) {
+    for (const BeadId bead : *beads) {
+      if (bead != infinite_bead) __builtin_prefetch(motion_.control_point(bead, 0));
+    }
+  }
 }
 
 template <Motion M, Kernel K>
@@ -108,6 +125,13 @@ bool PowerDiagram<M, K>::can_replace(std::span<const Beads> old, std::span<const
 }
 
 template <Motion M, Kernel K>
+bool PowerDiagram<M, K>::stands_already(std::span<const BeadId> face, CellId a, CellId b) const {
+  // Infinity may have many cells.
+  const BeadId bead = face[0] == infinite_bead ? face[1] : face[0];
+  return triangulation_.stand_together(bead, place_of(a, bead) <= dimension ? a : b, face);
+}
+
+template <Motion M, Kernel K>
 void PowerDiagram<M, K>::flip_to_edge(CellId cell, int facet) {
   const Beads v = triangulation_.cells()[cell].vertex;
   const BeadId d = v[static_cast<std::size_t>(facet)];
@@ -118,7 +142,8 @@ void PowerDiagram<M, K>::flip_to_edge(CellId cell, int facet) {
     if (k != facet) new_cells[static_cast<std::size_t>(next++)] = with(v, k, e);
   }
   const std::array<Beads, 2> old_cells{v, triangulation_.cells()[other].vertex};
-  if (!can_replace(old_cells, new_cells) || (may_stand_already() && triangulation_.is_edge(d, e))) {
+  if (!can_replace(old_cells, new_cells) ||
+      (may_stand_already() && stands_already(std::array{d, e}, cell, other))) {
     suspect(Doubt::wrong);
     return;
   }
@@ -160,7 +185,7 @@ void PowerDiagram<M, K>::flip_to_facet(CellId cell, int facet, int other_vertex)
   std::array<Beads, 3> old_cells{};
   for (std::size_t o = 0; o < 3; ++o) old_cells[o] = triangulation_.cells()[old[o]].vertex;
   if (!can_replace(old_cells, std::array{with(v, edge[0], e), with(v, edge[1], e)}) ||
-      (may_stand_already() && triangulation_.is_facet(c, d, e))) {
+      (may_stand_already() && stands_already(std::array{c, d, e}, cell, old[1]))) {
     suspect(Doubt::wrong);
     return;
   }

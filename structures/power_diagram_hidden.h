@@ -185,7 +185,7 @@ void PowerDiagram<M, K>::hide(CellId cell, int i) {
   std::array<Beads, dimension + 1> old_cells{};
   for (std::size_t s = 0; s < star.size(); ++s) old_cells[s] = triangulation_.cells()[star[s]].vertex;
   if (bead == infinite_bead || !can_replace(old_cells, std::array<Beads, 1>{v}) ||
-      triangulation_.find_cell(v))
+      stands_already(v, cell, star[1]))
     return suspect(Doubt::wrong);
   displace(star);
   for (const CellId s : star) {

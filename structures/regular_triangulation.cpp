@@ -27,7 +27,7 @@ StaticTriangulation<Dimension> RegularTriangulation<Dimension>::build(const Eige
 template <int Dimension>
 StaticTriangulation<Dimension> RegularTriangulation<Dimension>::build_bare(const Eigen::Matrix3Xd& centers,
                                                                            std::span<const double> weights) {
-  mirrored_ = false;
+  mirrored_ = points_wait_ = false;
   cgal_->forget_changes();
   auto& triangulation = cgal_->triangulation;
   triangulation.clear();
@@ -134,6 +134,8 @@ void RegularTriangulation<Dimension>::mirror_all() {
 template <int Dimension>
 auto RegularTriangulation<Dimension>::up_to_date() const -> Cgal& {
   if (mirrored_ && cgal_->is_behind()) cgal_->follow(cells_, live_, cells_at_);
+  if (points_wait_) cgal_->put(points_);
+  points_wait_ = false;
   return *cgal_;
 }
 
@@ -149,18 +151,10 @@ void RegularTriangulation<Dimension>::count_cells() {
 template <int Dimension>
 void RegularTriangulation<Dimension>::set_points(const Eigen::Matrix3Xd& centers,
                                                  std::span<const double> weights) {
+  points_wait_ = false;
   for (std::size_t b = 0; b < up_to_date().vertex.size(); ++b) {
     if (cgal_->vertex[b] != typename Cgal::VertexHandle())
       cgal_->vertex[b]->set_point(weighted_point<Dimension>(centers, weights, b));
-  }
-}
-
-template <int Dimension>
-void RegularTriangulation<Dimension>::set_points(const Placement<Dimension>& placement) {
-  for (BeadId b = 0; b < up_to_date().vertex.size(); ++b) {
-    if (cgal_->vertex[b] == typename Cgal::VertexHandle()) continue;
-    const double* c = placement.control_point(b, 0);
-    cgal_->vertex[b]->set_point({Cgal::Types::point(c[0], c[1], c[2]), placement.weight(b, 0)});
   }
 }
 
@@ -179,6 +173,27 @@ std::vector<CellId> RegularTriangulation<Dimension>::cells_around(BeadId bead) c
     for (const auto c : handles) cells.push_back(c->info());
   }
   return cells;
+}
+
+template <int Dimension>
+bool RegularTriangulation<Dimension>::stand_together(BeadId bead, CellId cell,
+                                                     std::span<const BeadId> beads) const {
+  grow_little(seen_, cells_.size());
+  std::vector<CellId> around{cell};
+  seen_[cell] = 1;
+  bool found = false;
+  for (std::size_t k = 0; k < around.size() && !found; ++k) {
+    const Cell& c = cells_[around[k]];
+    found = std::all_of(beads.begin(), beads.end(), [&c](BeadId b) { return c.place_of(b) <= Dimension; });
+    for (std::size_t i = 0; i <= Dimension; ++i) {
+      const CellId next = cell_of(c.beyond[i]);
+      if (c.vertex[i] == bead || seen_[next] != 0) continue;
+      seen_[next] = 1;
+      around.push_back(next);
+    }
+  }
+  for (const CellId c : around) seen_[c] = 0;
+  return found;
 }
 
 template <int Dimension>

@@ -5,7 +5,8 @@
 //
 // A cell is a triangle or tetrahedron of positive orientation; in an infinite one the infinite vertex counts
 // as a point far outside the hull. Flips are combinatorial and look at no coordinates. They change the mirror
-// at once and CGAL's structure when it is asked for, at the latest when the points are set, as a step ends.
+// at once, and CGAL's structure follows when it is asked for, each cell that has changed once; so do points
+// that are set to where a motion has its control points.
 // Centres have three rows; in the plane the third is not looked at.
 
 #include <Eigen/Core>
@@ -104,7 +105,13 @@ class RegularTriangulation {
   /// From oriented cells, infinite ones included, of some of the beads. The points are those last set.
   void assign(std::size_t beads, std::span<const Beads> oriented_cells);
   void set_points(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
-  void set_points(const Placement<Dimension>& placement);
+  /// To a motion's k-th control points. CGAL's vertices get them when they are asked for.
+  template <Motion M>
+  const Placement<Dimension>& set_points(const M& motion, int k) {
+    points_.set(motion, k);
+    points_wait_ = true;
+    return points_;
+  }
 
   /// Live cells and, among them, free slots: see is_live.
   [[nodiscard]] std::span<const Cell> cells() const { return cells_; }
@@ -134,7 +141,9 @@ class RegularTriangulation {
       note.fill(value);
   }
 
-  /// A flip there is near: fetches what it will touch, lying anywhere in memory.
+  /// A flip there comes near: fetches the cell, then its neighbours, lying anywhere in memory.
+  void fetch(CellId cell, bool neighbors) const;
+  /// The same of the neighbours of two.
   void fetch_around(CellId cell, int i) const;
   /// Replaces `cell` and its neighbour across facet i by the cells around the edge of their apices: three in
   /// space, two in the plane.
@@ -150,6 +159,9 @@ class RegularTriangulation {
   CellId flip_out(CellId cell, int i);
   /// All cells around a vertex. Time linear in them.
   [[nodiscard]] std::vector<CellId> cells_around(BeadId bead) const;
+  /// Whether one of the cells around `bead`, a vertex of `cell`, has all these beads. Time linear in those
+  /// cells; the mirror alone is looked at.
+  [[nodiscard]] bool stand_together(BeadId bead, CellId cell, std::span<const BeadId> beads) const;
   /// Whether these cells, positively oriented, fill the place of the old ones: their facets meet in pairs or
   /// meet those that the old cells leave open, each from its side, and their beads are among those of the old
   /// cells or no vertices.
@@ -176,13 +188,13 @@ class RegularTriangulation {
   /// Brings the mirror up to date after these; returns the cells that are new.
   std::vector<CellId> mirror_changes();
 
-  /// How many of some facets, near beads `stride` apart, would fail their test at other positions. Needs no
-  /// mirror.
+  /// How many of some facets, of one cell for `stride` beads, would fail their test at other positions:
+  /// others at each `turn`. Needs no mirror, and where there is one CGAL's structure need not follow it.
   struct Sample {
     std::uint64_t tested = 0, failed = 0;
   };
   [[nodiscard]] Sample sample(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
-                              std::size_t stride) const;
+                              std::size_t stride, std::uint64_t turn) const;
 
   /// CGAL's own check of combinatorics, orientation and power tests at the points set.
   [[nodiscard]] bool is_valid() const;
@@ -203,8 +215,10 @@ class RegularTriangulation {
   void mirror_all();
   void forget_hidden_points();
   void count_cells();
-  /// CGAL's side, once what flips did is done there too.
+  /// CGAL's side, once what flips did is done there too, and the points are set.
   [[nodiscard]] Cgal& up_to_date() const;
+  [[nodiscard]] Sample sample_mirror(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                                     std::size_t stride, std::uint64_t turn) const;
   // Flips.
   [[nodiscard]] CellId new_cell();
   void free_cell(CellId id);
@@ -224,6 +238,9 @@ class RegularTriangulation {
   std::vector<CellId> free_;             // slots that are not live
   std::vector<std::uint32_t> cells_at_;  // of each bead
   bool mirrored_ = false;
+  Placement<Dimension> points_;  // where CGAL's vertices are to be put
+  mutable bool points_wait_ = false;
+  mutable std::vector<char> seen_;  // of each cell, on a walk; 0 afterwards
 };
 
 }  // namespace kds

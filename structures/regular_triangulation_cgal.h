@@ -119,6 +119,15 @@ struct RegularTriangulation<Dimension>::Cgal {
     changed.clear();
   }
 
+  /// Sets the points of all vertices.
+  void put(const Placement<Dimension>& placement) {
+    for (BeadId b = 0; b < vertex.size(); ++b) {
+      if (vertex[b] == VertexHandle()) continue;
+      const double* c = placement.control_point(b, 0);
+      vertex[b]->set_point({Types::point(c[0], c[1], c[2]), placement.weight(b, 0)});
+    }
+  }
+
   /// Copies cells into the mirror, and themselves into their neighbours there, whose beads it has already.
   template <class Cells>
   void mirror(const Cells& some, std::vector<TriangulationCell<Dimension>>& cells) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <random>
 #include <stdexcept>
 
 #include "certificates/sorted_beads.h"
@@ -189,26 +190,50 @@ std::vector<CellId> RegularTriangulation<Dimension>::mirror_changes() {
 
 template <int Dimension>
 auto RegularTriangulation<Dimension>::sample(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
-                                             std::size_t stride) const -> Sample {
+                                             std::size_t stride, std::uint64_t turn) const -> Sample {
+  if (mirrored_) return sample_mirror(centers, weights, stride, turn);
   Sample sample;
-  const auto& triangulation = up_to_date().triangulation;
+  const auto& triangulation = cgal_->triangulation;
   const auto infinite = triangulation.infinite_vertex();
-  const auto moved = [&](typename Cgal::VertexHandle v) {
-    return weighted_point<Dimension>(centers, weights, v->info());
-  };
-  for (std::size_t b = 0; b < cgal_->vertex.size(); b += stride) {
+  const auto moved = [&](BeadId bead) { return weighted_point<Dimension>(centers, weights, bead); };
+  for (std::size_t b = turn % stride; b < cgal_->vertex.size(); b += stride) {
     if (cgal_->vertex[b] == typename Cgal::VertexHandle()) continue;
-    // Beside a bead lies one of its latest cells: some way from there it may be any.
+    // Beside a bead lies one of its latest cells, of which more fail than of all: far enough from there, on a
+    // way without a pattern, it may be any.
     auto c = Cgal::Types::cell_beside(cgal_->vertex[b]);
-    for (std::size_t hop = 0; hop < 5; ++hop)
-      c = c->neighbor(static_cast<int>((b / stride + hop * hop) % (Dimension + 1)));
+    std::minstd_rand turns(static_cast<std::minstd_rand::result_type>(b + 1));
+    turns.discard(2);  // the first are much alike
+    for (std::size_t hop = 0; hop < 20; ++hop)
+      c = c->neighbor(static_cast<int>(turns() / 64 % (Dimension + 1)));
     if (triangulation.is_infinite(c)) continue;
+    const Beads cell = beads_of<Dimension>(c);
     for (int i = 0; i <= Dimension; ++i) {
       const auto n = c->neighbor(i);
       const auto apex = n->vertex(n->index(c));
       if (apex == infinite) continue;
       ++sample.tested;
-      sample.failed += Cgal::Types::in_power_sphere(c, moved, moved(apex)) ? 1 : 0;
+      sample.failed += Cgal::Types::in_power_sphere(cell, moved, moved(apex->info())) ? 1 : 0;
+    }
+  }
+  return sample;
+}
+
+template <int Dimension>
+auto RegularTriangulation<Dimension>::sample_mirror(const Eigen::Matrix3Xd& centers,
+                                                    std::span<const double> weights, std::size_t stride,
+                                                    std::uint64_t turn) const -> Sample {
+  Sample sample;
+  const auto moved = [&](BeadId bead) { return weighted_point<Dimension>(centers, weights, bead); };
+  const std::size_t count = (weights.size() + stride - 1) / stride;
+  const std::size_t first = cells_.empty() ? 0 : turn * 0x9e3779b1U % cells_.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto id = static_cast<CellId>((k * cells_.size() + first) / count);
+    const Cell& cell = cells_[id];
+    if (!is_live(id) || cell.place_of(infinite_bead) <= Dimension) continue;
+    for (const BeadId apex : cell.apex) {
+      if (apex == infinite_bead) continue;
+      ++sample.tested;
+      sample.failed += Cgal::Types::in_power_sphere(cell.vertex, moved, moved(apex)) ? 1 : 0;
     }
   }
   return sample;

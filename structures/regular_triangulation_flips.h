@@ -59,6 +59,12 @@ void RegularTriangulation<Dimension>::join(CellId a, int i, CellId b, int k) {
 }
 
 template <int Dimension>
+void RegularTriangulation<Dimension>::fetch(CellId cell, bool neighbors) const {
+  if (!neighbors) return __builtin_prefetch(&cells_[cell], 1);
+  for (const FacetId beyond : cells_[cell].beyond) __builtin_prefetch(&cells_[cell_of(beyond)], 1);
+}
+
+template <int Dimension>
 void RegularTriangulation<Dimension>::fetch_around(CellId cell, int i) const {
   for (const CellId id : {cell, cell_of(beyond(cell, i))}) {
     for (int k = 0; k <= Dimension; ++k) __builtin_prefetch(&cells_[cell_of(beyond(id, k))], 1);

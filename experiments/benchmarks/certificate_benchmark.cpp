@@ -190,7 +190,7 @@ void settle_in_cells(Turns& turns, const M& motion) {
       beads.size(),
       [&] {
         cover.start(cells.size());
-        PositiveFacets<M, processor> facets(motion, exponent_of_length(motion, cells));
+        PositiveFacets<M, processor> facets(motion, LengthUnit(exponent_of_length(motion, cells)));
         const auto leave = [](FacetId) {};
         for (CellId cell = 0; cell < cells.size(); ++cell) {
           const unsigned finite = finite_facets(cells[cell]);

@@ -249,5 +249,34 @@ TEST(EventQueueCost, WhatIsFarIsNotCompared) {
   EXPECT_TRUE(queue.empty());
 }
 
+struct Fetching : Order {
+  std::map<int, std::vector<unsigned>> told;
+  void fetch(const Key& key, unsigned bins_ahead) { told[key.value].push_back(bins_ahead); }
+};
+
+// Each failure is announced bin by bin before its time, where there are many.
+TEST(EventQueueFetch, AnnouncesWhatComesNear) {
+  Fetching order;
+  EventQueue<Key, Fetching> queue(order);
+  for (int value = 10000; value-- > 0;) queue.push([&](QueueHandle) { return Key{value}; });
+  std::size_t most_ahead = 0;
+  for (int value = 0; value < 10000; ++value, queue.pop()) {
+    ASSERT_EQ(queue.top().value, value);
+    if (value >= 100) {  // the first bins are near at once
+      ASSERT_EQ(order.told[value], (std::vector<unsigned>{2, 1, 0})) << value;
+    }
+    most_ahead = std::max(most_ahead, order.told.size() - static_cast<std::size_t>(value));
+  }
+  EXPECT_LT(most_ahead, 100U);
+}
+
+TEST(EventQueueFetch, LeavesAFewAlone) {
+  Fetching order;
+  EventQueue<Key, Fetching> queue(order);
+  for (int value = 0; value < 1000; ++value) queue.push([&](QueueHandle) { return Key{value}; });
+  for (int value = 0; value < 1000; ++value, queue.pop()) ASSERT_EQ(queue.top().value, value);
+  EXPECT_TRUE(order.told.empty());
+}
+
 }  // namespace
 }  // namespace kds

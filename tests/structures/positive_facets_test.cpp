@@ -48,7 +48,8 @@ void expect_right(const M& motion, std::span<const TriangulationCell<M::dimensio
                   std::uint64_t& found, int off = 0) {
   std::set<FacetId> doubts;
   const auto doubt = [&](FacetId facet) { EXPECT_TRUE(doubts.insert(facet).second); };
-  PositiveFacets<M> positive(motion, exponent_of_length(motion, cells) + off);
+  const LengthUnit unit(exponent_of_length(motion, cells) + off);
+  PositiveFacets<M> positive(motion, unit);
   for (CellId id = 0; id < cells.size(); ++id)
     positive.look_at(cells[id], id, all_facets<M::dimension>, doubt);
   positive.finish(doubt);
@@ -59,6 +60,16 @@ void expect_right(const M& motion, std::span<const TriangulationCell<M::dimensio
       EXPECT_TRUE(doubts.contains(facet_id(id, i)) || holds(motion, cells[id], i)) << id << ' ' << i;
   }
   found += positive.count();
+  // A few at a time the same are found.
+  std::vector<CellId> few;
+  for (CellId id = 0; id < cells.size() && id < few_cells; ++id) {
+    few.push_back(id);
+    const auto facets = positive_facets_of_few(motion, unit, cells, few);
+    for (const CellId cell : few) {
+      for (int i = 0; i <= M::dimension; ++i)
+        EXPECT_NE((facets[cell] >> i & 1U) != 0, doubts.contains(facet_id(cell, i))) << cell << ' ' << i;
+    }
+  }
 }
 
 template <Motion M>
@@ -314,6 +325,37 @@ void expect_each_once() {
 TEST(FacetCover, HasEachFacetOnce) {
   expect_each_once<3>();
   expect_each_once<2>();
+}
+
+// Facets that name infinity are not found, and do not get in the way of others.
+TEST(PositiveFacets, OfAFewAreFinite) {
+  using M = BezierMotion<3, 1>;
+  test::Random random(8);
+  std::uint64_t found = 0;
+  for (int round = 0; round < 50; ++round) {
+    M motion = test::random_motion<M>(random, 8, test::MotionKind::generic);
+    slow_down(motion);
+    const auto [cell, turned] = cell_both_ways<3>();
+    auto infinite = cell, beside_infinite = turned;
+    infinite.vertex[2] = infinite_bead;
+    beside_infinite.apex[1] = infinite_bead;
+    const std::array cells{infinite, cell, infinite, beside_infinite};
+    const std::array<CellId, 4> few{0, 1, 2, 3};
+    const LengthUnit unit(exponent_of_length<M>(motion, cells));
+    const auto facets = positive_facets_of_few<M>(motion, unit, cells, few);
+    EXPECT_EQ(facets[0], 0U);
+    EXPECT_EQ(facets[2], 0U);
+    EXPECT_EQ(facets[3] & 2U, 0U);
+    for (const CellId id : {1U, 3U}) {
+      for (int i = 0; i < 4; ++i) {
+        if ((facets[id] >> i & 1U) == 0) continue;
+        ++found;
+        EXPECT_TRUE(holds(motion, cells[id], i));
+      }
+    }
+    EXPECT_EQ(positive_facets_of_few<M>(motion, unit, cells, std::array<CellId, 1>{0})[0], 0U);
+  }
+  EXPECT_GT(found, 20U);
 }
 
 }  // namespace

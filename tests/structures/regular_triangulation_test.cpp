@@ -58,8 +58,38 @@ int parity(CellBeads<3> from, const CellBeads<3>& to) {
   return sign;
 }
 
+/// What stands together around a bead, looked for in the mirror alone.
+void check_around(const RegularTriangulation<3>& triangulation, std::size_t beads) {
+  std::set<std::vector<BeadId>> faces;
+  std::map<BeadId, CellId> some_cell;
+  for (const CellId cell : live_cells(triangulation)) {
+    const CellBeads<3> v = sorted(triangulation.cells()[cell].vertex);
+    for (unsigned chosen = 1; chosen < 16; ++chosen) {
+      std::vector<BeadId> face;
+      for (unsigned i = 0; i < 4; ++i)
+        if ((chosen >> i & 1U) != 0) face.push_back(v[i]);
+      faces.insert(face);
+    }
+    for (const BeadId b : v) some_cell[b] = cell;
+  }
+  std::mt19937 random(static_cast<unsigned>(faces.size()));
+  for (const auto& [bead, cell] : some_cell) {
+    for (int round = 0; round < 20; ++round) {
+      std::vector<BeadId> face{bead};
+      for (std::size_t more = 0; more < 1 + random() % 3; ++more) {
+        const auto other = static_cast<BeadId>(random() % (beads + 1));
+        face.push_back(other == beads ? infinite_bead : other);
+      }
+      std::sort(face.begin(), face.end());
+      face.erase(std::unique(face.begin(), face.end()), face.end());
+      ASSERT_EQ(triangulation.stand_together(bead, cell, face), faces.contains(face));
+    }
+  }
+}
+
 /// The mirror by itself, and against what CGAL can be asked for.
 void check_mirror(const RegularTriangulation<3>& triangulation, std::size_t beads) {
+  check_around(triangulation, beads);
   const auto cells = triangulation.cells();
   std::set<std::pair<BeadId, BeadId>> edges;
   std::vector<CellBeads<3>> finite;
@@ -258,12 +288,24 @@ TEST(RegularTriangulation, ASampleTellsTheShareOfFailedCertificates) {
   RegularTriangulation<3> t;
   (void)t.build_bare(cloud.centers, cloud.weights);
   EXPECT_FALSE(t.has_mirror());
-  const auto still = t.sample(cloud.centers, cloud.weights, 1);
+  const auto still = t.sample(cloud.centers, cloud.weights, 1, 0);
   EXPECT_GT(still.tested, 1000U);
   EXPECT_EQ(still.failed, 0U);
-  const auto apart = t.sample(Cloud(400, 4).centers, cloud.weights, 1);  // all else
+  const auto apart = t.sample(Cloud(400, 4).centers, cloud.weights, 1, 0);  // all else
   EXPECT_GT(3 * apart.failed, apart.tested);
-  EXPECT_LT(t.sample(cloud.centers, cloud.weights, 8).tested, still.tested / 4);
+  EXPECT_LT(t.sample(cloud.centers, cloud.weights, 8, 0).tested, still.tested / 4);
+  // At other turns of others, with or without a mirror.
+  RegularTriangulation<3> bare;
+  (void)bare.build_bare(cloud.centers, cloud.weights);
+  t.make_mirror();
+  std::set<std::uint64_t> failed, failed_of_bare;
+  const Cloud other(400, 4);
+  for (std::uint64_t turn = 0; turn < 20; ++turn) {
+    failed.insert(t.sample(other.centers, cloud.weights, 8, turn).failed);
+    failed_of_bare.insert(bare.sample(other.centers, cloud.weights, 8, turn).failed);
+  }
+  EXPECT_GT(failed.size(), 3U);
+  EXPECT_GT(failed_of_bare.size(), 3U);
   EXPECT_EQ(t.finite_cells(), static_triangulation<3>(cloud.centers, cloud.weights).cells);
   t.make_mirror();
   check_mirror(t, 400);
@@ -387,6 +429,37 @@ void make(RegularTriangulation<3>& t, const Flip& flip) {
     for (const CellId id : made) ASSERT_TRUE(t.is_live(id));
     ASSERT_FALSE(t.is_live(*cell) && std::find(made.begin(), made.end(), *cell) == made.end());
   }
+}
+
+// Points that a motion has reached are set when CGAL's side is looked at, after what flips did there.
+TEST(RegularTriangulation, PointsFollowAMotion) {
+  // Bead 4 goes from one side of the others to the other.
+  const Points before{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}, {20, 20, 20}};
+  Points after = before;
+  after[4] = {-20, -20, -20};
+  const auto motion = moving(before, after);
+  RegularTriangulation<3> t;
+  (void)t.build(control_points(motion, 0), control_weights(motion, 0));
+  EXPECT_TRUE(t.is_valid());
+  EXPECT_EQ(t.set_points(motion, 1).coordinate(4, 0, 2), -20);
+  EXPECT_LT(t.least_orientation(), 0);
+  (void)t.set_points(motion, 0);
+  EXPECT_TRUE(t.is_valid());
+  (void)t.set_points(motion, 1);
+  t.set_points(control_points(motion, 0), control_weights(motion, 0));  // the latest counts
+  EXPECT_TRUE(t.is_valid());
+  (void)t.set_points(motion, 1);
+  (void)t.build(control_points(motion, 0), control_weights(motion, 0));
+  EXPECT_TRUE(t.is_valid());
+  // Cells assigned get the points that were to be set.
+  RegularTriangulation<3> other;
+  (void)other.build(control_points(motion, 1), control_weights(motion, 1));
+  std::vector<CellBeads<3>> cells;
+  for (const CellId cell : live_cells(other)) cells.push_back(other.cells()[cell].vertex);
+  (void)t.set_points(motion, 1);
+  t.assign(5, cells);
+  EXPECT_TRUE(t.is_valid());
+  check_mirror(t, 5);
 }
 
 class RandomFlips : public testing::TestWithParam<unsigned> {};
