@@ -18,6 +18,7 @@
 
 #include "certificates/bead_in_sphere.h"
 #include "certificates/failure_search.h"
+#include "certificates/orientation.h"
 #include "experiments/benchmarks/certificate_peers.h"
 #include "experiments/benchmarks/random_chain.h"
 #include "experiments/benchmarks/subject.h"
@@ -280,48 +281,66 @@ void compare(Turns& turns, I input) {
       [&] { return peer.seconds_to_compare(pairs); });
 }
 
-// At the failure times of some, signs of others.
 template <class I>
-void sign(Turns& turns, I input, bool four_at_once) {
-  input.keep(Failure::Kind::later, enough);
+std::vector<Instant> instants_of(const I& input) {
   std::vector<Instant> instants;
   for (std::uint32_t i = 0; i < input.certificates.size(); ++i)
     instants.emplace_back(input.failures[i].time, input, i);
+  return instants;
+}
+
+// At the failure times of some, signs of others.
+template <class I>
+void sign(Turns& turns, I input) {
+  input.keep(Failure::Kind::later, enough);
+  const std::vector<Instant> instants = instants_of(input);
   auto others = input.certificates;
   Random random(4);
   std::shuffle(others.begin(), others.end(), random);
   for (std::size_t i = 0; i < others.size(); ++i) {  // its own function is zero there, and known to be
     while (others[i].beads == input.certificates[i].beads) others[i] = others[random() % others.size()];
   }
-  if (four_at_once) {  // positive ones, so that none is cut short
-    StageCounts stages;
-    std::vector<Facet> positive;
-    for (std::size_t i = 0; i < instants.size(); ++i) {
-      for (std::size_t at = i, found = 0; found < 4; ++at) {
-        Facet c = others[at % others.size()];
-        const int s = sign_now<Filtered>(c, input.motion, instants[i], stages);
-        c.sign *= s;
-        if (s != 0 && ++found != 0) positive.push_back(c);
-      }
-    }
-    others = std::move(positive);
-  }
   std::vector<decltype(Facet{}.beads)> beads;
   for (const Facet& c : others) beads.push_back(c.beads);
   const StaticPredicates peer = input.predicates();
-  const std::span<const Facet> all(others);
   turns.take(
       others.size(),
       [&] {
         int sum = 0;
-        for (std::size_t i = 0; i < instants.size(); ++i) {
-          sum += four_at_once ? int{all_positive_now<Filtered>(all.subspan(4 * i, 4), input.motion,
-                                                               instants[i], input.stages)}
-                              : sign_just_after<Filtered>(all[i], input.motion, instants[i], input.stages);
-        }
+        for (std::size_t i = 0; i < instants.size(); ++i)
+          sum += sign_just_after<Filtered>(others[i], input.motion, instants[i], input.stages);
         keep(sum);
       },
       [&] { return peer.seconds_for(beads); });
+}
+
+// At the failure times of some, whether four cells are positive, as they are.
+template <class I>
+void positive_cells(Turns& turns, I input) {
+  input.keep(Failure::Kind::later, enough);
+  const std::vector<Instant> instants = instants_of(input);
+  std::vector<Orientation<3>> cells;
+  StageCounts stages;
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    for (std::size_t at = i, found = 0; found < 4; ++at) {
+      const auto& b = input.certificates[at % instants.size()].beads;
+      Orientation<3> cell({b[0], b[1], b[2], b[3]}, 1);
+      const int s = sign_now<Filtered>(cell, input.motion, instants[i], stages);
+      cell.sign *= s;
+      if (s != 0 && ++found != 0) cells.push_back(cell);
+    }
+  }
+  const std::span<const Orientation<3>> all(cells);
+  turns.take(
+      cells.size(),
+      [&] {
+        int sum = 0;
+        for (std::size_t i = 0; i < instants.size(); ++i)
+          sum +=
+              int{all_positive_now<Filtered>(all.subspan(4 * i, 4), input.motion, instants[i], input.stages)};
+        keep(sum);
+      },
+      [] { return no_peer; });
 }
 
 }  // namespace
@@ -400,13 +419,12 @@ std::vector<Subject> certificate_subjects(const std::filesystem::path& instances
 
   on_linear("compare/facet/linear", algebraic, 5, none, [=](Turns& t) { compare(t, facets(linear())); });
   on_linear("sign/just_after/facet/linear", predicate, none, none,
-            [=](Turns& t) { sign(t, facets(linear()), false); });
-  on_linear("sign/all_positive_now/facet/linear", predicate, none, none,
-            [=](Turns& t) { sign(t, facets(linear()), true); });
-  on_cubic("sign/just_after/facet/cubic", predicate, none,
-           [=](Turns& t) { sign(t, facets(cubic()), false); });
-  on_cubic("sign/all_positive_now/facet/cubic", predicate, none,
-           [=](Turns& t) { sign(t, facets(cubic()), true); });
+            [=](Turns& t) { sign(t, facets(linear())); });
+  on_linear("sign/all_positive_now/cell/linear", "", none, none,
+            [=](Turns& t) { positive_cells(t, facets(linear())); });
+  on_cubic("sign/just_after/facet/cubic", predicate, none, [=](Turns& t) { sign(t, facets(cubic())); });
+  on_cubic("sign/all_positive_now/cell/cubic", "", none,
+           [=](Turns& t) { positive_cells(t, facets(cubic())); });
   return all;
 }
 
