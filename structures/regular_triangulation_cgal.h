@@ -53,7 +53,7 @@ struct RegularTriangulation<Dimension>::Cgal {
   // What the mirror is ahead by.
   std::vector<BeadId> turned;  // beads that have become vertices, or are none any more
   std::vector<CellId> changed;
-  std::vector<char> is_changed;  // of each id
+  std::vector<char> is_turned, is_changed;  // of each bead, of each id
 
   [[nodiscard]] VertexHandle handle(BeadId bead) const {
     if (bead == infinite_bead) return triangulation.infinite_vertex();
@@ -82,10 +82,18 @@ struct RegularTriangulation<Dimension>::Cgal {
     is_changed[id] = 1;
     append_little(changed, id);
   }
+  /// A bead becomes a vertex, or is none any more.
+  void turn(BeadId bead) {
+    grow_little(is_turned, bead + std::size_t{1});
+    if (is_turned[bead] != 0) return;
+    is_turned[bead] = 1;
+    append_little(turned, bead);
+  }
   [[nodiscard]] bool is_behind() const { return !changed.empty(); }
   void forget_changes() {
     turned.clear();
     changed.clear();
+    std::fill(is_turned.begin(), is_turned.end(), char{0});
     std::fill(is_changed.begin(), is_changed.end(), char{0});
   }
 
@@ -94,6 +102,7 @@ struct RegularTriangulation<Dimension>::Cgal {
               std::span<const std::uint32_t> cells_at) {
     auto& tds = triangulation.tds();
     for (const BeadId bead : turned) {
+      is_turned[bead] = 0;
       if (cells_at[bead] > 0) {
         vertex_of(bead);
       } else if (vertex[bead] != VertexHandle()) {

@@ -223,9 +223,10 @@ auto RegularTriangulation<Dimension>::sample_mirror(const Eigen::Matrix3Xd& cent
                                                     std::span<const double> weights, std::size_t stride,
                                                     std::uint64_t turn) const -> Sample {
   Sample sample;
+  if (cells_.empty()) return sample;
   const auto moved = [&](BeadId bead) { return weighted_point<Dimension>(centers, weights, bead); };
   const std::size_t count = (weights.size() + stride - 1) / stride;
-  const std::size_t first = cells_.empty() ? 0 : turn * 0x9e3779b1U % cells_.size();
+  const std::size_t first = turn * 0x9e3779b1U % cells_.size();
   for (std::size_t k = 0; k < count; ++k) {
     const auto id = static_cast<CellId>((k * cells_.size() + first) / count);
     const Cell& cell = cells_[id];

@@ -139,7 +139,7 @@ template <int Dimension>
 auto RegularTriangulation<Dimension>::flip_in(CellId cell, BeadId bead) -> Star {
   for (const BeadId b : cells_[cell].vertex) add_cells(b, Dimension - 1);
   add_cells(bead, Dimension + 1);
-  cgal_->turned.push_back(bead);
+  cgal_->turn(bead);
   Star made{cell};
   for (std::size_t k = 1; k <= Dimension; ++k) made[k] = new_cell();
   const Cell here = cells_[cell];
@@ -159,7 +159,7 @@ CellId RegularTriangulation<Dimension>::flip_out(CellId cell, int i) {
   // The cells share all but one vertex: the one beyond the facet of each.
   const BeadId apex = here.apex[i == 0 ? 1 : 0];
   add_cells(gone, -(Dimension + 1));
-  cgal_->turned.push_back(gone);
+  cgal_->turn(gone);
   add_cells(apex, 1 - Dimension);
   exchange(cell, here, i, apex);
   border(cell, i, here, i);

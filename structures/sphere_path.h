@@ -20,7 +20,7 @@
 // In linear motion all that comes between both ends vanishes there (linear_chords.h): bounds are 4 u (1-u)
 // times a `dip`, and what has just risen from zero at the start can be told to stay so.
 //
-// All in double, with margins of eight times its rounding, that of cutting a period out of the step included:
+// All in double, with margins of four times its rounding, that of cutting a period out of the step included:
 // what is proved here holds; what is not needs a certificate.
 
 #include <array>

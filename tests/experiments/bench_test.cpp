@@ -64,8 +64,10 @@ TEST(Bench, HierarchiesGiveARowForEachMeasureAndInput) {
   for (const Json& row : json["rows"]) {
     names.insert(row["name"]);
     inputs.insert(row["input"]);
-    EXPECT_GT(row["value"].get<double>(), 0);
-    if (!row["peer_value"].is_null()) {
+    // So few beads may pass a few steps without an event.
+    EXPECT_GE(row["value"].get<double>(), row["unit"] == "events/frame" ? 0 : 1e-9);
+    EXPECT_EQ(row["ratio"].is_null(), row["peer_value"].is_null() || row["peer_value"] == 0);
+    if (!row["ratio"].is_null()) {
       EXPECT_DOUBLE_EQ(row["ratio"].get<double>(),
                        row["value"].get<double>() / row["peer_value"].get<double>());
     }
