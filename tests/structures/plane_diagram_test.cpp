@@ -208,5 +208,29 @@ TEST(PlaneDiagram, RandomMotionsFullOfTies) {
   EXPECT_GT(ran, 400);
 }
 
+// Beads that stay together, one of them hidden: it is in any of the cells around the other. Which one is the
+// same with both kernels.
+TEST(PlaneDiagram, KernelsHouseHiddenBeadsAtVerticesAlike) {
+  std::uint64_t wandered = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    std::mt19937 random(seed);
+    constexpr BeadId beads = 40;
+    Plane<1> motion(beads);
+    for (BeadId b = 0; b < beads; ++b) {
+      for (int k = 0; k <= 1; ++k) {
+        for (int axis = 0; axis < 2; ++axis) motion.set_coordinate(b, k, axis, random() % 5);
+        motion.set_weight(b, k, random() % 3);
+      }
+    }
+    Rig<PowerDiagram<Plane<1>, Filtered>, Plane<1>> filtered(motion);
+    Rig<PowerDiagram<Plane<1>, Exact>, Plane<1>> exact(motion);
+    filtered.run();
+    exact.run();
+    EXPECT_EQ(exact.simulator.fingerprint(), filtered.simulator.fingerprint()) << seed;
+    wandered += filtered.structure.statistics.events_by_kind[3];
+  }
+  EXPECT_GT(wandered, 100U);
+}
+
 }  // namespace
 }  // namespace kds
