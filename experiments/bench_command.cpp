@@ -6,7 +6,10 @@
 #include <array>
 #include <charconv>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 #include "experiments/bench_hierarchies.h"
 #include "experiments/bench_power.h"
@@ -47,6 +50,53 @@ constexpr CommandSpec kCommand{
     "kds bench power --sizes 10240 --trajectories data/trajectories/villin_hp36_300K.dcd --json -",
 };
 
+/// What the command line says.
+struct BenchInputs {
+  std::optional<std::vector<std::size_t>> sizes;
+  std::vector<std::filesystem::path> trajectories;
+  std::filesystem::path instances;
+  std::size_t rounds = 5;
+};
+
+using Progress = std::function<void(std::size_t, std::size_t)>;
+using Rows = std::vector<BenchRow>;
+
+template <auto bench>
+Rows on_instances(const BenchInputs& inputs, const Progress& progress) {
+  return bench({inputs.instances, inputs.rounds}, progress);
+}
+
+template <class Options, auto bench>
+Rows on_chains(const BenchInputs& inputs, const Progress& progress) {
+  Options options;
+  if (inputs.sizes) options.sizes = *inputs.sizes;
+  options.trajectories = inputs.trajectories;
+  options.rounds = inputs.rounds;
+  return bench(options, progress);
+}
+
+struct Subject {
+  std::string_view name;
+  std::size_t fewest_beads;  // of a generated chain; 0: it runs on instances
+  Rows (*bench)(const BenchInputs&, const Progress&);
+};
+
+constexpr std::array kSubjects{
+    Subject{"certificates", 0, on_instances<bench_certificates>},
+    Subject{"engine", 0, on_instances<bench_engine>},
+    Subject{"hierarchies", 2, on_chains<HierarchyBenchOptions, bench_hierarchies>},
+    // In space, where all beads should not lie in one plane.
+    Subject{"power", 20, on_chains<PowerBenchOptions, bench_power>},
+};
+
+const Subject& subject_of(const std::vector<std::string>& operands) {
+  if (operands.size() == 1) {
+    for (const Subject& subject : kSubjects)
+      if (subject.name == operands[0]) return subject;
+  }
+  throw InputError("kds bench: expected one subject of certificates, engine, hierarchies, power");
+}
+
 std::size_t parse_count(std::string_view option, const std::string& text, std::size_t least) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -69,31 +119,26 @@ std::vector<std::filesystem::path> trajectories_here() {
 
 int bench_command(const Arguments& arguments) {
   const ParsedArguments parsed = parse_arguments(kCommand, arguments);
-  const std::vector<std::string>& subject = parsed.operands();
-  constexpr std::array<std::string_view, 4> subjects{"certificates", "engine", "hierarchies", "power"};
-  if (subject.size() != 1 || std::find(subjects.begin(), subjects.end(), subject[0]) == subjects.end())
-    throw InputError("kds bench: expected one subject of certificates, engine, hierarchies, power");
-  const bool on_chains = subject[0] == "hierarchies" || subject[0] == "power";
+  const Subject& subject = subject_of(parsed.operands());
+  const bool chains = subject.fewest_beads > 0;
   for (const char* option : {"--sizes", "--trajectories"})
-    if (!on_chains && parsed.has(option))
-      throw InputError(fmt::format("{}: {} takes none", option, subject[0]));
-  if (on_chains && parsed.has("--instances"))
-    throw InputError(fmt::format("--instances: {} takes none", subject[0]));
-  std::optional<std::vector<std::size_t>> sizes;
+    if (!chains && parsed.has(option))
+      throw InputError(fmt::format("{}: {} takes none", option, subject.name));
+  if (chains && parsed.has("--instances"))
+    throw InputError(fmt::format("--instances: {} takes none", subject.name));
+  BenchInputs inputs;
   if (const auto list = parsed.value("--sizes")) {
-    sizes.emplace();
-    // A power diagram in space needs four beads, and beads that do not all lie in one plane.
+    inputs.sizes.emplace();
     for (const std::string& text : split(*list, ','))
-      sizes->push_back(parse_count("--sizes", text, subject[0] == "power" ? 20 : 2));
+      inputs.sizes->push_back(parse_count("--sizes", text, subject.fewest_beads));
   }
-  std::vector<std::filesystem::path> trajectories;
   if (const auto list = parsed.value("--trajectories")) {
-    for (const std::string& path : split(*list, ',')) trajectories.emplace_back(path);
+    for (const std::string& path : split(*list, ',')) inputs.trajectories.emplace_back(path);
   } else {
-    trajectories = trajectories_here();
+    inputs.trajectories = trajectories_here();
   }
-  std::size_t rounds = 5;
-  if (const auto text = parsed.value("--rounds")) rounds = parse_count("--rounds", *text, 5);
+  inputs.instances = parsed.value("--instances").value_or("data/kinetic");
+  if (const auto text = parsed.value("--rounds")) inputs.rounds = parse_count("--rounds", *text, 5);
   Destinations destinations;
   if (const auto text = parsed.value("--out")) {
     if (*text == "-") throw InputError("--out needs a path; - is for --json only");
@@ -104,19 +149,8 @@ int bench_command(const Arguments& arguments) {
   check_table_destinations(destinations, "bench");
 
   ProgressBar bar(!destinations.quiet);
-  const auto progress = [&bar](std::size_t done, std::size_t total) { bar.update(done, total); };
-  const auto run = [&](auto options, auto bench) {
-    if (sizes) options.sizes = *sizes;
-    options.trajectories = trajectories;
-    options.rounds = rounds;
-    return bench(options, progress);
-  };
-  const SubjectBenchOptions on_instances{parsed.value("--instances").value_or("data/kinetic"), rounds};
-  const std::vector<BenchRow> rows = subject[0] == "certificates" ? bench_certificates(on_instances, progress)
-                                     : subject[0] == "engine"     ? bench_engine(on_instances, progress)
-                                     : subject[0] == "power"
-                                         ? run(PowerBenchOptions{}, bench_power)
-                                         : run(HierarchyBenchOptions{}, bench_hierarchies);
+  const Rows rows =
+      subject.bench(inputs, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
   bar.erase();
   deliver_table(destinations, "bench", {bench_json(rows), bench_csv(rows), bench_table(rows)});
   return 0;

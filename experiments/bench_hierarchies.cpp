@@ -20,8 +20,6 @@ namespace kds {
 
 namespace {
 
-constexpr std::string_view peer_name = "CGAL Min_sphere_of_spheres_d";
-
 struct Input : BenchChain {
   // Factors that are asked for.
   double build = 6, update = 10, trust = 25;
@@ -84,7 +82,7 @@ class Measured {
     const double cgal = median_of(peer) / nodes * 1e9;
     const auto row = [&](const char* name, const std::vector<double>& seconds, std::optional<double> factor) {
       rows_.push_back({name, input_.name, input_.radii.size(), median_of(seconds) / nodes * 1e9, "ns/node",
-                       std::string(peer_name), cgal, factor ? std::optional(1 / *factor) : std::nullopt});
+                       std::string(sphere_peer), cgal, factor ? std::optional(1 / *factor) : std::nullopt});
     };
     row("wrapped build", build, input_.build);
     row("wrapped update", update, input_.update);
@@ -162,7 +160,7 @@ void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& ro
     peer.push_back(seconds_to_wrap<3>(hierarchy.tree().ranges(), both, radii).processor);
   }
   rows.push_back({"lazy update and query", "far helices", radii.size(), median_of(ours) * 1e9, "ns/frame",
-                  apart > 0 ? std::string(peer_name) : "", median_of(peer) * 1e9, 1.0 / 25});
+                  apart > 0 ? std::string(sphere_peer) : "", median_of(peer) * 1e9, 1.0 / 25});
 }
 
 }  // namespace

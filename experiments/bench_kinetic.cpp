@@ -54,7 +54,7 @@ void bench_kinetic_steps(const BenchChain& chain, std::size_t rounds, std::optio
   }
   const double nanoseconds = 1e9 / static_cast<double>(tree.node_count() * scene.step_count());
   rows.push_back({"wrapped kinetic step", chain.name, chain.radii.size(), median_of(ours) * nanoseconds,
-                  "ns/node", "CGAL Min_sphere_of_spheres_d", median_of(peer) * nanoseconds,
+                  "ns/node", std::string(sphere_peer), median_of(peer) * nanoseconds,
                   factor ? std::optional(1 / *factor) : std::nullopt});
 }
 

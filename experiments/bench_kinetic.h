@@ -4,12 +4,15 @@
 
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "experiments/bench_chains.h"
 #include "experiments/bench_report.h"
 
 namespace kds {
+
+inline constexpr std::string_view sphere_peer = "CGAL Min_sphere_of_spheres_d";
 
 /// Linear motion. `factor`: how many times as fast as the peer is asked for, if anything is. Beads from frame
 /// to motion are part of a step.

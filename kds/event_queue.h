@@ -88,6 +88,7 @@ class EventQueue {
     entries_.clear();
     free_.clear();
     near_.clear();
+    coming_.clear();
     for (std::uint32_t bin = first_far_; far_count_ != 0; ++bin) {
       far_count_ -= bins_[bin].size();
       bins_[bin].clear();
@@ -136,14 +137,14 @@ class EventQueue {
 
   void bring_next_bin() {
     while (bins_[first_far_].empty()) ++first_far_;
-    std::vector<QueueHandle>& bin = bins_[first_far_];
     if constexpr (requires(Key & key) { order_.fetch(key, 0U); }) {
       if (entries_.size() >= many) fetch_ahead(first_far_);
     }
-    ++first_far_;
-    for (const QueueHandle handle : bin) push_near(handle);
-    far_count_ -= bin.size();
-    bin.clear();
+    // Out of the bins first: where the order throws, clear() finds them as they should be.
+    coming_.swap(bins_[first_far_++]);
+    far_count_ -= coming_.size();
+    for (const QueueHandle handle : coming_) push_near(handle);
+    coming_.clear();
   }
 
   void fetch_ahead(std::uint32_t next) {
@@ -211,6 +212,7 @@ class EventQueue {
   std::vector<QueueHandle> free_;
   std::vector<QueueHandle> near_;                         // heap
   std::array<std::vector<QueueHandle>, bin_count> bins_;  // those before first_far_ are empty
+  std::vector<QueueHandle> coming_;                       // a bin on its way into the heap
   std::size_t far_count_ = 0;
   std::uint32_t first_far_ = 0;
 };

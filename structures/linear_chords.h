@@ -106,8 +106,7 @@ template <int D, std::size_t M>
     simplex.volume = abs(volume[0]);
     for (std::size_t k = 1; k < 4; ++k)
       simplex.volume = Lanes::min(simplex.volume, Lanes::choose(falls, -volume[k], volume[k]));
-    // What the product of two steps adds in the middle is below half their
-    // squares' sum.
+    // What the product of two steps adds in the middle is below half their squares' sum.
     const std::array<Lanes, 3> steps{square(step[0]), square(step[1]), square(step[2])};
     const Lanes sum = steps[0] + steps[1] + steps[2];
     Vec<3> first_sum, last_sum;
@@ -126,8 +125,7 @@ template <int D, std::size_t M, bool equal>
 [[KDS_LANES_TARGETS]] void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads,
                                               const PeriodLanes& period, ChordLanes<D>& chords) {
   const Lanes half(0.5);
-  std::array<Vec<D>, M> a, b,
-      c;  // curves seen from the first ball: their ends and the steps between
+  std::array<Vec<D>, M> a, b, c;  // curves seen from the first ball: their ends, the steps between
   std::array<Lanes, M> sa, sb, sc;
   Lanes size(0.0);
   for (int axis = 0; axis < D + (equal ? 0 : 1); ++axis) {
@@ -160,8 +158,7 @@ template <int D, std::size_t M, bool equal>
   const Lanes l = Lanes::max(size, Lanes::max(length[0], length[1]));
   const Lanes rounding = Lanes(linear_margin) * l;
 
-  // z' and the combination of the balls by weights: what is apart at the ends,
-  // and between.
+  // z' and the combination of the balls by weights: what is apart at the ends, and between.
   Lanes heaviest(1.0), apart_at_ends(0.0);
   for (const End<D, M>& e : end)
     for (const Lanes& w : e.weight) heaviest = Lanes::max(heaviest, abs(w));
@@ -186,8 +183,7 @@ template <int D, std::size_t M, bool equal>
   proved &= volume > Lanes(0.0);
   const Lanes over = Lanes(up) / volume;
 
-  // x = z' + (what follows from the residuals) + (slope of the radii) * (rho -
-  // rho').
+  // x = z' + (what follows from the residuals) + (slope of the radii) * (rho - rho').
   Stray stray{power * size * rounding * over, Lanes(0.0)};
   if constexpr (M < D) {
     stray.rounded += power * size * combined.rounded * over;

@@ -250,8 +250,7 @@ template <int Dimension>
 UpdateCounts AutomaticUpdate<Dimension>::advance(const Eigen::Matrix3Xd& centers,
                                                  std::span<const double> weights) {
   // Moving takes as long as rebuilding at about this share of failed certificates, on trajectories of 100 to
-  // 1100 beads at strides up to 64 and on chains and grids of 10240 beads that move 0.1 to 0.4 radii a frame:
-  // November 2026, AMD EPYC (Zen 4, 1 MB of second cache).
+  // 1100 beads at strides up to 64 and on chains and grids of 10240 beads that move 0.1 to 0.4 radii a frame.
   constexpr double limit = 0.165;
   // A sample near every eighth bead, of four facets each, costs a hundredth of it. Where the answer is clear
   // the next samples are further and further apart.

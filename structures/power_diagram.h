@@ -26,6 +26,7 @@
 #include "motions/positions.h"
 #include "structures/diagram_edges.h"
 #include "structures/facet_certificate.h"
+#include "structures/facet_guard.h"
 #include "structures/facet_tolerances.h"
 #include "structures/hidden_beads.h"
 #include "structures/placed_faults.h"
@@ -224,32 +225,8 @@ class PowerDiagram final : public KineticStructure {
   [[nodiscard]] bool is_wrong_just_after();
   [[nodiscard]] BeadId bead_count() const { return static_cast<BeadId>(motion_.bead_count()); }
 
-  /// What a facet's guard is about. Where a power test is zero for the whole step, all its beads on one
-  /// sphere, it would not see the facet's cells turn over: then each side guards its own cell's orientation
-  /// instead.
-  enum class About : std::uint8_t { power, hull, cell };
-  struct FacetGuard {
-    Guard guard = Guard::violated;
-    About about = About::power;
-
-    /// As the cell notes it: 0 is the guard of a new cell.
-    [[nodiscard]] std::uint32_t packed() const {
-      return static_cast<std::uint32_t>(about) << 30U |
-             ((static_cast<std::uint32_t>(guard) - static_cast<std::uint32_t>(Guard::violated)) & mask);
-    }
-    [[nodiscard]] static FacetGuard of(std::uint32_t note) {
-      const std::uint32_t low = note & mask;  // violated, zero, never, then the slots
-      constexpr std::uint32_t names = 3;
-      return {
-          static_cast<Guard>(low < names ? static_cast<std::uint32_t>(Guard::violated) + low : low - names),
-          static_cast<About>(note >> 30U)};
-    }
-    static constexpr std::uint32_t mask = (1U << 30U) - 1;
-  };
-  static constexpr std::uint32_t resting_note =
-      static_cast<std::uint32_t>(About::power) << 30U |
-      ((static_cast<std::uint32_t>(Guard::never) - static_cast<std::uint32_t>(Guard::violated)) &
-       FacetGuard::mask);
+  using About = FacetGuard::About;
+  static constexpr std::uint32_t resting_note = FacetGuard{Guard::never, About::power}.packed();
 
   // Building.
 

@@ -1,7 +1,7 @@
 #pragma once
 // Part of RegularTriangulation: flips. They look at the index mirror alone; CGAL's structure follows when it
-// is asked for, or the points are set. A cell with one vertex exchanged keeps the places of the others, so
-// that what lies beyond each new facet can be read off.
+// is asked for. A cell with one vertex exchanged keeps the places of the others, so that what lies beyond
+// each new facet can be read off.
 
 #include "structures/regular_triangulation_cgal.h"
 

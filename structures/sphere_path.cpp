@@ -172,8 +172,8 @@ template <int D>
   chords.stays = Lanes::Mask{} + 3;
   chords.dip = Lanes(0.03125) * change / nearest * Lanes(up);
   const Lanes loss = chords.dip + Lanes(margin) * (Lanes(paths.extent()) + longest);
-  chords.proved &=
-      loss < Lanes(4.0) * longest;  // where they nearly meet a limit is rounded by more than that
+  // Where they nearly meet a limit is rounded by more than that.
+  chords.proved &= loss < Lanes(4.0) * longest;
   for (std::size_t e = 0; e < 2; ++e) chords.limit[e] = Lanes(0.5) * length[e] - loss;
 }
 

@@ -44,8 +44,8 @@ struct SphereChord {
 
 struct Period {
   double from = 0, to = 1;
-  double sure =
-      0;  ///< until then some bead's weight is known to be positive, for it has just risen from zero
+  /// Until then some bead's weight is known to be positive, for it has just risen from zero.
+  double sure = 0;
 };
 
 /// Of up to four bases of one size, each in a period of its own: four cost little more than one.

@@ -6,6 +6,7 @@
 #include <memory>
 #include <random>
 #include <set>
+#include <stdexcept>
 
 #include "tests/support/linear_queue.h"
 
@@ -245,6 +246,32 @@ TEST(EventQueueCost, WhatIsFarIsNotCompared) {
   const std::size_t before = order.comparisons;
   for (std::size_t i = 0; i < 9000; ++i) queue.erase(handles[i]);
   EXPECT_EQ(order.comparisons, before);
+  for (int value = 0; value < 1000; ++value, queue.pop()) ASSERT_EQ(queue.top().value, value);
+  EXPECT_TRUE(queue.empty());
+}
+
+struct Throwing : Order {
+  bool throws = false;
+  bool before(Key& a, Key& b) {
+    if (throws) throw std::runtime_error("no order");
+    return Order::before(a, b);
+  }
+};
+
+// As an exact comparison may, for want of memory.
+TEST(EventQueueErrors, ClearMendsWhatAnOrderThatThrewLeft) {
+  Throwing order;
+  EventQueue<Key, Throwing> queue(order);
+  for (int round = 0; round < 3; ++round) {
+    for (int value = 1000; value-- > 0;) queue.push([&](QueueHandle) { return Key{value}; });
+    for (int value = 0; value < 300 * round; ++value, queue.pop()) ASSERT_EQ(queue.top().value, value);
+    order.throws = true;
+    EXPECT_THROW(while (true) queue.pop(), std::runtime_error);
+    order.throws = false;
+    queue.clear();
+    EXPECT_TRUE(queue.empty());
+  }
+  for (int value = 1000; value-- > 0;) queue.push([&](QueueHandle) { return Key{value}; });
   for (int value = 0; value < 1000; ++value, queue.pop()) ASSERT_EQ(queue.top().value, value);
   EXPECT_TRUE(queue.empty());
 }

@@ -95,6 +95,19 @@ std::vector<Frame> random_frames(unsigned seed, Eigen::Index beads, std::size_t 
   return frames;
 }
 
+/// 40 beads at whole coordinates up to `size`, anew in every frame; weights 0, where the seed is even 0 to 2.
+std::vector<Frame> grid_frames(unsigned seed, std::size_t count, int size) {
+  std::mt19937 random(seed);
+  std::vector<Frame> frames;
+  while (frames.size() < count) {
+    const Points points = random_grid_points(random, 40, size);
+    frames.push_back({control_points(moving(points, points), 0), std::vector<double>(40, 0.0)});
+    for (std::size_t b = 0; seed % 2 == 0 && b < 40; ++b)
+      frames.back().weights[b] = static_cast<double>(b % 3);
+  }
+  return frames;
+}
+
 TEST(DiagramUpdate, AllTechniquesReachTheStaticDiagram) {
   for (const double step : {0.001, 0.02, 0.3}) {
     for (const UpdateTechnique technique : all_techniques)
@@ -121,21 +134,10 @@ TEST(DiagramUpdate, TrajectoriesAndTheirStrides) {
   }
 }
 
+// Whole coordinates: many beads on one sphere, flat hulls, coincident beads.
 TEST(DiagramUpdate, DegenerateFrames) {
-  // Whole coordinates: many beads on one sphere, flat hulls, coincident beads.
   for (const unsigned seed : {1U, 2U, 3U, 4U}) {
-    std::mt19937 random(seed);
-    std::vector<Frame> frames;
-    for (int k = 0; k < 4; ++k) {
-      const Points points = random_grid_points(random, 40, seed < 3 ? 5 : 4);
-      frames.push_back({Eigen::Matrix3Xd(3, 40), std::vector<double>(40, 0.0)});
-      for (Eigen::Index b = 0; b < 40; ++b) {
-        for (Eigen::Index axis = 0; axis < 3; ++axis)
-          frames.back().centers(axis, b) =
-              points[static_cast<std::size_t>(b)][static_cast<std::size_t>(axis)];
-        if (seed % 2 == 0) frames.back().weights[static_cast<std::size_t>(b)] = static_cast<double>(b % 3);
-      }
-    }
+    const auto frames = grid_frames(seed, 4, seed < 3 ? 5 : 4);
     for (const UpdateTechnique technique : all_techniques) run(technique, frames);
   }
 }
@@ -261,21 +263,12 @@ TEST(DiagramUpdateInPlane, HiddenBeadsWeightsThatMoveAndBeadsThatComeBack) {
   EXPECT_LT(rebuilds, 60U);
 }
 
+// Many beads on one circle, flat hulls, coincident beads; once all on one line.
 TEST(DiagramUpdateInPlane, DegenerateFrames) {
-  // Whole coordinates: many beads on one circle, flat hulls, coincident beads; once all on one line.
   for (unsigned seed = 1; seed <= 6; ++seed) {
-    std::mt19937 random(seed);
-    std::vector<Frame> frames;
-    for (int k = 0; k < 5; ++k) {
-      const Points points = random_grid_points(random, 40, seed < 4 ? 8 : 5);
-      frames.push_back({Eigen::Matrix3Xd(3, 40), std::vector<double>(40, 0.0)});
-      for (Eigen::Index b = 0; b < 40; ++b) {
-        const auto& point = points[static_cast<std::size_t>(b)];
-        frames.back().centers.col(b) << point[0], point[1], 0;
-        if (seed % 2 == 0) frames.back().weights[static_cast<std::size_t>(b)] = static_cast<double>(b % 3);
-      }
-      if (k == 2 && seed == 3) frames.back().centers.row(1).setConstant(1);
-    }
+    auto frames = grid_frames(seed, 5, seed < 4 ? 8 : 5);
+    for (Frame& frame : frames) frame.centers.row(2).setZero();
+    if (seed == 3) frames[2].centers.row(1).setConstant(1);
     for (const UpdateTechnique technique : all_techniques) run_in<2>(technique, frames);
   }
 }

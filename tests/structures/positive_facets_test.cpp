@@ -83,6 +83,19 @@ void slow_down(M& motion) {
   }
 }
 
+/// Of two cells' worth of beads, nothing degenerate, so slow that some facets hold all the time.
+template <Motion M>
+M slow_motion(test::Random& random) {
+  M motion = test::random_motion<M>(random, 2 * (M::dimension + 1), test::MotionKind::generic);
+  slow_down(motion);
+  return motion;
+}
+
+template <Motion M>
+void expect_right(const M& motion, std::uint64_t& found, int off = 0) {
+  expect_right<M>(motion, cell_both_ways<M::dimension>(), found, off);
+}
+
 template <Motion M>
 void compare(std::uint64_t least_found) {
   test::Random random(77);
@@ -91,8 +104,7 @@ void compare(std::uint64_t least_found) {
     for (const test::MotionKind kind : test::all_motion_kinds) {
       M motion = test::random_motion<M>(random, 2 * (M::dimension + 1), kind);
       if (round % 2 == 0) slow_down(motion);  // then some hold all the time
-      const auto cells = cell_both_ways<M::dimension>();
-      expect_right<M>(motion, cells, found);
+      expect_right(motion, found);
     }
   }
   EXPECT_GT(found, least_found);
@@ -133,14 +145,8 @@ TEST(PositiveFacets, HoldNextToZero) {
 
 /// All lengths times 2^exponent, exactly.
 template <Motion M>
-void scale(M& motion, int exponent) {
-  for (BeadId b = 0; b < motion.bead_count(); ++b) {
-    for (int k = 0; k <= M::degree; ++k) {
-      for (int axis = 0; axis < M::dimension; ++axis)
-        motion.set_coordinate(b, k, axis, std::ldexp(motion.coordinate(b, k, axis), exponent));
-      motion.set_weight(b, k, std::ldexp(motion.weight(b, k), 2 * exponent));
-    }
-  }
+void scale_with_drift(M& motion, int exponent) {
+  test::scale(motion, exponent);
   if constexpr (lifted<M>) {
     auto drift = typename M::Vector{};
     for (int axis = 0; axis < M::dimension; ++axis)
@@ -157,21 +163,19 @@ void expect_same_at_any_scale() {
   std::array<std::uint64_t, rounds> expected{};
   std::uint64_t all = 0;
   for (int round = 0; round < rounds; ++round) {
-    M base = test::random_motion<M>(random, 2 * (M::dimension + 1), test::MotionKind::generic);
-    slow_down(base);
+    M base = slow_motion<M>(random);
     if constexpr (lifted<M>) {
       auto drift = typename M::Vector{};
       for (double& x : drift) x = 0.01 * test::uniform(random);
       base.set_drift(drift);
     }
-    const auto cells = cell_both_ways<M::dimension>();
-    expect_right<M>(base, cells, expected[static_cast<std::size_t>(round)]);
+    expect_right(base, expected[static_cast<std::size_t>(round)]);
     all += expected[static_cast<std::size_t>(round)];
     for (const int exponent : {-300, -150, -60, -20, -11, -1, 1, 11, 20, 60, 150, 300}) {
       M motion = base;
-      scale(motion, exponent);
+      scale_with_drift(motion, exponent);
       std::uint64_t found = 0;
-      expect_right<M>(motion, cells, found);
+      expect_right(motion, found);
       EXPECT_EQ(found, expected[static_cast<std::size_t>(round)]) << exponent;
     }
   }
@@ -191,10 +195,8 @@ TEST(PositiveFacets, HoldInAnyUnit) {
   for (int exponent = -160; exponent <= 160; exponent += 4) {
     std::uint64_t found = 0;
     for (int round = 0; round < 4; ++round) {
-      M motion = test::random_motion<M>(random, 8, test::MotionKind::generic);
-      slow_down(motion);
-      const auto cells = cell_both_ways<3>();
-      expect_right<M>(motion, cells, found, exponent);
+      M motion = slow_motion<M>(random);
+      expect_right(motion, found, exponent);
     }
     if (std::abs(exponent) <= 8) {
       EXPECT_GT(found, 0U) << exponent;
@@ -211,8 +213,7 @@ TEST(PositiveFacets, HoldWhereRowsAreUnlike) {
   test::Random random(8);
   std::uint64_t found = 0;
   for (int round = 0; round < 300; ++round) {
-    M motion = test::random_motion<M>(random, 8, test::MotionKind::generic);
-    slow_down(motion);
+    M motion = slow_motion<M>(random);
     for (BeadId b = 1; b < 8; ++b) {
       const int exponent = static_cast<int>(random() % 13) - 6;
       for (int k = 0; k < 2; ++k) {
@@ -224,8 +225,7 @@ TEST(PositiveFacets, HoldWhereRowsAreUnlike) {
         motion.set_weight(b, k, motion.weight(0, k));
       }
     }
-    const auto cells = cell_both_ways<3>();
-    expect_right<M>(motion, cells, found);
+    expect_right(motion, found);
   }
   EXPECT_GT(found, 200U);
 }
@@ -236,8 +236,7 @@ TEST(PositiveFacets, HoldWhereWeightsAreAsLargeAsTheyMayBe) {
   test::Random random(9);
   std::uint64_t found = 0;
   for (int round = 0; round < 600; ++round) {
-    M motion = test::random_motion<M>(random, 8, test::MotionKind::generic);
-    slow_down(motion);
+    M motion = slow_motion<M>(random);
     for (BeadId b = 1; b < 8; ++b) {
       float m = 0;
       for (int k = 0; k < 2; ++k) {
@@ -250,8 +249,7 @@ TEST(PositiveFacets, HoldWhereWeightsAreAsLargeAsTheyMayBe) {
       for (int k = 0; k < 2; ++k)
         motion.set_weight(b, k, motion.weight(0, k) + (random() % 2 == 0 ? square : -square));
     }
-    const auto cells = cell_both_ways<3>();
-    expect_right<M>(motion, cells, found);
+    expect_right(motion, found);
   }
   EXPECT_GT(found, 50U);
 }
@@ -262,14 +260,12 @@ TEST(PositiveFacets, HoldWithDrift) {
   test::Random random(10);
   std::uint64_t found = 0;
   for (int round = 0; round < 300; ++round) {
-    M motion = test::random_motion<M>(random, 8, test::MotionKind::generic);
-    slow_down(motion);
+    M motion = slow_motion<M>(random);
     const double size = std::ldexp(1.0, static_cast<int>(random() % 12) - 10);
     M::Vector drift;
     for (double& x : drift) x = size * test::uniform(random);
     motion.set_drift(drift);
-    const auto cells = cell_both_ways<3>();
-    expect_right<M>(motion, cells, found);
+    expect_right(motion, found);
   }
   EXPECT_GT(found, 100U);
 }
@@ -279,8 +275,7 @@ TEST(PositiveFacets, AreTheSameOnAnyProcessor) {
   using M = BezierMotion<3, 1>;
   test::Random random(11);
   for (int round = 0; round < 100; ++round) {
-    M motion = test::random_motion<M>(random, 8, test::MotionKind::generic);
-    slow_down(motion);
+    M motion = slow_motion<M>(random);
     CellsInLanes<M> cells;
     for (auto& beads : cells) {
       for (BeadId i = 0; i < beads.size(); ++i) beads[i] = (i + static_cast<BeadId>(random() % 8)) % 8;
@@ -333,8 +328,7 @@ TEST(PositiveFacets, OfAFewAreFinite) {
   test::Random random(8);
   std::uint64_t found = 0;
   for (int round = 0; round < 50; ++round) {
-    M motion = test::random_motion<M>(random, 8, test::MotionKind::generic);
-    slow_down(motion);
+    M motion = slow_motion<M>(random);
     const auto [cell, turned] = cell_both_ways<3>();
     auto infinite = cell, beside_infinite = turned;
     infinite.vertex[2] = infinite_bead;
