@@ -12,6 +12,8 @@ namespace {
 
 // Nodes of more beads look whether cages below are inside before they look at the beads.
 constexpr BeadId most_in_block = 256;
+// Nodes of more beads, built from scratch, look among the beads of their children's bases first.
+constexpr BeadId most_scanned = 100;
 // By how much beads may be out of a cage that doubles have proved.
 constexpr double looseness = 1 + 0x1p-27;
 constexpr std::size_t chunk = 64;  // nodes at a time
@@ -54,7 +56,7 @@ class Wrapper {
     if (start == Start::children) {
       for (std::size_t i = 0; i < count; ++i) bases[nodes[i]] = far_pair(nodes[i]);
       const BeadRange& range = tree.range(nodes[0]);
-      if (range.last - range.first > 16) pivot_among_children(nodes, count);  // few beads are as fast to scan
+      if (range.last - range.first > most_scanned) pivot_among_children(nodes, count);
       counts.changed += count;
     } else {
       for (std::size_t i = 0; i < count; ++i) pending[i].old = bases[nodes[i]];
