@@ -8,6 +8,7 @@
 #include <random>
 
 #include "motions/input_error.h"
+#include "motions/positions.h"
 #include "tests/support/moving_beads.h"
 
 namespace kds {
