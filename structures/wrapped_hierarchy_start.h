@@ -29,18 +29,18 @@ template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::watch_all_nodes() {
   amiss_.assign(nodes_.size(), Amiss::no);
   std::optional<Balls> balls;
-  std::vector<std::size_t>& ends = beyond_ends_;  // of the nodes in all_beyond_
-  ends.clear();
-  all_beyond_.clear();
+  watched_ends_.clear();
+  all_watched_.clear();
   named_.clear();
-  for (const NodeId id : guarded_) {
+  std::size_t begin = 0;
+  for (const Doubtful& doubtful : doubtful_) {
+    const NodeId id = doubtful.node;
     const Basis& basis = nodes_[id].basis;
-    bool proper = radii == Radii::equal;
-    if constexpr (prunes) {
-      const SphereChord<dimension>& chord = chords_[id];
-      latest_chord_.keep(basis, {}, chord);
-      proper |= chord.proved && chord.stays == all_of(basis);
-    }
+    const SphereChord<dimension>& chord = doubtful.chord;
+    beyond_.assign(all_beyond_.begin() + static_cast<std::ptrdiff_t>(begin),
+                   all_beyond_.begin() + static_cast<std::ptrdiff_t>(doubtful.end));
+    begin = doubtful.end;
+    bool proper = radii == Radii::equal || (chord.proved && chord.stays == all_of(basis));
     if (!proper) {
       // Balls that are not independent need not have a sphere.
       if (!balls) balls = balls_at_start();
@@ -51,21 +51,22 @@ void WrappedHierarchy<M, K, radii>::watch_all_nodes() {
     } else if (is_one_bead(id)) {
       amiss_[id] = Amiss::violated;
     } else if (!is_lone_pair(id)) {
-      enqueue_basis(id, find_beads_to_watch(id));
-      all_beyond_.insert(all_beyond_.end(), beyond_.begin(), beyond_.end());
+      enqueue_basis(id, take_out_staying(id, &chord, {}));
+      all_watched_.insert(all_watched_.end(), beyond_.begin(), beyond_.end());
     }
-    ends.push_back(all_beyond_.size());
+    watched_ends_.push_back(all_watched_.size());
   }
   const auto report = [this](NodeId id, BeadId) { amiss_[id] = Amiss::violated; };
   watch_enqueued(false, report);
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < guarded_.size(); ++i) {
-    const auto beyond = std::span(all_beyond_).subspan(begin, ends[i] - begin);
-    begin = ends[i];
-    if (beyond.empty() || amiss_[guarded_[i]] != Amiss::no) continue;
+  begin = 0;
+  for (std::size_t i = 0; i < doubtful_.size(); ++i) {
+    const NodeId id = doubtful_[i].node;
+    const auto beyond = std::span(all_watched_).subspan(begin, watched_ends_[i] - begin);
+    begin = watched_ends_[i];
+    if (beyond.empty() || amiss_[id] != Amiss::no) continue;
     beyond_.assign(beyond.begin(), beyond.end());
-    take_out_later(guarded_[i]);
-    enqueue_beyond(guarded_[i], beyond_);
+    take_out_later(id);
+    enqueue_beyond(id, beyond_);
   }
   watch_enqueued(true, report);
 }
@@ -73,9 +74,9 @@ void WrappedHierarchy<M, K, radii>::watch_all_nodes() {
 template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::start_step() {
   if (query_) ask_query();
-  for (const NodeId id : guarded_) {  // no others held any
-    nodes_[id].held = none;
-    nodes_[id].never_failing = 0;
+  for (const Doubtful& doubtful : doubtful_) {  // no others held any
+    nodes_[doubtful.node].held = none;
+    nodes_[doubtful.node].never_failing = 0;
   }
   held_.clear();
   free_.clear();
@@ -88,15 +89,19 @@ void WrappedHierarchy<M, K, radii>::start_step() {
   if constexpr (prunes) {
     resting_.take_out_resting(paths_, guarded_,
                               [this](NodeId id) -> const Basis& { return nodes_[id].basis; });
-    find_chords();
   }
+  find_doubtful_nodes();
   watch_all_nodes();
   std::vector<Named>& named = named_at_start_;
   named.clear();
   for (const Named& one : named_)
     if (amiss_[one.node] == Amiss::no) named.push_back(one);
-  for (const NodeId id : guarded_) {
-    if (amiss_[id] == Amiss::no) continue;
+  std::vector<NodeId>& repaired = guarded_;  // in order, as changes are recorded
+  repaired.clear();
+  for (const Doubtful& doubtful : doubtful_)
+    if (amiss_[doubtful.node] != Amiss::no) repaired.push_back(doubtful.node);
+  std::sort(repaired.begin(), repaired.end());
+  for (const NodeId id : repaired) {
     const Basis before = nodes_[id].basis;
     drop_node(id);
     if (amiss_[id] == Amiss::improper) static_cast<void>(repair(id, no_bead));
