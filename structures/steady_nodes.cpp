@@ -91,7 +91,7 @@ template <int D, int K, bool equal, class Visit>
 }
 
 template <int D, int K, bool equal>
-[[KDS_LANES_TARGETS]] void look(const BeadPaths<D>& paths, std::span<const BeadRange> nodes,
+[[KDS_LONG_LANES_TARGETS]] void look(const BeadPaths<D>& paths, std::span<const BeadRange> nodes,
                                 std::span<const Basis> bases, const ChordLanes<D>& chords,
                                 std::array<bool, 4>& all_inside, std::array<std::size_t, 4>& ends,
                                 std::vector<BeadId>& beyond) {

@@ -56,7 +56,9 @@ class WrappedHierarchy final : public KineticStructure {
                   return turns_over<C> ? Touches::reported : Touches::ignored;
                 }),
         nodes_(tree_.node_count()),
-        kept_(select_nodes(tree_, selection)) {}
+        kept_(select_nodes(tree_, selection)) {
+    sort_kept_nodes();
+  }
 
   enum Kind : std::uint8_t { enter, leave, pivot };
 
@@ -189,6 +191,8 @@ class WrappedHierarchy final : public KineticStructure {
   /// Its basis at the start, ties aside.
   void build_node(NodeId node, const Balls& balls);
   void ask_query();
+  /// Sets `wide_` and `pairs_`.
+  void sort_kept_nodes();
   /// Sets `guarded_`: the nodes that are kept and have something to guard.
   void list_guarded_nodes();
   void count_per_bead(std::span<const Named> named);
@@ -254,6 +258,7 @@ class WrappedHierarchy final : public KineticStructure {
   BeadPaths<dimension> paths_;
   RestingNodes<dimension> resting_{tree_};
   SphereCrossings<dimension> crossings_;
+  std::vector<NodeId> wide_, pairs_;  // those that are kept, of more than two beads and of two
   std::vector<NodeId> guarded_;
   struct Doubtful {
     NodeId node;

@@ -8,21 +8,35 @@ namespace kds {
 
 template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::list_guarded_nodes() {
-  guarded_.resize(nodes_.size());
-  std::size_t count = 0;
-  for (NodeId id = 0; id < nodes_.size(); ++id) {
-    // Half of all nodes are pairs, and no one foretells which: as few branches on that as may be.
-    const BeadRange& range = tree_.range(id);
-    bool settled = is_pair(id);
+  guarded_.resize(wide_.size() + pairs_.size());
+  std::copy(wide_.begin(), wide_.end(), guarded_.begin());
+  std::size_t count = wide_.size();
+  for (const NodeId id : pairs_) {
+    const BeadId first = tree_.range(id).first, last = first + 1;
+    bool settled = nodes_[id].basis.size == 2;
     if constexpr (radii == Radii::equal) {
-      settled &= motion_.coordinate(range.first, 0, 0) != motion_.coordinate(range.last, 0, 0);
+      const auto x = [this](BeadId b) {
+        return prunes ? paths_.column(0, 0)[b] : motion_.coordinate(b, 0, 0);
+      };
+      settled &= x(first) != x(last);
     } else {
-      settled = prunes && settled && paths_.are_apart(range.first, range.last);
+      settled = prunes && settled && paths_.are_apart(first, last);
     }
     guarded_[count] = id;
-    count += keeps(id) & !settled ? 1 : 0;
+    count += settled ? 0 : 1;
   }
   guarded_.resize(count);
+}
+
+/// Half of all nodes are pairs.
+template <Motion M, Kernel K, Radii radii>
+void WrappedHierarchy<M, K, radii>::sort_kept_nodes() {
+  wide_.clear();
+  pairs_.clear();
+  for (NodeId id = 0; id < nodes_.size(); ++id) {
+    const BeadRange& range = tree_.range(id);
+    if (keeps(id)) (range.last - range.first == 1 ? pairs_ : wide_).push_back(id);
+  }
 }
 
 template <Motion M, Kernel K, Radii radii>
@@ -81,7 +95,7 @@ void WrappedHierarchy<M, K, radii>::start_step() {
   held_.clear();
   free_.clear();
   if constexpr (prunes) {
-    paths_.set(motion_);
+    paths_.template set<radii == Radii::equal>(motion_);
     crossings_.forget();
     latest_chord_.forget();
   }
