@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "motions/bezier_motion.h"
@@ -75,8 +76,9 @@ class BeadPaths {
   [[nodiscard]] bool radii_are_left_out() const { return radii_are_left_out_; }
   /// The k-th control points along an axis, or (axis = Dimension) of the radius.
   [[nodiscard]] const double* column(int k, int axis) const { return columns_[place(k, axis)].data(); }
-  /// Neither ball holds the other at any time of the step.
-  [[nodiscard]] bool are_apart(BeadId a, BeadId b) const;
+  /// Sets a flag a bead, and some beyond the last: neither it nor the next holds the other at any time of the
+  /// step.
+  void find_apart_from_next(std::vector<std::uint8_t>& apart) const;
   /// No difference within a column is larger, coordinates or radii.
   [[nodiscard]] double extent() const { return extent_; }
 

@@ -196,6 +196,8 @@ class WrappedHierarchy final : public KineticStructure {
   /// Sets `guarded_`: the nodes that are kept and have something to guard.
   void list_guarded_nodes();
   void count_per_bead(std::span<const Named> named);
+  /// Doubles prove that it is a basis of its balls.
+  [[nodiscard]] bool is_proper_at_start(const Basis& basis) const;
   /// Guards them all at the start of a step; sets `amiss_` of those whose basis is not right.
   void watch_all_nodes();
   /// Guards a node, repairing its basis while a certificate is violated already; logs the change from
@@ -259,6 +261,7 @@ class WrappedHierarchy final : public KineticStructure {
   RestingNodes<dimension> resting_{tree_};
   SphereCrossings<dimension> crossings_;
   std::vector<NodeId> wide_, pairs_;  // those that are kept, of more than two beads and of two
+  std::vector<std::uint8_t> apart_from_next_;  // flags of beads
   std::vector<NodeId> guarded_;
   struct Doubtful {
     NodeId node;

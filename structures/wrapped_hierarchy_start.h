@@ -8,6 +8,7 @@ namespace kds {
 
 template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::list_guarded_nodes() {
+  if constexpr (prunes && radii == Radii::any) paths_.find_apart_from_next(apart_from_next_);
   guarded_.resize(wide_.size() + pairs_.size());
   std::copy(wide_.begin(), wide_.end(), guarded_.begin());
   std::size_t count = wide_.size();
@@ -20,7 +21,7 @@ void WrappedHierarchy<M, K, radii>::list_guarded_nodes() {
       };
       settled &= x(first) != x(last);
     } else {
-      settled = prunes && settled && paths_.are_apart(first, last);
+      settled &= prunes && apart_from_next_[first] != 0;
     }
     guarded_[count] = id;
     count += settled ? 0 : 1;
@@ -40,9 +41,21 @@ void WrappedHierarchy<M, K, radii>::sort_kept_nodes() {
 }
 
 template <Motion M, Kernel K, Radii radii>
+bool WrappedHierarchy<M, K, radii>::is_proper_at_start(const Basis& basis) const {
+  std::array<std::array<double, dimension>, full> centers;
+  std::array<double, full> own_radii;
+  for (std::size_t i = 0; i < basis.size; ++i) {
+    for (int axis = 0; axis < dimension; ++axis)
+      centers[i][static_cast<std::size_t>(axis)] = motion_.coordinate(basis.beads[i], 0, axis);
+    own_radii[i] = motion_.radius(basis.beads[i], 0);
+  }
+  return is_certainly_proper<dimension>(std::span(centers).first(basis.size),
+                                        std::span(own_radii).first(basis.size));
+}
+
+template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::watch_all_nodes() {
   amiss_.assign(nodes_.size(), Amiss::no);
-  std::optional<Balls> balls;
   watched_ends_.clear();
   all_watched_.clear();
   named_.clear();
@@ -57,8 +70,7 @@ void WrappedHierarchy<M, K, radii>::watch_all_nodes() {
     bool proper = radii == Radii::equal || (chord.proved && chord.stays == all_of(basis));
     if (!proper) {
       // Balls that are not independent need not have a sphere.
-      if (!balls) balls = balls_at_start();
-      proper = is_certainly_proper(*balls, basis);
+      proper = is_proper_at_start(basis);
     }
     if (!proper) {
       amiss_[id] = Amiss::improper;
