@@ -24,9 +24,9 @@ struct ColumnRanges {
 /// Columns of beads' coordinates, the k-th control point's one after another: four beads at a time, as long
 /// as there are four.
 template <Motion M>
-[[KDS_LANES_TARGETS]] void copy_columns(
-    const M& motion, const std::array<double*, (M::degree + 1) * M::dimension>& to,
-    ColumnRanges<(M::degree + 1) * M::dimension>& ranges) {
+[[KDS_LANES_TARGETS]] void copy_columns(const M& motion,
+                                        const std::array<double*, (M::degree + 1) * M::dimension>& to,
+                                        ColumnRanges<(M::degree + 1) * M::dimension>& ranges) {
   static_assert(M::dimension == 3);
   ranges.low.fill(Lanes(HUGE_VAL));
   ranges.high.fill(Lanes(-HUGE_VAL));
@@ -110,7 +110,8 @@ class BeadPaths {
     }
     for (; b < beads_; ++b) {
       for (std::size_t c = 0; c < count; ++c) {
-        const double x = motion.coordinate(b, static_cast<int>(c / Dimension), static_cast<int>(c % Dimension));
+        const double x =
+            motion.coordinate(b, static_cast<int>(c / Dimension), static_cast<int>(c % Dimension));
         to[c][b] = x;
         low[c] = std::min(low[c], x);
         high[c] = std::max(high[c], x);

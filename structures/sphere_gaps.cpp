@@ -19,8 +19,8 @@ template <std::size_t Size>
 
 template <int D>
 [[KDS_LONG_LANES_TARGETS]] void find_gaps_in_lanes(const BeadPaths<D>& paths, const SphereMotion<D>& sphere,
-                                              BeadId base, BeadId bead, const PeriodLanes& period,
-                                              double side, SphereGaps& gaps) {
+                                                   BeadId base, BeadId bead, const PeriodLanes& period,
+                                                   double side, SphereGaps& gaps) {
   const auto get = [](const std::array<double, 4>& from) __attribute__((always_inline)) {
     return Lanes(Lanes::load(from.data()));
   };

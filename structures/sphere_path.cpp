@@ -182,8 +182,8 @@ void find_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads, const
 }
 
 template <int D, int K, bool equal>
-void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bases,
-                           const PeriodLanes& period, ChordLanes<D>& chords) {
+void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bases, const PeriodLanes& period,
+                           ChordLanes<D>& chords) {
   const std::size_t size = bases.front().size;
   if (size == 1) {
     find_chords_of_one(paths, chords);
@@ -201,8 +201,8 @@ void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bas
 }
 
 template <int D, int K>
-void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bases,
-                           const PeriodLanes& period, ChordLanes<D>& chords) {
+void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bases, const PeriodLanes& period,
+                           ChordLanes<D>& chords) {
   // A form of its own where it matters.
   return K == 1 && paths.equal_radii() ? find_chords_of_degree<D, K, K == 1>(paths, bases, period, chords)
                                        : find_chords_of_degree<D, K, false>(paths, bases, period, chords);

@@ -260,7 +260,7 @@ class WrappedHierarchy final : public KineticStructure {
   BeadPaths<dimension> paths_;
   RestingNodes<dimension> resting_{tree_};
   SphereCrossings<dimension> crossings_;
-  std::vector<NodeId> wide_, pairs_;  // those that are kept, of more than two beads and of two
+  std::vector<NodeId> wide_, pairs_;           // those that are kept, of more than two beads and of two
   std::vector<std::uint8_t> apart_from_next_;  // flags of beads
   std::vector<NodeId> guarded_;
   struct Doubtful {
@@ -273,9 +273,9 @@ class WrappedHierarchy final : public KineticStructure {
   std::vector<Amiss> amiss_;  // a node
   LatestChord<dimension> latest_chord_;
   std::array<std::vector<BeadId>, Tables::count + 1>
-      watched_;                     // of the certificates that are enqueued, a table
-  std::vector<BeadId> beyond_;      // beads of a node that are not proved to stay inside
-  std::vector<BeadId> all_beyond_;  // of all nodes at the start of a step, one after another
+      watched_;                      // of the certificates that are enqueued, a table
+  std::vector<BeadId> beyond_;       // beads of a node that are not proved to stay inside
+  std::vector<BeadId> all_beyond_;   // of all nodes at the start of a step, one after another
   std::vector<BeadId> all_watched_;  // the same without those that a closer look proves
   std::vector<std::size_t> watched_ends_;
   std::vector<Named> named_;  // by the certificates of the nodes watched last
