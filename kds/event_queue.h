@@ -15,6 +15,7 @@
 // Slow obvious twin: tests/support/linear_queue.h.
 
 #include <array>
+#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -89,9 +90,10 @@ class EventQueue {
     free_.clear();
     near_.clear();
     coming_.clear();
-    for (std::uint32_t bin = first_far_; far_count_ != 0; ++bin) {
-      far_count_ -= bins_[bin].size();
-      bins_[bin].clear();
+    for (; far_count_ != 0; ++first_far_) {
+      first_far_ = next_filled(first_far_);
+      far_count_ -= bins_[first_far_].size();
+      empty(first_far_);
     }
     first_far_ = 0;
   }
@@ -123,6 +125,7 @@ class EventQueue {
     entry.bin = bin;
     entry.place = static_cast<std::uint32_t>(bins_[bin].size());
     bins_[bin].push_back(handle);
+    filled_[bin / 64] |= 1ULL << (bin % 64);
     ++far_count_;
   }
 
@@ -132,19 +135,33 @@ class EventQueue {
     bin[entry.place] = last;
     entries_[last].place = entry.place;
     bin.pop_back();
+    if (bin.empty()) filled_[entry.bin / 64] &= ~(1ULL << (entry.bin % 64));
     --far_count_;
   }
 
   void bring_next_bin() {
-    while (bins_[first_far_].empty()) ++first_far_;
+    first_far_ = next_filled(first_far_);
     if constexpr (requires(Key & key) { order_.fetch(key, 0U); }) {
       if (entries_.size() >= many) fetch_ahead(first_far_);
     }
     // Out of the bins first: where the order throws, clear() finds them as they should be.
-    coming_.swap(bins_[first_far_++]);
+    coming_.swap(bins_[first_far_]);
     far_count_ -= coming_.size();
+    empty(first_far_++);
     for (const QueueHandle handle : coming_) push_near(handle);
     coming_.clear();
+  }
+
+  void empty(std::uint32_t bin) {
+    bins_[bin].clear();
+    filled_[bin / 64] &= ~(1ULL << (bin % 64));
+  }
+  /// From this one on; there is one.
+  [[nodiscard]] std::uint32_t next_filled(std::uint32_t bin) const {
+    std::uint32_t word = bin / 64;
+    std::uint64_t some = filled_[word] & (~0ULL << (bin % 64));
+    while (some == 0) some = filled_[++word];
+    return 64 * word + static_cast<std::uint32_t>(std::countr_zero(some));
   }
 
   void fetch_ahead(std::uint32_t next) {
@@ -212,6 +229,7 @@ class EventQueue {
   std::vector<QueueHandle> free_;
   std::vector<QueueHandle> near_;                         // heap
   std::array<std::vector<QueueHandle>, bin_count> bins_;  // those before first_far_ are empty
+  std::array<std::uint64_t, bin_count / 64> filled_{};    // a bit for each bin that is not
   std::vector<QueueHandle> coming_;                       // a bin on its way into the heap
   std::size_t far_count_ = 0;
   std::uint32_t first_far_ = 0;

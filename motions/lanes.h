@@ -12,8 +12,12 @@ namespace kds {
 // vectors in other ways.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define KDS_LANES_TARGETS gnu::target_clones("avx2", "default"), gnu::flatten, gnu::noinline
+// Once more with twice the registers, for long functions that one file compiles.
+#define KDS_LONG_LANES_TARGETS \
+  gnu::target_clones("arch=x86-64-v4", "avx2", "default"), gnu::flatten, gnu::noinline
 #else
 #define KDS_LANES_TARGETS gnu::noinline
+#define KDS_LONG_LANES_TARGETS gnu::noinline
 #endif
 
 class Lanes {

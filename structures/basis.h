@@ -29,7 +29,11 @@ struct Basis {
 
   [[nodiscard]] const BeadId* begin() const { return beads.data(); }
   [[nodiscard]] const BeadId* end() const { return beads.data() + size; }
-  [[nodiscard]] bool contains(BeadId bead) const { return std::find(begin(), end(), bead) != end(); }
+  [[nodiscard]] bool contains(BeadId bead) const {
+    bool found = false;
+    for (std::size_t i = 0; i < max_size; ++i) found |= (i < size) & (beads[i] == bead);
+    return found;
+  }
   void sort() {
     for (std::size_t i = 1; i < size; ++i) {
       for (std::size_t j = i; j > 0 && beads[j] < beads[j - 1]; --j) std::swap(beads[j], beads[j - 1]);

@@ -1,93 +1,22 @@
 #include "structures/beads_beyond.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 
-#include "structures/period_lanes.h"
+#include "structures/scan_beyond.h"
 
 namespace kds {
 
 namespace {
 
-/// Beads one after another, four at a time: a bit of lane i for number i of each four.
-class BeadBits {
- public:
-  static constexpr BeadId most = 256;
-
-  explicit BeadBits(BeadId first) : first_(first) {}
-
-  [[gnu::always_inline]] void add(const Lanes::Mask& four) {
-    bits_ |= four & next_;
-    next_ += next_;
-  }
-  /// Those up to `last` that are not in the basis. Basis beads never lie inside: looked at on the way they
-  /// would often be, and no one could foretell in which four.
-  [[gnu::always_inline]] void append_to(std::vector<BeadId>& beads, const Basis& basis, BeadId last) const {
-    std::array<std::uint64_t, Lanes::width> lane;
-    for (std::size_t i = 0; i < Lanes::width; ++i) lane[i] = static_cast<std::uint64_t>(bits_[i]);
-    for (const BeadId member : basis) {
-      const BeadId place = member - first_;  // wraps around where it is before
-      lane[place % Lanes::width] &= ~(place < most ? 1ULL << (place / Lanes::width) : 0ULL);
-    }
-    for (BeadId place = last - first_ + 1; place % Lanes::width != 0; ++place)
-      lane[place % Lanes::width] &= ~(1ULL << (place / Lanes::width));
-    for (std::uint64_t some = lane[0] | lane[1] | lane[2] | lane[3]; some != 0; some &= some - 1) {
-      const auto four = static_cast<unsigned>(std::countr_zero(some));
-      for (unsigned i = 0; i < Lanes::width; ++i)
-        if ((lane[i] >> four & 1U) != 0) beads.push_back(first_ + 4 * four + i);
-    }
-  }
-
- private:
-  BeadId first_;
-  Lanes::Mask bits_{}, next_{1, 1, 1, 1};
-};
-
-constexpr double below = 1 - 0x1p-40;
+using detail::below;
 
 template <int D, int K, bool equal>
 [[KDS_LANES_TARGETS]] void beyond_of(const BeadPaths<D>& paths, const BeadRange& range, const Basis& basis,
                                      const SphereChord<D>& chord, double from, std::vector<BeadId>& beyond) {
-  constexpr int columns = D + (equal ? 0 : 1);
-  std::array<std::array<Lanes, D>, K + 1> center;
-  std::array<Lanes, K + 1> limit;
-  std::array<std::array<const double*, K + 1>, columns> column;
-  std::array<std::array<Lanes, K + 1>, columns> base;
-  for (std::size_t k = 0; k <= K; ++k) {
-    const double t = static_cast<double>(k) / K;
-    for (std::size_t axis = 0; axis < D; ++axis)
-      center[k][axis] = Lanes((1 - t) * chord.center[0][axis] + t * chord.center[1][axis]);
-    limit[k] = Lanes(((1 - t) * chord.limit[0] + t * chord.limit[1]) * below);
-    for (std::size_t axis = 0; axis < columns; ++axis) {
-      column[axis][k] = paths.column(static_cast<int>(k), static_cast<int>(axis));
-      base[axis][k] = Lanes(column[axis][k][basis.beads[0]]);
-    }
-  }
-  for (BeadId first = range.first; first <= range.last; first += BeadBits::most) {
-    const BeadId last = std::min(range.last, first + BeadBits::most - 1);
-    BeadBits outside(first);
-    for (BeadId b = first; b <= last; b += Lanes::width) {
-      std::array<Lanes, K + 1> square, room = limit;
-      for (std::size_t axis = 0; axis < columns; ++axis) {
-        std::array<Lanes, K + 1> control;
-        for (std::size_t k = 0; k <= K; ++k)
-          control[k] = Lanes(Lanes::load(column[axis][k] + b)) - base[axis][k];
-        if (from > 0) casteljau(control, Lanes(from));
-        for (std::size_t k = 0; k <= K; ++k) {
-          if (axis < D) {
-            const Lanes v = control[k] - center[k][axis];
-            square[k] = axis == 0 ? v * v : square[k] + v * v;
-          } else {
-            room[k] -= control[k];
-          }
-        }
-      }
-      outside.add(~are_within(square, room));
-    }
-    outside.append_to(beyond, basis, last);
-  }
+  detail::scan_beyond<D, K, equal>(
+      paths, range, basis, chord.center, chord.limit,
+      from, [&](BeadId b) __attribute__((always_inline)) { beyond.push_back(b); });
 }
 
 /// Four chords, and their periods, side by side.

@@ -17,7 +17,7 @@
 
 #include <array>
 
-#include "structures/period_lanes.h"
+#include "structures/chord_lanes.h"
 #include "structures/touching_sphere.h"
 
 namespace kds::detail {
@@ -25,15 +25,6 @@ namespace kds::detail {
 /// As `margin`: a control point is rounded by up to 9 units of 2^-53 of the lengths that went in, a volume or
 /// a residual by 60, below 2^-47.
 inline constexpr double linear_margin = 0x1p-45;
-
-/// Four chords side by side.
-template <int D>
-struct ChordLanes {
-  std::array<Vec<D>, 2> center;
-  std::array<Lanes, 2> limit;
-  Lanes dip = Lanes(0.0);
-  Lanes::Mask proved, stays, rises{};
-};
 
 /// R and Q.
 struct Stray {
@@ -122,8 +113,8 @@ template <int D, std::size_t M>
 }
 
 template <int D, std::size_t M, bool equal>
-[[KDS_LANES_TARGETS]] void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads,
-                                              const PeriodLanes& period, ChordLanes<D>& chords) {
+[[KDS_LONG_LANES_TARGETS]] void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads,
+                                                   const PeriodLanes& period, ChordLanes<D>& chords) {
   const Lanes half(0.5);
   std::array<Vec<D>, M> a, b, c;  // curves seen from the first ball: their ends, the steps between
   std::array<Lanes, M> sa, sb, sc;

@@ -13,18 +13,20 @@ namespace kds {
 /// What is cut off before, and then after.
 struct PeriodLanes {
   Lanes from, to;
-  Lanes sure = Lanes(0.0);  // as a share of the part
-  bool whole = true;        // nothing at all
+  Lanes sure;  // as a share of the part
+  bool whole;  // nothing at all
 
   /// Up to four, the last one as often as there are lanes left.
   explicit PeriodLanes(std::span<const Period> periods) {
-    for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
-      const Period& period = periods[std::min(lane, periods.size() - 1)];
-      from.v[lane] = period.from;
-      to.v[lane] = (period.to - period.from) / (1 - period.from);
-      if (period.sure > period.from) sure.v[lane] = (period.sure - period.from) / (period.to - period.from);
-      whole &= period.from == 0 && period.to == 1;
-    }
+    const std::size_t last = periods.size() - 1;
+    const Period &a = periods[0], &b = periods[std::min<std::size_t>(1, last)],
+                 &c = periods[std::min<std::size_t>(2, last)], &d = periods[std::min<std::size_t>(3, last)];
+    from = Lanes::Vector{a.from, b.from, c.from, d.from};
+    const Lanes until = Lanes::Vector{a.to, b.to, c.to, d.to};
+    const Lanes until_sure = Lanes::Vector{a.sure, b.sure, c.sure, d.sure};
+    to = (until - from) / (Lanes(1.0) - from);
+    sure = Lanes::max(until_sure - from, Lanes(0.0)) / (until - from);
+    whole = Lanes::all((from <= Lanes(0.0)) & (until >= Lanes(1.0)));
   }
 };
 

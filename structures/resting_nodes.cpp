@@ -84,8 +84,10 @@ void RestingNodes<Dimension>::look_at(const BeadPaths<Dimension>& paths) {
   for (int k = 0; k <= paths.degree(); ++k) {
     for (std::size_t axis = 0; axis < Dimension; ++axis)
       moved.to[axis] = paths.column(k, static_cast<int>(axis));
-    const double* const radii = paths.column(k, Dimension);
-    same_radii = same_radii && std::equal(radii, radii + beads, reference_[Dimension].data());
+    if (!paths.radii_are_left_out()) {
+      const double* const radii = paths.column(k, Dimension);
+      same_radii = same_radii && std::equal(radii, radii + beads, reference_[Dimension].data());
+    }
     std::array<double, Dimension> drift;
     add_up<Dimension>(moved, beads, drift);
     double length = 0;

@@ -60,12 +60,22 @@ SmallestSphere smallest_sphere(const Balls<Dimension>& balls, BeadId first, Bead
 }
 
 template <int Dimension>
-bool is_certainly_proper(const Balls<Dimension>& balls, const Basis& basis) {
-  return detail::sphere_of_basis<BallForm<Dimension>>(balls, basis).certain;
+bool is_certainly_proper(std::span<const std::array<double, Dimension>> centers,
+                         std::span<const double> radii) {
+  bool proper = false;
+  visit_size<Dimension>(centers.size(), [&](auto m) {
+    detail::BasisBalls<double, Dimension, m> balls;
+    for (std::size_t i = 0; i <= m; ++i) {
+      std::copy_n(centers[i].begin(), Dimension, balls.center[i].begin());
+      balls.radius[i] = radii[i];
+    }
+    proper = BallForm<Dimension>::sphere(balls).certain;
+  });
+  return proper;
 }
 
-template bool is_certainly_proper(const Balls<2>&, const Basis&);
-template bool is_certainly_proper(const Balls<3>&, const Basis&);
+template bool is_certainly_proper<2>(std::span<const std::array<double, 2>>, std::span<const double>);
+template bool is_certainly_proper<3>(std::span<const std::array<double, 3>>, std::span<const double>);
 template SmallestSphere smallest_sphere(const Balls<2>&, BeadId, BeadId, std::span<const BeadId>, ExactUse);
 template SmallestSphere smallest_sphere(const Balls<3>&, BeadId, BeadId, std::span<const BeadId>, ExactUse);
 

@@ -4,6 +4,7 @@
 // from a guess. The basis is exact: its sphere holds all balls and none of its own is to spare. Centre and
 // radius are rounded, the radius to 1e-12 of its size and better.
 
+#include <array>
 #include <span>
 
 #include "structures/balls.h"
@@ -28,6 +29,7 @@ template <int Dimension>
 
 /// Whether doubles prove that a basis is one: each of its balls strictly outside the sphere of the others.
 template <int Dimension>
-[[nodiscard]] bool is_certainly_proper(const Balls<Dimension>& balls, const Basis& basis);
+[[nodiscard]] bool is_certainly_proper(std::span<const std::array<double, Dimension>> centers,
+                                       std::span<const double> radii);
 
 }  // namespace kds

@@ -20,7 +20,7 @@ struct Crossing {
   int looks = 0;
 
   static constexpr int most_looks = 12, most_cuts = 2;
-  /// Narrow enough; and so wide a bracket would overlap others.
+  /// Enough; and so wide a bracket would overlap others, but may be as narrow as doubles tell.
   static constexpr double narrow = 0x1p-27, wide = 0x1p-26;
 
   [[nodiscard]] SphereGaps gaps_in(const SphereMotion<D>& sphere) const {
@@ -95,59 +95,81 @@ struct Crossing {
     return {b - start, 0.05 * std::abs(difference[4] / slope)};
   }
 
-  /// The one root in a period where the gap falls, its signs at both ends known: a chord's root, and certain
-  /// signs on both sides of it.
-  [[nodiscard]] std::optional<Failure> locate(Period bracket, SphereGaps gaps, std::size_t lane,
+  /// The one root in a period where the gap falls, its signs at both ends known: the gap at four times about
+  /// a guess, again and again, tells ends with certain signs.
+  [[nodiscard]] std::optional<Failure> locate(const Period& part, const SphereGaps& gaps, std::size_t lane,
                                               Guess guess) {
-    while (++looks <= most_looks) {
-      // The chord's root is off by what is lost over the slope; certain signs take a little more.
-      const double length = bracket.to - bracket.from, slope = -gaps.fastest[lane];
+    const double length = part.to - part.from, slope = -gaps.fastest[lane] / length;
+    if (!(slope > 0)) return std::nullopt;
+    double from = part.from, to = part.to;
+    double gap_from = gaps.at_end[0][lane], gap_to = gaps.at_end[1][lane];
+    double loss = gaps.loss_at_ends[lane];
+    if (!(guess.root > 0 && guess.root < 1)) {  // the chord's, off by what is lost
       const double c0 = gaps.square[0][lane], c1 = gaps.square[1][lane], c2 = gaps.square[2][lane];
-      const double v = c0 / (-c1 + std::copysign(std::sqrt(std::max(c1 * c1 - c0 * c2, 0.0)), c0));
-      if (!(v >= 0 && v <= 1 && slope > 0)) return std::nullopt;
-      const bool guessed = guess.root > 0 && guess.root < 1;
-      const double root = bracket.from + (guessed ? guess.root : v) * length;
-      const double least = std::max(3 * gaps.loss_at_ends[lane] / slope * length, 0x1p-33);
-      const double reach = std::min(gaps.loss[lane] / slope * length + least, 0.25 * length);
-      std::array<Period, 4> periods;
-      for (std::size_t i = 0; i < 4; ++i) {
-        constexpr std::array<double, 4> share{0.01, 0.1, 1, 4}, errors{0.0625, 1, 64, 0};
-        const bool by_guess = guessed && i < 3;
-        const double r = std::max(by_guess ? errors[i] * guess.error * length : share[i] * reach, least);
-        periods[i] = {std::max(root - r, bracket.from), std::min(root + r, bracket.to)};
-        if (!(periods[i].from < periods[i].to)) return std::nullopt;
-      }
-      SphereMotion<D> sphere;
-      find_motion(paths, basis, periods, sphere);
-      gaps = gaps_in(sphere);
-      guess = {};
-      const auto holds_root = [&](std::size_t i) {
-        return (sphere.proved >> i & 1U) != 0 && gaps.at_end[0][i] > gaps.loss_at_ends[i] &&
-               gaps.at_end[1][i] < -gaps.loss_at_ends[i];
+      guess.root = c0 / (-c1 + std::copysign(std::sqrt(std::max(c1 * c1 - c0 * c2, 0.0)), c0));
+      if (!(guess.root >= 0 && guess.root <= 1)) return std::nullopt;
+      guess.error = std::min(gaps.loss[lane] / (slope * length), 0.25);
+    }
+    double root = part.from + guess.root * length, error = guess.error * length;
+    while (++looks <= most_looks) {
+      // Certain signs take a little more than what is rounded. Of two brackets the wider one, if it will do:
+      // it tells most of what comes just after.
+      const double before = to - from, least = std::max(3 * loss / slope, 0x1p-33);
+      const bool sharp = 4 * error < 0.49 * narrow;
+      const double near = std::max(sharp ? error : std::max(0.49 * narrow, 0.0625 * error), least);
+      const double far = std::max(sharp ? 0.49 * narrow : 4 * error, near + near);
+      const std::array<double, 4> times{std::max(root - far, from), std::max(root - near, from),
+                                        std::min(root + near, to), std::min(root + far, to)};
+      GapsAt at;
+      find_gaps_at(paths, basis, bead, side, times, at);
+      const auto sign = [&](std::size_t i) {
+        const bool known = (at.proved >> i & 1U) != 0 && std::abs(at.value[i]) > at.loss[i];
+        return !known ? 0 : at.value[i] > 0 ? 1 : -1;
       };
-      // The widest that will do: it tells most of what comes just after.
-      const auto length_of = [&](std::size_t i) { return periods[i].to - periods[i].from; };
-      lane = 4;
-      for (std::size_t i = 0; i < 4; ++i)
-        if (holds_root(i) && (lane == 4 || (length_of(i) <= narrow && length_of(i) > length_of(lane))))
-          lane = i;
-      if (lane == 4) return std::nullopt;
-      bracket = periods[lane];
-      const double width = bracket.to - bracket.from;
-      if (width > narrow && width < 0.5 * length) continue;
-      return width <= wide && names_root_of_norm(gaps, lane) && bracket.from > upper
-                 ? std::optional(Failure{Failure::Kind::later, {bracket.from, bracket.to, 0, true}})
-                 : std::nullopt;
+      for (const std::size_t i : {0U, 1U}) {
+        if (sign(i) > 0 && sign(3 - i) < 0 && times[3 - i] - times[i] <= narrow)
+          return found({times[i], times[3 - i]}, gaps, lane,
+                       std::max(at.value[i] + at.loss[i], at.loss[3 - i] - at.value[3 - i]));
+      }
+      for (std::size_t i = 0; i < 4; ++i) {
+        if (sign(i) > 0) {
+          from = times[i];
+          gap_from = at.value[i];
+        } else if (sign(i) < 0) {
+          to = times[i];
+          gap_to = at.value[i];
+          break;
+        }
+      }
+      loss = *std::max_element(at.loss.begin(), at.loss.end());
+      const double width = to - from;
+      if (width <= (near > least ? narrow : wide))
+        return found({from, to}, gaps, lane, std::max(gap_from, -gap_to) + loss);
+      if (!(width < 0.75 * before)) return std::nullopt;
+      root = from + width * gap_from / (gap_from - gap_to);
+      error = width * std::min(0.05, width / length);
     }
     return std::nullopt;
   }
 
+  /// The root is that in a bracket where the gap is no larger than `most`, in a part with these gaps.
+  [[nodiscard]] std::optional<Failure> found(const Period& bracket, const SphereGaps& gaps, std::size_t lane,
+                                             double most) const {
+    if (!(bracket.from > upper)) return std::nullopt;
+    if (!names_root_of_norm(gaps, lane, most)) {
+      SphereMotion<D> sphere;
+      find_motion(paths, basis, {bracket, bracket, bracket, bracket}, sphere);
+      if ((sphere.proved & 1U) == 0 || !names_root_of_norm(gaps_in(sphere), 0, most)) return std::nullopt;
+    }
+    return Failure{Failure::Kind::later, {bracket.from, bracket.to, 0, true}};
+  }
+
   /// Its root is the norm's as well, and no other is.
-  [[nodiscard]] static bool names_root_of_norm(const SphereGaps& gaps, std::size_t lane) {
+  [[nodiscard]] static bool names_root_of_norm(const SphereGaps& gaps, std::size_t lane, double most) {
     const double w0 = gaps.lever[0][lane], w1 = gaps.lever[1][lane];
     const double w = std::min(std::abs(w0), std::abs(w1)) - gaps.lever_error[lane];
-    return (w0 > 0) == (w1 > 0) && gaps.other_factor[lane] >= 0 && w > gaps.other_factor[lane] &&
-           gaps.clear[lane] > 0;
+    return (w0 > 0) == (w1 > 0) && gaps.other_factor[lane] >= 0 && w > gaps.other_factor[lane] * most &&
+           gaps.apart[lane] > most;
   }
 };
 

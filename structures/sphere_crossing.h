@@ -6,8 +6,9 @@
 // In a part of the step it may be known that the gap between ball and sphere (sphere_gaps.h) has a sign, or
 // that it rises, or falls; in the latter case its signs at both ends tell whether it has a root there, and
 // that this is the only one and simple. Four parts are looked at side by side, and those that say nothing are
-// cut again. A root is guessed by the polynomial through the gap at five times and, closer, by the chord's;
-// signs on both sides of it are certain. That it names the norm's only root there is proved too.
+// cut again. A root is guessed by the polynomial through the gap at five times, or else by the chord's, and
+// then between two of four times about it; signs on both sides of it are certain. That it names the norm's
+// only root there is proved too.
 
 #include <optional>
 

@@ -22,14 +22,26 @@ struct SphereGaps {
   Four loss_at_ends, least;        // and its least value
   Four slowest, fastest;           // slopes, in units of the period
   std::array<Four, 3> square;      // coefficients of (rho' - s)^2 - |p|^2, by powers
-  Four loss, clear;                // what |c_b - x| is at least, less the gap
+  Four loss, apart;                // what |c_b - x| is at least
   std::array<Four, 2> lever;       // W at both ends
-  Four lever_error, other_factor;  // and 6 |T| / (2 rho), roughly at most
+  Four lever_error, other_factor;  // and 6 |T| / (2 rho |G|) at most
+};
+
+/// The same gap at four times, to within a loss each.
+struct GapsAt {
+  std::array<double, 4> value, loss;
+  unsigned proved;  // a bit each; else nothing is known
 };
 
 /// `side`: 1 of a ball that is to be inside, else -1.
 template <int Dimension>
 void find_gaps(const BeadPaths<Dimension>& paths, const SphereMotion<Dimension>& sphere, BeadId base,
                BeadId bead, double side, SphereGaps& gaps);
+
+/// For a basis of two or more, where its sphere touches all of its balls from outside (|q| < 0.98 at these
+/// times is proved here).
+template <int Dimension>
+void find_gaps_at(const BeadPaths<Dimension>& paths, const Basis& basis, BeadId bead, double side,
+                  const std::array<double, 4>& times, GapsAt& gaps);
 
 }  // namespace kds

@@ -60,8 +60,8 @@ template <int D, std::size_t M, int N>
 }
 
 template <int D, std::size_t M>
-[[KDS_LANES_TARGETS]] void find_motion(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads,
-                                       const PeriodLanes& period, SphereMotion<D>& found) {
+[[KDS_LONG_LANES_TARGETS]] void find_motion(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads,
+                                            const PeriodLanes& period, SphereMotion<D>& found) {
   constexpr double margin = SphereMotion<D>::margin;
   std::array<CurveLanes<1, D>, M> d;
   std::array<PolynomialLanes<1>, M> s;

@@ -5,7 +5,6 @@
 
 #include "certificates/determinant.h"
 #include "structures/linear_chords.h"
-#include "structures/period_lanes.h"
 #include "structures/touching_sphere.h"
 
 namespace kds {
@@ -14,7 +13,6 @@ namespace {
 
 using detail::BeadLanes;
 using detail::beads_of;
-using detail::ChordLanes;
 using detail::End;
 using detail::end_of;
 using detail::gather;
@@ -23,21 +21,6 @@ using detail::Simplex;
 using detail::simplex_of;
 using detail::up;
 using detail::Vec;
-
-template <int D>
-void give(const ChordLanes<D>& lanes, std::span<SphereChord<D>> chords) {
-  for (std::size_t lane = 0; lane < chords.size(); ++lane) {
-    SphereChord<D>& chord = chords[lane];
-    chord.proved = lanes.proved[lane] != 0;
-    chord.stays = static_cast<std::uint8_t>(lanes.stays[lane]);
-    chord.rises = static_cast<std::uint8_t>(lanes.rises[lane]);
-    chord.dip = lanes.dip.v[lane];
-    for (std::size_t e = 0; e < 2; ++e) {
-      chord.limit[e] = lanes.limit[e].v[lane];
-      for (std::size_t axis = 0; axis < D; ++axis) chord.center[e][axis] = lanes.center[e][axis].v[lane];
-    }
-  }
-}
 
 template <int D, std::size_t M, int K>
 [[KDS_LANES_TARGETS]] void find_curved_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads,
@@ -177,6 +160,17 @@ template <int D>
   for (std::size_t e = 0; e < 2; ++e) chords.limit[e] = Lanes(0.5) * length[e] - loss;
 }
 
+/// Of a ball that holds the others.
+template <int D>
+void find_chords_of_one(const BeadPaths<D>& paths, ChordLanes<D>& chords) {
+  for (std::size_t e = 0; e < 2; ++e) {
+    chords.center[e].fill(Lanes(0.0));
+    chords.limit[e] = Lanes(-margin * paths.extent());
+  }
+  chords.proved = Lanes::Mask{} - (paths.extent() > 0x1p-150 && paths.extent() < 0x1p150 ? 1L : 0L);
+  chords.stays = Lanes::Mask{} + 1;
+}
+
 template <int D, std::size_t M, int K, bool equal>
 void find_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads, const PeriodLanes& period,
                  ChordLanes<D>& chords) {
@@ -188,56 +182,57 @@ void find_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads, const
 }
 
 template <int D, int K, bool equal>
-void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bases,
-                           std::span<const Period> periods, std::span<SphereChord<D>> chords) {
+void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bases, const PeriodLanes& period,
+                           ChordLanes<D>& chords) {
   const std::size_t size = bases.front().size;
-  if (size == 1) {  // a ball that holds the others
-    for (SphereChord<D>& chord : chords) {
-      chord = {};
-      chord.limit[0] = chord.limit[1] = -margin * paths.extent();
-      chord.proved = paths.extent() > 0x1p-150 && paths.extent() < 0x1p150;
-      chord.stays = 1;
-    }
-    return;
-  }
-  const PeriodLanes period(periods);
-  ChordLanes<D> lanes;
-  if (size == 2) {
+  if (size == 1) {
+    find_chords_of_one(paths, chords);
+  } else if (size == 2) {
     if constexpr (equal) {
-      find_chords_of_pairs(paths, beads_of<2>(bases), period, lanes);
+      find_chords_of_pairs(paths, beads_of<2>(bases), period, chords);
     } else {
-      find_chords<D, 1, K, equal>(paths, beads_of<2>(bases), period, lanes);
+      find_chords<D, 1, K, equal>(paths, beads_of<2>(bases), period, chords);
     }
   } else if (D == 2 || size == 3) {
-    find_chords<D, 2, K, equal>(paths, beads_of<3>(bases), period, lanes);
+    find_chords<D, 2, K, equal>(paths, beads_of<3>(bases), period, chords);
   } else if constexpr (D == 3) {
-    find_chords<D, 3, K, equal>(paths, beads_of<4>(bases), period, lanes);
+    find_chords<D, 3, K, equal>(paths, beads_of<4>(bases), period, chords);
   }
-  give(lanes, chords);
 }
 
 template <int D, int K>
-void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bases,
-                           std::span<const Period> periods, std::span<SphereChord<D>> chords) {
+void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bases, const PeriodLanes& period,
+                           ChordLanes<D>& chords) {
   // A form of its own where it matters.
-  return K == 1 && paths.equal_radii() ? find_chords_of_degree<D, K, K == 1>(paths, bases, periods, chords)
-                                       : find_chords_of_degree<D, K, false>(paths, bases, periods, chords);
+  return K == 1 && paths.equal_radii() ? find_chords_of_degree<D, K, K == 1>(paths, bases, period, chords)
+                                       : find_chords_of_degree<D, K, false>(paths, bases, period, chords);
 }
 
 }  // namespace
 
 template <int Dimension>
-void sphere_chords(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
-                   std::span<const Period> periods, std::span<SphereChord<Dimension>> chords) {
+void find_chords(const BeadPaths<Dimension>& paths, std::span<const Basis> bases, const PeriodLanes& period,
+                 ChordLanes<Dimension>& chords) {
   switch (paths.degree()) {
     case 1:
-      return find_chords_of_degree<Dimension, 1>(paths, bases, periods, chords);
+      return find_chords_of_degree<Dimension, 1>(paths, bases, period, chords);
     case 2:
-      return find_chords_of_degree<Dimension, 2>(paths, bases, periods, chords);
+      return find_chords_of_degree<Dimension, 2>(paths, bases, period, chords);
     default:
-      return find_chords_of_degree<Dimension, 3>(paths, bases, periods, chords);
+      return find_chords_of_degree<Dimension, 3>(paths, bases, period, chords);
   }
 }
+
+template <int Dimension>
+void sphere_chords(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
+                   std::span<const Period> periods, std::span<SphereChord<Dimension>> chords) {
+  ChordLanes<Dimension> lanes;
+  find_chords(paths, bases, PeriodLanes(periods), lanes);
+  for (std::size_t lane = 0; lane < chords.size(); ++lane) lanes.give(lane, chords[lane]);
+}
+
+template void find_chords(const BeadPaths<2>&, std::span<const Basis>, const PeriodLanes&, ChordLanes<2>&);
+template void find_chords(const BeadPaths<3>&, std::span<const Basis>, const PeriodLanes&, ChordLanes<3>&);
 
 template void sphere_chords(const BeadPaths<2>&, std::span<const Basis>, std::span<const Period>,
                             std::span<SphereChord<2>>);

@@ -30,6 +30,7 @@
 #include "structures/resting_nodes.h"
 #include "structures/smallest_sphere.h"
 #include "structures/sphere_crossing.h"
+#include "structures/steady_nodes.h"
 #include "structures/whole_balls_at.h"
 
 namespace kds {
@@ -55,7 +56,9 @@ class WrappedHierarchy final : public KineticStructure {
                   return turns_over<C> ? Touches::reported : Touches::ignored;
                 }),
         nodes_(tree_.node_count()),
-        kept_(select_nodes(tree_, selection)) {}
+        kept_(select_nodes(tree_, selection)) {
+    sort_kept_nodes();
+  }
 
   enum Kind : std::uint8_t { enter, leave, pivot };
 
@@ -188,20 +191,27 @@ class WrappedHierarchy final : public KineticStructure {
   /// Its basis at the start, ties aside.
   void build_node(NodeId node, const Balls& balls);
   void ask_query();
+  /// Sets `wide_` and `pairs_`.
+  void sort_kept_nodes();
   /// Sets `guarded_`: the nodes that are kept and have something to guard.
   void list_guarded_nodes();
   void count_per_bead(std::span<const Named> named);
+  /// Doubles prove that it is a basis of its balls.
+  [[nodiscard]] bool is_proper_at_start(const Basis& basis) const;
   /// Guards them all at the start of a step; sets `amiss_` of those whose basis is not right.
   void watch_all_nodes();
   /// Guards a node, repairing its basis while a certificate is violated already; logs the change from
   /// `before`.
   void guard_node(NodeId node, Basis before);
-  /// Of all guarded nodes, at the start of a step.
-  void find_chords();
+  /// Sets `doubtful_` to the guarded nodes that may not be steady in the step, and `all_beyond_` to their
+  /// beads that may not stay inside.
+  void find_doubtful_nodes();
   [[nodiscard]] Period rest_of_step() const {
     return {simulator_.now().lower(), 1, simulator_.now().upper()};
   }
   [[nodiscard]] unsigned find_beads_to_watch(NodeId node);
+  [[nodiscard]] unsigned take_out_staying(NodeId node, const SphereChord<dimension>* chord,
+                                          const Period& rest);
   /// The bead whose certificate has just failed, in the new basis or left by it: its own root is the only one
   /// in the bracket, and it is where it belongs just after. Or none.
   [[nodiscard]] BeadId risen_bead(const Basis& old, const Basis& next, BeadId failed) const;
@@ -250,16 +260,24 @@ class WrappedHierarchy final : public KineticStructure {
   BeadPaths<dimension> paths_;
   RestingNodes<dimension> resting_{tree_};
   SphereCrossings<dimension> crossings_;
-  std::vector<SphereChord<dimension>> chords_;  // of the nodes' bases at the start of the step
+  std::vector<NodeId> wide_, pairs_;           // those that are kept, of more than two beads and of two
+  std::vector<std::uint8_t> apart_from_next_;  // flags of beads
   std::vector<NodeId> guarded_;
+  struct Doubtful {
+    NodeId node;
+    SphereChord<dimension> chord;  // of its basis at the start of the step
+    std::size_t end;               // of its beads in all_beyond_; where the chord is proved, else it has none
+  };
+  std::vector<Doubtful> doubtful_;
   enum class Amiss : std::uint8_t { no, violated, improper };
   std::vector<Amiss> amiss_;  // a node
   LatestChord<dimension> latest_chord_;
   std::array<std::vector<BeadId>, Tables::count + 1>
-      watched_;                     // of the certificates that are enqueued, a table
-  std::vector<BeadId> beyond_;      // beads of a node that are not proved to stay inside
-  std::vector<BeadId> all_beyond_;  // of all nodes at the start of a step, one after another
-  std::vector<std::size_t> beyond_ends_;
+      watched_;                      // of the certificates that are enqueued, a table
+  std::vector<BeadId> beyond_;       // beads of a node that are not proved to stay inside
+  std::vector<BeadId> all_beyond_;   // of all nodes at the start of a step, one after another
+  std::vector<BeadId> all_watched_;  // the same without those that a closer look proves
+  std::vector<std::size_t> watched_ends_;
   std::vector<Named> named_;  // by the certificates of the nodes watched last
   std::vector<Named> named_at_start_;
   std::vector<std::uint32_t> per_bead_;  // certificates that name it, while they are counted

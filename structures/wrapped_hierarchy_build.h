@@ -50,6 +50,7 @@ void WrappedHierarchy<M, K, radii>::ask_query() {
     kept_[id] = 1;
     return exact_sphere_of(nodes_[id].basis, balls);
   });
+  sort_kept_nodes();
 }
 
 }  // namespace kds

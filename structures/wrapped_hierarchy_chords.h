@@ -6,30 +6,37 @@
 namespace kds {
 
 template <Motion M, Kernel K, Radii radii>
-void WrappedHierarchy<M, K, radii>::find_chords() {
+void WrappedHierarchy<M, K, radii>::find_doubtful_nodes() {
+  doubtful_.clear();
+  all_beyond_.clear();
+  if constexpr (!prunes) {
+    for (const NodeId id : guarded_) doubtful_.push_back({id, {}, 0});
+    return;
+  }
   struct Waiting {
     std::array<NodeId, Lanes::width> nodes;
+    std::array<BeadRange, Lanes::width> ranges;
     std::array<Basis, Lanes::width> bases;
     std::size_t count = 0;
   };
   std::array<Waiting, full + 1> of_size;
-  const auto find = [this](Waiting& w) {
-    constexpr std::array<Period, Lanes::width> step{};
-    std::array<SphereChord<dimension>, Lanes::width> chords;
-    sphere_chords<dimension>(paths_, std::span(w.bases).first(w.count), step,
-                             std::span(chords).first(w.count));
-    for (std::size_t i = 0; i < w.count; ++i) chords_[w.nodes[i]] = chords[i];
+  FirstLook<dimension> look;
+  const auto look_at = [&](Waiting& w) {
+    look_at_nodes<dimension>(paths_, std::span(w.ranges).first(w.count), std::span(w.bases).first(w.count),
+                             look, all_beyond_);
+    for (std::size_t i = 0; i < w.count; ++i)
+      if (!look.steady[i]) doubtful_.push_back({w.nodes[i], look.chords[i], look.ends[i]});
     w.count = 0;
   };
-  chords_.resize(nodes_.size());
   for (const NodeId id : guarded_) {
     Waiting& w = of_size[nodes_[id].basis.size];
     w.nodes[w.count] = id;
+    w.ranges[w.count] = tree_.range(id);
     w.bases[w.count] = nodes_[id].basis;
-    if (++w.count == Lanes::width) find(w);
+    if (++w.count == Lanes::width) look_at(w);
   }
   for (Waiting& w : of_size)
-    if (w.count > 0) find(w);
+    if (w.count > 0) look_at(w);
 }
 
 /// Sets `beyond_` to what is not proved to stay inside; a bit for each bead of the basis that is proved to
@@ -38,26 +45,37 @@ template <Motion M, Kernel K, Radii radii>
 unsigned WrappedHierarchy<M, K, radii>::find_beads_to_watch(NodeId id) {
   const BeadRange range = tree_.range(id);
   const Basis& basis = nodes_[id].basis;
+  const Period rest = rest_of_step();
+  const SphereChord<dimension>* chord = nullptr;
   if constexpr (prunes) {
-    const Period rest = rest_of_step();
-    const bool never_again = radii == Radii::equal && risen_ != no_bead && simulator_.now().last();
-    const SphereChord<dimension>& chord = latest_chord_.of(paths_, basis, rest);
-    if (chord.proved) {
-      find_beyond(paths_, range, basis, chord, rest.from, beyond_);
-      if (never_again) std::erase(beyond_, risen_);
-      if (!beyond_.empty()) take_out_dipping(paths_, basis, chord, rest, risen_, beyond_);
-      unsigned stays = chord.stays;
-      for (std::size_t place = 0; place < basis.size; ++place)
-        if (basis.beads[place] == risen_) stays |= (never_again ? ~0U : chord.rises) & (1U << place);
-      const std::size_t unproved =
-          beyond_.size() + static_cast<std::size_t>(std::popcount(all_of(basis) & ~stays));
-      return unproved < few ? stays : stays | look_closely(basis, 1);
-    }
+    chord = &latest_chord_.of(paths_, basis, rest);
+    if (chord->proved) find_beyond(paths_, range, basis, *chord, rest.from, beyond_);
   }
-  beyond_.clear();
-  for (BeadId b = range.first; b <= range.last; ++b)
-    if (!basis.contains(b)) beyond_.push_back(b);
-  return prunes ? look_closely(basis, 1) : 0;
+  return take_out_staying(id, chord, rest);
+}
+
+/// Takes out of `beyond_` what more than the chord alone proves to stay inside; the same bits. Where no chord
+/// is proved it sets `beyond_` first.
+template <Motion M, Kernel K, Radii radii>
+unsigned WrappedHierarchy<M, K, radii>::take_out_staying(NodeId id, const SphereChord<dimension>* chord,
+                                                         const Period& rest) {
+  const Basis& basis = nodes_[id].basis;
+  if (chord == nullptr || !chord->proved) {
+    const BeadRange range = tree_.range(id);
+    beyond_.clear();
+    for (BeadId b = range.first; b <= range.last; ++b)
+      if (!basis.contains(b)) beyond_.push_back(b);
+    return prunes ? look_closely(basis, 1) : 0;
+  }
+  const bool never_again = radii == Radii::equal && risen_ != no_bead && simulator_.now().last();
+  if (never_again) std::erase(beyond_, risen_);
+  if (!beyond_.empty()) take_out_dipping(paths_, basis, *chord, rest, risen_, beyond_);
+  unsigned stays = chord->stays;
+  for (std::size_t place = 0; place < basis.size; ++place)
+    if (basis.beads[place] == risen_) stays |= (never_again ? ~0U : chord->rises) & (1U << place);
+  const std::size_t unproved =
+      beyond_.size() + static_cast<std::size_t>(std::popcount(all_of(basis) & ~stays));
+  return unproved < few ? stays : stays | look_closely(basis, 1);
 }
 
 /// The same by the sphere's chords in the quarters of the time until then: a sixteenth as far from it.

@@ -140,7 +140,9 @@ template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::record(NodeId id, const Basis& before) {
   const Basis& after = nodes_[id].basis;
   const auto misses = [](const Basis& basis, const Basis& of) {
-    return std::any_of(of.begin(), of.end(), [&](BeadId b) { return !basis.contains(b); });
+    bool any = false;
+    for (const BeadId b : of) any |= !basis.contains(b);
+    return any;
   };
   const bool entered = misses(before, after);
   const bool left = misses(after, before);

@@ -8,64 +8,91 @@ namespace kds {
 
 template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::list_guarded_nodes() {
-  guarded_.resize(nodes_.size());
-  std::size_t count = 0;
-  for (NodeId id = 0; id < nodes_.size(); ++id) {
-    // Half of all nodes are pairs, and no one foretells which: as few branches on that as may be.
-    const BeadRange& range = tree_.range(id);
-    bool settled = is_pair(id);
+  if constexpr (prunes && radii == Radii::any) paths_.find_apart_from_next(apart_from_next_);
+  guarded_.resize(wide_.size() + pairs_.size());
+  std::copy(wide_.begin(), wide_.end(), guarded_.begin());
+  std::size_t count = wide_.size();
+  for (const NodeId id : pairs_) {
+    const BeadId first = tree_.range(id).first, last = first + 1;
+    bool settled = nodes_[id].basis.size == 2;
     if constexpr (radii == Radii::equal) {
-      settled &= motion_.coordinate(range.first, 0, 0) != motion_.coordinate(range.last, 0, 0);
+      const auto x = [this](BeadId b) {
+        return prunes ? paths_.column(0, 0)[b] : motion_.coordinate(b, 0, 0);
+      };
+      settled &= x(first) != x(last);
     } else {
-      settled = prunes && settled && paths_.are_apart(range.first, range.last);
+      settled &= prunes && apart_from_next_[first] != 0;
     }
     guarded_[count] = id;
-    count += keeps(id) & !settled ? 1 : 0;
+    count += settled ? 0 : 1;
   }
   guarded_.resize(count);
+}
+
+/// Half of all nodes are pairs.
+template <Motion M, Kernel K, Radii radii>
+void WrappedHierarchy<M, K, radii>::sort_kept_nodes() {
+  wide_.clear();
+  pairs_.clear();
+  for (NodeId id = 0; id < nodes_.size(); ++id) {
+    const BeadRange& range = tree_.range(id);
+    if (keeps(id)) (range.last - range.first == 1 ? pairs_ : wide_).push_back(id);
+  }
+}
+
+template <Motion M, Kernel K, Radii radii>
+bool WrappedHierarchy<M, K, radii>::is_proper_at_start(const Basis& basis) const {
+  std::array<std::array<double, dimension>, full> centers;
+  std::array<double, full> own_radii;
+  for (std::size_t i = 0; i < basis.size; ++i) {
+    for (int axis = 0; axis < dimension; ++axis)
+      centers[i][static_cast<std::size_t>(axis)] = motion_.coordinate(basis.beads[i], 0, axis);
+    own_radii[i] = motion_.radius(basis.beads[i], 0);
+  }
+  return is_certainly_proper<dimension>(std::span(centers).first(basis.size),
+                                        std::span(own_radii).first(basis.size));
 }
 
 template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::watch_all_nodes() {
   amiss_.assign(nodes_.size(), Amiss::no);
-  std::optional<Balls> balls;
-  std::vector<std::size_t>& ends = beyond_ends_;  // of the nodes in all_beyond_
-  ends.clear();
-  all_beyond_.clear();
+  watched_ends_.clear();
+  all_watched_.clear();
   named_.clear();
-  for (const NodeId id : guarded_) {
+  std::size_t begin = 0;
+  for (const Doubtful& doubtful : doubtful_) {
+    const NodeId id = doubtful.node;
     const Basis& basis = nodes_[id].basis;
-    bool proper = radii == Radii::equal;
-    if constexpr (prunes) {
-      const SphereChord<dimension>& chord = chords_[id];
-      latest_chord_.keep(basis, {}, chord);
-      proper |= chord.proved && chord.stays == all_of(basis);
-    }
+    const SphereChord<dimension>& chord = doubtful.chord;
+    beyond_.assign(all_beyond_.begin() + static_cast<std::ptrdiff_t>(begin),
+                   all_beyond_.begin() + static_cast<std::ptrdiff_t>(doubtful.end));
+    begin = doubtful.end;
+    bool proper = radii == Radii::equal || (chord.proved && chord.stays == all_of(basis));
     if (!proper) {
       // Balls that are not independent need not have a sphere.
-      if (!balls) balls = balls_at_start();
-      proper = is_certainly_proper(*balls, basis);
+      proper = is_proper_at_start(basis);
     }
     if (!proper) {
       amiss_[id] = Amiss::improper;
     } else if (is_one_bead(id)) {
       amiss_[id] = Amiss::violated;
     } else if (!is_lone_pair(id)) {
-      enqueue_basis(id, find_beads_to_watch(id));
-      all_beyond_.insert(all_beyond_.end(), beyond_.begin(), beyond_.end());
+      enqueue_basis(id, take_out_staying(id, &chord, {}));
+      all_watched_.insert(all_watched_.end(), beyond_.begin(), beyond_.end());
     }
-    ends.push_back(all_beyond_.size());
+    watched_ends_.push_back(all_watched_.size());
   }
   const auto report = [this](NodeId id, BeadId) { amiss_[id] = Amiss::violated; };
   watch_enqueued(false, report);
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < guarded_.size(); ++i) {
-    const auto beyond = std::span(all_beyond_).subspan(begin, ends[i] - begin);
-    begin = ends[i];
-    if (beyond.empty() || amiss_[guarded_[i]] != Amiss::no) continue;
+  begin = 0;
+  for (std::size_t i = 0; i < doubtful_.size(); ++i) {
+    const NodeId id = doubtful_[i].node;
+    const auto beyond = std::span(all_watched_).subspan(begin, watched_ends_[i] - begin);
+    begin = watched_ends_[i];
+    if (beyond.empty() || amiss_[id] != Amiss::no) continue;
     beyond_.assign(beyond.begin(), beyond.end());
-    take_out_later(guarded_[i]);
-    enqueue_beyond(guarded_[i], beyond_);
+    take_out_later(id);
+    enqueue_beyond(id, beyond_);
   }
   watch_enqueued(true, report);
 }
@@ -73,14 +100,14 @@ void WrappedHierarchy<M, K, radii>::watch_all_nodes() {
 template <Motion M, Kernel K, Radii radii>
 void WrappedHierarchy<M, K, radii>::start_step() {
   if (query_) ask_query();
-  for (const NodeId id : guarded_) {  // no others held any
-    nodes_[id].held = none;
-    nodes_[id].never_failing = 0;
+  for (const Doubtful& doubtful : doubtful_) {  // no others held any
+    nodes_[doubtful.node].held = none;
+    nodes_[doubtful.node].never_failing = 0;
   }
   held_.clear();
   free_.clear();
   if constexpr (prunes) {
-    paths_.set(motion_);
+    paths_.template set<radii == Radii::equal>(motion_);
     crossings_.forget();
     latest_chord_.forget();
   }
@@ -88,15 +115,19 @@ void WrappedHierarchy<M, K, radii>::start_step() {
   if constexpr (prunes) {
     resting_.take_out_resting(paths_, guarded_,
                               [this](NodeId id) -> const Basis& { return nodes_[id].basis; });
-    find_chords();
   }
+  find_doubtful_nodes();
   watch_all_nodes();
   std::vector<Named>& named = named_at_start_;
   named.clear();
   for (const Named& one : named_)
     if (amiss_[one.node] == Amiss::no) named.push_back(one);
-  for (const NodeId id : guarded_) {
-    if (amiss_[id] == Amiss::no) continue;
+  std::vector<NodeId>& repaired = guarded_;  // in order, as changes are recorded
+  repaired.clear();
+  for (const Doubtful& doubtful : doubtful_)
+    if (amiss_[doubtful.node] != Amiss::no) repaired.push_back(doubtful.node);
+  std::sort(repaired.begin(), repaired.end());
+  for (const NodeId id : repaired) {
     const Basis before = nodes_[id].basis;
     drop_node(id);
     if (amiss_[id] == Amiss::improper) static_cast<void>(repair(id, no_bead));

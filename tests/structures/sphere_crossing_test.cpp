@@ -23,7 +23,7 @@ namespace {
 using namespace test;
 
 struct Tally {
-  int asked = 0, never = 0, later = 0, never_again = 0, again = 0;
+  int asked = 0, never = 0, later = 0, never_again = 0, again = 0, signs = 0;
 };
 
 /// Calls `visit` with the certificate, if it is a radical one.
@@ -85,6 +85,32 @@ void judge(const M& motion, const BeadPaths<M::dimension>& paths, const Basis& b
   });
 }
 
+/// The signs that are claimed at four times, each the start of a period in which the sphere is known.
+template <class M>
+void judge_signs(Random& random, const M& motion, const BeadPaths<M::dimension>& paths, const Basis& basis,
+                 BeadId bead, double from, Tally& tally) {
+  std::array<double, 4> times{};
+  std::array<Period, 4> periods;
+  for (std::size_t i = 0; i < 4; ++i) {
+    times[i] = i == 0 ? from : uniform(random, from, 1);
+    periods[i] = {times[i], std::min(1.0, times[i] + 0x1p-20)};
+  }
+  SphereMotion<M::dimension> sphere;
+  find_motion(paths, basis, periods, sphere);
+  GapsAt at;
+  find_gaps_at(paths, basis, bead, 1, times, at);
+  for (std::size_t i = 0; i < 4; ++i) {
+    if ((sphere.proved & at.proved & 1U << i) == 0 || !(std::abs(at.value[i]) > at.loss[i])) continue;
+    const Instant now(times[i]);
+    visit_radical(motion, basis, bead, true, now, [&](const auto& certificate) {
+      StageCounts stages;
+      ++tally.signs;
+      EXPECT_EQ(at.value[i] > 0 ? 1 : -1, (sign_now<Exact>(certificate, motion, now, stages)))
+          << "bead " << bead << " at " << times[i];
+    });
+  }
+}
+
 template <class M>
 void judge_all(unsigned seed, MotionKind kind, int exponent, Tally& tally) {
   SCOPED_TRACE(testing::Message() << "seed " << seed << ", kind " << static_cast<int>(kind));
@@ -113,6 +139,7 @@ void judge_all(unsigned seed, MotionKind kind, int exponent, Tally& tally) {
   for (BeadId b = 0; b < count; ++b) {
     if (!basis.contains(b)) {
       judge(motion, paths, basis, b, true, from, tally);
+      judge_signs(random, motion, paths, basis, b, from, tally);
     } else if (basis.size > 2) {
       judge(motion, paths, without(basis, b), b, false, from, tally);
     }
@@ -132,6 +159,7 @@ TEST(SphereCrossing, IsWhenRadicalCertificatesFail) {
     EXPECT_GT(tally.later, 50);
     EXPECT_GT(tally.never_again, 25);
     EXPECT_GT(tally.again, 2);
+    EXPECT_GT(tally.signs, 500);
   }
 }
 
@@ -206,6 +234,14 @@ TEST(SphereCrossing, SignsOfAFastBall) {
         if (!(std::abs(gap) > gaps.loss_at_ends[0])) continue;
         ++claimed;
         ASSERT_EQ(gap > 0 ? 1 : -1, -sign_of_gap(e == 0 ? from : to)) << from_x << ' ' << to_x << ' ' << from;
+      }
+      const std::array<double, 4> times{from, to, root, root + 0x1p-45};
+      GapsAt at;
+      find_gaps_at(paths, Basis(std::array<BeadId, 2>{0, 1}), 2, 1, times, at);
+      for (std::size_t i = 0; i < 4; ++i) {
+        if ((at.proved >> i & 1U) == 0 || !(std::abs(at.value[i]) > at.loss[i])) continue;
+        ASSERT_EQ(at.value[i] > 0 ? 1 : -1, sign_of_gap(times[i]))
+            << from_x << ' ' << to_x << ' ' << times[i];
       }
     }
     // Slow ones are known at some ends, fast ones of all that far away.
