@@ -137,6 +137,7 @@ class PowerDiagram final : public KineticStructure {
   void move_only(std::vector<char> moving) {
     moving_ = std::move(moving);
     flipped_.clear();
+    ends_positive_.clear();  // steps of other beads end elsewhere
     if (!moving_.empty()) tolerances_.forget_all();
   }
   /// Cells that flips made since then, some more than once, some gone again.
