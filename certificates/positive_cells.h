@@ -198,16 +198,16 @@ template <Motion M>
 
 /// The first four alone, with all beads beyond them.
 template <Motion M>
-[[KDS_LANES_TARGETS]] void four_positive_cells(const M& motion, const CellsInLanes<M>& cells,
-                                               const LengthUnit& unit, PositiveBits& positive) {
+[[KDS_FLOAT_LANES_TARGETS]] void four_positive_cells(const M& motion, const CellsInLanes<M>& cells,
+                                                     const LengthUnit& unit, PositiveBits& positive) {
   detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, 0, M::dimension + 1, unit, positive);
 }
 
 /// Eight at once: for processors with vectors as long as that, on others slower than four.
 template <Motion M>
-[[KDS_LANES_TARGETS]] void positive_cells_at_once(const M& motion, const CellsInLanes<M>& cells,
-                                                  std::size_t beyond, const LengthUnit& unit,
-                                                  PositiveBits& positive) {
+[[KDS_FLOAT_LANES_TARGETS]] void positive_cells_at_once(const M& motion, const CellsInLanes<M>& cells,
+                                                        std::size_t beyond, const LengthUnit& unit,
+                                                        PositiveBits& positive) {
   detail::find_positive_cells<FloatLanes>(motion, cells, 0, beyond, unit, positive);
 }
 
