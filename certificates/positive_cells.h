@@ -1,7 +1,8 @@
 #pragma once
 // Which power tests of a cell's beads and the beads beyond its facets are positive all over a step, by their
 // Bernstein coefficients in float: eight cells at once (four where the processor has no AVX2), and what the
-// tests of a cell share is worked out once. What is not found positive is not known. No allocation.
+// tests of a cell share is worked out once. Part of that is the cell's orientation: whether it is positive
+// where the step ends comes with it. What is not found positive is not known. No allocation.
 //
 // The bound of the errors. Let m be the largest difference in a row of the determinant, rounded to float, M
 // the largest of all rows, and weights differ by no more than m^2. Any number computed on the way has from
@@ -12,6 +13,7 @@
 // least 2^-60, in the unit of length that the caller chose: then nothing overflows, and Q >= 2^-60 / M^4 >=
 // 2^-100, so that what an operation that underflows errs more, 2^-150, is less than 2^-25 of the roundoff
 // 2^-24 Q it is charged with anyway. The constants are inflated by 2^-8, for that and for the comparison.
+// The orientation knows no lifts: the product of its own three (two) m is its Q, and claimed likewise.
 
 #include <array>
 #include <cstddef>
@@ -35,16 +37,24 @@ template <class View, class RowOf>
   }
 }
 
+template <std::size_t Coefficients>
+struct FloatPowerBound {
+  std::array<float, Coefficients> coefficient;
+  float orientation_at_end;
+};
+
 template <Motion M>
 auto derive_float_power_bound() {
   constexpr double inflation = 1 + 0x1p-8;
   using View = MagnitudeViewOf<M, MagnitudeIn<24>>;
   const PowerRow<View> row(View(), 1, 0);
-  const auto magnitudes = power_cofactors<View>([&](std::size_t) { return row; }).with(row);
-  std::array<float, decltype(magnitudes)::degree + 1> coefficient{};
-  for (std::size_t k = 0; k < coefficient.size(); ++k)
-    coefficient[k] = static_cast<float>(magnitudes.scaled[k].error * inflation);
-  return coefficient;
+  const auto cofactors = power_cofactors<View>([&](std::size_t) { return row; });
+  const auto magnitudes = cofactors.with(row);
+  FloatPowerBound<decltype(magnitudes)::degree + 1> bound{};
+  for (std::size_t k = 0; k < bound.coefficient.size(); ++k)
+    bound.coefficient[k] = static_cast<float>(magnitudes.scaled[k].error * inflation);
+  bound.orientation_at_end = static_cast<float>(cofactors.lift.scaled.back().error * inflation);
+  return bound;
 }
 
 template <Motion M>
@@ -68,6 +78,12 @@ class RowSizes {
         weights_small_ & (largest_ <= FloatLanes(0x1p10F)) & (scale >= FloatLanes(0x1p-60F));
     return proved ? scale.v : FloatLanes(__builtin_nanf("")).v;
   }
+  /// The same of what no lift enters: the product alone.
+  [[nodiscard, gnu::always_inline]] FloatLanes error_scale_without_lift() const {
+    const typename FloatLanes::Mask proved =
+        (largest_ <= FloatLanes(0x1p10F)) & (product_ >= FloatLanes(0x1p-60F));
+    return proved ? product_.v : FloatLanes(__builtin_nanf("")).v;
+  }
 
  private:
   FloatLanes product_{1.0F}, largest_{0.0F};
@@ -76,21 +92,66 @@ class RowSizes {
 
 }  // namespace detail
 
-/// Eight cells: the beads of each, then those beyond its facets, in the order of the beads opposite.
+/// Eight cells: the beads of each, then beads beyond facets of it.
 template <Motion M>
 using CellsInLanes = std::array<std::array<BeadId, 2 * (M::dimension + 1)>, FloatLanes::width>;
 
-/// Of each cell one bit a facet: whether its power test, of the cell and the bead beyond, is certainly
-/// positive.
+/// Of each cell one bit for each bead beyond, in that order: whether the power test of the cell and that bead
+/// is certainly positive. And one more, whether the cell certainly is where the step ends.
 using PositiveBits = std::array<std::uint32_t, FloatLanes::width>;
+template <Motion M>
+inline constexpr unsigned positive_at_end = 2U << M::dimension;
 
 namespace detail {
 
-/// As many cells from the first on as there are lanes.
+/// A motion's end, as one that stands still.
+template <Motion M>
+class AtEnd {
+ public:
+  static constexpr int dimension = M::dimension;
+  static constexpr int degree = 0;
+  explicit AtEnd(const M& motion) : motion_(motion) {}
+  [[nodiscard]] std::size_t bead_count() const { return motion_.bead_count(); }
+  [[nodiscard]] double coordinate(BeadId bead, int, int axis) const {
+    return motion_.coordinate(bead, M::degree, axis);
+  }
+  [[nodiscard]] double weight(BeadId bead, int) const { return motion_.weight(bead, M::degree); }
+  [[nodiscard]] const double* control_point(BeadId bead, int) const {
+    return motion_.control_point(bead, M::degree);
+  }
+  [[nodiscard]] double radius(BeadId bead, int) const { return motion_.radius(bead, M::degree); }
+
+ private:
+  const M& motion_;
+};
+
+/// The same of no beads beyond.
+template <class FloatLanes, Motion M>
+[[gnu::always_inline]] inline void find_positive_at_end(const M& motion, const CellsInLanes<M>& all_cells,
+                                                        std::size_t first, const LengthUnit& unit,
+                                                        PositiveBits& positive) {
+  using View = FloatLanesView<AtEnd<M>, FloatLanes>;
+  const AtEnd<M> end(motion);
+  RowSizes<FloatLanes> sizes;
+  const auto cofactors = power_cofactors<View>([&](std::size_t place) __attribute__((always_inline)) {
+    const View view(end, &all_cells[first], place, unit);
+    const PowerRow<View> row(view, 1, 0);
+    sizes.take(view);
+    return row;
+  });
+  const typename FloatLanes::Mask bits =
+      cofactors.lift.scaled.back() >
+      FloatLanes(float_power_bound<AtEnd<M>>.orientation_at_end) * sizes.error_scale_without_lift();
+  for (std::size_t lane = 0; lane < FloatLanes::width; ++lane)
+    positive[first + lane] = bits[lane] != 0 ? positive_at_end<M> : 0;
+}
+
+/// As many cells from the first on as there are lanes; of each as many beads beyond it.
 template <class FloatLanes, Motion M>
 [[gnu::always_inline]] inline void find_positive_cells(const M& motion, const CellsInLanes<M>& all_cells,
-                                                       std::size_t first, const LengthUnit& unit,
-                                                       PositiveBits& positive) {
+                                                       std::size_t first, std::size_t beyond,
+                                                       const LengthUnit& unit, PositiveBits& positive) {
+  if (beyond == 0) return find_positive_at_end<FloatLanes>(motion, all_cells, first, unit, positive);
   using View = FloatLanesView<M, FloatLanes>;
   constexpr std::size_t vertices = M::dimension + 1;
   const auto& bound = float_power_bound<M>;
@@ -103,9 +164,13 @@ template <class FloatLanes, Motion M>
     return row;
   };
   const auto cofactors = power_cofactors<View>(row_of);
-  typename FloatLanes::Mask bits{};
-  for (std::size_t facet = 0; facet < vertices; ++facet) {
-    const View view(motion, cells, vertices + facet, unit);
+  typename FloatLanes::Mask bits =
+      (cofactors.lift.scaled.back() >
+       FloatLanes(bound.orientation_at_end) * cell_sizes.error_scale_without_lift()) &
+      static_cast<int>(positive_at_end<M>);
+  int bit = 1;
+  for (std::size_t place = vertices; place < vertices + beyond; ++place, bit += bit) {
+    const View view(motion, cells, place, unit);
     const PowerRow<View> row(view, 1, 0);
     const auto function = cofactors.with(row);
     RowSizes<FloatLanes> sizes = cell_sizes;
@@ -113,8 +178,8 @@ template <class FloatLanes, Motion M>
     const FloatLanes scale = sizes.error_scale();
     typename FloatLanes::Mask all = scale >= scale;
     for (std::size_t k = 0; k < function.scaled.size(); ++k)
-      all &= function.scaled[k] > FloatLanes(bound[k]) * scale;
-    bits |= all & (1 << facet);
+      all &= function.scaled[k] > FloatLanes(bound.coefficient[k]) * scale;
+    bits |= all & bit;
   }
   for (std::size_t lane = 0; lane < FloatLanes::width; ++lane)
     positive[first + lane] = static_cast<std::uint32_t>(bits[lane]);
@@ -125,32 +190,36 @@ template <class FloatLanes, Motion M>
 /// On any processor: four at a time.
 template <Motion M>
 [[gnu::flatten, gnu::noinline]] void positive_cells_anywhere(const M& motion, const CellsInLanes<M>& cells,
-                                                             const LengthUnit& unit, PositiveBits& positive) {
+                                                             std::size_t beyond, const LengthUnit& unit,
+                                                             PositiveBits& positive) {
   for (std::size_t first = 0; first < FloatLanes::width; first += 4)
-    detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, first, unit, positive);
+    detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, first, beyond, unit, positive);
 }
 
-/// The first four alone.
+/// The first four alone, with all beads beyond them.
 template <Motion M>
-[[KDS_LANES_TARGETS]] void four_positive_cells(const M& motion, const CellsInLanes<M>& cells,
-                                               const LengthUnit& unit, PositiveBits& positive) {
-  detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, 0, unit, positive);
+[[KDS_FLOAT_LANES_TARGETS]] void four_positive_cells(const M& motion, const CellsInLanes<M>& cells,
+                                                     const LengthUnit& unit, PositiveBits& positive) {
+  detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, 0, M::dimension + 1, unit, positive);
 }
 
 /// Eight at once: for processors with vectors as long as that, on others slower than four.
 template <Motion M>
-[[KDS_LANES_TARGETS]] void positive_cells_at_once(const M& motion, const CellsInLanes<M>& cells,
-                                                  const LengthUnit& unit, PositiveBits& positive) {
-  detail::find_positive_cells<FloatLanes>(motion, cells, 0, unit, positive);
+[[KDS_FLOAT_LANES_TARGETS]] void positive_cells_at_once(const M& motion, const CellsInLanes<M>& cells,
+                                                        std::size_t beyond, const LengthUnit& unit,
+                                                        PositiveBits& positive) {
+  detail::find_positive_cells<FloatLanes>(motion, cells, 0, beyond, unit, positive);
 }
 
+/// Of each cell the first `beyond` beads beyond it.
 template <Motion M>
-void positive_cells(const M& motion, const CellsInLanes<M>& cells, const LengthUnit& unit,
+void positive_cells(const M& motion, const CellsInLanes<M>& cells, std::size_t beyond, const LengthUnit& unit,
                     PositiveBits& positive) {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") != 0) return positive_cells_at_once(motion, cells, unit, positive);
+  if (__builtin_cpu_supports("avx2") != 0)
+    return positive_cells_at_once(motion, cells, beyond, unit, positive);
 #endif
-  positive_cells_anywhere(motion, cells, unit, positive);
+  positive_cells_anywhere(motion, cells, beyond, unit, positive);
 }
 
 }  // namespace kds

@@ -5,6 +5,11 @@
 namespace kds {
 
 int FailureOrder::compare_times(ScheduledFailure& a, ScheduledFailure& b) {
+  bool one_function = false;
+  return compare(a, b, one_function);
+}
+
+int FailureOrder::compare(ScheduledFailure& a, ScheduledFailure& b, bool& one_function) {
   if (a.time.upper < b.time.lower) return -1;
   if (b.time.upper < a.time.lower) return 1;
   if (a.tie != 0 && a.tie == b.tie) return 0;
@@ -19,6 +24,7 @@ int FailureOrder::compare_times(ScheduledFailure& a, ScheduledFailure& b) {
     // Both hold until they fail, so both wait for the next descent of one function. (After a touch the same
     // certificate may wait for its next root already.)
     ++counts_.by_identity;
+    one_function = true;
     return 0;
   }
   ++counts_.exact;
@@ -40,7 +46,10 @@ int FailureOrder::compare_times(ScheduledFailure& a, ScheduledFailure& b) {
 }
 
 bool FailureOrder::before_closely(ScheduledFailure& a, ScheduledFailure& b) {
-  if (const int order = compare_times(a, b)) return order < 0;
+  bool one_function = false;
+  if (const int order = compare(a, b, one_function)) return order < 0;
+  // The facets of one event come together in the queue: as often as not these are two of them.
+  if (one_function) return a.source->place(a.slot) < b.source->place(b.slot);
   const auto key = [](const ScheduledFailure& f) {
     return std::tuple(f.source->identity(f.slot), f.source->place(f.slot));
   };

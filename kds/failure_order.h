@@ -59,6 +59,8 @@ class FailureOrder {
 
  private:
   [[nodiscard]] bool before_closely(ScheduledFailure& a, ScheduledFailure& b);
+  /// `one_function` becomes true if they are at the same time for being of one function.
+  [[nodiscard]] int compare(ScheduledFailure& a, ScheduledFailure& b, bool& one_function);
 
   ComparisonCounts counts_;
   std::uint32_t next_tie_ = 1;

@@ -8,6 +8,15 @@
 
 #include "motions/lanes.h"
 
+// As KDS_LANES_TARGETS, and once more for processors with twice as many registers: formulas of many numbers
+// keep more of them there. The same bits again.
+#if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define KDS_FLOAT_LANES_TARGETS \
+  gnu::target_clones("arch=x86-64-v4", "avx2", "default"), gnu::flatten, gnu::noinline
+#else
+#define KDS_FLOAT_LANES_TARGETS gnu::noinline
+#endif
+
 namespace kds {
 
 namespace detail {

@@ -118,15 +118,18 @@ template <int Dimension, class Cells>
 
 }  // namespace detail
 
-/// The least sign of a finite cell's orientation: 1, or 0 for a flat, -1 for an inverted one.
+/// The least sign of a finite cell's orientation: 1, or 0 for a flat, -1 for an inverted one. Cells marked
+/// are known to be positive there; those beyond the marks are not.
 template <int Dimension>
 [[nodiscard]] int least_orientation(const RegularTriangulation<Dimension>& triangulation,
-                                    const Placement<Dimension>& placement) {
+                                    const Placement<Dimension>& placement,
+                                    std::span<const std::uint8_t> known_positive = {}) {
   int least = 1;
   const auto fails = [&](CellId, int sign) { least = std::min(least, sign); };
   detail::FourPlaced<Orientation<Dimension>, Dimension> orientations(placement);
   const auto all = triangulation.cells();
   for (CellId cell = 0; cell < all.size(); ++cell) {
+    if (cell < known_positive.size() && known_positive[cell] != 0) continue;
     const CellBeads<Dimension>& v = all[cell].vertex;
     if (triangulation.is_live(cell) && std::find(v.begin(), v.end(), infinite_bead) == v.end())
       orientations.test(v, cell, fails);

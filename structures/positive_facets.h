@@ -1,7 +1,8 @@
 #pragma once
 // Facets whose power test is positive all over a step, as in most steps most are: they are looked at as they
 // lie in the cells, in lanes (certificates/positive_cells.h), without a certificate made for each. What is
-// not found positive here is for the certificates.
+// not found positive here is for the certificates. Cells that are found positive where the step ends are
+// told as well: they need not be looked at again there.
 
 #include <algorithm>
 #include <array>
@@ -31,12 +32,12 @@ template <int Dimension>
 template <int Dimension>
 [[nodiscard]] unsigned finite_facets(const TriangulationCell<Dimension>& cell) {
   unsigned facets = 0;
-  bool finite = true;
+  unsigned finite = 1;
   for (std::size_t i = 0; i <= Dimension; ++i) {
-    finite &= cell.vertex[i] != infinite_bead;
+    finite &= cell.vertex[i] != infinite_bead ? 1U : 0U;
     facets |= (cell.apex[i] != infinite_bead ? 1U : 0U) << i;
   }
-  return finite ? facets : 0;
+  return facets & (0U - finite);
 }
 
 /// Each facet is looked at from one of its two cells, and from few cells, as a cell costs more than a facet:
@@ -55,9 +56,9 @@ class FacetCover {
       left_before |= left;
       facets |= (left | (id < other ? 1U : 0U)) << i;
     }
-    const bool leave = may_be_left && left_before == 0;
-    left_out_[id] = leave ? 1 : 0;
-    return leave ? 0 : facets;
+    const unsigned leave = (may_be_left ? 1U : 0U) & (left_before == 0 ? 1U : 0U);  // no branch
+    left_out_[id] = static_cast<std::uint8_t>(leave);
+    return facets & (leave - 1);
   }
 
  private:
@@ -92,8 +93,35 @@ template <Motion M>
 /// Processors to look for: the best there is, or what any has.
 enum class Processor : std::uint8_t { best, any };
 
-/// As the certificates want them: the beads of a cell, then those beyond its facets. Where there is none a
-/// bead of the cell serves.
+/// Of each set of facets of a cell, one bit each, those facets in order, two bits each.
+inline constexpr auto facet_orders = [] {
+  std::array<std::uint8_t, 16> orders{};
+  for (unsigned facets = 0; facets < orders.size(); ++facets) {
+    unsigned place = 0;
+    for (unsigned i = 0; i < 4; ++i) {
+      if ((facets >> i & 1U) == 0) continue;
+      orders[facets] = static_cast<std::uint8_t>(orders[facets] | i << (2 * place));
+      ++place;
+    }
+  }
+  return orders;
+}();
+[[nodiscard]] inline int facet_at(unsigned facets, int place) {
+  return static_cast<int>(facet_orders[facets] >> (2 * place) & 3U);
+}
+
+/// As the certificates want them: the beads of a cell, then those beyond its wanted facets, in order.
+template <int Dimension>
+void put_in_lane(const TriangulationCell<Dimension>& cell, unsigned wanted,
+                 std::array<BeadId, 2 * (static_cast<std::size_t>(Dimension) + 1)>& beads) {
+  for (std::size_t i = 0; i <= Dimension; ++i) {
+    beads[i] = cell.vertex[i];
+    // No branch: no one foretells which are wanted. What comes after them is not asked for.
+    beads[Dimension + 1 + i] = cell.apex[static_cast<std::size_t>(facet_at(wanted, static_cast<int>(i)))];
+  }
+}
+
+/// The same of all facets, in their order. Where there is no bead beyond, one of the cell serves.
 template <int Dimension>
 void put_in_lane(const TriangulationCell<Dimension>& cell,
                  std::array<BeadId, 2 * (static_cast<std::size_t>(Dimension) + 1)>& beads) {
@@ -103,27 +131,34 @@ void put_in_lane(const TriangulationCell<Dimension>& cell,
   }
 }
 
-/// The cells that an event made, up to four: of each the facets that are found positive, one bit each.
+/// The cells that an event made, up to four: of each the facets that are found positive, one bit each, and
+/// whether it is positive at the end.
 inline constexpr std::size_t few_cells = 4;
-template <Motion M>
-[[nodiscard]] std::array<unsigned, few_cells> positive_facets_of_few(
-    const M& motion, const LengthUnit& unit, std::span<const TriangulationCell<M::dimension>> cells,
-    std::span<const CellId> few) {
+struct FewPositive {
   std::array<unsigned, few_cells> facets{};
+  std::array<bool, few_cells> at_end{};
+};
+template <Motion M>
+[[nodiscard]] FewPositive positive_facets_of_few(const M& motion, const LengthUnit& unit,
+                                                 std::span<const TriangulationCell<M::dimension>> cells,
+                                                 std::span<const CellId> few) {
+  FewPositive found;
   CellsInLanes<M> beads;
   std::size_t finite = 0;
   for (std::size_t n = 0; n < few.size(); ++n) {
-    facets[n] = finite_facets(cells[few[n]]);
-    if (facets[n] != 0) put_in_lane(cells[few[n]], beads[finite++]);
+    found.facets[n] = finite_facets(cells[few[n]]);
+    if (found.facets[n] != 0) put_in_lane(cells[few[n]], beads[finite++]);
   }
-  if (finite == 0) return facets;
+  if (finite == 0) return found;
   for (std::size_t lane = finite; lane < few_cells; ++lane) beads[lane] = beads[0];
   PositiveBits positive;
   four_positive_cells(motion, beads, unit, positive);
   for (std::size_t n = 0, lane = 0; n < few.size(); ++n) {
-    if (facets[n] != 0) facets[n] &= positive[lane++];
+    if (found.facets[n] == 0) continue;
+    found.at_end[n] = (positive[lane] & positive_at_end<M>) != 0;
+    found.facets[n] &= positive[lane++];
   }
-  return facets;
+  return found;
 }
 
 template <Motion M, Processor processor = Processor::best>
@@ -134,48 +169,62 @@ class PositiveFacets {
   /// Where lengths are a thousand times as long as the unit or as short, nothing is found.
   PositiveFacets(const M& motion, const LengthUnit& unit) : motion_(motion), unit_(unit) {}
 
-  /// Those facets of a cell, one bit each, that are wanted, of finite_facets. Calls `doubt` with the facets,
-  /// these or earlier ones, that are not found positive.
-  template <class Doubt>
-  void look_at(const TriangulationCell<dimension>& cell, CellId id, unsigned wanted, Doubt doubt) {
-    put_in_lane(cell, beads_[waiting_]);
-    cells_[waiting_] = id;
-    wanted_[waiting_] = wanted;
-    waiting_ += wanted != 0 ? 1 : 0;  // no branch: no one foretells which cells are wanted
-    if (waiting_ == FloatLanes::width) flush(doubt);
+  /// Those facets of a finite cell, one bit each, that are wanted, of finite_facets, or none. Tells `found`
+  /// of this cell or earlier ones: `found.doubt(facet)` of a facet that is not found positive,
+  /// `found.at_end(cell)` of a cell that is, where the step ends.
+  template <class Found>
+  void look_at(const TriangulationCell<dimension>& cell, CellId id, unsigned wanted, Found& found) {
+    const unsigned count = count_of<dimension>(wanted);
+    Batch& batch = batches_[count];  // cells of as many wanted facets: none waits for another's
+    put_in_lane(cell, wanted, batch.beads[batch.waiting]);
+    batch.cells[batch.waiting] = id;
+    batch.wanted[batch.waiting] = wanted;
+    ++batch.waiting;
+    if (batch.waiting == FloatLanes::width) flush(count, found);
   }
-  template <class Doubt>
-  void finish(Doubt doubt) {
-    if (waiting_ == 0) return;
-    for (std::size_t lane = waiting_; lane < FloatLanes::width; ++lane) beads_[lane] = beads_[0];
-    flush(doubt);
+  template <class Found>
+  void finish(Found& found) {
+    for (unsigned count = 0; count < batches_.size(); ++count) {
+      Batch& batch = batches_[count];
+      if (batch.waiting == 0) continue;
+      for (std::size_t lane = batch.waiting; lane < FloatLanes::width; ++lane)
+        batch.beads[lane] = batch.beads[0];
+      flush(count, found);
+    }
   }
   /// How many were found positive.
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
  private:
-  template <class Doubt>
-  void flush(Doubt doubt) {
+  struct Batch {
+    CellsInLanes<M> beads{};
+    std::array<CellId, FloatLanes::width> cells{};
+    std::array<unsigned, FloatLanes::width> wanted{};
+    std::size_t waiting = 0;
+  };
+
+  template <class Found>
+  void flush(unsigned facets, Found& found) {
+    Batch& batch = batches_[facets];
     PositiveBits positive;
     if constexpr (processor == Processor::best) {
-      positive_cells(motion_, beads_, unit_, positive);
+      positive_cells(motion_, batch.beads, facets, unit_, positive);
     } else {
-      positive_cells_anywhere(motion_, beads_, unit_, positive);
+      positive_cells_anywhere(motion_, batch.beads, facets, unit_, positive);
     }
-    for (std::size_t lane = 0; lane < waiting_; ++lane) {
-      count_ += count_of<dimension>(wanted_[lane] & positive[lane]);
-      for (unsigned left = wanted_[lane] & ~positive[lane]; left != 0; left &= left - 1)
-        doubt(facet_id(cells_[lane], std::countr_zero(left)));
+    const unsigned all = (1U << facets) - 1;
+    for (std::size_t lane = 0; lane < batch.waiting; ++lane) {
+      count_ += count_of<dimension>(positive[lane] & all);
+      for (unsigned left = ~positive[lane] & all; left != 0; left &= left - 1)
+        found.doubt(facet_id(batch.cells[lane], facet_at(batch.wanted[lane], std::countr_zero(left))));
+      found.at_end(batch.cells[lane], (positive[lane] & positive_at_end<M>) != 0);
     }
-    waiting_ = 0;
+    batch.waiting = 0;
   }
 
   const M& motion_;
   LengthUnit unit_;
-  CellsInLanes<M> beads_{};
-  std::array<CellId, FloatLanes::width> cells_{};
-  std::array<unsigned, FloatLanes::width> wanted_{};
-  std::size_t waiting_ = 0;
+  std::array<Batch, dimension + 2> batches_;  // by how many facets are wanted of a cell
   std::uint64_t count_ = 0;
 };
 

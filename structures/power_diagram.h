@@ -109,6 +109,7 @@ class PowerDiagram final : public KineticStructure {
     rebuilds_in_step_ = 0;
     coarsest_that_worked_ = coarsest_grid;
     guarded_ = false;  // the guards of the step before are gone
+    ends_positive_.clear();
     hidden_guards_.clear();
     if (affine_dimension_ < dimension || (flat_ && is_wrong_just_after())) {
       rebuild_at_first_time_that_works();
@@ -137,6 +138,7 @@ class PowerDiagram final : public KineticStructure {
   void move_only(std::vector<char> moving) {
     moving_ = std::move(moving);
     flipped_.clear();
+    ends_positive_.clear();  // steps of other beads end elsewhere
     if (!moving_.empty()) tolerances_.forget_all();
   }
   /// Cells that flips made since then, some more than once, some gone again.
@@ -159,7 +161,9 @@ class PowerDiagram final : public KineticStructure {
   [[nodiscard]] CellId some_finite_cell() const;
   /// All beads are where the motion's step ends.
   void reach_frame(bool last) {
-    const int least = least_orientation(triangulation_, triangulation_.set_points(motion_, M::degree));
+    const int least =
+        least_orientation(triangulation_, triangulation_.set_points(motion_, M::degree), ends_positive_);
+    ends_positive_.clear();
     if (least < 0 && !std::same_as<K, Fast>)
       throw std::logic_error("a cell of the power diagram is inverted");
     flat_ = least == 0;
@@ -290,10 +294,16 @@ class PowerDiagram final : public KineticStructure {
   [[nodiscard]] Birth birth_of(const Certificate& certificate) const {
     return certificate.identity() == present_ ? Birth::at_own_root : Birth::unknown;
   }
+  /// What PositiveFacets finds.
+  struct Finding {
+    PowerDiagram& diagram;
+    void doubt(FacetId facet) const { diagram.enqueue(cell_of(facet), index_of(facet)); }
+    void at_end(CellId cell, bool positive) const { diagram.ends_positive_[cell] = positive ? 1 : 0; }
+  };
   /// Facets are guarded together: enqueue some, then watch them.
   void enqueue(CellId cell, int i);
   void enqueue(const FacetCertificates<dimension + 1>& certificates, CellId cell, int i, Birth birth);
-  [[nodiscard]] std::array<unsigned, few_cells> positive_all_over(std::span<const CellId> cells) const;
+  [[nodiscard]] std::array<unsigned, few_cells> positive_all_over(std::span<const CellId> cells);
   void watch_enqueued();
   void hold_inner(CellId cell, int i);
   void watch_cells_beside(CellId cell, int i);
@@ -422,6 +432,9 @@ class PowerDiagram final : public KineticStructure {
   std::vector<CellId> noted_;
   FacetCover cover_;
   LengthUnit unit_;  // near the cells' lengths in this step
+  /// Of each cell whether it is known to be positive where the step ends; fewer than there are cells, or
+  /// none.
+  std::vector<std::uint8_t> ends_positive_;
   FacetTolerances<M> tolerances_;
   std::vector<char> moving_;  // of each bead; empty: all move
   std::vector<CellId> flipped_;

@@ -26,13 +26,14 @@ void PowerDiagram<M, K>::enqueue(const FacetCertificates<dimension + 1>& certifi
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::watch_all() {
   guarded_ = true;
+  ends_positive_.assign(moving_.empty() ? triangulation_.cells().size() : 0, 0);
   unit_ = LengthUnit(exponent_of_length(motion_, triangulation_.cells()));
   if (!moving_.empty()) return watch_moving();
   PositiveFacets<M> positive(motion_, unit_);
-  const auto guard_it = [this](FacetId facet) { enqueue(cell_of(facet), index_of(facet)); };
+  Finding finding{*this};
   const auto cells = triangulation_.cells();
   const auto look_at = [&](CellId cell, unsigned facets, unsigned in_lanes) {
-    if constexpr (std::same_as<K, Filtered>) positive.look_at(cells[cell], cell, facets & in_lanes, guard_it);
+    if (in_lanes != 0) positive.look_at(cells[cell], cell, facets & in_lanes, finding);
     for (unsigned left = facets & ~in_lanes; left != 0; left &= left - 1)
       enqueue(cell, std::countr_zero(left));
   };
@@ -49,16 +50,18 @@ void PowerDiagram<M, K>::watch_all() {
     });
     at_rest = triangulation_.live_count() * (dimension + 1) / 2 - others;
   } else {
+    constexpr std::size_t ahead = 12;
     notes_ = Notes::any;
     cover_.start(cells.size());
     for (CellId cell = 0; cell < cells.size(); ++cell) {
       if (!triangulation_.is_live(cell)) continue;
+      __builtin_prefetch(&cells[cell] + ahead);
       triangulation_.note_all(cell, resting_note);
       const unsigned in_lanes = lanes_of(cell);
       look_at(cell, cover_.facets_of(cells[cell], cell, in_lanes == all_facets<dimension>), in_lanes);
     }
   }
-  if constexpr (std::same_as<K, Filtered>) positive.finish(guard_it);
+  if constexpr (std::same_as<K, Filtered>) positive.finish(finding);
   power_tests_.hold_never(at_rest + positive.count());
   statistics.stages.coefficients += positive.count();
   statistics.stages.tolerance += at_rest;
@@ -169,11 +172,13 @@ void PowerDiagram<M, K>::drop(CellId cell, int i) {
 /// Of each of a few new cells the facets whose power test is known to be positive all over the step, as most
 /// to other cells than these are.
 template <Motion M, Kernel K>
-auto PowerDiagram<M, K>::positive_all_over(std::span<const CellId> cells) const
-    -> std::array<unsigned, few_cells> {
+auto PowerDiagram<M, K>::positive_all_over(std::span<const CellId> cells) -> std::array<unsigned, few_cells> {
+  FewPositive found;
   if constexpr (std::same_as<K, Filtered>)
-    return positive_facets_of_few(motion_, unit_, triangulation_.cells(), cells);
-  return {};
+    found = positive_facets_of_few(motion_, unit_, triangulation_.cells(), cells);
+  grow_little(ends_positive_, triangulation_.cells().size());
+  for (std::size_t c = 0; c < cells.size(); ++c) ends_positive_[cells[c]] = found.at_end[c] ? 1 : 0;
+  return found.facets;
 }
 
 /// Guards all facets of the new cells. Those between two of them, where an event made these, have all of its

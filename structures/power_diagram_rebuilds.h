@@ -57,6 +57,7 @@ void PowerDiagram<M, K>::build_from_control_points(int k) {
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::forget_steps(const StaticTriangulation<dimension>& built) {
   tolerances_.forget_all();
+  ends_positive_.clear();
   notes_ = Notes::any;
   hidden_.assign(motion_.bead_count(), built.hidden);
   affine_dimension_ = built.dimension;
@@ -112,6 +113,7 @@ bool PowerDiagram<M, K>::assign_static(const Dyadic& time) {
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::drop_all() {
   tolerances_.forget_all();  // what follows is another triangulation
+  ends_positive_.clear();
   notes_ = Notes::any;
   if (!guarded_) return;
   for_all_facets([this](CellId cell, int i) { drop(cell, i); });

@@ -125,6 +125,8 @@ void RegularTriangulation<Dimension>::mirror_all() {
   free_.clear();
   for (const auto c : Cgal::Types::all_cells(cgal_->triangulation))
     cgal_->name(c, static_cast<CellId>(cgal_->cell.size()));
+  cells_.clear();
+  cells_.reserve(cgal_->cell.size() + cgal_->cell.size() / 8 + 16);  // or the first flip moves them all
   cells_.assign(cgal_->cell.size(), {});
   live_.assign(cgal_->cell.size(), 1);
   cgal_->mirror(cgal_->cell, cells_);

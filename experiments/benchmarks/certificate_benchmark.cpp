@@ -192,11 +192,14 @@ void settle_in_cells(Turns& turns, const M& motion) {
       [&] {
         cover.start(cells.size());
         PositiveFacets<M, processor> facets(motion, LengthUnit(exponent_of_length(motion, cells)));
-        const auto leave = [](FacetId) {};
+        struct {
+          void doubt(FacetId) const {}
+          void at_end(CellId, bool) const {}
+        } leave;
         for (CellId cell = 0; cell < cells.size(); ++cell) {
           const unsigned finite = finite_facets(cells[cell]);
           const unsigned mine = cover.facets_of(cells[cell], cell, finite == all_facets<3>);
-          facets.look_at(cells[cell], cell, mine & finite, leave);
+          if (finite != 0) facets.look_at(cells[cell], cell, mine & finite, leave);
         }
         facets.finish(leave);
         positive = facets.count();

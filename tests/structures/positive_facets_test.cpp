@@ -1,5 +1,5 @@
-// A facet is found positive only where its certificate, judged on integers, never fails; and every facet is
-// looked at once.
+// A facet is found positive only where its certificate, judged on integers, never fails, a cell only where it
+// is, judged on integers; and every facet is looked at once.
 
 #include "structures/positive_facets.h"
 
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "certificates/failure_search.h"
+#include "certificates/orientation.h"
 #include "motions/lifted_motion.h"
 #include "tests/support/random_motion.h"
 
@@ -29,6 +30,21 @@ bool holds(const M& motion, const TriangulationCell<M::dimension>& cell, int fac
   return failure.kind == Failure::Kind::never;
 }
 
+/// On integers, where the step ends.
+template <Motion M>
+bool is_positive_at_end(const M& motion, const TriangulationCell<M::dimension>& cell) {
+  return exact_function(Orientation<M::dimension>(cell.vertex, 1), motion).sign_at(Dyadic(1.0)) > 0;
+}
+
+template <int dimension>
+struct Found {
+  std::set<FacetId> doubts;
+  std::map<CellId, bool> ends;
+
+  void doubt(FacetId facet) { EXPECT_TRUE(doubts.insert(facet).second) << facet; }
+  void at_end(CellId cell, bool positive) { EXPECT_TRUE(ends.emplace(cell, positive).second) << cell; }
+};
+
 /// A cell of the first beads, another beyond each facet, and the same turned over.
 template <int dimension>
 std::array<TriangulationCell<dimension>, 2> cell_both_ways() {
@@ -46,28 +62,44 @@ std::array<TriangulationCell<dimension>, 2> cell_both_ways() {
 template <Motion M>
 void expect_right(const M& motion, std::span<const TriangulationCell<M::dimension>> cells,
                   std::uint64_t& found, int off = 0) {
-  std::set<FacetId> doubts;
-  const auto doubt = [&](FacetId facet) { EXPECT_TRUE(doubts.insert(facet).second); };
+  Found<M::dimension> all, some;
   const LengthUnit unit(exponent_of_length(motion, cells) + off);
   PositiveFacets<M> positive(motion, unit);
-  for (CellId id = 0; id < cells.size(); ++id)
-    positive.look_at(cells[id], id, all_facets<M::dimension>, doubt);
-  positive.finish(doubt);
-  positive.finish(doubt);  // nothing is left
+  for (CellId id = 0; id < cells.size(); ++id) positive.look_at(cells[id], id, all_facets<M::dimension>, all);
+  positive.finish(all);
+  positive.finish(all);  // nothing is left
+  const std::set<FacetId>& doubts = all.doubts;
   EXPECT_EQ(positive.count() + doubts.size(), cells.size() * (M::dimension + 1));
+  EXPECT_EQ(all.ends.size(), cells.size());
   for (CellId id = 0; id < cells.size(); ++id) {
     for (int i = 0; i <= M::dimension; ++i)
       EXPECT_TRUE(doubts.contains(facet_id(id, i)) || holds(motion, cells[id], i)) << id << ' ' << i;
+    EXPECT_TRUE(!all.ends[id] || is_positive_at_end(motion, cells[id])) << id;
   }
   found += positive.count();
+  // Of some facets, or none, the same is found.
+  PositiveFacets<M> positive_of_some(motion, unit);
+  std::vector<unsigned> wanted;
+  for (CellId id = 0; id < cells.size(); ++id) {
+    wanted.push_back((5 * id + cells[0].vertex.size() * found + doubts.size()) & all_facets<M::dimension>);
+    positive_of_some.look_at(cells[id], id, wanted[id], some);
+  }
+  positive_of_some.finish(some);
+  for (CellId id = 0; id < cells.size(); ++id) {
+    for (int i = 0; i <= M::dimension; ++i)
+      EXPECT_EQ(some.doubts.contains(facet_id(id, i)),
+                (wanted[id] >> i & 1U) != 0 && doubts.contains(facet_id(id, i)));
+    EXPECT_TRUE(!some.ends.at(id) || is_positive_at_end(motion, cells[id])) << id;
+  }
   // A few at a time the same are found.
   std::vector<CellId> few;
   for (CellId id = 0; id < cells.size() && id < few_cells; ++id) {
     few.push_back(id);
-    const auto facets = positive_facets_of_few(motion, unit, cells, few);
+    const auto [facets, at_end] = positive_facets_of_few(motion, unit, cells, few);
     for (const CellId cell : few) {
       for (int i = 0; i <= M::dimension; ++i)
         EXPECT_NE((facets[cell] >> i & 1U) != 0, doubts.contains(facet_id(cell, i))) << cell << ' ' << i;
+      EXPECT_TRUE(!at_end[cell] || is_positive_at_end(motion, cells[cell])) << cell;
     }
   }
 }
@@ -281,9 +313,11 @@ TEST(PositiveFacets, AreTheSameOnAnyProcessor) {
       for (BeadId i = 0; i < beads.size(); ++i) beads[i] = (i + static_cast<BeadId>(random() % 8)) % 8;
     }
     PositiveBits best, any;
-    positive_cells(motion, cells, LengthUnit(), best);
-    positive_cells_anywhere(motion, cells, LengthUnit(), any);
-    EXPECT_EQ(best, any);
+    for (std::size_t beyond = 0; beyond <= 4; ++beyond) {
+      positive_cells(motion, cells, beyond, LengthUnit(), best);
+      positive_cells_anywhere(motion, cells, beyond, LengthUnit(), any);
+      EXPECT_EQ(best, any);
+    }
   }
 }
 
@@ -336,7 +370,8 @@ TEST(PositiveFacets, OfAFewAreFinite) {
     const std::array cells{infinite, cell, infinite, beside_infinite};
     const std::array<CellId, 4> few{0, 1, 2, 3};
     const LengthUnit unit(exponent_of_length<M>(motion, cells));
-    const auto facets = positive_facets_of_few<M>(motion, unit, cells, few);
+    const auto [facets, at_end] = positive_facets_of_few<M>(motion, unit, cells, few);
+    EXPECT_FALSE(at_end[0] || at_end[2]);
     EXPECT_EQ(facets[0], 0U);
     EXPECT_EQ(facets[2], 0U);
     EXPECT_EQ(facets[3] & 2U, 0U);
@@ -347,7 +382,7 @@ TEST(PositiveFacets, OfAFewAreFinite) {
         EXPECT_TRUE(holds(motion, cells[id], i));
       }
     }
-    EXPECT_EQ(positive_facets_of_few<M>(motion, unit, cells, std::array<CellId, 1>{0})[0], 0U);
+    EXPECT_EQ(positive_facets_of_few<M>(motion, unit, cells, std::array<CellId, 1>{0}).facets[0], 0U);
   }
   EXPECT_GT(found, 20U);
 }
