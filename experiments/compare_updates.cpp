@@ -209,6 +209,7 @@ std::vector<UpdateRow> compare_updates(const std::vector<Trajectory>& necklaces,
                                        const std::vector<double>& radii, const UpdateOptions& options,
                                        const std::function<void(std::size_t, std::size_t)>& progress) {
   // Before the first long run.
+  Scene(necklaces, radii).require_weights();
   for (const std::size_t stride : options.strides) static_cast<void>(strided(necklaces, stride));
   std::vector<UpdateRow> rows;
   std::size_t done = 0;

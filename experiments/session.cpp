@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "experiments/make_session_of.h"
 #include "motions/elevated_motion.h"
 #include "motions/input_error.h"
@@ -37,6 +39,7 @@ std::unique_ptr<Session> make_session_in(const Scene& scene, const SessionOption
 }  // namespace
 
 std::unique_ptr<Session> make_session(const Scene& scene, const SessionOptions& options) {
+  if (std::ranges::find(options.structures, "power") != options.structures.end()) scene.require_weights();
   if (scene.is_lifted()) {
     return scene.dimension() == 2 ? make_session_of<LiftedMotion<2>>(scene, options)
                                   : make_session_of<LiftedMotion<3>>(scene, options);

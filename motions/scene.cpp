@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "motions/input_error.h"
@@ -132,6 +133,19 @@ Scene::Scene(Instance instance, std::vector<double> radii)
   if (instance_.weighted()) {
     for (std::size_t p = 0; p < points; ++p)
       radii_[p] = std::sqrt(std::max(0.0, instance_.control_point(p, 3, 0)));
+  }
+}
+
+void Scene::require_weights() const {
+  if (!has_radii_ || equal_radii()) return;
+  for (std::size_t bead = 0; bead < radii_.size(); ++bead) {
+    const double radius = radii_[bead];
+    if (radius == 0 || radius * radius >= std::numeric_limits<double>::min()) continue;
+    throw InputError(
+        fmt::format("bead {}: the square of its radius, {}, is too small a number for a power diagram; give "
+                    "all lengths in "
+                    "a smaller unit",
+                    bead, radius));
   }
 }
 

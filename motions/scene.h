@@ -52,6 +52,9 @@ class Scene {
   [[nodiscard]] bool equal_radii() const;
   /// Those of an instance file have weights at most.
   [[nodiscard]] bool has_radii() const { return has_radii_; }
+  /// For what compares weights: throws InputError where a weight, a radius squared, is too small a number to
+  /// be right, unless all are the same.
+  void require_weights() const;
 
   /// Sets the motion of step k, between frames k and k+1. Both frames are met exactly, whatever the kind of
   /// motion. Radii do not change during a step; the points of an instance have none, only weights.

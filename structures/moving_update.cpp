@@ -182,9 +182,10 @@ template <Motion M>
 void MovingDiagram<M>::move_some(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
                                  UpdateCounts& counts) {
   PowerDiagram<M, Filtered>& power = machine_->power;
+  if (!power.is_solid()) return move_all(centers, weights, counts);  // no cells to test, or flat ones
   triangulation().make_mirror();
   const Placement<dimension> next(centers, weights);
-  PlacedFaults faults = power.is_solid() ? placed_faults(triangulation(), next) : PlacedFaults{};
+  PlacedFaults faults = placed_faults(triangulation(), next);
   counts.tested = faults.tested;
   counts.failed = faults.failed();
   std::vector<char> moved(weights.size(), 0), moves(weights.size(), 0);
@@ -192,7 +193,7 @@ void MovingDiagram<M>::move_some(const Eigen::Matrix3Xd& centers, std::span<cons
   hidden_that_show(next, moves);
   const auto count = static_cast<std::size_t>(std::count(moves.begin(), moves.end(), 1));
   // Then hardly any facet would rest.
-  if (!power.is_solid() || 4 * count > 3 * weights.size()) return move_all(centers, weights, counts);
+  if (4 * count > 3 * weights.size()) return move_all(centers, weights, counts);
 
   for (BeadId b = 0; b < weights.size(); ++b) rest_at_end(b);
   while (true) {

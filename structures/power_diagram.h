@@ -111,14 +111,14 @@ class PowerDiagram final : public KineticStructure {
     guarded_ = false;  // the guards of the step before are gone
     ends_positive_.clear();
     hidden_guards_.clear();
-    if (affine_dimension_ < dimension || (flat_ && is_wrong_just_after())) {
-      rebuild_at_first_time_that_works();
-    } else {
+    if (affine_dimension_ == dimension && !(flat_ && is_wrong_just_after())) {
       watch_all();
+    } else if (!try_to_rebuild()) {
+      build_from_control_points(0);  // all beads stay in one plane, or on one line: no cells, no events
     }
     flat_ = false;
     within_step_ = moving_.empty();
-    if (within_step_) count_certificates_per_bead();
+    if (within_step_ && affine_dimension_ == dimension) count_certificates_per_bead();
   }
 
   void fail(unsigned table, std::uint32_t slot) override;
@@ -129,6 +129,7 @@ class PowerDiagram final : public KineticStructure {
   void finish_step(bool last) override {
     within_step_ = false;
     if (moving_.empty()) reach_frame(last);
+    if (last && !has_had_cells_) refuse_flat();
   }
 
   // Steps that bring but a part of the beads to the next frame (diagram_update.h).
@@ -161,6 +162,11 @@ class PowerDiagram final : public KineticStructure {
   [[nodiscard]] CellId some_finite_cell() const;
   /// All beads are where the motion's step ends.
   void reach_frame(bool last) {
+    if (affine_dimension_ < dimension) {
+      build_from_control_points(M::degree);
+      ++statistics.rebuilds;
+      return;
+    }
     const int least =
         least_orientation(triangulation_, triangulation_.set_points(motion_, M::degree), ends_positive_);
     ends_positive_.clear();
@@ -249,6 +255,9 @@ class PowerDiagram final : public KineticStructure {
   bool assign_static(const Dyadic& time);
   /// Rebuilds at the first time on ever finer grids after now before which nothing fails.
   void rebuild_at_first_time_that_works();
+  /// False, and no cells, where all beads stay in one plane or on one line.
+  [[nodiscard]] bool try_to_rebuild();
+  [[noreturn]] void refuse_flat() const;
   /// `fast`: rebuilds near now from doubles, a few times a step; what is violated then stays so.
   void rebuild_roughly();
   void drop_all();
@@ -442,7 +451,8 @@ class PowerDiagram final : public KineticStructure {
   std::vector<Guards> hidden_guards_;  // of each bead, if any is hidden
   std::vector<BeadId> displaced_;
   int affine_dimension_ = dimension;  // of the beads; below, no cells
-  bool flat_ = false;                 // some cell is flat at the frame just reached
+  bool has_had_cells_ = false;
+  bool flat_ = false;  // some cell is flat at the frame just reached
   int rebuilds_in_step_ = 0;
   unsigned coarsest_that_worked_ = coarsest_grid;  // in this step: blocked flips come in crowds
   Doubt doubt_ = Doubt::none;

@@ -72,6 +72,7 @@ template <Motion M, Kernel K>
 Dyadic PowerDiagram<M, K>::time_of_edit() const {
   if (!within_step_ || !simulator_.now().exact().is_dyadic())
     throw std::invalid_argument("the diagram can be edited only within a step, between events");
+  if (affine_dimension_ < dimension) refuse_flat();
   return simulator_.now().exact().lower();
 }
 

@@ -61,6 +61,7 @@ void PowerDiagram<M, K>::forget_steps(const StaticTriangulation<dimension>& buil
   notes_ = Notes::any;
   hidden_.assign(motion_.bead_count(), built.hidden);
   affine_dimension_ = built.dimension;
+  has_had_cells_ |= built.dimension == dimension;
   flat_ = false;
 }
 
@@ -105,6 +106,7 @@ bool PowerDiagram<M, K>::assign_static(const Dyadic& time) {
   const auto built = exact_static(time, true);
   if (built.dimension < dimension) return false;
   affine_dimension_ = dimension;
+  has_had_cells_ = true;
   hidden_.assign(motion_.bead_count(), built.hidden);
   triangulation_.assign(motion_.bead_count(), built.cells);
   return true;
@@ -166,7 +168,7 @@ bool PowerDiagram<M, K>::nothing_fails_until(const Dyadic& time) {
 }
 
 template <Motion M, Kernel K>
-void PowerDiagram<M, K>::rebuild_at_first_time_that_works() {
+bool PowerDiagram<M, K>::try_to_rebuild() {
   drop_all();
   present_ = {};
   bool always_flat = true;
@@ -181,21 +183,32 @@ void PowerDiagram<M, K>::rebuild_at_first_time_that_works() {
       settled();
       coarsest_that_worked_ = bits;
       record_rebuild(time);
-      return;
+      return true;
     }
     drop_all();
   }
   settled();
-  if (always_flat) {
-    throw InputError(
-        std::string("all beads stay ") + (dimension == 3 ? "in one plane" : "on one line") + " in step " +
-        std::to_string(simulator_.step()) + "; the power diagram " +
-        (dimension == 3 ? "in space needs four that do not" : "in the plane needs three that do not"));
+  if (always_flat) return false;
+  if constexpr (std::same_as<K, Fast>) {  // doubles contradict themselves
+    rebuild_roughly();
+    return true;
   }
-  if constexpr (std::same_as<K, Fast>) return rebuild_roughly();  // doubles contradict themselves
   throw InputError("step " + std::to_string(simulator_.step()) + " at u = " +
                    std::to_string(simulator_.now().upper()) + ": events of the power diagram within 2^-" +
                    std::to_string(finest_grid) + " of the step, closer than it can be rebuilt between");
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::rebuild_at_first_time_that_works() {
+  if (!try_to_rebuild()) refuse_flat();
+}
+
+template <Motion M, Kernel K>
+void PowerDiagram<M, K>::refuse_flat() const {
+  throw InputError(
+      std::string("all beads stay ") + (dimension == 3 ? "in one plane" : "on one line") + " in step " +
+      std::to_string(simulator_.step()) + "; the power diagram " +
+      (dimension == 3 ? "in space needs four that do not" : "in the plane needs three that do not"));
 }
 
 template <Motion M, Kernel K>

@@ -250,5 +250,23 @@ TEST(Scene, RadiiAreEqualOnlyIfWeightsStaySo) {
   EXPECT_FALSE(Scene(instance(4, 1, {0, 1, 0, 1, 0, 1, 4, 4, 2, 3, 2, 3, 2, 3, 4, 5})).equal_radii());
 }
 
+// A weight that underflows is another weight.
+TEST(Scene, WeightsTooSmallAreTold) {
+  Trajectory necklace;
+  necklace.frames = {Eigen::Matrix3Xd::Random(3, 4)};
+  const std::span<const Trajectory> necklaces(&necklace, 1);
+  const auto told = [&](std::vector<double> radii) {
+    try {
+      Scene(necklaces, std::move(radii)).require_weights();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(told({1, 2, 0, 0x1p-511}), "");
+  EXPECT_EQ(told({0x1p-600, 0x1p-600, 0x1p-600, 0x1p-600}), "");
+  EXPECT_THAT(told({1, 2, 0, 0x1p-512}), testing::HasSubstr("bead 3: the square of its radius"));
+}
+
 }  // namespace
 }  // namespace kds

@@ -236,6 +236,18 @@ TEST(DiagramUpdate, FramesInOnePlaneOnTheWay) {
     run(technique, frames);
 }
 
+// A straight chain rolls up; some of its beads are hidden by others while there is no cell yet.
+TEST(DiagramUpdate, HiddenBeadsInAFlatFrame) {
+  for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+    auto frames = random_frames(seed, 4 + 2 * seed, 4, 0.2, 0.3, false);
+    const auto last = static_cast<Eigen::Index>(frames[0].weights.size() - 1);
+    frames[0].centers.bottomRows(seed % 2 == 0 ? 1 : 2).setZero();
+    frames[0].centers.col(1) = frames[0].centers.col(0);
+    frames[0].centers.col(last) = frames[0].centers.col(0);
+    for (const UpdateTechnique technique : all_techniques) run(technique, frames);
+  }
+}
+
 TEST(DiagramUpdateInPlane, AllTechniquesReachTheStaticDiagram) {
   for (const double step : {0.001, 0.02, 0.3}) {
     for (const UpdateTechnique technique : all_techniques)

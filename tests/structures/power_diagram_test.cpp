@@ -415,6 +415,39 @@ TEST(PowerDiagram, FlatCellsDoNotOutliveTheirFrame) {
   }
 }
 
+// As repeated frames have it, or a chain that slides in its plane: nothing is there between.
+TEST(PowerDiagram, StepsInOnePlaneHaveNoCells) {
+  const Points solid{{0, 0, 0}, {6, 0, 1}, {0, 6, 2}, {6, 6, 5}, {3, 3, 9}, {2, 3, -7}, {2, 3, -7}};
+  const auto laid = [](Points points) {
+    for (auto& p : points) p[2] = p[0] + 2 * p[1];
+    return points;
+  };
+  const Points flat = laid(solid),
+               slid = laid({{1, 0, 0}, {3, 4, 0}, {2, 2, 0}, {1, 1, 0}, {9, 1, 0}, {4, 4, 0}, {4, 4, 0}});
+  const Points line{{0, 0, 0}, {1, 1, 1}, {3, 3, 3}, {4, 4, 4}, {5, 5, 5}, {6, 6, 6}, {4, 4, 4}};
+  for (const std::vector<Points>& frames : {std::vector<Points>{flat, flat, solid},
+                                            {flat, slid, flat, solid, slid},
+                                            {solid, flat, slid, slid, solid},
+                                            {solid, flat, slid},
+                                            {line, line, slid, flat, solid, line, line}}) {
+    SCOPED_TRACE(to_text(frames));
+    const std::vector<Space> steps = through(frames);
+    EXPECT_FALSE(run_audited<Filtered>(steps, false));
+    PowerRig<Filtered> filtered(steps.front()), again(steps.front());
+    PowerRig<Exact> exact(steps.front());
+    PowerRig<Fast> fast(steps.front());
+    filtered.run(steps);
+    exact.run(steps);
+    fast.run(steps);
+    EXPECT_EQ(filtered.simulator.fingerprint(), exact.simulator.fingerprint());
+    again.replay(steps, filtered.history);
+    EXPECT_EQ(filtered.simulator.fingerprint(), again.simulator.fingerprint());
+    EXPECT_EQ(filtered.structure.at_frame(false).cells, again.structure.at_frame(false).cells);
+    EXPECT_EQ(filtered.structure.statistics.rebuilds, again.structure.statistics.rebuilds);
+  }
+  EXPECT_TRUE(run_audited<Filtered>(through({flat, slid, flat}), false)) << "never any";
+}
+
 // Degenerate input.
 
 class DegeneratePower : public testing::TestWithParam<const char*> {
