@@ -13,11 +13,14 @@ void PowerDiagram<M, K>::enqueue(CellId cell, int i) {
 template <Motion M, Kernel K>
 void PowerDiagram<M, K>::enqueue(const FacetCertificates<dimension + 1>& certificates, CellId cell, int i,
                                  Birth birth) {
+  // Either side may tell, which depends on what filters proved. Not so the facet's place: in which order
+  // failures of one time are handled, and what a flip makes.
+  const FacetId place = std::min(facet_id(cell, i), triangulation_.beyond(cell, i));
   const BeadId beyond = apex(cell, i);
   if (certificates.on_hull(beyond)) {
-    certificates.make(beyond, orientations_.one_of_many(facet_id(cell, i), birth));
+    certificates.make(beyond, orientations_.one_of_many(place, birth));
   } else {
-    certificates.make(beyond, power_tests_.one_of_many(facet_id(cell, i), birth));
+    certificates.make(beyond, power_tests_.one_of_many(place, birth));
   }
 }
 
@@ -33,7 +36,8 @@ void PowerDiagram<M, K>::watch_all() {
   Finding finding{*this};
   const auto cells = triangulation_.cells();
   const auto look_at = [&](CellId cell, unsigned facets, unsigned in_lanes) {
-    if (in_lanes != 0) positive.look_at(cells[cell], cell, facets & in_lanes, finding);
+    if constexpr (std::same_as<K, Filtered>)
+      if (in_lanes != 0) positive.look_at(cells[cell], cell, facets & in_lanes, finding);
     for (unsigned left = facets & ~in_lanes; left != 0; left &= left - 1)
       enqueue(cell, std::countr_zero(left));
   };

@@ -15,12 +15,8 @@ void PowerDiagram<M, K>::fail(unsigned table, std::uint32_t slot) {
   if (table >= appearing) return fail_hidden(table, slot);
   const FacetId place =
       table == 0 ? power_tests_.place_in_structure(slot) : orientations_.place_in_structure(slot);
-  CellId cell = cell_of(place);
-  int facet = index_of(place);
-  // A facet between two is told by either, which depends on what filters proved. Not so what a flip makes,
-  // nor in which of some cells a bead at a vertex of theirs is hidden.
-  if (guard(cell, facet).about != About::cell && neighbor(cell, facet) < cell)
-    std::tie(cell, facet) = across(cell, facet);
+  const CellId cell = cell_of(place);
+  const int facet = index_of(place);
   triangulation_.fetch_around(cell, facet);
   fetch_scheduled(cell);
   fetch_scheduled(neighbor(cell, facet));

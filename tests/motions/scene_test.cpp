@@ -1,6 +1,6 @@
 #include "motions/scene.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <limits>
 #include <random>
