@@ -179,7 +179,7 @@ std::vector<BenchRow> bench_hierarchies(const HierarchyBenchOptions& options,
     for (const char* model : {"helix", "random-chain", "grid"}) {
       inputs.emplace_back([name = std::string(model), beads] {
         Input input{
-            {name, jostled_frames(model_at_rest(name, beads), 0.01, 8), std::vector<double>(beads, 1.0)}};
+            {name, jostled_frames(model_at_rest(name, beads), 0.01, 20), std::vector<double>(beads, 1.0)}};
         if (name == "random-chain") {
           input.update = 18;
           input.kinetic = 10;
