@@ -253,7 +253,7 @@ TEST(Scene, RadiiAreEqualOnlyIfWeightsStaySo) {
 // A weight that underflows is another weight.
 TEST(Scene, WeightsTooSmallAreTold) {
   Trajectory necklace;
-  necklace.frames = {Eigen::Matrix3Xd::Random(3, 4)};
+  necklace.frames.assign(2, Eigen::Matrix3Xd::Random(3, 4));
   const std::span<const Trajectory> necklaces(&necklace, 1);
   const auto told = [&](std::vector<double> radii) {
     try {
