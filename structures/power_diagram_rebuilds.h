@@ -171,12 +171,12 @@ template <Motion M, Kernel K>
 bool PowerDiagram<M, K>::try_to_rebuild() {
   drop_all();
   present_ = {};
-  bool always_flat = true;
+  bool solid = false;  // at some time
   for (unsigned bits = coarsest_that_worked_; bits <= finest_grid; bits += bits < 32 ? 4 : 12) {
     const Dyadic time = next_on_grid(simulator_.now().exact(), bits);
     if (!(time < Dyadic(1.0))) continue;
-    always_flat = !assign_static(time);
-    if (always_flat) continue;
+    if (!assign_static(time)) continue;
+    solid = true;
     settled();
     watch_all();
     if (doubt_ != Doubt::wrong && nothing_fails_until(time)) {
@@ -188,7 +188,7 @@ bool PowerDiagram<M, K>::try_to_rebuild() {
     drop_all();
   }
   settled();
-  if (always_flat) return false;
+  if (!solid) return false;
   if constexpr (std::same_as<K, Fast>) {  // doubles contradict themselves
     rebuild_roughly();
     return true;

@@ -447,6 +447,15 @@ TEST(PowerDiagram, StepsInOnePlaneHaveNoCells) {
   EXPECT_TRUE(run_audited<Filtered>(through({flat, slid, flat}), false)) << "never any";
 }
 
+// Flat at the start, and at the very next time that a rebuild is tried at too.
+TEST(PowerDiagram, FlatAtTwoTimesIsNotFlatForGood) {
+  const double soon = 0x1p-200;
+  const Points from{{soon, 0, 0}, {0, 0, 0}, {5, 0, 0}, {0, 0, 0}},
+      to{{soon, 0, 0}, {1, 0, 0}, {5, 1, 0}, {0, 0, 1}};
+  PowerRig<Filtered> rig(moving(from, to), AuditMode::events);
+  EXPECT_THROW(rig.run(), InputError) << "closer than it can be rebuilt between";
+}
+
 // Degenerate input.
 
 class DegeneratePower : public testing::TestWithParam<const char*> {
