@@ -190,6 +190,27 @@ struct BallInSphere {
     return true;
   }
 
+  /// Whether what is left out of A, B, D and the norm is positive, and D: by certain signs of numbers, 0
+  /// where they are not known. Where a < 0, so that some sphere touches any such balls, b^2 - ac > 0.
+  template <MotionView View, class SignOf>
+  [[nodiscard]] static bool is_usable(const View& view, const Beads& beads, SignOf sign_of) {
+    const auto positive = [&](const auto& moment) { return sign_of(moment.scaled[0]) > 0; };
+    if constexpr (Size == 1) {
+      return true;
+    } else if constexpr (Size == 2) {
+      return positive(detail::BallsFromBase<2, View>(view, beads).e[0]);
+    } else {
+      const Sphere<View> balls(view, beads);
+      if constexpr (full) {
+        if (sign_of(balls.q.scaled[0]) == 0) return false;
+      } else if (!positive(balls.g)) {
+        return false;
+      }
+      const auto a = balls.a(), b = balls.b(), c = balls.c();
+      return positive(c) && (positive(-a) || (positive(-b) && positive(b * b - a * c)));
+    }
+  }
+
   /// One polynomial.
   struct Part {
     static constexpr bool uses_radii = true;

@@ -1,9 +1,10 @@
 #pragma once
 // What a radical certificate type must offer: positive while A + B sqrt(D) is, for polynomials A, B and D >=
 // 0 of a few beads' motions. D itself is never needed, but it must not be negative, nor a left out factor,
-// while the certificate is in use: the type says why (beyond that, nothing is said). The sign follows from
-// those of A, B and of the norm A^2 - B^2 D, each up to a factor that is positive while the certificate is in
-// use; its zeros are among the norm's.
+// while the certificate is in use: the type says why (beyond that, nothing is said), and by `is_usable`, if
+// it has that, whether it is so during a short time. The sign follows from those of A, B and of the norm A^2
+// - B^2 D, each up to a factor that is positive while the certificate is in use; its zeros are among the
+// norm's.
 //
 // The function may be subject to a condition, another radical: it counts as negative where that is. While
 // A + B sqrt(D) is positive the condition must not change sign.

@@ -126,6 +126,18 @@ class CertificateInDouble {
     const int a = wanted(view).rational();
     return a != 0 && wanted(view).root() == -a ? a : 0;
   }
+  /// Whether the certificate may be in use (radical.h) all over [lower, upper], for certain.
+  [[nodiscard]] bool is_usable_on(double lower, double upper) const {
+    if constexpr (requires(View & view) {
+                    Certificate::is_usable(view, certificate_.beads, Errors::sign_of);
+                  }) {
+      const View view(motion_, certificate_.beads, lower, upper);
+      auto places = certificate_.beads;
+      std::iota(places.begin(), places.end(), 0U);
+      return Certificate::is_usable(view, places, Errors::sign_of);
+    }
+    return true;
+  }
   /// The norm's sign at a time, or 0.
   [[nodiscard]] int certain_norm_at(double u) const {
     if (norm_)
@@ -205,10 +217,11 @@ template <class InDouble>
     auto bracket = next.bracket;
     if (bracket.upper - bracket.lower > wide) bracket = narrowed(certificate, bracket, sign);
     const auto [lower, upper] = bracket;
-    // The norm has one zero in the bracket, so the sign at its end is the one just after.
+    // The norm has one zero in the bracket, so the sign at its end is the one just after, unless the
+    // certificate goes out of use in between.
     const int after = certificate.sign_by_norm(-sign, upper, upper);
+    if (after == 0 || !certificate.is_usable_on(lower, upper)) return std::nullopt;
     if (after < 0) return Failure{Failure::Kind::later, {lower, upper, 0, true}};
-    if (after == 0) return std::nullopt;
     from = upper;
   }
   return std::nullopt;
