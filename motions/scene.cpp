@@ -142,9 +142,8 @@ void Scene::require_weights() const {
     const double radius = radii_[bead];
     if (radius == 0 || radius * radius >= std::numeric_limits<double>::min()) continue;
     throw InputError(
-        fmt::format("bead {}: the square of its radius, {}, is too small a number for a power diagram; give "
-                    "all lengths in "
-                    "a smaller unit",
+        fmt::format("bead {}: the square of its radius, {}, is too small a number for a power diagram; "
+                    "give all lengths in a smaller unit",
                     bead, radius));
   }
 }
