@@ -217,10 +217,12 @@ template <class InDouble>
     auto bracket = next.bracket;
     if (bracket.upper - bracket.lower > wide) bracket = narrowed(certificate, bracket, sign);
     const auto [lower, upper] = bracket;
-    // The norm has one zero in the bracket, so the sign at its end is the one just after, unless the
-    // certificate goes out of use in between.
-    const int after = certificate.sign_by_norm(-sign, upper, upper);
-    if (after == 0 || !certificate.is_usable_on(lower, upper)) return std::nullopt;
+    // The norm has one zero in the bracket: A and B that keep their signs all over it tell the one just
+    // after. Else so does the bracket's end, unless the certificate goes out of use in between.
+    int after = certificate.sign_by_norm(-sign, lower, upper);
+    if (after == 0 && certificate.is_usable_on(lower, upper))
+      after = certificate.sign_by_norm(-sign, upper, upper);
+    if (after == 0) return std::nullopt;
     if (after < 0) return Failure{Failure::Kind::later, {lower, upper, 0, true}};
     from = upper;
   }

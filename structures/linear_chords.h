@@ -180,8 +180,7 @@ template <int D, std::size_t M, bool equal>
     stray.rounded += power * size * combined.rounded * over;
     stray.between = simplex.off_hull * over;
   }
-  Lanes slope(0.0), wander(0.0);
-  const Lanes slope_at_start = equal ? Lanes(0.0) : root(dot(end[0].q, end[0].q));
+  SlopeBound slope{Lanes(0.0), equal ? Lanes(0.0) : root(dot(end[0].q, end[0].q)), Lanes(0.0)};
   for (std::size_t i = 0; i < M; ++i) {
     Lanes first = half * dot(a[i], a[i]) - dot(a[i], end[0].z);
     Lanes last = half * dot(b[i], b[i]) - dot(b[i], end[1].z);
@@ -195,21 +194,25 @@ template <int D, std::size_t M, bool equal>
     stray.rounded += gain * (Lanes::max(abs(first), abs(last)) + l * rounding);
     stray.between += gain * (Lanes(0.25) * abs(between));
     if constexpr (!equal) {
-      slope += gain * (Lanes::max(abs(sa[i]), abs(sb[i])) + Lanes(linear_margin) * size);
+      slope.most += gain * (Lanes::max(abs(sa[i]), abs(sb[i])) + Lanes(linear_margin) * size);
       const Lanes off = Lanes::max(abs(sa[i] - dot(a[i], end[0].q)), abs(sb[i] - dot(b[i], end[0].q)));
-      wander += gain * (off + Lanes(linear_margin) * size * (Lanes(1.0) + slope_at_start));
+      slope.wander += gain * (off + Lanes(linear_margin) * size * (Lanes(1.0) + slope.at_start));
     }
   }
-  slope = Lanes::min(slope, (slope_at_start + wander) * Lanes(up));
+  slope.most = Lanes::min(slope.most, (slope.at_start + slope.wander) * Lanes(up));
   const Lanes change = dot(turn, turn);
   const Lanes nearest = half * (length[0] + length[1] - root(change)) - rounding;
-  proved &= (nearest > Lanes(0.0)) & (slope < Lanes(0.98));
+  proved &= nearest > Lanes(0.0);
   const Stray sag{mismatch + rounding, change / (Lanes(8.0) * nearest) * Lanes(up)};
   Stray radius_strays = (sag + stray) * Lanes(up);
   Stray strays = stray * Lanes(up);
   if constexpr (!equal) {
-    radius_strays = radius_strays * (Lanes(up) / (Lanes(1.0) - slope));
-    strays = (stray + radius_strays * slope) * Lanes(up);
+    const Lanes ahead = Lanes::max(dot(end[0].z, end[0].q), dot(end[1].z, end[0].q));
+    const Lanes lead = least_lead(slope, ahead, nearest, Lanes::max(length[0], length[1]) + rounding,
+                                  stray.most(), sag.most());
+    proved &= lead > Lanes(little_lead);
+    radius_strays = radius_strays * (Lanes(up) / lead);
+    strays = (stray + radius_strays * slope.most) * Lanes(up);
   }
 
   // How far x is from the combination, by the heights.

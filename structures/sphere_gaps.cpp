@@ -96,7 +96,7 @@ template <int D>
   // |T| <= |G| (rho - s + |c_b - x|) / 2.
   const Lanes factor = Lanes(0.5) * (Lanes::max(reach[0], reach[1]) + sum) + loss + l;
   const Lanes radius = Lanes::min(get(sphere.rho[0]), get(sphere.rho[1])) - loss;
-  put(Lanes(3.0) * factor / radius, gaps.other_factor);
+  put((Lanes(1.0) + Lanes(0.5) * get(sphere.other_root)) * factor * Lanes(up) / radius, gaps.other_factor);
 }
 
 /// What find_motion and find_gaps_in_lanes know at the ends of a period, alone.
@@ -160,18 +160,21 @@ template <int D, std::size_t M>
   volume = volume * Lanes(1 - 0x1p-30) - Lanes(margin) * power * size;
   proved &= volume > Lanes(0.0);
   const Lanes over = Lanes(up) / volume, rounding = Lanes(margin) * l;
+  const Lanes q_length = length(end.q), q_rounding = Lanes(margin) * (one + q_length);
   Lanes stray = (off + power * size * rounding) * over;
-  Lanes q_error = (q_off + Lanes(margin) * power * size) * over;
+  Lanes q_error = (q_off + q_rounding * power * size) * over + q_rounding;
   for (std::size_t i = 0; i < M; ++i) {
     const Lanes residual =
         half * (detail::dot(d[i], d[i]) - s[i] * s[i]) - (detail::dot(d[i], end.z) - s[i] * end.rho);
     const Lanes by_height = (gain[i] + Lanes(margin) * power) * over;
     stray += by_height * (abs(residual) + l * rounding);
-    q_error += by_height * (abs(s[i] - detail::dot(d[i], end.q)) + Lanes(margin) * size);
+    q_error += by_height * (abs(s[i] - detail::dot(d[i], end.q)) + q_rounding * size);
   }
-  const Lanes slope = (length(end.q) + q_error * Lanes(up)) * Lanes(up);
-  proved &= slope < Lanes(0.98);
-  const Lanes radius_strays = (abs(distance - end.rho) + rounding + stray) * (Lanes(up) / (one - slope));
+  const Lanes slope = (q_length + q_error) * Lanes(up), sag = abs(distance - end.rho) + rounding;
+  const Lanes lead = detail::least_lead({slope, q_length, q_error}, detail::dot(end.z, end.q),
+                                        distance - rounding, distance + rounding, stray, sag);
+  proved &= lead > Lanes(detail::little_lead);
+  const Lanes radius_strays = (sag + stray) * (Lanes(up) / lead);
   const Lanes strays = (stray + slope * radius_strays) * Lanes(up);
   proved &= strays + radius_strays < Lanes(4.0) * l;
 

@@ -124,7 +124,8 @@ template <int D, std::size_t M>
   }
   Lanes stray = (simplex.off_hull + hull_rounding) * over;
   Lanes stray_at_ends = (off_at_ends + hull_rounding) * over;
-  Lanes q_error = (q_off + Lanes(margin) * power * size) * over;
+  const Lanes q_length = length(end[0].q), q_rounding = Lanes(margin) * (Lanes(1.0) + q_length);
+  Lanes q_error = (q_off + q_rounding * power * size) * over + q_rounding;
   std::array<Lanes, M> gain, residual_rate;
   for (std::size_t i = 0; i < M; ++i) {
     auto product = dot(d[i], z) - s[i] * rho;
@@ -136,19 +137,24 @@ template <int D, std::size_t M>
     stray_at_ends +=
         gain[i] * (Lanes(0.5) * Lanes::max(abs(twice.scaled[0]), abs(twice.scaled[2])) + l * rounding);
     residual_rate[i] = Lanes(0.5) * steepest(twice) + l * rounding;
-    q_error += gain[i] * (most(s[i] - dot(d[i], q)) + Lanes(margin) * size);
+    q_error += gain[i] * (most(s[i] - dot(d[i], q)) + q_rounding * size);
   }
   q_error = q_error * Lanes(up);
-  const Lanes slope = (length(end[0].q) + q_error) * Lanes(up);  // |q|
+  const Lanes slope = (q_length + q_error) * Lanes(up);
   const Lanes nearest = least_length(z) - rounding;
-  proved &= (nearest > Lanes(0.0)) & (slope < Lanes(0.98));
+  proved &= nearest > Lanes(0.0);
   Vec<D> step;
   for (std::size_t axis = 0; axis < D; ++axis) step[axis] = end[1].z[axis] - end[0].z[axis];
   const Lanes change = detail::dot(step, step);
   Lanes mismatch(0.0);
   for (const End<D, M>& e : end) mismatch = Lanes::max(mismatch, abs(length(e.z) - e.rho));
-  const Lanes steadiness = Lanes(up) / (Lanes(1.0) - slope);
   const Lanes sag = change / (Lanes(8.0) * nearest) * Lanes(up) + mismatch + rounding;
+  const Lanes ahead = Lanes::max(detail::dot(end[0].z, end[0].q), detail::dot(end[1].z, end[0].q));
+  const Lanes lead =
+      detail::least_lead({slope, q_length, q_error}, ahead, nearest,
+                         Lanes::max(length(end[0].z), length(end[1].z)) + rounding, stray, sag);
+  proved &= lead > Lanes(detail::little_lead);
+  const Lanes steadiness = Lanes(up) / lead;
   const Lanes radius_strays = (sag + stray) * steadiness;
   const Lanes strays = (stray + slope * radius_strays) * Lanes(up);
   const Lanes radius_strays_at_ends = (mismatch + rounding + stray_at_ends) * steadiness;
@@ -184,6 +190,8 @@ template <int D, std::size_t M>
   put(l, found.scale);
   for (std::size_t axis = 0; axis < D; ++axis) put(end[0].q[axis], found.q[axis]);
   put(q_error, found.q_error);
+  const Lanes one(1.0);
+  put(Lanes::choose(slope < one, one, slope * (one + slope) * steadiness), found.other_root);
   found.proved = 0;
   for (std::size_t lane = 0; lane < Lanes::width; ++lane) found.proved |= proved[lane] != 0 ? 1U << lane : 0U;
 }

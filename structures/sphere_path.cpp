@@ -16,9 +16,12 @@ using detail::beads_of;
 using detail::End;
 using detail::end_of;
 using detail::gather;
+using detail::least_lead;
+using detail::little_lead;
 using detail::margin;
 using detail::Simplex;
 using detail::simplex_of;
+using detail::SlopeBound;
 using detail::up;
 using detail::Vec;
 
@@ -69,7 +72,10 @@ template <int D, std::size_t M, int K>
   const Lanes over = Lanes(up) / volume;
 
   // x = z' + (what follows from the residuals) + (slope of the radii) * (rho - rho').
-  Lanes stray = (simplex.off_hull + power * size * rounding) * over, slope(0.0);
+  Lanes stray = (simplex.off_hull + power * size * rounding) * over;
+  SlopeBound slope{Lanes(0.0), root(detail::dot(end[0].q, end[0].q)), Lanes(0.0)};
+  CurveLanes<0, D> q;
+  for (std::size_t axis = 0; axis < D; ++axis) q[axis].scaled = {end[0].q[axis]};
   for (std::size_t i = 0; i < M; ++i) {
     // 2 r_i = |c_i|^2 - s_i^2 + 2 s_i rho' - 2 c_i.z'
     auto product = dot(d[i], z);
@@ -80,10 +86,12 @@ template <int D, std::size_t M, int K>
     twice -= elevate<2 * K>(product);
     const Lanes gain = (simplex.gain[i] + Lanes(margin) * power) * over;
     stray += gain * (Lanes(0.5) * most_between(twice) + l * rounding);
-    slope += gain * (most(s[i]) + Lanes(margin) * size);
+    slope.most += gain * (most(s[i]) + Lanes(margin) * size);
+    slope.wander += gain * (most(s[i] - dot(d[i], q)) + Lanes(margin) * size * (Lanes(1.0) + slope.at_start));
   }
+  slope.most = Lanes::min(slope.most, (slope.at_start + slope.wander) * Lanes(up));
   const Lanes nearest = least_length(z) - rounding;
-  proved &= (nearest > Lanes(0.0)) & (slope < Lanes(0.9));
+  proved &= nearest > Lanes(0.0);
   // | |z'| - rho' |: the length of z' sags below its chord.
   Lanes change(0.0), mismatch(0.0);
   for (std::size_t axis = 0; axis < D; ++axis) {
@@ -92,10 +100,11 @@ template <int D, std::size_t M, int K>
   }
   for (const End<D, M>& e : end) mismatch = Lanes::max(mismatch, abs(root(detail::dot(e.z, e.z)) - e.rho));
   const Lanes sag = change / (Lanes(8.0) * nearest) * Lanes(up) + mismatch + rounding;
-  Lanes radius_strays = (sag + stray) * Lanes(up);
-  Lanes strays = stray * Lanes(up);
-  radius_strays = radius_strays / (Lanes(1.0) - slope) * Lanes(up);
-  strays = (stray + slope * radius_strays) * Lanes(up);
+  const Lanes ahead = Lanes::max(detail::dot(end[0].z, end[0].q), detail::dot(end[1].z, end[0].q));
+  const Lanes lead = least_lead(slope, ahead, nearest, most(z) + rounding, stray, sag);
+  proved &= lead > Lanes(little_lead);
+  const Lanes radius_strays = (sag + stray) * (Lanes(up) / lead);
+  const Lanes strays = (stray + slope.most * radius_strays) * Lanes(up);
 
   // How far z' is from sum w_i c_i.
   CurveLanes<K + 1, D> bend;

@@ -125,4 +125,29 @@ template <int D, std::size_t M, int K>
   return simplex;
 }
 
+/// Of the slope q, how the centre changes with the radius: at any time, at the start, and how far it is from
+/// the part in the hull of that at the start.
+struct SlopeBound {
+  Lanes most, at_start, wander;
+};
+
+/// Where rho is nearest to rho', within H = (sag + stray) / L, and x within stray + |q| H of z', 1 - n.q is
+/// at least L (sphere_path.h); not above 0 if nothing is proved. `ahead`: the most of z'.q, q at the start.
+[[gnu::always_inline]] inline Lanes least_lead(const SlopeBound& slope, const Lanes& ahead,
+                                               const Lanes& nearest, const Lanes& longest, const Lanes& stray,
+                                               const Lanes& sag) {
+  const Lanes along = ahead / Lanes::choose(ahead > Lanes(0.0), nearest, longest);
+  const Lanes lead =
+      (Lanes(1.0) - along) - slope.wander * Lanes(up) - Lanes(margin) * (Lanes(1.0) + slope.at_start);
+  // Where it is three quarters of that there is room for a quarter: n and z'/|z'| differ by as much.
+  const Lanes reach = stray + slope.most * (sag + stray) / (Lanes(0.75) * lead);
+  const Lanes turned = Lanes(2 * up) * slope.at_start * reach / nearest;
+  const Lanes::Mask known = (nearest > Lanes(0.0)) & (lead > Lanes(0.0)) & (turned < Lanes(0.25 / up) * lead);
+  const Lanes in_any_direction = Lanes(1.0) - slope.most;
+  return Lanes::max(in_any_direction, Lanes::choose(known, lead - turned, in_any_direction));
+}
+
+/// What is proved only where the lead is more.
+inline constexpr double little_lead = 0.02;
+
 }  // namespace kds::detail

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 #include "certificates/membership.h"
 #include "certificates/orientation.h"
@@ -161,6 +163,39 @@ TEST(SphereCrossing, IsWhenRadicalCertificatesFail) {
     EXPECT_GT(tally.again, 2);
     EXPECT_GT(tally.signs, 500);
   }
+}
+
+// Where the centre moves more than the radius as that grows.
+TEST(SphereCrossing, OfNearlyFlatBases) {
+  Tally tally;
+  int steep = 0;
+  const Basis basis(std::array<BeadId, 4>{0, 1, 2, 3});
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Random random(seed);
+    const double height = std::ldexp(1.0, -static_cast<int>(1 + seed % 6));
+    const double pace = height * std::ldexp(1.0, -static_cast<int>(seed % 5));
+    const auto motion = nearly_flat_basis<Space>(random, 6, height, pace);
+    BeadPaths<3> paths;
+    paths.set(motion);
+    SphereMotion<3> sphere;
+    find_motion(paths, basis, {Period{0, 0x1p-20}, {0, 0.1}, {0, 0.5}, {0, 1}}, sphere);
+    const double square =
+        std::inner_product(sphere.q.begin(), sphere.q.end(), sphere.q.begin(), 0.0, std::plus<>(),
+                           [](const auto& a, const auto& b) { return a[0] * b[0]; });
+    steep += square > 1 && (sphere.proved & 1U) != 0 ? 1 : 0;
+    for (const BeadId bead : {4U, 5U}) {
+      judge(motion, paths, basis, bead, true, 0, tally);
+      judge_signs(random, motion, paths, basis, bead, 0, tally);
+    }
+    for (const BeadId bead : basis) judge(motion, paths, without(basis, bead), bead, false, 0, tally);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(steep, 50);
+  EXPECT_GT(tally.never, 300);
+  EXPECT_GT(tally.later, 100);
+  EXPECT_GT(tally.never_again, 50);
+  EXPECT_GT(tally.signs, 500);
 }
 
 TEST(SphereCrossing, OfDegenerateMotions) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <numeric>
 
@@ -56,7 +58,27 @@ bool holds(const M& motion, const Basis& basis, BeadId bead, bool inside, const 
 
 struct Tally {
   int proved = 0, inside = 0, beyond = 0, kept = 0, dipping = 0, risen = 0;
+  int steep = 0;  // proved ones of four balls whose centre moves more than the radius as that grows
 };
+
+/// Of a basis of four: whether |q| > 1 (sphere_path.h).
+template <class M>
+bool is_steep(const M& motion, const Basis& basis, double time) {
+  if constexpr (M::dimension == 3) {
+    if (basis.size != 4) return false;
+    const auto at = approximate_positions(motion, time);
+    const auto radii = approximate_radii(motion, time);
+    Eigen::Matrix3d c;
+    Eigen::Vector3d s;
+    for (int i = 0; i < 3; ++i) {
+      const BeadId bead = basis.beads[static_cast<std::size_t>(i) + 1], first = basis.beads[0];
+      c.row(i) = (at.col(bead) - at.col(first)).transpose();
+      s[i] = radii[bead] - radii[first];
+    }
+    return c.partialPivLu().solve(s).norm() > 1;
+  }
+  return false;
+}
 
 /// Judges all that is claimed of the basis at `from` of all beads.
 template <Radii radii, class M>
@@ -68,6 +90,7 @@ void judge(const M& motion, double from, Tally& tally) {
   const auto chord = sphere_chord(paths, basis, {from, 1});
   if (!chord.proved) return;
   ++tally.proved;
+  tally.steep += is_steep(motion, basis, from) ? 1 : 0;
   std::vector<BeadId> beyond;
   find_beyond(paths, {0, count - 1}, basis, chord, from, beyond);
   ASSERT_TRUE(std::is_sorted(beyond.begin(), beyond.end()));
@@ -174,6 +197,32 @@ TEST(SpherePath, OfBallsInThePlaneAndOfCurvedMotion) {
     EXPECT_GT(tally.inside, 100);
     EXPECT_GT(tally.beyond, 100);
     EXPECT_GT(tally.kept, 50);
+  }
+}
+
+// Where the centre moves more than the radius as that grows, a ball that does not grow tells two spheres
+// apart.
+template <class M>
+void judge_nearly_flat(Tally& tally) {
+  for (unsigned seed = 0; seed < 150; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Random random(seed);
+    const double height = std::ldexp(1.0, -static_cast<int>(1 + seed % 6));
+    const double pace = height * std::ldexp(1.0, -static_cast<int>(1 + seed % 10));
+    const auto motion = nearly_flat_basis<M>(random, 4 + random() % 5, height, pace);
+    for (const double from : {0.0, 0.5}) judge<Radii::any>(motion, from, tally);
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(SpherePath, OfNearlyFlatBases) {
+  Tally linear, curved;
+  judge_nearly_flat<Space>(linear);
+  judge_nearly_flat<BezierMotion<3, 3>>(curved);
+  for (const Tally& tally : {linear, curved}) {
+    EXPECT_GT(tally.steep, 50);
+    EXPECT_GT(tally.kept, 500);
+    EXPECT_GT(tally.inside, 100);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string_view>
 
 #include "motions/bezier_motion.h"
@@ -91,6 +92,31 @@ M random_motion(Random& random, std::size_t beads, MotionKind kind) {
       }
       if (kind == MotionKind::planar && M::dimension == 3)
         motion.set_coordinate(b, k, M::dimension - 1, motion.coordinate(0, k, 0));
+    }
+  }
+  return motion;
+}
+
+/// Balls of unequal radii in space whose smallest sphere, of radius 1, touches the first four at the start.
+/// Their centres are nearly in one plane, no farther from it than `height`. They move up to `pace`.
+template <Motion M>
+M nearly_flat_basis(Random& random, std::size_t beads, double height, double pace) {
+  static_assert(M::dimension == 3);
+  M motion(beads);
+  for (BeadId b = 0; b < beads; ++b) {
+    const double radius = uniform(random, 0.1, 0.6),
+                 turn = 0.5 * std::numbers::pi * (b + uniform(random, 0, 0.3));
+    const double out = (1 - radius) * (b < 4 ? 1 : uniform(random, 0.5, 1)),
+                 up = b % 2 == 0 ? height : -height;
+    const double flat = std::sqrt(1 - up * up);
+    const std::array<double, 3> center{out * flat * std::cos(turn), out * flat * std::sin(turn), out * up};
+    for (int k = 0; k <= M::degree; ++k) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const double x = center[static_cast<std::size_t>(axis)];
+        motion.set_coordinate(b, k, axis, k == 0 ? x : x + pace * uniform(random));
+      }
+      motion.set_radius(b, k, radius);
+      motion.set_weight(b, k, 0);
     }
   }
   return motion;
