@@ -61,23 +61,19 @@ struct Tally {
   int steep = 0;  // proved ones of four balls whose centre moves more than the radius as that grows
 };
 
-/// Of a basis of four: whether |q| > 1 (sphere_path.h).
+/// Of a basis of four: q (sphere_path.h).
 template <class M>
-bool is_steep(const M& motion, const Basis& basis, double time) {
-  if constexpr (M::dimension == 3) {
-    if (basis.size != 4) return false;
-    const auto at = approximate_positions(motion, time);
-    const auto radii = approximate_radii(motion, time);
-    Eigen::Matrix3d c;
-    Eigen::Vector3d s;
-    for (int i = 0; i < 3; ++i) {
-      const BeadId bead = basis.beads[static_cast<std::size_t>(i) + 1], first = basis.beads[0];
-      c.row(i) = (at.col(bead) - at.col(first)).transpose();
-      s[i] = radii[bead] - radii[first];
-    }
-    return c.partialPivLu().solve(s).norm() > 1;
+Eigen::Vector3d slope_of(const M& motion, const Basis& basis, double time) {
+  const auto at = approximate_positions(motion, time);
+  const auto radii = approximate_radii(motion, time);
+  Eigen::Matrix3d c;
+  Eigen::Vector3d s;
+  for (int i = 0; i < 3; ++i) {
+    const BeadId bead = basis.beads[static_cast<std::size_t>(i) + 1], first = basis.beads[0];
+    c.row(i) = (at.col(bead) - at.col(first)).transpose();
+    s[i] = radii[bead] - radii[first];
   }
-  return false;
+  return c.partialPivLu().solve(s);
 }
 
 /// Judges all that is claimed of the basis at `from` of all beads.
@@ -90,7 +86,8 @@ void judge(const M& motion, double from, Tally& tally) {
   const auto chord = sphere_chord(paths, basis, {from, 1});
   if (!chord.proved) return;
   ++tally.proved;
-  tally.steep += is_steep(motion, basis, from) ? 1 : 0;
+  if constexpr (M::dimension == 3)
+    tally.steep += basis.size == 4 && slope_of(motion, basis, from).norm() > 1 ? 1 : 0;
   std::vector<BeadId> beyond;
   find_beyond(paths, {0, count - 1}, basis, chord, from, beyond);
   ASSERT_TRUE(std::is_sorted(beyond.begin(), beyond.end()));
@@ -258,10 +255,35 @@ TEST(SpherePath, ScalesWithTheInput) {
   judge_scales<BezierMotion<3, 3>, Radii::equal>();
 }
 
-// Beads a hair from the chord's limit, at either end: who is said to stay inside does.
+/// Sets bead 4 a hair from the chord's limit, at both ends in one direction: if it is said to stay inside it
+/// does.
+template <Radii radii>
+void judge_next_to_limit(Space motion, const Basis& basis, const SphereChord<3>& chord,
+                         const Eigen::Vector3d& way, double off, Tally& tally) {
+  for (std::size_t k = 0; k <= 1; ++k) {
+    const auto place = static_cast<int>(k);
+    const double own = motion.radius(4, place) - motion.radius(basis.beads[0], place);
+    for (int axis = 0; axis < 3; ++axis) {
+      motion.set_coordinate(4, place, axis,
+                            motion.coordinate(basis.beads[0], place, axis) +
+                                chord.center[k][static_cast<std::size_t>(axis)] +
+                                way[axis] * (chord.limit[k] - own) * (1 + off));
+    }
+  }
+  BeadPaths<3> paths;
+  paths.set(motion);
+  std::vector<BeadId> found;
+  find_beyond(paths, {4, 4}, basis, chord, 0, found);
+  ++(found.empty() ? tally.inside : tally.beyond);
+  if (found.empty()) {
+    EXPECT_TRUE((holds<radii>(motion, basis, 4, true, Instant(0))));
+  }
+}
+
 TEST(SpherePath, BeadsNextToTheLimit) {
-  int inside = 0, beyond = 0;
+  Tally tally;
   for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
     Random random(seed);
     auto motion = random_motion<Space>(random, 5, MotionKind::generic);
     for (BeadId b = 0; b < 5; ++b) {
@@ -279,27 +301,33 @@ TEST(SpherePath, BeadsNextToTheLimit) {
     paths.set(motion);
     const auto chord = sphere_chord(paths, basis, {});
     if (!chord.proved || (chord.stays + 1U) != 1U << basis.size) continue;
-    Eigen::Vector3d way(uniform(random), uniform(random), uniform(random));
-    way.normalize();
-    for (const double off : {-1e-12, -1e-13, 0.0, 1e-13, 1e-12}) {
-      for (std::size_t k = 0; k <= 1; ++k) {
-        for (int axis = 0; axis < 3; ++axis) {
-          motion.set_coordinate(4, static_cast<int>(k), axis,
-                                motion.coordinate(basis.beads[0], static_cast<int>(k), axis) +
-                                    chord.center[k][static_cast<std::size_t>(axis)] +
-                                    way[axis] * chord.limit[k] * (1 + off));
-        }
-      }
-      paths.set(motion);
-      std::vector<BeadId> found;
-      find_beyond(paths, {4, 4}, basis, chord, 0, found);
-      ++(found.empty() ? inside : beyond);
-      if (!found.empty()) continue;
-      EXPECT_TRUE((holds<Radii::equal>(motion, basis, 4, true, Instant(0)))) << seed;
-    }
+    const Eigen::Vector3d way(uniform(random), uniform(random), uniform(random));
+    for (const double off : {-1e-12, -1e-13, 0.0, 1e-13, 1e-12})
+      judge_next_to_limit<Radii::equal>(motion, basis, chord, way.normalized(), off, tally);
   }
-  EXPECT_GT(inside, 50);
-  EXPECT_GT(beyond, 50);
+  EXPECT_GT(tally.inside, 50);
+  EXPECT_GT(tally.beyond, 50);
+}
+
+// In the directions in which the centre strays most.
+TEST(SpherePath, BeadsNextToTheLimitOfNearlyFlatBases) {
+  Tally tally;
+  const Basis basis(std::array<BeadId, 4>{0, 1, 2, 3});
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Random random(seed);
+    const double height = std::ldexp(1.0, -static_cast<int>(1 + seed % 6));
+    const double pace = height * std::ldexp(1.0, -static_cast<int>(seed % 9));
+    const auto motion = nearly_flat_basis<Space>(random, 5, height, pace);
+    BeadPaths<3> paths;
+    paths.set(motion);
+    const auto chord = sphere_chord(paths, basis, {});
+    if (!chord.proved || (chord.stays + 1U) != 1U << basis.size) continue;
+    const Eigen::Vector3d across = slope_of(motion, basis, 0).normalized();
+    for (const Eigen::Vector3d& way : {across, Eigen::Vector3d(-across)})
+      judge_next_to_limit<Radii::any>(motion, basis, chord, way, -1e-12, tally);
+  }
+  EXPECT_GT(tally.inside, 100);
 }
 
 template <class M, Radii radii>

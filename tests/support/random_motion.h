@@ -97,14 +97,15 @@ M random_motion(Random& random, std::size_t beads, MotionKind kind) {
   return motion;
 }
 
-/// Balls of unequal radii in space whose smallest sphere, of radius 1, touches the first four at the start.
-/// Their centres are nearly in one plane, no farther from it than `height`. They move up to `pace`.
+/// Balls of unequal radii in space, the first the least, whose smallest sphere, of radius 1, touches the
+/// first four at the start. Their centres are nearly in one plane, no farther from it than `height`. They
+/// move up to `pace`.
 template <Motion M>
 M nearly_flat_basis(Random& random, std::size_t beads, double height, double pace) {
   static_assert(M::dimension == 3);
   M motion(beads);
   for (BeadId b = 0; b < beads; ++b) {
-    const double radius = uniform(random, 0.1, 0.6),
+    const double radius = b == 0 ? 0.01 : uniform(random, 0.1, 0.9),
                  turn = 0.5 * std::numbers::pi * (b + uniform(random, 0, 0.3));
     const double out = (1 - radius) * (b < 4 ? 1 : uniform(random, 0.5, 1)),
                  up = b % 2 == 0 ? height : -height;
