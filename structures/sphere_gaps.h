@@ -8,7 +8,9 @@
 // Its roots are among those of the radical's norm (ball_in_sphere.h). Where G = 0 is simple the norm changes
 // sign as well, if its other factor A - B sqrt(D) does not vanish there: with W = c_b.q - s_b (times g) and T
 // = c_b.x - e_b - s_b rho = ((rho - s_b)^2 - |c_b - x|^2) / 2 (times g) it is 2 W rho sqrt(D) - T (b +
-// sqrt(D)), and |q| < 0.98 makes |b| < 5 sqrt(D): it does not vanish while 2 |W| rho > 6 |T|.
+// sqrt(D)). Where |b| <= f sqrt(D) it does not vanish while 2 |W| rho > (1 + f) |T|. And f = 1 where |q| < 1,
+// since D = b^2 + (1 - |q|^2) |x - q rho|^2; else sqrt(D) = rho - x.q >= L rho (sphere_path.h) and b = x.q -
+// |q|^2 rho make it |q| (1 + |q|) / L.
 
 #include "structures/sphere_motion.h"
 
@@ -24,7 +26,7 @@ struct SphereGaps {
   std::array<Four, 3> square;      // coefficients of (rho' - s)^2 - |p|^2, by powers
   Four loss, apart;                // what |c_b - x| is at least
   std::array<Four, 2> lever;       // W at both ends
-  Four lever_error, other_factor;  // and 6 |T| / (2 rho |G|) at most
+  Four lever_error, other_factor;  // and (1 + f) |T| / (2 rho |G|) at most
 };
 
 /// The same gap at four times, to within a loss each.
@@ -38,7 +40,7 @@ template <int Dimension>
 void find_gaps(const BeadPaths<Dimension>& paths, const SphereMotion<Dimension>& sphere, BeadId base,
                BeadId bead, double side, SphereGaps& gaps);
 
-/// For a basis of two or more, where its sphere touches all of its balls from outside (|q| < 0.98 at these
+/// For a basis of two or more, where its sphere touches all of its balls from outside (that n.q < 1 at these
 /// times is proved here).
 template <int Dimension>
 void find_gaps_at(const BeadPaths<Dimension>& paths, const Basis& basis, BeadId bead, double side,

@@ -36,8 +36,8 @@ struct SphereMotion {
   Four scale;                                         ///< no length that went in is larger
   std::array<Four, Dimension> q;                      ///< at the start
   Four q_error;                                       ///< in all of the period
-  Four other_root;  ///< sqrt(b^2 - ac) times as much bounds b (notation of ball_in_sphere.h)
-  unsigned proved;  ///< a bit each
+  Four other_root;                                    ///< f of sphere_gaps.h
+  unsigned proved;                                    ///< a bit each
 };
 
 /// Of a basis of two or more. The paths are of degree 1.

@@ -8,14 +8,16 @@
 // z'(u) and rho'(u) be its *chord*, linear between approximate ones at both ends. z' leaves residuals r_i =
 // e_i + s_i rho' - c_i.z', and it may leave the hull, all of second order in the motion and bounded by their
 // Bernstein coefficients; with a lower bound of the simplex' volume that bounds the part A of x - z' = A +
-// (rho - rho') q that does not come from the radius, |A| <= B, and the slope |q| <= sum |s_i| / height_i. If
-// that is below 1, |x| = rho has one solution, and
-//   |rho - rho'| <= (B + max ||z'| - rho'|) / (1 - |q|),   |x - z'| <= B + |q| |rho - rho'| =: E,
-// where |z'| sags below its chord by at most |z'(1) - z'(0)|^2 / (8 min |z'|). A bead with |c_b - z'| + s_b
-// <= rho' - E - |rho - rho'| at all control points is inside all the time. Basis ball i stays one while its
-// barycentric coordinate is positive: with w_i linear between those at both ends it is w_i to within the
-// distance of x from sum w_i c_i by the height of ball i. Where all are, and rho >= s_i, the sphere is the
-// smallest, whatever was known before.
+// (rho - rho') q that does not come from the radius, |A| <= B, and the slope |q| <= sum |s_i| / height_i.
+// As rho grows, |x| - rho falls while n.q < 1, n = x / |x|, and of the two spheres that touch all balls this
+// one is where it falls. So if 1 - n.q >= L > 0 wherever
+//   |rho - rho'| <= (B + max ||z'| - rho'|) / L,   |x - z'| <= B + |q| |rho - rho'| =: E,
+// then these hold, where |z'| sags below its chord by at most |z'(1) - z'(0)|^2 / (8 min |z'|). L is 1 - |q|,
+// or, where balls of unequal radii are nearly flat and q is long, what the angle between it and z' leaves
+// (least_lead in touching_sphere.h). A bead with |c_b - z'| + s_b <= rho' - E - |rho - rho'| at all control
+// points is inside all the time. Basis ball i stays one while its barycentric coordinate is positive: with
+// w_i linear between those at both ends it is w_i to within the distance of x from sum w_i c_i by the height
+// of ball i. Where all are, and rho >= s_i, the sphere is the smallest, whatever was known before.
 //
 // In linear motion all that comes between both ends vanishes there (linear_chords.h): bounds are 4 u (1-u)
 // times a `dip`, and what has just risen from zero at the start can be told to stay so.

@@ -125,21 +125,21 @@ template <int D, std::size_t M, int K>
   return simplex;
 }
 
-/// Of the slope q, how the centre changes with the radius: at any time, at the start, and how far it is from
-/// the part in the hull of that at the start.
+/// Of the slope q (sphere_path.h): bounds at any time, at the start, and how far it is from the part in the
+/// hull of that at the start.
 struct SlopeBound {
   Lanes most, at_start, wander;
 };
 
-/// Where rho is nearest to rho', within H = (sag + stray) / L, and x within stray + |q| H of z', 1 - n.q is
-/// at least L (sphere_path.h); not above 0 if nothing is proved. `ahead`: the most of z'.q, q at the start.
+/// L of sphere_path.h: 1 - n.q >= L wherever |rho - rho'| <= (sag + stray) / L. Nothing is known where it is
+/// not positive. `ahead`: z'.q at most, for the q at the start; `nearest`, `longest`: bounds of |z'|.
 [[gnu::always_inline]] inline Lanes least_lead(const SlopeBound& slope, const Lanes& ahead,
                                                const Lanes& nearest, const Lanes& longest, const Lanes& stray,
                                                const Lanes& sag) {
   const Lanes along = ahead / Lanes::choose(ahead > Lanes(0.0), nearest, longest);
   const Lanes lead =
       (Lanes(1.0) - along) - slope.wander * Lanes(up) - Lanes(margin) * (Lanes(1.0) + slope.at_start);
-  // Where it is three quarters of that there is room for a quarter: n and z'/|z'| differ by as much.
+  // For z'/|z'| so far. From there to n it may lose a quarter, if three quarters bound how far x strays.
   const Lanes reach = stray + slope.most * (sag + stray) / (Lanes(0.75) * lead);
   const Lanes turned = Lanes(2 * up) * slope.at_start * reach / nearest;
   const Lanes::Mask known = (nearest > Lanes(0.0)) & (lead > Lanes(0.0)) & (turned < Lanes(0.25 / up) * lead);
