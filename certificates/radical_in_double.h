@@ -217,8 +217,9 @@ template <class InDouble>
     auto bracket = next.bracket;
     if (bracket.upper - bracket.lower > wide) bracket = narrowed(certificate, bracket, sign);
     const auto [lower, upper] = bracket;
-    // The norm has one zero in the bracket: A and B that keep their signs all over it tell the one just
-    // after. Else so does the bracket's end, unless the certificate goes out of use in between.
+    // The norm has one zero in the bracket. What A and B are certain to be all over it tells the sign just
+    // after, or the certificate has gone out of use before. Else the bracket's end tells it, unless it goes
+    // out of use in between.
     int after = certificate.sign_by_norm(-sign, lower, upper);
     if (after == 0 && certificate.is_usable_on(lower, upper))
       after = certificate.sign_by_norm(-sign, upper, upper);

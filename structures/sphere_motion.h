@@ -5,13 +5,13 @@
 // With the notation of sphere_path.h: in a period the centre is z' + xi, the radius rho' + eta, |xi| <= E,
 // |eta| <= H. Differentiated, c_i.xi - s_i eta = r_i says
 //   c_i.xi' - s_i eta' = r_i' - c_i'.xi + s_i' eta,
-// so xi' is bounded as xi was, up to |q eta'|, by residuals |r_i'| + |c_i'| E + |s_i'| H; with n normal to
-// the hull, n.x = 0 bounds what leaves the hull by (|(n.z')'| + |n'| E) / |n|. And |x| = rho gives eta' =
-// (x/|x|).(z'' + xi') - rho'', z'' and rho'' the chord's slopes, where |z'|' is |z'(1)| - |z'(0)| to within
-// |z''|^2 / min |z'|, and x/|x| differs from z'/|z'| by at most 2 E / |z'|. The slope q is known at the
-// start, and from its residuals s_i - c_i.q for all of the period. In double with the margins of
-// sphere_path.h, of lengths as seen from the basis' first ball alone: 2^-45, since motion is linear (40 units
-// of 2^-53 are rounded).
+// so xi' is bounded as xi was, up to q eta', by residuals |r_i'| + |c_i'| E + |s_i'| H; with m normal to the
+// hull, m.x = 0 bounds what leaves the hull by (|(m.z')'| + |m'| E) / |m|. And |x| = rho gives eta' = n.(z''
+// + xi') - rho'', z'' and rho'' the chord's slopes. There xi' contains q eta', so eta' is bounded by the rest
+// over L <= 1 - n.q. |z'|' is |z'(1)| - |z'(0)| to within |z''|^2 / min |z'|, and x/|x| differs from z'/|z'|
+// by at most 2 E / |z'|. The slope q is known at the start, and from its residuals s_i - c_i.q for all of the
+// period. In double with the margins of sphere_path.h, of lengths as seen from the basis' first ball alone:
+// 2^-45, since motion is linear (40 units of 2^-53 are rounded).
 
 #include <array>
 

@@ -139,7 +139,9 @@ struct SlopeBound {
   const Lanes along = ahead / Lanes::choose(ahead > Lanes(0.0), nearest, longest);
   const Lanes lead =
       (Lanes(1.0) - along) - slope.wander * Lanes(up) - Lanes(margin) * (Lanes(1.0) + slope.at_start);
-  // For z'/|z'| so far. From there to n it may lose a quarter, if three quarters bound how far x strays.
+  // For z'/|z'| so far: n, in the hull, is not farther from it than 2 |x - z'| / |z'|. If that takes no more
+  // than a quarter, three quarters may stand for L in how far x strays. Then the margin is enough, too: sag
+  // is below nearest, so longest is not much more than that.
   const Lanes reach = stray + slope.most * (sag + stray) / (Lanes(0.75) * lead);
   const Lanes turned = Lanes(2 * up) * slope.at_start * reach / nearest;
   const Lanes::Mask known = (nearest > Lanes(0.0)) & (lead > Lanes(0.0)) & (turned < Lanes(0.25 / up) * lead);
