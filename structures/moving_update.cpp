@@ -1,8 +1,46 @@
 #include "structures/moving_update.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "structures/power_diagram.h"
 
 namespace kds {
+
+template <Motion M>
+struct MovingDiagram<M>::Machine {
+  explicit Machine(std::size_t beads) : motion(beads), power(simulator, motion) {}
+  M motion;
+  Simulator simulator;
+  PowerDiagram<M, Filtered> power;
+};
+
+template <Motion M>
+MovingDiagram<M>::MovingDiagram() = default;
+
+template <Motion M>
+MovingDiagram<M>::~MovingDiagram() = default;
+
+template <Motion M>
+auto MovingDiagram<M>::diagram() const -> StaticTriangulation<dimension> {
+  return machine_->power.at_frame(false);
+}
+
+template <Motion M>
+auto MovingDiagram<M>::triangulation() -> RegularTriangulation<dimension>& {
+  return machine_->power.triangulation();
+}
+
+template <Motion M>
+bool MovingDiagram<M>::is_solid() const {
+  return machine_->power.is_solid();
+}
+
+template <Motion M>
+std::size_t MovingDiagram<M>::bead_count() const {
+  return machine_->motion.bead_count();
+}
 
 template <Motion M>
 void MovingDiagram<M>::build(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {

@@ -2,17 +2,18 @@
 // Updates of a power diagram by motion (diagram_update.h): all beads in time order, or only those that have
 // to move.
 
-#include <algorithm>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "motions/bezier_motion.h"
 #include "motions/lifted_motion.h"
 #include "motions/placement.h"
 #include "structures/diagram_update.h"
 #include "structures/placed_faults.h"
-#include "structures/power_diagram.h"
+#include "structures/regular_triangulation.h"
 
 namespace kds {
 
@@ -22,10 +23,10 @@ class MovingDiagram : public DiagramUpdate<M::dimension> {
  public:
   static constexpr int dimension = M::dimension;
 
+  MovingDiagram();
+  ~MovingDiagram() override;
   void build(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
-  [[nodiscard]] StaticTriangulation<dimension> diagram() const override {
-    return machine_->power.at_frame(false);
-  }
+  [[nodiscard]] StaticTriangulation<dimension> diagram() const override;
   [[nodiscard]] std::optional<std::string> fault() const override;
 
  protected:
@@ -39,17 +40,12 @@ class MovingDiagram : public DiagramUpdate<M::dimension> {
   /// missing, and where most beads would have to move at once.
   void move_some(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
   void rebuild(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
-  [[nodiscard]] RegularTriangulation<dimension>& triangulation() { return machine_->power.triangulation(); }
-  [[nodiscard]] bool is_solid() const { return machine_->power.is_solid(); }
-  [[nodiscard]] std::size_t bead_count() const { return machine_->motion.bead_count(); }
+  [[nodiscard]] RegularTriangulation<dimension>& triangulation();
+  [[nodiscard]] bool is_solid() const;
+  [[nodiscard]] std::size_t bead_count() const;
 
  private:
-  struct Machine {
-    explicit Machine(std::size_t beads) : motion(beads), power(simulator, motion) {}
-    M motion;
-    Simulator simulator;
-    PowerDiagram<M, Filtered> power;
-  };
+  struct Machine;  // the diagram takes long to compile: in one file
 
   void load(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
   void set_end(BeadId bead, const Eigen::Matrix3Xd& centers, std::span<const double> weights);
