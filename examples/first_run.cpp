@@ -2,8 +2,8 @@
 #include <cstdio>
 
 #include "kds/simulator.h"
-#include "motions/bezier_motion.h"
-#include "structures/power_diagram.h"
+#include "motions/curves/bezier_motion.h"
+#include "structures/power_diagram/power_diagram.h"
 
 int main() {
   using Motion = kds::BezierMotion<3, 1>;  // in space, linear in u

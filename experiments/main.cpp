@@ -11,18 +11,18 @@
 #include <new>
 #include <string_view>
 
-#include "experiments/bench_command.h"
-#include "experiments/command_line.h"
-#include "experiments/generate_command.h"
-#include "experiments/info_command.h"
-#include "experiments/provenance.h"
-#include "experiments/replay_command.h"
-#include "experiments/run_command.h"
-#include "experiments/run_results.h"
-#include "experiments/stability_command.h"
-#include "experiments/text.h"
-#include "experiments/update_command.h"
-#include "motions/input_error.h"
+#include "experiments/bench/bench_command.h"
+#include "experiments/program/command_line.h"
+#include "experiments/program/provenance.h"
+#include "experiments/program/text.h"
+#include "experiments/run/replay_command.h"
+#include "experiments/run/run_command.h"
+#include "experiments/run/run_results.h"
+#include "experiments/scenes/generate_command.h"
+#include "experiments/scenes/info_command.h"
+#include "experiments/stability/stability_command.h"
+#include "experiments/update/update_command.h"
+#include "motions/base/input_error.h"
 
 namespace kds {
 namespace {

@@ -9,22 +9,24 @@
 #include <span>
 #include <vector>
 
-#include "certificates/failure_search.h"
-#include "certificates/radical_search.h"
+#include "certificates/search/failure_search.h"
+#include "certificates/search/radical_search.h"
 #include "kds/kinetic_structure.h"
 #include "kds/simulator.h"
-#include "motions/grow_little.h"
+#include "motions/base/grow_little.h"
 
 namespace kds {
 
 /// A structure's hold on a certificate it created.
-enum class Guard : std::uint32_t {
+enum class CertificateHandle : std::uint32_t {
   never = 0xffffffffU,     ///< holds for the rest of the step; nothing is kept
   zero = 0xfffffffeU,      ///< its function is zero for the whole step: as `never`
   violated = 0xfffffffdU,  ///< does not hold just after the present time; nothing is kept
 };                         // else: the slot
-[[nodiscard]] constexpr bool has_slot(Guard guard) { return guard < Guard::violated; }
-[[nodiscard]] constexpr std::uint32_t slot_of(Guard guard) { return static_cast<std::uint32_t>(guard); }
+[[nodiscard]] constexpr bool has_slot(CertificateHandle guard) { return guard < CertificateHandle::violated; }
+[[nodiscard]] constexpr std::uint32_t slot_of(CertificateHandle guard) {
+  return static_cast<std::uint32_t>(guard);
+}
 
 template <class Certificate, Motion M, Kernel K>
 requires CertificateFor<Certificate, M> || RadicalCertificateFor<Certificate, M>
@@ -32,7 +34,7 @@ class CertificateTable : public FailureSource {
  public:
   /// `number` tells the structure's tables apart in KineticStructure::fail.
   CertificateTable(Simulator& simulator, KineticStructure& owner, std::size_t structure, unsigned number,
-                   const M& motion, Touches touches = Touches::ignored)
+                   const M& motion, TouchPolicy touches = TouchPolicy::ignored)
       : simulator_(simulator),
         owner_(owner),
         structure_(structure),
@@ -44,42 +46,44 @@ class CertificateTable : public FailureSource {
 
   /// Guards the structure by `certificate` from now to the end of the step. `place` says where it stands in
   /// the structure: it comes back with the failure and breaks ties of one function.
-  [[nodiscard]] Guard watch(const Certificate& certificate, std::uint32_t place,
-                            Birth birth = Birth::unknown) {
+  [[nodiscard]] CertificateHandle watch(const Certificate& certificate, std::uint32_t place,
+                                        KnownAtStart birth = KnownAtStart::unknown) {
     Failure failure;
     search({&certificate, 1}, {&birth, 1}, {&failure, 1});
     return hold(certificate, place, failure);
   }
 
   /// The same for many, of which four at once cost little more than one: enqueue them, then watch them all.
-  void enqueue(const Certificate& certificate, std::uint32_t place, Birth birth) {
+  void enqueue(const Certificate& certificate, std::uint32_t place, KnownAtStart birth) {
     enqueue_empty(place, birth) = certificate;
   }
   /// The same of one whose failure is known already.
   void enqueue_known(const Certificate& certificate, std::uint32_t place, const Failure& failure) {
-    enqueue(certificate, place, Birth::unknown);
+    enqueue(certificate, place, KnownAtStart::unknown);
     known_[waiting_count_ - 1] = 1;
     failures_[waiting_count_ - 1] = failure;
     any_known_ = true;
   }
   /// Enqueues where many may be: a few at a time are searched at once, so that they need little room. They
   /// cannot be forgotten.
-  void enqueue_one_of_many(const Certificate& certificate, std::uint32_t place, Birth birth) {
+  void enqueue_one_of_many(const Certificate& certificate, std::uint32_t place, KnownAtStart birth) {
     one_of_many(place, birth) = certificate;
   }
   /// The same of one to be made where it will lie: one just made elsewhere is slow to copy.
-  [[nodiscard]] Certificate& one_of_many(std::uint32_t place, Birth birth) {
+  [[nodiscard]] Certificate& one_of_many(std::uint32_t place, KnownAtStart birth) {
     constexpr std::size_t at_a_time = 512;
     if (waiting_count_ >= at_a_time)
-      settle_enqueued([this](std::uint32_t at, Guard guard) { append_little(settled_, {at, guard}); });
+      search_enqueued([this](std::uint32_t at, CertificateHandle guard) {
+        append_little(settled_, {at, guard});
+      });
     return enqueue_empty(place, birth);
   }
   /// Calls `visit` with the place and the guard of each, in the order in which they were enqueued.
-  template <std::invocable<std::uint32_t, Guard> Visit>
+  template <std::invocable<std::uint32_t, CertificateHandle> Visit>
   void watch_enqueued(Visit visit) {
-    for (const Settled& s : settled_) visit(s.place, s.guard);
+    for (const SearchedCertificate& s : settled_) visit(s.place, s.guard);
     settled_.clear();
-    settle_enqueued(visit);
+    search_enqueued(visit);
   }
   void forget_enqueued() {
     waiting_count_ = 0;
@@ -87,8 +91,8 @@ class CertificateTable : public FailureSource {
   }
 
   /// Gives up a certificate that has not failed.
-  void drop(Guard guard) {
-    if (guard == Guard::violated) return;
+  void drop(CertificateHandle guard) {
+    if (guard == CertificateHandle::violated) return;
     drop_never(1);
     if (!has_slot(guard)) return;
     ++owner_.statistics.certificates.cancelled;
@@ -108,11 +112,11 @@ class CertificateTable : public FailureSource {
   void drop_never(std::uint64_t count) { owner_.statistics.certificates.alive -= count; }
 
   /// It will soon be asked for.
-  void fetch(Guard guard) const {
+  void fetch(CertificateHandle guard) const {
     if (has_slot(guard)) __builtin_prefetch(&entries_[slot_of(guard)]);
   }
   /// It will soon be given up.
-  void fetch_scheduled(Guard guard) const {
+  void fetch_scheduled(CertificateHandle guard) const {
     if (has_slot(guard)) simulator_.fetch(entries_[slot_of(guard)].handle);
   }
   /// The failure time of a certificate in the queue.
@@ -168,13 +172,13 @@ class CertificateTable : public FailureSource {
     bool touch = false;
   };
 
-  struct Settled {
+  struct SearchedCertificate {
     std::uint32_t place;
-    Guard guard;
+    CertificateHandle guard;
   };
 
-  template <std::invocable<std::uint32_t, Guard> Visit>
-  void settle_enqueued(Visit visit) {
+  template <std::invocable<std::uint32_t, CertificateHandle> Visit>
+  void search_enqueued(Visit visit) {
     const std::size_t count = waiting_count_;
     for (std::size_t from = 0; from < count;) {  // those between known ones at once
       std::size_t to = count;
@@ -194,7 +198,7 @@ class CertificateTable : public FailureSource {
     waiting_count_ = 0;
   }
 
-  [[nodiscard]] Certificate& enqueue_empty(std::uint32_t place, Birth birth) {
+  [[nodiscard]] Certificate& enqueue_empty(std::uint32_t place, KnownAtStart birth) {
     if (waiting_count_ == waiting_.size()) make_room();
     places_[waiting_count_] = place;
     births_[waiting_count_] = birth;
@@ -211,7 +215,7 @@ class CertificateTable : public FailureSource {
     failures_.resize(room);
   }
 
-  void search(std::span<const Certificate> certificates, std::span<const Birth> births,
+  void search(std::span<const Certificate> certificates, std::span<const KnownAtStart> births,
               std::span<Failure> failures) {
     if constexpr (std::same_as<K, Fast>) {
       // Doubles may contradict themselves without end: after so many certificates in a step none is looked at
@@ -226,17 +230,18 @@ class CertificateTable : public FailureSource {
                       failures);
   }
 
-  [[nodiscard]] Guard hold(const Certificate& certificate, std::uint32_t place, const Failure& failure) {
+  [[nodiscard]] CertificateHandle hold(const Certificate& certificate, std::uint32_t place,
+                                       const Failure& failure) {
     CertificateCounts& counts = owner_.statistics.certificates;
     ++counts.created;
     if (failure.kind == Failure::Kind::at_birth) {
       ++counts.failed;
-      return Guard::violated;
+      return CertificateHandle::violated;
     }
     counts.peak = std::max(counts.peak, ++counts.alive);
     if (failure.kind != Failure::Kind::later) {
       ++counts.never_failing;
-      return failure.kind == Failure::Kind::zero ? Guard::zero : Guard::never;
+      return failure.kind == Failure::Kind::zero ? CertificateHandle::zero : CertificateHandle::never;
     }
     std::uint32_t slot = 0;
     if (free_.empty()) {
@@ -251,7 +256,7 @@ class CertificateTable : public FailureSource {
     entry.place = place;
     entry.touch = failure.time.touch;
     entry.handle = simulator_.schedule(failure.time, *this, slot);
-    return static_cast<Guard>(slot);
+    return static_cast<CertificateHandle>(slot);
   }
 
   Simulator& simulator_;
@@ -259,18 +264,18 @@ class CertificateTable : public FailureSource {
   std::size_t structure_;
   unsigned number_;
   const M& motion_;
-  Touches touches_;
+  TouchPolicy touches_;
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> free_;
   // Enqueued, with their places and births, and what becomes of them: room for more than there are.
   std::vector<Certificate> waiting_;
   std::vector<std::uint32_t> places_;
-  std::vector<Birth> births_;
+  std::vector<KnownAtStart> births_;
   std::vector<Failure> failures_;
   std::vector<std::uint8_t> known_;  // a flag each
   bool any_known_ = false;
   std::size_t waiting_count_ = 0;
-  std::vector<Settled> settled_;  // of many
+  std::vector<SearchedCertificate> settled_;  // of many
   std::uint64_t created_in_step_ = 0;
 };
 

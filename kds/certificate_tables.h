@@ -48,7 +48,7 @@ class CertificateTables {
     KineticStructure& owner;
     std::size_t structure;
     const M& motion;
-    Touches touches;
+    TouchPolicy touches;
   };
   /// A tuple can hold what can be neither copied nor moved, if one thing makes it.
   template <class Certificate>

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "motions/bead.h"
+#include "motions/base/bead.h"
 
 namespace kds {
 

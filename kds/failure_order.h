@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "certificates/certificate.h"
-#include "certificates/failure_time.h"
-#include "certificates/instant.h"
+#include "certificates/base/certificate.h"
+#include "certificates/base/failure_time.h"
+#include "certificates/exact/instant.h"
 
 namespace kds {
 

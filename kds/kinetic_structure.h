@@ -11,7 +11,7 @@
 
 #include "kds/change.h"
 #include "kds/statistics.h"
-#include "motions/exact_number.h"
+#include "motions/numbers/exact_number.h"
 
 namespace kds {
 
@@ -36,8 +36,8 @@ class KineticStructure {
     static_cast<void>(place);
     static_cast<void>(next);
   }
-  /// All failures at this very time are handled. Asked only if `unsettled` was set.
-  virtual void settle() {}
+  /// All failures at this very time are handled. Asked only if `needs_after_batch` was set.
+  virtual void after_batch() {}
   /// The step's end is reached: positions are those at u = 1. No certificate is left.
   virtual void finish_step(bool last) { static_cast<void>(last); }
 
@@ -50,7 +50,7 @@ class KineticStructure {
   [[nodiscard]] virtual std::optional<std::string> audit(const Dyadic& time) = 0;
 
   StructureStatistics statistics;
-  bool unsettled = false;
+  bool needs_after_batch = false;
 };
 
 }  // namespace kds

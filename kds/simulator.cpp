@@ -35,7 +35,7 @@ void Simulator::enter_step() {
     watch_.charge(s + 1);
     structures_[s]->start_step();
   }
-  settle();
+  after_batch();
   watch_.charge(Stopwatch::stopped);
 }
 
@@ -145,14 +145,15 @@ bool Simulator::is_after(const ScheduledFailure& failure, const Dyadic& time) {
 
 // Nothing more happens at the present time: structures settle, and between two times they can be audited.
 void Simulator::advance(ScheduledFailure* next) {
-  const bool waiting = audits_ == AuditMode::events || std::any_of(structures_.begin(), structures_.end(),
-                                                                   [](auto* s) { return s->unsettled; });
+  const bool waiting =
+      audits_ == AuditMode::events ||
+      std::any_of(structures_.begin(), structures_.end(), [](auto* s) { return s->needs_after_batch; });
   if (!waiting) return;
   const auto later = [&] {
     return next == nullptr || present_.source == nullptr || order_.compare_times(present_, *next) < 0;
   };
   if (!later()) return;
-  settle();
+  after_batch();
   next = queue_.empty() ? nullptr : &queue_.top();
   if (audits_ != AuditMode::events) return;
   ExactTime then = next == nullptr ? ExactTime(Dyadic(1.0))
@@ -160,12 +161,12 @@ void Simulator::advance(ScheduledFailure* next) {
   if (ExactTime::compare(now_.exact(), then) < 0) audit(dyadic_between(now_.exact(), then));
 }
 
-void Simulator::settle() {
+void Simulator::after_batch() {
   for (std::size_t s = 0; s < structures_.size(); ++s) {
-    if (!structures_[s]->unsettled) continue;
+    if (!structures_[s]->needs_after_batch) continue;
     const std::size_t before = watch_.charge(s + 1);
-    structures_[s]->unsettled = false;
-    structures_[s]->settle();
+    structures_[s]->needs_after_batch = false;
+    structures_[s]->after_batch();
     watch_.charge(before);
   }
 }

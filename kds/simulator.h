@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "certificates/instant.h"
+#include "certificates/exact/instant.h"
 #include "kds/audit.h"
 #include "kds/event_log.h"
 #include "kds/event_queue.h"
@@ -97,7 +97,7 @@ class Simulator {
   [[nodiscard]] static bool is_after(const ScheduledFailure& failure, const Dyadic& time);
   void advance(ScheduledFailure* next);
   void retire_present();
-  void settle();
+  void after_batch();
   void audit(const Dyadic& time);
 
   FailureOrder order_;

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "certificates/stage_counts.h"
+#include "certificates/base/stage_counts.h"
 
 namespace kds {
 

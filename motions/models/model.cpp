@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "motions/input_error.h"
+#include "motions/base/input_error.h"
 #include "motions/models/random_chain.h"
 #include "motions/models/shape_motion.h"
 #include "motions/models/shapes.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "motions/trajectory.h"
+#include "motions/readers/trajectory.h"
 
 namespace kds::models {
 

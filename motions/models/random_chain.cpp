@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "motions/input_error.h"
+#include "motions/base/input_error.h"
 #include "motions/models/elementary.h"
 
 namespace kds::models {

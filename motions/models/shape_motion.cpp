@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "motions/models/elementary.h"
-#include "motions/near_pairs.h"
+#include "motions/scene/near_pairs.h"
 
 namespace kds::models {
 

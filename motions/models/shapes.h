@@ -1,6 +1,6 @@
 #pragma once
 // The paper's necklaces at rest (section 4): beads of radius 1, `bond` diameters apart along the chain.
-// Whether they are proper necklaces depends on their length; structures/necklace.h tells.
+// Whether they are proper necklaces depends on their length; structures/necklace/necklace.h tells.
 
 #include <cstddef>
 

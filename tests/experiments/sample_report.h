@@ -1,7 +1,7 @@
 #pragma once
 // A small run, made up, with every kind of figure a report shows.
 
-#include "experiments/run_report.h"
+#include "experiments/run/run_report.h"
 
 namespace kds::test {
 

@@ -6,9 +6,9 @@
 #include <functional>
 #include <random>
 
-#include "certificates/ball_in_sphere.h"
-#include "certificates/contact.h"
-#include "certificates/precedes.h"
+#include "certificates/types/ball_in_sphere.h"
+#include "certificates/types/contact.h"
+#include "certificates/types/precedes.h"
 
 namespace kds {
 namespace {
@@ -79,7 +79,7 @@ TYPED_TEST_SUITE(CertificateTableTest, Kernels);
 
 TYPED_TEST(CertificateTableTest, ForgetsWhatNeverFails) {
   this->run([this] {
-    EXPECT_EQ(this->owner.table.watch({{0, 1}}, 7), Guard::never);
+    EXPECT_EQ(this->owner.table.watch({{0, 1}}, 7), CertificateHandle::never);
     EXPECT_EQ(this->counts().alive, 1U);
   });
   EXPECT_EQ(this->counts().created, 1U);
@@ -92,9 +92,9 @@ TYPED_TEST(CertificateTableTest, ForgetsWhatNeverFails) {
 
 TYPED_TEST(CertificateTableTest, KeepsNothingOfWhatIsViolatedAtBirth) {
   this->run([this] {
-    EXPECT_EQ(this->owner.table.watch({{1, 0}}, 7), Guard::violated);
+    EXPECT_EQ(this->owner.table.watch({{1, 0}}, 7), CertificateHandle::violated);
     EXPECT_EQ(this->counts().alive, 0U);
-    this->owner.table.drop(Guard::violated);  // nothing to give up
+    this->owner.table.drop(CertificateHandle::violated);  // nothing to give up
     EXPECT_EQ(this->counts().alive, 0U);
   });
   EXPECT_EQ(this->counts().created, 1U);
@@ -106,7 +106,7 @@ TYPED_TEST(CertificateTableTest, KeepsNothingOfWhatIsViolatedAtBirth) {
 
 TYPED_TEST(CertificateTableTest, TellsTheOwnerOfFailures) {
   this->run([this] {
-    const Guard guard = this->owner.table.watch({{3, 12}}, 70);
+    const CertificateHandle guard = this->owner.table.watch({{3, 12}}, 70);
     ASSERT_TRUE(has_slot(guard));
     const std::uint32_t slot = slot_of(guard);
     EXPECT_EQ(this->owner.table.certificate(slot).beads, (std::array<BeadId, 2>{3, 12}));
@@ -137,10 +137,10 @@ TYPED_TEST(CertificateTableTest, FailuresAreOutOfTheCountWhenTheOwnerIsTold) {
 
 TYPED_TEST(CertificateTableTest, DroppedOnesDoNotFail) {
   this->run([this] {
-    const Guard a = this->owner.table.watch({{3, 12}}, 1);
-    const Guard b = this->owner.table.watch({{4, 12}}, 2);
-    const Guard never = this->owner.table.watch({{4, 5}}, 3);
-    const Guard never_too = this->owner.table.watch({{5, 6}}, 3);
+    const CertificateHandle a = this->owner.table.watch({{3, 12}}, 1);
+    const CertificateHandle b = this->owner.table.watch({{4, 12}}, 2);
+    const CertificateHandle never = this->owner.table.watch({{4, 5}}, 3);
+    const CertificateHandle never_too = this->owner.table.watch({{5, 6}}, 3);
     EXPECT_EQ(this->counts().alive, 4U);
     this->owner.table.drop(a);
     EXPECT_EQ(this->counts().alive, 3U);
@@ -163,10 +163,10 @@ TYPED_TEST(CertificateTableTest, DroppedOnesDoNotFail) {
 
 TYPED_TEST(CertificateTableTest, SlotsAreUsedAgain) {
   this->run([this] {
-    const Guard a = this->owner.table.watch({{3, 12}}, 1);
-    const Guard b = this->owner.table.watch({{4, 12}}, 2);
+    const CertificateHandle a = this->owner.table.watch({{3, 12}}, 1);
+    const CertificateHandle b = this->owner.table.watch({{4, 12}}, 2);
     this->owner.table.drop(a);
-    const Guard c = this->owner.table.watch({{5, 12}}, 3);
+    const CertificateHandle c = this->owner.table.watch({{5, 12}}, 3);
     EXPECT_EQ(slot_of(c), slot_of(a));
     EXPECT_NE(slot_of(c), slot_of(b));
     EXPECT_EQ(this->owner.table.certificate(slot_of(c)).beads[0], 5U);
@@ -186,7 +186,7 @@ TYPED_TEST(CertificateTableTest, TheFailingSlotIsNotUsedAgainAtOnce) {
         slots.push_back(slot);
         const BeadId next = 9 - static_cast<BeadId>(this->owner.failed.size());
         if (next > 4) {
-          const Guard guard = this->owner.table.watch({{next, 12}}, next);
+          const CertificateHandle guard = this->owner.table.watch({{next, 12}}, next);
           EXPECT_TRUE(has_slot(guard));
           EXPECT_NE(slot_of(guard), slot);
         }
@@ -198,8 +198,8 @@ TYPED_TEST(CertificateTableTest, TheFailingSlotIsNotUsedAgainAtOnce) {
 
 TYPED_TEST(CertificateTableTest, PlacesTellStructuresTablesAndPlacesApart) {
   this->run([this] {
-    const Guard a = this->owner.table.watch({{3, 12}}, 0xffffffffU);
-    const Guard b = this->owner.unused.watch({{3, 12}}, 0xffffffffU);
+    const CertificateHandle a = this->owner.table.watch({{3, 12}}, 0xffffffffU);
+    const CertificateHandle b = this->owner.unused.watch({{3, 12}}, 0xffffffffU);
     EXPECT_NE(this->owner.table.place(slot_of(a)), this->owner.unused.place(slot_of(b)));
     EXPECT_EQ(this->owner.table.place(slot_of(a)) & 0xffffffffU, 0xffffffffU);
     this->owner.unused.drop(b);
@@ -209,7 +209,7 @@ TYPED_TEST(CertificateTableTest, PlacesTellStructuresTablesAndPlacesApart) {
   Owner<TypeParam> second(two, this->motion);
   first.on_start = [&] { (void)first.table.watch({{3, 12}}, 4); };
   second.on_start = [&] {
-    const Guard guard = second.table.watch({{3, 12}}, 4);
+    const CertificateHandle guard = second.table.watch({{3, 12}}, 4);
     EXPECT_NE(first.table.place(0), second.table.place(slot_of(guard)));
     EXPECT_EQ(first.table.structure(), 0U);
     EXPECT_EQ(second.table.structure(), 1U);
@@ -248,7 +248,7 @@ TYPED_TEST(CertificateTableTest, EveryStageIsCounted) {
 
 // A few at a time or all at once: the same guards in the same order.
 TYPED_TEST(CertificateTableTest, ManyAreAsOneByOne) {
-  std::vector<std::pair<std::uint32_t, Guard>> expected, many;
+  std::vector<std::pair<std::uint32_t, CertificateHandle>> expected, many;
   for (const bool a_few_at_a_time : {false, true}) {
     this->run([&] {
       std::mt19937 random(6);
@@ -258,12 +258,12 @@ TYPED_TEST(CertificateTableTest, ManyAreAsOneByOne) {
           const auto left = static_cast<BeadId>(random() % 20);
           const auto right = static_cast<BeadId>((left + 1 + random() % 19) % 20);
           if (a_few_at_a_time) {
-            table.enqueue_one_of_many({{left, right}}, place, Birth::unknown);
+            table.enqueue_one_of_many({{left, right}}, place, KnownAtStart::unknown);
           } else {
-            table.enqueue({{left, right}}, place, Birth::unknown);
+            table.enqueue({{left, right}}, place, KnownAtStart::unknown);
           }
         }
-        table.watch_enqueued([&](std::uint32_t place, Guard guard) {
+        table.watch_enqueued([&](std::uint32_t place, CertificateHandle guard) {
           (a_few_at_a_time ? many : expected).emplace_back(place, guard);
         });
       }
@@ -278,14 +278,14 @@ TYPED_TEST(CertificateTableTest, ManyAreAsOneByOne) {
 TYPED_TEST(CertificateTableTest, TheBooksBalance) {
   std::mt19937 random(5);
   std::uint64_t peak = 0;
-  std::vector<Guard> live;
+  std::vector<CertificateHandle> live;
   const auto act = [&] {
     for (int i = 0; i < 4; ++i) {
       const auto left = static_cast<BeadId>(random() % 20);
       const auto right = static_cast<BeadId>((left + 1 + random() % 19) % 20);
-      const Guard guard =
+      const CertificateHandle guard =
           this->owner.table.watch({{left, right}}, static_cast<std::uint32_t>(random() % 1000));
-      if (guard != Guard::violated) live.push_back(guard);
+      if (guard != CertificateHandle::violated) live.push_back(guard);
     }
     peak = std::max<std::uint64_t>(peak, live.size());
     if (live.size() > 2 && random() % 3 != 0) {
@@ -301,7 +301,7 @@ TYPED_TEST(CertificateTableTest, TheBooksBalance) {
         for (int i = 0; i < 50; ++i) act();
       },
       [&](std::uint32_t slot) {
-        const auto gone = std::find(live.begin(), live.end(), static_cast<Guard>(slot));
+        const auto gone = std::find(live.begin(), live.end(), static_cast<CertificateHandle>(slot));
         ASSERT_NE(gone, live.end());
         live.erase(gone);
         if (budget-- > 0) act();
@@ -329,16 +329,16 @@ class BallOwner final : public KineticStructure {
     // The ball leaves the sphere at u = 1/3; its certificate comes before the contact's, and its type after.
     EXPECT_TRUE(has_slot(inside.watch({{0, 1}, true}, 0)));
     EXPECT_TRUE(has_slot(contacts.watch(Contact({2, 3}, 1), 0)));
-    EXPECT_EQ(contacts.watch(Contact({0, 2}, 1), 1), Guard::never);
-    EXPECT_EQ(inside.watch({{0, 2}, true}, 1), Guard::violated);
-    EXPECT_EQ(inside.watch({{0, 0}, true}, 2), Guard::zero);
+    EXPECT_EQ(contacts.watch(Contact({0, 2}, 1), 1), CertificateHandle::never);
+    EXPECT_EQ(inside.watch({{0, 2}, true}, 1), CertificateHandle::violated);
+    EXPECT_EQ(inside.watch({{0, 0}, true}, 2), CertificateHandle::zero);
   }
   void fail(unsigned number, std::uint32_t slot) override {
     failed.push_back(number);
     if (number == 1) {
       auto outside = inside.certificate(slot);
       outside.inside = false;
-      EXPECT_EQ(inside.watch(outside, 0, Birth::at_own_root), Guard::never);
+      EXPECT_EQ(inside.watch(outside, 0, KnownAtStart::at_own_root), CertificateHandle::never);
     }
   }
   void apply(const Change&) override {}

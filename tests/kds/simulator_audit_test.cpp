@@ -25,7 +25,7 @@ TEST_F(AuditedTest, LooksAtWhatWasDoneWhileTimeStoodStill) {
   simulator.run_until(Dyadic(0.25));
   log.clear();
   a.audits.clear();
-  a.unsettled = true;
+  a.needs_after_batch = true;
   simulator.leave_step(true);
   EXPECT_THAT(log, ElementsAre("a settle", "a 1/2", "a finish last"));
   ASSERT_EQ(a.audits.size(), 3U);  // before the event, after it, at the end
@@ -57,13 +57,13 @@ TEST_F(AuditedTest, AuditsStrictlyBetweenAllEvents) {
 
 TEST_F(AuditedTest, AuditsComeAfterSettlingAndBeforeWhatItSchedules) {
   a.on_start = [&] {
-    a.schedule("1/3", falling(1, 3), 1, [&] { a.unsettled = true; });
+    a.schedule("1/3", falling(1, 3), 1, [&] { a.needs_after_batch = true; });
     a.schedule("3/4", falling(3, 4), 2);
   };
-  a.on_settle = [&] { a.schedule("soon", falling(1001, 3000), 3); };
+  a.on_batch_end = [&] { a.schedule("soon", falling(1001, 3000), 3); };
   a.on_audit = [&](const Dyadic&) {
     a.note("audit");
-    EXPECT_FALSE(a.unsettled);
+    EXPECT_FALSE(a.needs_after_batch);
     return std::nullopt;
   };
   simulator.build();
@@ -75,8 +75,8 @@ TEST_F(AuditedTest, AuditsComeAfterSettlingAndBeforeWhatItSchedules) {
 }
 
 TEST_F(AuditedTest, AuditsComeBeforeWhatSettlingSchedulesIntoAnEmptyQueue) {
-  a.on_start = [&] { a.schedule("1/3", falling(1, 3), 1, [&] { a.unsettled = true; }); };
-  a.on_settle = [&] {
+  a.on_start = [&] { a.schedule("1/3", falling(1, 3), 1, [&] { a.needs_after_batch = true; }); };
+  a.on_batch_end = [&] {
     for (BeadId b = 0; b < 100; ++b) a.schedule("soon", falling(1001 + b, 3000), b);
   };
   simulator.build();

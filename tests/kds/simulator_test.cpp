@@ -84,7 +84,7 @@ TEST_F(SimulatorTest, EqualTimesComeInTheOrderOfIdentities) {
 }
 
 TEST_F(SimulatorTest, SettlesOnceAfterAllEventsOfOneTime) {
-  const auto unsettle = [&] { a.unsettled = true; };
+  const auto unsettle = [&] { a.needs_after_batch = true; };
   a.on_start = [&] {
     a.schedule("first", falling(1, 3), 1, unsettle);
     a.schedule("second", times(falling(1, 3), falling(8, 7)), 2);
@@ -94,13 +94,13 @@ TEST_F(SimulatorTest, SettlesOnceAfterAllEventsOfOneTime) {
   run();
   EXPECT_THAT(log, ElementsAre("a build", "a start", "a first", "a second", "a third", "a settle", "a later",
                                "a finish last"));
-  EXPECT_FALSE(a.unsettled);
+  EXPECT_FALSE(a.needs_after_batch);
 }
 
 TEST_F(SimulatorTest, SettlesAfterTheStartAndAfterTheLastEvent) {
   a.on_start = [&] {
-    a.unsettled = true;
-    a.schedule("1/2", falling(1, 2), 1, [&] { a.unsettled = true; });
+    a.needs_after_batch = true;
+    a.schedule("1/2", falling(1, 2), 1, [&] { a.needs_after_batch = true; });
   };
   run();
   EXPECT_THAT(log, ElementsAre("a build", "a start", "a settle", "a 1/2", "a settle", "a finish last"));
@@ -109,8 +109,8 @@ TEST_F(SimulatorTest, SettlesAfterTheStartAndAfterTheLastEvent) {
 // The exact time of the present event is there for as long as structures settle.
 
 TEST_F(SimulatorTest, TheTimeDoesNotMoveBeforeAllIsSettled) {
-  a.on_start = [&] { a.schedule("1/3", falling(1, 3), 1, [&] { a.unsettled = true; }); };
-  a.on_settle = [&] {
+  a.on_start = [&] { a.schedule("1/3", falling(1, 3), 1, [&] { a.needs_after_batch = true; }); };
+  a.on_batch_end = [&] {
     EXPECT_LT(simulator.now().lower(), 1.0 / 3);
     const Dyadic soon = next_on_grid(simulator.now().exact(), 8);
     EXPECT_EQ(soon.rational(), Rational(86, 256));
@@ -122,7 +122,7 @@ TEST_F(SimulatorTest, TheTimeDoesNotMoveBeforeAllIsSettled) {
 
 TEST_F(SimulatorTest, OnlyTheUnsettledAreSettled) {
   Script b{simulator, log, "b"};
-  a.on_start = [&] { a.schedule("1/2", falling(1, 2), 1, [&] { b.unsettled = true; }); };
+  a.on_start = [&] { a.schedule("1/2", falling(1, 2), 1, [&] { b.needs_after_batch = true; }); };
   run();
   EXPECT_THAT(log, ElementsAre("a build", "b build", "a start", "b start", "a 1/2", "b settle",
                                "a finish last", "b finish last"));
@@ -131,7 +131,7 @@ TEST_F(SimulatorTest, OnlyTheUnsettledAreSettled) {
 TEST_F(SimulatorTest, WhatIsScheduledForNowComesBeforeLaterEventsAndSettling) {
   a.on_start = [&] {
     a.schedule("first", falling(1, 3), 5, [&] {
-      a.unsettled = true;
+      a.needs_after_batch = true;
       a.schedule("at once", times(falling(1, 3), falling(8, 7)), 3,
                  [&] { a.schedule("and again", times(falling(1, 3), falling(9, 7)), 1); });
     });
@@ -145,11 +145,11 @@ TEST_F(SimulatorTest, WhatIsScheduledForNowComesBeforeLaterEventsAndSettling) {
 TEST_F(SimulatorTest, SettlingMayCancelAndSchedule) {
   QueueHandle doomed = 0;
   a.on_start = [&] {
-    a.schedule("1/3", falling(1, 3), 1, [&] { a.unsettled = true; });
+    a.schedule("1/3", falling(1, 3), 1, [&] { a.needs_after_batch = true; });
     doomed = a.schedule("2/5", falling(2, 5), 2);
     a.schedule("2/3", falling(2, 3), 3);
   };
-  a.on_settle = [&] {
+  a.on_batch_end = [&] {
     simulator.cancel(doomed);
     a.schedule("1/2", falling(1, 2), 4);
   };
@@ -174,7 +174,7 @@ TEST_F(SimulatorTest, OneClockForAllStructures) {
 
 TEST_F(SimulatorTest, StandsStillWithinAStep) {
   a.on_start = [&] {
-    a.schedule("1/4", falling(1, 4), 1, [&] { a.unsettled = true; });
+    a.schedule("1/4", falling(1, 4), 1, [&] { a.needs_after_batch = true; });
     a.schedule("1/3", falling(1, 3), 2);
     a.schedule("3/4", falling(3, 4), 3);
   };
@@ -205,7 +205,7 @@ TEST_F(SimulatorTest, StandsStillWithinAStep) {
   EXPECT_EQ(simulator.step(), 1U);
 }
 
-// What is unsettled while time stands still is settled, and looked at, before it goes on.
+// What is needs_after_batch while time stands still is settled, and looked at, before it goes on.
 
 TEST_F(SimulatorTest, StepsFollowEachOther) {
   a.on_start = [&] {

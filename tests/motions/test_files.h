@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-#include "motions/input_error.h"
+#include "motions/base/input_error.h"
 
 namespace kds::test {
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <tuple>
 
-#include "certificates/bead_in_sphere.h"
-#include "certificates/contact.h"
-#include "certificates/orientation.h"
-#include "certificates/power_test.h"
-#include "certificates/precedes.h"
+#include "certificates/types/bead_in_sphere.h"
+#include "certificates/types/contact.h"
+#include "certificates/types/orientation.h"
+#include "certificates/types/power_test.h"
+#include "certificates/types/precedes.h"
 #include "tests/support/polynomials.h"
 
 namespace kds::test {

@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
-#include "motions/bead.h"
-#include "motions/exact_number.h"
+#include "motions/base/bead.h"
+#include "motions/numbers/exact_number.h"
 
 namespace kds::test {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "certificates/ball_in_sphere.h"
-#include "certificates/orientation.h"
+#include "certificates/types/ball_in_sphere.h"
+#include "certificates/types/orientation.h"
 #include "tests/support/enclosing_ball.h"
 #include "tests/support/random_motion.h"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/positions.h"
+#include "motions/curves/positions.h"
 #include "tests/support/text_of.h"
 
 namespace kds::test {

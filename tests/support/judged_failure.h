@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "certificates/failure_search.h"
+#include "certificates/search/failure_search.h"
 #include "tests/support/polynomials.h"
 #include "tests/support/sturm.h"
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "kds/simulator.h"
-#include "motions/read_trajectory.h"
-#include "motions/scene.h"
+#include "motions/readers/read_trajectory.h"
+#include "motions/scene/scene.h"
 
 namespace kds::test {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "certificates/failure_search.h"
+#include "certificates/search/failure_search.h"
 #include "kds/simulator.h"
 
 namespace kds::test {

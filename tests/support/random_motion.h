@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "motions/bezier_motion.h"
+#include "motions/curves/bezier_motion.h"
 #include "tests/support/polynomials.h"
 
 namespace kds::test {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "motions/positions.h"
-#include "motions/whole_view.h"
+#include "motions/curves/positions.h"
+#include "motions/views/integer_view.h"
 
 namespace kds::test {
 

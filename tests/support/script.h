@@ -38,7 +38,7 @@ class Script final : public KineticStructure, public FailureSource {
   void change(std::uint8_t kind, BeadId bead) { simulator_.record(index_, {kind, 1, {bead}}); }
   void note(const std::string& text) { log_.push_back(name_ + " " + text); }
 
-  std::function<void()> on_build, on_start, on_settle;
+  std::function<void()> on_build, on_start, on_batch_end;
   std::function<std::optional<std::string>(const Dyadic&)> on_audit;
   std::vector<Rational> audits;
 
@@ -57,9 +57,9 @@ class Script final : public KineticStructure, public FailureSource {
     if (on_start) on_start();
   }
   void fail(unsigned, std::uint32_t) override { FAIL() << "the source was not asked"; }
-  void settle() override {
+  void after_batch() override {
     note("settle");
-    if (on_settle) on_settle();
+    if (on_batch_end) on_batch_end();
   }
   void finish_step(bool last) override { note(last ? "finish last" : "finish"); }
   void apply(const Change& c) override {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "motions/exact_number.h"
+#include "motions/numbers/exact_number.h"
 
 namespace kds::test::sturm {
 

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "structures/regular_triangulation.h"
-#include "structures/sorted_cells.h"
+#include "structures/triangulation/regular_triangulation.h"
+#include "structures/triangulation/sorted_cells.h"
 #include "tests/support/exact_checks.h"
 #include "tests/support/moving_beads.h"
 

@@ -1,0 +1,44 @@
+#pragma once
+// What a radical certificate type must offer: positive while A + B sqrt(D) is, for polynomials A, B and D >=
+// 0 of a few beads' motions. D itself is never needed, but it must not be negative, nor a left out factor,
+// while the certificate is in use: the type says why (beyond that, nothing is said), and by `is_usable`, if
+// it has that, whether it is so during a short time. The sign follows from those of A, B and of the norm A^2
+// - B^2 D, each up to a factor that is positive while the certificate is in use; its zeros are among the
+// norm's.
+//
+// The function may be subject to a condition, another radical: it counts as negative where that is. While
+// A + B sqrt(D) is positive the condition must not change sign.
+
+#include <concepts>
+
+#include "certificates/base/certificate.h"
+
+namespace kds {
+
+/// The sign of A + B sqrt(D) from those of A, B and the norm. With signs of which 0 means "not known", as
+/// filters give them, the answer is that or right.
+[[nodiscard]] constexpr int sign_of_radical(int a, int b, int norm) {
+  if (a == b) return a;
+  return norm > 0 ? a : norm < 0 ? b : 0;  // the greater in size decides
+}
+
+/// The three polynomials of a radical, each a function of beads.
+template <class R, class M>
+concept RadicalOf = FunctionOfBeads<typename R::Rational, M> && FunctionOfBeads<typename R::Root, M> &&
+    FunctionOfBeads<typename R::Norm, M>;
+
+template <class C, class M>
+concept RadicalCertificateFor = RadicalOf<typename C::Radical, M> && requires(const C& certificate) {
+  { certificate.identity() } -> std::same_as<Identity>;
+  { certificate.side() } -> std::same_as<bool>;      // false: positive where the radical is negative
+  { certificate.root_sign() } -> std::same_as<int>;  // 1 or -1, by which B is to be multiplied
+};
+
+/// Has a condition, at least for some motions.
+template <class C, class M>
+concept ConditionalFor = RadicalOf<typename C::Condition, M> &&
+    requires(const C& certificate, const M& motion) {
+  { certificate.conditional(motion) } -> std::same_as<bool>;
+};
+
+}  // namespace kds

@@ -1,0 +1,64 @@
+#pragma once
+// A function of beads on whole numbers. It is evaluated modulo a few primes, as many as its coefficients'
+// bound in lengths asks for at the width of these beads' control points; where those are wider than the
+// primes reach, on whole numbers outright. Exact.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "certificates/base/certificate.h"
+#include "certificates/exact/exact_polynomial.h"
+#include "motions/numbers/magnitude.h"
+#include "motions/views/integer_view.h"
+
+namespace kds {
+
+/// All coefficients are below 2^(bits + power * length_bits) in size where differences and sums of two
+/// lengths are below 2^length_bits and those of their squares below 2^(2 length_bits).
+struct CoefficientBits {
+  int bits = 0;
+  int power = 0;
+};
+
+template <class Function, class M>
+[[nodiscard]] CoefficientBits derive_coefficient_bits() {
+  CoefficientBits result;
+  for (const Magnitude& m : function_of(Function{}, MagnitudeViewOf<M>{}).scaled) {
+    // Rounded on the way: by far less than one bit.
+    result = {std::max(result.bits, std::ilogb(m.bound) + 2), m.power};
+  }
+  return result;
+}
+template <class Function, class M>
+inline const CoefficientBits coefficient_bits = derive_coefficient_bits<Function, M>();
+
+// Rarely called and large: one copy for all kernels.
+template <class Function, Motion M>
+[[nodiscard, gnu::noinline]] ExactPolynomial exact_function(const Function& function, const M& motion) {
+  constexpr Channels channels = channels_of<Function>;
+  const WholeScale scale = whole_scale<channels>(motion, function.beads);
+  const CoefficientBits& size = coefficient_bits<Function, M>;
+  const std::size_t count = residues_for(size.bits + size.power * (scale.bits + 1));
+  if (count > residue_folds.size())
+    return ExactPolynomial(function_of(function, IntegerView<M, channels>(motion, scale)));
+
+  constexpr int degree = decltype(function_of(function, DoubleView<M>(motion)))::degree;
+  std::array<std::array<std::uint64_t, residue_folds.size()>, degree + 1> residues;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto p = function_of(function, ResidueView<M, channels>(motion, scale, {residue_folds[i]}));
+    for (std::size_t k = 0; k <= degree; ++k) residues[k][i] = p.scaled[k].value;
+  }
+  std::vector<Integer> scaled;
+  scaled.reserve(degree + 1);
+  for (const auto& coefficient : residues)
+    scaled.push_back(whole_number(std::span(coefficient).first(count)));
+  return ExactPolynomial(std::move(scaled));
+}
+
+}  // namespace kds

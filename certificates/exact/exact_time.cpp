@@ -1,0 +1,222 @@
+#include "certificates/exact/exact_time.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace kds {
+
+namespace {
+
+// Bisections before a gcd is tried: cheaper while the times differ, wasted where they are equal.
+constexpr int separation_budget = 16;
+
+bool disjoint(const ExactTime& a, const ExactTime& b) {
+  if (a.is_dyadic() && b.is_dyadic()) return !(a.lower() == b.lower());
+  return a.upper() <= b.lower() || b.upper() <= a.lower();
+}
+
+// Whether the time is a root of g, which divides a polynomial that has no other root in the interval.
+bool is_root(const ExactPolynomial& g, const ExactTime& time) {
+  if (g.is_constant()) return false;
+  if (time.is_dyadic()) return g.sign_at(time.lower()) == 0;
+  return g.sign_at(time.lower()) * g.sign_at(time.upper()) < 0;
+}
+
+// The sign of `function` in the time's interval if it has no root there, by Descartes' rule; else 0.
+int sign_all_over(const ExactPolynomial& function, const ExactTime& time) {
+  const ExactPolynomial local = function.restricted(time.lower(), time.upper());
+  if (local.sign_variations() != 0) return 0;
+  for (const Integer& x : local.scaled()) {
+    if (x != 0) return x > 0 ? 1 : -1;
+  }
+  return 0;
+}
+
+// Where the time roughly is: bisection in double on the polynomial's coefficients over its interval.
+double rough(const ExactTime& time) {
+  const ExactPolynomial local = time.polynomial().restricted(time.lower(), time.upper());
+  const auto shift = static_cast<long>(local.largest_bit_length());
+  std::vector<double> c;
+  for (const Integer& x : local.scaled()) {
+    long exponent = 0;
+    const double fraction = mpz_get_d_2exp(&exponent, x.backend().data());
+    c.push_back(std::ldexp(fraction, static_cast<int>(std::max(exponent - shift, -1100L))));
+  }
+  const auto value = [&c](double s) {
+    double sum = c.back();
+    double power = 1;
+    for (std::size_t k = c.size() - 1; k-- > 0;) {
+      power *= 1 - s;
+      sum = sum * s + c[k] * power;
+    }
+    return sum;
+  };
+  const bool rising = c.front() < 0;
+  double low = 0;
+  double high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((value(middle) < 0) == rising ? low : high) = middle;
+  }
+  const double lower = time.lower().round_down();
+  return lower + (time.upper().round_up() - lower) * low;
+}
+
+}  // namespace
+
+ExactTime::ExactTime(ExactPolynomial square_free, RootInterval interval)
+    : polynomial_(std::move(square_free)),
+      lower_(std::move(interval.lower)),
+      upper_(std::move(interval.upper)) {
+  if (!is_dyadic()) sign_lower_ = polynomial_.sign_at(lower_);
+}
+
+void ExactTime::refine() {
+  if (is_dyadic()) return;
+  Dyadic middle = Dyadic::midpoint(lower_, upper_);
+  const int sign = polynomial_.sign_at(middle);
+  if (sign == 0) {
+    lower_ = middle;
+    upper_ = std::move(middle);
+  } else if (sign == sign_lower_) {
+    lower_ = std::move(middle);
+  } else {
+    upper_ = std::move(middle);
+  }
+}
+
+bool ExactTime::narrow_to(const Dyadic& lower, const Dyadic& upper) {
+  if (is_dyadic() || lower < lower_ || upper_ < upper) return false;
+  if (polynomial_.sign_at(lower) != sign_lower_ || polynomial_.sign_at(upper) != -sign_lower_) return false;
+  lower_ = lower;
+  upper_ = upper;
+  return true;
+}
+
+void ExactTime::narrow_for_doubles() {
+  constexpr double width = 0x1p-44;
+  if (is_dyadic()) return;
+  const double guess = rough(*this);
+  for (const double reach : {0x1p-46, 0x1p-42}) {
+    if (narrow_to(Dyadic(guess - reach), Dyadic(guess + reach))) return;
+  }
+  while (!is_dyadic() && upper_.round_up() - lower_.round_down() > width) refine();
+}
+
+int ExactTime::compare(ExactTime& a, ExactTime& b) {
+  for (int i = 0; i < separation_budget && !disjoint(a, b); ++i) {
+    if (a.is_dyadic() && b.is_dyadic()) return 0;
+    a.refine();
+    b.refine();
+  }
+  if (!disjoint(a, b)) {
+    if (a.is_dyadic() && b.is_dyadic()) return 0;
+    if (a.is_dyadic() || b.is_dyadic()) {
+      if (a.is_dyadic() ? is_root(b.polynomial_, a) : is_root(a.polynomial_, b)) return 0;
+    } else {
+      // Common roots are the roots of g; the times are equal iff one lies in the overlap, where each has one
+      // root.
+      const ExactPolynomial g = ExactPolynomial::gcd(a.polynomial_, b.polynomial_).square_free();
+      const Dyadic& lower = a.lower_ < b.lower_ ? b.lower_ : a.lower_;
+      const Dyadic& upper = a.upper_ < b.upper_ ? a.upper_ : b.upper_;
+      if (!g.is_constant() && g.sign_at(lower) * g.sign_at(upper) < 0) return 0;
+    }
+    while (!disjoint(a, b)) {
+      a.refine();
+      b.refine();
+    }
+  }
+  if (a.upper_ <= b.lower_) return -1;
+  return 1;
+}
+
+int sign_at(const ExactPolynomial& function, ExactTime& time) {
+  if (function.is_zero()) return 0;
+  for (int i = 0; i < separation_budget && !time.is_dyadic(); ++i) {
+    if (const int sign = sign_all_over(function, time)) return sign;
+    time.refine();
+  }
+  if (time.is_dyadic()) return function.sign_at(time.lower());
+  if (is_root(ExactPolynomial::gcd(time.polynomial(), function.square_free()), time)) return 0;
+  return sign_after(function, time);
+}
+
+int sign_after(const ExactPolynomial& function, ExactTime& time) {
+  if (function.is_zero()) return 0;
+  if (time.is_dyadic()) return function.sign_after(time.lower());
+  for (int i = 0; i < separation_budget; ++i) {
+    if (const int sign = sign_all_over(function, time)) return sign;
+    time.refine();
+    if (time.is_dyadic()) return function.sign_after(time.lower());
+  }
+  const ExactPolynomial simple = function.square_free();
+  if (is_root(ExactPolynomial::gcd(time.polynomial(), simple), time)) {
+    // Narrow until the time is the only root around; then the upper end tells.
+    while (true) {
+      const ExactPolynomial local = simple.restricted(time.lower(), time.upper());
+      if (local.sign_variations() == 1) {
+        if (const int sign = function.sign_at(time.upper())) return sign;
+      }
+      time.refine();
+      if (time.is_dyadic()) return function.sign_after(time.lower());
+    }
+  }
+  while (true) {
+    if (const int sign = sign_all_over(function, time)) return sign;
+    time.refine();
+    if (time.is_dyadic()) return function.sign_after(time.lower());
+  }
+}
+
+std::optional<ExactFailure> first_failure_after(const ExactPolynomial& function, const ExactTime& now,
+                                                TouchPolicy touches) {
+  const Dyadic end(1.0);
+  if (!(now.upper() < end) || function.is_zero() || function.sign_variations() == 0) return std::nullopt;
+  const bool from_root = now.is_dyadic() && function.sign_at(now.upper()) == 0;
+  const ExactPolynomial simple = function.square_free();
+  std::optional<ExactFailure> failure;
+  bool present = from_root;  // the first root is the present time
+  visit_roots(simple, now.upper(), end, [&](RootInterval root) {
+    if (std::exchange(present, false)) return true;
+    if (root.lower == end) return false;  // what happens at u = 1 is judged by the next step
+    ExactTime time(simple, std::move(root));
+    // The only root around, so the upper end tells, unless the function is zero at the end of the step.
+    const int at_upper = time.is_dyadic() ? 0 : function.sign_at(time.upper());
+    const bool touch = (at_upper != 0 ? at_upper : sign_after(function, time)) > 0;
+    if (!touch || touches == TouchPolicy::reported) failure = {std::move(time), touch};
+    return !failure;
+  });
+  return failure;
+}
+
+Dyadic dyadic_between(ExactTime& a, ExactTime& b) {
+  if (ExactTime::compare(a, b) >= 0) return a.upper();  // caller's error; nothing lies between
+  while (!(a.upper() < b.lower())) {
+    if (a.upper() == b.lower() && !a.is_dyadic() && !b.is_dyadic()) return a.upper();
+    a.refine();
+    b.refine();
+  }
+  return Dyadic::midpoint(a.upper(), b.lower());
+}
+
+Dyadic next_on_grid(ExactTime& time, unsigned bits) {
+  // floor(x 2^bits) + 1
+  const auto after = [bits](const Dyadic& x) -> Integer {
+    const Integer scaled = x.numerator() << bits;
+    return (scaled >> x.exponent()) + 1;
+  };
+  while (!time.is_dyadic()) {
+    const Dyadic next(after(time.lower()), bits);
+    if (time.upper() <= next) return next;
+    if (time.polynomial().sign_at(next) == 0) {  // halving may miss a time on the grid for ever
+      time = ExactTime(next);
+    } else {
+      time.refine();
+    }
+  }
+  return {after(time.lower()), bits};
+}
+
+}  // namespace kds

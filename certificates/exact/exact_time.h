@@ -1,0 +1,63 @@
+#pragma once
+// An exact time in a step: a root of a polynomial with whole coefficients, or a dyadic number. Exact
+// throughout; narrowing its interval changes the representation, never the value.
+
+#include <optional>
+
+#include "certificates/base/failure_time.h"
+#include "certificates/exact/exact_polynomial.h"
+
+namespace kds {
+
+class ExactTime {
+ public:
+  explicit ExactTime(Dyadic time) : lower_(time), upper_(std::move(time)) {}
+  /// The root of `polynomial` in `interval`: the only one there, and the polynomial changes sign at it.
+  ExactTime(ExactPolynomial polynomial, RootInterval interval);
+
+  [[nodiscard]] bool is_dyadic() const { return lower_ == upper_; }
+  [[nodiscard]] const Dyadic& lower() const { return lower_; }  ///< < the time, or equal if is_dyadic()
+  [[nodiscard]] const Dyadic& upper() const { return upper_; }  ///< > the time, or equal if is_dyadic()
+  [[nodiscard]] const ExactPolynomial& polynomial() const { return polynomial_; }  ///< unused if is_dyadic()
+
+  /// Halves the interval, or finds that the time is its middle.
+  void refine();
+  /// The same to a narrower interval that holds the time, if it does; else nothing. Ends must not be roots.
+  bool narrow_to(const Dyadic& lower, const Dyadic& upper);
+  /// To about 2^-44, which keeps nearly all failure times of a step apart: at a guess, or by bisection.
+  void narrow_for_doubles();
+
+  /// -1, 0, 1. Narrows both.
+  [[nodiscard]] static int compare(ExactTime& a, ExactTime& b);
+
+ private:
+  ExactPolynomial polynomial_;
+  Dyadic lower_, upper_;
+  int sign_lower_ = 0;
+};
+
+/// Sign of `function` at the time itself. Narrows `time`.
+[[nodiscard]] int sign_at(const ExactPolynomial& function, ExactTime& time);
+
+/// Sign of `function` on (time, time + delta), 0 only for the zero function. Narrows `time` until `function`
+/// has no root between it and time.upper().
+[[nodiscard]] int sign_after(const ExactPolynomial& function, ExactTime& time);
+
+struct ExactFailure {
+  ExactTime time;
+  bool touch = false;
+};
+/// The first time after `now`, before the end of the step, from which on `function` is negative, or, if they
+/// are reported, at which it touches zero; none if there is none. `function` must be positive just after
+/// `now`, by sign_after, which narrowed `now` for this.
+[[nodiscard]] std::optional<ExactFailure> first_failure_after(const ExactPolynomial& function,
+                                                              const ExactTime& now,
+                                                              TouchPolicy touches = TouchPolicy::ignored);
+
+/// A dyadic strictly between two different times, a before b.
+[[nodiscard]] Dyadic dyadic_between(ExactTime& a, ExactTime& b);
+
+/// The first multiple of 2^-bits after `time`.
+[[nodiscard]] Dyadic next_on_grid(ExactTime& time, unsigned bits);
+
+}  // namespace kds

@@ -1,0 +1,32 @@
+#include "certificates/exact/instant.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace kds {
+
+ExactTime exact_time(const ExactPolynomial& function, const FailureTime& time) {
+  const Dyadic lower(time.lower);
+  if (time.lower == time.upper) return ExactTime(lower);
+  if (time.isolating) return {function, {lower, Dyadic(time.upper)}};
+  ExactPolynomial simple = function.square_free();
+  auto roots = isolate_roots(simple, lower, Dyadic(time.upper));
+  if (time.ordinal >= roots.size()) throw std::logic_error("a failure time's bracket holds too few roots");
+  return {std::move(simple), std::move(roots[time.ordinal])};
+}
+
+void narrow(FailureTime& time, const ExactTime& exact) {
+  if (!time.isolating || exact.is_dyadic()) return;
+  time.lower = std::max(time.lower, exact.lower().round_down());
+  time.upper = std::min(time.upper, exact.upper().round_up());
+}
+
+bool Instant::narrow() const {
+  if (narrowed_ || source_ == nullptr || time_.lower == time_.upper) return false;
+  narrowed_ = true;
+  exact().narrow_for_doubles();
+  kds::narrow(time_, exact());
+  return true;
+}
+
+}  // namespace kds

@@ -1,0 +1,58 @@
+#pragma once
+// The present time of a run within a step, as certificates need it: a bracket in doubles and, only when the
+// exact stage asks, the exact number behind it.
+
+#include <optional>
+#include <utility>
+
+#include "certificates/base/failure_time.h"
+#include "certificates/exact/exact_time.h"
+
+namespace kds {
+
+/// Whoever holds certificates can say exactly what their functions are.
+class CertificateSource {
+ public:
+  virtual ~CertificateSource() = default;
+  [[nodiscard]] virtual ExactPolynomial exact_function(std::uint32_t slot) const = 0;
+};
+
+/// The root that a failure time stands for. Exact.
+[[nodiscard]] ExactTime exact_time(const ExactPolynomial& function, const FailureTime& time);
+
+/// Carries a narrower exact interval back into the doubles. The time must stay the only root of its function.
+void narrow(FailureTime& time, const ExactTime& exact);
+
+class Instant {
+ public:
+  /// The start of a step, or another dyadic time.
+  explicit Instant(double u = 0) : time_{u, u, 0, false}, exact_(ExactTime(Dyadic(u))) {}
+  explicit Instant(const Dyadic& u) : time_{u.round_down(), u.round_up(), 0, false}, exact_(ExactTime(u)) {}
+  /// A bracket with nothing behind it: for reports, not for decisions.
+  explicit Instant(const FailureTime& time) : time_(time) {}
+  /// The failure time of a certificate, which must stay available while the instant lasts.
+  Instant(const FailureTime& time, const CertificateSource& source, std::uint32_t slot)
+      : time_(time), source_(&source), slot_(slot) {}
+
+  [[nodiscard]] double lower() const { return time_.lower; }
+  [[nodiscard]] double upper() const { return time_.upper; }
+  /// The bracket separates this time from the other roots of its certificate's function.
+  [[nodiscard]] bool isolating() const { return time_.isolating; }
+  /// It is known to be the last root of that function in the step; of no other function this tells anything.
+  [[nodiscard]] bool last() const { return time_.last; }
+  /// Narrows the bracket as far as doubles go, once: true if that was still to be done.
+  bool narrow() const;
+  [[nodiscard]] ExactTime& exact() const {
+    if (!exact_) exact_ = exact_time(source_->exact_function(slot_), time_);
+    return *exact_;
+  }
+
+ private:
+  mutable FailureTime time_;
+  const CertificateSource* source_ = nullptr;
+  std::uint32_t slot_ = 0;
+  mutable std::optional<ExactTime> exact_;
+  mutable bool narrowed_ = false;
+};
+
+}  // namespace kds

@@ -1,0 +1,83 @@
+#pragma once
+// Which certificate says that a ball lies in the sphere of a basis: the one for equal radii where they are
+// equal for the whole step, also among beads of an unequal necklace, else the radical one. In the plane and
+// in space. Exact either way; of one another they are told apart by their identity's type.
+//
+//   equal radii    bases of 1, 2 and (in space) 3 beads: bead_in_sphere.h; full bases: a power test times the
+//                  basis' orientation, where the weights are equal too
+//   others         ball_in_sphere.h
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <span>
+
+#include "certificates/types/ball_in_sphere.h"
+#include "certificates/types/bead_in_sphere.h"
+#include "certificates/types/power_test.h"
+
+namespace kds {
+
+namespace detail {
+
+/// Whether `value(bead, k)` is the same for all of these beads, for every control point k.
+template <Motion M, std::invocable<BeadId, int> Value>
+[[nodiscard]] bool all_equal(std::span<const BeadId> beads, Value value) {
+  return std::all_of(beads.begin(), beads.end(), [&](BeadId bead) {
+    for (int k = 0; k <= M::degree; ++k) {
+      if (value(bead, k) != value(beads.front(), k)) return false;
+    }
+    return true;
+  });
+}
+
+template <std::size_t N>
+[[nodiscard]] std::array<BeadId, N + 1> with_bead(std::span<const BeadId> basis, BeadId bead) {
+  std::array<BeadId, N + 1> beads{};
+  std::copy_n(basis.begin(), N, beads.begin());
+  beads[N] = bead;
+  return beads;
+}
+
+}  // namespace detail
+
+/// What is promised of the radii of a necklace.
+enum class Radii {
+  equal,  ///< the same for all beads, and so are weights: radical certificates are not even compiled
+  any
+};
+
+/// Calls `visit` with the certificate that `bead` lies inside (or, not `inside`, outside) the sphere of
+/// `basis`: 1 to dimension + 1 beads, ascending. `orientation` is a full basis' own (orientation.h).
+template <Radii radii = Radii::any, Motion M, class Visit>
+decltype(auto) visit_membership(const M& motion, std::span<const BeadId> basis, BeadId bead, bool inside,
+                                int orientation, Visit&& visit) {
+  constexpr std::size_t full = M::dimension + 1;
+  const bool is_full = basis.size() == full;
+  std::array<BeadId, full + 1> all{};
+  std::copy(basis.begin(), basis.end(), all.begin());
+  all[basis.size()] = bead;
+  if constexpr (radii == Radii::any) {
+    const auto beads = std::span(all).first(basis.size() + 1);
+    const bool equal =
+        detail::all_equal<M>(beads, [&](BeadId b, int k) { return motion.radius(b, k); }) &&
+        (!is_full || detail::all_equal<M>(beads, [&](BeadId b, int k) { return motion.weight(b, k); }));
+    if (!equal) {
+      if (is_full) return visit(BallInSphere<M::dimension, full>{all, inside, orientation});
+      if (basis.size() == 1)
+        return visit(BallInSphere<M::dimension, 1>{detail::with_bead<1>(basis, bead), inside});
+      if constexpr (full == 4) {
+        if (basis.size() == 3) return visit(BallInSphere<3, 3>{detail::with_bead<3>(basis, bead), inside});
+      }
+      return visit(BallInSphere<M::dimension, 2>{detail::with_bead<2>(basis, bead), inside});
+    }
+  }
+  if (is_full) return visit(PowerTest<M::dimension>(all, inside ? -orientation : orientation));
+  if (basis.size() == 1) return visit(BeadInSphere<1>{detail::with_bead<1>(basis, bead), inside});
+  if constexpr (full == 4) {
+    if (basis.size() == 3) return visit(BeadInSphere<3>{detail::with_bead<3>(basis, bead), inside});
+  }
+  return visit(BeadInSphere<2>{detail::with_bead<2>(basis, bead), inside});
+}
+
+}  // namespace kds

@@ -1,0 +1,47 @@
+#include "experiments/bench/bench_chains.h"
+
+#include <fmt/format.h>
+
+#include "motions/base/input_error.h"
+#include "motions/models/model.h"
+#include "motions/models/random.h"
+#include "motions/readers/read_trajectory.h"
+#include "motions/scene/radii.h"
+
+namespace kds {
+
+BenchChain read_bench_chain(const std::filesystem::path& path, std::size_t stride) {
+  constexpr std::size_t most_frames = 100;
+  ReadOptions options;
+  const std::string stem = path.stem().string();
+  const std::filesystem::path topology = path.parent_path() / (stem.substr(0, stem.find("_first")) + ".pdb");
+  if (path.extension() == ".dcd" && std::filesystem::exists(topology)) options.topology = topology;
+  Trajectory trajectory = read_trajectory(path, options);
+  if (trajectory.frames.size() < 2) throw InputError(path.string() + ": expected two frames or more");
+  BenchChain chain{stride == 1 ? stem : fmt::format("{} stride {}", stem, stride),
+                   {},
+                   bead_radii("auto", std::span(&trajectory, 1))};
+  for (std::size_t k = 0; k < trajectory.frames.size() && chain.frames.size() < most_frames; k += stride)
+    chain.frames.push_back(std::move(trajectory.frames[k]));
+  return chain;
+}
+
+Eigen::Matrix3Xd model_at_rest(std::string_view name, std::size_t beads, double jitter) {
+  const models::Model* model = models::find_model(name);
+  models::Settings settings{.beads = beads, .motion = models::ShapeMotion::rest};
+  if (model->takes(models::Setting::jitter)) settings.jitter = jitter;
+  return models::generate(*model, settings).front().frames.front();
+}
+
+std::vector<Eigen::Matrix3Xd> jostled_frames(const Eigen::Matrix3Xd& start, double distance,
+                                             std::size_t frames) {
+  models::Random random(1);
+  std::vector<Eigen::Matrix3Xd> all{start};
+  while (all.size() < frames) {
+    all.push_back(all.back());
+    for (Eigen::Index b = 0; b < start.cols(); ++b) all.back().col(b) += distance * random.direction();
+  }
+  return all;
+}
+
+}  // namespace kds

@@ -1,0 +1,159 @@
+#include "experiments/bench/bench_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "experiments/bench/bench_hierarchies.h"
+#include "experiments/bench/bench_power.h"
+#include "experiments/bench/bench_subjects.h"
+#include "experiments/program/progress_bar.h"
+#include "experiments/program/table_results.h"
+#include "experiments/program/text.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+namespace {
+
+constexpr std::array kOptions{
+    OptionSpec{"--sizes", "LIST",
+               "hierarchies, power: beads of generated chains (default: 640,10240,102400; power: 10240)"},
+    OptionSpec{"--trajectories", "LIST",
+               "hierarchies, power: trajectory files (default: those of data/trajectories here, *.dcd)"},
+    OptionSpec{"--instances", "DIR",
+               "certificates, engine: the folder of moving-point files (default: data/kinetic)"},
+    OptionSpec{"--rounds", "N", "interleaved runs of ours and the peer, at least 5 (default: 5)"},
+    OptionSpec{"--out", "DIR", "write bench.json and bench.csv there (default: none)"},
+    OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
+    OptionSpec{"--quiet", "", "no table, no progress bar"},
+};
+
+constexpr CommandSpec kCommand{
+    "kds bench",
+    "Measures ours beside a peer in the same process: medians of interleaved runs, processor time.",
+    "SUBJECT",
+    "certificates: from beads to failure times, beside CGAL's predicates and algebraic numbers; engine: "
+    "whole "
+    "runs of moving points, beside CGAL's static build; hierarchies: wrapped and layered hierarchies, beside "
+    "CGAL at every node; power: the power diagram from frame to frame, beside CGAL's static build",
+    kOptions,
+    "kds bench certificates\n"
+    "kds bench hierarchies\n"
+    "kds bench power --sizes 10240 --trajectories data/trajectories/villin_hp36_300K.dcd --json -",
+};
+
+/// What the command line says.
+struct BenchInputs {
+  std::optional<std::vector<std::size_t>> sizes;
+  std::vector<std::filesystem::path> trajectories;
+  std::filesystem::path instances;
+  std::size_t rounds = 5;
+};
+
+using Progress = std::function<void(std::size_t, std::size_t)>;
+using Rows = std::vector<BenchRow>;
+
+template <auto bench>
+Rows on_instances(const BenchInputs& inputs, const Progress& progress) {
+  return bench({inputs.instances, inputs.rounds}, progress);
+}
+
+template <class Options, auto bench>
+Rows on_chains(const BenchInputs& inputs, const Progress& progress) {
+  Options options;
+  if (inputs.sizes) options.sizes = *inputs.sizes;
+  options.trajectories = inputs.trajectories;
+  options.rounds = inputs.rounds;
+  return bench(options, progress);
+}
+
+struct Subject {
+  std::string_view name;
+  std::size_t fewest_beads;  // of a generated chain; 0: it runs on instances
+  Rows (*bench)(const BenchInputs&, const Progress&);
+};
+
+constexpr std::array kSubjects{
+    Subject{"certificates", 0, on_instances<bench_certificates>},
+    Subject{"engine", 0, on_instances<bench_engine>},
+    Subject{"hierarchies", 2, on_chains<HierarchyBenchOptions, bench_hierarchies>},
+    // In space, where all beads should not lie in one plane.
+    Subject{"power", 20, on_chains<PowerBenchOptions, bench_power>},
+};
+
+const Subject& subject_of(const std::vector<std::string>& operands) {
+  if (operands.size() == 1) {
+    for (const Subject& subject : kSubjects)
+      if (subject.name == operands[0]) return subject;
+  }
+  throw InputError("kds bench: expected one subject of certificates, engine, hierarchies, power");
+}
+
+std::size_t parse_count(std::string_view option, const std::string& text, std::size_t least) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  constexpr std::size_t most = 10'000'000;
+  if (error == std::errc() && end == text.data() + text.size() && number >= least && number <= most)
+    return number;
+  throw InputError(fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, least, most));
+}
+
+std::vector<std::filesystem::path> trajectories_here() {
+  std::vector<std::filesystem::path> found;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator("data/trajectories", none))
+    if (entry.path().extension() == ".dcd") found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace
+
+int bench_command(const Arguments& arguments) {
+  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  const Subject& subject = subject_of(parsed.operands());
+  const bool chains = subject.fewest_beads > 0;
+  for (const char* option : {"--sizes", "--trajectories"})
+    if (!chains && parsed.has(option))
+      throw InputError(fmt::format("{}: {} takes none", option, subject.name));
+  if (chains && parsed.has("--instances"))
+    throw InputError(fmt::format("--instances: {} takes none", subject.name));
+  BenchInputs inputs;
+  if (const auto list = parsed.value("--sizes")) {
+    inputs.sizes.emplace();
+    for (const std::string& text : split(*list, ','))
+      inputs.sizes->push_back(parse_count("--sizes", text, subject.fewest_beads));
+  }
+  if (const auto list = parsed.value("--trajectories")) {
+    for (const std::string& path : split(*list, ',')) inputs.trajectories.emplace_back(path);
+  } else {
+    inputs.trajectories = trajectories_here();
+  }
+  inputs.instances = parsed.value("--instances").value_or("data/kinetic");
+  if (const auto text = parsed.value("--rounds")) inputs.rounds = parse_count("--rounds", *text, 5);
+  Destinations destinations;
+  if (const auto text = parsed.value("--out")) {
+    if (*text == "-") throw InputError("--out needs a path; - is for --json only");
+    destinations.out = *text;
+  }
+  destinations.json = parsed.value("--json");
+  destinations.quiet = parsed.has("--quiet");
+  check_table_destinations(destinations, "bench");
+
+  ProgressBar bar(!destinations.quiet);
+  const Rows rows =
+      subject.bench(inputs, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
+  bar.erase();
+  deliver_table(destinations, "bench", {bench_json(rows), bench_csv(rows), bench_table(rows)});
+  return 0;
+}
+
+}  // namespace kds

@@ -1,0 +1,213 @@
+#include "experiments/bench/bench_hierarchies.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "experiments/bench/bench_chains.h"
+#include "experiments/bench/bench_kinetic.h"
+#include "experiments/program/timing.h"
+#include "motions/models/model.h"
+#include "structures/hierarchy/layered_hierarchy.h"
+#include "structures/hierarchy/static_wrapped_hierarchy.h"
+#include "structures/triangulation/static_build.h"
+
+namespace kds {
+
+namespace {
+
+struct Input : BenchChain {
+  // Factors that are asked for.
+  double build = 6, update = 10, trust = 25;
+  std::optional<double> kinetic = std::nullopt;
+};
+
+// Every third bead a fifth smaller, every seventh a tenth: half of each factor is asked for.
+Input with_unequal_radii(Input input) {
+  for (std::size_t b = 0; b < input.radii.size(); ++b) {
+    if (b % 3 == 0) input.radii[b] *= 0.8;
+    if (b % 7 == 0) input.radii[b] *= 0.9;
+  }
+  input.name += " unequal";
+  for (double* factor : {&input.build, &input.update, &input.trust}) *factor /= 2;
+  if (input.kinetic) *input.kinetic /= 2;
+  return input;
+}
+
+/// Of the kinetic step on a trajectory, by its name's start.
+std::optional<double> kinetic_factor(std::string_view name) {
+  if (name.starts_with("random100") || name.starts_with("villin")) return 4;
+  if (name.starts_with("dhodh")) return 1.5;
+  return std::nullopt;
+}
+
+class Measured {
+ public:
+  Measured(const Input& input, std::vector<BenchRow>& rows) : input_(input), rows_(rows) {
+    const BeadRange all{0, static_cast<BeadId>(input.radii.size() - 1)};
+    necklace_ = {all};
+    for (const Eigen::Matrix3Xd& frame : input.frames) balls_.emplace_back(frame, input.radii);
+  }
+
+  /// A round is once over all frames: with each hierarchy, then with the peer.
+  void run(std::size_t rounds) {
+    StaticWrappedHierarchy<3> built(necklace_), updated(necklace_), naive(necklace_), cascade(necklace_),
+        trusting(necklace_);
+    LayeredHierarchy<3> layered(necklace_);
+    std::vector<double> peer, build, layer, update, by_naive, by_cascade, trust;
+    const std::span<const Balls<3>> later = std::span(balls_).subspan(1);
+    const auto over_frames = [&](auto& hierarchy, auto&& step) {
+      if constexpr (requires { hierarchy.update(balls_[0]); }) hierarchy.build(balls_[0]);
+      return processor_seconds_of([&] {
+        for (const Balls<3>& now : later) step(hierarchy, now);
+      });
+    };
+    for (std::size_t round = 0; round < rounds; ++round) {
+      build.push_back(over_frames(built, [](auto& h, const auto& now) { h.build(now); }));
+      layer.push_back(over_frames(layered, [](auto& h, const auto& now) { h.build(now); }));
+      update.push_back(over_frames(updated, [](auto& h, const auto& now) { h.update(now); }));
+      by_naive.push_back(over_frames(naive, [](auto& h, const auto& now) { h.update(now, Update::naive); }));
+      by_cascade.push_back(
+          over_frames(cascade, [](auto& h, const auto& now) { h.update(now, Update::cascade); }));
+      trust.push_back(over_frames(trusting, [](auto& h, const auto& now) { h.update(now, Update::trust); }));
+      peer.push_back(0);
+      for (std::size_t k = 1; k < balls_.size(); ++k)
+        peer.back() += seconds_to_wrap<3>(built.tree().ranges(), input_.frames[k], input_.radii).processor;
+    }
+    const double nodes = static_cast<double>(built.tree().node_count() * later.size());
+    const double cgal = median_of(peer) / nodes * 1e9;
+    const auto row = [&](const char* name, const std::vector<double>& seconds, std::optional<double> factor) {
+      rows_.push_back({name, input_.name, input_.radii.size(), median_of(seconds) / nodes * 1e9, "ns/node",
+                       std::string(sphere_peer), cgal, factor ? std::optional(1 / *factor) : std::nullopt});
+    };
+    row("wrapped build", build, input_.build);
+    row("wrapped update", update, input_.update);
+    row("wrapped update, naive", by_naive, std::nullopt);
+    row("wrapped update, cascade", by_cascade, std::nullopt);
+    row("wrapped trusted update", trust, input_.trust);
+    rows_.push_back({"layered build", input_.name, input_.radii.size(), median_of(layer) / nodes * 1e9,
+                     "ns/node", "", std::nullopt, 10.0});
+  }
+
+ private:
+  const Input& input_;
+  std::vector<BenchRow>& rows_;
+  std::vector<BeadRange> necklace_;
+  std::vector<Balls<3>> balls_;
+};
+
+// Rigid, from frame to frame: whatever events there are linear motion makes, since it squeezes.
+BenchChain rotating_chain(std::size_t beads) {
+  const models::Settings settings{.beads = beads, .frames = 20, .motion = models::ShapeMotion::rotate};
+  return {"rotating random-chain",
+          models::generate(*models::find_model("random-chain"), settings).front().frames,
+          std::vector<double>(beads, 1.0)};
+}
+
+// On all threads beside one, by the clock.
+void all_threads(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& rows) {
+  const auto frames = jostled_frames(model_at_rest("random-chain", beads), 0.01, 2);
+  const std::vector<double> radii(beads, 1.0);
+  const std::array<Balls<3>, 2> balls{Balls<3>(frames[0], radii), Balls<3>(frames[1], radii)};
+  const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(beads - 1)}};
+  StaticWrappedHierarchy<3> hierarchy(necklace);
+  std::array<std::vector<double>, 2> build, update;  // on one, on all
+  for (std::size_t round = 0; round < rounds; ++round) {
+    for (const Threads threads : {Threads::one, Threads::all}) {
+      const std::size_t all = threads == Threads::all ? 1 : 0;
+      build[all].push_back(seconds_of([&] { hierarchy.build(balls[0], threads); }).clock);
+      update[all].push_back(seconds_of([&] { hierarchy.update(balls[1], Update::blocks, threads); }).clock);
+    }
+  }
+  const double nanoseconds = 1e9 / static_cast<double>(hierarchy.tree().node_count());
+  const auto row = [&](const char* name, const std::array<std::vector<double>, 2>& seconds) {
+    rows.push_back({name, "random-chain", beads, median_of(seconds[1]) * nanoseconds, "ns/node", "one thread",
+                    median_of(seconds[0]) * nanoseconds, std::nullopt});
+  };
+  row("wrapped build, all threads", build);
+  row("wrapped update, all threads", update);
+}
+
+// Two distant necklaces, of which a query looks at the two roots: what a frame costs in all.
+void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& rows) {
+  const Eigen::Matrix3Xd helix = model_at_rest("helix", beads);
+  Eigen::Matrix3Xd both(3, 2 * helix.cols());
+  const double apart_by = 10 * (helix.rowwise().maxCoeff() - helix.rowwise().minCoeff()).norm();
+  both << helix, helix.colwise() + Eigen::Vector3d(apart_by, 0, 0);
+  const std::vector<double> radii(static_cast<std::size_t>(both.cols()), 1.0);
+  const auto n = static_cast<BeadId>(beads);
+  const std::vector<BeadRange> necklaces{{0, n - 1}, {n, 2 * n - 1}};
+  StaticWrappedHierarchy<3> hierarchy(necklaces);
+  const Balls<3> balls(both, radii);
+  hierarchy.build(balls);
+  const NodeId second = *hierarchy.tree().find(necklaces[1]);
+  std::vector<double> ours, peer;
+  double apart = 0;  // used, so that nothing can be left out
+  for (std::size_t round = 0; round < rounds; ++round) {
+    constexpr int queries = 1000;
+    ours.push_back(processor_seconds_of([&] {
+                     for (int i = 0; i < queries; ++i) {
+                       hierarchy.update(balls, Update::lazy);
+                       const Sphere a = hierarchy.sphere(0), b = hierarchy.sphere(second);
+                       apart += (a.center - b.center).norm() - a.radius - b.radius;
+                     }
+                   }) /
+                   queries);
+    peer.push_back(seconds_to_wrap<3>(hierarchy.tree().ranges(), both, radii).processor);
+  }
+  rows.push_back({"lazy update and query", "far helices", radii.size(), median_of(ours) * 1e9, "ns/frame",
+                  apart > 0 ? std::string(sphere_peer) : "", median_of(peer) * 1e9, 1.0 / 25});
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_hierarchies(const HierarchyBenchOptions& options,
+                                        const std::function<void(std::size_t, std::size_t)>& progress) {
+  std::vector<std::function<Input()>> inputs;
+  for (const std::filesystem::path& path : options.trajectories) {
+    inputs.emplace_back([path] {
+      Input input{read_bench_chain(path)};
+      input.kinetic = kinetic_factor(input.name);
+      return input;
+    });
+  }
+  for (const std::size_t beads : options.sizes) {
+    for (const char* model : {"helix", "random-chain", "grid"}) {
+      inputs.emplace_back([name = std::string(model), beads] {
+        Input input{
+            {name, jostled_frames(model_at_rest(name, beads), 0.01, 20), std::vector<double>(beads, 1.0)}};
+        if (name == "random-chain") {
+          input.update = 18;
+          input.kinetic = 10;
+        }
+        return input;
+      });
+    }
+  }
+  std::vector<BenchRow> rows;
+  std::size_t done = 0;
+  for (const auto& make : inputs) {
+    const Input input = make();
+    for (const bool equal : {true, false}) {
+      const Input one = equal ? input : with_unequal_radii(input);
+      // A small hierarchy is done many times.
+      const std::size_t rounds = std::max(options.rounds, 50000 / (one.radii.size() * one.frames.size()));
+      Measured(one, rows).run(rounds);
+      bench_kinetic_steps(one, rounds, one.kinetic, rows);
+      bench_kinetic_events(one, rows);
+      progress(++done, 2 * inputs.size());
+    }
+  }
+  if (!options.sizes.empty()) bench_kinetic_events(rotating_chain(options.sizes.front()), rows);
+  for (const std::size_t beads : options.sizes) {
+    all_threads(beads, options.rounds, rows);
+    lazy_query(beads, options.rounds, rows);
+  }
+  return rows;
+}
+
+}  // namespace kds

@@ -1,0 +1,23 @@
+#pragma once
+// `kds bench hierarchies`: wrapped and layered hierarchies, built and brought from frame to frame, in steps
+// and kinetically, beside CGAL's Min_sphere_of_spheres_d at every node; events beside what they come to.
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "experiments/bench/bench_report.h"
+
+namespace kds {
+
+struct HierarchyBenchOptions {
+  std::vector<std::size_t> sizes{640, 10240, 102400};  ///< beads of generated chains
+  std::vector<std::filesystem::path> trajectories;     ///< inputs, each as `kds run` reads it
+  std::size_t rounds = 5;                              ///< at least; more where rounds are short
+};
+
+[[nodiscard]] std::vector<BenchRow> bench_hierarchies(
+    const HierarchyBenchOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
+
+}  // namespace kds

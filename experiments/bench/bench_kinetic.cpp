@@ -1,0 +1,79 @@
+#include "experiments/bench/bench_kinetic.h"
+
+#include <numeric>
+
+#include "experiments/program/timing.h"
+#include "experiments/run/session.h"
+#include "structures/hierarchy/static_wrapped_hierarchy.h"
+#include "structures/triangulation/static_build.h"
+
+namespace kds {
+
+namespace {
+
+Scene scene_of(const BenchChain& chain, FrameMotion motion) {
+  Trajectory necklace;
+  necklace.file = chain.name;
+  necklace.frames = chain.frames;
+  return {{&necklace, 1}, chain.radii, motion};
+}
+
+struct Run {
+  double seconds = 0;  ///< of all steps, by the processor
+  std::uint64_t events = 0;
+};
+
+Run run_all_steps(const Scene& scene) {
+  const auto session = make_session(scene, {{"wrapped"}, KernelName::filtered, AuditMode::none, {}});
+  session->load(0);
+  session->simulator().build();
+  Run run;
+  run.seconds = processor_seconds_of([&] {
+    for (std::size_t step = 0; step < scene.step_count(); ++step) {
+      session->load(step);
+      session->simulator().run_step(step + 1 == scene.step_count());
+    }
+  });
+  const auto& per_step = session->structures().front()->statistics.events_per_step;
+  run.events = std::accumulate(per_step.begin(), per_step.end(), std::uint64_t{0});
+  return run;
+}
+
+}  // namespace
+
+void bench_kinetic_steps(const BenchChain& chain, std::size_t rounds, std::optional<double> factor,
+                         std::vector<BenchRow>& rows) {
+  const Scene scene = scene_of(chain, FrameMotion::linear);
+  const NecklaceTree tree(scene.necklaces());
+  std::vector<double> ours, peer;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    ours.push_back(run_all_steps(scene).seconds);
+    peer.push_back(0);
+    for (std::size_t k = 1; k < chain.frames.size(); ++k)
+      peer.back() += seconds_to_wrap<3>(tree.ranges(), chain.frames[k], chain.radii).processor;
+  }
+  const double nanoseconds = 1e9 / static_cast<double>(tree.node_count() * scene.step_count());
+  rows.push_back({"wrapped kinetic step", chain.name, chain.radii.size(), median_of(ours) * nanoseconds,
+                  "ns/node", std::string(sphere_peer), median_of(peer) * nanoseconds,
+                  factor ? std::optional(1 / *factor) : std::nullopt});
+}
+
+void bench_kinetic_events(const BenchChain& chain, std::vector<BenchRow>& rows) {
+  const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(chain.radii.size() - 1)}};
+  StaticWrappedHierarchy<3> hierarchy(necklace);
+  std::uint64_t changed = 0;
+  for (std::size_t k = 0; k < chain.frames.size(); ++k) {
+    const Balls<3> balls(chain.frames[k], chain.radii);
+    changed += k == 0 ? (hierarchy.build(balls), 0) : hierarchy.update(balls).changed;
+  }
+  const auto steps = static_cast<double>(chain.frames.size() - 1);
+  const auto row = [&](const char* name, FrameMotion motion) {
+    const Run run = run_all_steps(scene_of(chain, motion));
+    rows.push_back({name, chain.name, chain.radii.size(), static_cast<double>(run.events) / steps,
+                    "events/frame", "bases that differ", static_cast<double>(changed) / steps, std::nullopt});
+  };
+  row("wrapped events, linear", FrameMotion::linear);
+  row("wrapped events, hermite", FrameMotion::hermite);
+}
+
+}  // namespace kds

@@ -1,0 +1,25 @@
+#pragma once
+// Rows of `kds bench hierarchies` for the kinetic wrapped hierarchy: a step with exact event times beside
+// CGAL's Min_sphere_of_spheres_d at every node, and events beside the bases that differ from frame to frame.
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "experiments/bench/bench_chains.h"
+#include "experiments/bench/bench_report.h"
+
+namespace kds {
+
+inline constexpr std::string_view sphere_peer = "CGAL Min_sphere_of_spheres_d";
+
+/// Linear motion. `factor`: how many times as fast as the peer is asked for, if anything is. Beads from frame
+/// to motion are part of a step.
+void bench_kinetic_steps(const BenchChain& chain, std::size_t rounds, std::optional<double> factor,
+                         std::vector<BenchRow>& rows);
+
+/// Under linear and under Hermite motion.
+void bench_kinetic_events(const BenchChain& chain, std::vector<BenchRow>& rows);
+
+}  // namespace kds

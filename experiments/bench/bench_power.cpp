@@ -1,0 +1,139 @@
+#include "experiments/bench/bench_power.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "experiments/bench/bench_chains.h"
+#include "experiments/program/timing.h"
+#include "structures/power_diagram/diagram_update.h"
+
+namespace kds {
+
+namespace {
+
+constexpr std::string_view peer_name = "CGAL Regular_triangulation_3";
+
+struct Input {
+  std::string name;
+  std::vector<Eigen::Matrix3Xd> frames;
+  std::vector<double> weights;
+  std::optional<double> goal;  ///< of the kinetic step: its time to the peer's, at most
+
+  Input(BenchChain chain, std::optional<double> time)
+      : name(std::move(chain.name)),
+        frames(std::move(chain.frames)),
+        weights(std::move(chain.radii)),
+        goal(time) {
+    for (double& w : weights) w *= w;
+  }
+};
+
+struct Technique {
+  std::string_view name;
+  UpdateTechnique technique;
+};
+constexpr std::array techniques{
+    Technique{"reinsert", UpdateTechnique::reinsert}, Technique{"greedy", UpdateTechnique::greedy},
+    Technique{"kinetic", UpdateTechnique::kinetic},   Technique{"lifted", UpdateTechnique::lifted},
+    Technique{"activate", UpdateTechnique::activate}, Technique{"auto", UpdateTechnique::automatic}};
+
+double seconds_by(UpdateTechnique technique, const Input& input) {
+  const auto update = make_diagram_update<3>(technique);
+  update->build(input.frames[0], input.weights);
+  return processor_seconds_of([&] {
+    for (std::size_t k = 1; k < input.frames.size(); ++k)
+      static_cast<void>(update->advance(input.frames[k], input.weights));
+  });
+}
+
+// A round is once over all frames with each technique, the peer first.
+void measure(const Input& input, std::size_t rounds, std::vector<BenchRow>& rows) {
+  std::vector<double> peer;
+  std::map<std::string_view, std::vector<double>> ours;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    peer.push_back(seconds_by(UpdateTechnique::rebuild, input));
+    for (const Technique& t : techniques) ours[t.name].push_back(seconds_by(t.technique, input));
+  }
+  const double microseconds = 1e6 / static_cast<double>(input.frames.size() - 1);
+  const double cgal = median_of(peer) * microseconds;
+  const auto row = [&](std::string name, double value, std::string_view other, double other_value,
+                       std::optional<double> goal) {
+    rows.push_back({std::move(name), input.name, input.weights.size(), value, "us/frame", std::string(other),
+                    other_value, goal});
+  };
+  double best = cgal;
+  std::string_view best_name = "rebuild";
+  for (const Technique& t : techniques) {
+    const double value = median_of(ours[t.name]) * microseconds;
+    if (t.technique == UpdateTechnique::automatic) {
+      row("auto to rebuild", value, peer_name, cgal, 1.05);
+      row("auto to best", value, best_name, best, 1.1);
+      continue;
+    }
+    row(std::string(t.name), value, peer_name, cgal,
+        t.technique == UpdateTechnique::kinetic ? input.goal : std::nullopt);
+    if (value < best) {
+      best = value;
+      best_name = t.name;
+    }
+  }
+}
+
+/// What the kinetic step is asked to be on a trajectory, by its name's start.
+std::optional<double> goal_of(std::string_view name) {
+  if (name.starts_with("random100") || name.starts_with("villin")) return 1 / 2.5;
+  if (name.starts_with("dhodh")) return 1.0;
+  return std::nullopt;
+}
+
+Input read_input(const std::filesystem::path& path, std::size_t stride) {
+  BenchChain chain = read_bench_chain(path, stride);
+  const auto goal = stride == 1 ? goal_of(chain.name) : std::nullopt;
+  return Input(std::move(chain), goal);
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_power(const PowerBenchOptions& options,
+                                  const std::function<void(std::size_t, std::size_t)>& progress) {
+  constexpr std::array<std::size_t, 4> strides{1, 4, 16, 64};
+  std::vector<std::function<Input()>> inputs;
+  for (const std::filesystem::path& path : options.trajectories) {
+    for (const std::size_t stride : strides) inputs.emplace_back([=] { return read_input(path, stride); });
+  }
+  const auto add_chain = [&](const char* name, const auto& start, double step, double factor) {
+    inputs.emplace_back([=] {
+      BenchChain chain{fmt::format("{} {} r", name, step), jostled_frames(start(), step, 9), {}};
+      chain.radii.assign(static_cast<std::size_t>(chain.frames[0].cols()), 1.0);
+      return Input(std::move(chain), 1 / factor);
+    });
+  };
+  for (const std::size_t beads : options.sizes) {
+    const auto chain = [=] { return model_at_rest("random-chain", beads); };
+    const auto grid = [=](double jitter) { return [=] { return model_at_rest("grid", beads, jitter); }; };
+    add_chain("random-chain", chain, 0.01, 4.5);
+    add_chain("random-chain", chain, 0.1, 4);
+    add_chain("grid jitter 0.5 r", grid(0.5), 0.1, 2.2);
+    add_chain("grid jitter 0.05 r", grid(0.05), 0.1, 2.2);  // nearly cubes: many balls on one sphere
+  }
+  std::vector<BenchRow> rows;
+  std::size_t done = 0;
+  for (const auto& make : inputs) {
+    const Input input = make();
+    // A stride may leave one frame: nothing to do. Short rounds are many.
+    if (input.frames.size() > 1) {
+      measure(input, std::max(options.rounds, 20000 / (input.weights.size() * input.frames.size())), rows);
+    }
+    progress(++done, inputs.size());
+  }
+  return rows;
+}
+
+}  // namespace kds

@@ -1,0 +1,60 @@
+#include "experiments/bench/bench_report.h"
+
+#include <fmt/format.h>
+
+#include "experiments/program/result_json.h"
+
+namespace kds {
+
+namespace {
+
+Json number_or_null(const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); }
+std::string number_or_empty(const std::optional<double>& x) { return x ? fmt::format("{}", *x) : ""; }
+std::string figure(const std::optional<double>& x) { return x ? fmt::format("{:.4g}", *x) : "-"; }
+
+}  // namespace
+
+std::string bench_json(std::span<const BenchRow> rows) {
+  Json json = Json::object();
+  add_provenance(json);
+  json["rows"] = Json::array();
+  for (const BenchRow& row : rows) {
+    const auto holds = row.holds();
+    json["rows"].push_back({{"name", row.name},
+                            {"input", row.input},
+                            {"n", row.n},
+                            {"value", row.value},
+                            {"unit", row.unit},
+                            {"peer", row.peer.empty() ? Json(nullptr) : Json(row.peer)},
+                            {"peer_value", number_or_null(row.peer_value)},
+                            {"ratio", number_or_null(row.ratio())},
+                            {"goal", number_or_null(row.goal)},
+                            {"holds", holds ? Json(*holds) : Json(nullptr)}});
+  }
+  return text_of(json);
+}
+
+std::string bench_csv(std::span<const BenchRow> rows) {
+  std::string text = "name,input,n,value,unit,peer,peer_value,ratio,goal,holds\n";
+  for (const BenchRow& row : rows) {
+    const auto holds = row.holds();
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", row.name, row.input, row.n, row.value, row.unit,
+                        row.peer, number_or_empty(row.peer_value), number_or_empty(row.ratio()),
+                        number_or_empty(row.goal), holds ? (*holds ? "true" : "false") : "");
+  }
+  return text;
+}
+
+std::string bench_table(std::span<const BenchRow> rows) {
+  std::string text = fmt::format("{:<24} {:<30} {:>7} {:>9} {:<9} {:>9} {:>8} {:>8}  {:<5} {}\n", "name",
+                                 "input", "n", "value", "unit", "peer", "ratio", "goal", "holds", "peer is");
+  for (const BenchRow& row : rows) {
+    const auto holds = row.holds();
+    text += fmt::format("{:<24} {:<30} {:>7} {:>9} {:<9} {:>9} {:>8} {:>8}  {:<5} {}\n", row.name, row.input,
+                        row.n, figure(row.value), row.unit, figure(row.peer_value), figure(row.ratio()),
+                        figure(row.goal), holds ? (*holds ? "yes" : "no") : "-", row.peer);
+  }
+  return text;
+}
+
+}  // namespace kds

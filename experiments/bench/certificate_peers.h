@@ -1,0 +1,50 @@
+#pragma once
+// What CGAL offers for the questions that certificates answer: static predicates of doubles, and algebraic
+// numbers.
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "certificates/exact/exact_polynomial.h"
+#include "motions/base/bead.h"
+
+namespace kds::bench {
+
+/// Predicates of Exact_predicates_inexact_constructions_kernel at one moment.
+class StaticPredicates {
+ public:
+  StaticPredicates(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
+  ~StaticPredicates();
+
+  /// Seconds for all: power tests of five beads; whether the last of three or four is in the smallest sphere
+  /// through the others.
+  [[nodiscard]] double seconds_for(std::span<const std::array<BeadId, 5>> beads) const;
+  [[nodiscard]] double seconds_for(std::span<const std::array<BeadId, 4>> beads) const;
+  [[nodiscard]] double seconds_for(std::span<const std::array<BeadId, 3>> beads) const;
+
+ private:
+  struct Points;
+  std::unique_ptr<Points> points_;
+};
+
+/// Algebraic_kernel_d_1<Gmpz>. Built without MPFI, all times are NaN.
+class AlgebraicKernel {
+ public:
+  explicit AlgebraicKernel(std::span<const ExactPolynomial> polynomials);
+  ~AlgebraicKernel();
+
+  /// Seconds to isolate all real roots of every polynomial, which are taken to be square-free.
+  [[nodiscard]] double seconds_to_isolate() const;
+  /// Seconds to compare the first positive roots of pairs of polynomials.
+  [[nodiscard]] double seconds_to_compare(std::span<const std::pair<std::size_t, std::size_t>> pairs);
+
+ private:
+  struct Polynomials;
+  std::unique_ptr<Polynomials> polynomials_;
+};
+
+}  // namespace kds::bench

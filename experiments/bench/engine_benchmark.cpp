@@ -1,0 +1,113 @@
+// Whole kinetic runs of moving-point instances against CGAL's static build of the same points, timed in turn
+// in one process: `ns` an event, `events_per_second`, `run_us`, `build_us`, and `static_builds`, how many
+// static builds one run costs.
+//
+//   kds_benchmarks --benchmark_filter='power|sorted'
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <string>
+
+#include "experiments/bench/subject.h"
+#include "experiments/run/session.h"
+#include "motions/readers/instance.h"
+#include "structures/triangulation/regular_triangulation.h"
+#include "structures/triangulation/static_build.h"
+
+namespace kds::bench {
+
+namespace {
+
+Seconds seconds_to_build(const Scene& scene, const Eigen::Matrix3Xd& centers,
+                         std::span<const double> weights) {
+  switch (scene.dimension()) {
+    case 1:
+      return seconds_to_sort(centers);
+    case 2:
+      return seconds_to_triangulate<2>(centers, weights);
+    default:
+      return seconds_to_triangulate<3>(centers, weights);
+  }
+}
+
+void run_instance(Turns& turns, const std::filesystem::path& file, KernelName kernel) {
+  const Scene scene(read_instance(file));
+  const std::string structure = scene.dimension() == 1 ? "sorted" : "power";
+  const Eigen::Matrix3Xd centers = scene.centers(0);
+  const std::vector<double> weights = scene.weights(0);
+  constexpr int builds = 20;
+  std::vector<double> runs, static_builds, ratios;
+  std::uint64_t events = 0;
+  while (turns.another()) {
+    runs.push_back(processor_seconds_of([&] {
+      const auto session = make_session(scene, {{structure}, kernel, AuditMode::none, {}});
+      session->load(0);
+      session->simulator().build();
+      session->simulator().run_step(true);
+      const auto& per_step = session->structures().front()->statistics.events_per_step;
+      events = std::accumulate(per_step.begin(), per_step.end(), std::uint64_t{0});
+    }));
+    turns.took(runs.back());
+    double seconds = 0;
+    for (int i = 0; i < builds; ++i) seconds += seconds_to_build(scene, centers, weights).processor;
+    static_builds.push_back(seconds / builds);
+    ratios.push_back(runs.back() / static_builds.back());
+  }
+  const double run = median_of(runs);
+  turns.note("events", static_cast<double>(events));
+  turns.note("ns", run / static_cast<double>(events) * 1e9);
+  turns.note("events_per_second", static_cast<double>(events) / run);
+  turns.note("run_us", run * 1e6);
+  turns.note("build_us", median_of(static_builds) * 1e6);
+  turns.note("static_builds", median_of(ratios));
+}
+
+struct Goal {
+  std::string_view instance;
+  double events_per_second;
+  std::optional<double> static_builds;
+};
+constexpr std::array goals{Goal{"d3_n200_linear", 400'000, 55}, Goal{"d3_n500_linear", 250'000, 120},
+                           Goal{"d3_n50_degree3", 30'000, std::nullopt}};
+
+}  // namespace
+
+std::vector<Subject> engine_subjects(const std::filesystem::path& instances) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(instances)) {
+    const std::string stem = entry.path().stem().string();
+    if (entry.path().extension() == ".txt" && stem.starts_with('d') && !stem.starts_with("degenerate"))
+      files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<Subject> all;
+  for (const std::filesystem::path& file : files) {
+    const Instance instance = read_instance(file);
+    const std::string stem = file.stem().string();
+    const bool sorted = instance.dimension() == 1;
+    const auto add = [&](const char* kernel, KernelName name) {
+      Subject subject{std::string(sorted ? "sorted" : "power") + "/" + stem + "/" + kernel,
+                      stem,
+                      instance.point_count(),
+                      sorted ? "std::sort" : "CGAL static build",
+                      std::nullopt,
+                      std::nullopt,
+                      [=](Turns& turns) { run_instance(turns, file, name); }};
+      const auto goal =
+          std::find_if(goals.begin(), goals.end(), [&](const Goal& g) { return g.instance == stem; });
+      if (name == KernelName::filtered && goal != goals.end()) {
+        subject.most_ns = 1e9 / goal->events_per_second;
+        subject.most_ratio = goal->static_builds;
+      }
+      all.push_back(std::move(subject));
+    };
+    add("filtered", KernelName::filtered);
+    add("fast", KernelName::fast);
+    constexpr std::size_t few = 50;  // integers alone take their time
+    if (instance.point_count() <= few) add("exact", KernelName::exact);
+  }
+  return all;
+}
+
+}  // namespace kds::bench

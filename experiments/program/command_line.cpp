@@ -1,0 +1,106 @@
+#include "experiments/program/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "experiments/program/text.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+namespace {
+
+constexpr OptionSpec kHelp{"--help", "", "print this and exit"};
+
+std::string usage_hint(const CommandSpec& command) { return fmt::format(" (see {} --help)", command.name); }
+
+std::string left_column(const OptionSpec& option) {
+  return option.value.empty() ? std::string(option.name) : fmt::format("{} {}", option.name, option.value);
+}
+
+// CLI11's own words name its types and counts; say instead what to do.
+std::string explain(const CLI::ParseError& error, const CLI::App& parser, const CommandSpec& command,
+                    const Arguments& arguments) {
+  if (const std::vector<std::string> extras = parser.remaining(); !extras.empty()) {
+    const bool option = extras.front().starts_with('-');
+    return fmt::format("{} '{}'", option ? "unknown option" : "unexpected argument", extras.front());
+  }
+  for (const OptionSpec& option : command.options)
+    for (const std::string& argument : arguments)
+      if (option.value.empty() && argument.starts_with(std::string(option.name) + "="))
+        return fmt::format("{} takes no value", option.name);
+  const std::string last = arguments.empty() ? "" : arguments.back();
+  if (last.starts_with('-') && parser.get_option_no_throw(last) != nullptr) return last + " needs a value";
+  return one_line(error.what());
+}
+
+}  // namespace
+
+std::optional<std::string> ParsedArguments::value(std::string_view option) const {
+  const auto found = values_.find(option);
+  if (found == values_.end()) return std::nullopt;
+  return found->second;
+}
+
+ParsedArguments parse_arguments(const CommandSpec& command, const Arguments& arguments) {
+  CLI::App parser;
+  parser.set_help_flag(std::string(kHelp.name) + ",-h");
+
+  std::map<std::string_view, std::vector<std::string>> unused;  // CLI11 reads some values as empty lists: {}
+  for (const OptionSpec& option : command.options) {
+    const std::string name(option.name);
+    if (option.value.empty()) {
+      parser.add_flag(name)->disable_flag_override();
+    } else {
+      parser.add_option(name, unused[option.name])
+          ->allow_extra_args(false);  // one value each time it is given
+    }
+  }
+  if (!command.operand.empty()) parser.add_option(std::string(command.operand), unused[command.operand]);
+
+  try {
+    parser.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
+  } catch (const CLI::CallForHelp&) {
+    throw HelpRequest{help_text(command)};
+  } catch (const CLI::ParseError& error) {
+    throw InputError(explain(error, parser, command, arguments) + usage_hint(command));
+  }
+
+  ParsedArguments parsed;
+  if (!command.operand.empty()) parsed.operands_ = parser.get_option(std::string(command.operand))->results();
+  for (const OptionSpec& option : command.options) {
+    const std::vector<std::string>& values = parser.get_option(std::string(option.name))->results();
+    const std::size_t times = values.size();
+    if (times == 0) continue;
+    if (times > 1) throw InputError(fmt::format("{} is given {} times; give it once", option.name, times));
+    std::string value = option.value.empty() ? "" : values.front();
+    if (value.starts_with("--"))  // a forgotten value swallows the next option
+      throw InputError(fmt::format("{} needs a value, but '{}' follows", option.name, value));
+    if (value.empty() && !option.value.empty())
+      throw InputError(fmt::format("{} needs a value", option.name));
+    parsed.values_.emplace(option.name, std::move(value));
+  }
+  return parsed;
+}
+
+std::string help_text(const CommandSpec& command) {
+  std::vector<OptionSpec> lines(command.options.begin(), command.options.end());
+  lines.push_back(kHelp);
+  std::size_t width = command.operand.size();
+  for (const OptionSpec& line : lines) width = std::max(width, left_column(line).size());
+
+  std::string text = fmt::format("{}\n\nusage: {}{}{} [OPTION]...\n\n", command.summary, command.name,
+                                 command.operand.empty() ? "" : " ", command.operand);
+  if (!command.operand.empty())
+    text += fmt::format("  {:<{}}  {}\n\n", command.operand, width, command.operand_help);
+  for (const OptionSpec& line : lines)
+    text += fmt::format("  {:<{}}  {}\n", left_column(line), width, line.help);
+  if (!command.examples.empty()) {
+    text += "\nexamples:\n";
+    for (const std::string& example : split(command.examples, '\n')) text += fmt::format("  {}\n", example);
+  }
+  return text;
+}
+
+}  // namespace kds

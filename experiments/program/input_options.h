@@ -1,0 +1,40 @@
+#pragma once
+// The options of all commands that read trajectories: which files, which of their beads and frames, which
+// radii.
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/program/command_line.h"
+#include "motions/readers/read_trajectory.h"
+
+namespace kds {
+
+struct InputOptions {
+  std::vector<std::filesystem::path> inputs;
+  ReadOptions reading;  ///< --topology, --select, --chain, --frames
+  std::string radius = "auto";
+};
+
+inline constexpr std::array kInputOptions{
+    OptionSpec{"--topology", "FILE",
+               "PDB or mmCIF that names the atoms of a DCD (default: its atoms are the beads)"},
+    OptionSpec{"--select", "NAME",
+               "backbone (N, CA, C), ca or all (default: backbone where residues are known)"},
+    OptionSpec{"--chain", "ID", "the chain to read (default: the first polymer chain)"},
+    OptionSpec{"--frames", "RANGE", "FIRST:LAST:STRIDE, from 0, LAST excluded (default: all)"},
+    OptionSpec{"--radius", "RULE", "auto, a number, element, element:fit or file:PATH (default: auto)"},
+};
+inline constexpr std::string_view kInputOperand = "INPUT...";
+inline constexpr std::string_view kInputHelp =
+    "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd, .xyz, or an instance file";
+
+/// `command` as in kds run. Throws InputError naming the option; opens no file.
+[[nodiscard]] InputOptions parse_input_options(const ParsedArguments& parsed, std::string_view command);
+
+/// Throws InputError where an input or the topology is no file.
+void check_inputs_exist(const InputOptions& options);
+
+}  // namespace kds

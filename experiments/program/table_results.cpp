@@ -1,0 +1,35 @@
+#include "experiments/program/table_results.h"
+
+#include <array>
+#include <filesystem>
+
+#include "experiments/program/output_files.h"
+#include "experiments/program/taken_paths.h"
+
+namespace kds {
+
+void check_table_destinations(const Destinations& destinations, const std::string& name, TakenPaths paths) {
+  const bool json_file = destinations.json && *destinations.json != "-";
+  const std::array<std::string, 2> files{name + ".json", name + ".csv"};
+  if (destinations.out)
+    for (const std::string& file : files) paths.write("--out", *destinations.out / file);
+  if (json_file) paths.write("--json", *destinations.json);
+
+  if (json_file) ensure_writable_file(*destinations.json, "--json");
+  if (!destinations.out) return;
+  ensure_directory(*destinations.out, "--out");
+  for (const std::string& file : files) ensure_writable_file(*destinations.out / file, "--out");
+}
+
+void deliver_table(const Destinations& destinations, const std::string& name, const TableResults& results) {
+  const bool json_on_stdout = destinations.json == "-";
+  if (destinations.out) {
+    write_file_atomically(*destinations.out / (name + ".json"), results.json);
+    write_file_atomically(*destinations.out / (name + ".csv"), results.csv);
+  }
+  if (json_on_stdout) print_to_stdout(results.json);
+  if (destinations.json && !json_on_stdout) write_file_atomically(*destinations.json, results.json);
+  if (!destinations.quiet && !json_on_stdout) print_to_stdout(results.table);
+}
+
+}  // namespace kds

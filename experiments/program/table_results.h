@@ -1,0 +1,24 @@
+#pragma once
+// Where the results of a command that prints a table go: NAME.json and NAME.csv in --out, --json, standard
+// output.
+
+#include <string>
+
+#include "experiments/program/taken_paths.h"
+#include "experiments/run/run_results.h"
+
+namespace kds {
+
+struct TableResults {
+  std::string json, csv, table;
+};
+
+/// Throws InputError where something could not be written later, or would replace another result or one of
+/// the files that are taken.
+void check_table_destinations(const Destinations& destinations, const std::string& name,
+                              TakenPaths taken = {});
+
+/// The table is printed unless quiet, or where standard output is the JSON's.
+void deliver_table(const Destinations& destinations, const std::string& name, const TableResults& results);
+
+}  // namespace kds

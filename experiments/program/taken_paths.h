@@ -1,0 +1,31 @@
+#pragma once
+// A result must not replace what it was computed from, nor another result.
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/program/input_options.h"
+#include "experiments/run/run_results.h"
+
+namespace kds {
+
+class TakenPaths {
+ public:
+  /// A file that is read, or written by someone else; `owner` names it in messages.
+  void add(std::string owner, const std::filesystem::path& path) {
+    taken_.emplace_back(std::move(owner), path);
+  }
+  /// The files that are read.
+  void read(const InputOptions& options);
+  /// A file to be written. Throws InputError where it is another's; devices are for all.
+  void write(const std::string& option, const std::filesystem::path& path);
+  /// The files that `deliver` writes.
+  void write(const Destinations& destinations);
+
+ private:
+  std::vector<std::pair<std::string, std::filesystem::path>> taken_;
+};
+
+}  // namespace kds

@@ -1,0 +1,16 @@
+#include "experiments/program/warnings.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "experiments/program/text.h"
+
+namespace kds {
+
+void print_warning(ProgressBar& bar, const std::string& warning) {
+  bar.erase();
+  std::fputs(fmt::format("kds: warning: {}\n", one_line(warning)).c_str(), stderr);
+}
+
+}  // namespace kds

@@ -1,0 +1,46 @@
+#include "experiments/run/dump_files.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string_view>
+
+namespace kds {
+
+namespace {
+
+std::string bead_lines(std::span<const BeadId> beads) {
+  std::string text = "bead\n";
+  for (const BeadId b : beads) fmt::format_to(std::back_inserter(text), "{}\n", b);
+  return text;
+}
+
+template <class Cell>
+std::string cell_lines(std::string_view header, std::span<const Cell> cells) {
+  std::string text = fmt::format("{}\n", header);
+  for (const Cell& c : cells) fmt::format_to(std::back_inserter(text), "{}\n", fmt::join(c, ","));
+  return text;
+}
+
+}  // namespace
+
+DumpFile dump_wrapped(std::span<const WrappedNode> nodes) {
+  std::string text = "first,last,basis,x,y,z,radius\n";
+  for (const WrappedNode& node : nodes) {
+    const auto& c = node.sphere.center;
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}\n", node.range.first, node.range.last,
+                   fmt::join(node.basis.begin(), node.basis.end(), " "), c.x(), c.y(), c.z(),
+                   node.sphere.radius);
+  }
+  return {"wrapped.csv", std::move(text)};
+}
+
+DumpFile dump_cells(std::span<const CellBeads<2>> cells) { return {"power.csv", cell_lines("a,b,c", cells)}; }
+DumpFile dump_cells(std::span<const CellBeads<3>> cells) {
+  return {"power.csv", cell_lines("a,b,c,d", cells)};
+}
+
+DumpFile dump_hidden(std::span<const BeadId> hidden) { return {"hidden.csv", bead_lines(hidden)}; }
+DumpFile dump_sorted(std::span<const BeadId> order) { return {"sorted.csv", bead_lines(order)}; }
+
+}  // namespace kds

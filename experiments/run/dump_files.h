@@ -1,0 +1,27 @@
+#pragma once
+// The texts of --dump. Doubles are printed so that they read back exactly.
+
+#include <span>
+#include <vector>
+
+#include "experiments/run/session.h"
+#include "structures/enclosing_sphere/basis.h"
+#include "structures/necklace/necklace_tree.h"
+#include "structures/necklace/sphere.h"
+#include "structures/triangulation/regular_triangulation.h"
+
+namespace kds {
+
+struct WrappedNode {
+  BeadRange range;
+  Basis basis;
+  Sphere sphere;
+};
+
+[[nodiscard]] DumpFile dump_wrapped(std::span<const WrappedNode> nodes);  ///< first,last,basis,x,y,z,radius
+[[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<2>> cells);   ///< a,b,c
+[[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<3>> cells);   ///< a,b,c,d
+[[nodiscard]] DumpFile dump_hidden(std::span<const BeadId> hidden);       ///< bead
+[[nodiscard]] DumpFile dump_sorted(std::span<const BeadId> order);        ///< bead
+
+}  // namespace kds

@@ -1,0 +1,209 @@
+#include "experiments/run/html_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <vector>
+
+#include "experiments/program/provenance.h"
+#include "experiments/program/svg_plot.h"
+#include "experiments/program/text.h"
+#include "experiments/run/event_bins.h"
+#include "experiments/run/summary_rows.h"
+
+namespace kds {
+namespace {
+
+constexpr std::size_t kMostBins = 600;  // more would only blur: a plot is about as many pixels wide
+
+constexpr std::string_view kStyle = R"(
+:root { --ink: #1f2933; --soft: #5b6570; --line: #dfe4ea; --tint: #f6f8fa; }
+* { box-sizing: border-box; }
+body { margin: 0; background: #fff; color: var(--ink);
+       font: 16px/1.55 system-ui, "Segoe UI", "Helvetica Neue", "DejaVu Sans", sans-serif; }
+main { max-width: 58rem; margin: 0 auto; padding: 2.5rem 1.5rem 3rem; }
+h1 { font-size: 1.65rem; line-height: 1.25; margin: 0 0 1.1rem; overflow-wrap: anywhere; }
+h2 { font-size: 1.12rem; margin: 2.4rem 0 .7rem; }
+p { margin: .4rem 0; max-width: 52rem; }
+dl { margin: 0 0 1.2rem; display: grid; grid-template-columns: max-content 1fr; gap: .25rem 1.4rem;
+     padding: 1rem 1.2rem; background: var(--tint); border-radius: .5rem; }
+dt { color: var(--soft); }
+dd { margin: 0; overflow-wrap: anywhere; }
+.scroll { overflow-x: auto; }
+table { border-collapse: collapse; font-size: .94rem; font-variant-numeric: tabular-nums; }
+th, td { padding: .24rem 0 .24rem 2.6rem; text-align: right; white-space: nowrap; }
+th:first-child { padding-left: 0; text-align: left; font-weight: 600; }
+thead th { border-bottom: 2px solid var(--ink); }
+tbody tr { border-top: 1px solid var(--line); }
+tbody tr.detail { border-top: 0; }
+tbody tr.detail th { font-weight: 400; padding-left: 1.2rem; color: var(--soft); }
+figure { margin: 0 0 1.4rem; }
+figure svg { display: block; width: 100%; height: auto; }
+figcaption, footer { color: var(--soft); font-size: .9rem; }
+code { font-family: ui-monospace, "DejaVu Sans Mono", monospace; font-size: .92em; }
+footer { margin-top: 2.8rem; padding-top: .8rem; border-top: 1px solid var(--line); }
+)";
+
+constexpr std::string_view kWords =
+    "An <em>event</em> is a change of the structure itself, found at the exact time at which one of its "
+    "<em>certificates</em> fails: sign conditions on a few beads that, while they hold, prove the structure "
+    "right. "
+    "Between two frames every bead moves by a known polynomial, so nothing that happens in between is "
+    "missed; "
+    "internal events are bookkeeping and not in the total. The last rows compare the time with building the "
+    "same "
+    "structure from nothing at every frame.";
+
+std::string title(const RunReport& report) {
+  std::string names;
+  for (const std::string& file : report.files)
+    names += (names.empty() ? "" : ", ") + std::filesystem::path(file).filename().string();
+  return "kds run: " + names;
+}
+
+std::string findings(const RunReport& report) {
+  const std::size_t steps = step_count(report);
+  std::string html;
+  for (const StructureReport& structure : report.structures) {
+    html += fmt::format("<p>The <strong>{}</strong> structure changed {} times in {} {}",
+                        html_escaped(structure.name), with_thousands(structure.events_total),
+                        with_thousands(steps), steps == 1 ? "motion step" : "motion steps");
+    if (structure.static_seconds > 0)
+      html += fmt::format("; keeping it took {} times as long as rebuilding it at every frame",
+                          short_decimal(structure.seconds / structure.static_seconds));
+    html += ".</p>\n";
+  }
+  return html;
+}
+
+std::string inputs(const RunReport& report) {
+  std::string html = "<dl>\n";
+  for (const auto& [label, value] : input_lines(report))
+    html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", html_escaped(label), html_escaped(value));
+  return html +
+         fmt::format("<dt>fingerprint</dt><dd><code>{}</code></dd>\n</dl>\n", hex_digits(report.fingerprint));
+}
+
+std::string table(const RunReport& report) {
+  std::string html = "<div class=\"scroll\"><table>\n<thead><tr><th></th>";
+  for (const StructureReport& structure : report.structures)
+    html += fmt::format("<th scope=\"col\">{}</th>", html_escaped(structure.name));
+  html += "</tr></thead>\n<tbody>\n";
+  for (const SummaryRow& row : summary_rows(report)) {
+    html += fmt::format("<tr{}><th scope=\"row\">{}</th>", row.detail ? " class=\"detail\"" : "",
+                        html_escaped(row.label));
+    for (std::size_t i = 0; i < report.structures.size(); ++i)
+      html += fmt::format("<td>{}</td>", row.cells.empty() ? "" : html_escaped(row.cells[i]));
+    html += "</tr>\n";
+  }
+  return html + "</tbody>\n</table></div>\n";
+}
+
+std::string plots_over_time(const RunReport& report) {
+  const std::size_t width = bin_width(step_count(report), kMostBins);
+  LinePlot rate{"rate", "frame", "events per frame", true, {}};
+  LinePlot sum{"sum", "frame", "events so far", false, {}};
+  for (const StructureReport& structure : report.structures) {
+    Curve per_frame{structure.name, {}}, so_far{structure.name, {{0.0, 0.0}}};
+    for (const EventBin& bin : bin_events(structure.events_per_step, width)) {
+      const double first = static_cast<double>(bin.first_step), steps = static_cast<double>(bin.steps);
+      const double mean = static_cast<double>(bin.events) / steps;
+      if (!per_frame.points.empty()) per_frame.points.pop_back();
+      per_frame.points.insert(per_frame.points.end(),
+                              {{first, mean}, {first + steps, mean}});  // to the bin's end
+      so_far.points.emplace_back(first + steps, static_cast<double>(bin.cumulative));
+    }
+    rate.curves.push_back(std::move(per_frame));
+    sum.curves.push_back(std::move(so_far));
+  }
+  std::string rate_caption = "Events between each frame and the next.",
+              sum_caption = "Events since the first frame.";
+  if (width > 1) {
+    rate_caption =
+        fmt::format("Events between a frame and the next, each point the mean over {} frames.", width);
+    sum_caption += fmt::format(" One point for {} frames.", width);
+  }
+  return html_figure(svg_plot(rate), rate_caption) + html_figure(svg_plot(sum), sum_caption);
+}
+
+// One motion step has no course over frames: what happened is drawn instead of when.
+std::string plots_by_kind(const RunReport& report) {
+  std::string html;
+  for (std::size_t i = 0; i < report.structures.size(); ++i) {
+    const StructureReport& structure = report.structures[i];
+    BarPlot plot{fmt::format("kinds{}", i), "events", {}};
+    for (const auto& [kind, count] : structure.events_by_kind)
+      plot.bars.emplace_back(kind_label(kind), static_cast<double>(count));
+    if (plot.bars.empty()) plot.bars.emplace_back("all", static_cast<double>(structure.events_total));
+    html += html_figure(svg_plot(plot), fmt::format("Events of the {} structure by kind, in one motion step.",
+                                                    html_escaped(structure.name)));
+  }
+  return html;
+}
+
+std::string plots(const RunReport& report) {
+  if (report.structures.empty()) return "";
+  return step_count(report) > 1 ? plots_over_time(report) : plots_by_kind(report);
+}
+
+}  // namespace
+
+std::string html_escaped(std::string_view text) {
+  std::string html;
+  for (const char c : one_line(text)) {
+    switch (c) {
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      case '\'':
+        html += "&#39;";
+        break;
+      default:
+        html += c;
+    }
+  }
+  return html;
+}
+
+std::string html_escaped_lines(std::string_view text) {
+  std::string html;
+  for (const std::string& line : split(text, '\n')) html += html_escaped(line) + "\n";
+  return html;
+}
+
+std::string html_figure(const std::string& svg, const std::string& caption) {
+  return fmt::format("<figure>\n{}<figcaption>{}</figcaption>\n</figure>\n", svg, caption);
+}
+
+std::string html_page(const std::string& name, const std::string& body) {
+  const Machine machine = this_machine();
+  const std::string footer = html_escaped(
+      fmt::format("kds {} on {}, {} {}, {}; built with {}.", program_version(), machine.cpu, machine.cores,
+                  machine.cores == 1 ? "core" : "cores", machine.os, machine.compiler));
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n{2}"
+      "<footer>{3}</footer>\n</main>\n</body>\n</html>\n",
+      html_escaped(name), kStyle, body, footer);
+}
+
+std::string html_report(const RunReport& report) {
+  return html_page(title(report),
+                   fmt::format("{}{}<h2>Events</h2>\n{}<h2>Comparison</h2>\n{}<h2>How to read "
+                               "this</h2>\n<p>{}</p>\n",
+                               inputs(report), findings(report), plots(report), table(report), kWords));
+}
+
+}  // namespace kds

@@ -1,0 +1,78 @@
+#include "experiments/run/load_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "motions/base/input_error.h"
+#include "motions/scene/radii.h"
+
+namespace kds {
+
+std::optional<Instance> read_lone_instance(const InputOptions& options) {
+  const auto instance = std::find_if(options.inputs.begin(), options.inputs.end(),
+                                     [](const auto& path) { return is_instance_file(path); });
+  if (instance == options.inputs.end()) return std::nullopt;
+  const std::string file = instance->string();
+  if (options.inputs.size() > 1)
+    throw InputError(file + ": an instance file runs alone, without further inputs");
+  const auto refuse = [&](bool given, const char* option) {
+    if (given) throw InputError(fmt::format("{}: has no meaning for an instance file ({})", option, file));
+  };
+  const ReadOptions& reading = options.reading;
+  refuse(reading.topology.has_value(), "--topology");
+  refuse(reading.chain.has_value(), "--chain");
+  refuse(reading.selection != Selection::automatic, "--select");
+  refuse(reading.frames.first != 0 || reading.frames.last || reading.frames.stride != 1, "--frames");
+  refuse(options.radius != "auto", "--radius");
+  return read_instance(*instance);
+}
+
+std::vector<Trajectory> read_necklaces(const InputOptions& options,
+                                       const std::function<void(const std::string&)>& warn) {
+  std::vector<Trajectory> necklaces;
+  for (const auto& input : options.inputs) {
+    necklaces.push_back(read_trajectory(input, options.reading));
+    for (const std::string& warning : necklaces.back().warnings) warn(warning);
+  }
+  return necklaces;
+}
+
+Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn) {
+  const InputOptions input{options.inputs, options.reading, options.radius};
+  if (std::optional<Instance> instance = read_lone_instance(input)) {
+    if (options.motion != FrameMotion::linear)
+      throw InputError(
+          fmt::format("--motion: has no meaning for an instance file ({})", options.inputs.front().string()));
+    return Scene(std::move(*instance));
+  }
+  const std::vector<Trajectory> necklaces = read_necklaces(input, warn);
+  std::vector<double> radii = bead_radii(options.radius, necklaces);
+  return Scene(necklaces, std::move(radii), options.motion);
+}
+
+SessionOptions session_options(const RunOptions& options, const Scene& scene, AuditMode audits) {
+  SessionOptions session{options.structures, options.kernel, audits, options.nodes};
+  if (session.structures.empty()) {
+    if (!is_instance_file(options.inputs.front())) {
+      session.structures = {"wrapped", "power"};
+    } else {
+      session.structures = {scene.dimension() == 1 ? "sorted" : "power"};
+    }
+  }
+  const auto& names = session.structures;
+  if (options.nodes.restricts() && std::find(names.begin(), names.end(), "wrapped") == names.end())
+    throw InputError("--levels, --nodes: they choose nodes of wrapped, which is not among the structures");
+  if (options.nodes.restricts()) {
+    const NecklaceTree tree(scene.necklaces());
+    const std::vector<std::uint8_t> kept = select_nodes(tree, options.nodes);
+    if (std::find(kept.begin(), kept.end(), 1) == kept.end())
+      throw InputError(
+          fmt::format("--levels, --nodes: no node is left of {}; expected levels and beads of the input, "
+                      "which has {} beads",
+                      tree.node_count(), scene.bead_count()));
+  }
+  return session;
+}
+
+}  // namespace kds

@@ -1,0 +1,122 @@
+#include "experiments/run/parse_run_options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "experiments/program/input_options.h"
+#include "experiments/program/option_values.h"
+#include "experiments/program/text.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+namespace {
+
+constexpr std::array kRunOptions{
+    OptionSpec{"--structures", "LIST",
+               "comma list of sorted, wrapped, power (default: wrapped,power;"
+               " instances: sorted in 1D, else power)"},
+    OptionSpec{"--motion", "NAME",
+               "how beads move between frames: linear, hermite, lifted (default: linear)"},
+    OptionSpec{"--kernel", "NAME", "fast, filtered or exact arithmetic (default: filtered)"},
+    OptionSpec{"--levels", "RANGE",
+               "levels of wrapped to keep, FIRST:LAST, roots 0, LAST excluded (default: all)"},
+    OptionSpec{"--nodes", "RANGE",
+               "nodes of wrapped to keep, those over beads FIRST:LAST, LAST excluded (default: all)"},
+    OptionSpec{"--audit", "WHEN", "compare with static builds: none, frames or events (default: none)"},
+    OptionSpec{"--dump", "DIR", "write the structures at every frame there (default: none)"},
+    OptionSpec{"--log", "FILE", "write the event log there, for kds replay (default: none)"},
+    OptionSpec{"--out", "DIR", "write summary.json, events.csv and report.html there (default: none)"},
+    OptionSpec{"--json", "FILE", "write the summary there; - is standard output (default: none)"},
+    OptionSpec{"--quiet", "", "no table, no progress bar"},
+};
+
+constexpr auto kOptions = joined(kInputOptions, kRunOptions);
+
+constexpr CommandSpec kCommand{
+    "kds run",
+    "Runs kinetic structures over moving beads and reports every event, exactly and in order.",
+    kInputOperand,
+    kInputHelp,
+    kOptions,
+    "kds run villin.dcd --topology villin.pdb --frames 0:200 --structures wrapped,power --out report\n"
+    "kds run models.pdb --kernel exact --audit events --json -",
+};
+
+constexpr std::array kKernels{Choice<KernelName>{"fast", KernelName::fast},
+                              Choice<KernelName>{"filtered", KernelName::filtered},
+                              Choice<KernelName>{"exact", KernelName::exact}};
+constexpr std::array kAudits{Choice<AuditMode>{"none", AuditMode::none},
+                             Choice<AuditMode>{"frames", AuditMode::frames},
+                             Choice<AuditMode>{"events", AuditMode::events}};
+constexpr std::array kMotions{Choice<FrameMotion>{"linear", FrameMotion::linear},
+                              Choice<FrameMotion>{"hermite", FrameMotion::hermite},
+                              Choice<FrameMotion>{"lifted", FrameMotion::lifted}};
+constexpr std::array<std::string_view, 3> kStructures{"sorted", "wrapped", "power"};
+constexpr std::array<std::string_view, 1> kStructuresToCome{"contacts"};
+
+template <class Names>
+bool among(const Names& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// In the order of kStructures whatever the order given, so that the same set gives the same run.
+std::vector<std::string> parse_structures(const std::string& list) {
+  const std::vector<std::string> names = split(list, ',');
+  for (const std::string& name : names) {
+    if (among(kStructuresToCome, name))
+      throw InputError(fmt::format("--structures: {} is not available yet", name));
+    if (!among(kStructures, name))
+      throw InputError(
+          fmt::format("--structures: '{}' is not one of {}", name, fmt::join(kStructures, ", ")));
+    if (std::count(names.begin(), names.end(), name) > 1)
+      throw InputError(fmt::format("--structures: {} is listed twice", name));
+  }
+  std::vector<std::string> ordered;
+  for (const std::string_view name : kStructures)
+    if (among(names, name)) ordered.emplace_back(name);
+  return ordered;
+}
+
+NodeSelection parse_nodes(const ParsedArguments& parsed) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 32U;
+  NodeSelection nodes;
+  if (const auto text = parsed.value("--levels")) {
+    const auto [first, end] = parse_range("--levels", *text, most);
+    nodes.first_level = static_cast<std::uint32_t>(first);
+    nodes.last_level = static_cast<std::uint32_t>(end - 1);
+  }
+  if (const auto text = parsed.value("--nodes")) {
+    const auto [first, end] = parse_range("--nodes", *text, most);
+    nodes.beads = BeadRange{static_cast<BeadId>(first), static_cast<BeadId>(end - 1)};
+  }
+  return nodes;
+}
+
+}  // namespace
+
+RunOptions parse_run_options(const Arguments& arguments) {
+  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  InputOptions input = parse_input_options(parsed, kCommand.name);
+  RunOptions options;
+  options.inputs = std::move(input.inputs);
+  options.reading = std::move(input.reading);
+  options.radius = std::move(input.radius);
+  if (const auto list = parsed.value("--structures")) options.structures = parse_structures(*list);
+  options.motion = chosen(parsed, "--motion", kMotions).value_or(options.motion);
+  options.kernel = chosen(parsed, "--kernel", kKernels).value_or(options.kernel);
+  options.nodes = parse_nodes(parsed);
+  options.audit = chosen(parsed, "--audit", kAudits).value_or(options.audit);
+  options.dump = path_of(parsed, "--dump");
+  options.log = path_of(parsed, "--log");
+  options.out = path_of(parsed, "--out");
+  options.json = parsed.value("--json");
+  options.quiet = parsed.has("--quiet");
+  return options;
+}
+
+}  // namespace kds

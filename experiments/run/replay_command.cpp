@@ -1,0 +1,68 @@
+#include "experiments/run/replay_command.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+
+#include "experiments/program/progress_bar.h"
+#include "experiments/program/taken_paths.h"
+#include "experiments/program/text.h"
+#include "experiments/program/warnings.h"
+#include "experiments/run/replay_log.h"
+#include "experiments/run/report_json.h"
+#include "experiments/run/run_results.h"
+#include "experiments/run/table.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+namespace {
+
+constexpr std::array kOptions{
+    OptionSpec{"--out", "DIR", "write summary.json, events.csv and report.html there (default: none)"},
+    OptionSpec{"--json", "FILE", "write the summary there; - is standard output (default: none)"},
+    OptionSpec{"--quiet", "", "no table, no progress bar"},
+};
+
+constexpr CommandSpec kCommand{
+    "kds replay", "Runs a logged run again and tells whether the same happens (exit code 0) or not (1).",
+    "LOG",        "an event log, as written by kds run --log",
+    kOptions,     "kds run models.pdb --log models.kdslog\nkds replay models.kdslog",
+};
+
+std::string verdict(const ReplayReport& replay) {
+  const std::string logged = hex_digits(replay.logged_fingerprint);
+  std::string text = fmt::format("{} events in the log\n", with_thousands(replay.events));
+  return text + (replay.same() ? fmt::format("fingerprint same: {}\n", logged)
+                               : fmt::format("fingerprint different: {} now, {} in the log\n",
+                                             hex_digits(replay.run.fingerprint), logged));
+}
+
+}  // namespace
+
+int replay_command(const Arguments& arguments) {
+  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  if (parsed.operands().size() != 1)
+    throw InputError(
+        fmt::format("kds replay takes one LOG, not {} (see kds replay --help)", parsed.operands().size()));
+  const std::filesystem::path log = parsed.operands().front();
+  std::error_code error;
+  if (!std::filesystem::exists(log, error)) throw InputError(fmt::format("{}: no such file", log.string()));
+
+  Destinations destinations{std::nullopt, parsed.value("--json"), parsed.has("--quiet")};
+  if (const auto out = parsed.value("--out")) destinations.out = *out;
+  TakenPaths paths;
+  paths.add("the log", log);
+  paths.write(destinations);
+  check_destinations(destinations);
+
+  ProgressBar bar(!destinations.quiet);
+  const ReplayReport replay = replay_log(
+      log, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },
+      [&bar](const std::string& warning) { print_warning(bar, warning); });
+  bar.erase();
+  deliver(destinations, replay.run, replay_json(replay, log), comparison_table(replay.run) + verdict(replay));
+  return replay.same() ? 0 : 1;
+}
+
+}  // namespace kds

@@ -1,0 +1,66 @@
+#include "experiments/run/report_json.h"
+
+#include "experiments/program/result_json.h"
+#include "experiments/program/text.h"
+
+namespace kds {
+namespace {
+
+void add_counts(Json& object, const NamedCounts& counts) {
+  for (const auto& [name, value] : counts) object[name] = value;
+}
+
+Json structure_json(const StructureReport& structure) {
+  Json events{{"total", structure.events_total}};
+  add_counts(events, structure.events_by_kind);
+  Json stages = Json::object();
+  add_counts(stages, structure.stages);
+  return {{"events", events},
+          {"certificates",
+           {{"created", structure.created},
+            {"never_failing", structure.never_failing},
+            {"cancelled", structure.cancelled},
+            {"failed", structure.failed},
+            {"touched", structure.touched},
+            {"peak", structure.peak},
+            {"per_bead_max", structure.per_bead_max}}},
+          {"stages", stages},
+          {"seconds", structure.seconds},
+          {"build_seconds", structure.build_seconds},
+          {"static_seconds", structure.static_seconds},
+          {"rebuilds", structure.rebuilds},
+          {"audits", {{"run", structure.audits_run}, {"failed", structure.audits_failed}}}};
+}
+
+Json run_json(const RunReport& report) {
+  Json json;
+  json["input"] = {{"files", report.files},           {"beads", report.beads},
+                   {"frames", report.frames},         {"dimension", report.dimension},
+                   {"radius_min", report.radius_min}, {"radius_max", report.radius_max}};
+  json["settings"] = Json::object();
+  for (const auto& [name, value] : report.settings) json["settings"][name] = value;
+  json["structures"] = Json::object();
+  for (const StructureReport& structure : report.structures)
+    json["structures"][structure.name] = structure_json(structure);
+  Json comparisons = Json::object();
+  add_counts(comparisons, report.comparisons);
+  json["engine"] = {{"seconds", report.engine_seconds}, {"close_comparisons", comparisons}};
+  json["fingerprint"] = hex_digits(report.fingerprint);
+  add_provenance(json);
+  return json;
+}
+
+}  // namespace
+
+std::string report_json(const RunReport& report) { return text_of(run_json(report)); }
+
+std::string replay_json(const ReplayReport& replay, const std::filesystem::path& log) {
+  Json json = run_json(replay.run);
+  json["replay"] = {{"log", log.string()},
+                    {"events", replay.events},
+                    {"logged_fingerprint", hex_digits(replay.logged_fingerprint)},
+                    {"same", replay.same()}};
+  return text_of(json);
+}
+
+}  // namespace kds

@@ -1,0 +1,75 @@
+#include "experiments/run/report_of_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "experiments/program/option_names.h"
+
+namespace kds {
+
+namespace {
+
+StructureReport report_of(const KineticStructure& structure, double seconds) {
+  const StructureStatistics& s = structure.statistics;
+  StructureReport report;
+  report.name = structure.name();
+  for (const bool external : {true, false}) {
+    for (std::size_t k = 0; k < structure.kinds().size(); ++k) {
+      const EventKind& kind = structure.kinds()[k];
+      if (kind.external != external || kind.counted_apart) continue;
+      report.events_by_kind.emplace_back(std::string(kind.name), s.events_by_kind[k]);
+      if (external) report.events_total += s.events_by_kind[k];
+    }
+  }
+  report.events_per_step = s.events_per_step;
+  report.created = s.certificates.created;
+  report.never_failing = s.certificates.never_failing;
+  report.cancelled = s.certificates.cancelled;
+  report.failed = s.certificates.failed;
+  report.touched = s.certificates.touched;
+  report.peak = s.certificates.peak;
+  report.per_bead_max = s.certificates.per_bead_max;
+  report.stages = {{"coefficients", s.stages.coefficients},
+                   {"isolation", s.stages.isolation},
+                   {"refined", s.stages.refined},
+                   {"exact", s.stages.exact},
+                   {"identically_zero", s.stages.identically_zero},
+                   {"shared", s.stages.shared},
+                   {"tolerance", s.stages.tolerance},
+                   {"signs_double", s.stages.signs_double},
+                   {"signs_exact", s.stages.signs_exact},
+                   {"largest_bits", s.stages.largest_bits}};
+  report.seconds = seconds;
+  report.build_seconds = s.build_seconds;
+  report.rebuilds = s.rebuilds;
+  report.audits_run = s.audits_run;
+  report.audits_failed = s.audits_failed;
+  return report;
+}
+
+}  // namespace
+
+RunReport report_of(Session& session, const Scene& scene, const RunOptions& options) {
+  RunReport report;
+  for (const auto& input : options.inputs) report.files.push_back(input.string());
+  report.beads = scene.bead_count();
+  report.frames = scene.frame_count();
+  report.dimension = scene.dimension();
+  const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
+  report.radius_min = *least;
+  report.radius_max = *most;
+  report.settings = option_settings(options);
+  for (std::size_t s = 0; s < session.structures().size(); ++s) {
+    report.structures.push_back(report_of(*session.structures()[s], session.simulator().seconds_of(s)));
+  }
+  report.engine_seconds = session.simulator().seconds();
+  const ComparisonCounts& comparisons = session.simulator().comparisons();
+  report.comparisons = {
+      {"same_function", comparisons.by_identity}, {"exact", comparisons.exact}, {"ties", comparisons.ties}};
+  report.fingerprint = session.simulator().fingerprint();
+  return report;
+}
+
+}  // namespace kds

@@ -1,0 +1,12 @@
+#pragma once
+// Collects what the structures of a session counted.
+
+#include "experiments/run/run_options.h"
+#include "experiments/run/run_report.h"
+#include "experiments/run/session.h"
+
+namespace kds {
+
+[[nodiscard]] RunReport report_of(Session& session, const Scene& scene, const RunOptions& options);
+
+}  // namespace kds

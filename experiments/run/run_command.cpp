@@ -1,0 +1,55 @@
+#include "experiments/run/run_command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "experiments/program/input_options.h"
+#include "experiments/program/output_files.h"
+#include "experiments/program/progress_bar.h"
+#include "experiments/program/taken_paths.h"
+#include "experiments/program/warnings.h"
+#include "experiments/run/parse_run_options.h"
+#include "experiments/run/report_json.h"
+#include "experiments/run/run_results.h"
+#include "experiments/run/run_scene.h"
+#include "experiments/run/table.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_apart(const RunOptions& options, const Destinations& destinations) {
+  TakenPaths paths;
+  paths.read({options.inputs, options.reading, options.radius});
+  paths.write(destinations);
+  if (options.log) paths.write("--log", *options.log);
+}
+
+void check_before_run(const RunOptions& options, const Destinations& destinations) {
+  check_inputs_exist({options.inputs, options.reading, options.radius});
+  check_apart(options, destinations);
+  check_destinations(destinations);
+  if (options.log) ensure_writable_file(*options.log, "--log");
+  if (options.dump) ensure_directory(*options.dump, "--dump");
+}
+
+}  // namespace
+
+int run_command(const Arguments& arguments) {
+  const RunOptions options = parse_run_options(arguments);
+  const Destinations destinations{options.out, options.json, options.quiet};
+  check_before_run(options, destinations);
+
+  ProgressBar bar(!options.quiet);
+  const RunReport report = run_scene(
+      options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },
+      [&bar](const std::string& warning) { print_warning(bar, warning); });
+  bar.erase();
+  deliver(destinations, report, report_json(report), comparison_table(report));
+  return 0;
+}
+
+}  // namespace kds

@@ -1,0 +1,35 @@
+#pragma once
+// What `kds run` was asked to do. Parsed and checked by parse_run_options; see docs of each option there.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kds/audit.h"
+#include "motions/readers/read_trajectory.h"
+#include "motions/scene/scene.h"
+#include "structures/necklace/node_selection.h"
+
+namespace kds {
+
+enum class KernelName { fast, filtered, exact };
+
+struct RunOptions {
+  std::vector<std::filesystem::path> inputs;
+  std::vector<std::string>
+      structures;  ///< of sorted, wrapped, power, in this order; empty: the input's default
+  FrameMotion motion = FrameMotion::linear;
+  KernelName kernel = KernelName::filtered;
+  ReadOptions reading;  ///< --topology, --select, --chain, --frames
+  std::string radius = "auto";
+  AuditMode audit = AuditMode::none;
+  NodeSelection nodes;                        ///< --levels, --nodes
+  std::optional<std::filesystem::path> dump;  ///< directory for the structures at every frame
+  std::optional<std::filesystem::path> out;   ///< directory for summary.json, events.csv, report.html
+  std::optional<std::filesystem::path> log;   ///< event log, for `kds replay`
+  std::optional<std::string> json;            ///< file, or - for standard output
+  bool quiet = false;
+};
+
+}  // namespace kds

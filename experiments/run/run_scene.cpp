@@ -1,0 +1,67 @@
+#include "experiments/run/run_scene.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "experiments/program/option_names.h"
+#include "experiments/program/output_files.h"
+#include "experiments/program/text.h"
+#include "experiments/run/event_log_file.h"
+#include "experiments/run/load_scene.h"
+#include "experiments/run/make_session_of.h"
+#include "experiments/run/report_of_session.h"
+#include "experiments/run/session.h"
+#include "kds/audit.h"
+
+namespace kds {
+
+namespace {
+
+void write_dump(const std::filesystem::path& directory, std::size_t frame, Session& session) {
+  for (const DumpFile& file : session.dump(frame)) {
+    write_file_atomically(directory / fmt::format("frame-{}.{}", frame, file.ending), file.text);
+  }
+}
+
+}  // namespace
+
+RunReport run_scene(const RunOptions& options, const Progress& progress,
+                    const std::function<void(const std::string&)>& warn) {
+  const Scene scene = load_scene(options, warn);
+  const auto session = make_session(scene, session_options(options, scene, options.audit));
+  if (scene.degree() > highest_filtered_degree)
+    warn(fmt::format("motions of degree {}: all is decided in whole numbers, as with --kernel exact",
+                     scene.degree()));
+  std::optional<EventLogWriter> log;
+  if (options.log) {
+    log.emplace(*options.log, options, scene);
+    session->simulator().listen(*log);
+  }
+
+  session->load(0);
+  session->simulator().build();
+  if (options.dump) write_dump(*options.dump, 0, *session);
+  for (std::size_t step = 0; step < scene.step_count(); ++step) {
+    session->load(step);
+    try {
+      session->simulator().run_step(step + 1 == scene.step_count());
+    } catch (const AuditError& error) {
+      throw AuditError(fmt::format("{}\nto see it again: kds run {}", error.what(),
+                                   shell_words(option_arguments(options))));
+    }
+    if (options.dump) write_dump(*options.dump, step + 1, *session);
+    progress(step + 1, scene.step_count());
+  }
+
+  RunReport report = report_of(*session, scene, options);
+  std::vector<double> static_seconds;
+  for (std::size_t frame = 0; frame < scene.frame_count(); ++frame)
+    session->time_static_builds(frame, static_seconds);
+  for (std::size_t s = 0; s < report.structures.size(); ++s)
+    report.structures[s].static_seconds = static_seconds[s];
+  if (log) log->commit(report.fingerprint);
+  return report;
+}
+
+}  // namespace kds

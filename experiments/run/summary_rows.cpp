@@ -1,0 +1,144 @@
+#include "experiments/run/summary_rows.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <string_view>
+
+#include "experiments/program/text.h"
+
+namespace kds {
+namespace {
+
+using Figure = std::function<std::string(const StructureReport&)>;
+
+SummaryRow row(const RunReport& report, std::string label, bool detail, const Figure& figure) {
+  SummaryRow line{std::move(label), detail, {}};
+  for (const StructureReport& structure : report.structures) line.cells.push_back(figure(structure));
+  return line;
+}
+
+Figure count(std::uint64_t StructureReport::*member) {
+  return [member](const StructureReport& structure) { return with_thousands(structure.*member); };
+}
+
+Figure time(double StructureReport::*member) {
+  return [member](const StructureReport& structure) { return short_decimal(structure.*member); };
+}
+
+// A structure counts only its own kinds and stages: the rows are those of any, in order of appearance.
+std::vector<std::string> names_of_any(const RunReport& report, NamedCounts StructureReport::*member) {
+  std::vector<std::string> names;
+  for (const StructureReport& structure : report.structures)
+    for (const auto& [name, value] : structure.*member)
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
+Figure count_named(NamedCounts StructureReport::*member, const std::string& name) {
+  return [member, name](const StructureReport& structure) {
+    for (const auto& [key, value] : structure.*member)
+      if (key == name) return with_thousands(value);
+    return std::string("-");
+  };
+}
+
+void add_kinds(std::vector<SummaryRow>& rows, const RunReport& report) {
+  constexpr auto member = &StructureReport::events_by_kind;
+  for (const std::string& name : names_of_any(report, member))
+    rows.push_back(row(report, kind_label(name), true, count_named(member, name)));
+}
+
+// What the stages of the summary are called in print, and the heading that they stand under.
+struct StageLabel {
+  std::string_view stage, heading, label;
+};
+constexpr std::string_view kFailureTimes = "failure times settled by", kSigns = "signs just after settled by";
+constexpr std::array kStageLabels{
+    StageLabel{"coefficients", kFailureTimes, "double, all coefficients positive"},
+    StageLabel{"isolation", kFailureTimes, "double, isolated"},
+    StageLabel{"refined", kFailureTimes, "double, errors followed"},
+    StageLabel{"exact", kFailureTimes, "integers"},
+    StageLabel{"identically_zero", kFailureTimes, "integers, identically zero"},
+    StageLabel{"shared", kFailureTimes, "with another of the same function"},
+    StageLabel{"tolerance", kFailureTimes, "beads moved too little to matter"},
+    StageLabel{"signs_double", kSigns, "double"},
+    StageLabel{"signs_exact", kSigns, "integers"},
+    StageLabel{"largest_bits", "", "bits of the longest integer"},
+};
+
+void add_stages(std::vector<SummaryRow>& rows, const RunReport& report) {
+  constexpr auto member = &StructureReport::stages;
+  std::string_view heading;
+  for (const std::string& name : names_of_any(report, member)) {
+    const auto* known = std::find_if(kStageLabels.begin(), kStageLabels.end(),
+                                     [&](const StageLabel& label) { return label.stage == name; });
+    const StageLabel label = known == kStageLabels.end() ? StageLabel{name, kFailureTimes, name} : *known;
+    if (label.heading != heading && !label.heading.empty())
+      rows.push_back({std::string(label.heading), false, {}});
+    heading = label.heading;
+    rows.push_back(row(report, std::string(label.label), !heading.empty(), count_named(member, name)));
+  }
+}
+
+std::string per_step(const StructureReport& structure) {
+  const std::size_t steps = structure.events_per_step.size();
+  return steps == 0 ? "-"
+                    : short_decimal(static_cast<double>(structure.events_total) / static_cast<double>(steps));
+}
+
+std::string ratio(const StructureReport& structure) {
+  return structure.static_seconds > 0 ? short_decimal(structure.seconds / structure.static_seconds) : "-";
+}
+
+}  // namespace
+
+std::string kind_label(const std::string& kind) { return kind == "wander" ? kind + " (internal)" : kind; }
+
+std::vector<SummaryRow> summary_rows(const RunReport& report) {
+  std::vector<SummaryRow> rows;
+  rows.push_back(row(report, "events", false, count(&StructureReport::events_total)));
+  add_kinds(rows, report);
+  rows.push_back(row(report, "events per frame", false, per_step));
+  rows.push_back(row(report, "certificates created", false, count(&StructureReport::created)));
+  rows.push_back(row(report, "never failing", true, count(&StructureReport::never_failing)));
+  rows.push_back(row(report, "cancelled", true, count(&StructureReport::cancelled)));
+  rows.push_back(row(report, "failed", true, count(&StructureReport::failed)));
+  rows.push_back(row(report, "most at once", true, count(&StructureReport::peak)));
+  rows.push_back(row(report, "most on one bead", true, count(&StructureReport::per_bead_max)));
+  add_stages(rows, report);
+  rows.push_back(row(report, "seconds", false, time(&StructureReport::seconds)));
+  rows.push_back(row(report, "first build", true, time(&StructureReport::build_seconds)));
+  rows.push_back(row(report, "static build at every frame", true, time(&StructureReport::static_seconds)));
+  rows.push_back(row(report, "kinetic / static", true, ratio));
+  rows.push_back(row(report, "rebuilds", false, count(&StructureReport::rebuilds)));
+  rows.push_back(row(report, "audits", false, count(&StructureReport::audits_run)));
+  rows.push_back(row(report, "failed", true, count(&StructureReport::audits_failed)));
+  return rows;
+}
+
+std::vector<std::pair<std::string, std::string>> input_lines(const RunReport& report) {
+  std::string scene = fmt::format("{} beads, {} frames, dimension {}", with_thousands(report.beads),
+                                  with_thousands(report.frames), report.dimension);
+  scene += report.radius_min == report.radius_max
+               ? fmt::format(", radius {:.4g}", report.radius_min)
+               : fmt::format(", radii {:.4g} to {:.4g}", report.radius_min, report.radius_max);
+  std::vector<std::string> settings;
+  for (const auto& [name, value] : report.settings)
+    if (!value.empty()) settings.push_back(name + " " + value);
+  return {{"input", fmt::format("{}", fmt::join(report.files, ", "))},
+          {"scene", scene},
+          {"settings", fmt::format("{}", fmt::join(settings, ", "))}};
+}
+
+std::size_t step_count(const RunReport& report) {
+  std::size_t steps = 0;
+  for (const StructureReport& structure : report.structures)
+    steps = std::max(steps, structure.events_per_step.size());
+  return steps;
+}
+
+}  // namespace kds

@@ -1,0 +1,110 @@
+#include "experiments/scenes/generate_command.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "experiments/program/output_files.h"
+#include "experiments/program/progress_bar.h"
+#include "experiments/program/table_results.h"
+#include "experiments/program/taken_paths.h"
+#include "experiments/program/text.h"
+#include "experiments/scenes/generate_options.h"
+#include "experiments/scenes/info_report.h"
+#include "motions/models/shape.h"
+#include "motions/readers/write_trajectory.h"
+
+namespace kds {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kName = "generate";
+
+// One a necklace: of two, a.xyz becomes a-1.xyz and a-2.xyz.
+std::vector<fs::path> files_of(const GenerateOptions& options) {
+  if (options.model->name != "two-spirals") return {options.file};
+  std::vector<fs::path> files;
+  for (const char* suffix : {"-1", "-2"}) {
+    fs::path name = options.file.stem();
+    name += suffix;
+    name += options.file.extension();
+    files.push_back(options.file.parent_path() / name);
+  }
+  return files;
+}
+
+std::string command_line(const GenerateOptions& options) {
+  std::string text = fmt::format("kds generate {}", options.model->name);
+  for (const auto& [name, value] : model_settings(options)) text += fmt::format(" --{} {}", name, value);
+  return text;
+}
+
+// All files are whole before the first takes its place.
+void write_files(const GenerateOptions& options, const std::vector<Trajectory>& necklaces) {
+  std::vector<std::unique_ptr<AtomicFile>> files;
+  for (const Trajectory& necklace : necklaces) {
+    files.push_back(std::make_unique<AtomicFile>(necklace.file));
+    if (options.is_pdb()) {
+      write_pdb(files.back()->stream(), necklace, command_line(options));
+    } else {
+      write_xyz(files.back()->stream(), necklace, command_line(options));
+    }
+  }
+  for (const auto& file : files) file->commit();
+}
+
+// As they will be read.
+std::vector<Trajectory> necklaces_for(const GenerateOptions& options, const std::vector<fs::path>& files) {
+  std::vector<Trajectory> necklaces = generate(*options.model, options.settings);
+  for (std::size_t n = 0; n < necklaces.size(); ++n) {
+    const std::string file = files[n].string();
+    if (options.is_pdb()) necklaces[n] = as_in_pdb(necklaces[n], file);
+    necklaces[n].file = file;
+  }
+  return necklaces;
+}
+
+TableResults results_of(const GenerateOptions& options, const SceneInfo& info) {
+  Json json;
+  json["model"] = options.model->name;
+  add_scene(json, info);
+  json["settings"] = Json::object();
+  std::string table = fmt::format("model     {}", options.model->name);
+  for (const auto& [name, value] : model_settings(options)) {
+    json["settings"][name] = value;
+    table += fmt::format(", {} {}", name, value);
+  }
+  add_provenance(json);
+  return {text_of(json), conditions_csv(info), table + "\n" + scene_table(info)};
+}
+
+}  // namespace
+
+int generate_command(const Arguments& arguments) {
+  const GenerateOptions options = parse_generate_options(arguments);
+  const Destinations destinations{options.out, options.json, options.quiet};
+  const std::vector<fs::path> files = files_of(options);
+  TakenPaths taken;
+  for (const fs::path& file : files) {
+    ensure_writable_file(file, "-o");
+    taken.add("-o", file);
+  }
+  check_table_destinations(destinations, std::string(kName), taken);
+
+  ProgressBar bar(!options.quiet);
+  const std::vector<Trajectory> necklaces = necklaces_for(options, files);
+  std::size_t beads = 0;
+  for (const Trajectory& necklace : necklaces) beads += necklace.bead_count();
+  const std::vector<double> radii(beads, models::radius);
+  const SceneInfo info =
+      describe_scene(necklaces, radii, {.most_listed = 5},
+                     [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
+  bar.erase();
+  write_files(options, necklaces);
+  deliver_table(destinations, std::string(kName), results_of(options, info));
+  return 0;
+}
+
+}  // namespace kds

@@ -1,0 +1,89 @@
+#include "experiments/scenes/info_command.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "experiments/program/option_names.h"
+#include "experiments/program/progress_bar.h"
+#include "experiments/program/table_results.h"
+#include "experiments/program/text.h"
+#include "experiments/program/warnings.h"
+#include "experiments/run/load_scene.h"
+#include "experiments/scenes/info_options.h"
+#include "experiments/scenes/info_report.h"
+#include "motions/scene/radii.h"
+
+namespace kds {
+
+namespace {
+
+constexpr std::string_view kName = "info";
+
+Json settings_json(const InfoOptions& options) {
+  const ReadOptions& reading = options.input.reading;
+  const double rho = options.validate.rho;
+  return {{"topology", reading.topology ? reading.topology->string() : ""},
+          {"select", name_of(reading.selection)},
+          {"chain", reading.chain.value_or("")},
+          {"frames", name_of(reading.frames)},
+          {"radius", options.input.radius},
+          {"rho", std::isinf(rho) ? Json(nullptr) : Json(rho)}};
+}
+
+// Points with weights, not balls in a chain: there is nothing to judge.
+TableResults describe(const Instance& instance) {
+  Json json;
+  json["input"] = {{"files", {instance.file}},
+                   {"beads", instance.point_count()},
+                   {"frames", 2},
+                   {"dimension", instance.dimension()},
+                   {"degree", instance.degree},
+                   {"weighted", instance.weighted()}};
+  json["rows"] = Json::array();
+  add_provenance(json);
+  const std::string row = fmt::format("{},{},{},{}", instance.point_count(), instance.dimension(),
+                                      instance.degree, instance.weighted());
+  return {text_of(json), "beads,dimension,degree,weighted\n" + row + "\n",
+          fmt::format("input     {}\ninstance  {} moving points, dimension {}, degree {}, {}\n",
+                      one_line(instance.file), with_thousands(instance.point_count()), instance.dimension(),
+                      instance.degree, instance.weighted() ? "weighted" : "without weights")};
+}
+
+TableResults describe(const InfoOptions& options, ProgressBar& bar) {
+  Json warnings = Json::array();
+  const std::vector<Trajectory> necklaces = read_necklaces(options.input, [&](const std::string& warning) {
+    warnings.push_back(warning);
+    print_warning(bar, warning);
+  });
+  const std::vector<double> radii = bead_radii(options.input.radius, necklaces);
+  const SceneInfo info =
+      describe_scene(necklaces, radii, options.validate,
+                     [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
+  bar.erase();
+  Json json;
+  add_scene(json, info);
+  json["settings"] = settings_json(options);
+  json["warnings"] = warnings;
+  add_provenance(json);
+  return {text_of(json), conditions_csv(info), scene_table(info)};
+}
+
+}  // namespace
+
+int info_command(const Arguments& arguments) {
+  const InfoOptions options = parse_info_options(arguments);
+  const Destinations destinations{options.out, options.json, options.quiet};
+  check_inputs_exist(options.input);
+  TakenPaths taken;
+  taken.read(options.input);
+  check_table_destinations(destinations, std::string(kName), taken);
+
+  ProgressBar bar(!options.quiet);
+  const std::optional<Instance> instance = read_lone_instance(options.input);
+  deliver_table(destinations, std::string(kName), instance ? describe(*instance) : describe(options, bar));
+  return 0;
+}
+
+}  // namespace kds

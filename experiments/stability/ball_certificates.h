@@ -1,0 +1,30 @@
+#pragma once
+// Certificate types of balls: one line each, for one degree of motion. They take long to
+// compile: each degree in a file of its own (stability_certificates.cpp.in).
+
+#include "certificates/types/ball_in_sphere.h"
+#include "certificates/types/contact.h"
+#include "experiments/stability/certificate_trial.h"
+
+namespace kds {
+
+template <int degree>
+std::vector<StabilitySubject> ball_certificates() {
+  using Line = BezierMotion<1, degree>;
+  using Plane = BezierMotion<2, degree>;
+  using Space = BezierMotion<3, degree>;
+  return {
+      certificate_subject<Contact, Line>("contact"),
+      certificate_subject<Contact, Plane>("contact"),
+      certificate_subject<Contact, Space>("contact"),
+      certificate_subject<BallInSphere<2, 1>, Plane>("ball_in_sphere_1"),
+      certificate_subject<BallInSphere<3, 1>, Space>("ball_in_sphere_1"),
+      certificate_subject<BallInSphere<2, 2>, Plane>("ball_in_sphere_2"),
+      certificate_subject<BallInSphere<3, 2>, Space>("ball_in_sphere_2"),
+      certificate_subject<BallInSphere<2, 3>, Plane>("ball_in_sphere_3"),
+      certificate_subject<BallInSphere<3, 3>, Space>("ball_in_sphere_3"),
+      certificate_subject<BallInSphere<3, 4>, Space>("ball_in_sphere_4"),
+  };
+}
+
+}  // namespace kds

@@ -1,0 +1,70 @@
+#pragma once
+// A few beads over one step, of any dimension and degree: what the scenes of `kds stability` are made of.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "motions/curves/bezier_motion.h"
+#include "motions/readers/instance.h"
+
+namespace kds {
+
+class BeadCurves {
+ public:
+  BeadCurves(int dimension, int degree, std::size_t beads)
+      : dimension_(dimension),
+        degree_(degree),
+        beads_(beads),
+        numbers_(beads * static_cast<std::size_t>((degree + 1) * (dimension + 2)), 0) {}
+
+  [[nodiscard]] int dimension() const { return dimension_; }
+  [[nodiscard]] int degree() const { return degree_; }
+  [[nodiscard]] std::size_t bead_count() const { return beads_; }
+
+  /// The k-th control point.
+  [[nodiscard]] double& coordinate(std::size_t bead, int k, int axis) { return numbers_[at(bead, k, axis)]; }
+  [[nodiscard]] double coordinate(std::size_t bead, int k, int axis) const {
+    return numbers_[at(bead, k, axis)];
+  }
+  [[nodiscard]] double& weight(std::size_t bead, int k) { return numbers_[at(bead, k, dimension_)]; }
+  [[nodiscard]] double weight(std::size_t bead, int k) const { return numbers_[at(bead, k, dimension_)]; }
+
+  [[nodiscard]] double& radius(std::size_t bead, int k) { return numbers_[at(bead, k, dimension_ + 1)]; }
+  [[nodiscard]] double radius(std::size_t bead, int k) const { return numbers_[at(bead, k, dimension_ + 1)]; }
+
+  /// Without radii. Weights are left out where they are all zero, and in the plane and on the line, where an
+  /// instance has none.
+  [[nodiscard]] Instance instance(std::string name) const;
+
+  /// M has this dimension and degree.
+  template <Motion M>
+  [[nodiscard]] M motion() const {
+    M motion(beads_);
+    for (BeadId b = 0; b < beads_; ++b) {
+      for (int k = 0; k <= M::degree; ++k) {
+        for (int axis = 0; axis < M::dimension; ++axis)
+          motion.set_coordinate(b, k, axis, coordinate(b, k, axis));
+        motion.set_weight(b, k, weight(b, k));
+        motion.set_radius(b, k, radius(b, k));
+      }
+    }
+    return motion;
+  }
+
+ private:
+  [[nodiscard]] std::size_t at(std::size_t bead, int k, int column) const {
+    return (bead * static_cast<std::size_t>(degree_ + 1) + static_cast<std::size_t>(k)) *
+               static_cast<std::size_t>(dimension_ + 2) +
+           static_cast<std::size_t>(column);
+  }
+
+  int dimension_, degree_;
+  std::size_t beads_;
+  std::vector<double> numbers_;
+};
+
+/// An instance file's text; reads back exactly.
+[[nodiscard]] std::string instance_text(const Instance& instance);
+
+}  // namespace kds

@@ -1,0 +1,180 @@
+// Structures as subjects of `kds stability`: a few beads, one step, each kernel, audits between all events.
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "experiments/run/session.h"
+#include "experiments/stability/stability_radii.h"
+#include "experiments/stability/stability_subjects.h"
+#include "kds/event_log.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+namespace {
+
+/// All events but rebuilds, which are counted apart.
+class Recorder final : public EventListener {
+ public:
+  void on_event(const KineticStructure& structure, const LoggedEvent& event) override {
+    if (!structure.kinds()[event.change.kind].counted_apart)
+      events.push_back({event.change, event.lower, event.upper});
+  }
+
+  std::vector<TimedChange> events;
+};
+
+/// How a run went, or why it did not.
+struct Outcome {
+  std::string refusal, failure;
+  bool failed_audit = false;
+  std::vector<TimedChange> events;
+  std::uint64_t fingerprint = 0;
+  StructureStatistics statistics;
+  double seconds = 0;
+
+  [[nodiscard]] bool ran() const { return refusal.empty() && failure.empty(); }
+  [[nodiscard]] std::string in_words() const {
+    if (!refusal.empty()) return "refused: " + refusal;
+    if (!failure.empty()) return "failed: " + failure;
+    return fmt::format("{} events, {} rebuilds, fingerprint {:016x}", events.size(), statistics.rebuilds,
+                       fingerprint);
+  }
+};
+
+/// Points, or balls where there are radii.
+struct Case {
+  std::size_t number;
+  Instance instance;
+  std::vector<double> radii;
+};
+
+Outcome outcome_of(const Case& one, const std::string& structure, KernelName kernel, AuditMode audits) {
+  Outcome outcome;
+  try {
+    const Scene scene(one.instance, one.radii);
+    const auto session = make_session(scene, {{structure}, kernel, audits, {}});
+    Recorder recorder;
+    Simulator& simulator = session->simulator();
+    simulator.listen(recorder);
+    try {
+      session->load(0);
+      simulator.build();
+      simulator.run_step(true);
+    } catch (const AuditError& error) {
+      outcome.failure = error.what();
+      outcome.failed_audit = true;
+    }
+    outcome.events = std::move(recorder.events);
+    outcome.fingerprint = simulator.fingerprint();
+    outcome.statistics = session->structures().front()->statistics;
+    outcome.seconds = simulator.seconds_of(0) + simulator.seconds() + outcome.statistics.build_seconds;
+  } catch (const InputError& error) {
+    outcome.refusal = error.what();
+  } catch (const std::exception& error) {
+    outcome.failure = error.what();
+  }
+  return outcome;
+}
+
+std::optional<std::string> trouble_of(const Outcome& filtered, const Outcome& audited, const Outcome& exact) {
+  for (const Outcome* outcome : {&audited, &filtered, &exact})
+    if (!outcome->failure.empty()) return outcome->failure;
+  const bool same = filtered.refusal == exact.refusal && filtered.fingerprint == exact.fingerprint &&
+                    filtered.events.size() == exact.events.size();
+  if (!same) return fmt::format("filtered {}; exact {}", filtered.in_words(), exact.in_words());
+  if (audited.refusal != exact.refusal || audited.fingerprint != exact.fingerprint)
+    return fmt::format("with audits {}; without {}", audited.in_words(), exact.in_words());
+  return std::nullopt;
+}
+
+/// Of the runs that ended well.
+struct Times {
+  std::vector<double> fast, filtered, exact;
+};
+
+void add_case(StabilityRow& row, Times& times, const std::string& structure, const Case& one) {
+  const Outcome fast = outcome_of(one, structure, KernelName::fast, AuditMode::none);
+  const Outcome filtered = outcome_of(one, structure, KernelName::filtered, AuditMode::none);
+  const Outcome audited = outcome_of(one, structure, KernelName::filtered, AuditMode::events);
+  const Outcome exact = outcome_of(one, structure, KernelName::exact, AuditMode::none);
+  ++row.cases;
+  row.audits_run += audited.statistics.audits_run;
+  row.audits_failed += audited.failed_audit ? 1 : 0;
+  if (const auto trouble = trouble_of(filtered, audited, exact)) {
+    const bool failure = !(filtered.failure + audited.failure + exact.failure).empty();
+    ++(failure ? row.failed : row.disagreements);
+    note_trouble(row, one.number, *trouble,
+                 instance_text(one.instance) +
+                     (one.radii.empty() ? "" : fmt::format("# radii {}\n", fmt::join(one.radii, " "))));
+    return;
+  }
+  if (!exact.refusal.empty()) {
+    if (row.refused++ == 0 && row.motion.empty()) row.reason = exact.refusal;
+    return;
+  }
+  row.events += exact.events.size();
+  row.rebuilds += filtered.statistics.rebuilds;
+  add(row.stages, filtered.statistics.stages);
+  times.filtered.push_back(filtered.seconds);
+  times.exact.push_back(exact.seconds);
+  if (fast.ran()) {
+    times.fast.push_back(fast.seconds);
+    add(row.fast, event_difference(exact.events, fast.events));
+  } else {
+    if (row.fast_gave_up++ == 0) row.fast_reason = fmt::format("case {}: {}", one.number, fast.in_words());
+  }
+}
+
+enum class Of { points, balls };
+
+// Weights are those of points in space (motions/readers/instance.h), and the sorted list asks for none.
+StabilitySubject structure_subject(const std::string& structure, Of of, int dimension, int degree,
+                                   std::size_t beads) {
+  const std::size_t cases_a_run = degree == 1 ? 50 : 100;  // a run has many certificates
+  const std::string name = structure + (of == Of::balls ? ":balls" : "");
+  StabilitySubject subject{name, true, dimension, degree, 0, dimension == 3 || of == Of::balls, {}};
+  subject.run = [=](const Extreme& extreme, const StabilityCases& cases) {
+    StabilityRow row;
+    row.subject = name;
+    row.extreme = extreme.name;
+    row.must_refuse = extreme.refused;
+    Times times;
+    const std::size_t runs = (cases.cases + cases_a_run - 1) / cases_a_run;
+    for (std::size_t number = 0; number < runs; ++number) {
+      SceneRandom random = scene_random(cases.seed, extreme.name, number);
+      BeadCurves curves = extreme.make({dimension, degree, beads}, random);
+      Case one{number, curves.instance(std::string(extreme.name)), {}};
+      if (of == Of::balls) {
+        give_radii(curves, random);
+        for (std::size_t b = 0; b < beads; ++b) one.radii.push_back(curves.radius(b, 0));
+      }
+      add_case(row, times, structure, one);
+    }
+    row.seconds = {median(std::move(times.fast)), median(std::move(times.filtered)),
+                   median(std::move(times.exact))};
+    return row;
+  };
+  return subject;
+}
+
+}  // namespace
+
+std::vector<StabilitySubject> kinetic_structures() {
+  std::vector<StabilitySubject> subjects;
+  for (const int degree : {1, 3}) {
+    subjects.push_back(structure_subject("sorted", Of::points, 1, degree, 10));
+    const std::size_t few = degree == 1 ? 8 : 6;
+    for (const int dimension : {2, 3}) {
+      subjects.push_back(structure_subject("wrapped", Of::points, dimension, degree, few));
+      subjects.push_back(structure_subject("power", Of::points, dimension, degree, few));
+    }
+  }
+  // In whole numbers curves take minutes: their functions have degree 36.
+  for (const int dimension : {2, 3})
+    subjects.push_back(structure_subject("wrapped", Of::balls, dimension, 1, 6));
+  return subjects;
+}
+
+}  // namespace kds

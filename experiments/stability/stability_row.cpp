@@ -1,0 +1,40 @@
+#include "experiments/stability/stability_row.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace kds {
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void add(StageCounts& sum, const StageCounts& stages) {
+  sum.coefficients += stages.coefficients;
+  sum.isolation += stages.isolation;
+  sum.refined += stages.refined;
+  sum.exact += stages.exact;
+  sum.identically_zero += stages.identically_zero;
+  sum.signs_double += stages.signs_double;
+  sum.signs_exact += stages.signs_exact;
+  sum.largest_bits = std::max(sum.largest_bits, stages.largest_bits);
+}
+
+void add(EventDifference& sum, const EventDifference& difference) {
+  sum.missed += difference.missed;
+  sum.extra += difference.extra;
+  sum.worst_time_error = std::max(sum.worst_time_error, difference.worst_time_error);
+}
+
+void note_trouble(StabilityRow& row, std::size_t number, const std::string& reason,
+                  const std::string& motion) {
+  if (!row.motion.empty()) return;
+  row.reason = fmt::format("case {}: {}", number, reason);
+  row.motion = motion;
+}
+
+}  // namespace kds

@@ -1,0 +1,36 @@
+#include "experiments/stability/stability_subjects.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace kds {
+
+std::vector<StabilitySubject> all_subjects() {
+  std::vector<StabilitySubject> subjects;
+  for (auto make : {bead_certificates<1>, bead_certificates<3>, ball_certificates<1>, ball_certificates<3>,
+                    kinetic_structures})
+    std::ranges::move(make(), std::back_inserter(subjects));
+  // Those of one name together, in the order of first appearance; then by dimension and degree.
+  std::vector<std::string> names;
+  for (const StabilitySubject& subject : subjects)
+    if (std::ranges::find(names, subject.name) == names.end()) names.push_back(subject.name);
+  const auto place = [&names](const StabilitySubject& subject) {
+    return std::tuple(std::ranges::find(names, subject.name) - names.begin(), subject.dimension,
+                      subject.degree);
+  };
+  std::ranges::stable_sort(subjects, {}, place);
+  for (StabilitySubject& subject : subjects) {
+    subject.run = [subject](const Extreme& extreme, const StabilityCases& cases) {
+      StabilityRow row = subject.run(extreme, cases);
+      row.subject = subject.name;
+      row.structure = subject.structure;
+      row.dimension = subject.dimension;
+      row.degree = subject.degree;
+      row.function_degree = subject.function_degree;
+      return row;
+    };
+  }
+  return subjects;
+}
+
+}  // namespace kds

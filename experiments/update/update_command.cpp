@@ -1,0 +1,95 @@
+#include "experiments/update/update_command.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "experiments/program/gnuplot.h"
+#include "experiments/program/option_names.h"
+#include "experiments/program/output_files.h"
+#include "experiments/program/progress_bar.h"
+#include "experiments/program/table_results.h"
+#include "experiments/program/text.h"
+#include "experiments/program/warnings.h"
+#include "experiments/run/load_scene.h"
+#include "experiments/update/update_report.h"
+#include "motions/base/input_error.h"
+#include "motions/scene/radii.h"
+
+namespace kds {
+
+namespace {
+
+constexpr const char* kName = "update";
+
+std::string file_names(const UpdateOptions& options) {
+  std::vector<std::string> names;
+  for (const auto& input : options.input.inputs) names.push_back(input.filename().string());
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+Json input_json(const UpdateOptions& options, const std::vector<Trajectory>& necklaces,
+                const std::vector<double>& radii) {
+  Json files = Json::array();
+  for (const auto& input : options.input.inputs) files.push_back(input.string());
+  std::size_t frames = 1;
+  for (const Trajectory& necklace : necklaces) frames = std::max(frames, necklace.frames.size());
+  const auto [least, most] = std::minmax_element(radii.begin(), radii.end());
+  return {{"files", files},       {"beads", radii.size()},
+          {"frames", frames},     {"dimension", Scene(necklaces, radii).dimension()},
+          {"radius_min", *least}, {"radius_max", *most}};
+}
+
+Json settings_json(const UpdateOptions& options) {
+  const ReadOptions& reading = options.input.reading;
+  return {{"topology", reading.topology ? reading.topology->string() : ""},
+          {"select", name_of(reading.selection)},
+          {"chain", reading.chain.value_or("")},
+          {"frames", name_of(reading.frames)},
+          {"radius", options.input.radius},
+          {"techniques", options.techniques},
+          {"strides", options.strides},
+          {"rounds", options.rounds},
+          {"audit", options.audit == AuditMode::frames ? "frames" : "none"}};
+}
+
+}  // namespace
+
+int update_command(const Arguments& arguments) {
+  const UpdateOptions options = parse_update_options(arguments);
+  const Destinations destinations{options.out, options.json, options.quiet};
+  check_inputs_exist(options.input);
+  if (options.out) require_gnuplot("--out");
+  TakenPaths taken;
+  taken.read(options.input);
+  if (options.out) taken.write("--out", *options.out / "report.html");
+  check_table_destinations(destinations, kName, taken);
+  if (options.out) ensure_writable_file(*options.out / "report.html", "--out");
+
+  ProgressBar bar(!options.quiet);
+  if (const auto instance = read_lone_instance(options.input))
+    throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
+  Json warnings = Json::array();
+  const std::vector<Trajectory> necklaces = read_necklaces(options.input, [&](const std::string& warning) {
+    warnings.push_back(warning);
+    print_warning(bar, warning);
+  });
+  const std::vector<double> radii = bead_radii(options.input.radius, necklaces);
+  const std::vector<UpdateRow> rows = compare_updates(
+      necklaces, radii, options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
+  bar.erase();
+
+  Json json;
+  json["input"] = input_json(options, necklaces, radii);
+  json["settings"] = settings_json(options);
+  json["rows"] = update_rows_json(rows);
+  json["warnings"] = warnings;
+  add_provenance(json);
+  deliver_table(destinations, kName, {text_of(json), update_csv(rows), update_table(rows)});
+  if (options.out)
+    write_file_atomically(*options.out / "report.html", update_page(rows, file_names(options)));
+  return 0;
+}
+
+}  // namespace kds

@@ -1,0 +1,87 @@
+#include "experiments/update/update_options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "experiments/program/option_values.h"
+#include "experiments/program/text.h"
+
+namespace kds {
+
+namespace {
+
+constexpr std::array kUpdateOptions{
+    OptionSpec{
+        "--techniques", "LIST",
+        "comma list of rebuild, reinsert, greedy, kinetic, hermite, lifted, activate, auto; rebuild is "
+        "always run (default: all)"},
+    OptionSpec{"--strides", "LIST", "every how many frames the diagram is asked for (default: 1)"},
+    OptionSpec{"--rounds", "N", "runs of each technique in turn, of which the median counts (default: 3)"},
+    OptionSpec{"--audit", "WHEN", "compare with the static diagram: none or frames (default: none)"},
+    OptionSpec{"--out", "DIR", "write update.json, update.csv and report.html there (default: none)"},
+    OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
+    OptionSpec{"--quiet", "", "no table, no progress bar"},
+};
+
+constexpr auto kOptions = joined(kInputOptions, kUpdateOptions);
+
+constexpr CommandSpec kCommand{
+    "kds update",
+    "Compares techniques that bring the power diagram from frame to frame: what they do, and how long.",
+    kInputOperand,
+    "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
+    kOptions,
+    "kds update villin.dcd --topology villin.pdb --frames 0:200 --strides 1,2,4,8 --out report\n"
+    "kds update 1l2y.pdb --select all --radius element --techniques kinetic,lifted --audit frames --json -",
+};
+
+constexpr std::array kAudits{Choice<AuditMode>{"none", AuditMode::none},
+                             Choice<AuditMode>{"frames", AuditMode::frames}};
+
+std::vector<std::string> parse_techniques(const std::string& list) {
+  const std::vector<std::string> names = split(list, ',');
+  for (const std::string& name : names) {
+    if (std::find(kTechniques.begin(), kTechniques.end(), name) == kTechniques.end())
+      throw InputError(
+          fmt::format("--techniques: '{}' is not one of {}", name, fmt::join(kTechniques, ", ")));
+    if (std::count(names.begin(), names.end(), name) > 1)
+      throw InputError(fmt::format("--techniques: {} is listed twice", name));
+  }
+  std::vector<std::string> ordered;
+  for (const std::string_view name : kTechniques) {
+    if (name == kTechniques.front() || std::find(names.begin(), names.end(), name) != names.end())
+      ordered.emplace_back(name);
+  }
+  return ordered;
+}
+
+std::vector<std::size_t> parse_strides(const std::string& list) {
+  std::vector<std::size_t> strides;
+  for (const std::string& text : split(list, ','))
+    strides.push_back(parse_whole_number("--strides", text, 1, 1'000'000'000));
+  std::sort(strides.begin(), strides.end());
+  if (const auto twice = std::adjacent_find(strides.begin(), strides.end()); twice != strides.end())
+    throw InputError(fmt::format("--strides: {} is listed twice", *twice));
+  return strides;
+}
+
+}  // namespace
+
+UpdateOptions parse_update_options(const Arguments& arguments) {
+  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  UpdateOptions options;
+  options.input = parse_input_options(parsed, kCommand.name);
+  if (const auto list = parsed.value("--techniques")) options.techniques = parse_techniques(*list);
+  if (const auto list = parsed.value("--strides")) options.strides = parse_strides(*list);
+  if (const auto text = parsed.value("--rounds"))
+    options.rounds = parse_whole_number("--rounds", *text, 1, 1000);
+  options.audit = chosen(parsed, "--audit", kAudits).value_or(options.audit);
+  options.out = path_of(parsed, "--out");
+  options.json = parsed.value("--json");
+  options.quiet = parsed.has("--quiet");
+  return options;
+}
+
+}  // namespace kds

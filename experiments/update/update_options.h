@@ -1,0 +1,37 @@
+#pragma once
+// `kds update`: what it was asked to do, and how that is parsed.
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/program/command_line.h"
+#include "experiments/program/input_options.h"
+#include "kds/audit.h"
+
+namespace kds {
+
+/// All techniques by name, in the order in which they are listed: those of
+/// structures/power_diagram/diagram_update.h, and the kinetic one under Hermite motion. The first is what all
+/// are compared with.
+inline constexpr std::array<std::string_view, 8> kTechniques{"rebuild", "reinsert", "greedy",   "kinetic",
+                                                             "hermite", "lifted",   "activate", "auto"};
+
+struct UpdateOptions {
+  InputOptions input;
+  std::vector<std::string> techniques{kTechniques.begin(), kTechniques.end()};  ///< rebuild among them
+  std::vector<std::size_t> strides{1};                                          ///< ascending
+  std::size_t rounds = 3;
+  AuditMode audit = AuditMode::none;         ///< none or frames
+  std::optional<std::filesystem::path> out;  ///< directory for update.json, update.csv, report.html
+  std::optional<std::string> json;           ///< file, or - for standard output
+  bool quiet = false;
+};
+
+/// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.
+[[nodiscard]] UpdateOptions parse_update_options(const Arguments& arguments);
+
+}  // namespace kds

@@ -1,0 +1,165 @@
+#include "experiments/update/update_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "experiments/program/svg_plot.h"
+#include "experiments/program/text.h"
+#include "experiments/run/html_report.h"
+
+namespace kds {
+
+namespace {
+
+template <class Value>
+Json value_or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+template <class Value>
+std::string value_or_empty(const std::optional<Value>& value) {
+  return value ? fmt::format("{}", *value) : "";
+}
+std::string count_or_dash(const std::optional<std::uint64_t>& count) {
+  return count ? with_thousands(*count) : "-";
+}
+
+double per_step(const UpdateRow& row, double sum) {
+  return row.task.steps == 0 ? 0 : sum / static_cast<double>(row.task.steps);
+}
+
+std::string task_line(const UpdateTask& task) {
+  const double steps = static_cast<double>(std::max<std::size_t>(1, task.steps));
+  return fmt::format(
+      "stride {}: {} step{}, {:.1f} cells, {:.1f} of them changed a step, {:.3g}% of {:.1f} certificates "
+      "failed, {:.1f} beads hidden",
+      task.stride, with_thousands(task.steps), task.steps == 1 ? "" : "s",
+      static_cast<double>(task.cells) / steps, static_cast<double>(task.cells_changed) / steps,
+      100 * task.failed_share(), static_cast<double>(task.certificates) / steps,
+      static_cast<double>(task.hidden) / steps);
+}
+
+/// A curve over strides for each technique for which there is a value.
+template <class Value>
+LinePlot over_strides(std::span<const UpdateRow> rows, const char* id, const char* label, Value value) {
+  LinePlot plot{id, "stride", label, false, {}};
+  for (const UpdateRow& row : rows) {
+    const std::optional<double> y = value(row);
+    if (!y) continue;
+    auto curve = std::find_if(plot.curves.begin(), plot.curves.end(),
+                              [&](const Curve& c) { return c.name == row.technique; });
+    if (curve == plot.curves.end()) curve = plot.curves.insert(curve, {row.technique, {}});
+    curve->points.emplace_back(static_cast<double>(row.task.stride), *y);
+  }
+  return plot;
+}
+
+std::string plots(std::span<const UpdateRow> rows) {
+  const bool several = rows.front().task.stride != rows.back().task.stride;
+  if (!several) {
+    BarPlot plot{"time", "microseconds a step", {}};
+    for (const UpdateRow& row : rows) plot.bars.emplace_back(row.technique, 1e6 * per_step(row, row.seconds));
+    return html_figure(svg_plot(plot), "Time of each technique from one frame to the next.");
+  }
+  std::string html =
+      html_figure(svg_plot(over_strides(rows, "ratio", "time / time to rebuild",
+                                        [](const UpdateRow& row) { return std::optional(row.ratio); })),
+                  "Time of each technique as a multiple of rebuilding with CGAL, by stride.");
+  const LinePlot efficiency =
+      over_strides(rows, "efficiency", "events / changed cells", [](const UpdateRow& row) {
+        const bool in_order =
+            row.technique == "kinetic" || row.technique == "hermite" || row.technique == "lifted";
+        return in_order ? row.efficiency() : std::nullopt;
+      });
+  if (!efficiency.curves.empty())
+    html += html_figure(svg_plot(efficiency),
+                        "Events a changed cell, by stride: <em>kinetic</em> is linear motion.");
+  LinePlot failed{"failed", "stride", "% of certificates that fail", false, {{"failed", {}}}};
+  for (const UpdateRow& row : rows) {
+    if (row.technique == "rebuild")
+      failed.curves.front().points.emplace_back(static_cast<double>(row.task.stride),
+                                                100 * row.task.failed_share());
+  }
+  return html + html_figure(svg_plot(failed),
+                            "Certificates of a frame's diagram that fail at the next frame, by stride.");
+}
+
+}  // namespace
+
+Json update_rows_json(std::span<const UpdateRow> rows) {
+  Json json = Json::array();
+  for (const UpdateRow& row : rows) {
+    json.push_back({{"stride", row.task.stride},
+                    {"technique", row.technique},
+                    {"steps", row.task.steps},
+                    {"cells", row.task.cells},
+                    {"hidden", row.task.hidden},
+                    {"cells_changed", row.task.cells_changed},
+                    {"certificates", row.task.certificates},
+                    {"certificates_failed", row.task.failed},
+                    {"activated", value_or_null(row.activated)},
+                    {"removed", value_or_null(row.removed)},
+                    {"events", value_or_null(row.events)},
+                    {"efficiency", value_or_null(row.efficiency())},
+                    {"rebuilds", row.rebuilds},
+                    {"audits", row.audits},
+                    {"seconds", row.seconds},
+                    {"ratio", row.ratio}});
+  }
+  return json;
+}
+
+std::string update_csv(std::span<const UpdateRow> rows) {
+  std::string text =
+      "stride,technique,steps,cells,hidden,cells_changed,certificates,certificates_failed,activated,removed,"
+      "events,efficiency,rebuilds,audits,seconds,ratio\n";
+  for (const UpdateRow& row : rows) {
+    const UpdateTask& task = row.task;
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", task.stride, row.technique,
+                    task.steps, task.cells, task.hidden, task.cells_changed, task.certificates, task.failed,
+                    value_or_empty(row.activated), value_or_empty(row.removed), value_or_empty(row.events),
+                    value_or_empty(row.efficiency()), row.rebuilds, row.audits, row.seconds, row.ratio);
+  }
+  return text;
+}
+
+std::string update_table(std::span<const UpdateRow> rows) {
+  std::string text;
+  std::size_t stride = 0;
+  for (const UpdateRow& row : rows) {
+    if (row.task.stride != stride) {
+      stride = row.task.stride;
+      text += fmt::format("{}{}\n", text.empty() ? "" : "\n", task_line(row.task));
+      text += fmt::format("  {:<10}{:>12}{:>12}{:>12}{:>10}{:>10}{:>12}{:>9}\n", "technique", "activated",
+                          "removed", "events", "a change", "rebuilds", "us a step", "ratio");
+    }
+    const auto efficiency = row.efficiency();
+    text += fmt::format("  {:<10}{:>12}{:>12}{:>12}{:>10}{:>10}{:>12.1f}{:>9.3f}\n", row.technique,
+                        count_or_dash(row.activated), count_or_dash(row.removed), count_or_dash(row.events),
+                        efficiency ? fmt::format("{:.3f}", *efficiency) : "-", with_thousands(row.rebuilds),
+                        1e6 * per_step(row, row.seconds), row.ratio);
+  }
+  std::uint64_t audits = 0;  // one that fails ends the program
+  for (const UpdateRow& row : rows) audits += row.audits;
+  if (audits > 0)
+    text += fmt::format("\n{} audits against the static diagram, none failed\n", with_thousands(audits));
+  return text;
+}
+
+std::string update_page(std::span<const UpdateRow> rows, const std::string& input) {
+  constexpr std::string_view words =
+      "Each <em>technique</em> brings the power diagram from one frame to the next and ends in the same "
+      "diagram. <em>Activated</em>: beads that moved on a path in time; <em>removed</em>: beads taken out "
+      "and put in again; <em>events</em>: flips, and beads that vanish from the diagram or come back; <em>a "
+      "change</em>: events divided by the cells that are in one frame's diagram and not in the other's; "
+      "<em>ratio</em>: time as a multiple of building the diagram anew with CGAL.";
+  return html_page("kds update: " + input,
+                   fmt::format("{}<h2>Figures</h2>\n<div class=\"scroll\"><pre>{}</pre></div>\n<h2>How to "
+                               "read this</h2>\n<p>{}</p>\n",
+                               plots(rows), html_escaped_lines(update_table(rows)), words));
+}
+
+}  // namespace kds

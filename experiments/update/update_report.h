@@ -1,0 +1,20 @@
+#pragma once
+// What `kds update` found, for programs and for people.
+
+#include <span>
+#include <string>
+
+#include "experiments/program/result_json.h"
+#include "experiments/update/compare_updates.h"
+
+namespace kds {
+
+[[nodiscard]] Json update_rows_json(std::span<const UpdateRow> rows);
+/// A header and one line a row.
+[[nodiscard]] std::string update_csv(std::span<const UpdateRow> rows);
+/// A line for each stride, then one for each technique.
+[[nodiscard]] std::string update_table(std::span<const UpdateRow> rows);
+/// One page with the table and plots, drawn by gnuplot.
+[[nodiscard]] std::string update_page(std::span<const UpdateRow> rows, const std::string& input);
+
+}  // namespace kds

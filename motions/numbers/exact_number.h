@@ -1,0 +1,73 @@
+#pragma once
+// Exact numbers: integers without a width, and dyadic rationals, which is what doubles are.
+
+#include <algorithm>
+#include <bit>
+#include <boost/multiprecision/gmp.hpp>
+#include <cstdint>
+#include <utility>
+
+#include "motions/numbers/sum_of_products.h"
+
+namespace kds {
+
+using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
+
+template <>
+class SumOfProducts<Integer> {
+ public:
+  SumOfProducts(const Integer& a, const Integer& b) : sum_(a * b) {}
+  void add(const Integer& a, const Integer& b) {
+    mpz_addmul(sum_.backend().data(), a.backend().data(), b.backend().data());
+  }
+  [[nodiscard]] Integer value() && { return std::move(sum_); }
+
+ private:
+  Integer sum_;
+};
+
+/// value = mantissa * 2^exponent with an odd mantissa, or 0 * 2^0. `value` must be finite.
+struct SplitDouble {
+  long long mantissa = 0;
+  int exponent = 0;
+};
+[[nodiscard]] inline SplitDouble split(double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const std::uint64_t fraction = bits & ((std::uint64_t{1} << 52U) - 1);
+  const int power = static_cast<int>((bits >> 52U) & 0x7ffU);
+  const std::uint64_t mantissa = power == 0 ? fraction : fraction | (std::uint64_t{1} << 52U);
+  if (mantissa == 0) return {};
+  const int zeros = std::countr_zero(mantissa);
+  const auto odd = static_cast<long long>(mantissa >> static_cast<unsigned>(zeros));
+  return {value < 0 ? -odd : odd, std::max(power, 1) - 1075 + zeros};
+}
+
+/// numerator / 2^exponent; kept with an odd numerator or exponent 0.
+class Dyadic {
+ public:
+  Dyadic() = default;
+  explicit Dyadic(double value);
+  Dyadic(Integer numerator, unsigned exponent);
+
+  [[nodiscard]] const Integer& numerator() const { return numerator_; }
+  [[nodiscard]] unsigned exponent() const { return exponent_; }
+  [[nodiscard]] Rational rational() const;
+
+  /// The largest double not above, the smallest not below.
+  [[nodiscard]] double round_down() const;
+  [[nodiscard]] double round_up() const;
+
+  [[nodiscard]] static Dyadic midpoint(const Dyadic& a, const Dyadic& b);
+  [[nodiscard]] static int compare(const Dyadic& a, const Dyadic& b);
+  friend bool operator==(const Dyadic& a, const Dyadic& b) { return compare(a, b) == 0; }
+  friend bool operator<(const Dyadic& a, const Dyadic& b) { return compare(a, b) < 0; }
+  friend bool operator<=(const Dyadic& a, const Dyadic& b) { return compare(a, b) <= 0; }
+
+ private:
+  Integer numerator_ = 0;
+  unsigned exponent_ = 0;
+};
+
+}  // namespace kds

@@ -1,0 +1,49 @@
+#include "motions/readers/chain_breaks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace kds {
+
+namespace {
+
+std::vector<double> bond_lengths(const Eigen::Matrix3Xd& frame) {
+  std::vector<double> lengths;
+  for (Eigen::Index i = 0; i + 1 < frame.cols(); ++i)
+    lengths.push_back((frame.col(i + 1) - frame.col(i)).stableNorm());
+  return lengths;
+}
+
+double median(std::vector<double> values) {
+  const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), upper, values.end());
+  if (values.size() % 2 == 1) return *upper;
+  return (*std::max_element(values.begin(), upper) + *upper) / 2;
+}
+
+}  // namespace
+
+std::vector<std::size_t> find_chain_breaks(const Eigen::Matrix3Xd& frame) {
+  std::vector<std::size_t> breaks;
+  if (frame.cols() < 3) return breaks;
+  const std::vector<double> lengths = bond_lengths(frame);
+  const double longest_bond = 1.5 * median(lengths);
+  if (longest_bond == 0) return breaks;  // most beads in one place: no bond to measure by
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    if (lengths[i] > longest_bond) breaks.push_back(i);
+  return breaks;
+}
+
+std::string describe_chain_breaks(const std::string& file, const std::vector<std::size_t>& breaks) {
+  constexpr std::size_t most_named = 10;
+  const std::size_t named = std::min(most_named, breaks.size());
+  const auto end = breaks.begin() + static_cast<std::ptrdiff_t>(named);
+  std::string text = fmt::format("{}: chain {} after {} {}", file, breaks.size() == 1 ? "break" : "breaks",
+                                 breaks.size() == 1 ? "bead" : "beads", fmt::join(breaks.begin(), end, ", "));
+  if (breaks.size() > named) text += fmt::format(" and {} more", breaks.size() - named);
+  return text + " (joined)";
+}
+
+}  // namespace kds

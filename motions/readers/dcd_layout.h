@@ -1,0 +1,66 @@
+#pragma once
+// How a DCD file (CHARMM, NAMD) is laid out: its header and where each frame lies.
+//
+// Every record stands between two markers that give its size: 4 bytes, in the byte order of the machine that
+// wrote it (8 bytes from some compilers). Header, title, number of atoms, list of free atoms if some are
+// fixed; then for each frame the unit cell if there is one, x, y and z, and a fourth coordinate if there is
+// one. With fixed atoms only frame 0 holds all atoms, the others the free ones.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "motions/readers/frame_selection.h"
+
+namespace kds {
+
+struct DcdLayout {
+  bool swapped = false;         ///< not this machine's byte order
+  std::size_t marker_size = 4;  ///< or 8
+  std::int64_t frames_claimed = 0;
+  bool has_cell = false;
+  bool has_fourth = false;
+  std::uint64_t atom_count = 0;
+  std::vector<std::uint32_t> free_atoms;  ///< from 0; empty: none is fixed
+  std::uint64_t frames_begin = 0;         ///< byte of the file
+  std::uint64_t file_size = 0;
+
+  [[nodiscard]] std::uint64_t atoms_in_frame(std::size_t k) const {
+    return k == 0 || free_atoms.empty() ? atom_count : free_atoms.size();
+  }
+  /// With the markers around it.
+  [[nodiscard]] std::uint64_t record_size(std::uint64_t bytes) const { return bytes + 2 * marker_size; }
+  [[nodiscard]] std::uint64_t frame_size(std::size_t k) const {
+    return (has_cell ? record_size(cell_bytes) : 0) +
+           (has_fourth ? 4 : 3) * record_size(4 * atoms_in_frame(k));
+  }
+  [[nodiscard]] std::uint64_t frame_begin(std::size_t k) const {
+    return k == 0 ? frames_begin : frames_begin + frame_size(0) + (k - 1) * frame_size(1);
+  }
+  [[nodiscard]] FramesHeld frames_held() const;
+
+  /// A number as the file holds it; `bytes` need not be aligned.
+  template <class Number>
+  [[nodiscard]] Number number(const char* bytes) const {
+    std::array<char, sizeof(Number)> copy;
+    std::memcpy(copy.data(), bytes, sizeof(Number));
+    if (swapped) std::reverse(copy.begin(), copy.end());
+    return std::bit_cast<Number>(copy);
+  }
+  [[nodiscard]] std::uint64_t marker(const char* bytes) const {
+    return marker_size == 4 ? number<std::uint32_t>(bytes) : number<std::uint64_t>(bytes);
+  }
+
+  static constexpr std::uint64_t cell_bytes = 48;
+};
+
+/// Throws InputError naming the file.
+[[nodiscard]] DcdLayout read_dcd_layout(const std::string& file, std::ifstream& stream);
+
+}  // namespace kds

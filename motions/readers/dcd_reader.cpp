@@ -1,0 +1,215 @@
+#include "motions/readers/dcd_reader.h"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "motions/base/input_error.h"
+#include "motions/base/text_input.h"
+#include "motions/readers/dcd_layout.h"
+#include "motions/readers/pdb_reader.h"
+
+namespace kds {
+
+namespace {
+
+class DcdFile {
+ public:
+  explicit DcdFile(const std::filesystem::path& path)
+      : file_(path.string()), stream_(open(path)), layout_(read_dcd_layout(file_, stream_)) {}
+
+  const DcdLayout& layout() const { return layout_; }
+
+  // Where records disagree with the header, a file ends where no frame does: tell of the first such record.
+  void check_all_markers() {
+    for (std::size_t k = 0; layout_.frame_begin(k) < layout_.file_size; ++k) {
+      std::uint64_t place = layout_.frame_begin(k);
+      for (const std::uint64_t size : record_sizes(k)) {
+        if (place + layout_.marker_size > layout_.file_size) return;
+        std::array<char, 8> marker{};
+        stream_.seekg(static_cast<std::streamoff>(place));
+        if (!stream_.read(marker.data(), static_cast<std::streamsize>(layout_.marker_size))) {
+          stream_.clear();
+          return;
+        }
+        check_marker(k, layout_.marker(marker.data()), size);
+        place += layout_.record_size(size);
+      }
+    }
+  }
+
+  void load(std::size_t k) {
+    bytes_.resize(layout_.frame_size(k));
+    stream_.seekg(static_cast<std::streamoff>(layout_.frame_begin(k)));
+    if (!stream_.read(bytes_.data(), static_cast<std::streamsize>(bytes_.size())))
+      throw InputError(fmt::format("{}: frame {}: cannot read it", file_, k));
+    const char* record = bytes_.data();
+    records_.clear();
+    for (const std::uint64_t size : record_sizes(k)) {
+      check_marker(k, layout_.marker(record), size);
+      check_marker(k, layout_.marker(record + layout_.marker_size + size), size);
+      records_.push_back(record + layout_.marker_size);
+      record += layout_.record_size(size);
+    }
+  }
+
+  // Of the frame loaded: x, y or z of its i-th atom.
+  float coordinate(std::size_t axis, std::size_t i) const {
+    return layout_.number<float>(records_[axis + (layout_.has_cell ? 1 : 0)] + 4 * i);
+  }
+
+  // Of the frame loaded. Angles stand there in degrees or as cosines: then all are within [-1, 1].
+  std::optional<Cell> cell() const {
+    if (!layout_.has_cell) return std::nullopt;
+    std::array<double, 6> v;
+    for (std::size_t i = 0; i < 6; ++i) v[i] = layout_.number<double>(records_[0] + 8 * i);
+    const Eigen::Vector3d lengths(v[0], v[2], v[5]);
+    const Eigen::Vector3d angles(v[4], v[3], v[1]);
+    return angles.cwiseAbs().maxCoeff() <= 1 ? cell_from_lengths(lengths, angles)
+                                             : cell_from_angles(lengths, angles);
+  }
+
+ private:
+  static std::ifstream open(const std::filesystem::path& path) {
+    std::error_code ignored;
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream || !std::filesystem::is_regular_file(path, ignored))
+      throw InputError(fmt::format("{}: cannot open this file", path.string()));
+    return stream;
+  }
+
+  std::vector<std::uint64_t> record_sizes(std::size_t k) const {
+    std::vector<std::uint64_t> sizes(layout_.has_fourth ? 4 : 3, 4 * layout_.atoms_in_frame(k));
+    if (layout_.has_cell) sizes.insert(sizes.begin(), DcdLayout::cell_bytes);
+    return sizes;
+  }
+
+  void check_marker(std::size_t k, std::uint64_t found, std::uint64_t expected) const {
+    if (found == expected) return;
+    const std::uint64_t atoms = layout_.atoms_in_frame(k);
+    if (expected == 4 * atoms && found % 4 == 0)
+      throw InputError(fmt::format("{}: frame {}: record holds {}, expected {}", file_, k,
+                                   counted(found / 4, "atom"), atoms));
+    throw InputError(fmt::format("{}: frame {}: record holds {}, expected {}", file_, k,
+                                 counted(found, "byte"), expected));
+  }
+
+  std::string file_;
+  std::ifstream stream_;
+  DcdLayout layout_;
+  std::vector<char> bytes_;
+  std::vector<const char*> records_;
+};
+
+// Which of the DCD's atoms are beads, and how large.
+struct Beads {
+  std::vector<std::size_t> atoms;
+  std::vector<double> element_radii;
+};
+
+Beads all_beads(std::uint64_t atom_count) {
+  Beads beads;
+  beads.atoms.resize(atom_count);
+  std::iota(beads.atoms.begin(), beads.atoms.end(), std::size_t{0});
+  return beads;
+}
+
+Beads choose_beads(const std::string& file, const ReadOptions& options, std::uint64_t atom_count) {
+  if (!options.topology) {
+    if (options.selection == Selection::backbone || options.selection == Selection::ca)
+      throw InputError(
+          fmt::format("--select: {} does not name its atoms; give the PDB or mmCIF file that does with "
+                      "--topology",
+                      file));
+    if (options.chain)
+      throw InputError(
+          fmt::format("--chain: {} does not name its chains; give the PDB or mmCIF file that does with "
+                      "--topology",
+                      file));
+    return all_beads(atom_count);
+  }
+  Topology topology = read_topology(*options.topology, options.selection, options.chain);
+  Beads beads;
+  if (topology.atom_count == atom_count) {
+    beads.atoms = std::move(topology.selected);
+  } else if (topology.selected.size() == atom_count) {
+    beads = all_beads(atom_count);
+  } else {
+    throw InputError(fmt::format("{}: {} a frame, but {} names {} ({} of them selected)", file,
+                                 counted(atom_count, "atom"), options.topology->string(), topology.atom_count,
+                                 topology.selected.size()));
+  }
+  beads.element_radii = std::move(topology.element_radii);
+  return beads;
+}
+
+// Positions of all atoms, kept up to date where a frame holds the free ones only.
+class Atoms {
+ public:
+  explicit Atoms(DcdFile& dcd) : dcd_(dcd) {
+    if (dcd_.layout().free_atoms.empty()) return;
+    dcd_.load(0);
+    first_.resize(3, static_cast<Eigen::Index>(dcd_.layout().atom_count));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t i = 0; i < dcd_.layout().atom_count; ++i)
+        first_(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(i)) = dcd_.coordinate(axis, i);
+    place_of_.assign(dcd_.layout().atom_count, fixed);
+    for (std::size_t i = 0; i < dcd_.layout().free_atoms.size(); ++i)
+      place_of_[dcd_.layout().free_atoms[i]] = i;
+  }
+
+  Eigen::Matrix3Xd beads(std::size_t k, const std::vector<std::size_t>& atoms) {
+    dcd_.load(k);
+    Eigen::Matrix3Xd frame(3, static_cast<Eigen::Index>(atoms.size()));
+    for (std::size_t bead = 0; bead < atoms.size(); ++bead)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        frame(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(bead)) =
+            coordinate(k, axis, atoms[bead]);
+    return frame;
+  }
+
+ private:
+  double coordinate(std::size_t k, std::size_t axis, std::size_t atom) const {
+    if (k == 0 || place_of_.empty()) return dcd_.coordinate(axis, atom);
+    if (place_of_[atom] == fixed)
+      return first_(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(atom));
+    return dcd_.coordinate(axis, place_of_[atom]);
+  }
+
+  static constexpr std::size_t fixed = static_cast<std::size_t>(-1);
+  DcdFile& dcd_;
+  Eigen::Matrix3Xd first_;
+  std::vector<std::size_t> place_of_;
+};
+
+void warn_of_false_count(const DcdLayout& layout, const FramesHeld& held, Trajectory& trajectory) {
+  if (held.ends_inside || layout.frames_claimed == static_cast<std::int64_t>(held.whole)) return;
+  trajectory.warnings.push_back(fmt::format("{}: the header claims {} frames, the file holds {}",
+                                            trajectory.file, layout.frames_claimed, held.whole));
+}
+
+}  // namespace
+
+FramesRead read_dcd(const std::filesystem::path& path, const ReadOptions& options) {
+  FramesRead read;
+  Trajectory& trajectory = read.trajectory;
+  trajectory.file = path.string();
+  DcdFile dcd(path);
+  const FramesHeld held = dcd.layout().frames_held();
+  if (held.ends_inside && (!options.frames.last || *options.frames.last > held.whole))
+    dcd.check_all_markers();
+  trajectory.frame_numbers = select_frames(trajectory.file, options.frames, held, trajectory.warnings);
+  warn_of_false_count(dcd.layout(), held, trajectory);
+
+  Beads beads = choose_beads(trajectory.file, options, dcd.layout().atom_count);
+  trajectory.element_radii = std::move(beads.element_radii);
+  Atoms atoms(dcd);
+  for (const std::size_t k : trajectory.frame_numbers) {
+    trajectory.frames.push_back(atoms.beads(k, beads.atoms));
+    read.cells.push_back(dcd.cell());
+  }
+  read.chain_like = !options.topology || options.selection != Selection::all;
+  return read;
+}
+
+}  // namespace kds

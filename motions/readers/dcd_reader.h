@@ -1,0 +1,16 @@
+#pragma once
+// DCD files (CHARMM, NAMD): both byte orders, 32- or 64-bit markers, with or without unit cell, fourth
+// coordinate and fixed atoms. Only the frames asked for are read. How many frames there are is told by the
+// file's size: the header's count is often wrong, and warned of then.
+
+#include <filesystem>
+
+#include "motions/readers/frames_read.h"
+#include "motions/readers/read_trajectory.h"
+
+namespace kds {
+
+/// The topology either names all atoms of the DCD, in their order, or its selected beads are the DCD's atoms.
+[[nodiscard]] FramesRead read_dcd(const std::filesystem::path& path, const ReadOptions& options);
+
+}  // namespace kds

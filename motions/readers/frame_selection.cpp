@@ -1,0 +1,48 @@
+#include "motions/readers/frame_selection.h"
+
+#include <fmt/format.h>
+
+#include "motions/base/input_error.h"
+#include "motions/base/text_input.h"
+
+namespace kds {
+
+namespace {
+
+std::string where_it_ends(const std::string& file, std::size_t whole) {
+  if (whole == 0) return fmt::format("{}: the file ends inside frame 0 and holds no whole frame", file);
+  return fmt::format("{}: the file ends inside frame {}, the last whole frame is {}", file, whole, whole - 1);
+}
+
+}  // namespace
+
+std::vector<std::size_t> select_frames(const std::string& file, const FrameRange& range,
+                                       const FramesHeld& held, std::vector<std::string>& warnings) {
+  if (range.stride == 0) throw InputError("--frames: the stride must be at least 1");
+  if (range.last && *range.last <= range.first)
+    throw InputError(fmt::format("--frames: no frame lies in {}:{}", range.first, *range.last));
+  const std::size_t last = range.last.value_or(held.whole);
+  if (held.ends_inside) {
+    const std::string message = where_it_ends(file, held.whole);
+    if (held.whole == 0) throw InputError(message);
+    if (!range.last || last > held.whole)
+      throw InputError(fmt::format("{} (--frames :{} reads the whole ones)", message, held.whole));
+    warnings.push_back(message);
+  }
+  if (held.whole == 0) throw InputError(fmt::format("{}: the file holds no frame", file));
+  if (held.whole == 1 && !held.ends_inside) return {0};  // at rest, whatever frames others take
+  if (range.first >= held.whole)
+    throw InputError(fmt::format("--frames: frame {} is asked for, {} holds {}", range.first, file,
+                                 counted(held.whole, "frame")));
+  if (last > held.whole)
+    throw InputError(fmt::format("--frames: frames up to {} are asked for, {} holds {}", last - 1, file,
+                                 counted(held.whole, "frame")));
+  std::vector<std::size_t> frames;
+  for (std::size_t k = range.first; k < last; k += range.stride) {
+    frames.push_back(k);
+    if (range.stride >= last - k) break;  // adding so large a stride could wrap around
+  }
+  return frames;
+}
+
+}  // namespace kds

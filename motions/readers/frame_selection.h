@@ -1,0 +1,25 @@
+#pragma once
+// Which frames of a file a run asks for.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "motions/readers/read_trajectory.h"
+
+namespace kds {
+
+/// What a file turned out to hold.
+struct FramesHeld {
+  std::size_t whole = 0;
+  bool ends_inside = false;  ///< more of a frame follows the whole ones
+};
+
+/// The numbers of the frames asked for, ascending. Throws InputError if they are not all there; a file that
+/// ends inside a frame is an error unless the range names its last frame, and is warned of then. The one
+/// frame of a file of one is taken whatever the range: such a necklace is at rest.
+[[nodiscard]] std::vector<std::size_t> select_frames(const std::string& file, const FrameRange& range,
+                                                     const FramesHeld& held,
+                                                     std::vector<std::string>& warnings);
+
+}  // namespace kds

@@ -1,0 +1,29 @@
+#pragma once
+// PDB and mmCIF files, plain or gzipped: their models are the frames. Cells of crystals are no simulation
+// boxes: a cell counts where a file has several models, its space group is P 1 and its lengths are above 1
+// angstrom.
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "motions/readers/frames_read.h"
+#include "motions/readers/read_trajectory.h"
+
+namespace kds {
+
+[[nodiscard]] bool is_structure_file(const std::filesystem::path& path);
+
+[[nodiscard]] FramesRead read_structure(const std::filesystem::path& path, const ReadOptions& options);
+
+/// The atoms of a structure's first model, by their place in the file.
+struct Topology {
+  std::size_t atom_count = 0;         ///< with all alternate locations, waters and ligands
+  std::vector<std::size_t> selected;  ///< places of the beads, in chain order
+  std::vector<double> element_radii;  ///< of the beads; empty where elements are unknown
+};
+
+[[nodiscard]] Topology read_topology(const std::filesystem::path& path, Selection selection,
+                                     const std::optional<std::string>& chain);
+
+}  // namespace kds

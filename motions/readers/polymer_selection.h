@@ -1,0 +1,35 @@
+#pragma once
+// Which atoms of a structure are the beads of a necklace.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "motions/readers/read_trajectory.h"
+
+namespace gemmi {
+struct Atom;
+struct Model;
+}  // namespace gemmi
+
+namespace kds {
+
+struct SelectedAtom {
+  const gemmi::Atom* atom;
+  std::string element;
+  std::string name;  ///< "CA of ALA 12 in chain A": tells models with other atoms apart
+};
+
+/// The beads in chain order. Residues of the chain count wherever they stand in the file, those of waters,
+/// ligands and sugars do not; of alternate locations and of two residues at one position the first counts.
+/// The default chain is the first with amino acids, else the first with nucleotides.
+/// Throws InputError naming file and option if nothing is selected.
+[[nodiscard]] std::vector<SelectedAtom> select_polymer_atoms(const std::string& file,
+                                                             const gemmi::Model& model, Selection selection,
+                                                             const std::optional<std::string>& chain);
+
+/// Van der Waals radii; empty where an element is unknown.
+[[nodiscard]] std::vector<double> element_radii_of(const std::vector<SelectedAtom>& atoms);
+
+}  // namespace kds

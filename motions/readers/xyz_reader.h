@@ -1,0 +1,14 @@
+#pragma once
+// XYZ files: for each frame a line with the number of atoms, a comment, then a line `symbol x y z` an atom.
+// What follows on a line is left unread. A comment with Lattice="..." (extended XYZ) gives the cell.
+
+#include <filesystem>
+
+#include "motions/readers/frames_read.h"
+#include "motions/readers/read_trajectory.h"
+
+namespace kds {
+
+[[nodiscard]] FramesRead read_xyz(const std::filesystem::path& path, const ReadOptions& options);
+
+}  // namespace kds

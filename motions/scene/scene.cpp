@@ -1,0 +1,206 @@
+#include "motions/scene/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+namespace {
+
+// Readers refuse these too, naming the line; here is the gate that all motions pass: an exact number cannot
+// stand for them.
+void check_frame(const Trajectory& necklace, std::size_t frame) {
+  const Eigen::Matrix3Xd& centers = necklace.frames[frame];
+  if (centers.allFinite()) return;
+  for (Eigen::Index bead = 0; bead < centers.cols(); ++bead) {
+    if (centers.col(bead).allFinite()) continue;
+    throw InputError(fmt::format("{}: frame {}, bead {}: expected finite coordinates, found {}, {}, {}",
+                                 necklace.file, frame, bead, centers(0, bead), centers(1, bead),
+                                 centers(2, bead)));
+  }
+}
+
+void check_radii(const std::vector<double>& radii) {
+  for (std::size_t bead = 0; bead < radii.size(); ++bead) {
+    if (std::isfinite(radii[bead] * radii[bead])) continue;
+    throw InputError(
+        fmt::format("bead {}: expected a radius with a finite square, found {}", bead, radii[bead]));
+  }
+}
+
+void check_control_points(const Instance& instance) {
+  for (std::size_t point = 0; point < instance.point_count(); ++point) {
+    for (int column = 0; column < instance.columns; ++column) {
+      for (int k = 0; k <= instance.degree; ++k) {
+        if (std::isfinite(instance.control_point(point, column, k))) continue;
+        throw InputError(fmt::format("{}: bead {}, column {}: expected finite control points, found {}",
+                                     instance.file, point, column, instance.control_point(point, column, k)));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Scene::Scene(std::span<const Trajectory> necklaces, std::vector<double> radii, FrameMotion motion)
+    : degree_(motion == FrameMotion::hermite ? 3 : 1),
+      is_lifted_(motion == FrameMotion::lifted),
+      radii_(std::move(radii)) {
+  BeadId beads = 0;
+  const Trajectory* longest = nullptr;
+  for (const Trajectory& necklace : necklaces) {
+    if (longest == nullptr || necklace.frames.size() > longest->frames.size()) longest = &necklace;
+    const auto count = static_cast<BeadId>(necklace.bead_count());
+    necklaces_.push_back({beads, beads + count - 1});
+    beads += count;
+  }
+  if (longest == nullptr || longest->frames.size() < 2) {
+    throw InputError(fmt::format("{}: a run needs at least two frames, this input has {}",
+                                 longest == nullptr ? "no input" : longest->file,
+                                 longest == nullptr ? 0 : longest->frames.size()));
+  }
+  if (beads == 0) throw InputError(fmt::format("{}: expected beads, found none", longest->file));
+  frame_count_ = longest->frames.size();
+  frames_.assign(frame_count_, Eigen::Matrix3Xd(3, static_cast<Eigen::Index>(beads)));
+  for (std::size_t n = 0; n < necklaces.size(); ++n) {
+    const auto& frames = necklaces[n].frames;
+    if (frames.size() != frame_count_ && frames.size() != 1) {
+      throw InputError(fmt::format(
+          "{}: {} frames, but {} has {}; necklaces of a run need equal frame counts (or one frame: at rest)",
+          necklaces[n].file, frames.size(), longest->file, frame_count_));
+    }
+    for (std::size_t k = 0; k < frames.size(); ++k) check_frame(necklaces[n], k);
+    for (std::size_t k = 0; k < frame_count_; ++k) {
+      const auto& frame = frames[frames.size() == 1 ? 0 : k];
+      frames_[k].middleCols(necklaces_[n].first, frame.cols()) = frame;
+    }
+  }
+  check_radii(radii_);
+  lay_in_plane();
+}
+
+void Scene::lay_in_plane() {
+  if (bead_count() < 4) return;  // always in some plane
+  for (const auto& axes : {std::array<Eigen::Index, 3>{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}) {
+    const double height = frames_[0](axes[2], 0);
+    const auto at_height = [&](const Eigen::Matrix3Xd& frame) {
+      return (frame.row(axes[2]).array() == height).all();
+    };
+    if (!std::all_of(frames_.begin(), frames_.end(), at_height)) continue;
+    for (Eigen::Matrix3Xd& frame : frames_) {
+      frame = frame(axes, Eigen::all).eval();
+      frame.row(2).setZero();
+    }
+    dimension_ = 2;
+    axes_ = axes;
+    height_ = height;
+    return;
+  }
+}
+
+Eigen::Vector3d Scene::in_input(const Eigen::Vector3d& point) const {
+  Eigen::Vector3d there = Eigen::Vector3d::Constant(height_);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(dimension_); ++k)
+    there[axes_[k]] = point[static_cast<Eigen::Index>(k)];
+  return there;
+}
+
+Scene::Scene(Instance instance, std::vector<double> radii)
+    : dimension_(instance.dimension()),
+      degree_(instance.degree),
+      has_radii_(!radii.empty()),
+      frame_count_(2),
+      radii_(std::move(radii)),
+      instance_(std::move(instance)) {
+  check_control_points(instance_);
+  const std::size_t points = instance_.point_count();
+  necklaces_.push_back({0, static_cast<BeadId>(points - 1)});
+  if (has_radii_) {
+    if (radii_.size() != points) {
+      throw InputError(fmt::format("{}: {} points, expected as many radii, found {}", instance_.file, points,
+                                   radii_.size()));
+    }
+    check_radii(radii_);
+    return;
+  }
+  radii_.assign(points, 0);
+  if (instance_.weighted()) {
+    for (std::size_t p = 0; p < points; ++p)
+      radii_[p] = std::sqrt(std::max(0.0, instance_.control_point(p, 3, 0)));
+  }
+}
+
+void Scene::require_weights() const {
+  if (!has_radii_ || equal_radii()) return;
+  for (std::size_t bead = 0; bead < radii_.size(); ++bead) {
+    const double radius = radii_[bead];
+    if (radius == 0 || radius * radius >= std::numeric_limits<double>::min()) continue;
+    throw InputError(
+        fmt::format("bead {}: the square of its radius, {}, is too small a number for a power diagram; "
+                    "give all lengths in a smaller unit",
+                    bead, radius));
+  }
+}
+
+bool Scene::equal_radii() const {
+  if (!has_radii_ && instance_.weighted()) {
+    for (BeadId b = 0; b < bead_count(); ++b) {
+      for (int k = 0; k <= degree_; ++k) {
+        if (weight(b, k) != weight(0, k)) return false;
+      }
+    }
+    return true;
+  }
+  return std::all_of(radii_.begin(), radii_.end(), [&](double r) { return r == radii_.front(); });
+}
+
+double Scene::coordinate(std::size_t step, BeadId bead, int k, int axis) const {
+  if (frames_.empty()) return instance_.control_point(bead, axis, k);
+  if (k == 0) return frames_[step](axis, bead);
+  if (k == degree_) return frames_[step + 1](axis, bead);
+  const double point = k == 1 ? frames_[step](axis, bead) + third_of_velocity(step, bead, axis)
+                              : frames_[step + 1](axis, bead) - third_of_velocity(step + 1, bead, axis);
+  if (!std::isfinite(point)) {
+    throw InputError(
+        fmt::format("bead {}, step {}: moves too far for a Hermite curve in doubles; expected finite "
+                    "control points",
+                    bead, step));
+  }
+  return point;
+}
+
+double Scene::third_of_velocity(std::size_t frame, BeadId bead, int axis) const {
+  const std::size_t before = frame == 0 ? 0 : frame - 1;
+  const std::size_t after = std::min(frame + 1, frame_count_ - 1);
+  return (frames_[after](axis, bead) - frames_[before](axis, bead)) /
+         (3.0 * static_cast<double>(after - before));
+}
+
+double Scene::weight(BeadId bead, int k) const {
+  if (!has_radii_ && instance_.weighted()) return instance_.control_point(bead, 3, k);
+  return radii_[bead] * radii_[bead];
+}
+
+Eigen::Matrix3Xd Scene::centers(std::size_t frame) const {
+  if (!frames_.empty()) return frames_[frame];
+  Eigen::Matrix3Xd centers = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(bead_count()));
+  for (BeadId b = 0; b < bead_count(); ++b) {
+    for (int axis = 0; axis < dimension_; ++axis)
+      centers(axis, b) = instance_.control_point(b, axis, frame == 0 ? 0 : degree_);
+  }
+  return centers;
+}
+
+std::vector<double> Scene::weights(std::size_t frame) const {
+  std::vector<double> weights(bead_count());
+  for (BeadId b = 0; b < bead_count(); ++b) weights[b] = weight(b, frame == 0 ? 0 : degree_);
+  return weights;
+}
+
+}  // namespace kds

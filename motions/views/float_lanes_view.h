@@ -1,0 +1,127 @@
+#pragma once
+// Pairs of beads of one motion, eight or four, seen at once in floats (motion_view.h): answers with what the
+// second of each pair, 1, differs by from the first, 0. Differences are taken in double and rounded to float
+// once, so that it does not matter how far from the origin beads are. On the way lengths are brought to a
+// unit of the caller's, a power of two, so that it does not matter how floats end.
+
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "motions/curves/bezier_motion.h"
+#include "motions/curves/elevated_motion.h"
+#include "motions/curves/lifted_motion.h"
+#include "motions/numbers/bernstein.h"
+#include "motions/numbers/float_lanes.h"
+
+namespace kds {
+
+/// Lengths in a unit of 2^exponent: what differences of coordinates, and then of weights, are multiplied by.
+/// Exact but where a double overflows, or what is left is below the least float.
+class LengthUnit {
+ public:
+  explicit LengthUnit(int exponent = 0) : scale_(std::ldexp(1.0, -exponent)) {}
+  [[nodiscard, gnu::always_inline]] double scale() const { return scale_; }
+  /// For coordinates, the weight after them.
+  template <int dimension>
+  [[nodiscard, gnu::always_inline]] Lanes::Vector scales() const {
+    if constexpr (dimension == 3) return Lanes::Vector{scale_, scale_, scale_, scale_ * scale_};
+    return Lanes::Vector{scale_, scale_, scale_ * scale_, 0};
+  }
+
+ private:
+  double scale_;
+};
+
+template <Motion M, class LanesOfFloats = FloatLanes>
+class FloatLanesView {
+ public:
+  using Number = LanesOfFloats;
+  static constexpr int dimension = M::dimension;
+  static constexpr int degree = M::degree;
+  /// Of each of so many tuples the bead in this place, less the first one.
+  template <std::size_t Places>
+  [[gnu::always_inline]] FloatLanesView(const M& motion, const std::array<BeadId, Places>* tuples,
+                                        std::size_t place, const LengthUnit& unit) {
+    static_assert(!elevated<M>);  // its degree is the highest it may have, not that of its control points
+    const Lanes::Vector scales = unit.scales<dimension>();
+    for (int k = 0; k <= degree; ++k) {
+      std::array<typename Number::Row, Number::width> rows;
+      for (std::size_t lane = 0; lane < Number::width; ++lane)
+        rows[lane] = Number::rounded(
+            scales * (point(motion, tuples[lane][place], k) - point(motion, tuples[lane][0], k)));
+      numbers_[static_cast<std::size_t>(k)] = Number::transposed(rows);
+    }
+    if constexpr (lifted<M>) {
+      std::array<typename Number::Row, Number::width> rows;
+      for (std::size_t lane = 0; lane < Number::width; ++lane)
+        rows[lane] =
+            Number::rounded(scales * (point(motion, tuples[lane][0], 1) - point(motion, tuples[lane][0], 0)));
+      moved_ = Number::transposed(rows);
+      for (std::size_t axis = 0; axis < dimension; ++axis)
+        drift_[axis] = Number(static_cast<float>(unit.scale() * motion.drift(static_cast<int>(axis))));
+    }
+  }
+
+  /// Of 1 less 0, as all differences here.
+  [[nodiscard, gnu::always_inline]] BernsteinVector<Number, degree, dimension> difference(
+      [[maybe_unused]] BeadId i, [[maybe_unused]] BeadId j) const {
+    assert(i == 1 && j == 0);
+    BernsteinVector<Number, degree, dimension> result;
+    for (std::size_t axis = 0; axis < dimension; ++axis) take(axis, result[axis], length_);
+    return result;
+  }
+  [[nodiscard, gnu::always_inline]] Bernstein<Number, degree> weight_difference(
+      [[maybe_unused]] BeadId i, [[maybe_unused]] BeadId j) const {
+    assert(i == 1 && j == 0);
+    Bernstein<Number, degree> result;
+    take(dimension, result, weight_);
+    return result;
+  }
+  [[nodiscard, gnu::always_inline]] Bernstein<Number, 1> lift_difference(BeadId i, BeadId j) const
+      requires(lifted<M>) {
+    return lift_of(*this, i, j);
+  }
+  [[nodiscard, gnu::always_inline]] std::array<Number, dimension> displacement(
+      [[maybe_unused]] BeadId j) const requires(lifted<M>) {
+    assert(j == 0);
+    std::array<Number, dimension> result;
+    for (std::size_t axis = 0; axis < dimension; ++axis) {
+      length_ = Number::max(Number::max(length_, Number::abs(moved_[axis])), Number::abs(drift_[axis]));
+      result[axis] = moved_[axis] - drift_[axis];
+    }
+    return result;
+  }
+
+  /// No length answered so far is larger.
+  [[nodiscard, gnu::always_inline]] const Number& largest_length() const { return length_; }
+  [[nodiscard, gnu::always_inline]] const Number& largest_weight() const { return weight_; }
+
+ private:
+  /// The weight last.
+  [[gnu::always_inline]] static Lanes::Vector point(const M& motion, BeadId bead, int k) {
+    const double* p = motion.control_point(bead, k);
+    if constexpr (dimension == 3) {
+      return Lanes::load(p);
+    } else {
+      return Lanes::Vector{p[0], p[1], p[2], 0};
+    }
+  }
+  [[gnu::always_inline]] void take(std::size_t channel, Bernstein<Number, degree>& polynomial,
+                                   Number& largest) const {
+    for (int k = 0; k <= degree; ++k) {
+      const auto place = static_cast<std::size_t>(k);
+      const Number& d = numbers_[place][channel];
+      largest = Number::max(largest, Number::abs(d));
+      polynomial.scaled[place] = Number(static_cast<float>(binomial(degree, k))) * d;
+    }
+  }
+
+  std::array<std::array<Number, 4>, degree + 1> numbers_;  // the weight after the coordinates
+  std::array<Number, lifted<M> ? 4 : 0> moved_;
+  std::array<Number, lifted<M> ? dimension : 0> drift_;
+  mutable Number length_{0.0F};
+  mutable Number weight_{0.0F};
+};
+
+}  // namespace kds

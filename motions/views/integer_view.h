@@ -1,0 +1,226 @@
+#pragma once
+// A motion in whole numbers: all coordinates and radii times one power of two, weights times its square.
+// Functions of certificates are homogeneous in lengths, so the common factor changes no sign. Exact.
+//
+//   IntegerView  whole numbers of any width
+//   ResidueView  the same modulo a prime (modular.h)
+//   MomentView   whole numbers, at one dyadic time: polynomials of degree 0
+
+#include <algorithm>
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+
+#include "motions/curves/bezier_motion.h"
+#include "motions/curves/elevated_motion.h"
+#include "motions/numbers/bernstein.h"
+#include "motions/numbers/exact_number.h"
+#include "motions/numbers/modular.h"
+#include "motions/views/motion_view.h"
+
+namespace kds {
+
+/// Calls with the number and its power of length, 1 or 2, for all control points of some beads in these
+/// channels.
+template <Channels channels, Motion M, std::invocable<double, int> Visit>
+void each_control(const M& motion, std::span<const BeadId> beads, Visit visit) {
+  for (const BeadId bead : beads) {
+    for (int k = 0; k <= M::degree; ++k) {
+      for (int axis = 0; axis < M::dimension; ++axis) visit(motion.coordinate(bead, k, axis), 1);
+      if constexpr (channels.weights) visit(motion.weight(bead, k), 2);
+      if constexpr (channels.radii) visit(motion.radius(bead, k), 1);
+    }
+  }
+  if constexpr (lifted<M>) {
+    for (int axis = 0; axis < M::dimension; ++axis) visit(motion.drift(axis), 1);
+  }
+}
+
+/// What makes the control points of some beads whole.
+struct WholeScale {
+  int exponent = -4096;  ///< lengths times 2^exponent, squares of them times 2^(2 exponent)
+  int bits = 0;          ///< lengths are below 2^bits in size then, squares of them below 2^(2 bits)
+};
+template <Channels channels = all_channels, Motion M>
+[[nodiscard]] WholeScale whole_scale(const M& motion, std::span<const BeadId> beads) {
+  WholeScale scale;  // below every double
+  int top = -4096;
+  each_control<channels>(motion, beads, [&](double value, int power) {
+    const SplitDouble parts = split(value);
+    if (parts.mantissa == 0) return;
+    const auto bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::abs(parts.mantissa))));
+    scale.exponent = std::max(scale.exponent, -(parts.exponent >> (power - 1)));
+    top = std::max(top, (parts.exponent + bits + power - 1) >> (power - 1));
+  });
+  scale.bits = std::max(0, top + scale.exponent);
+  return scale;
+}
+
+/// The whole numbers.
+struct Integers {
+  using Number = Integer;
+  [[nodiscard]] static Integer of(long long x) { return x; }
+};
+
+/// The whole numbers modulo the prime 2^61 - fold.
+struct Residues {
+  using Number = Residue;
+  std::uint64_t fold;
+  [[nodiscard]] Residue of(long long x) const { return Residue::of(x, fold); }
+};
+
+template <Motion M, class Ring, Channels channels = all_channels>
+class ExactView {
+ public:
+  using Number = typename Ring::Number;
+  static constexpr int dimension = M::dimension;
+  static constexpr int degree = M::degree;
+
+  /// May be asked for the scale's beads alone.
+  ExactView(const M& motion, const WholeScale& scale, Ring ring = {})
+      : motion_(motion), exponent_(scale.exponent), ring_(ring) {}
+  ExactView(const M& motion, std::span<const BeadId> beads)
+      : ExactView(motion, whole_scale<channels>(motion, beads)) {}
+
+  [[nodiscard]] BernsteinVector<Number, degree, dimension> difference(BeadId i, BeadId j) const {
+    BernsteinVector<Number, degree, dimension> result;
+    for (int axis = 0; axis < dimension; ++axis) {
+      result[static_cast<std::size_t>(axis)] = polynomial([&](int k) {
+        return length(motion_.coordinate(i, k, axis)) - length(motion_.coordinate(j, k, axis));
+      });
+    }
+    return result;
+  }
+  [[nodiscard]] Bernstein<Number, degree> weight_difference(BeadId i, BeadId j) const
+      requires(channels.weights) {
+    return polynomial([&](int k) { return square(motion_.weight(i, k)) - square(motion_.weight(j, k)); });
+  }
+  [[nodiscard]] Bernstein<Number, degree> radius_difference(BeadId i, BeadId j) const
+      requires(channels.radii) {
+    return polynomial([&](int k) { return length(motion_.radius(i, k)) - length(motion_.radius(j, k)); });
+  }
+  [[nodiscard]] Bernstein<Number, degree> radius_sum(BeadId i, BeadId j) const requires(channels.radii) {
+    return polynomial([&](int k) { return length(motion_.radius(i, k)) + length(motion_.radius(j, k)); });
+  }
+  [[nodiscard]] Bernstein<Number, 1> lift_difference(BeadId i, BeadId j) const
+      requires(channels.weights&& lifted<M>) {
+    return lift_of(*this, i, j);
+  }
+  [[nodiscard]] std::array<Number, dimension> displacement(BeadId bead) const requires(lifted<M>) {
+    std::array<Number, dimension> result;
+    for (int axis = 0; axis < dimension; ++axis) {
+      result[static_cast<std::size_t>(axis)] = length(motion_.coordinate(bead, 1, axis)) -
+                                               length(motion_.coordinate(bead, 0, axis)) -
+                                               length(motion_.drift(axis));
+    }
+    return result;
+  }
+
+ private:
+  template <std::invocable<int> Value>
+  [[nodiscard]] Bernstein<Number, degree> polynomial(Value value) const {
+    Bernstein<Number, degree> result;
+    if constexpr (elevated<M>) {  // times (1-u + u)^(the degrees that are missing)
+      const int own = motion_.own_degree();
+      for (Number& scaled : result.scaled) scaled = ring_.of(0);
+      for (int i = 0; i <= own; ++i) {
+        const Number control = value(i);
+        for (int k = i; k <= i + degree - own; ++k) {
+          Number term = control;
+          term *= binomial(own, i) * binomial(degree - own, k - i);
+          result.scaled[static_cast<std::size_t>(k)] += term;
+        }
+      }
+    } else {
+      for (int k = 0; k <= degree; ++k) {
+        Number& scaled = result.scaled[static_cast<std::size_t>(k)];
+        scaled = value(k);
+        if (0 < k && k < degree) scaled *= binomial(degree, k);
+      }
+    }
+    return result;
+  }
+  [[nodiscard]] Number length(double value) const { return whole(value, exponent_); }
+  [[nodiscard]] Number square(double value) const { return whole(value, 2 * exponent_); }
+  [[nodiscard]] Number whole(double value, int exponent) const {
+    const SplitDouble parts = split(value);
+    if (parts.mantissa == 0) return ring_.of(0);
+    const int shift = parts.exponent + exponent;
+    if (shift < 60 && std::abs(parts.mantissa) >> (60 - shift) == 0)
+      return ring_.of(parts.mantissa * (1LL << shift));
+    Number result = ring_.of(parts.mantissa);
+    result <<= static_cast<unsigned>(shift);
+    return result;
+  }
+
+  const M& motion_;
+  int exponent_;
+  Ring ring_;
+};
+
+template <Motion M, Channels channels = all_channels>
+using IntegerView = ExactView<M, Integers, channels>;
+template <Motion M, Channels channels = all_channels>
+using ResidueView = ExactView<M, Residues, channels>;
+
+template <Motion M, Channels channels = all_channels>
+class MomentView {
+ public:
+  using Number = Integer;
+  static constexpr int dimension = M::dimension;
+  static constexpr int degree = 0;
+
+  /// The motion at `time` in [0,1]; may be asked for these beads alone.
+  MomentView(const M& motion, std::span<const BeadId> beads, const Dyadic& time)
+      : moving_(motion, beads), later_(time.numerator()), time_exponent_(time.exponent()) {
+    earlier_ = (Integer(1) << time_exponent_) - later_;
+  }
+
+  [[nodiscard]] BernsteinVector<Integer, 0, dimension> difference(BeadId i, BeadId j) const {
+    const auto moving = moving_.difference(i, j);
+    BernsteinVector<Integer, 0, dimension> result;
+    for (std::size_t axis = 0; axis < result.size(); ++axis) result[axis].scaled[0] = at_moment(moving[axis]);
+    return result;
+  }
+  [[nodiscard]] Bernstein<Integer, 0> weight_difference(BeadId i, BeadId j) const requires(channels.weights) {
+    return squares(moving_.weight_difference(i, j));
+  }
+  [[nodiscard]] Bernstein<Integer, 0> lift_difference(BeadId i, BeadId j) const
+      requires(channels.weights&& lifted<M>) {
+    return squares(moving_.lift_difference(i, j));
+  }
+  [[nodiscard]] Bernstein<Integer, 0> radius_difference(BeadId i, BeadId j) const requires(channels.radii) {
+    return {{at_moment(moving_.radius_difference(i, j))}};
+  }
+  [[nodiscard]] Bernstein<Integer, 0> radius_sum(BeadId i, BeadId j) const requires(channels.radii) {
+    return {{at_moment(moving_.radius_sum(i, j))}};
+  }
+
+ private:
+  /// Coordinates carry the time's denominator to the degree's power, squares must carry its square.
+  [[nodiscard]] Bernstein<Integer, 0> squares(const Bernstein<Integer, M::degree>& p) const {
+    return {{at_moment(p) << (time_exponent_ * static_cast<unsigned>(M::degree))}};
+  }
+  [[nodiscard]] Integer at_moment(const Bernstein<Integer, M::degree>& p) const {
+    Integer value = p.scaled[M::degree];
+    Integer power = 1;
+    for (int k = M::degree - 1; k >= 0; --k) {  // Horner in u, one more factor (1-u) a step
+      power *= earlier_;
+      value = value * later_ + p.scaled[static_cast<std::size_t>(k)] * power;
+    }
+    return value;
+  }
+
+  IntegerView<M, channels> moving_;
+  Integer later_;    // u * 2^time_exponent
+  Integer earlier_;  // (1-u) * 2^time_exponent
+  unsigned time_exponent_;
+};
+
+static_assert(MotionView<IntegerView<BezierMotion<3, 1>>>);
+static_assert(MotionView<ResidueView<BezierMotion<3, 1>>>);
+static_assert(MotionView<MomentView<BezierMotion<3, 1>>>);
+
+}  // namespace kds

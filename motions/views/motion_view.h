@@ -1,0 +1,276 @@
+#pragma once
+// A motion seen in a number type. A certificate's function is written once over a view:
+//
+//   DoubleView     rounded; remembers the size of what it was asked for, which scales the error bound
+//   TrackedView    rounded, with an error bound of its own (tracked_double.h), at a scale where numbers keep
+//                  in the middle of double's range: all lengths times one power of two, weights times its
+//                  square
+//   MagnitudeView  the error bound's constants (magnitude.h); sees no motion at all
+//   IntegerView, ResidueView, MomentView   exact (integer_view.h)
+//
+// Functions of certificates are homogeneous in lengths, so a common factor changes no sign. Every view
+// answers with differences to a bead: certificates do not depend on the origin, and the filter is much
+// sharper for it. Views that pay for what might be asked are told which channels will be.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <span>
+
+#include "motions/curves/bezier_motion.h"
+#include "motions/curves/lifted_motion.h"
+#include "motions/numbers/bernstein.h"
+#include "motions/numbers/magnitude.h"
+#include "motions/numbers/tracked_double.h"
+
+namespace kds {
+
+/// What a function asks of beads besides their centres.
+struct Channels {
+  bool weights = false;
+  bool radii = false;
+};
+inline constexpr Channels all_channels{true, true};
+
+/// Answers also with weight_difference(i, j), radius_difference(i, j) and radius_sum(i, j), polynomials of
+/// the same degree, if it was told that they will be asked for, and with lift_difference(i, j) if the motion
+/// is lifted: |x|^2 less the weight (lifted_motion.h), while weight_difference knows the ends of the step
+/// only.
+template <class V>
+concept MotionView = requires(const V& view, BeadId i, BeadId j) {
+  typename V::Number;
+  { V::dimension } -> std::convertible_to<int>;
+  { V::degree } -> std::convertible_to<int>;
+  { view.difference(i, j) } -> std::same_as<BernsteinVector<typename V::Number, V::degree, V::dimension>>;
+};
+
+template <class V>
+concept LiftedView = requires(const V& view, BeadId i, BeadId j) {
+  view.lift_difference(i, j);
+};
+
+template <Motion M>
+class DoubleView {
+ public:
+  using Number = double;
+  static constexpr int dimension = M::dimension;
+  static constexpr int degree = M::degree;
+
+  explicit DoubleView(const M& motion) : motion_(motion) {}
+
+  /// centre of i minus centre of j
+  [[nodiscard]] BernsteinVector<double, degree, dimension> difference(BeadId i, BeadId j) const {
+    BernsteinVector<double, degree, dimension> result;
+    for (int axis = 0; axis < dimension; ++axis) {
+      for (int k = 0; k <= degree; ++k) {
+        const double d = motion_.coordinate(i, k, axis) - motion_.coordinate(j, k, axis);
+        length_ = std::max(length_, std::abs(d));
+        result[static_cast<std::size_t>(axis)].scaled[static_cast<std::size_t>(k)] =
+            static_cast<double>(binomial(degree, k)) * d;
+      }
+    }
+    return result;
+  }
+  /// weight of i minus weight of j
+  [[nodiscard]] Bernstein<double, degree> weight_difference(BeadId i, BeadId j) const {
+    Bernstein<double, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      const double d = motion_.weight(i, k) - motion_.weight(j, k);
+      weight_ = std::max(weight_, std::abs(d));
+      result.scaled[static_cast<std::size_t>(k)] = static_cast<double>(binomial(degree, k)) * d;
+    }
+    return result;
+  }
+
+  /// radius of i minus radius of j
+  [[nodiscard]] Bernstein<double, degree> radius_difference(BeadId i, BeadId j) const {
+    return radii([&](int k) { return motion_.radius(i, k) - motion_.radius(j, k); });
+  }
+  [[nodiscard]] Bernstein<double, degree> radius_sum(BeadId i, BeadId j) const {
+    return radii([&](int k) { return motion_.radius(i, k) + motion_.radius(j, k); });
+  }
+
+  [[nodiscard]] Bernstein<double, 1> lift_difference(BeadId i, BeadId j) const requires(lifted<M>) {
+    return lift_of(*this, i, j);
+  }
+  /// Of a bead in the step, less the drift.
+  [[nodiscard]] std::array<double, dimension> displacement(BeadId bead) const requires(lifted<M>) {
+    std::array<double, dimension> result;
+    for (int axis = 0; axis < dimension; ++axis) {
+      const double moved = motion_.coordinate(bead, 1, axis) - motion_.coordinate(bead, 0, axis);
+      length_ = std::max({length_, std::abs(moved), std::abs(motion_.drift(axis))});
+      result[static_cast<std::size_t>(axis)] = moved - motion_.drift(axis);
+    }
+    return result;
+  }
+
+  /// M of the error bound: no difference or sum answered so far is larger, and no weight difference than its
+  /// square.
+  [[nodiscard]] double largest_length() const {
+    return weight_ <= length_ * length_ ? length_ : std::max(length_, std::sqrt(weight_));
+  }
+
+ private:
+  template <std::invocable<int> Value>
+  [[nodiscard]] Bernstein<double, degree> radii(Value value) const {
+    Bernstein<double, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      const double r = value(k);
+      length_ = std::max(length_, std::abs(r));
+      result.scaled[static_cast<std::size_t>(k)] = static_cast<double>(binomial(degree, k)) * r;
+    }
+    return result;
+  }
+
+  const M& motion_;
+  mutable double length_ = 0;
+  mutable double weight_ = 0;
+};
+
+/// A power of two that brings the largest difference of some beads near 1, as far as a double goes; 1 where
+/// differences overflow or are zero. Channels that are not asked for do not count.
+template <Channels channels = all_channels, Motion M>
+[[nodiscard]] double scale_to_unit(const M& motion, std::span<const BeadId> beads) {
+  double length = 0;
+  double weight = 0;
+  for (const BeadId bead : beads) {
+    for (int k = 0; k <= M::degree; ++k) {
+      for (int axis = 0; axis < M::dimension; ++axis)
+        length = std::max(length,
+                          std::abs(motion.coordinate(bead, k, axis) - motion.coordinate(beads[0], k, axis)));
+      if constexpr (channels.radii) length = std::max(length, std::abs(motion.radius(bead, k)));
+      if constexpr (channels.weights)
+        weight = std::max(weight, std::abs(motion.weight(bead, k) - motion.weight(beads[0], k)));
+    }
+  }
+  const double largest = std::max(length, std::sqrt(weight));
+  if (!(largest > 0 && std::isfinite(largest))) return 1;
+  return std::ldexp(1.0, std::min(-std::ilogb(largest), 1023));
+}
+
+template <Motion M, Channels channels = all_channels>
+class TrackedView {
+ public:
+  using Number = TrackedDouble;
+  static constexpr int dimension = M::dimension;
+  static constexpr int degree = M::degree;
+
+  /// May be asked for these beads alone.
+  TrackedView(const M& motion, std::span<const BeadId> beads)
+      : motion_(motion), scale_(scale_to_unit<channels>(motion, beads)) {}
+
+  [[nodiscard]] BernsteinVector<TrackedDouble, degree, dimension> difference(BeadId i, BeadId j) const {
+    BernsteinVector<TrackedDouble, degree, dimension> result;
+    for (int axis = 0; axis < dimension; ++axis) {
+      for (int k = 0; k <= degree; ++k) {
+        result[static_cast<std::size_t>(axis)].scaled[static_cast<std::size_t>(k)] =
+            chosen(k, scaled(motion_.coordinate(i, k, axis) - motion_.coordinate(j, k, axis)));
+      }
+    }
+    return result;
+  }
+  [[nodiscard]] Bernstein<TrackedDouble, degree> weight_difference(BeadId i, BeadId j) const
+      requires(channels.weights) {
+    Bernstein<TrackedDouble, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      result.scaled[static_cast<std::size_t>(k)] =
+          chosen(k, scaled_twice(motion_.weight(i, k) - motion_.weight(j, k)));
+    }
+    return result;
+  }
+  [[nodiscard]] Bernstein<TrackedDouble, degree> radius_difference(BeadId i, BeadId j) const
+      requires(channels.radii) {
+    return radii([&](int k) { return motion_.radius(i, k) - motion_.radius(j, k); });
+  }
+  [[nodiscard]] Bernstein<TrackedDouble, degree> radius_sum(BeadId i, BeadId j) const
+      requires(channels.radii) {
+    return radii([&](int k) { return motion_.radius(i, k) + motion_.radius(j, k); });
+  }
+  [[nodiscard]] Bernstein<TrackedDouble, 1> lift_difference(BeadId i, BeadId j) const
+      requires(channels.weights&& lifted<M>) {
+    return lift_of(*this, i, j);
+  }
+  [[nodiscard]] std::array<TrackedDouble, dimension> displacement(BeadId bead) const requires(lifted<M>) {
+    std::array<TrackedDouble, dimension> result;
+    for (int axis = 0; axis < dimension; ++axis) {
+      result[static_cast<std::size_t>(axis)] =
+          scaled(motion_.coordinate(bead, 1, axis) - motion_.coordinate(bead, 0, axis)) -
+          scaled(motion_.drift(axis));
+    }
+    return result;
+  }
+
+ private:
+  template <std::invocable<int> Value>
+  [[nodiscard]] Bernstein<TrackedDouble, degree> radii(Value value) const {
+    Bernstein<TrackedDouble, degree> result;
+    for (int k = 0; k <= degree; ++k)
+      result.scaled[static_cast<std::size_t>(k)] = chosen(k, scaled(value(k)));
+    return result;
+  }
+
+  /// A rounded difference or sum of two inputs, times the scale. Sums are exact where they are subnormal,
+  /// and scaling is but for what underflows.
+  [[nodiscard]] TrackedDouble scaled(double rounded) const { return from_rounded(rounded * scale_); }
+  /// The same times the scale's square, which may be no double itself.
+  [[nodiscard]] TrackedDouble scaled_twice(double rounded) const {
+    return from_rounded(rounded * scale_ * scale_);
+  }
+  static TrackedDouble from_rounded(double x) {
+    return {x, TrackedDouble::unit_roundoff * std::abs(x) + TrackedDouble::lost_to_underflow};
+  }
+
+  /// C(degree, k) times x
+  static TrackedDouble chosen(int k, const TrackedDouble& x) {
+    if (k == 0 || k == degree) return x;
+    return TrackedDouble{static_cast<double>(binomial(degree, k)), 0} * x;
+  }
+
+  const M& motion_;
+  double scale_;
+};
+
+template <int DimensionValue, int DegreeValue, bool Lifted = false, class NumberType = Magnitude>
+class MagnitudeView {
+ public:
+  using Number = NumberType;
+  static constexpr int dimension = DimensionValue;
+  static constexpr int degree = DegreeValue;
+
+  [[nodiscard]] BernsteinVector<Number, degree, dimension> difference(BeadId, BeadId) const {
+    BernsteinVector<Number, degree, dimension> result;
+    for (auto& coordinate : result) coordinate = polynomial(1);
+    return result;
+  }
+  [[nodiscard]] Bernstein<Number, degree> weight_difference(BeadId, BeadId) const { return polynomial(2); }
+  [[nodiscard]] Bernstein<Number, degree> radius_difference(BeadId, BeadId) const { return polynomial(1); }
+  [[nodiscard]] Bernstein<Number, degree> radius_sum(BeadId, BeadId) const { return polynomial(1); }
+  [[nodiscard]] Bernstein<Number, 1> lift_difference(BeadId i, BeadId j) const requires(Lifted) {
+    return lift_of(*this, i, j);
+  }
+  [[nodiscard]] std::array<Number, dimension> displacement(BeadId) const requires(Lifted) {
+    std::array<Number, dimension> result;
+    result.fill(Number::input_difference(1) - Number::input_difference(1));
+    return result;
+  }
+
+ private:
+  static Bernstein<Number, degree> polynomial(int power) {
+    Bernstein<Number, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      result.scaled[static_cast<std::size_t>(k)] =
+          Number::constant(static_cast<double>(binomial(degree, k))) * Number::input_difference(power);
+    }
+    return result;
+  }
+};
+
+template <Motion M, class Number = Magnitude>
+using MagnitudeViewOf = MagnitudeView<M::dimension, M::degree, lifted<M>, Number>;
+
+static_assert(MotionView<DoubleView<BezierMotion<3, 1>>>);
+static_assert(MotionView<TrackedView<BezierMotion<3, 1>>>);
+static_assert(MotionView<MagnitudeView<3, 1>>);
+
+}  // namespace kds

@@ -1,0 +1,174 @@
+#pragma once
+// The basis of a minimum enclosing sphere: at most dimension + 1 beads whose own minimum enclosing sphere it
+// is, none to spare. What a basis is, and how to find one among a few beads, given who decides the signs that
+// say who lies in whose sphere: at a time, just after one, in double or exactly.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "motions/base/bead.h"
+
+namespace kds {
+
+struct Basis {
+  static constexpr std::size_t max_size = 4;
+
+  std::array<BeadId, max_size> beads{};  ///< ascending, the first `size` of them
+  std::uint8_t size = 0;
+
+  Basis() = default;
+  explicit Basis(std::span<const BeadId> members) : size(static_cast<std::uint8_t>(members.size())) {
+    std::copy(members.begin(), members.end(), beads.begin());
+    sort();
+  }
+
+  [[nodiscard]] const BeadId* begin() const { return beads.data(); }
+  [[nodiscard]] const BeadId* end() const { return beads.data() + size; }
+  [[nodiscard]] bool contains(BeadId bead) const {
+    bool found = false;
+    for (std::size_t i = 0; i < max_size; ++i) found |= (i < size) & (beads[i] == bead);
+    return found;
+  }
+  void sort() {
+    for (std::size_t i = 1; i < size; ++i) {
+      for (std::size_t j = i; j > 0 && beads[j] < beads[j - 1]; --j) std::swap(beads[j], beads[j - 1]);
+    }
+  }
+  friend bool operator==(const Basis& a, const Basis& b) {
+    if (a.size != b.size) return false;
+    for (std::size_t i = 0; i < a.size; ++i)
+      if (a.beads[i] != b.beads[i]) return false;
+    return true;
+  }
+};
+
+/// Knows, at whatever time it stands for, who lies in which sphere.
+template <class S>
+concept SphereSigns = requires(S& signs, const Basis& basis, BeadId bead, bool inside, int orientation) {
+  { S::dimension } -> std::convertible_to<int>;
+  // 1, 0 or -1: `bead` lies inside (or, not `inside`, outside) the sphere of `basis`; 0 on it
+  { signs.membership(basis, bead, inside, orientation) } -> std::convertible_to<int>;
+  // of a full basis, as membership wants it; 0 if its centres are dependent
+  { signs.orientation(basis) } -> std::convertible_to<int>;
+};
+
+template <SphereSigns Signs>
+inline constexpr std::size_t full_size = Signs::dimension + 1;
+
+template <SphereSigns Signs>
+[[nodiscard]] int orientation_of(const Basis& basis, Signs& signs) {
+  return basis.size == full_size<Signs> ? signs.orientation(basis) : 0;
+}
+
+[[nodiscard]] inline Basis without(const Basis& basis, BeadId bead) {
+  Basis rest;
+  for (const BeadId b : basis) {
+    if (b != bead) rest.beads[rest.size++] = b;
+  }
+  return rest;
+}
+
+/// Inside or on the sphere.
+template <SphereSigns Signs>
+[[nodiscard]] bool is_inside(const Basis& basis, BeadId bead, int orientation, Signs& signs) {
+  return signs.membership(basis, bead, true, orientation) >= 0;
+}
+
+/// None of its beads is to spare: each lies strictly outside the sphere of the others.
+template <SphereSigns Signs>
+[[nodiscard]] bool is_proper(const Basis& basis, Signs& signs) {
+  if (basis.size <= 1) return basis.size == 1;
+  return std::all_of(basis.begin(), basis.end(),
+                     [&](BeadId b) { return signs.membership(without(basis, b), b, false, 0) > 0; });
+}
+
+/// What is known of the basis that is sought: where to look first, and who is in it for sure.
+struct BasisHint {
+  std::size_t size = 1;
+  BeadId member = no_bead;
+};
+
+/// The basis of at most dimension + 2 beads of equal radii: the proper subset whose sphere holds the others.
+/// None only if `signs` contradict themselves, as plain double may. Where several will do, the hint decides
+/// which is found. Any subset may be asked about, since points that are independent have a sphere.
+template <SphereSigns Signs>
+[[nodiscard]] std::optional<Basis> basis_of_points(std::span<const BeadId> beads, Signs& signs,
+                                                   BasisHint hint = {}) {
+  constexpr std::size_t full = full_size<Signs>;
+  const auto subsets = 1U << beads.size();
+  for (std::size_t i = 0; i < full; ++i) {
+    const auto size = static_cast<int>((hint.size - 1 + i) % full + 1);
+    for (unsigned subset = 1; subset < subsets; ++subset) {
+      if (std::popcount(subset) != size) continue;
+      Basis basis;
+      for (std::size_t b = 0; b < beads.size(); ++b) {
+        if ((subset >> b & 1U) != 0) basis.beads[basis.size++] = beads[b];
+      }
+      if (hint.member != no_bead && !basis.contains(hint.member)) continue;
+      basis.sort();
+      const int orientation = orientation_of(basis, signs);
+      if (basis.size == full && orientation == 0) continue;
+      const bool encloses = std::all_of(beads.begin(), beads.end(), [&](BeadId b) {
+        return basis.contains(b) || is_inside(basis, b, orientation, signs);
+      });
+      if (encloses && is_proper(basis, signs)) return basis;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The same of balls of any radii. Balls that are independent need not have a sphere that touches them all:
+/// only bases that are proven to be proper are asked about, from single balls up.
+template <SphereSigns Signs>
+class BasisOfBalls {
+ public:
+  /// Ascending, at most dimension + 2.
+  BasisOfBalls(std::span<const BeadId> beads, Signs& signs) : beads_(beads), signs_(signs) {}
+
+  [[nodiscard]] std::optional<Basis> find() { return of((1U << beads_.size()) - 1U); }
+
+ private:
+  enum class State : std::uint8_t { unknown, none, known };
+
+  /// The basis of a subset: that of all but one bead, if its sphere holds this one, or else the subset.
+  std::optional<Basis> of(unsigned subset) {
+    State& state = states_[subset];
+    if (state == State::known) return bases_[subset];
+    if (state == State::none) return std::nullopt;
+    const auto found = look(subset);
+    state = found ? State::known : State::none;
+    if (found) bases_[subset] = *found;
+    return found;
+  }
+  std::optional<Basis> look(unsigned subset) {
+    if (std::has_single_bit(subset)) return beads_of(subset);
+    for (std::size_t b = 0; b < beads_.size(); ++b) {
+      const unsigned bit = 1U << b;
+      if ((subset & bit) == 0) continue;
+      const std::optional<Basis> others = of(subset & ~bit);
+      if (others && is_inside(*others, beads_[b], orientation_of(*others, signs_), signs_)) return others;
+    }
+    if (static_cast<std::size_t>(std::popcount(subset)) > full_size<Signs>) return std::nullopt;
+    return beads_of(subset);
+  }
+  [[nodiscard]] Basis beads_of(unsigned subset) const {
+    Basis basis;
+    for (std::size_t b = 0; b < beads_.size(); ++b) {
+      if ((subset >> b & 1U) != 0) basis.beads[basis.size++] = beads_[b];
+    }
+    return basis;
+  }
+
+  static constexpr std::size_t subsets = 1U << (Basis::max_size + 1);
+  std::span<const BeadId> beads_;
+  Signs& signs_;
+  std::array<Basis, subsets> bases_;
+  std::array<State, subsets> states_{};
+};
+
+}  // namespace kds

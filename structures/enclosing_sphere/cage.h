@@ -1,0 +1,25 @@
+#pragma once
+// The sphere of a node of a hierarchy, as its loops hold it.
+
+#include "structures/enclosing_sphere/sphere_of_points.h"
+#include "structures/necklace/sphere.h"
+
+namespace kds {
+
+template <int Dimension>
+struct Cage {
+  Point<Dimension> center{};
+  double radius = 0;
+};
+
+/// For people; `wider` by the common radius of beads where the cage is of their centres.
+template <int Dimension>
+[[nodiscard]] Sphere sphere_of(const Cage<Dimension>& cage, double wider) {
+  Sphere sphere;
+  for (std::size_t axis = 0; axis < Dimension; ++axis)
+    sphere.center[static_cast<Eigen::Index>(axis)] = cage.center[axis];
+  sphere.radius = cage.radius + wider;
+  return sphere;
+}
+
+}  // namespace kds

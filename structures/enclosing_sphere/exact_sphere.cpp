@@ -1,0 +1,250 @@
+#include "structures/enclosing_sphere/exact_sphere.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace kds {
+
+namespace {
+
+// The sign of a + b sqrt(d), d >= 0.
+int radical_sign(const Integer& a, const Integer& b, const Integer& d) {
+  const int sa = a.sign();
+  const int sb = d.sign() == 0 ? 0 : b.sign();
+  if (sa == sb || sb == 0) return sa;
+  if (sa == 0) return sb;
+  const int greater = (a * a).compare(b * b * d);
+  return greater > 0 ? sa : greater < 0 ? sb : 0;
+}
+
+// n / d * 2^unit, truncated to 64 bits before it is rounded.
+double rounded_quotient(Integer n, const Integer& d, int unit) {
+  if (n.sign() == 0) return 0;
+  const bool negative = n.sign() < 0;
+  if (negative) n = -n;
+  const int shift = 64 - (static_cast<int>(msb(n)) - static_cast<int>(msb(d)));
+  const Integer q = shift >= 0 ? Integer((n << static_cast<unsigned>(shift)) / d)
+                               : Integer(n / (d << static_cast<unsigned>(-shift)));
+  const double size = std::ldexp(q.convert_to<double>(), unit - shift);
+  return negative ? -size : size;
+}
+
+template <std::size_t N>
+Integer dot(const std::array<Integer, N>& a, const std::array<Integer, N>& b) {
+  Integer sum = a[0] * b[0];
+  for (std::size_t i = 1; i < N; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+// The adjugate of the leading m x m block, and its determinant.
+using Symmetric = std::array<std::array<Integer, 3>, 3>;
+Integer adjoin(const Symmetric& g, std::size_t m, Symmetric& adjugate) {
+  if (m == 0) return 1;
+  if (m == 1) {
+    adjugate[0][0] = 1;
+    return g[0][0];
+  }
+  if (m == 2) {
+    adjugate[0][0] = g[1][1];
+    adjugate[1][1] = g[0][0];
+    adjugate[0][1] = adjugate[1][0] = -g[0][1];
+    return g[0][0] * g[1][1] - g[0][1] * g[0][1];
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      adjugate[i][j] = g[i1][j1] * g[i2][j2] - g[i1][j2] * g[i2][j1];
+    }
+  }
+  return dot(g[0], adjugate[0]);
+}
+
+}  // namespace
+
+template <int Dimension>
+int whole_unit(const Balls<Dimension>& balls, BeadId first, BeadId last) {
+  int unit = std::numeric_limits<int>::max();
+  const auto look = [&unit](double x) {
+    if (x != 0) unit = std::min(unit, split(x).exponent);
+  };
+  for (BeadId b = first; b <= last; ++b) {
+    for (std::size_t axis = 0; axis < Dimension; ++axis) look(balls.coordinate(b, axis));
+    look(balls.radius(b));
+  }
+  return unit == std::numeric_limits<int>::max() ? 0 : unit;
+}
+
+template <int Dimension>
+IntegerBall<Dimension> whole_ball(const Balls<Dimension>& balls, BeadId bead, int unit) {
+  const auto whole = [unit](double x) {
+    const SplitDouble parts = split(x);
+    if (parts.mantissa == 0) return Integer(0);
+    return Integer(parts.mantissa) << static_cast<unsigned>(parts.exponent - unit);
+  };
+  IntegerBall<Dimension> ball;
+  for (std::size_t axis = 0; axis < Dimension; ++axis)
+    ball.center[axis] = whole(balls.coordinate(bead, axis));
+  ball.radius = whole(balls.radius(bead));
+  return ball;
+}
+
+template <int Dimension>
+std::optional<ExactSphere<Dimension>> ExactSphere<Dimension>::touching(std::span<const Ball> basis) {
+  ExactSphere sphere;
+  sphere.base_ = basis[0];
+  sphere.m_ = basis.size() - 1;
+  const std::size_t m = sphere.m_;
+  if (m == 0) return sphere;
+  std::array<Integer, 3> s, e;
+  Symmetric gram, adjugate;
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
+      sphere.d_[i][axis] = basis[i + 1].center[axis] - basis[0].center[axis];
+    s[i] = basis[i + 1].radius - basis[0].radius;
+    for (std::size_t j = 0; j <= i; ++j) gram[i][j] = gram[j][i] = dot(sphere.d_[i], sphere.d_[j]);
+    e[i] = gram[i][i] - s[i] * s[i];
+    if (e[i].sign() <= 0) return std::nullopt;  // one holds the other
+  }
+  sphere.g_ = adjoin(gram, m, adjugate);
+  if (sphere.g_.sign() <= 0) return std::nullopt;
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t j = 0; j < m; ++j) {
+      sphere.ae_[i] += adjugate[i][j] * e[j];
+      sphere.as_[i] += adjugate[i][j] * s[j];
+    }
+  }
+  sphere.a_ = -sphere.g_;
+  for (std::size_t i = 0; i < m; ++i) {
+    sphere.a_ += s[i] * sphere.as_[i];
+    sphere.b_ += e[i] * sphere.as_[i];
+    sphere.c_ += e[i] * sphere.ae_[i];
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      sphere.qae_[axis] += sphere.d_[i][axis] * sphere.ae_[i];
+      sphere.qas_[axis] += sphere.d_[i][axis] * sphere.as_[i];
+    }
+  }
+  sphere.discriminant_ = sphere.b_ * sphere.b_ - sphere.a_ * sphere.c_;
+  if (sphere.discriminant_.sign() < 0) return std::nullopt;
+  if (radical_sign(-sphere.b_, 1, sphere.discriminant_) <= 0) return std::nullopt;
+  for (std::size_t i = 0; i < m; ++i) {  // no ball of the basis is larger than the sphere
+    const Integer twice = 2 * s[i];
+    if (radical_sign(sphere.c_ + twice * sphere.b_, -twice, sphere.discriminant_) < 0) return std::nullopt;
+  }
+  return sphere;
+}
+
+template <int Dimension>
+bool ExactSphere<Dimension>::is_proper() const {
+  if (m_ == 0) return true;
+  // Weight i is (A e)_i (sqrt(D) - b) + (A s)_i c, over something positive; the base has what is left.
+  Integer rest_e = 2 * g_, rest_s = 0;
+  const auto positive = [this](const Integer& e, const Integer& s) {
+    return radical_sign(s * c_ - e * b_, e, discriminant_) > 0;
+  };
+  for (std::size_t i = 0; i < m_; ++i) {
+    if (!positive(ae_[i], as_[i])) return false;
+    rest_e -= ae_[i];
+    rest_s -= as_[i];
+  }
+  return positive(rest_e, rest_s);
+}
+
+template <int Dimension>
+bool ExactSphere<Dimension>::holds(const Ball& ball) const {
+  std::array<Integer, Dimension> d;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) d[axis] = ball.center[axis] - base_.center[axis];
+  const Integer s = ball.radius - base_.radius;
+  const Integer e = dot(d, d) - s * s;
+  if (m_ == 0) return s.sign() <= 0 && e.sign() <= 0;
+  const Integer twice = 2 * s;
+  if (s.sign() > 0 && radical_sign(c_ + twice * b_, -twice, discriminant_) < 0) return false;
+  const Integer f = dot(d, qae_) - g_ * e;
+  const Integer w = dot(d, qas_) - g_ * s;
+  // With e twice as large as in F + W rho >= 0 there, rho = c / (2 (sqrt(D) - b)).
+  return radical_sign(w * c_ - f * b_, f, discriminant_) >= 0;
+}
+
+template <int Dimension>
+Sphere ExactSphere<Dimension>::rounded(int unit) const {
+  Sphere sphere;
+  if (m_ == 0) {
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
+      sphere.center[static_cast<Eigen::Index>(axis)] = rounded_quotient(base_.center[axis], 1, unit);
+    sphere.radius = rounded_quotient(base_.radius, 1, unit);
+    return sphere;
+  }
+  // rho = p / q from sqrt(D) = root / 2^bits, so that nothing cancels: c / (2 (sqrt(D) - b)), or by
+  // D - b^2 = -a c, where b > 0 (and so a < 0), (sqrt(D) + b) / (-2 a).
+  constexpr unsigned bits = 256;
+  const Integer root = sqrt(Integer(discriminant_ << (2 * bits)));
+  const bool conjugate = b_.sign() > 0;
+  const Integer shifted_b = b_ << bits;
+  const Integer p = conjugate ? Integer(root + shifted_b) : Integer(c_ << bits);
+  const Integer q = conjugate ? Integer((-2 * a_) << bits) : Integer(2 * (root - shifted_b));
+  // Centre: base + Q A (e / 2 + s rho) / g
+  const Integer whole = 2 * g_ * q;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    const Integer offset = qae_[axis] * q + 2 * qas_[axis] * p;
+    sphere.center[static_cast<Eigen::Index>(axis)] =
+        rounded_quotient(base_.center[axis] * whole + offset, whole, unit);
+  }
+  sphere.radius = rounded_quotient(base_.radius * q + p, q, unit);
+  return sphere;
+}
+
+template <int Dimension>
+std::vector<std::size_t> exact_basis_among(std::span<const IntegerBall<Dimension>> balls) {
+  const unsigned subsets = 1U << balls.size();
+  std::vector<std::size_t> places;
+  std::vector<IntegerBall<Dimension>> basis;
+  for (int size = 1; size <= Dimension + 1; ++size) {
+    for (unsigned subset = 1; subset < subsets; ++subset) {
+      if (std::popcount(subset) != size) continue;
+      places.clear();
+      basis.clear();
+      for (std::size_t i = 0; i < balls.size(); ++i) {
+        if ((subset >> i & 1U) == 0) continue;
+        places.push_back(i);
+        basis.push_back(balls[i]);
+      }
+      const auto sphere = ExactSphere<Dimension>::touching(basis);
+      if (!sphere || !sphere->is_proper()) continue;
+      bool encloses = true;
+      for (std::size_t i = 0; encloses && i < balls.size(); ++i)
+        encloses = (subset >> i & 1U) != 0 || sphere->holds(balls[i]);
+      if (encloses) return places;
+    }
+  }
+  throw std::logic_error("balls without a minimum enclosing sphere");
+}
+
+template <int Dimension>
+Sphere exact_sphere_of(const Basis& basis, const Balls<Dimension>& balls) {
+  int unit = std::numeric_limits<int>::max();
+  for (const BeadId b : basis) unit = std::min(unit, whole_unit(balls, b, b));
+  std::vector<IntegerBall<Dimension>> members;
+  for (const BeadId b : basis) members.push_back(whole_ball(balls, b, unit));
+  auto sphere = ExactSphere<Dimension>::touching(members);
+  if (!sphere) {
+    std::vector<IntegerBall<Dimension>> proper;
+    for (const std::size_t place : exact_basis_among<Dimension>(members)) proper.push_back(members[place]);
+    sphere = ExactSphere<Dimension>::touching(proper);
+  }
+  return sphere->rounded(unit);
+}
+
+template Sphere exact_sphere_of(const Basis&, const Balls<2>&);
+template Sphere exact_sphere_of(const Basis&, const Balls<3>&);
+template int whole_unit(const Balls<2>&, BeadId, BeadId);
+template int whole_unit(const Balls<3>&, BeadId, BeadId);
+template IntegerBall<2> whole_ball(const Balls<2>&, BeadId, int);
+template IntegerBall<3> whole_ball(const Balls<3>&, BeadId, int);
+template class ExactSphere<2>;
+template class ExactSphere<3>;
+template std::vector<std::size_t> exact_basis_among<2>(std::span<const IntegerBall<2>>);
+template std::vector<std::size_t> exact_basis_among<3>(std::span<const IntegerBall<3>>);
+
+}  // namespace kds

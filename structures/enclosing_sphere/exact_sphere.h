@@ -1,0 +1,70 @@
+#pragma once
+// Minimum enclosing spheres of balls in exact arithmetic, in the plane and in space, radii equal or not: the
+// sphere that touches the balls of a basis from outside, whether it is the smallest that encloses them, and
+// whether it holds another ball. Every decision is the sign of some A + B sqrt(D) over integers; formulas and
+// the choice of the root as in certificates/types/ball_in_sphere.h. Equal radii need no case of their own:
+// their A vanish. Slow, microseconds a decision: for what doubles cannot decide.
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "motions/numbers/exact_number.h"
+#include "structures/enclosing_sphere/basis.h"
+#include "structures/necklace/balls.h"
+#include "structures/necklace/sphere.h"
+
+namespace kds {
+
+/// Coordinates and radius in units of a power of two that all balls of a set share.
+template <int Dimension>
+struct IntegerBall {
+  std::array<Integer, Dimension> center;
+  Integer radius;
+};
+
+/// The greatest power of two of which all coordinates and radii of these beads are whole multiples.
+template <int Dimension>
+[[nodiscard]] int whole_unit(const Balls<Dimension>& balls, BeadId first, BeadId last);
+template <int Dimension>
+[[nodiscard]] IntegerBall<Dimension> whole_ball(const Balls<Dimension>& balls, BeadId bead, int unit);
+
+/// The smallest sphere that touches all balls of a basis from outside, its centre in their affine hull.
+template <int Dimension>
+class ExactSphere {
+ public:
+  using Ball = IntegerBall<Dimension>;
+
+  /// 1 to Dimension + 1 balls. None if the centres are affinely dependent or there is no such sphere.
+  [[nodiscard]] static std::optional<ExactSphere> touching(std::span<const Ball> basis);
+
+  /// The centre lies strictly inside the simplex of centres: the sphere is the smallest that encloses the
+  /// basis, and no ball is to spare.
+  [[nodiscard]] bool is_proper() const;
+  /// Inside, or touching from inside.
+  [[nodiscard]] bool holds(const Ball& ball) const;
+  /// Each coordinate and the radius rounded to within 2^-52 of their size, where doubles reach.
+  [[nodiscard]] Sphere rounded(int unit) const;
+
+ private:
+  ExactSphere() = default;
+
+  Ball base_;
+  std::size_t m_ = 0;  // further balls of the basis
+  std::array<std::array<Integer, Dimension>, 3> d_;
+  std::array<Integer, 3> ae_, as_;            // A e and A s, e_i = |d_i|^2 - s_i^2
+  std::array<Integer, Dimension> qae_, qas_;  // Q A e and Q A s
+  Integer g_ = 1, a_ = -1, b_ = 0, c_ = 0, discriminant_ = 0;
+};
+
+/// The basis of a few balls, one that is known to exist: the first, by size, then by places, of the proper
+/// ones that hold all others. Places in `balls`, ascending.
+template <int Dimension>
+[[nodiscard]] std::vector<std::size_t> exact_basis_among(std::span<const IntegerBall<Dimension>> balls);
+
+/// The smallest sphere around the balls of a basis, rounded as above; some may be to spare.
+template <int Dimension>
+[[nodiscard]] Sphere exact_sphere_of(const Basis& basis, const Balls<Dimension>& balls);
+
+}  // namespace kds

@@ -1,0 +1,413 @@
+#pragma once
+// The work of a static wrapped hierarchy at its nodes, many nodes of one height together: bases from those of
+// the children or of the time before, spheres, proofs that all beads are inside (pivot_sphere.h).
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "structures/enclosing_sphere/pivot_sphere.h"
+#include "structures/hierarchy/static_wrapped_hierarchy.h"
+
+namespace kds::detail {
+
+// Nodes of more beads look whether cages below are inside before they look at the beads.
+inline constexpr BeadId most_in_block = 256;
+// Nodes of more beads, built from scratch, look among the beads of their children's bases first.
+inline constexpr BeadId most_scanned = 100;
+// By how much beads may be out of a cage that doubles have proved.
+inline constexpr double looseness = 1 + 0x1p-27;
+inline constexpr std::size_t nodes_at_a_time = 64;
+
+enum class Start : std::uint8_t { children, old_bases };
+
+// The sphere of a basis as it is; of fewer beads where some are to spare.
+template <class Form>
+Cage<Form::Dimension> trusted_cage(const Balls<Form::Dimension>& balls, Basis basis) {
+  while (true) {
+    const typename Form::Sphere sphere = sphere_of_basis<Form>(balls, basis);
+    if (sphere.least > 0 || basis.size == 1) return {sphere.center, sphere.radius};
+    std::size_t place = 0;
+    visit_size<Form::Dimension>(basis.size, [&](auto m) {
+      if constexpr (m > 0) place = lightest<m>(balls, basis);
+    });
+    erase_place(basis, place);
+  }
+}
+
+/// Spheres of nodes from those below or from old bases. What is called from a loop over beads is inlined into
+/// it (scan_targets.h).
+template <class Form>
+class NodeWrapper {
+ public:
+  static constexpr int Dimension = Form::Dimension;
+  using Sphere = typename Form::Sphere;
+
+  const NecklaceTree& tree;
+  const Balls<Dimension>& balls;
+  Basis* bases;
+  Cage<Dimension>* cages;
+  std::uint8_t* loose;
+  Update how;
+  Frontiers& frontiers;
+  WrapCounts counts{};
+
+  // Nodes that do not depend on each other.
+  [[gnu::always_inline]] void wrap(const NodeId* nodes, std::size_t count, Start start) {
+    std::array<Pending, nodes_at_a_time> pending;
+    for (std::size_t i = 0; i < count; ++i) pending[i] = {nodes[i], {}};
+    if (start == Start::children) {
+      for (std::size_t i = 0; i < count; ++i) bases[nodes[i]] = far_pair_of(nodes[i]);
+      const BeadRange& range = tree.range(nodes[0]);
+      if (range.last - range.first > most_scanned) pivot_among_children(nodes, count);
+      counts.changed += count;
+    } else {
+      for (std::size_t i = 0; i < count; ++i) pending[i].old = bases[nodes[i]];
+    }
+    std::array<Sphere, nodes_at_a_time> spheres;
+    std::array<std::size_t, nodes_at_a_time> outside;
+    std::size_t waiting = count;
+    for (int round = 0; waiting > 0; ++round) {
+      const auto visit_below = [&](std::size_t i) __attribute__((always_inline)) {
+        return [ this, node = pending[i].node ](const Sphere& sphere, const auto& look)
+            __attribute__((always_inline)) {
+          visit_blocks(node, sphere, look);
+        };
+      };
+      // One thing after the other for all of them: a processor overlaps what does not branch.
+      spheres_of(pending.data(), waiting, spheres.data());
+      for (std::size_t i = 0; i < waiting; ++i)
+        outside[i] = count_outside<Form>(balls, spheres[i], visit_below(i));
+      std::size_t left = 0;
+      for (std::size_t i = 0; i < waiting; ++i) {
+        const NodeId node = pending[i].node;
+        if (is_proved<Form>(bases[node], spheres[i], outside[i])) {
+          cages[node] = {spheres[i].center, spheres[i].radius};
+          loose[node] = 0;
+          if (round > 0) finish(pending[i], start);
+        } else if (round < most_pivots && next_basis<Form>(balls, bases[node], spheres[i], visit_below(i))) {
+          ++counts.pivots;
+          pending[left++] = pending[i];
+        } else {
+          decide_in_exact_numbers(node);
+          finish(pending[i], start);
+        }
+      }
+      waiting = left;
+    }
+  }
+
+  // Spheres of the bases as they are.
+  [[gnu::always_inline]] void trust(const NodeId* nodes, std::size_t count) {
+    std::array<Pending, nodes_at_a_time> pending;
+    std::array<Sphere, nodes_at_a_time> spheres;
+    for (std::size_t i = 0; i < count; ++i) pending[i].node = nodes[i];
+    spheres_of<false>(pending.data(), count, spheres.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      cages[nodes[i]] = {spheres[i].center, spheres[i].radius};
+      if (!(spheres[i].least > 0)) cages[nodes[i]] = trusted_cage<Form>(balls, bases[nodes[i]]);
+    }
+  }
+
+  // By a cascade from where it ended last, or from the children; `known`: the run's list, `next`: the new
+  // one.
+  [[gnu::always_inline]] void wrap_by_cascade(NodeId node, const std::vector<std::uint32_t>& known,
+                                              std::vector<std::uint32_t>& next) {
+    const Sphere sphere = sphere_of_basis<Form>(balls, bases[node]);
+    const BottomUpOrder::Group old = frontiers.of_node[node];
+    const auto start = static_cast<std::uint32_t>(next.size());
+    if (sphere.certain && cascade(node, sphere, {known.data() + old.first, known.data() + old.end}, next)) {
+      cages[node] = {sphere.center, sphere.radius};
+      loose[node] = 0;
+    } else {
+      next.resize(start);
+      wrap(&node, 1, Start::old_bases);
+    }
+    frontiers.of_node[node] = {start, static_cast<std::uint32_t>(next.size())};
+    counts.frontier += next.size() - start;
+  }
+
+  // Nodes of two beads.
+  [[gnu::always_inline]] void trust_pairs(const NodeId* nodes, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const BeadRange range = tree.range(nodes[i]);
+      cages[nodes[i]] = cage_of_pair(range);
+      if (!is_basis(range, cages[nodes[i]])) cages[nodes[i]] = trusted_cage<Form>(balls, bases[nodes[i]]);
+    }
+  }
+  [[gnu::always_inline]] void wrap_pairs(const NodeId* nodes, std::size_t count, Start start) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const NodeId node = nodes[i];
+      const BeadRange range = tree.range(node);
+      Cage<Dimension>& cage = cages[node];
+      cage = cage_of_pair(range);
+      double size = 0;
+      for (std::size_t axis = 0; axis < Dimension; ++axis) size = std::max(size, std::abs(cage.center[axis]));
+      loose[node] = !(size * 0x1p-22 <= cage.radius);
+      const Pending before{node, bases[node]};
+      Basis& basis = bases[node];
+      basis.size = 2;
+      basis.beads[0] = range.first;
+      basis.beads[1] = range.last;
+      if (!is_basis(range, cage) && !decide_nested_pair(node, range)) decide_in_exact_numbers(node);
+      if (start == Start::old_bases && (before.old.size != 2 || basis.size != 2)) finish(before, start);
+    }
+    if (start == Start::children) counts.changed += count;
+  }
+
+ private:
+  struct Pending {
+    NodeId node;
+    Basis old;
+  };
+
+  // Of two balls of which none holds the other.
+  [[gnu::always_inline]] Cage<Dimension> cage_of_pair(const BeadRange& range) const {
+    Cage<Dimension> cage;
+    Point<Dimension> d;
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
+      d[axis] = 0.5 * (balls.coordinates(axis)[range.last] - balls.coordinates(axis)[range.first]);
+    cage.radius = std::sqrt(dot(d, d));
+    double share = 1;
+    if constexpr (!Form::of_points) {
+      const double a = balls.radii()[range.first], b = balls.radii()[range.last];
+      share += 0.5 * (b - a) / cage.radius;
+      cage.radius += 0.5 * (a + b);
+    }
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
+      cage.center[axis] = balls.coordinates(axis)[range.first] + share * d[axis];
+    return cage;
+  }
+  // Both are needed, for certain.
+  [[gnu::always_inline]] bool is_basis(const BeadRange& range, const Cage<Dimension>& cage) const {
+    const bool sized = (cage.radius >= 0x1p-150) & (cage.radius <= 0x1p150);
+    if constexpr (Form::of_points) return sized;
+    const double a = balls.radii()[range.first], b = balls.radii()[range.last];
+    // The radius is greater than both, by more than it errs.
+    return sized & (cage.radius > (a < b ? b : a) * (1 + 0x1p-40));
+  }
+
+  // If one ball holds the other for certain, it is the basis.
+  bool decide_nested_pair(NodeId node, const BeadRange& range) {
+    if constexpr (Form::of_points) return false;
+    const Point<Dimension> d = minus(center_of(balls, range.last), center_of(balls, range.first));
+    const double a = balls.radii()[range.first], b = balls.radii()[range.last];
+    const double distance = std::sqrt(dot(d, d));
+    const double larger = std::max(a, b);
+    if (!(larger >= 0x1p-150 && larger <= 0x1p150)) return false;
+    if (!(distance + std::min(a, b) < larger * (1 - 0x1p-40))) return false;
+    bases[node] = Basis();
+    insert_bead(bases[node], a < b ? range.last : range.first);
+    cages[node] = {center_of(balls, bases[node].beads[0]), larger};
+    loose[node] = 0;
+    return true;
+  }
+
+  [[gnu::always_inline]] void finish(const Pending& done, Start start) {
+    if (start == Start::old_bases && !(done.old == bases[done.node])) ++counts.changed;
+  }
+
+  void decide_in_exact_numbers(NodeId node) {
+    const BeadRange range = tree.range(node);
+    ++counts.exact;
+    loose[node] = 1;
+    cages[node] = enclosing_sphere_exactly(balls, range.first, range.last, bases[node], Form::of_points);
+  }
+
+  // Spheres of the nodes' bases, four at a time among those of one size.
+  template <bool bounds = true>
+  [[gnu::always_inline]] void spheres_of(const Pending* pending, std::size_t count, Sphere* spheres) const {
+    std::array<std::array<std::uint8_t, nodes_at_a_time>, 4> places;
+    std::array<std::size_t, 4> of_size{};
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t m = bases[pending[i].node].size - 1U;
+      places[m][of_size[m]++] = static_cast<std::uint8_t>(i);
+    }
+    for (std::size_t i = 0; i < of_size[0]; ++i)
+      spheres[places[0][i]] = Form::sphere(basis_balls<0>(balls, bases[pending[places[0][i]].node]));
+    spheres_of_size<bounds, 1>(pending, places[1].data(), of_size[1], spheres);
+    spheres_of_size<bounds, 2>(pending, places[2].data(), of_size[2], spheres);
+    if constexpr (Dimension == 3) spheres_of_size<bounds, 3>(pending, places[3].data(), of_size[3], spheres);
+  }
+  template <bool bounds, std::size_t M>
+  [[gnu::always_inline]] void spheres_of_size(const Pending* pending, const std::uint8_t* places,
+                                              std::size_t count, Sphere* spheres) const {
+    for (std::size_t i = 0; i < count; i += Lanes::width) {
+      BasisBalls<Lanes, Dimension, M> members;
+      std::array<const Basis*, Lanes::width> four;
+      for (std::size_t lane = 0; lane < Lanes::width; ++lane)
+        four[lane] = &bases[pending[places[std::min(i + lane, count - 1)]].node];
+      const auto gather = [&](const double* values, std::size_t j) __attribute__((always_inline)) {
+        return Lanes(Lanes::Vector{values[four[0]->beads[j]], values[four[1]->beads[j]],
+                                   values[four[2]->beads[j]], values[four[3]->beads[j]]});
+      };
+      for (std::size_t j = 0; j <= M; ++j) {
+        for (std::size_t axis = 0; axis < Dimension; ++axis)
+          members.center[j][axis] = gather(balls.coordinates(axis), j);
+        if (!Form::of_points) members.radius[j] = gather(balls.radii(), j);
+      }
+      const BasisSphere<Lanes, Dimension> sphere = Form::template sphere<bounds>(members);
+      for (std::size_t lane = 0; lane < Lanes::width && i + lane < count; ++lane) {
+        Sphere& one = spheres[places[i + lane]];
+        for (std::size_t axis = 0; axis < Dimension; ++axis) one.center[axis] = sphere.center[axis].v[lane];
+        one.radius = sphere.radius.v[lane];
+        one.least = sphere.least.v[lane];
+        if constexpr (bounds) {
+          one.inner = sphere.inner.v[lane];
+          one.outer = sphere.outer.v[lane];
+          one.certain = sphere.certain[lane] != 0;
+        }
+      }
+    }
+  }
+
+  // The sphere holds a cage, and so its beads, for certain. `inner`: within which beads are inside.
+  [[gnu::always_inline]] bool holds_cage(const Sphere& sphere, double inner, NodeId node) const {
+    const double room = inner - cages[node].radius * looseness;
+    const Point<Dimension> d = minus(cages[node].center, sphere.center);
+    return room > 0x1p-200 && dot(d, d) <= room * room * (1 - 0x1p-40) && loose[node] == 0;
+  }
+
+  // Blocks of beads below a node, from the left, without cages that are inside for certain.
+  template <class Look>
+  [[gnu::always_inline]] void visit_blocks(NodeId node, const Sphere& sphere, const Look& look) {
+    const BeadRange all = tree.range(node);
+    if (all.last - all.first < most_in_block || how == Update::naive) {
+      counts.bead_tests += all.last - all.first + 1;
+      return look(all.first, all.last);
+    }
+    const double inner = sphere.certain ? Form::inner_radius(sphere) : 0;
+    std::array<NodeId, 64> stack;
+    std::size_t depth = 0;
+    stack[depth++] = tree.right(node);
+    stack[depth++] = tree.left(node);
+    while (depth > 0) {
+      const NodeId v = stack[--depth];
+      ++counts.cage_tests;
+      if (holds_cage(sphere, inner, v)) continue;
+      const BeadRange range = tree.range(v);
+      if (range.last - range.first < most_in_block) {
+        counts.bead_tests += range.last - range.first + 1;
+        look(range.first, range.last);
+        continue;
+      }
+      stack[depth++] = tree.right(v);
+      stack[depth++] = tree.left(v);
+    }
+  }
+
+  // Whether all that is below the node is inside; appends where that was seen, from the left.
+  bool cascade(NodeId node, const Sphere& sphere, std::span<const std::uint32_t> known,
+               std::vector<std::uint32_t>& next) {
+    const auto child = [](NodeId v, BeadId leaf) {
+      return v == NecklaceTree::leaf ? Frontiers::bead | leaf : v;
+    };
+    const auto left = [&](NodeId v) { return child(tree.left(v), tree.range(v).first); };
+    const auto right = [&](NodeId v) { return child(tree.right(v), tree.range(v).last); };
+    const std::array<std::uint32_t, 2> children{left(node), right(node)};
+    if (known.empty()) known = children;
+    const double inner = Form::inner_radius(sphere);
+    const auto measure = Form::measure(balls, sphere);
+    std::array<std::uint32_t, 64> stack;
+    for (const std::uint32_t from : known) {
+      std::size_t depth = 0;
+      stack[depth++] = from;
+      while (depth > 0) {
+        const std::uint32_t v = stack[--depth];
+        if ((v & Frontiers::bead) != 0) {
+          const BeadId b = v & ~Frontiers::bead;
+          if (!bases[node].contains(b)) {
+            ++counts.bead_tests;
+            OutsideCount one;
+            one.scan(measure, b, b);
+            if (one.result() > 0) return false;
+          }
+        } else {
+          ++counts.cage_tests;
+          if (!holds_cage(sphere, inner, v)) {
+            stack[depth++] = right(v);
+            stack[depth++] = left(v);
+            continue;
+          }
+        }
+        next.push_back(v);
+      }
+    }
+    return true;
+  }
+
+  [[gnu::always_inline]] std::span<const BeadId> members(NodeId child, const BeadId& leaf) const {
+    return child == NecklaceTree::leaf ? std::span<const BeadId>(&leaf, 1)
+                                       : std::span<const BeadId>(bases[child].begin(), bases[child].size);
+  }
+  // Of the beads of both children's bases.
+  [[gnu::always_inline]] Basis far_pair_of(NodeId node) const {
+    const BeadRange range = tree.range(node);
+    const NodeId left = tree.left(node);
+    return far_pair<Form>(balls, members(tree.right(node), range.last), members(left, range.first),
+                          left == NecklaceTree::leaf ? center_of(balls, range.first) : cages[left].center);
+  }
+
+  // Makes the bases those of the beads of both children's bases, most likely.
+  [[gnu::always_inline]] void pivot_among_children(const NodeId* nodes, std::size_t count) {
+    struct Few {
+      std::array<std::array<double, 8>, Dimension> centers;
+      std::array<double, 8> radii;
+      std::array<BeadId, 8> ids;
+    };
+    std::array<Few, nodes_at_a_time> few;
+    std::array<Sphere, nodes_at_a_time> spheres;
+    std::array<double, nodes_at_a_time> farthest;
+    std::array<Pending, nodes_at_a_time> pending;
+    std::array<std::uint8_t, nodes_at_a_time> place;
+    for (std::size_t i = 0; i < count; ++i) {
+      const BeadRange range = tree.range(nodes[i]);
+      const auto of_left = members(tree.left(nodes[i]), range.first);
+      const auto of_right = members(tree.right(nodes[i]), range.last);
+      for (std::size_t k = 0; k < 8; ++k) {
+        const std::size_t r = k - of_left.size();
+        const BeadId b = k < of_left.size() ? of_left[k] : of_right[r < of_right.size() ? r : 0];
+        few[i].ids[k] = b;
+        for (std::size_t axis = 0; axis < Dimension; ++axis)
+          few[i].centers[axis][k] = balls.coordinates(axis)[b];
+        few[i].radii[k] = balls.radii()[b];
+      }
+      pending[i].node = nodes[i];
+      place[i] = static_cast<std::uint8_t>(i);
+    }
+    std::size_t waiting = count;
+    for (int round = 0; waiting > 0 && round < 8; ++round) {
+      spheres_of(pending.data(), waiting, spheres.data());
+      const auto measure_of = [&](std::size_t i) __attribute__((always_inline)) {
+        auto measure = Form::measure(balls, spheres[i]);
+        for (std::size_t axis = 0; axis < Dimension; ++axis)
+          measure.centers[axis] = few[place[i]].centers[axis].data();
+        if constexpr (!Form::of_points) measure.radii = few[place[i]].radii.data();
+        return measure;
+      };
+      for (std::size_t i = 0; i < waiting; ++i) {
+        Farthest most;
+        most.scan(measure_of(i), 0, 7);
+        farthest[i] = most.result();
+      }
+      std::size_t left = 0;
+      for (std::size_t i = 0; i < waiting; ++i) {
+        if (!(farthest[i] > spheres[i].outer) || !(spheres[i].least > 0)) continue;
+        Basis& basis = bases[pending[i].node];
+        const BeadId found = find_value(measure_of(i), 0, 7, farthest[i]);
+        const BeadId escaped = found == no_bead ? no_bead : few[place[i]].ids[found];
+        if (escaped == no_bead || basis.contains(escaped) || !Form::pivot(balls, basis, escaped)) continue;
+        ++counts.pivots;
+        pending[left].node = pending[i].node;
+        place[left++] = place[i];
+      }
+      waiting = left;
+    }
+  }
+};
+
+}  // namespace kds::detail

@@ -1,0 +1,114 @@
+#pragma once
+// Nodes of a wrapped hierarchy that rest in a step: their beads stray less, from where they were at some
+// earlier frame, than the basis tolerates (sphere_slack.h), drift common to all left out. They need no
+// certificate. All tolerances are taken at one reference frame, which is moved up when too many are used up.
+// Where motion is fast, none is taken: a sample tells.
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "structures/moving_sphere/bead_paths.h"
+#include "structures/moving_sphere/sphere_slack.h"
+#include "structures/necklace/necklace_tree.h"
+
+namespace kds {
+
+template <int Dimension>
+class NodeSlack {
+ public:
+  explicit NodeSlack(const NecklaceTree& tree);
+
+  /// At the start of a step. Takes out of `nodes` those that rest in it; `basis_of` tells the basis of a
+  /// node.
+  template <std::invocable<NodeId> BasisOf>
+  void take_out_resting(const BeadPaths<Dimension>& paths, std::vector<NodeId>& nodes, BasisOf basis_of) {
+    if (has_reference_) {
+      look_at(paths);
+      if (resting(nodes) >= worth_keeping_) {
+        next_skip_ = 0;
+        lasted_ = true;
+        return take_out(nodes);
+      }
+      if (!lasted_) return give_up();
+    } else if (skip_ > 0) {
+      --skip_;
+      return;
+    }
+    set_reference(paths);
+    look_at(paths);
+    // A few nodes from all over the tree tell whether it is worth while.
+    std::vector<NodeId> some;
+    const std::size_t stride = nodes.size() / sample_size + 1;
+    for (std::size_t i = 0; i < nodes.size(); i += stride) some.push_back(nodes[i]);
+    take_tolerances(paths, some, basis_of);
+    const double share = resting(some);
+    has_reference_ = share >= least_share;
+    if (!has_reference_) return give_up();
+    lasted_ = false;
+    worth_keeping_ = still_worth * share;
+    take_tolerances(paths, nodes, basis_of);
+    take_out(nodes);
+  }
+  /// The node has got another basis.
+  void forget(NodeId node) { tolerance_[node] = none; }
+
+ private:
+  static constexpr double none = -1;
+  static constexpr std::size_t sample_size = 16;
+  /// Of all nodes asked about: taking a tolerance costs nearly as much as what it saves in a step. A
+  /// reference must also last for another step.
+  static constexpr double least_share = 0.7;
+  /// Of the share that rested at the reference frame.
+  static constexpr double still_worth = 0.72;
+  /// Motion that is fast is so for a while: after each sample in vain so many steps more go by without one.
+  static constexpr unsigned most_skipped = 31;
+  /// No tolerance is larger than a node strays in so many steps.
+  static constexpr double steps_ahead = 16;
+
+  void set_reference(const BeadPaths<Dimension>& paths);
+  /// How far beads and nodes stray in the step from the reference.
+  void look_at(const BeadPaths<Dimension>& paths);
+  void forget_all();
+  /// Motion is too fast for now.
+  void give_up();
+  [[nodiscard]] bool rests(NodeId node) const { return stray_[node] <= tolerance_[node]; }
+  /// The share of some nodes.
+  [[nodiscard]] double resting(std::span<const NodeId> nodes) const;
+  void take_out(std::vector<NodeId>& nodes) const;
+
+  template <class BasisOf>
+  void take_tolerances(const BeadPaths<Dimension>& paths, std::span<const NodeId> nodes, BasisOf basis_of) {
+    for (const NodeId id : nodes) add(paths, id, basis_of(id));
+    for (Waiting& some : waiting_) find(paths, some);
+  }
+
+  /// Nodes with bases of one size.
+  struct Waiting {
+    static constexpr std::size_t at_once = 4;
+    std::array<NodeId, at_once> nodes;
+    std::array<BeadRange, at_once> ranges;
+    std::array<Basis, at_once> bases;
+    std::array<double, at_once> wanted;
+    std::size_t count = 0;
+  };
+  void add(const BeadPaths<Dimension>& paths, NodeId node, const Basis& basis);
+  void find(const BeadPaths<Dimension>& paths, Waiting& some);
+
+  const NecklaceTree& tree_;
+  /// Where the halves of each node are in stray_.
+  std::vector<std::array<std::uint32_t, 2>> halves_;
+  std::vector<double> stray_;      ///< the most of any bead of each node; then of each bead
+  std::vector<double> tolerance_;  ///< of each node, or `none`
+  std::array<std::vector<double>, Dimension + 1> reference_;  ///< where beads were, and their radii
+  std::array<Waiting, Basis::max_size> waiting_;
+  bool has_reference_ = false, lasted_ = false;
+  double worth_keeping_ = 0;
+  unsigned skip_ = 0, next_skip_ = 0;
+};
+
+}  // namespace kds

@@ -1,0 +1,172 @@
+#include "structures/hierarchy/static_wrapped_hierarchy.h"
+
+#include <algorithm>
+
+#include "structures/enclosing_sphere/scan_targets.h"
+#include "structures/hierarchy/hierarchy_kernels.h"
+#include "structures/hierarchy/parallel_passes.h"
+
+namespace kds {
+
+namespace {
+
+using detail::most_in_block;
+using detail::nodes_at_a_time;
+using detail::NodeWrapper;
+using detail::Start;
+using detail::trusted_cage;
+
+// Groups of one run stand one after the other: `together` of them from `first` on as one list of nodes.
+std::span<const NodeId> nodes_of(const BottomUpOrder& order, std::span<const BottomUpOrder::Group> groups,
+                                 std::size_t first, std::size_t together) {
+  return order.nodes({groups[first].first, groups[first + together - 1].end});
+}
+
+template <class Form>
+[[KDS_SCAN_TARGETS]] void wrap_groups(NodeWrapper<Form>& wrapper, const BottomUpOrder& order,
+                                      std::span<const BottomUpOrder::Group> groups, Start start) {
+  const auto beads = [&](std::size_t g) {
+    const BeadRange range = wrapper.tree.range(order.nodes(groups[g])[0]);
+    return range.last - range.first + 1;
+  };
+  for (std::size_t g = 0, together = 1; g < groups.size(); g += together) {
+    together = 1;
+    if (beads(g) == 2) {
+      const auto pairs = order.nodes(groups[g]);
+      wrapper.wrap_pairs(pairs.data(), pairs.size(), start);
+      continue;
+    }
+    // Nodes that ask neither bases nor cages below do not wait for those: nodes of one height differ by less
+    // than a factor of two.
+    if (start == Start::old_bases && 2 * beads(g) <= most_in_block)
+      while (g + together < groups.size() && 2 * beads(g + together) <= most_in_block) ++together;
+    const auto nodes = nodes_of(order, groups, g, together);
+    for (std::size_t i = 0; i < nodes.size(); i += nodes_at_a_time)
+      wrapper.wrap(nodes.data() + i, std::min(nodes_at_a_time, nodes.size() - i), start);
+  }
+}
+
+template <class Form>
+[[KDS_SCAN_TARGETS]] void trust_groups(NodeWrapper<Form>& wrapper, const BottomUpOrder& order,
+                                       std::span<const BottomUpOrder::Group> groups) {
+  if (groups.empty()) return;
+  const auto lowest = order.nodes(groups[0]);
+  const BeadRange range = wrapper.tree.range(lowest[0]);
+  const std::size_t pairs = range.last - range.first == 1 ? 1 : 0;
+  if (pairs == 1) wrapper.trust_pairs(lowest.data(), lowest.size());
+  if (groups.size() == pairs) return;
+  const auto nodes = nodes_of(order, groups, pairs, groups.size() - pairs);
+  for (std::size_t i = 0; i < nodes.size(); i += nodes_at_a_time)
+    wrapper.trust(nodes.data() + i, std::min(nodes_at_a_time, nodes.size() - i));
+}
+
+template <class Form>
+[[KDS_SCAN_TARGETS]] void cascade_groups(NodeWrapper<Form>& wrapper, const BottomUpOrder& order,
+                                         std::span<const BottomUpOrder::Group> groups,
+                                         std::vector<std::uint32_t>& frontiers) {
+  std::vector<std::uint32_t> next;
+  next.reserve(frontiers.size());
+  for (const BottomUpOrder::Group& group : groups) {
+    const std::span<const NodeId> nodes = order.nodes(group);
+    const BeadRange range = wrapper.tree.range(nodes[0]);
+    if (range.last - range.first == 1) {  // nothing to test
+      wrapper.wrap_pairs(nodes.data(), nodes.size(), Start::old_bases);
+      wrapper.counts.frontier += 2 * nodes.size();
+      continue;
+    }
+    for (const NodeId node : nodes) wrapper.wrap_by_cascade(node, frontiers, next);
+  }
+  frontiers.swap(next);
+}
+
+}  // namespace
+
+template <int Dimension>
+StaticWrappedHierarchy<Dimension>::StaticWrappedHierarchy(std::span<const BeadRange> necklaces)
+    : tree_(necklaces), order_(tree_) {}
+
+template <int Dimension>
+template <class Form>
+WrapCounts StaticWrappedHierarchy<Dimension>::wrap(const Balls<Dimension>& balls, bool from_children,
+                                                   Update how, Threads threads) {
+  const auto runs = order_.runs();
+  return over_runs<WrapCounts>(order_, threads, [&](std::size_t run) {
+    const auto groups = order_.groups(runs[run]);
+    NodeWrapper<Form> wrapper{tree_, balls, bases_.data(), cages_.data(), loose_.data(), how, frontiers_};
+    if (from_children) {
+      wrap_groups<Form>(wrapper, order_, groups, Start::children);
+    } else if (how == Update::trust) {
+      trust_groups<Form>(wrapper, order_, groups);
+    } else if (how == Update::cascade) {
+      cascade_groups<Form>(wrapper, order_, groups, frontiers_.of_run[run]);
+    } else {
+      wrap_groups<Form>(wrapper, order_, groups, Start::old_bases);
+    }
+    return wrapper.counts;
+  });
+}
+
+template <int Dimension>
+WrapCounts StaticWrappedHierarchy<Dimension>::build(const Balls<Dimension>& balls, Threads threads) {
+  bases_.resize(tree_.node_count());
+  cages_.resize(tree_.node_count());
+  loose_.resize(tree_.node_count());
+  frontiers_.of_run.assign(order_.runs().size(), {});
+  frontiers_.of_node.assign(tree_.node_count(), {});
+  wider_ = balls.equal_radii() && balls.size() > 0 ? balls.radius(0) : 0;
+  trusting_ = false;
+  lazy_ = nullptr;
+  return balls.equal_radii() ? wrap<PointForm<Dimension>>(balls, true, Update::blocks, threads)
+                             : wrap<BallForm<Dimension>>(balls, true, Update::blocks, threads);
+}
+
+template <int Dimension>
+WrapCounts StaticWrappedHierarchy<Dimension>::update(const Balls<Dimension>& balls, Update how,
+                                                     Threads threads) {
+  if (bases_.size() != tree_.node_count()) return build(balls, threads);
+  const bool trusting = how == Update::trust || how == Update::lazy;
+  if (trusting && !trusting_) {
+    verified_.swap(cages_);
+    cages_.resize(verified_.size());
+  }
+  trusting_ = trusting;
+  lazy_ = how == Update::lazy ? &balls : nullptr;
+  wider_ = balls.equal_radii() && balls.size() > 0 ? balls.radius(0) : 0;
+  if (lazy_ != nullptr) return {};
+  return balls.equal_radii() ? wrap<PointForm<Dimension>>(balls, false, how, threads)
+                             : wrap<BallForm<Dimension>>(balls, false, how, threads);
+}
+
+template <int Dimension>
+Sphere StaticWrappedHierarchy<Dimension>::sphere(NodeId node) const {
+  if (lazy_ == nullptr) return sphere_of(cages_[node], wider_);
+  return sphere_of(lazy_->equal_radii() ? trusted_cage<PointForm<Dimension>>(*lazy_, bases_[node])
+                                        : trusted_cage<BallForm<Dimension>>(*lazy_, bases_[node]),
+                   wider_);
+}
+
+template <int Dimension>
+double StaticWrappedHierarchy<Dimension>::stick_out(NodeId node, double moved) const {
+  if (!trusting_) return 0;
+  const Sphere now = sphere(node), then = sphere_of(verified_[node], wider_);
+  // Cages are rounded; loose ones, of degenerate beads far from the origin, to their size there.
+  const double rounding = 0x1p-27 * then.radius + 0x1p-48 * then.center.template lpNorm<Eigen::Infinity>();
+  return std::max(0.0, moved + then.radius + (then.center - now.center).norm() - now.radius + rounding);
+}
+
+template <int Dimension>
+double greatest_move(const Balls<Dimension>& from, const Balls<Dimension>& to) {
+  double most = 0;
+  for (BeadId b = 0; b < from.size(); ++b) {
+    const Point<Dimension> d = detail::minus(detail::center_of(to, b), detail::center_of(from, b));
+    most = std::max(most, detail::dot(d, d));
+  }
+  return std::sqrt(most) * (1 + 0x1p-48) + 0x1p-500;
+}
+
+template class StaticWrappedHierarchy<2>;
+template class StaticWrappedHierarchy<3>;
+template double greatest_move(const Balls<2>&, const Balls<2>&);
+template double greatest_move(const Balls<3>&, const Balls<3>&);
+
+}  // namespace kds

@@ -1,0 +1,32 @@
+#pragma once
+// The beads that a sphere may lose during a step: those that its chord (sphere_chord.h) does not prove to
+// stay inside.
+
+#include <vector>
+
+#include "motions/base/bead_range.h"
+#include "structures/moving_sphere/sphere_chord.h"
+
+namespace kds {
+
+/// Sets `beyond` to the beads of a range, ascending, without those of the basis, that are not proved to stay
+/// inside the sphere with this chord, `from` the time it begins at.
+template <int Dimension>
+void find_beyond(const BeadPaths<Dimension>& paths, const BeadRange& range, const Basis& basis,
+                 const SphereChord<Dimension>& chord, double from, std::vector<BeadId>& beyond);
+
+/// Takes out of `beyond` the beads that are proved to stay inside after all, the chord's dip allowed for: in
+/// linear motion, else none. `risen`, a bead or none, is on the sphere at a time before `sure`, and known to
+/// be inside from then to `sure`.
+template <int Dimension>
+void take_out_dipping(const BeadPaths<Dimension>& paths, const Basis& basis,
+                      const SphereChord<Dimension>& chord, const Period& period, BeadId risen,
+                      std::vector<BeadId>& beyond);
+
+/// Takes out of `beyond` the beads that are proved to stay inside in each of four periods.
+template <int Dimension>
+void keep_beyond(const BeadPaths<Dimension>& paths, const Basis& basis,
+                 std::span<const SphereChord<Dimension>, 4> chords, std::span<const Period, 4> periods,
+                 std::vector<BeadId>& beyond);
+
+}  // namespace kds

@@ -1,0 +1,39 @@
+#pragma once
+// The chords of four spheres side by side (sphere_chord.h), as they are found.
+
+#include <array>
+#include <span>
+
+#include "structures/moving_sphere/period_lanes.h"
+#include "structures/moving_sphere/sphere_chord.h"
+
+namespace kds {
+
+template <int Dimension>
+struct ChordLanes {
+  using Vector = std::array<Lanes, static_cast<std::size_t>(Dimension)>;
+
+  std::array<Vector, 2> center;
+  std::array<Lanes, 2> limit;
+  Lanes dip = Lanes(0.0);
+  Lanes::Mask proved, stays, rises{};
+
+  /// In place: put together elsewhere it would be slow to copy.
+  [[gnu::always_inline]] void give(std::size_t lane, SphereChord<Dimension>& chord) const {
+    chord.proved = proved[lane] != 0;
+    chord.stays = static_cast<std::uint8_t>(stays[lane]);
+    chord.rises = static_cast<std::uint8_t>(rises[lane]);
+    chord.dip = dip.v[lane];
+    for (std::size_t e = 0; e < 2; ++e) {
+      chord.limit[e] = limit[e].v[lane];
+      for (std::size_t axis = 0; axis < Dimension; ++axis) chord.center[e][axis] = center[e][axis].v[lane];
+    }
+  }
+};
+
+/// Of up to four bases of one size.
+template <int Dimension>
+void find_chords(const BeadPaths<Dimension>& paths, std::span<const Basis> bases, const PeriodLanes& period,
+                 ChordLanes<Dimension>& chords);
+
+}  // namespace kds

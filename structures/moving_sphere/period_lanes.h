@@ -1,0 +1,50 @@
+#pragma once
+// Parts of a step side by side, and what the chords of four spheres need of them.
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "certificates/search/isolate_lanes.h"
+#include "structures/moving_sphere/sphere_chord.h"
+
+namespace kds {
+
+/// What is cut off before, and then after.
+struct PeriodLanes {
+  Lanes from, to;
+  Lanes sure;  // as a share of the part
+  bool whole;  // nothing at all
+
+  /// Up to four, the last one as often as there are lanes left.
+  explicit PeriodLanes(std::span<const Period> periods) {
+    const std::size_t last = periods.size() - 1;
+    const Period &a = periods[0], &b = periods[std::min<std::size_t>(1, last)],
+                 &c = periods[std::min<std::size_t>(2, last)], &d = periods[std::min<std::size_t>(3, last)];
+    from = Lanes::Vector{a.from, b.from, c.from, d.from};
+    const Lanes until = Lanes::Vector{a.to, b.to, c.to, d.to};
+    const Lanes until_sure = Lanes::Vector{a.sure, b.sure, c.sure, d.sure};
+    to = (until - from) / (Lanes(1.0) - from);
+    sure = Lanes::max(until_sure - from, Lanes(0.0)) / (until - from);
+    whole = Lanes::all((from <= Lanes(0.0)) & (until >= Lanes(1.0)));
+  }
+};
+
+/// Control points of the part from those of the step.
+template <std::size_t N>
+[[gnu::always_inline]] inline void cut(std::array<Lanes, N>& control, const PeriodLanes& period) {
+  if (period.whole) return;
+  casteljau(control, period.from);
+  casteljau_left(control, period.to);
+}
+
+/// Where all distances, given by their squares, are within what there is room for.
+template <std::size_t N>
+[[gnu::always_inline]] inline Lanes::Mask are_within(const std::array<Lanes, N>& square,
+                                                     const std::array<Lanes, N>& room) {
+  Lanes::Mask within = (room[0] >= Lanes(0.0)) & (square[0] <= room[0] * room[0]);
+  for (std::size_t k = 1; k < N; ++k) within &= (room[k] >= Lanes(0.0)) & (square[k] <= room[k] * room[k]);
+  return within;
+}
+
+}  // namespace kds

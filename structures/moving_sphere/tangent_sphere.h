@@ -1,0 +1,155 @@
+#pragma once
+// The touching spheres of four bases side by side, in double, and what bounds of their errors are built from.
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "certificates/base/determinant.h"
+#include "structures/enclosing_sphere/basis.h"
+#include "structures/enclosing_sphere/sphere_of_points.h"
+#include "structures/moving_sphere/bead_paths.h"
+#include "structures/moving_sphere/lane_bounds.h"
+
+namespace kds::detail {
+
+// Relative to the lengths that went in. Four balls in cubic motion in a part of the step are the worst: a
+// control point is rounded by up to 37 units of 2^-53, a product of three by 130, a residual with its sphere
+// by 220, below 2^-45.
+inline constexpr double margin = 0x1p-42;
+inline constexpr double up = 1 + 0x1p-30;
+
+template <int D>
+using Vec = std::array<Lanes, static_cast<std::size_t>(D)>;
+
+/// The beads of four bases, place by place.
+template <std::size_t Size>
+using BeadLanes = std::array<std::array<BeadId, Lanes::width>, Size>;
+
+template <std::size_t Size>
+BeadLanes<Size> beads_of(std::span<const Basis> bases) {
+  BeadLanes<Size> beads;
+  for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+    const Basis& basis = bases[std::min(lane, bases.size() - 1)];
+    for (std::size_t i = 0; i < Size; ++i) beads[i][lane] = basis.beads[i];
+  }
+  return beads;
+}
+[[gnu::always_inline]] inline Lanes gather(const double* column, const std::array<BeadId, Lanes::width>& at) {
+  return Lanes::Vector{column[at[0]], column[at[1]], column[at[2]], column[at[3]]};
+}
+
+/// At one time: the touching sphere, seen from the first ball.
+template <int D, std::size_t M>
+struct End {
+  Vec<D> z;
+  Lanes rho;
+  std::array<Lanes, M + 1> weight;  // barycentric coordinates of z
+  Vec<D> q;                         // unequal radii: how z changes with rho
+};
+
+template <bool equal, int D, std::size_t M>
+[[gnu::always_inline]] inline End<D, M> end_of(const std::array<Vec<D>, M>& d,
+                                               const std::array<Lanes, M>& s) {
+  BasisBalls<Lanes, D, M> balls;
+  balls.center[0].fill(Lanes(0.0));
+  for (std::size_t i = 0; i < M; ++i) balls.center[i + 1] = d[i];
+  const Span<Lanes, D, M> span(balls);
+  End<D, M> end;
+  std::array<Lanes, M> weight;
+  if constexpr (equal) {
+    end.z = span.circumcenter(weight);
+    end.rho = root(dot(end.z, end.z));
+  } else {
+    std::array<Lanes, M> e, yq;
+    for (std::size_t i = 0; i < M; ++i) e[i] = Lanes(0.5) * (span.square[i] - s[i] * s[i]);
+    const Vec<D> p = span.point_of(e, weight);
+    const Vec<D>& q = end.q = span.point_of(s, yq);
+    const Lanes a = dot(q, q) - Lanes(1.0), b = dot(p, q), c = dot(p, p);
+    end.rho = c / (root(Lanes::max(b * b - a * c, Lanes(0.0))) - b);
+    for (std::size_t i = 0; i < M; ++i) weight[i] += end.rho * yq[i];
+    for (std::size_t axis = 0; axis < D; ++axis) end.z[axis] = p[axis] + end.rho * q[axis];
+  }
+  end.weight[0] = Lanes(1.0);
+  for (std::size_t i = 0; i < M; ++i) {
+    end.weight[i + 1] = weight[i];
+    end.weight[0] -= weight[i];
+  }
+  return end;
+}
+
+/// What solving for a point by its products with the c_i costs: from residuals r_i the point errs by sum
+/// gain_i |r_i| / volume at most. One by the height of ball i > 0 is gain_i / volume too.
+template <std::size_t M>
+struct Simplex {
+  std::array<Lanes, M> gain;
+  Lanes gain_of_first;
+  Lanes volume;    // the least
+  Lanes off_hull;  // how far z' leaves the affine hull, times the volume
+};
+
+template <int D, std::size_t M, int K>
+[[gnu::always_inline]] inline Simplex<M> simplex_of(const std::array<CurveLanes<K, D>, M>& d,
+                                                    const CurveLanes<1, D>& z) {
+  Simplex<M> simplex;
+  simplex.off_hull = Lanes(0.0);
+  if constexpr (M == 1) {
+    simplex.gain[0] = simplex.gain_of_first = Lanes(1.0);
+    simplex.volume = least_length(d[0]);
+    if constexpr (D == 2) {
+      simplex.off_hull = most_between(d[0][0] * z[1] - d[0][1] * z[0]);
+    } else {
+      simplex.off_hull = most_between(std::array{
+          d[0][1] * z[2] - d[0][2] * z[1], d[0][2] * z[0] - d[0][0] * z[2], d[0][0] * z[1] - d[0][1] * z[0]});
+    }
+  } else if constexpr (M == 2) {
+    simplex.gain = {most(d[1]), most(d[0])};
+    auto edge = d[1];
+    for (std::size_t axis = 0; axis < D; ++axis) edge[axis] -= d[0][axis];
+    simplex.gain_of_first = most(edge);
+    if constexpr (D == 2) {
+      simplex.volume = least_magnitude(minor(d[0][0], d[0][1], d[1][0], d[1][1]));
+    } else {
+      const auto normal = kds::cross(d[0], d[1]);
+      simplex.volume = least_length(normal);
+      simplex.off_hull = most_between(dot(normal, z));
+    }
+  } else {
+    std::array<CurveLanes<2 * K, 3>, 3> normals{kds::cross(d[1], d[2]), kds::cross(d[2], d[0]),
+                                                kds::cross(d[0], d[1])};
+    simplex.volume = least_magnitude(dot(normals[0], d[0]));
+    for (std::size_t i = 0; i < 3; ++i) simplex.gain[i] = most(normals[i]);
+    for (std::size_t axis = 0; axis < 3; ++axis) normals[0][axis] += normals[1][axis] + normals[2][axis];
+    simplex.gain_of_first = most(normals[0]);
+  }
+  return simplex;
+}
+
+/// Of the slope q (sphere_chord.h): bounds at any time, at the start, and how far it is from the part in the
+/// hull of that at the start.
+struct SlopeBound {
+  Lanes most, at_start, wander;
+};
+
+/// L of sphere_chord.h: 1 - n.q >= L wherever |rho - rho'| <= (sag + stray) / L. Nothing is known where it is
+/// not positive. `ahead`: z'.q at most, for the q at the start; `nearest`, `longest`: bounds of |z'|.
+[[gnu::always_inline]] inline Lanes least_lead(const SlopeBound& slope, const Lanes& ahead,
+                                               const Lanes& nearest, const Lanes& longest, const Lanes& stray,
+                                               const Lanes& sag) {
+  const Lanes along = ahead / Lanes::choose(ahead > Lanes(0.0), nearest, longest);
+  const Lanes lead =
+      (Lanes(1.0) - along) - slope.wander * Lanes(up) - Lanes(margin) * (Lanes(1.0) + slope.at_start);
+  // For z'/|z'| so far: n, in the hull, is not farther from it than 2 |x - z'| / |z'|. If that takes no more
+  // than a quarter, three quarters may stand for L in how far x strays. Then the margin is enough, too: sag
+  // is below nearest, so longest is not much more than that.
+  const Lanes reach = stray + slope.most * (sag + stray) / (Lanes(0.75) * lead);
+  const Lanes turned = Lanes(2 * up) * slope.at_start * reach / nearest;
+  const Lanes::Mask known = (nearest > Lanes(0.0)) & (lead > Lanes(0.0)) & (turned < Lanes(0.25 / up) * lead);
+  const Lanes in_any_direction = Lanes(1.0) - slope.most;
+  return Lanes::max(in_any_direction, Lanes::choose(known, lead - turned, in_any_direction));
+}
+
+/// What is proved only where the lead is more.
+inline constexpr double little_lead = 0.02;
+
+}  // namespace kds::detail

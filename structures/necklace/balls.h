@@ -1,0 +1,76 @@
+#pragma once
+// The balls of a scene at one time, coordinate by coordinate, as the fast loops over consecutive beads want
+// them. Behind the last bead there is room that may be read. In the plane there is no third coordinate.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "motions/base/bead.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+template <int Dimension>
+class Balls {
+  static_assert(Dimension == 2 || Dimension == 3);
+
+ public:
+  static constexpr std::size_t padding = 8;
+
+  Balls() = default;
+  /// One column a bead; a third coordinate is left out in the plane. Throws InputError naming the bead whose
+  /// coordinates or radius are not finite, or its radius negative.
+  Balls(const Eigen::Matrix3Xd& centers, std::span<const double> radii) : radii_(radii.begin(), radii.end()) {
+    if (static_cast<std::size_t>(centers.cols()) != radii.size())
+      throw InputError("expected one radius a bead: " + std::to_string(centers.cols()) + " beads, " +
+                       std::to_string(radii.size()) + " radii");
+    for (std::size_t b = 0; b < radii.size(); ++b) {
+      if (!(radii[b] >= 0 && radii[b] - radii[b] == 0))
+        throw InputError("bead " + std::to_string(b) + ": expected a finite radius, not negative");
+      equal_radii_ = equal_radii_ && radii[b] == radii[0];
+    }
+    radii_.resize(radii.size() + padding);
+    for (auto& axis : centers_) axis.resize(radii_.size());
+    move_to(centers);
+  }
+
+  /// The same beads elsewhere. Throws as the constructor does.
+  void move_to(const Eigen::Matrix3Xd& centers) {
+    if (static_cast<std::size_t>(centers.cols()) != size())
+      throw InputError("expected " + std::to_string(size()) + " beads, not " +
+                       std::to_string(centers.cols()));
+    double not_finite = 0;  // zero times what is not finite is NaN
+    for (std::size_t b = 0; b < size(); ++b) {
+      for (std::size_t axis = 0; axis < Dimension; ++axis) {
+        const double x = centers(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(b));
+        centers_[axis][b] = x;
+        not_finite += 0 * x;
+      }
+    }
+    if (not_finite != 0) refuse(centers);
+  }
+
+  [[nodiscard]] std::size_t size() const { return radii_.empty() ? 0 : radii_.size() - padding; }
+  [[nodiscard]] bool equal_radii() const { return equal_radii_; }
+  [[nodiscard]] double radius(BeadId bead) const { return radii_[bead]; }
+  [[nodiscard]] double coordinate(BeadId bead, std::size_t axis) const { return centers_[axis][bead]; }
+  [[nodiscard]] const double* coordinates(std::size_t axis) const { return centers_[axis].data(); }
+  [[nodiscard]] const double* radii() const { return radii_.data(); }
+
+ private:
+  [[noreturn]] static void refuse(const Eigen::Matrix3Xd& centers) {
+    Eigen::Index b = 0;
+    while (centers.col(b).template head<Dimension>().allFinite()) ++b;
+    throw InputError("bead " + std::to_string(b) + ": expected finite coordinates");
+  }
+
+  std::array<std::vector<double>, Dimension> centers_;
+  std::vector<double> radii_;
+  bool equal_radii_ = true;
+};
+
+}  // namespace kds

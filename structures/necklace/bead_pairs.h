@@ -1,0 +1,42 @@
+#pragma once
+// A symmetric set of pairs of beads as flat lists: the neighbours of each, ascending. The edges of a diagram,
+// or the family of beads that may meet. No bead is its own neighbour.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "motions/base/bead.h"
+#include "motions/base/bead_range.h"
+
+namespace kds {
+
+class BeadPairs {
+ public:
+  using Pair = std::pair<BeadId, BeadId>;
+
+  BeadPairs() = default;
+  /// Of beads 0 ... beads-1. Pairs may come twice and either way round. Throws std::invalid_argument where
+  /// one names a bead twice, or one that there is not.
+  BeadPairs(std::size_t beads, std::span<const Pair> pairs);
+  /// Consecutive beads of each necklace.
+  [[nodiscard]] static BeadPairs along(std::size_t beads, std::span<const BeadRange> necklaces);
+
+  [[nodiscard]] std::size_t bead_count() const { return start_.empty() ? 0 : start_.size() - 1; }
+  [[nodiscard]] std::size_t size() const { return neighbors_.size() / 2; }
+  [[nodiscard]] std::span<const BeadId> of(BeadId bead) const {
+    return std::span(neighbors_).subspan(start_[bead], start_[bead + 1] - start_[bead]);
+  }
+  [[nodiscard]] bool contains(BeadId a, BeadId b) const {
+    return std::binary_search(of(a).begin(), of(a).end(), b);
+  }
+
+ private:
+  std::vector<std::size_t> start_;  // of each bead's list, and the end
+  std::vector<BeadId> neighbors_;
+};
+
+}  // namespace kds

@@ -1,0 +1,47 @@
+#pragma once
+// Which nodes of a hierarchy a scene requires: of some levels, over some beads, or those that a query looks
+// at.
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "structures/necklace/necklace_tree.h"
+#include "structures/necklace/sphere.h"
+
+namespace kds {
+
+/// All nodes, unless told otherwise.
+struct NodeSelection {
+  std::uint32_t first_level = 0;  ///< roots are level 0
+  std::uint32_t last_level = std::numeric_limits<std::uint32_t>::max();
+  std::optional<BeadRange> beads;  ///< nodes all of whose beads are among these
+
+  [[nodiscard]] bool restricts() const {
+    return first_level > 0 || last_level < std::numeric_limits<std::uint32_t>::max() || beads;
+  }
+};
+
+[[nodiscard]] inline std::vector<std::uint8_t> select_nodes(const NecklaceTree& tree,
+                                                            const NodeSelection& selection) {
+  std::vector<std::uint32_t> level(tree.node_count(), 0);
+  std::vector<std::uint8_t> selected(tree.node_count(), 0);
+  for (NodeId node = 0; node < tree.node_count(); ++node) {  // children after their parents
+    for (const NodeId child : {tree.left(node), tree.right(node)}) {
+      if (child != NecklaceTree::leaf) level[child] = level[node] + 1;
+    }
+    const BeadRange& range = tree.range(node);
+    const bool among =
+        !selection.beads || (selection.beads->first <= range.first && range.last <= selection.beads->last);
+    selected[node] = among && selection.first_level <= level[node] && level[node] <= selection.last_level;
+  }
+  return selected;
+}
+
+/// Asked at the start of every step; it asks for the spheres of the nodes it wants to know, and they are kept
+/// during the step.
+using NodeQuery = std::function<void(const std::function<Sphere(NodeId)>&)>;
+
+}  // namespace kds

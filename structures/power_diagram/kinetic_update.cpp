@@ -1,0 +1,351 @@
+#include "structures/power_diagram/kinetic_update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "structures/power_diagram/power_diagram.h"
+
+namespace kds {
+
+template <Motion M>
+struct MovingDiagram<M>::Machine {
+  explicit Machine(std::size_t beads) : motion(beads), power(simulator, motion) {}
+  M motion;
+  Simulator simulator;
+  PowerDiagram<M, Filtered> power;
+};
+
+template <Motion M>
+MovingDiagram<M>::MovingDiagram() = default;
+
+template <Motion M>
+MovingDiagram<M>::~MovingDiagram() = default;
+
+template <Motion M>
+auto MovingDiagram<M>::diagram() const -> StaticTriangulation<dimension> {
+  return machine_->power.at_frame(false);
+}
+
+template <Motion M>
+auto MovingDiagram<M>::triangulation() -> RegularTriangulation<dimension>& {
+  return machine_->power.triangulation();
+}
+
+template <Motion M>
+bool MovingDiagram<M>::is_solid() const {
+  return machine_->power.is_solid();
+}
+
+template <Motion M>
+std::size_t MovingDiagram<M>::bead_count() const {
+  return machine_->motion.bead_count();
+}
+
+template <Motion M>
+void MovingDiagram<M>::build(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  machine_ = std::make_unique<Machine>(weights.size());
+  for (BeadId b = 0; b < weights.size(); ++b) {
+    set_end(b, centers, weights);
+    rest_at_end(b);
+  }
+  machine_->simulator.build();
+}
+
+template <Motion M>
+std::optional<std::string> MovingDiagram<M>::fault() const {
+  return machine_->power.audit(Dyadic(1.0));
+}
+
+template <Motion M>
+void MovingDiagram<M>::set_end(BeadId bead, const Eigen::Matrix3Xd& centers,
+                               std::span<const double> weights) {
+  for (int axis = 0; axis < dimension; ++axis)
+    machine_->motion.set_coordinate(bead, 1, axis, centers(axis, bead));
+  machine_->motion.set_weight(bead, 1, weights[bead]);
+}
+
+template <Motion M>
+void MovingDiagram<M>::rest_at_end(BeadId bead) {
+  M& motion = machine_->motion;
+  for (int axis = 0; axis < dimension; ++axis)
+    motion.set_coordinate(bead, 0, axis, motion.coordinate(bead, 1, axis));
+  motion.set_weight(bead, 0, motion.weight(bead, 1));
+}
+
+template <Motion M>
+void MovingDiagram<M>::load(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+  for (BeadId b = 0; b < weights.size(); ++b) {
+    rest_at_end(b);
+    set_end(b, centers, weights);
+    if constexpr (lifted<M>) {
+      for (int axis = 0; axis < dimension; ++axis)
+        moved[axis] += machine_->motion.coordinate(b, 1, axis) - machine_->motion.coordinate(b, 0, axis);
+    }
+  }
+  if constexpr (lifted<M>) {  // any vector makes a motion, the mean dips weights the least
+    typename M::Vector drift{};
+    for (int axis = 0; axis < dimension; ++axis) {
+      const double mean = moved[axis] / static_cast<double>(weights.size());
+      drift[static_cast<std::size_t>(axis)] = std::isfinite(mean) ? mean : 0;
+    }
+    machine_->motion.set_drift(drift);
+  }
+}
+
+template <Motion M>
+void MovingDiagram<M>::run_step(UpdateCounts& counts) {
+  machine_->simulator.run_step(true);
+  add_up(counts);
+}
+
+template <Motion M>
+void MovingDiagram<M>::add_up(UpdateCounts& counts) {
+  counts.events += machine_->power.statistics.events_per_step.back();
+  machine_->power.statistics.events_per_step.clear();
+  counts.rebuilds += std::exchange(machine_->power.statistics.rebuilds, 0);
+}
+
+template <Motion M>
+void MovingDiagram<M>::move_all(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                                UpdateCounts& counts) {
+  load(centers, weights);
+  counts.activated += weights.size();
+  run_step(counts);
+}
+
+template <Motion M>
+bool MovingDiagram<M>::try_to_move_all(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                                       UpdateCounts& counts) {
+  load(centers, weights);
+  counts.activated += weights.size();
+  // A rebuild takes the time of about two events a bead in space, of one in the plane.
+  constexpr std::uint64_t most_of_a_bead = dimension == 3 ? 3 : 2;
+  const std::uint64_t most = most_of_a_bead * weights.size();
+  const bool moved = machine_->simulator.try_step(most, true);
+  add_up(counts);
+  return moved;
+}
+
+template <Motion M>
+void MovingDiagram<M>::rebuild(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                               UpdateCounts& counts) {
+  load(centers, weights);
+  machine_->power.build_at_end();
+  ++counts.rebuilds;
+}
+
+/// All beads of failed certificates.
+template <Motion M>
+void MovingDiagram<M>::activate(const SnapshotFaults& faults, std::vector<char>& moves) const {
+  const RegularTriangulation<dimension>& t = machine_->power.triangulation();
+  const auto add = [&](BeadId bead) {
+    if (bead != infinite_bead) moves[bead] = 1;
+  };
+  for (const auto* facets : {&faults.facets, &faults.zero_facets}) {
+    for (const FacetId f : *facets) {
+      for (const BeadId b : t.cells()[cell_of(f)].vertex) add(b);
+      add(t.apex_beyond(cell_of(f), index_of(f)));
+    }
+  }
+  for (const auto* cells : {&faults.cells, &faults.flat_cells}) {
+    for (const CellId cell : *cells)
+      for (const BeadId b : t.cells()[cell].vertex) add(b);
+  }
+}
+
+namespace {
+
+/// The finite cell that a bead is in where beads are put, on a walk from some cell; no_cell where there is
+/// none, or the walk gets lost among inverted cells.
+template <int Dimension>
+CellId host_at_snapshot(const RegularTriangulation<Dimension>& t, BeadId bead, CellId cell,
+                        const Snapshot<Dimension>& placement) {
+  for (std::size_t step = 0; step <= t.cells().size(); ++step) {
+    const auto& v = t.cells()[cell].vertex;
+    if (const auto at = std::find(v.begin(), v.end(), infinite_bead); at != v.end()) {
+      if (step > 0) return no_cell;
+      cell = cell_of(t.beyond(cell, static_cast<int>(at - v.begin())));
+      continue;
+    }
+    int leaves_by = -1;
+    for (int i = 0; i <= Dimension && leaves_by < 0; ++i) {
+      auto part = v;
+      part[static_cast<std::size_t>(i)] = bead;
+      if (snapshot_sign(Orientation<Dimension>(part, 1), placement) < 0) leaves_by = i;
+    }
+    if (leaves_by < 0) return cell;
+    cell = cell_of(t.beyond(cell, leaves_by));
+  }
+  return no_cell;
+}
+
+}  // namespace
+
+/// Hidden beads, wherever they are hidden, and the beads of the cell they will be in if it does not hide
+/// them.
+template <Motion M>
+void MovingDiagram<M>::hidden_that_show(const Snapshot<dimension>& next, std::vector<char>& moves) {
+  PowerDiagram<M, Filtered>& power = machine_->power;
+  const RegularTriangulation<dimension>& t = power.triangulation();
+  const auto move_cell = [&](CellId cell) {
+    for (const BeadId b : t.cells()[cell].vertex)
+      if (b != infinite_bead) moves[b] = 1;
+  };
+  for (const HiddenBead& hidden : power.hidden().with_hosts()) {
+    moves[hidden.bead] = 1;
+    const CellId near = hidden.host == no_cell ? power.some_finite_cell() : hidden.host;
+    const CellId host = host_at_snapshot(t, hidden.bead, near, next);
+    const auto hides = [&](const auto& certificate) { return snapshot_sign(certificate, next) >= 0; };
+    if (host == no_cell) {
+      move_cell(near);
+    } else if (!with_facet_certificate(t.cells()[host].vertex, hidden.bead, hides)) {
+      move_cell(host);
+    }
+  }
+}
+
+/// Cells that hidden beads are in now.
+template <Motion M>
+void MovingDiagram<M>::house_hidden(const Snapshot<dimension>& next) {
+  PowerDiagram<M, Filtered>& power = machine_->power;
+  for (const HiddenBead& hidden : power.hidden().with_hosts()) {
+    const CellId near = hidden.host == no_cell ? power.some_finite_cell() : hidden.host;
+    power.house(hidden.bead, host_at_snapshot(power.triangulation(), hidden.bead, near, next));
+  }
+}
+
+template <Motion M>
+void MovingDiagram<M>::move_some(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                                 UpdateCounts& counts) {
+  PowerDiagram<M, Filtered>& power = machine_->power;
+  if (!power.is_solid()) return move_all(centers, weights, counts);  // no cells to test, or flat ones
+  triangulation().make_mirror();
+  const Snapshot<dimension> next(centers, weights);
+  SnapshotFaults faults = snapshot_faults(triangulation(), next);
+  counts.tested = faults.tested;
+  counts.failed = faults.failed();
+  std::vector<char> moved(weights.size(), 0), moves(weights.size(), 0);
+  activate(faults, moves);
+  hidden_that_show(next, moves);
+  const auto count = static_cast<std::size_t>(std::count(moves.begin(), moves.end(), 1));
+  // Then hardly any facet would rest.
+  if (4 * count > 3 * weights.size()) return move_all(centers, weights, counts);
+
+  for (BeadId b = 0; b < weights.size(); ++b) rest_at_end(b);
+  while (true) {
+    // Those that have moved rest where they are.
+    bool any = false;
+    for (BeadId b = 0; b < weights.size(); ++b) {
+      if (moved[b] != 0) {
+        rest_at_end(b);
+        moves[b] = 0;
+      } else if (moves[b] != 0) {
+        set_end(b, centers, weights);
+        moved[b] = 1;
+        any = true;
+        ++counts.activated;
+      }
+    }
+    if (!any) break;
+    power.move_only(moves);
+    const std::uint64_t before = counts.rebuilds;
+    run_step(counts);
+    // What no flip has touched was tested at the new positions before.
+    std::vector<CellId> flipped(power.flipped().begin(), power.flipped().end());
+    std::sort(flipped.begin(), flipped.end());
+    flipped.erase(std::unique(flipped.begin(), flipped.end()), flipped.end());
+    faults = counts.rebuilds > before
+                 ? snapshot_faults(triangulation(), next)
+                 : snapshot_faults(triangulation(), std::span<const CellId>(flipped), next);
+    moves.assign(weights.size(), 0);
+    activate(faults, moves);
+    hidden_that_show(next, moves);
+  }
+  // The others hold where they go: nothing happens on the way that matters.
+  for (BeadId b = 0; b < weights.size(); ++b) set_end(b, centers, weights);
+  power.move_only({});
+  house_hidden(next);
+  power.reach_frame(true);
+}
+
+template <Motion M>
+UpdateCounts KineticUpdate<M>::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  UpdateCounts counts;
+  this->move_all(centers, weights, counts);
+  return counts;
+}
+
+template <int Dimension>
+UpdateCounts Activation<Dimension>::advance(const Eigen::Matrix3Xd& centers,
+                                            std::span<const double> weights) {
+  UpdateCounts counts;
+  this->move_some(centers, weights, counts);
+  return counts;
+}
+
+template <int Dimension>
+UpdateCounts AutomaticUpdate<Dimension>::advance(const Eigen::Matrix3Xd& centers,
+                                                 std::span<const double> weights) {
+  // Moving takes as long as rebuilding at about this share of failed certificates, on trajectories of 100 to
+  // 1100 beads at strides up to 64 and on chains and grids of 10240 beads that move 0.1 to 0.4 radii a frame.
+  constexpr double limit = 0.165;
+  // A sample near every eighth bead, of four facets each, costs a hundredth of it. Where the answer is clear
+  // the next samples are further and further apart.
+  constexpr std::size_t every = 8, every_at_first = 2, most_sampled = 64;
+  constexpr double remembered = 0.9, clearly = 0.2, very_clearly = 0.5;
+  constexpr unsigned most_skipped = 7;
+  UpdateCounts counts;
+  if (!this->is_solid()) {
+    this->rebuild(centers, weights, counts);
+    return counts;
+  }
+  if (skip_ > 0) {
+    --skip_;
+  } else {
+    const auto sample = this->triangulation().sample(
+        centers, weights, std::max(tested_ == 0 ? every_at_first : every, this->bead_count() / most_sampled),
+        samples_++);
+    counts.tested = sample.tested;
+    counts.failed = sample.failed;
+    const auto tested = static_cast<double>(sample.tested), failed = static_cast<double>(sample.failed);
+    const auto is_clear = [&](double some, double all, double by) {
+      return std::abs(some - limit * all) > by * limit * all;
+    };
+    // Another motion than before.
+    if ((failed > limit * tested) != (failed_ > limit * tested_) && is_clear(failed, tested, very_clearly))
+      tested_ = failed_ = 0;
+    tested_ = remembered * tested_ + tested;
+    failed_ = remembered * failed_ + failed;
+    skip_ = next_skip_ = is_clear(failed_, tested_, clearly) ? std::min(2 * next_skip_ + 1, most_skipped) : 0;
+  }
+  if (failed_ > limit * tested_) {
+    this->rebuild(centers, weights, counts);
+  } else if (this->try_to_move_all(centers, weights, counts)) {
+    skip_after_giving_up_ = 0;
+  } else {
+    // Another motion, or much happens on the way that is undone again, which no sample tells: the less often
+    // it is tried.
+    this->rebuild(centers, weights, counts);
+    failed_ = tested_;
+    next_skip_ = 0;
+    skip_ = skip_after_giving_up_ = std::clamp(2 * skip_after_giving_up_ + 1, most_skipped, 8 * most_skipped);
+  }
+  return counts;
+}
+
+template class MovingDiagram<BezierMotion<2, 1>>;
+template class MovingDiagram<BezierMotion<3, 1>>;
+template class MovingDiagram<LiftedMotion<2>>;
+template class MovingDiagram<LiftedMotion<3>>;
+template class KineticUpdate<BezierMotion<2, 1>>;
+template class KineticUpdate<BezierMotion<3, 1>>;
+template class KineticUpdate<LiftedMotion<2>>;
+template class KineticUpdate<LiftedMotion<3>>;
+template class Activation<2>;
+template class Activation<3>;
+template class AutomaticUpdate<2>;
+template class AutomaticUpdate<3>;
+
+}  // namespace kds

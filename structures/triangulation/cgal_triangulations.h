@@ -1,0 +1,156 @@
+#pragma once
+// CGAL's two regular triangulations under one set of names. For the few files that see CGAL.
+
+#include <CGAL/Regular_triangulation_2.h>
+#include <CGAL/Regular_triangulation_3.h>
+#include <CGAL/Regular_triangulation_cell_base_3.h>
+#include <CGAL/Regular_triangulation_face_base_2.h>
+#include <CGAL/Regular_triangulation_vertex_base_2.h>
+#include <CGAL/Regular_triangulation_vertex_base_3.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+#include <utility>
+#include <vector>
+
+#include "structures/triangulation/regular_triangulation.h"
+#include "structures/triangulation/sorted_cells.h"
+
+namespace kds {
+
+/// The name of a vertex or cell: none while CGAL alone knows it.
+template <class Id, Id none>
+class Name {
+ public:
+  Name() = default;
+  Name(Id id) : id_(id) {}
+  operator Id() const { return id_; }
+
+ private:
+  Id id_ = none;
+};
+using VertexName = Name<BeadId, no_bead>;
+using CellName = Name<CellId, no_cell>;
+
+/// Vertices know their bead, cells their id.
+template <class Geometry, int Dimension>
+struct CgalTriangulation;
+
+template <class Geometry>
+struct CgalTriangulation<Geometry, 2> {
+  using Vertex =
+      CGAL::Triangulation_vertex_base_with_info_2<VertexName, Geometry,
+                                                  CGAL::Regular_triangulation_vertex_base_2<Geometry>>;
+  using Face = CGAL::Triangulation_face_base_with_info_2<CellName, Geometry,
+                                                         CGAL::Regular_triangulation_face_base_2<Geometry>>;
+  using Type = CGAL::Regular_triangulation_2<Geometry, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
+  using Cell = typename Type::Face_handle;
+
+  static typename Type::Bare_point point(const typename Geometry::FT& x, const typename Geometry::FT& y,
+                                         const typename Geometry::FT&) {
+    return {x, y};
+  }
+  static auto all_cells(const Type& t) { return t.all_face_handles(); }
+  static auto finite_cells(const Type& t) { return t.finite_face_handles(); }
+  static auto ends(const typename Type::Edge& e) {
+    return std::pair(e.first->vertex(Type::cw(e.second)), e.first->vertex(Type::ccw(e.second)));
+  }
+  template <class Tds>
+  static Cell create_cell(Tds& tds) {
+    return tds.create_face();
+  }
+  template <class Tds>
+  static void delete_cell(Tds& tds, Cell c) {
+    tds.delete_face(c);
+  }
+  template <class VertexHandle>
+  static void set_cell(VertexHandle v, Cell c) {
+    v->set_face(c);
+  }
+  static int orientation(Cell c) {
+    return CGAL::orientation(c->vertex(0)->point().point(), c->vertex(1)->point().point(),
+                             c->vertex(2)->point().point());
+  }
+  template <class VertexHandle>
+  static Cell cell_beside(VertexHandle v) {
+    return v->face();
+  }
+  /// Whether a point would be in the power circle of a cell's beads where these are `moved`, or on it.
+  template <class Moved, class Point>
+  static bool in_power_sphere(const CellBeads<2>& cell, const Moved& moved, const Point& point) {
+    return typename Geometry::Power_side_of_oriented_power_circle_2()(
+               moved(cell[0]), moved(cell[1]), moved(cell[2]), point) != CGAL::ON_NEGATIVE_SIDE;
+  }
+};
+
+template <class Geometry>
+struct CgalTriangulation<Geometry, 3> {
+  using Vertex =
+      CGAL::Triangulation_vertex_base_with_info_3<VertexName, Geometry,
+                                                  CGAL::Regular_triangulation_vertex_base_3<Geometry>>;
+  using CellBase =
+      CGAL::Triangulation_cell_base_with_info_3<CellName, Geometry,
+                                                CGAL::Regular_triangulation_cell_base_3<Geometry>>;
+  using Type =
+      CGAL::Regular_triangulation_3<Geometry, CGAL::Triangulation_data_structure_3<Vertex, CellBase>>;
+  using Cell = typename Type::Cell_handle;
+
+  static typename Type::Bare_point point(const typename Geometry::FT& x, const typename Geometry::FT& y,
+                                         const typename Geometry::FT& z) {
+    return {x, y, z};
+  }
+  static auto all_cells(const Type& t) { return t.all_cell_handles(); }
+  static auto finite_cells(const Type& t) { return t.finite_cell_handles(); }
+  static auto ends(const typename Type::Edge& e) {
+    return std::pair(e.first->vertex(e.second), e.first->vertex(e.third));
+  }
+  template <class Tds>
+  static Cell create_cell(Tds& tds) {
+    return tds.create_cell();
+  }
+  template <class Tds>
+  static void delete_cell(Tds& tds, Cell c) {
+    tds.delete_cell(c);
+  }
+  template <class VertexHandle>
+  static void set_cell(VertexHandle v, Cell c) {
+    v->set_cell(c);
+  }
+  static int orientation(Cell c) {
+    return CGAL::orientation(c->vertex(0)->point().point(), c->vertex(1)->point().point(),
+                             c->vertex(2)->point().point(), c->vertex(3)->point().point());
+  }
+  template <class VertexHandle>
+  static Cell cell_beside(VertexHandle v) {
+    return v->cell();
+  }
+  /// Whether a point would be in the power sphere of a cell's beads where these are `moved`, or on it.
+  template <class Moved, class Point>
+  static bool in_power_sphere(const CellBeads<3>& cell, const Moved& moved, const Point& point) {
+    return
+        typename Geometry::Power_side_of_oriented_power_sphere_3()(
+            moved(cell[0]), moved(cell[1]), moved(cell[2]), moved(cell[3]), point) != CGAL::ON_NEGATIVE_SIDE;
+  }
+};
+
+template <int Dimension, class Cell>
+[[nodiscard]] CellBeads<Dimension> beads_of(Cell c) {
+  CellBeads<Dimension> beads{};
+  for (int i = 0; i <= Dimension; ++i) beads[static_cast<std::size_t>(i)] = c->vertex(i)->info();
+  return beads;
+}
+
+template <class Triangulation>
+[[nodiscard]] std::vector<BeadId> hidden_beads(const Triangulation& triangulation, std::size_t beads) {
+  std::vector<char> visible(beads, 0);
+  for (const auto v : triangulation.finite_vertex_handles()) visible[v->info()] = 1;
+  std::vector<BeadId> hidden;
+  for (std::size_t b = 0; b < beads; ++b) {
+    if (visible[b] == 0) hidden.push_back(static_cast<BeadId>(b));
+  }
+  return hidden;
+}
+
+}  // namespace kds

@@ -1,0 +1,69 @@
+#pragma once
+// What guards a facet of a regular triangulation: the power test of its two cells' beads, or, where the
+// infinite vertex is among them, the orientation of the others (the hull is locally convex there).
+
+#include <algorithm>
+
+#include "certificates/types/orientation.h"
+#include "certificates/types/power_test.h"
+#include "structures/triangulation/regular_triangulation.h"
+
+namespace kds {
+
+/// The certificates of a cell's facets: its beads are sorted once for all of them.
+template <std::size_t N>
+class FacetCertificates {
+ public:
+  static constexpr int dimension = static_cast<int>(N) - 1;
+
+  [[gnu::always_inline]] explicit FacetCertificates(const std::array<BeadId, N>& cell)
+      : sorted_(cell), sign_(sort_beads(sorted_)) {}
+
+  /// Calls `use` with the certificate of the facet to the cell with this apex beyond it.
+  template <class Use>
+  [[gnu::always_inline]] decltype(auto) to(BeadId apex, Use use) const {
+    if (!on_hull(apex)) {
+      PowerTest<dimension> test;
+      make(apex, test);
+      return use(test);
+    }
+    Orientation<dimension> orientation;
+    make(apex, orientation);
+    return use(orientation);
+  }
+  /// The same without a call: whether it is an orientation, and it made in place.
+  [[nodiscard, gnu::always_inline]] bool on_hull(BeadId apex) const {
+    return sorted_.back() == infinite_bead || apex == infinite_bead;
+  }
+  [[gnu::always_inline]] void make(BeadId apex, PowerTest<dimension>& test) const {
+    auto beads = with(apex);
+    test.sign = sign_ * sort_last_bead(beads);
+    for (std::size_t i = 0; i < beads.size(); ++i) test.beads[i] = beads[i];
+  }
+  [[gnu::always_inline]] void make(BeadId apex, Orientation<dimension>& orientation) const {
+    auto beads = with(apex);
+    orientation.sign = sign_ * sort_last_bead(beads);
+    // Sorted, infinity is last: a row (0, ..., 0, 1) there leaves the determinant of the others.
+    std::copy(beads.begin(), beads.end() - 1, orientation.beads.begin());
+  }
+
+ private:
+  [[gnu::always_inline]] std::array<BeadId, N + 1> with(BeadId apex) const {
+    std::array<BeadId, N + 1> beads;
+    std::copy(sorted_.begin(), sorted_.end(), beads.begin());
+    beads.back() = apex;
+    return beads;
+  }
+
+  std::array<BeadId, N> sorted_;
+  int sign_;
+};
+
+/// The same for one facet.
+template <std::size_t N, class Use>
+[[gnu::always_inline]] inline decltype(auto) with_facet_certificate(const std::array<BeadId, N>& cell,
+                                                                    BeadId apex, Use use) {
+  return FacetCertificates(cell).to(apex, use);
+}
+
+}  // namespace kds

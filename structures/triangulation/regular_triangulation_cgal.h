@@ -1,0 +1,184 @@
+#pragma once
+// CGAL's side of a RegularTriangulation, from doubles with exact predicates. For the few files that see CGAL.
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include "motions/base/grow_little.h"
+#include "structures/triangulation/cgal_triangulations.h"
+
+namespace kds {
+
+using Geometry = CGAL::Exact_predicates_inexact_constructions_kernel;
+template <int Dimension>
+using CgalOf = CgalTriangulation<Geometry, Dimension>;
+
+template <int Dimension>
+[[nodiscard]] typename CgalOf<Dimension>::Type::Weighted_point weighted_point(const Eigen::Matrix3Xd& centers,
+                                                                              std::span<const double> weights,
+                                                                              std::size_t bead) {
+  const auto c = centers.col(static_cast<Eigen::Index>(bead));
+  return {CgalOf<Dimension>::point(c.x(), c.y(), c.z()), weights[bead]};
+}
+
+template <int Dimension>
+void insert_all(typename CgalOf<Dimension>::Type& triangulation, const Eigen::Matrix3Xd& centers,
+                std::span<const double> weights) {
+  std::vector<std::pair<typename CgalOf<Dimension>::Type::Weighted_point, BeadId>> points;
+  points.reserve(weights.size());
+  for (std::size_t b = 0; b < weights.size(); ++b)
+    points.emplace_back(weighted_point<Dimension>(centers, weights, b), static_cast<BeadId>(b));
+  triangulation.insert(points.begin(), points.end());
+}
+
+template <int Dimension>
+[[nodiscard]] std::vector<CellBeads<Dimension>> sorted_finite_cells(
+    const typename CgalOf<Dimension>::Type& triangulation) {
+  std::vector<CellBeads<Dimension>> cells;
+  if (triangulation.dimension() < Dimension) return cells;
+  for (const auto c : CgalOf<Dimension>::finite_cells(triangulation)) cells.push_back(beads_of<Dimension>(c));
+  sort_cells(cells);
+  return cells;
+}
+
+template <int Dimension>
+struct RegularTriangulation<Dimension>::Cgal {
+  using Types = CgalTriangulation<Geometry, Dimension>;
+  using Triangulation = typename Types::Type;
+  using CellHandle = typename Types::Cell;
+  using VertexHandle = typename Triangulation::Vertex_handle;
+
+  Triangulation triangulation;
+  std::vector<VertexHandle> vertex;  // of each bead
+  std::vector<CellHandle> cell;      // of each id; none where there is no such cell
+  // What the mirror is ahead by.
+  std::vector<BeadId> turned;  // beads that have become vertices, or are none any more
+  std::vector<CellId> changed;
+  std::vector<char> is_turned, is_changed;  // of each bead, of each id
+
+  [[nodiscard]] VertexHandle handle(BeadId bead) const {
+    if (bead == infinite_bead) return triangulation.infinite_vertex();
+    return bead < vertex.size() ? vertex[bead] : VertexHandle();
+  }
+
+  /// Made if there is none yet.
+  VertexHandle vertex_of(BeadId bead) {
+    if (vertex[bead] == VertexHandle()) {
+      vertex[bead] = triangulation.tds().create_vertex();
+      vertex[bead]->info() = bead;
+    }
+    return vertex[bead];
+  }
+
+  void name(CellHandle c, CellId id) {
+    grow_little(cell, id + 1);
+    cell[id] = c;
+    c->info() = id;
+  }
+
+  /// A cell is made or goes.
+  void change(CellId id) {
+    grow_little(is_changed, id + 1);
+    if (is_changed[id] != 0) return;
+    is_changed[id] = 1;
+    append_little(changed, id);
+  }
+  /// A bead becomes a vertex, or is none any more.
+  void turn(BeadId bead) {
+    grow_little(is_turned, bead + std::size_t{1});
+    if (is_turned[bead] != 0) return;
+    is_turned[bead] = 1;
+    append_little(turned, bead);
+  }
+  [[nodiscard]] bool is_behind() const { return !changed.empty(); }
+  void forget_changes() {
+    turned.clear();
+    changed.clear();
+    std::fill(is_turned.begin(), is_turned.end(), char{0});
+    std::fill(is_changed.begin(), is_changed.end(), char{0});
+  }
+
+  /// Makes here what the mirror has.
+  void follow(std::span<const TriangulationCell<Dimension>> cells, std::span<const char> live,
+              std::span<const std::uint32_t> cells_at) {
+    auto& tds = triangulation.tds();
+    for (const BeadId bead : turned) {
+      is_turned[bead] = 0;
+      if (cells_at[bead] > 0) {
+        vertex_of(bead);
+      } else if (vertex[bead] != VertexHandle()) {
+        tds.delete_vertex(vertex[bead]);
+        vertex[bead] = {};
+      }
+    }
+    grow_little(cell, cells.size());
+    for (const CellId id : changed) {
+      is_changed[id] = 0;
+      if (live[id] != 0 || cell[id] == CellHandle()) continue;
+      Types::delete_cell(tds, cell[id]);
+      cell[id] = {};
+    }
+    for (const CellId id : changed) {
+      if (live[id] != 0 && cell[id] == CellHandle()) name(Types::create_cell(tds), id);
+    }
+    for (std::size_t k = 0; k < changed.size(); ++k) {
+      if (k + 4 < changed.size()) fetch(changed[k + 4], cells);
+      if (live[changed[k]] != 0) rewrite(changed[k], cells[changed[k]]);
+    }
+    turned.clear();
+    changed.clear();
+  }
+
+  /// Sets the points of all vertices.
+  void put(const Snapshot<Dimension>& placement) {
+    for (BeadId b = 0; b < vertex.size(); ++b) {
+      if (vertex[b] == VertexHandle()) continue;
+      const double* c = placement.control_point(b, 0);
+      vertex[b]->set_point({Types::point(c[0], c[1], c[2]), placement.weight(b, 0)});
+    }
+  }
+
+  /// Copies cells into the mirror, and themselves into their neighbours there, whose beads it has already.
+  template <class Cells>
+  void mirror(const Cells& some, std::vector<TriangulationCell<Dimension>>& cells) const {
+    for (const CellHandle c : some) cells[c->info()].vertex = beads_of<Dimension>(c);
+    for (const CellHandle c : some) link(c, cells);
+  }
+
+ private:
+  // Cells lie anywhere in memory.
+  void fetch(CellId id, std::span<const TriangulationCell<Dimension>> cells) const {
+    __builtin_prefetch(&cells[id]);
+    if (cell[id] == CellHandle()) return;
+    __builtin_prefetch(&*cell[id], 1);
+    __builtin_prefetch(reinterpret_cast<const char*>(&*cell[id]) + 64, 1);
+  }
+
+  void rewrite(CellId id, const TriangulationCell<Dimension>& copy) {
+    const CellHandle c = cell[id];
+    for (int i = 0; i <= Dimension; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const VertexHandle v = handle(copy.vertex[at]);
+      c->set_vertex(i, v);
+      Types::set_cell(v, c);
+      const CellHandle n = cell[cell_of(copy.beyond[at])];
+      c->set_neighbor(i, n);
+      n->set_neighbor(index_of(copy.beyond[at]), c);
+    }
+  }
+
+  void link(CellHandle c, std::vector<TriangulationCell<Dimension>>& cells) const {
+    TriangulationCell<Dimension>& copy = cells[c->info()];
+    for (int i = 0; i <= Dimension; ++i) {
+      const auto n = c->neighbor(i);
+      const int back = n->index(c);
+      const auto here = static_cast<std::size_t>(i), there = static_cast<std::size_t>(back);
+      TriangulationCell<Dimension>& neighbor = cells[n->info()];
+      copy.beyond[here] = facet_id(n->info(), back);
+      copy.apex[here] = neighbor.vertex[there];
+      neighbor.beyond[there] = facet_id(c->info(), i);
+      neighbor.apex[there] = copy.vertex[here];
+    }
+  }
+};
+
+}  // namespace kds

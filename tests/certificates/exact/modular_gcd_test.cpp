@@ -1,0 +1,75 @@
+#include "certificates/exact/modular_gcd.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/polynomials.h"
+#include "tests/support/sturm.h"
+
+namespace kds {
+namespace {
+
+namespace sturm = test::sturm;
+using test::Scaled;
+
+const Integer prime = (Integer(1) << 61) - 1;
+
+// Coefficients of 1, x, x^2, ... here.
+Scaled random_power(test::Random& random, int degree) {
+  Scaled p = test::random_coefficients(random, degree, static_cast<unsigned>(test::pick(random, 1, 200)));
+  if (p.back() == 0) p.back() = 1;
+  return p;
+}
+
+TEST(ModularGcd, NeverDeniesACommonFactor) {
+  test::Random random(801);
+  for (int i = 0; i < 2000; ++i) {
+    const Scaled factor = random_power(random, test::pick(random, 1, 4));
+    const Scaled a = test::product(factor, random_power(random, test::pick(random, 0, 8)));
+    const Scaled b = test::product(factor, random_power(random, test::pick(random, 0, 8)));
+    EXPECT_FALSE(certainly_coprime(a, b)) << "seed 801, case " << i << test::describe(a) << test::describe(b);
+  }
+}
+
+TEST(ModularGcd, MostlySeesThatThereIsNone) {
+  test::Random random(802);
+  int coprime = 0;
+  int seen = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Scaled a = random_power(random, test::pick(random, 1, 9));
+    const Scaled b = random_power(random, test::pick(random, 1, 9));
+    const bool answer = certainly_coprime(a, b);
+    const bool truth =
+        sturm::gcd(sturm::Polynomial(a.begin(), a.end()), sturm::Polynomial(b.begin(), b.end())).size() <= 1;
+    EXPECT_TRUE(truth || !answer) << "seed 802, case " << i;
+    coprime += truth;
+    seen += answer;
+  }
+  EXPECT_EQ(seen, coprime);  // a prime of 61 bits does not divide a resultant by chance
+}
+
+TEST(ModularGcd, SaysNothingWhereThePrimeHidesTheDegree) {
+  // x + 1 divides both; modulo the prime one of them is a constant.
+  EXPECT_FALSE(certainly_coprime({1, 1}, test::product({1, 1}, {1, prime})));
+  EXPECT_FALSE(certainly_coprime(test::product({1, prime}, {1, 1}), {1, 1}));
+  EXPECT_FALSE(certainly_coprime({5, prime}, {5, prime}));
+  EXPECT_FALSE(certainly_coprime({}, {1, 1}));
+  EXPECT_TRUE(certainly_coprime({3}, {1, 1}));
+  EXPECT_TRUE(certainly_coprime({1, 1}, {2, 1}));
+}
+
+TEST(ModularGcd, ProvesSquareFreeness) {
+  test::Random random(803);
+  for (int i = 0; i < 1000; ++i) {
+    const Scaled p = random_power(random, test::pick(random, 1, 8));
+    const Scaled factor = random_power(random, test::pick(random, 1, 3));
+    EXPECT_FALSE(certainly_square_free(test::product(p, test::product(factor, factor)))) << "case " << i;
+  }
+  EXPECT_TRUE(certainly_square_free({1, 1}));
+  EXPECT_TRUE(certainly_square_free({-1, 0, 1}));
+  EXPECT_TRUE(certainly_square_free({0, 1, 0, 1}));
+  EXPECT_FALSE(certainly_square_free({1, 2, 1}));
+  EXPECT_FALSE(certainly_square_free({-1, 0, prime}));
+}
+
+}  // namespace
+}  // namespace kds

@@ -1,0 +1,168 @@
+// `kds bench`, through the library and from outside.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "experiments/bench/bench_chains.h"
+#include "experiments/bench/bench_report.h"
+#include "experiments/program/command_line.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+TEST(BenchChains, EveryBeadMovesByTheDistance) {
+  const Eigen::Matrix3Xd start = model_at_rest("random-chain", 50);
+  ASSERT_EQ(start.cols(), 50);
+  const std::vector<Eigen::Matrix3Xd> frames = jostled_frames(start, 0.01, 4);
+  ASSERT_EQ(frames.size(), 4U);
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    for (Eigen::Index b = 0; b < start.cols(); ++b)
+      EXPECT_NEAR((frames[k].col(b) - frames[k - 1].col(b)).norm(), 0.01, 1e-12);
+  }
+  EXPECT_EQ(frames, jostled_frames(start, 0.01, 4));  // the same again
+}
+
+TEST(BenchReport, RatioGoalAndWhatHolds) {
+  const BenchRow held{"a", "x", 3, 2, "ns", "peer", 10, 0.25}, missed{"b", "x", 3, 4, "ns", "peer", 10, 0.25},
+      alone{"c", "x", 3, 4, "ns", "", std::nullopt, 3}, free{"d", "x", 3, 4, "ns", "peer", 8, std::nullopt},
+      in_ns{"e", "x", 3, 4, "ns", "peer", 1, 5, true}, nothing{"f", "x", 3, 4, "ns", "peer", 0, std::nullopt};
+  EXPECT_EQ(in_ns.holds(), true);
+  EXPECT_EQ(in_ns.ratio(), 4);
+  EXPECT_EQ(nothing.ratio(), std::nullopt);
+  EXPECT_EQ(held.holds(), true);
+  EXPECT_EQ(missed.holds(), false);
+  EXPECT_EQ(alone.holds(), false);
+  EXPECT_EQ(free.holds(), std::nullopt);
+  const Json json = Json::parse(bench_json(std::array{held, missed, alone, free}));
+  EXPECT_EQ(json["rows"][0]["ratio"], 0.2);
+  EXPECT_EQ(json["rows"][2]["ratio"], nullptr);
+  EXPECT_EQ(json["rows"][2]["peer"], nullptr);
+  EXPECT_EQ(json["rows"][3]["goal"], nullptr);
+  EXPECT_EQ(json["rows"][3]["holds"], nullptr);
+  EXPECT_THAT(bench_csv(std::array{held}), testing::HasSubstr("a,x,3,2,ns,peer,10,0.2,0.25,true"));
+}
+
+TEST(Bench, HierarchiesGiveARowForEachMeasureAndInput) {
+  const test::ProgramRun result =
+      test::run_program({"bench", "hierarchies", "--sizes", "40,64", "--trajectories",
+                         test::data_file("trajectories/villin_hp36_300K.dcd"), "--json", "-", "--quiet"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json json = Json::parse(result.out);
+  EXPECT_TRUE(json.contains("machine"));
+  EXPECT_TRUE(json.contains("version"));
+  std::set<std::string> names, inputs;
+  for (const Json& row : json["rows"]) {
+    names.insert(row["name"]);
+    inputs.insert(row["input"]);
+    // So few beads may pass a few steps without an event.
+    EXPECT_GE(row["value"].get<double>(), row["unit"] == "events/frame" ? 0 : 1e-9);
+    EXPECT_EQ(row["ratio"].is_null(), row["peer_value"].is_null() || row["peer_value"] == 0);
+    if (!row["ratio"].is_null()) {
+      EXPECT_DOUBLE_EQ(row["ratio"].get<double>(),
+                       row["value"].get<double>() / row["peer_value"].get<double>());
+    }
+    if (!row["goal"].is_null()) {
+      const double judged = row["ratio"].is_null() ? row["value"].get<double>() : row["ratio"].get<double>();
+      EXPECT_EQ(row["holds"].get<bool>(), judged <= row["goal"].get<double>());
+    }
+  }
+  EXPECT_EQ(names.size(), 12U);
+  EXPECT_EQ(inputs.size(), 10U);  // four inputs, equal and unequal radii, a query, a rotation
+}
+
+TEST(Bench, PowerGivesARowForEachTechniqueAndInput) {
+  const test::ProgramRun result =
+      test::run_program({"bench", "power", "--sizes", "64", "--trajectories",
+                         test::data_file("trajectories/villin_hp36_300K.dcd"), "--json", "-", "--quiet"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json json = Json::parse(result.out);
+  std::set<std::string> names, inputs, goals;
+  for (const Json& row : json["rows"]) {
+    names.insert(row["name"]);
+    inputs.insert(row["input"]);
+    EXPECT_GT(row["value"].get<double>(), 0);
+    EXPECT_EQ(row["unit"], "us/frame");
+    EXPECT_DOUBLE_EQ(row["ratio"].get<double>(),
+                     row["value"].get<double>() / row["peer_value"].get<double>());
+    if (!row["goal"].is_null()) goals.insert(row["name"]);
+  }
+  EXPECT_THAT(names, testing::ElementsAre("activate", "auto to best", "auto to rebuild", "greedy", "kinetic",
+                                          "lifted", "reinsert"));
+  EXPECT_THAT(goals, testing::ElementsAre("auto to best", "auto to rebuild", "kinetic"));
+  EXPECT_EQ(inputs.size(), 8U);  // four strides, four chains
+}
+
+TEST(Bench, CertificatesGiveARowEachWithTheGoalsThatThereAre) {
+  const test::ProgramRun result = test::run_program(
+      {"bench", "certificates", "--instances", test::data_file("kinetic"), "--json", "-", "--quiet"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json json = Json::parse(result.out);
+  std::set<std::string> names, goals;
+  for (const Json& row : json["rows"]) {
+    names.insert(row["name"]);
+    EXPECT_GT(row["value"].get<double>(), 0);
+    EXPECT_EQ(row["unit"], "ns");
+    EXPECT_EQ(row["peer"].is_null(), row["ratio"].is_null());
+    if (row["goal"].is_null()) continue;
+    goals.insert(row["name"]);
+    const bool of_ratio = row["name"].get<std::string>().starts_with("exact/");
+    EXPECT_EQ(row["holds"].get<bool>(), row[of_ratio ? "ratio" : "value"] <= row["goal"]);
+  }
+  EXPECT_EQ(names.size(), json["rows"].size());
+  EXPECT_THAT(goals,
+              testing::ElementsAre("compare/facet/linear", "exact/isolation/facet/cubic",
+                                   "exact/isolation/facet/linear", "failure/facet/linear",
+                                   "settle/facet/cells/linear", "settle/facet/cells/linear/any_processor",
+                                   "tolerance/facet/linear/0.0001r", "tolerance/facet/linear/0.001r"));
+}
+
+TEST(Bench, EngineRunsEveryInstanceOfAFolder) {
+  const test::ScratchDirectory directory;
+  for (const char* name :
+       {"d1_n20_linear.txt", "d2_n20_degree2.txt", "d3_n50_degree3.txt", "w3_n20_linear.txt"})
+    std::filesystem::copy_file(test::data_file(std::string("kinetic/") + name), directory / name);
+  const test::ProgramRun result = test::run_program(
+      {"bench", "engine", "--instances", directory.path().string(), "--json", "-", "--quiet"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  std::set<std::string> inputs;
+  std::size_t goals = 0;
+  const Json json = Json::parse(result.out);
+  for (const Json& row : json["rows"]) {
+    inputs.insert(row["input"]);
+    EXPECT_GT(row["value"].get<double>(), 0);
+    goals += row["goal"].is_null() ? 0 : 1;
+    EXPECT_EQ(row["unit"], row["peer"].is_null() ? "ns" : "us");
+  }
+  EXPECT_EQ(json["rows"].size(), 18U);  // three instances, three kernels, an event and a run
+  EXPECT_THAT(inputs, testing::ElementsAre("d1_n20_linear", "d2_n20_degree2", "d3_n50_degree3"));
+  EXPECT_EQ(goals, 1U);
+}
+
+TEST(Bench, RefusesWhatItDoesNotKnow) {
+  for (const Arguments& arguments :
+       {Arguments{"bench"}, Arguments{"bench", "spheres"}, Arguments{"bench", "hierarchies", "--sizes", "1"},
+        Arguments{"bench", "hierarchies", "--rounds", "4"}, Arguments{"bench", "power", "--sizes", "3"},
+        Arguments{"bench", "power", "hierarchies"}, Arguments{"bench", "engine", "--sizes", "100"},
+        Arguments{"bench", "power", "--instances", "data"},
+        Arguments{"bench", "engine", "--instances", "none"},
+        Arguments{"bench", "certificates", "--instances", KDS_DATA_DIR},
+        Arguments{"bench", "engine", "--instances", KDS_DATA_DIR},
+        Arguments{"bench", "hierarchies", "--sizes", "10", "--trajectories", "none.dcd"}}) {
+    const test::ProgramRun result = test::run_program(arguments);
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace kds

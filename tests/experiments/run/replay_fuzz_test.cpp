@@ -1,0 +1,161 @@
+// Whatever a log says, replaying it ends in the same fingerprint, in another one, or in one line that says
+// what is wrong with it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/program/text.h"
+#include "experiments/run/parse_run_options.h"
+#include "experiments/run/replay_log.h"
+#include "motions/base/input_error.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds::test {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+enum class Outcome { same, different, refused };
+
+Outcome replay(const std::string& path, std::string* message = nullptr) {
+  try {
+    const auto silent = [](auto&&...) {};
+    return replay_log(path, silent, silent).same() ? Outcome::same : Outcome::different;
+  } catch (const InputError& error) {
+    EXPECT_FALSE(one_line(error.what()).empty());
+    if (message != nullptr) *message = error.what();
+    return Outcome::refused;
+  }
+}
+
+Lines log_of(const std::string& instance, const std::string& structures, const ScratchDirectory& directory) {
+  const std::string path = (directory / "right.log").string();
+  const auto silent = [](auto&&...) {};
+  static_cast<void>(run_scene(
+      parse_run_options({data_file("kinetic/" + instance), "--structures", structures, "--log", path}),
+      silent, silent));
+  EXPECT_EQ(replay(path), Outcome::same);
+  Lines lines = split(content_of(path), '\n');
+  lines.pop_back();  // after the last newline
+  return lines;
+}
+
+std::string write_log(const Lines& lines, const ScratchDirectory& directory) {
+  std::string text;
+  for (const std::string& line : lines) text += line + '\n';
+  return directory.file("spoiled.log", text);
+}
+
+Lines words_of(const std::string& line) { return split(line, ' '); }
+
+std::string joined(const Lines& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
+void spoil(Lines& lines, std::mt19937& random) {
+  static const Lines values{"0",   "1",     "4294967295", "4294967296", "-1",      "nan",
+                            "inf", "1e308", "",           "sorted",     "wrapped", "power",
+                            "2-3", "3-2",   "enter",      "leave",      "pivot",   "0.5",
+                            "7",   "19",    "20",         "contacts",   "end",     "99999999999999999999999"};
+  const auto among = [&](std::size_t first, std::size_t last) { return first + random() % (last - first); };
+  const std::size_t line = among(2, lines.size());
+  const std::size_t other = among(2, lines.size());
+  Lines words = words_of(lines[line]);
+  switch (random() % 6) {
+    case 0:
+      lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(line));
+      return;
+    case 1:
+      lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(line), std::string(lines[other]));
+      return;
+    case 2:
+      std::swap(lines[line], lines[other]);
+      return;
+    case 3:
+      lines[line][random() % lines[line].size()] = static_cast<char>(random() % 256);
+      return;
+    case 4:
+      std::shuffle(words.begin(), words.end(), random);
+      break;
+    default:
+      words[random() % words.size()] = values[random() % values.size()];
+  }
+  lines[line] = joined(words);
+}
+
+void mend_count(Lines& lines) {
+  Lines words = words_of(lines.back());
+  if (words.size() == 3 && words[0] == "end") words[1] = std::to_string(lines.size() - 3);
+  lines.back() = joined(words);
+}
+
+TEST(ReplayFuzz, SpoiledLogsAreRefusedOrDiffer) {
+  const ScratchDirectory directory;
+  std::mt19937 random(2004);
+  std::size_t refused = 0, different = 0;
+  for (const auto& [instance, structures] :
+       {std::pair<std::string, std::string>{"d1_n20_linear.txt", "sorted"},
+        {"d3_n20_linear.txt", "sorted,wrapped,power"}}) {
+    const Lines right = log_of(instance, structures, directory);
+    for (int round = 0; round < 250; ++round) {
+      Lines lines = right;
+      for (std::size_t times = 1 + random() % 2; times-- > 0;) spoil(lines, random);
+      if (random() % 4 != 0) mend_count(lines);
+      const Outcome outcome = replay(write_log(lines, directory));
+      // Another bracket, or an untouched log.
+      EXPECT_TRUE(outcome != Outcome::same || lines.size() == right.size());
+      refused += outcome == Outcome::refused ? 1 : 0;
+      different += outcome == Outcome::different ? 1 : 0;
+    }
+  }
+  EXPECT_GT(refused, 300U);
+  EXPECT_GT(different, 0U);
+}
+
+TEST(ReplayFuzz, LogsCutOffAreRefused) {
+  const ScratchDirectory directory;
+  const Lines right = log_of("d1_n20_linear.txt", "sorted", directory);
+  for (std::size_t count = 0; count < right.size(); ++count) {
+    Lines lines = right;
+    lines.resize(count);
+    EXPECT_EQ(replay(write_log(lines, directory)), Outcome::refused) << count;
+  }
+  const std::string text = content_of(write_log(right, directory));
+  for (std::size_t size = text.size() - 40; size + 1 < text.size(); ++size)
+    EXPECT_EQ(replay(directory.file("cut.log", text.substr(0, size))), Outcome::refused) << size;
+}
+
+TEST(ReplayFuzz, SpoiledHeadersAreRefused) {
+  const ScratchDirectory directory;
+  Lines lines = log_of("d1_n20_linear.txt", "sorted", directory);
+  const std::string input = data_file("kinetic/d1_n20_linear.txt");
+  const auto header = [&](const std::string& arguments, const std::string& beads, const std::string& steps) {
+    return R"({"arguments":[)" + arguments + R"(],"beads":)" + beads + R"(,"steps":)" + steps + "}";
+  };
+  const std::string quoted = '"' + input + '"';
+  lines[1] = header(quoted, "20", "1");
+  EXPECT_EQ(replay(write_log(lines, directory)), Outcome::same);
+  for (const std::string& spoiled :
+       {std::string("{}"), std::string("null"), std::string(100000, '['), header(quoted, "21", "1"),
+        header(quoted, "-1", "1"), header(quoted, "1e300", "1"), header(quoted, "20", "18446744073709551615"),
+        header("1", "20", "1"), header("", "20", "1"), header("\"--help\"", "20", "1"),
+        header(quoted + ",\"--kernel\",\"slow\"", "20", "1"), header("\"nowhere.pdb\"", "20", "1")}) {
+    lines[1] = spoiled;
+    std::string message;
+    EXPECT_EQ(replay(write_log(lines, directory), &message), Outcome::refused) << spoiled.substr(0, 80);
+    EXPECT_THAT(message,
+                testing::AnyOf(testing::HasSubstr("spoiled.log"), testing::HasSubstr("nowhere.pdb")));
+  }
+}
+
+}  // namespace
+}  // namespace kds::test

@@ -1,0 +1,186 @@
+// `kds info`: its options and what it tells.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/scenes/info_options.h"
+#include "experiments/scenes/info_report.h"
+#include "experiments/scenes/scene_info.h"
+#include "motions/base/input_error.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+std::string refusal(const Arguments& arguments) {
+  try {
+    static_cast<void>(parse_info_options(arguments));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(InfoOptions, TakesTheInputOptionsOfRunAndItsOwn) {
+  const InfoOptions plain = parse_info_options({"a.pdb"});
+  EXPECT_THAT(plain.input.inputs, ElementsAre("a.pdb"));
+  EXPECT_EQ(plain.input.radius, "auto");
+  EXPECT_TRUE(std::isinf(plain.validate.rho));
+  EXPECT_EQ(plain.validate.most_listed, 5U);
+  const InfoOptions all =
+      parse_info_options({"a.dcd",    "--topology", "t.pdb",    "--select", "all",    "--chain", "B",
+                          "--frames", ":9",         "--radius", "2",        "--rho",  "1.5",     "--list",
+                          "0",        "--out",      "there",    "--json",   "j.json", "--quiet", "b.dcd"});
+  EXPECT_THAT(all.input.inputs, ElementsAre("a.dcd", "b.dcd"));
+  EXPECT_EQ(all.input.reading.topology, "t.pdb");
+  EXPECT_EQ(all.input.reading.selection, Selection::all);
+  EXPECT_EQ(all.input.reading.chain, "B");
+  EXPECT_EQ(all.input.reading.frames.last, 9U);
+  EXPECT_EQ(all.input.radius, "2");
+  EXPECT_EQ(all.validate.rho, 1.5);
+  EXPECT_EQ(all.validate.most_listed, 0U);
+  EXPECT_EQ(all.out, "there");
+  EXPECT_EQ(all.json, "j.json");
+  EXPECT_TRUE(all.quiet);
+}
+
+TEST(InfoOptions, RefusesWithTheOptionAndWhatItTakes) {
+  EXPECT_THAT(refusal({}), HasSubstr("kds info needs at least one INPUT"));
+  EXPECT_THAT(refusal({"a.pdb", "--rho", "0.5"}), HasSubstr("--rho: '0.5' is not a number from 1"));
+  EXPECT_THAT(refusal({"a.pdb", "--rho", "inf"}), HasSubstr("--rho"));
+  EXPECT_THAT(refusal({"a.pdb", "--list", "-1"}), HasSubstr("--list"));
+  EXPECT_THAT(refusal({"a.pdb", "--kernel", "fast"}), HasSubstr("unknown option '--kernel'"));
+  EXPECT_THAT(refusal({"a.pdb", "--radius", "round"}), HasSubstr("--radius"));
+}
+
+Trajectory necklace(const std::string& file, std::vector<Eigen::Matrix3Xd> frames) {
+  Trajectory trajectory;
+  trajectory.file = file;
+  trajectory.frames = std::move(frames);
+  return trajectory;
+}
+
+Eigen::Matrix3Xd row(const std::vector<double>& places) {
+  Eigen::Matrix3Xd frame = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(places.size()));
+  for (std::size_t i = 0; i < places.size(); ++i) frame(0, static_cast<Eigen::Index>(i)) = places[i];
+  return frame;
+}
+
+SceneInfo describe(const std::vector<Trajectory>& necklaces, const std::vector<double>& radii,
+                   double rho = HUGE_VAL) {
+  return describe_scene(necklaces, radii, {rho, 2}, [](std::size_t, std::size_t) {});
+}
+
+TEST(SceneInfo, CountsOverFramesAndListsTheFirst) {
+  // A necklace of three frames comes apart and closes again; another rests, hit in the second and third.
+  const SceneInfo info = describe(
+      {necklace("a", {row({0, 2, 4}), row({0, 3, 6}), row({0, 2, 5})}), necklace("b", {row({7.5, 9})})},
+      {1, 1, 1, 1, 1}, 1.25);
+  EXPECT_EQ(info.beads, 5U);
+  EXPECT_EQ(info.frames, 3U);
+  const ConditionInfo& connected = info.conditions[0];
+  EXPECT_EQ(connected.violations, 3U);
+  EXPECT_EQ(connected.frames, 2U);
+  EXPECT_EQ(connected.first_frame, 1U);
+  EXPECT_THAT(connected.first, ElementsAre(Violation{0, 1}, Violation{1, 2}));
+  EXPECT_THAT(connected.by, ElementsAre(1.0, 1.0));
+  const ConditionInfo& disjoint = info.conditions[1];
+  EXPECT_EQ(disjoint.violations, 1U);
+  EXPECT_THAT(disjoint.first, ElementsAre(Violation{2, 3}));
+  EXPECT_THAT(disjoint.by, ElementsAre(0.5));
+  EXPECT_TRUE(info.conditions[2].holds());
+  EXPECT_TRUE(info.conditions[3].holds());
+  const ConditionInfo& bonds = info.conditions[4];
+  EXPECT_EQ(bonds.first_frame, 2U);
+  EXPECT_THAT(bonds.first, ElementsAre(Violation{0, 1}));
+  EXPECT_THAT(bonds.by, ElementsAre(1.5));
+  EXPECT_FALSE(info.proper());
+  EXPECT_EQ(info.necklaces[0].bonds.least, 2);
+  EXPECT_EQ(info.necklaces[0].bonds.most, 3);
+  EXPECT_EQ(info.necklaces[1].beads, (BeadRange{3, 4}));
+  EXPECT_THROW(
+      describe({necklace("a", {row({0, 2}), row({0, 2}), row({0, 2})}), necklace("b", {row({8}), row({9})})},
+               {1, 1, 1}),
+      InputError);
+}
+
+TEST(SceneInfo, InfinityIsNullInJson) {
+  const SceneInfo info = describe({necklace("a", {row({0, 0, 2})})}, {1, 0, 1});
+  Json json;
+  add_scene(json, info);
+  EXPECT_EQ(json["necklaces"][0]["radius_ratio"], nullptr);
+  EXPECT_EQ(json["necklaces"][0]["bond_ratio"], nullptr);
+  EXPECT_EQ(json["rows"][3]["first"][0]["beads"], Json::array({1, 0}));
+  EXPECT_EQ(json["rows"][3]["first"][0]["by"], nullptr);
+  EXPECT_EQ(Json::parse(json.dump()), json);
+}
+
+TEST(Info, OfAFile) {
+  const ScratchDirectory directory;
+  const std::string json = (directory / "i.json").string();
+  const ProgramRun run = run_program({"info", data_file("proteins/6wqa.cif"), "--radius", "element", "--json",
+                                      json, "--out", (directory / "out").string(), "--list", "3"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_THAT(run.err, HasSubstr("chain break after bead 761"));
+  EXPECT_THAT(run.out, HasSubstr("1,173 beads, 1 frame\n"));
+  EXPECT_THAT(run.out, HasSubstr("761-762"));
+  const Json info = Json::parse(content_of(json));
+  EXPECT_EQ(info["input"]["beads"], 1173);
+  EXPECT_EQ(info["necklaces"][0]["breaks"], Json::array({761}));
+  EXPECT_EQ(info["warnings"].size(), 1U);
+  EXPECT_EQ(info["settings"]["radius"], "element");
+  EXPECT_EQ(info["rows"].size(), 5U);
+  EXPECT_EQ(info["rows"][0]["violations"], 1);
+  EXPECT_EQ(info["rows"][1]["first"].size(), 3U);
+  EXPECT_EQ(info["proper"], false);
+  EXPECT_THAT(info["machine"].dump(), HasSubstr("cores"));
+  EXPECT_EQ(content_of(directory / "out/info.json"), content_of(json));
+  EXPECT_THAT(content_of(directory / "out/info.csv"), HasSubstr("connected,1,1,0,false\n"));
+}
+
+TEST(Info, OfATrajectoryThatIsProper) {
+  const ProgramRun run =
+      run_program({"info", data_file("trajectories/villin_hp36_300K.dcd"), "--topology",
+                   data_file("trajectories/villin_hp36_300K.pdb"), "--radius", "0.84", "--json", "-"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  const Json info = Json::parse(run.out);
+  EXPECT_EQ(info["input"]["frames"], 1000);
+  EXPECT_EQ(info["proper"], true);
+}
+
+TEST(Info, OfAnInstance) {
+  const ProgramRun run = run_program({"info", data_file("kinetic/w3_n20_degree2_visible.txt")});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("20 moving points, dimension 3, degree 2, weighted"));
+  EXPECT_EQ(run_program({"info", data_file("kinetic/d1_n20_linear.txt"), "--radius", "1"}).code, 2);
+}
+
+TEST(Info, RefusesBeforeItReads) {
+  const ScratchDirectory directory;
+  const std::string input = directory.file("a.xyz", "2\n\nX 0 0 0\nX 1 0 0\n");
+  const std::string before = content_of(input);
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"info", input, "--json", input},
+                                             {"info", "missing.xyz"},
+                                             {"info", input, "--topology", "missing.pdb"},
+                                             {"info", input, "--out", input},
+                                             {"info", directory.path().string()}}) {
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 2) << testing::PrintToString(arguments);
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  }
+  EXPECT_EQ(content_of(input), before);
+  EXPECT_EQ(run_program({"info", input, "--quiet"}).out, "");
+}
+
+}  // namespace
+}  // namespace kds::test

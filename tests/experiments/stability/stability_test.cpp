@@ -1,0 +1,477 @@
+// `kds stability`, through the library and from outside.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "certificates/types/orientation.h"
+#include "certificates/types/power_test.h"
+#include "certificates/types/precedes.h"
+#include "experiments/program/text.h"
+#include "experiments/stability/compare_answers.h"
+#include "experiments/stability/parse_stability_options.h"
+#include "experiments/stability/run_stability.h"
+#include "experiments/stability/stability_radii.h"
+#include "experiments/stability/stability_report.h"
+#include "experiments/stability/stability_table.h"
+#include "motions/base/input_error.h"
+#include "motions/scene/scene.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+std::vector<StabilityRow> rows_of(const Arguments& arguments) {
+  return run_stability(parse_stability_options(arguments), [](std::size_t, std::size_t) {});
+}
+
+// Scenes.
+
+TEST(StabilityScenes, AreTheSameForTheSameSeed) {
+  for (const Extreme& extreme : all_extremes()) {
+    const auto text = [&](std::uint64_t seed) {
+      SceneRandom random = scene_random(seed, extreme.name, 3);
+      return instance_text(extreme.make({3, 3, 5}, random).instance("scene"));
+    };
+    EXPECT_EQ(text(1), text(1)) << extreme.name;
+    EXPECT_NE(text(1), text(2)) << extreme.name;
+  }
+}
+
+TEST(StabilityScenes, AreRefusedWhereAnExactValueIsMissingAndOnlyThere) {
+  for (const Extreme& extreme : all_extremes()) {
+    for (const int dimension : {1, 2, 3}) {
+      for (const int degree : {1, 2, 3}) {
+        if (!extreme.applies(dimension, degree)) continue;
+        SceneRandom random = scene_random(5, extreme.name, 0);
+        const Instance instance = extreme.make({dimension, degree, 7}, random).instance("scene");
+        EXPECT_EQ(instance.point_count(), 7U);
+        EXPECT_EQ(instance.dimension(), dimension);
+        EXPECT_EQ(instance.degree, degree);
+        if (extreme.refused) {
+          EXPECT_THROW(Scene{instance}, InputError) << extreme.name;
+        } else {
+          EXPECT_NO_THROW(Scene{instance}) << extreme.name;
+        }
+      }
+    }
+  }
+}
+
+const Extreme& extreme(std::string_view name) {
+  for (const Extreme& e : all_extremes())
+    if (e.name == name) return e;
+  throw std::logic_error("no such extreme");
+}
+
+// The function of a certificate over the first beads of a scene.
+template <class C, Motion M>
+ExactPolynomial function_in(std::string_view name, std::size_t number) {
+  SceneRandom random = scene_random(11, name, number);
+  const M motion = extreme(name).make({M::dimension, M::degree, bead_places<C>}, random).template motion<M>();
+  C certificate;
+  for (std::size_t i = 0; i < bead_places<C>; ++i) certificate.beads[i] = static_cast<BeadId>(i);
+  return exact_function(certificate, motion);
+}
+
+TEST(StabilityScenes, AreWhatTheySay) {
+  using Line = BezierMotion<1, 3>;
+  using Space = BezierMotion<3, 1>;
+  const Dyadic start(0.0), middle(0.5), end(1.0);
+  for (std::size_t number = 0; number < 20; ++number) {
+    EXPECT_TRUE((function_in<Precedes, Line>("beads:coincident", number).is_zero()));
+    EXPECT_EQ((function_in<Precedes, Line>("beads:coincident-mid", number).sign_at(middle)), 0);
+    EXPECT_TRUE((function_in<Orientation<3>, Space>("beads:collinear", number).is_zero()));
+    EXPECT_TRUE((function_in<Orientation<3>, Space>("beads:coplanar", number).is_zero()));
+    EXPECT_EQ((function_in<Orientation<3>, Space>("beads:coplanar-mid", number).sign_at(middle)), 0);
+    EXPECT_TRUE((function_in<PowerTest<3>, Space>("beads:cospherical", number).is_zero()));
+    EXPECT_EQ((function_in<PowerTest<3>, Space>("beads:cospherical-mid", number).sign_at(middle)), 0);
+  }
+  int zero_at_start = 0, zero_at_end = 0, touching = 0;
+  for (std::size_t number = 0; number < 20; ++number) {
+    zero_at_start += function_in<PowerTest<3>, Space>("ties:start", number).sign_at(start) == 0;
+    zero_at_end += function_in<PowerTest<3>, Space>("ties:end", number).sign_at(end) == 0;
+    const auto touch = function_in<PowerTest<3>, Space>("contact:tangent", number);
+    touching += !touch.is_zero() && touch.sign_at(middle) == 0 &&
+                touch.sign_at(Dyadic(0.25)) == touch.sign_at(Dyadic(0.75));
+  }
+  EXPECT_GE(zero_at_start, 5);
+  EXPECT_GE(zero_at_end, 5);
+  EXPECT_GE(touching, 3);
+}
+
+// What a wrong kernel would look like.
+
+struct Followed {
+  BezierMotion<2, 3> motion;
+  Sided<PowerTest<2>> certificate;
+  std::vector<Answer> filtered, exact;
+};
+
+// One with several failures.
+Followed followed() {
+  for (std::size_t number = 0;; ++number) {
+    SceneRandom random = scene_random(13, "degree:18", number);
+    Followed f{extreme("degree:18").make({2, 3, 4}, random).motion<BezierMotion<2, 3>>(), {}, {}, {}};
+    f.certificate.beads = {0, 1, 2, 3};
+    StageCounts stages;
+    f.filtered = follow<Filtered>(f.certificate, f.motion, stages);
+    f.exact = follow<Exact>(f.certificate, f.motion, stages);
+    if (f.exact.size() > 3) return f;
+  }
+}
+
+TEST(CompareAnswers, AWrongAnswerIsNoticed) {
+  const Followed f = followed();
+  const BothSides<PowerTest<2>, BezierMotion<2, 3>> functions(f.certificate, f.motion);
+  const FunctionOfSide function = [&](bool opposite) { return functions.exact_function(opposite ? 1 : 0); };
+  EXPECT_EQ(disagreement(f.filtered, f.exact, function), std::nullopt);
+
+  const auto later = std::find_if(f.filtered.begin(), f.filtered.end(), [](const Answer& answer) {
+    return answer.failure.kind == Failure::Kind::later;
+  });
+  const auto place = static_cast<std::size_t>(later - f.filtered.begin());
+  std::vector<Answer> wrong = f.filtered;
+  wrong[place].failure.time.lower = wrong[place].failure.time.upper;  // a double beside the root
+  EXPECT_THAT(disagreement(wrong, f.exact, function).value_or(""), HasSubstr("filtered later"));
+  wrong = f.filtered;
+  wrong[place].failure.kind = Failure::Kind::never;
+  EXPECT_THAT(disagreement(wrong, f.exact, function).value_or(""), HasSubstr("filtered never"));
+  wrong = f.filtered;
+  wrong.pop_back();
+  EXPECT_THAT(disagreement(wrong, f.exact, function).value_or(""), HasSubstr("answers"));
+  wrong = f.filtered;
+  wrong[place].failure.time = wrong[place + 1].failure.time;  // another root of the same function
+  EXPECT_NE(disagreement(wrong, f.exact, function), std::nullopt);
+}
+
+TEST(CompareAnswers, SharpFailuresLieInTheirBrackets) {
+  const Followed f = followed();
+  const BothSides<PowerTest<2>, BezierMotion<2, 3>> functions(f.certificate, f.motion);
+  const auto rough = failures_of(f.exact);
+  const auto sharp =
+      sharp_failures_of(f.exact, [&](bool opposite) { return functions.exact_function(opposite ? 1 : 0); });
+  ASSERT_EQ(sharp.size(), rough.size());
+  for (std::size_t i = 0; i < sharp.size(); ++i) {
+    EXPECT_GE(sharp[i].lower, rough[i].lower);
+    EXPECT_LE(sharp[i].upper, rough[i].upper);
+    EXPECT_LE(sharp[i].upper - sharp[i].lower, 0x1p-52);
+  }
+}
+
+TimedChange event(std::uint8_t kind, BeadId bead, double time) {
+  return {Change{kind, 1, {bead}}, time, time};
+}
+
+TEST(EventDifference, CountsWhatIsMissedAndExtra) {
+  const std::vector<TimedChange> exact{event(0, 1, 0.1), event(0, 2, 0.2), event(0, 1, 0.5)};
+  EventDifference same = event_difference(exact, exact);
+  EXPECT_EQ(same.missed + same.extra, 0U);
+  EXPECT_EQ(same.worst_time_error, 0);
+  const std::vector<TimedChange> other{event(0, 1, 0.125), event(1, 2, 0.2), event(0, 1, 0.5),
+                                       event(0, 1, 0.75)};
+  const EventDifference wrong = event_difference(exact, other);
+  EXPECT_EQ(wrong.missed, 1U);
+  EXPECT_EQ(wrong.extra, 2U);
+  EXPECT_EQ(wrong.worst_time_error, 0.125 - 0.1);
+  EXPECT_EQ(event_difference(exact, {}).missed, 3U);
+  EXPECT_EQ(event_difference({}, exact).extra, 3U);
+}
+
+TEST(EventDifference, OnesLeftOutDoNotShiftTheOthers) {
+  const std::vector<TimedChange> exact{event(0, 1, 0.1), event(0, 1, 0.4), event(0, 1, 0.8)};
+  const std::vector<TimedChange> other{event(0, 1, 0.1), event(0, 1, 0.8)};
+  EXPECT_EQ(event_difference(exact, other).worst_time_error, 0);
+  EXPECT_EQ(event_difference(other, exact).worst_time_error, 0);
+  const std::vector<TimedChange> bracket{{Change{0, 1, {1}}, 0.25, 0.5}};
+  EXPECT_EQ(event_difference(bracket, {{event(0, 1, 0.375)}}).worst_time_error, 0);
+  EXPECT_EQ(event_difference(bracket, {{event(0, 1, 0.625)}}).worst_time_error, 0.125);
+}
+
+TEST(StabilityRow, HoldsOnlyWithoutTrouble) {
+  StabilityRow row;
+  row.cases = 3;
+  EXPECT_TRUE(row.holds());
+  row.must_refuse = true;
+  EXPECT_FALSE(row.holds());
+  row.refused = 3;
+  EXPECT_TRUE(row.holds());
+  for (auto member : {&StabilityRow::disagreements, &StabilityRow::failed, &StabilityRow::audits_failed}) {
+    StabilityRow wrong = row;
+    wrong.*member = 1;
+    EXPECT_FALSE(wrong.holds());
+  }
+}
+
+// Rows.
+
+TEST(Stability, EverySubjectHoldsInAFewCasesOfEveryExtreme) {
+  std::set<std::string> subjects, extremes;
+  std::uint64_t audits = 0, events = 0;
+  for (const StabilityRow& row : rows_of({"--cases", "3", "--seed", "9"})) {
+    EXPECT_TRUE(row.holds()) << name_of(row) << ": " << row.reason << "\n" << row.motion;
+    EXPECT_GE(row.cases, 1U);
+    subjects.insert(row.subject);
+    extremes.insert(row.extreme);
+    audits += row.audits_run;
+    events += row.events;
+    EXPECT_TRUE(!row.must_refuse || row.refused == row.cases) << name_of(row);
+  }
+  EXPECT_EQ(extremes.size(), all_extremes().size());
+  for (const char* name : {"precedes", "orientation", "power_test", "bead_in_sphere_1", "bead_in_sphere_2",
+                           "bead_in_sphere_3", "contact", "ball_in_sphere_1", "ball_in_sphere_2",
+                           "ball_in_sphere_3", "ball_in_sphere_4", "sorted", "wrapped", "power"})
+    EXPECT_TRUE(subjects.contains(name)) << name;
+  EXPECT_GT(audits, 1000U);
+  EXPECT_GT(events, 1000U);
+}
+
+TEST(Stability, OneBeadInSphereHasDegree18) {
+  const auto rows = rows_of({"--subjects", "bead_in_sphere_3", "--extremes", "degree", "--cases", "9"});
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].function_degree, 18);
+  EXPECT_GT(rows[0].events, 0U);
+}
+
+TEST(Stability, BallsAreGivenRadiiWhereAnExtremeHasNone) {
+  std::set<bool> equal, changing;
+  for (std::size_t number = 0; number < 30; ++number) {
+    SceneRandom random = scene_random(17, "offset:2^20", number);
+    BeadCurves curves = extreme("offset:2^20").make({3, 1, 4}, random);
+    give_radii(curves, random);
+    bool same = true, constant = true;
+    for (std::size_t b = 0; b < 4; ++b) {
+      same &= curves.radius(b, 0) == curves.radius(0, 0) && curves.radius(b, 1) == curves.radius(0, 1);
+      constant &= curves.radius(b, 0) == curves.radius(b, 1);
+      EXPECT_GE(curves.radius(b, 1), 0);
+      EXPECT_LE(curves.radius(b, 1), 8);
+    }
+    equal.insert(same);
+    changing.insert(!constant);
+  }
+  EXPECT_EQ(equal.size() + changing.size(), 4U);
+  SceneRandom random = scene_random(17, "radii:10^3", 0);
+  BeadCurves curves = extreme("radii:10^3").make({3, 1, 4}, random);
+  const double radius = curves.radius(2, 1);
+  give_radii(curves, random);
+  EXPECT_EQ(curves.radius(2, 1), radius);
+}
+
+TEST(Stability, BallsTouchAndCrossSpheres) {
+  for (const StabilityRow& row :
+       rows_of({"--subjects", "ball_in_sphere_1,contact", "--extremes", "contact", "--cases", "100"})) {
+    EXPECT_TRUE(row.holds()) << name_of(row) << ": " << row.reason;
+    EXPECT_GT(row.stages.exact, 0U) << name_of(row);  // doubles prove no touch
+  }
+}
+
+TEST(Stability, NoScaleIsLeftToIntegersWhereDifferencesAreFinite) {
+  StageCounts sum;
+  for (const StabilityRow& row :
+       rows_of({"--subjects", "power_test", "--extremes", "scale:2^300,scale:2^-300", "--cases", "40"}))
+    add(sum, row.stages);
+  EXPECT_GT(sum.refined, sum.exact);
+}
+
+TEST(Stability, FastIsWrongWhereProductsVanish) {
+  const auto rows = rows_of({"--subjects", "power_test", "--extremes", "scale:2^-1000", "--cases", "40"});
+  for (const StabilityRow& row : rows) {
+    EXPECT_EQ(row.fast.missed, row.events) << name_of(row);
+    EXPECT_GT(row.wrong_signs, 0U);
+    EXPECT_EQ(row.stages.coefficients + row.stages.isolation, 0U);
+  }
+}
+
+TEST(Stability, TheSameSeedGivesTheSameRowsWhateverElseRuns) {
+  const auto figures = [](const StabilityRow& row) {
+    return std::tuple(row.events, row.signs, row.wrong_signs, row.fast.missed, row.stages.exact);
+  };
+  const auto alone = rows_of({"--subjects", "orientation", "--extremes", "ties:end", "--cases", "20"});
+  const auto among = rows_of({"--subjects", "precedes,orientation", "--extremes", "ties", "--cases", "20"});
+  std::size_t found = 0;
+  for (const StabilityRow& a : alone) {
+    for (const StabilityRow& b : among) {
+      if (name_of(a) != name_of(b)) continue;
+      EXPECT_EQ(figures(a), figures(b));
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, alone.size());
+}
+
+// Options.
+
+std::string refusal(const Arguments& arguments) {
+  try {
+    static_cast<void>(parse_stability_options(arguments));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(StabilityOptions, Defaults) {
+  const StabilityOptions options = parse_stability_options({});
+  EXPECT_TRUE(options.subjects.empty() && options.extremes.empty());
+  EXPECT_EQ(options.cases.cases, 200U);
+  EXPECT_EQ(options.cases.seed, 1U);
+  EXPECT_FALSE(options.out || options.json || options.quiet);
+}
+
+TEST(StabilityOptions, TakesNamesAndFamilies) {
+  const StabilityOptions options =
+      parse_stability_options({"--subjects", "power,precedes", "--extremes", "scale,ties:end", "--quiet"});
+  EXPECT_THAT(options.subjects, ElementsAre("power", "precedes"));
+  EXPECT_TRUE(options.wants(extreme("scale:2^300")));
+  EXPECT_TRUE(options.wants(extreme("ties:end")));
+  EXPECT_FALSE(options.wants(extreme("ties:start")));
+  EXPECT_TRUE(options.quiet);
+}
+
+TEST(StabilityOptions, RefusesWhatIsWrong) {
+  EXPECT_THAT(refusal({"--subjects", "heap"}), HasSubstr("--subjects: 'heap' is not one of precedes, "));
+  EXPECT_THAT(refusal({"--extremes", "scale,"}), HasSubstr("--extremes: '' is not one of scale, scale:2^"));
+  EXPECT_THAT(refusal({"--extremes", "ties,ties"}), HasSubstr("listed twice"));
+  for (const char* wrong : {"0", "-1", "many", "1e3", "99999999999", " 1"})
+    EXPECT_THAT(refusal({"--cases", wrong}), HasSubstr("--cases: '")) << wrong;
+  EXPECT_THAT(refusal({"--seed", "-1"}), HasSubstr("--seed"));
+  EXPECT_THAT(refusal({"--out", "-"}), HasSubstr("--out"));
+  EXPECT_THAT(refusal({"trajectory.pdb"}), HasSubstr("unexpected argument"));
+  EXPECT_THAT(refusal({"--kernel", "fast"}), HasSubstr("unknown option '--kernel'"));
+  EXPECT_THROW(rows_of({"--subjects", "precedes", "--extremes", "basis:flat"}), InputError);
+}
+
+// Reports.
+
+StabilityRow failing_row() {
+  StabilityRow row;
+  row.subject = "power_test";
+  row.dimension = 3;
+  row.degree = 1;
+  row.function_degree = 5;
+  row.extreme = "ties:end";
+  row.cases = 7;
+  row.disagreements = 1;
+  row.reason = "case 4: answer 0: filtered never, exact later";
+  row.motion = "1 1 1\n0 1\n";
+  return row;
+}
+
+TEST(StabilityReport, NamesRowsThatDoNotHold) {
+  const std::vector<StabilityRow> rows{failing_row()};
+  const std::string table = stability_table(rows);
+  EXPECT_THAT(table, HasSubstr("DOES NOT HOLD: case 4"));
+  EXPECT_THAT(table, HasSubstr("1 rows do not hold"));
+  EXPECT_THAT(table, HasSubstr("power_test 3D degree 1, ties:end: case 4"));
+  const Json json = Json::parse(stability_json({}, rows));
+  EXPECT_EQ(json["holds"], false);
+  EXPECT_EQ(json["rows"][0]["holds"], false);
+  EXPECT_EQ(json["rows"][0]["agree"], 6);
+  EXPECT_EQ(complaint_about(rows), "1 of 1 rows do not hold: power_test 3D degree 1, ties:end");
+  EXPECT_EQ(complaint_about({}), std::nullopt);
+  EXPECT_EQ(json["rows"][0]["motion"], "1 1 1\n0 1\n");
+}
+
+TEST(StabilityReport, TheTableIsNoWiderThanATerminal) {
+  const auto rows = rows_of({"--extremes", "ties:middle,refused,beads:cospherical-mid", "--cases", "2"});
+  for (const std::string& line : split(stability_table(rows), '\n')) EXPECT_LE(line.size(), 120U) << line;
+}
+
+// From outside.
+
+namespace outside {
+
+using test::run_program;
+using test::ScratchDirectory;
+
+TEST(StabilityProgram, PrintsATable) {
+  const auto run = run_program({"stability", "--cases", "2", "--subjects", "precedes,sorted"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(run.out, HasSubstr("precedes, 1D, motion of degree 1, function of degree 1\n"));
+  EXPECT_THAT(run.out, HasSubstr("sorted, 1D, motion of degree 3\n"));
+  EXPECT_THAT(run.out, HasSubstr("all rows hold\n"));
+}
+
+TEST(StabilityProgram, WritesRowsToFiles) {
+  const ScratchDirectory directory;
+  const std::string out = (directory / "made" / "here").string();
+  const std::string file = (directory / "rows.json").string();
+  const auto run = run_program({"stability", "--cases", "2", "--subjects", "orientation,power", "--extremes",
+                                "offset,refused", "--out", out, "--json", file, "--quiet"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.out + run.err, "");
+  const std::string text = test::content_of(file);
+  EXPECT_EQ(test::content_of(std::filesystem::path(out) / "stability.json"), text);
+  const Json json = Json::parse(text);
+  EXPECT_EQ(
+      json["settings"],
+      (Json{{"subjects", "orientation,power"}, {"extremes", "offset,refused"}, {"cases", 2}, {"seed", 1}}));
+  EXPECT_TRUE(json["version"].is_string());
+  EXPECT_TRUE(json["machine"]["cpu"].is_string());
+  EXPECT_EQ(json["holds"], true);
+  EXPECT_EQ(json["rows"].size(), 8U * 5U);  // two dimensions and degrees each; three offsets, two refused
+  for (const Json& row : json["rows"]) {
+    for (const char* key :
+         {"subject", "kind", "dimension", "degree", "function_degree", "extreme", "cases", "agree",
+          "disagreements", "refused", "failed", "fast", "stages", "seconds", "audits", "rebuilds", "holds"})
+      EXPECT_TRUE(row.contains(key)) << key;
+    for (const char* key : {"wrong_signs", "missed", "extra", "worst_time_error"})
+      EXPECT_TRUE(row["fast"][key].is_number()) << key;
+    for (const char* key : {"fast", "filtered", "exact"}) EXPECT_TRUE(row["seconds"][key].is_number());
+    if (row["extreme"] == "refused:nan") {
+      EXPECT_THAT(row["reason"].get<std::string>(), HasSubstr("nan"));
+    }
+  }
+  const auto lines = split(test::content_of(std::filesystem::path(out) / "stability.csv"), '\n');
+  EXPECT_EQ(lines.size(), json["rows"].size() + 2);  // header, and after the last newline
+  for (std::size_t i = 1; i + 1 < lines.size(); ++i)
+    EXPECT_EQ(split(lines[i], ',').size(), split(lines[0], ',').size());
+}
+
+TEST(StabilityProgram, RefusesWrongUsageInOneLine) {
+  const ScratchDirectory directory;
+  const std::string taken = directory.file("taken", "precious");
+  const std::string out = (directory / "out").string();
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"--subjects", "nobody"},
+                                             {"--extremes", "nothing"},
+                                             {"--cases", "0"},
+                                             {"--out", taken},
+                                             {"--json", (directory / "no/such").string()},
+                                             {"--out", out, "--json", out + "/stability.csv"},
+                                             {"--quiet", "--quiet"},
+                                             {"--json"},
+                                             {"--subjects", "sorted", "--extremes", "beads:coplanar"}}) {
+    std::vector<std::string> arguments{"stability"};
+    arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+    const auto run = run_program(arguments);
+    EXPECT_EQ(run.code, 2) << testing::PrintToString(wrong) << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_TRUE(run.err.starts_with("kds: ")) << run.err;
+  }
+  EXPECT_EQ(test::content_of(taken), "precious");
+}
+
+TEST(StabilityProgram, HelpNamesEveryOption) {
+  const auto run = run_program({"stability", "--help"});
+  EXPECT_EQ(run.code, 0);
+  for (const char* option :
+       {"--subjects", "--extremes", "--cases", "--seed", "--out", "--json", "--quiet", "--help"})
+    EXPECT_THAT(run.out, HasSubstr(std::string("\n  ") + option)) << option;
+  EXPECT_THAT(run_program({"--help"}).out, HasSubstr("stability"));
+}
+
+}  // namespace outside
+
+}  // namespace
+}  // namespace kds

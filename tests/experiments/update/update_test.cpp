@@ -1,0 +1,226 @@
+// `kds update`: its options, what it counts and what it writes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "experiments/update/compare_updates.h"
+#include "experiments/update/update_report.h"
+#include "motions/base/input_error.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string refusal(const Arguments& arguments) {
+  try {
+    static_cast<void>(parse_update_options(arguments));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(UpdateOptions, DefaultsAndAll) {
+  const UpdateOptions plain = parse_update_options({"a.dcd"});
+  EXPECT_EQ(plain.techniques.size(), kTechniques.size());
+  EXPECT_THAT(plain.strides, ElementsAre(1U));
+  EXPECT_EQ(plain.audit, AuditMode::none);
+  const UpdateOptions all = parse_update_options({"a.dcd", "--techniques", "lifted,kinetic", "--strides",
+                                                  "8,1,2", "--rounds", "7", "--audit", "frames", "--frames",
+                                                  ":9", "--out", "there", "--json", "-", "--quiet", "b.dcd"});
+  EXPECT_THAT(all.input.inputs, ElementsAre("a.dcd", "b.dcd"));
+  EXPECT_THAT(all.techniques, ElementsAre("rebuild", "kinetic", "lifted"));
+  EXPECT_THAT(all.strides, ElementsAre(1U, 2U, 8U));
+  EXPECT_EQ(all.rounds, 7U);
+  EXPECT_EQ(all.audit, AuditMode::frames);
+  EXPECT_EQ(all.out, "there");
+  EXPECT_EQ(all.json, "-");
+  EXPECT_TRUE(all.quiet);
+}
+
+TEST(UpdateOptions, RefusesWithTheOptionAndWhatItTakes) {
+  EXPECT_THAT(refusal({}), HasSubstr("kds update needs at least one INPUT"));
+  EXPECT_THAT(refusal({"a.dcd", "--techniques", "flip"}), HasSubstr("--techniques: 'flip' is not one of"));
+  EXPECT_THAT(refusal({"a.dcd", "--techniques", "greedy,greedy"}), HasSubstr("greedy is listed twice"));
+  EXPECT_THAT(refusal({"a.dcd", "--strides", "1,0"}), HasSubstr("--strides: '0'"));
+  EXPECT_THAT(refusal({"a.dcd", "--strides", "2,2"}), HasSubstr("2 is listed twice"));
+  EXPECT_THAT(refusal({"a.dcd", "--rounds", "0"}), HasSubstr("--rounds"));
+  EXPECT_THAT(refusal({"a.dcd", "--audit", "events"}),
+              HasSubstr("--audit: 'events' is not one of none, frames"));
+}
+
+TEST(UpdateAudit, OnlyADiagramWithAFaultFails) {
+  const StaticTriangulation<3> one{{{0, 1, 2, 3}}, {4}, 3}, other{{{0, 1, 2, 4}}, {3}, 3};
+  const auto sound = [] { return std::optional<std::string>(); };
+  const auto wrong = [] { return std::optional<std::string>("bead 3 has no cell"); };
+  EXPECT_NO_THROW(audit_update(one, one, wrong, "x"));
+  EXPECT_NO_THROW(audit_update(one, other, sound, "x"));
+  EXPECT_THROW(audit_update(one, other, wrong, "x"), AuditError);
+  StaticTriangulation<3> without = one;
+  without.hidden.clear();
+  EXPECT_THROW(audit_update(without, one, wrong, "x"), AuditError);
+}
+
+/// Five beads of which one passes through the others' sphere: a cell becomes three, and back.
+std::vector<Trajectory> passing() {
+  Eigen::Matrix3Xd outside(3, 5), inside(3, 5);
+  outside << 0, 4, 0, 0, 5,  //
+      0, 0, 4, 0, 5,         //
+      0, 0, 0, 4, 5;
+  inside = outside;
+  inside.col(4).setConstant(2);
+  Trajectory trajectory;
+  trajectory.file = "passing";
+  trajectory.frames = {outside, inside, inside, outside};
+  return {trajectory};
+}
+
+TEST(CompareUpdates, CountsWhatChangesAndWhatIsDone) {
+  UpdateOptions options;
+  options.audit = AuditMode::frames;
+  options.rounds = 1;
+  const auto rows =
+      compare_updates(passing(), std::vector<double>(5, 1.0), options, [](std::size_t, std::size_t) {});
+  ASSERT_EQ(rows.size(), kTechniques.size());
+  for (std::size_t t = 0; t < rows.size(); ++t) {
+    const UpdateRow& row = rows[t];
+    SCOPED_TRACE(row.technique);
+    EXPECT_EQ(row.technique, kTechniques[t]);
+    EXPECT_EQ(row.task.steps, 3U);
+    // Two cells become three, nothing, and back: five of one frame that are not in the other.
+    EXPECT_EQ(row.task.cells, 3U + 3U + 2U);
+    EXPECT_EQ(row.task.cells_changed, 10U);
+    EXPECT_EQ(row.task.hidden, 0U);
+    EXPECT_GT(row.task.failed, 0U);
+    EXPECT_LT(row.task.failed, row.task.certificates);
+    EXPECT_EQ(row.audits, 3U);
+    EXPECT_GT(row.seconds, 0);
+    if (row.technique == "rebuild") {
+      EXPECT_EQ(row.rebuilds, 3U);
+      EXPECT_EQ(row.ratio, 1);
+      EXPECT_FALSE(row.events || row.activated || row.removed || row.efficiency());
+    } else if (row.technique == "kinetic" || row.technique == "lifted" || row.technique == "hermite") {
+      EXPECT_EQ(row.rebuilds, 0U);
+      EXPECT_EQ(row.activated, 15U);
+      EXPECT_EQ(row.events.value() % 2, 0U);
+      EXPECT_GE(row.events.value(), 2U);
+      EXPECT_DOUBLE_EQ(row.efficiency().value(), static_cast<double>(*row.events) / 10);
+    } else if (row.technique == "reinsert" || row.technique == "greedy") {
+      EXPECT_EQ(row.rebuilds, 2U);  // too few beads to take one out
+      EXPECT_TRUE(row.removed);
+    }
+  }
+  UpdateOptions far = options;
+  far.strides = {4};
+  EXPECT_THAT(update_table(rows), HasSubstr(std::to_string(3 * rows.size()) + " audits"));
+  EXPECT_THROW(static_cast<void>(compare_updates(passing(), std::vector<double>(5, 1.0), far,
+                                                 [](std::size_t, std::size_t) {})),
+               InputError);
+}
+
+TEST(UpdateReport, RowsInAllForms) {
+  UpdateRow rebuild, kinetic;
+  rebuild.technique = "rebuild";
+  rebuild.task = {4, 10, 1000, 0, 40, 2000, 50};
+  rebuild.rebuilds = 10;
+  rebuild.seconds = 0.001;
+  kinetic = rebuild;
+  kinetic.technique = "kinetic";
+  kinetic.rebuilds = 0;
+  kinetic.activated = 70;
+  kinetic.events = 20;
+  kinetic.seconds = 0.0005;
+  kinetic.ratio = 0.5;
+  const std::array rows{rebuild, kinetic};
+  const Json json = update_rows_json(rows);
+  EXPECT_EQ(json[0]["events"], nullptr);
+  EXPECT_EQ(json[0]["efficiency"], nullptr);
+  EXPECT_EQ(json[1]["efficiency"], 0.5);
+  EXPECT_EQ(json[1]["certificates_failed"], 50);
+  EXPECT_THAT(update_csv(rows), HasSubstr("4,kinetic,10,1000,0,40,2000,50,70,,20,0.5,0,0,0.0005,0.5\n"));
+  EXPECT_THAT(update_table(rows), HasSubstr("2.5% of 200.0 certificates failed"));
+  EXPECT_THAT(update_table(rows), HasSubstr("50.0    0.500"));
+}
+
+TEST(Update, OfATrajectoryWithPlots) {
+  const ScratchDirectory directory;
+  const ProgramRun run =
+      run_program({"update", data_file("trajectories/villin_hp36_300K.dcd"), "--topology",
+                   data_file("trajectories/villin_hp36_300K.pdb"), "--frames", ":9", "--strides", "1,4",
+                   "--audit", "frames", "--rounds", "1", "--out", (directory / "out").string()});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("stride 4: 2 steps"));
+  const Json json = Json::parse(content_of(directory / "out/update.json"));
+  EXPECT_EQ(json["input"]["beads"], 108);
+  EXPECT_EQ(json["settings"]["strides"], Json::array({1, 4}));
+  ASSERT_EQ(json["rows"].size(), 2 * kTechniques.size());
+  EXPECT_TRUE(json.contains("machine") && json.contains("version"));
+  for (const Json& row : json["rows"]) EXPECT_EQ(row["audits"], row["steps"]);
+  EXPECT_THAT(content_of(directory / "out/update.csv"), HasSubstr("\n4,auto,2,"));
+  const std::string page = content_of(directory / "out/report.html");
+  EXPECT_THAT(page, HasSubstr("</html>"));
+  EXPECT_EQ(std::count(page.begin(), page.end(), '\n') > 50, true);
+  for (const char* plot : {"ratio", "efficiency", "failed"})
+    EXPECT_THAT(page, HasSubstr(std::string(plot) + "-"));
+}
+
+TEST(Update, BeadsThatHideOthers) {
+  const ScratchDirectory directory;
+  std::string radii;
+  for (int bead = 0; bead < 108; ++bead) radii += bead % 4 == 0 ? "3\n" : "0.5\n";
+  const ProgramRun run = run_program({"update", data_file("trajectories/villin_hp36_300K.dcd"), "--frames",
+                                      "::100", "--radius", "file:" + directory.file("radii", radii),
+                                      "--techniques", "reinsert,kinetic,lifted,activate,auto", "--audit",
+                                      "frames", "--rounds", "1", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  ASSERT_EQ(json["rows"].size(), 6U);
+  EXPECT_GT(json["rows"][0]["hidden"], 20);
+}
+
+TEST(Update, PlanarTrajectoriesInThePlane) {
+  const ScratchDirectory directory;
+  const std::string chain = (directory / "chain.xyz").string();
+  ASSERT_EQ(run_program(
+                {"generate", "spiral", "--beads", "100", "--frames", "6", "--rolled", "0.3:0.5", "-o", chain})
+                .code,
+            0);
+  const ProgramRun run =
+      run_program({"update", chain, "--strides", "1,2", "--audit", "frames", "--rounds", "1", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["input"]["dimension"], 2);
+  ASSERT_EQ(json["rows"].size(), 2 * kTechniques.size());
+  for (const Json& row : json["rows"]) {
+    EXPECT_EQ(row["audits"], row["steps"]);
+    // At most two triangles a bead.
+    EXPECT_LT(row["cells"], row["steps"].get<double>() * 200);
+    EXPECT_GT(row["cells"], row["steps"].get<double>() * 100);
+  }
+}
+
+TEST(Update, RefusesBeforeItReads) {
+  const ScratchDirectory directory;
+  const std::string input = directory.file("a.xyz", "2\n\nX 0 0 0\nX 1 0 0\n2\n\nX 0 0 0\nX 1 0 0\n");
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"update", input},  // two beads
+                                             {"update", input, "--json", input},
+                                             {"update", input, "--strides", "2"},
+                                             {"update", "missing.xyz"},
+                                             {"update", data_file("kinetic/d3_n20_linear.txt")}}) {
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 2) << testing::PrintToString(arguments);
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  }
+}
+
+}  // namespace
+}  // namespace kds::test

@@ -1,0 +1,276 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "motions/readers/read_trajectory.h"
+#include "tests/motions/test_files.h"
+
+namespace kds {
+namespace {
+
+using test::DcdMaker;
+
+Trajectory read(const std::string& bytes, const ReadOptions& options = {}) {
+  return read_trajectory(test::write_file("a.dcd", bytes), options);
+}
+
+void refuse(const std::string& bytes, std::initializer_list<std::string_view> parts,
+            const ReadOptions& options = {}) {
+  test::expect_refused([&] { (void)read(bytes, options); }, parts);
+}
+
+void expect_frames(const Trajectory& trajectory, const DcdMaker& maker) {
+  ASSERT_EQ(trajectory.frames.size(), maker.frames.size());
+  for (std::size_t k = 0; k < maker.frames.size(); ++k) {
+    ASSERT_EQ(trajectory.frames[k].cols(), static_cast<Eigen::Index>(maker.frames[k].size()));
+    for (Eigen::Index i = 0; i < trajectory.frames[k].cols(); ++i)
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        EXPECT_EQ(trajectory.frames[k](axis, i),
+                  double{maker.frames[k][static_cast<std::size_t>(i)][static_cast<std::size_t>(axis)]});
+  }
+}
+
+FrameRange up_to(std::size_t last) { return {0, last, 1}; }
+
+TEST(DcdReader, EveryLayout) {
+  for (const bool big_endian : {false, true})
+    for (const std::size_t marker_size : {4U, 8U})
+      for (const bool cell : {false, true})
+        for (const bool fourth : {false, true})
+          for (const bool fixed : {false, true}) {
+            DcdMaker maker = DcdMaker::chain(7, 4);
+            maker.big_endian = big_endian;
+            maker.marker_size = marker_size;
+            maker.cell = cell;
+            maker.fourth = fourth;
+            if (fixed) {
+              maker.free_atoms = {2, 3, 7};
+              for (auto& frame : maker.frames)
+                for (const std::size_t i : {0U, 3U, 4U, 5U}) frame[i] = maker.frames[0][i];
+            }
+            const Trajectory trajectory = read(maker.bytes());
+            expect_frames(trajectory, maker);
+            EXPECT_TRUE(trajectory.element_radii.empty());
+            EXPECT_TRUE(trajectory.warnings.empty()) << trajectory.warnings[0];
+          }
+}
+
+TEST(DcdReader, FlagsOfXplorAreNotRead) {
+  DcdMaker maker = DcdMaker::chain(5, 2);
+  maker.version = 0;
+  std::string bytes = maker.bytes();
+  bytes[4 + 4 * 11] = 9;  // part of a time step in double there
+  expect_frames(read(bytes), maker);
+}
+
+TEST(DcdReader, SelectsFramesBySeeking) {
+  DcdMaker maker = DcdMaker::chain(5, 10);
+  maker.frames[3][2][1] = std::numeric_limits<float>::quiet_NaN();  // in a frame not asked for
+  const Trajectory trajectory = read(maker.bytes(), {.frames = {1, 9, 4}});
+  EXPECT_EQ(trajectory.frame_numbers, (std::vector<std::size_t>{1, 5}));
+  EXPECT_EQ(trajectory.frames[1](1, 0), 1.25);
+  maker.free_atoms = {1, 2};
+  EXPECT_EQ(read(maker.bytes(), {.frames = {9, 10, 1}}).frames[0](1, 0), 2.25);
+  refuse(maker.bytes(), {"--frames", "10 frames"}, {.frames = {10, std::nullopt, 1}});
+  refuse(maker.bytes(), {"--frames", "10 frames"}, {.frames = up_to(11)});
+}
+
+TEST(DcdReader, NumbersThatAreNone) {
+  DcdMaker maker = DcdMaker::chain(5, 3);
+  maker.frames[2][3][1] = std::numeric_limits<float>::quiet_NaN();
+  refuse(maker.bytes(), {"a.dcd: frame 2: bead 3 has y = nan"});
+  maker.frames[1][0][2] = -std::numeric_limits<float>::infinity();
+  refuse(maker.bytes(), {"a.dcd: frame 1: bead 0 has z = -inf"});
+}
+
+TEST(DcdReader, FalseFrameCountIsWarnedOf) {
+  DcdMaker maker = DcdMaker::chain(5, 3);
+  maker.claim_as_said = true;
+  for (const std::int32_t claimed : {500, 0, -7, 2}) {
+    maker.frames_claimed = claimed;
+    const Trajectory trajectory = read(maker.bytes());
+    expect_frames(trajectory, maker);
+    ASSERT_EQ(trajectory.warnings.size(), 1U);
+    EXPECT_NE(trajectory.warnings[0].find("claims " + std::to_string(claimed) + " frames, the file holds 3"),
+              std::string::npos);
+  }
+}
+
+TEST(DcdReader, RecordThatDisagreesWithTheAtoms) {
+  DcdMaker maker = DcdMaker::chain(108, 9);
+  DcdMaker fewer = DcdMaker::chain(100, 1);
+  std::string bytes = maker.header();
+  for (std::size_t k = 0; k < 7; ++k) bytes += maker.frame(k);
+  bytes += fewer.frame(0) + maker.frame(8);
+  refuse(bytes, {"a.dcd: frame 7: record holds 100 atoms, expected 108"});
+  // The same where the file's size happens to fit.
+  std::string flipped = maker.bytes();
+  flipped[maker.header().size() + 2 * maker.frame(0).size()] = 12;
+  refuse(flipped, {"a.dcd: frame 2: record holds 67 atoms, expected 108"});
+}
+
+TEST(DcdReader, CellWhereNoneIsAnnounced) {
+  DcdMaker maker = DcdMaker::chain(108, 2);
+  std::string bytes = maker.header();
+  maker.cell = true;
+  bytes += maker.frame(0) + maker.frame(1);
+  refuse(bytes, {"a.dcd: frame 0: record holds 12 atoms, expected 108"});
+}
+
+TEST(DcdReader, HeadersThatLie) {
+  DcdMaker maker = DcdMaker::chain(5, 2);
+  maker.atoms_claimed = 2000000000;
+  refuse(maker.bytes(), {"a.dcd: frame 0: record holds 5 atoms, expected 2000000000"});
+  maker.atoms_claimed = 0;
+  refuse(maker.bytes(), {"a.dcd", "0 atoms"});
+  maker.atoms_claimed = -1;
+  maker.magic = "VELD";
+  refuse(maker.bytes(), {"a.dcd", "velocities"});
+  maker.magic = "NONE";
+  refuse(maker.bytes(), {"a.dcd", "no DCD file"});
+  refuse("", {"a.dcd", "no DCD file"});
+  maker.magic = "CORD";
+  maker.free_atoms = {2, 2};
+  refuse(maker.bytes(), {"a.dcd", "free atoms"});
+  maker.free_atoms = {3, 6};
+  refuse(maker.bytes(), {"a.dcd", "free atoms"});
+  maker.free_atoms.clear();
+  refuse(maker.header(), {"a.dcd", "no frame"});
+  std::string title = maker.bytes();
+  title[4 + 84 + 4 + 3] = 0x7f;  // a title of two gigabytes
+  refuse(title, {"a.dcd", "title"});
+  test::expect_refused([] { (void)read_trajectory("no-such-file.dcd"); },
+                       {"no-such-file.dcd", "cannot open"});
+  std::filesystem::create_directories(test::temporary("folder.dcd"));
+  test::expect_refused([] { (void)read_trajectory(test::temporary("folder.dcd")); }, {"folder.dcd"});
+}
+
+TEST(DcdReader, FileThatEndsInsideAFrame) {
+  const DcdMaker maker = DcdMaker::chain(20, 4);
+  const std::string cut = maker.bytes().substr(0, maker.bytes().size() - 50);
+  refuse(cut, {"a.dcd", "inside frame 3", "last whole frame is 2", "--frames :3"});
+  refuse(cut, {"inside frame 3"}, {.frames = up_to(4)});
+  const Trajectory whole = read(cut, {.frames = up_to(3)});
+  EXPECT_EQ(whole.frames.size(), 3U);
+  ASSERT_EQ(whole.warnings.size(), 1U);
+  EXPECT_NE(whole.warnings[0].find("inside frame 3"), std::string::npos);
+}
+
+TEST(DcdReader, CutAnywhere) {
+  DcdMaker maker = DcdMaker::chain(4, 3);
+  maker.cell = true;
+  maker.free_atoms = {1, 2, 4};
+  const std::string bytes = maker.bytes();
+  const std::size_t header = maker.header().size();
+  const std::size_t first = maker.frame(0).size();
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    const bool at_frame_end = size == header + first || size == header + first + maker.frame(1).size();
+    try {
+      const Trajectory trajectory = read(bytes.substr(0, size));
+      EXPECT_TRUE(at_frame_end) << size;
+      EXPECT_EQ(trajectory.frames.size(), size == header + first ? 1U : 2U);
+    } catch (const InputError&) {
+      EXPECT_FALSE(at_frame_end) << size;
+    }
+    // Whole frames, where asked for by number, come out of every file that holds them.
+    if (size > header + first) {
+      EXPECT_EQ(read(bytes.substr(0, size), {.frames = up_to(1)}).frames.size(), 1U) << size;
+    }
+  }
+}
+
+TEST(DcdReader, CellInCosinesOrDegrees) {
+  for (const bool degrees : {false, true}) {
+    DcdMaker maker = DcdMaker::chain(3, 2);
+    maker.cell = true;
+    maker.cell_values = {20, degrees ? 90.0 : 0.0, 20, degrees ? 90.0 : 0.0, degrees ? 90.0 : 0.0, 20};
+    maker.frames[0] = {{{19, 0, 0}, {0.5F, 0, 0}, {2, 0, 0}}};
+    maker.frames[1] = {{{0.25F, 0, 0}, {1.75F, 0, 0}, {3.25F, 0, 0}}};
+    const Trajectory trajectory = read(maker.bytes());
+    EXPECT_EQ(trajectory.frames[0](0, 1), 20.5);
+    EXPECT_EQ(trajectory.frames[0](0, 2), 22);
+    EXPECT_EQ(trajectory.frames[1](0, 0), 20.25);  // next to where it was
+    EXPECT_TRUE(trajectory.breaks.empty());
+  }
+}
+
+TEST(DcdReader, CellsThatAreNone) {
+  for (const double length : {0.0, 1.0, -5.0, std::numeric_limits<double>::quiet_NaN()}) {
+    DcdMaker maker = DcdMaker::chain(5, 2);
+    maker.cell = true;
+    maker.cell_values = {length, 0, 20, 0, 0, 20};
+    expect_frames(read(maker.bytes()), maker);
+  }
+}
+
+TEST(DcdReader, ResiduesNeedATopology) {
+  const std::string bytes = DcdMaker::chain(6, 2).bytes();
+  EXPECT_EQ(read(bytes, {.selection = Selection::all}).bead_count(), 6U);
+  refuse(bytes, {"--select", "--topology"}, {.selection = Selection::backbone});
+  refuse(bytes, {"--select", "--topology"}, {.selection = Selection::ca});
+  refuse(bytes, {"--chain", "--topology"}, {.chain = "A"});
+}
+
+TEST(DcdReader, TopologyPicksAtoms) {
+  // Waters first, alternate locations and a second chain count as atoms of the DCD.
+  std::string pdb =
+      test::pdb_line({.name = "O", .residue = "HOH", .chain = 'W', .het = true, .element = "O"});
+  pdb += test::pdb_residue(1, 'B') + test::pdb_residue(1) + test::pdb_line({.name = "CB", .alternate = 'A'}) +
+         test::pdb_line({.name = "CB", .alternate = 'B'}) + test::pdb_residue(2);
+  const auto topology = test::write_file("t.pdb", pdb);
+  const DcdMaker maker = DcdMaker::chain(12, 2);
+  const auto x = [&](const ReadOptions& options) {
+    std::vector<double> places;
+    const Trajectory trajectory = read(maker.bytes(), options);
+    EXPECT_EQ(trajectory.element_radii.size(), trajectory.bead_count());
+    for (Eigen::Index i = 0; i < trajectory.frames[0].cols(); ++i)
+      places.push_back(trajectory.frames[0](0, i) / 1.5);
+    return places;
+  };
+  EXPECT_EQ(x({.topology = topology}), (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(x({.topology = topology, .chain = "A"}), (std::vector<double>{4, 5, 6, 9, 10, 11}));
+  EXPECT_EQ(x({.topology = topology, .selection = Selection::ca, .chain = "A"}),
+            (std::vector<double>{5, 10}));
+  EXPECT_EQ(x({.topology = topology, .selection = Selection::all, .chain = "A"}),
+            (std::vector<double>{4, 5, 6, 7, 9, 10, 11}));
+  // A file of the beads alone.
+  const Trajectory beads = read(DcdMaker::chain(6, 2).bytes(), {.topology = topology, .chain = "A"});
+  EXPECT_EQ(beads.bead_count(), 6U);
+  EXPECT_EQ(beads.element_radii.front(), 1.55);
+  refuse(DcdMaker::chain(11, 2).bytes(), {"a.dcd", "11 atoms", "t.pdb names 12 (3 of them selected)"},
+         {.topology = topology});
+  refuse(maker.bytes(), {"no-such-file.pdb"}, {.topology = "no-such-file.pdb"});
+}
+
+TEST(DcdReader, RealFiles) {
+  const Trajectory villin =
+      read_trajectory(test::data_file("trajectories/villin_hp36_300K.dcd"),
+                      {.topology = test::data_file("trajectories/villin_hp36_300K.pdb")});
+  EXPECT_EQ(villin.bead_count(), 108U);
+  EXPECT_EQ(villin.frames.size(), 1000U);
+  EXPECT_TRUE(villin.breaks.empty());
+  EXPECT_TRUE(villin.warnings.empty());
+  EXPECT_EQ(villin.element_radii.size(), 108U);
+  const Trajectory start = read_trajectory(test::data_file("trajectories/villin_hp36_300K.pdb"));
+  EXPECT_LT((villin.frames[0] - start.frames[0]).cwiseAbs().maxCoeff(), 1e-3);
+}
+
+TEST(DcdReader, SameCoordinatesAsTheModelsOfAPdbFile) {
+  const auto pdb = test::data_file("proteins/1l2y.pdb");
+  for (const Selection selection : {Selection::automatic, Selection::ca, Selection::all}) {
+    const Trajectory models = read_trajectory(pdb, {.selection = selection});
+    const Trajectory frames =
+        read_trajectory(test::data_file("trajectories/1l2y.dcd"), {.topology = pdb, .selection = selection});
+    EXPECT_TRUE(frames.warnings.empty());
+    ASSERT_EQ(models.frames.size(), 38U);
+    ASSERT_EQ(frames.frames.size(), 38U);
+    EXPECT_EQ(models.element_radii, frames.element_radii);
+    for (std::size_t k = 0; k < 38; ++k) {
+      ASSERT_EQ(models.frames[k].cols(), frames.frames[k].cols());
+      EXPECT_LT((models.frames[k] - frames.frames[k]).cwiseAbs().maxCoeff(), 1e-5);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kds

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include "motions/readers/frame_selection.h"
+#include "motions/readers/read_trajectory.h"
+#include "tests/motions/test_files.h"
+
+namespace kds {
+namespace {
+
+using Frames = std::vector<std::size_t>;
+
+Frames select(std::string_view range, FramesHeld held) {
+  std::vector<std::string> warnings;
+  return select_frames("f", parse_frame_range(range), held, warnings);
+}
+
+TEST(FrameRange, Parse) {
+  const FrameRange all = parse_frame_range(":");
+  EXPECT_EQ(all.first, 0U);
+  EXPECT_FALSE(all.last.has_value());
+  EXPECT_EQ(all.stride, 1U);
+  const FrameRange some = parse_frame_range("5:100:3");
+  EXPECT_EQ(some.first, 5U);
+  EXPECT_EQ(some.last, 100U);
+  EXPECT_EQ(some.stride, 3U);
+  EXPECT_EQ(parse_frame_range("::2").stride, 2U);
+  EXPECT_EQ(parse_frame_range("10:").first, 10U);
+  EXPECT_EQ(parse_frame_range(":7").last, 7U);
+  EXPECT_EQ(parse_frame_range("::").stride, 1U);
+}
+
+TEST(FrameRange, ParseRefuses) {
+  for (const char* text : {"", "5", "a:b", "1:2:3:4", "-1:5", "1:5:0", "5:5", "6:5", "1.0:2", " 1:2",
+                           "99999999999999999999999:"})
+    test::expect_refused([&] { (void)parse_frame_range(text); }, {"--frames"});
+}
+
+TEST(FrameRange, Select) {
+  EXPECT_EQ(select(":", {3, false}), (Frames{0, 1, 2}));
+  EXPECT_EQ(select("1:", {3, false}), (Frames{1, 2}));
+  EXPECT_EQ(select("0:5:2", {5, false}), (Frames{0, 2, 4}));
+  EXPECT_EQ(select("::18446744073709551615", {5, false}), (Frames{0}));
+}
+
+TEST(FrameRange, FramesThatAreNotThere) {
+  test::expect_refused([] { (void)select("3:", {3, false}); }, {"--frames", "f", "3 frames"});
+  test::expect_refused([] { (void)select(":4", {3, false}); }, {"--frames", "f", "3 frames"});
+  test::expect_refused([] { (void)select(":", {0, false}); }, {"f", "no frame"});
+  std::vector<std::string> warnings;
+  test::expect_refused(
+      [&] {
+        (void)select_frames("f", FrameRange{0, std::nullopt, 0}, {3, false}, warnings);
+      },
+      {"stride"});
+}
+
+TEST(FrameRange, OneFrameIsAtRest) {
+  EXPECT_EQ(select("10:60:2", {1, false}), Frames{0});
+  test::expect_refused([] { (void)select("10:60", {1, true}); }, {"inside frame 1"});
+}
+
+TEST(FrameRange, FileThatEndsInsideAFrame) {
+  test::expect_refused(
+      [] {
+        (void)select(":", {3, true});
+      },
+      {"f", "inside frame 3", "last whole frame is 2", "--frames :3"});
+  test::expect_refused([] { (void)select(":4", {3, true}); }, {"last whole frame is 2"});
+  test::expect_refused([] { (void)select(":1", {0, true}); }, {"inside frame 0"});
+  std::vector<std::string> warnings;
+  EXPECT_EQ(select_frames("f", parse_frame_range(":3"), {3, true}, warnings), (Frames{0, 1, 2}));
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("ends inside frame 3"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace kds

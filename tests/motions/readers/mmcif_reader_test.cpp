@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include "motions/readers/read_trajectory.h"
+#include "tests/motions/test_files.h"
+
+namespace kds {
+namespace {
+
+Trajectory read(std::string_view text, const ReadOptions& options = {}) {
+  return read_trajectory(test::write_file("a.cif", text), options);
+}
+
+void refuse(std::string_view text, std::initializer_list<std::string_view> parts,
+            const ReadOptions& options = {}) {
+  test::expect_refused([&] { (void)read(text, options); }, parts);
+}
+
+constexpr std::string_view head =
+    "data_X\n# a comment\n_cell.length_a 10\nloop_\n_entity.id\n_entity.type\n1 polymer\n2 'non-polymer'\n3 "
+    "water\nloop_\n"
+    "_atom_site.group_PDB\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
+    "_atom_site.label_alt_id\n_atom_site.label_comp_id\n_atom_site.label_asym_id\n_atom_site.label_entity_"
+    "id\n"
+    "_atom_site.label_seq_id\n_atom_site.pdbx_PDB_ins_code\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n"
+    "_atom_site.Cartn_z\n_atom_site.occupancy\n_atom_site.B_iso_or_equiv\n_atom_site.auth_seq_id\n"
+    "_atom_site.auth_asym_id\n_atom_site.pdbx_PDB_model_num\n";
+
+std::string atom(const std::string& name, const std::string& x, int residue = 1, int model = 1,
+                 const std::string& alternate = ".", const std::string& comp = "ALA", int entity = 1) {
+  return "ATOM 1 " + name.substr(0, 1) + " " + name + " " + alternate + " " + comp + " " +
+         std::string("?ABC").substr(static_cast<std::size_t>(entity), 1) + " " + std::to_string(entity) +
+         " " + (entity == 1 ? std::to_string(residue) : ".") + " ? " + x + " 0.5 0 1.0 20.0 " +
+         std::to_string(residue) + " Z " + std::to_string(model) + "\n";
+}
+
+std::string residue(int number, int model = 1, const std::string& x = "1.25") {
+  return atom("N", x, number, model) + atom("CA", x, number, model) + atom("C", x, number, model);
+}
+
+std::string file(const std::string& atoms) { return std::string(head) + atoms; }
+
+TEST(MmcifReader, Reads) {
+  const Trajectory trajectory = read(file(residue(1) + residue(2)));
+  EXPECT_EQ(trajectory.bead_count(), 6U);
+  EXPECT_EQ(trajectory.frames[0](0, 0), 1.25);
+  EXPECT_EQ(trajectory.frames[0](1, 0), 0.5);
+  EXPECT_EQ(trajectory.element_radii.size(), 6U);
+}
+
+TEST(MmcifReader, ChainsGoByTheirAuthorsNames) {
+  EXPECT_EQ(read(file(residue(1)), {.chain = "Z"}).bead_count(), 3U);
+  refuse(file(residue(1)), {"--chain", "'A'", "it has Z"}, {.chain = "A"});
+}
+
+TEST(MmcifReader, ModelsAreFrames) {
+  const Trajectory trajectory = read(file(residue(1) + residue(1, 2, "2.5") + residue(1, 7, "3")));
+  ASSERT_EQ(trajectory.frames.size(), 3U);
+  EXPECT_EQ(trajectory.frames[2](0, 0), 3);
+  refuse(file(residue(1) + residue(2, 2)), {"a.cif: frame 1: bead 0"});
+}
+
+TEST(MmcifReader, EntitiesTellThePolymer) {
+  const std::string atoms =
+      residue(1) + atom("CA", "0", 2, 1, ".", "ALA", 2) + atom("O", "0", 3, 1, ".", "HOH", 3);
+  EXPECT_EQ(read(file(atoms), {.selection = Selection::all}).bead_count(), 3U);
+}
+
+TEST(MmcifReader, Alternates) {
+  const std::string atoms =
+      atom("N", "1", 1, 1, "A") + atom("N", "2", 1, 1, "B") + atom("CA", "3") + atom("C", "4") + residue(2);
+  const Trajectory trajectory = read(file(atoms));
+  EXPECT_EQ(trajectory.bead_count(), 6U);
+  EXPECT_EQ(trajectory.frames[0](0, 0), 1);
+}
+
+TEST(MmcifReader, AsTopology) {
+  const auto topology = test::write_file(
+      "t.cif", file(atom("O", "0", 9, 1, ".", "HOH", 3) + residue(1) + atom("N", "2", 2, 1, "A") +
+                    atom("N", "2", 2, 1, "B") + atom("CA", "2", 2) + atom("C", "2", 2)));
+  const auto dcd = test::write_file("a.dcd", test::DcdMaker::chain(8, 2).bytes());
+  const Trajectory trajectory = read_trajectory(dcd, {.topology = topology});
+  ASSERT_EQ(trajectory.bead_count(), 6U);
+  EXPECT_EQ(trajectory.frames[0](0, 0), 1.5);
+  EXPECT_EQ(trajectory.frames[0](0, 4), 9);
+}
+
+TEST(MmcifReader, NumbersThatAreNone) {
+  refuse(file(atom("N", "1") + atom("CA", "?") + atom("C", "1")), {"a.cif: frame 0: bead 1 has x = nan"});
+  refuse(file(atom("N", "1") + atom("CA", "1x") + atom("C", "1")), {"a.cif: frame 0: bead 1 has x = nan"});
+}
+
+TEST(MmcifReader, SyntaxOfCif) {
+  const std::string quoted = "data_X\n_a.b 'it's quoted' _a.c \"x\"\n_a.d\n;text\nloop_\n;\n";
+  refuse(quoted, {"a.cif", "no atom"});
+  refuse("", {"a.cif:1:", "data_"});
+  refuse("HEADER\n", {"a.cif:1:", "data_", "HEADER"});
+  refuse("data_X\n_a.b\n", {"a.cif:2:", "'_a.b' has no value"});
+  refuse("data_X\n_a.b 'open\n'", {"a.cif:2:", "quoted string"});
+  refuse("data_X\n_a.b\n;open\n", {"a.cif:3:", "text field"});
+  refuse("data_X\nvalue\n", {"a.cif:2:", "'value'"});
+  refuse("data_X\nloop_\n1 2\n", {"a.cif:2:", "tags"});
+  refuse("data_X\nloop_ _a.b _a.c\n1 2 3\n", {"a.cif", "inside a row"});
+  refuse("data_X\nsave_frame\n", {"a.cif:2:"});
+}
+
+TEST(MmcifReader, CutFileOfTheRealWorld) {
+  const std::string text = test::read_bytes(test::data_file("proteins/6wqa.cif"));
+  for (std::size_t size = 0; size < text.size(); size += text.size() / 40) {
+    const auto path = test::write_file("a.cif", std::string_view(text).substr(0, size));
+    try {
+      EXPECT_GT(read_trajectory(path).bead_count(), 0U);
+    } catch (const InputError&) {
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kds

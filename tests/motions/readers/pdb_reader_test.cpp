@@ -1,0 +1,252 @@
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include "motions/readers/pdb_models.h"
+#include "motions/readers/read_trajectory.h"
+#include "tests/motions/test_files.h"
+
+namespace kds {
+namespace {
+
+using test::pdb_line;
+using test::pdb_residue;
+
+Trajectory read(std::string_view text, const ReadOptions& options = {}) {
+  return read_trajectory(test::write_file("a.pdb", text), options);
+}
+
+void refuse(std::string_view text, std::initializer_list<std::string_view> parts,
+            const ReadOptions& options = {}) {
+  test::expect_refused([&] { (void)read(text, options); }, parts);
+}
+
+std::string models(const std::vector<std::string>& texts) {
+  std::string all;
+  for (std::size_t k = 0; k < texts.size(); ++k)
+    all += "MODEL     " + std::to_string(k + 1) + "\n" + texts[k] + "ENDMDL\n";
+  return all + "END\n";
+}
+
+TEST(PdbReader, RealFiles) {
+  struct Expected {
+    const char* file;
+    std::size_t beads, frames, breaks;
+  };
+  for (const Expected& e : {Expected{"proteins/2f4k.pdb", 105, 1, 0},
+                            {"proteins/1ejg.pdb", 138, 1, 0},
+                            {"proteins/1l2y.pdb", 60, 38, 0},
+                            {"proteins/6wqa.cif", 1173, 1, 1}}) {
+    const Trajectory trajectory = read_trajectory(test::data_file(e.file));
+    EXPECT_EQ(trajectory.bead_count(), e.beads) << e.file;
+    EXPECT_EQ(trajectory.frames.size(), e.frames) << e.file;
+    EXPECT_EQ(trajectory.breaks.size(), e.breaks) << e.file;
+    EXPECT_EQ(trajectory.warnings.size(), e.breaks) << e.file;
+    EXPECT_EQ(trajectory.element_radii.size(), e.beads) << e.file;
+    EXPECT_EQ(read_trajectory(test::data_file(e.file), {.selection = Selection::ca}).bead_count() * 3,
+              e.beads);
+  }
+}
+
+TEST(PdbReader, AllAtomsOfThePolymerOnly) {
+  // 304 atoms and nothing else.
+  EXPECT_EQ(read_trajectory(test::data_file("proteins/1l2y.pdb"), {.selection = Selection::all}).bead_count(),
+            304U);
+  const std::string water =
+      pdb_line({.name = "O", .residue = "HOH", .number = 9, .het = true, .element = "O"});
+  const std::string sugar = pdb_line({.name = "C1", .residue = "NAG", .number = 8, .het = true});
+  const std::string calcium =
+      pdb_line({.name = "CA", .residue = "CA", .number = 7, .het = true, .element = "CA"});
+  const std::string side = pdb_line({.name = "CB", .number = 2});
+  for (const char* ter : {"", "TER\n"}) {
+    const std::string text = pdb_residue(1) + pdb_residue(2) + side + ter + water + sugar + calcium;
+    EXPECT_EQ(read(text, {.selection = Selection::all}).bead_count(), 7U);
+    EXPECT_EQ(read(text, {.selection = Selection::ca}).bead_count(), 2U);
+    EXPECT_EQ(read(text).bead_count(), 6U);
+  }
+}
+
+TEST(PdbReader, FirstAlternateLocation) {
+  std::string text = pdb_line({.name = "N", .x = 1, .alternate = 'A', .element = "N"}) +
+                     pdb_line({.name = "N", .x = 2, .alternate = 'B', .element = "N"}) +
+                     pdb_line({.name = "CA", .x = 3, .alternate = 'B'}) +
+                     pdb_line({.name = "CA", .x = 4, .alternate = 'A'}) + pdb_line({.name = "C", .x = 5});
+  const Trajectory trajectory = read(text);
+  EXPECT_EQ(trajectory.frames[0].row(0), Eigen::RowVector3d(1, 3, 5));
+  EXPECT_EQ(read(text, {.selection = Selection::all}).bead_count(), 3U);
+}
+
+TEST(PdbReader, TwoResiduesAtOnePosition) {
+  std::string text;
+  for (const char* name : {"N", "CA", "C"})
+    for (const char* residue : {"PRO", "SER"})
+      text += pdb_line({.name = name,
+                        .residue = residue,
+                        .x = residue[0] == 'P' ? 1.0 : 2.0,
+                        .alternate = residue[0] == 'P' ? 'A' : 'B',
+                        .element = std::string(1, name[0])});
+  const Trajectory trajectory = read(text);
+  EXPECT_EQ(trajectory.frames[0].row(0), Eigen::RowVector3d(1, 1, 1));
+}
+
+TEST(PdbReader, InsertionCodesAreResidues) {
+  EXPECT_EQ(read(pdb_line({.number = 5}) + pdb_line({.number = 5, .x = 3.8, .insertion = 'A'}),
+                 {.selection = Selection::ca})
+                .bead_count(),
+            2U);
+}
+
+TEST(PdbReader, ResiduesThatLackAnAtomAreSkipped) {
+  const std::string text = pdb_residue(1) + pdb_line({.name = "CA", .number = 2}) + pdb_residue(3);
+  EXPECT_EQ(read(text).bead_count(), 6U);
+  EXPECT_EQ(read(text, {.selection = Selection::ca}).bead_count(), 3U);
+}
+
+TEST(PdbReader, ModifiedResiduesInsideTheChainCount) {
+  std::string odd;
+  for (const char* name : {"N", "CA", "C"})
+    odd += pdb_line(
+        {.name = name, .residue = "ZZZ", .number = 2, .het = true, .element = std::string(1, name[0])});
+  EXPECT_EQ(read(pdb_residue(1) + odd + pdb_residue(3)).bead_count(), 9U);
+  EXPECT_EQ(read(pdb_residue(1) + odd + pdb_residue(3) + "TER\n").bead_count(), 9U);
+}
+
+TEST(PdbReader, Chains) {
+  const std::string text =
+      pdb_line({.name = "O", .residue = "HOH", .chain = 'W', .het = true, .element = "O"}) +
+      pdb_residue(1, 'B') + pdb_residue(1, 'A') + pdb_residue(2, 'A');
+  EXPECT_EQ(read(text).bead_count(), 3U);
+  EXPECT_EQ(read(text, {.chain = "A"}).bead_count(), 6U);
+  refuse(text, {"--chain", "a.pdb", "'X'", "W, B, A"}, {.chain = "X"});
+  refuse(text, {"--select", "'W'", "a.pdb"}, {.chain = "W"});
+  refuse(pdb_line({.name = "O", .residue = "HOH", .het = true, .element = "O"}),
+         {"a.pdb", "no chain of amino acids"});
+  EXPECT_EQ(read(pdb_residue(1, ' '), {.chain = " "}).bead_count(), 3U);
+}
+
+TEST(PdbReader, ModelsAreFrames) {
+  const std::string text = models({pdb_residue(1), pdb_residue(1, 'A', 1), pdb_residue(1, 'A', 2)});
+  const Trajectory all = read(text);
+  ASSERT_EQ(all.frames.size(), 3U);
+  EXPECT_EQ(all.frames[2](1, 0), 2);
+  const Trajectory some = read(text, {.frames = {0, std::nullopt, 2}});
+  EXPECT_EQ(some.frame_numbers, (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(some.frames[1](1, 0), 2);
+  refuse(text, {"--frames", "3 frames"}, {.frames = {3, std::nullopt, 1}});
+}
+
+TEST(PdbReader, FramesMayBeParted) {
+  const std::string one = pdb_residue(1);
+  EXPECT_EQ(read(one + "ENDMDL\n" + one + "ENDMDL\n").frames.size(), 2U);
+  EXPECT_EQ(read(one + "END\n" + one + "END\n").frames.size(), 2U);
+  EXPECT_EQ(read("MODEL 1\n" + one + "MODEL 2\n" + one).frames.size(), 2U);
+  EXPECT_EQ(read("MODEL        1\n" + one + "ENDMDL\nMODEL        1\n" + one + "ENDMDL\n").frames.size(), 2U);
+  EXPECT_EQ(read("REMARK 1\r\n" + one).frames.size(), 1U);
+}
+
+TEST(PdbReader, ModelsMustHaveTheSameAtoms) {
+  refuse(models({pdb_residue(1), pdb_residue(2)}),
+         {"a.pdb: frame 1: bead 0 is N of ALA 2", "in frame 0 it is N of ALA 1"});
+  refuse(models({pdb_residue(1) + pdb_residue(2), pdb_residue(1)}), {"a.pdb: frame 1: 3 beads, expected 6"});
+  refuse(models({pdb_residue(1), "", pdb_residue(1)}), {"a.pdb: frame 1:"});
+}
+
+TEST(PdbReader, FileThatEndsInsideAModel) {
+  const std::string whole = models({pdb_residue(1), pdb_residue(1), pdb_residue(1)});
+  const std::string cut = whole.substr(0, whole.size() - 100);
+  refuse(cut, {"inside frame 2", "last whole frame is 1", "--frames :2"});
+  EXPECT_EQ(read(cut, {.frames = {0, 2, 1}}).frames.size(), 2U);
+}
+
+TEST(PdbReader, Coordinates) {
+  std::string text = models({pdb_residue(1), pdb_residue(1)});
+  const std::size_t place = text.rfind("   4.500");
+  std::string bad = text;
+  refuse(bad.replace(place, 8, "     nan"), {"a.pdb: frame 1: bead 0 has x = nan"});
+  refuse(bad.replace(place, 8, "    -inf"), {"a.pdb: frame 1: bead 0 has x = -inf"});
+  refuse(bad.replace(place, 8, "********"), {"a.pdb:7:", "columns 31 to 38", "********"});
+  refuse(bad.replace(place, 8, "  1.0 .0"), {"a.pdb:7:"});
+  refuse(bad.replace(place, 8, "        "), {"a.pdb:7:"});
+  refuse(text.substr(0, 45) + "\n", {"a.pdb:2:", "column 54"});
+}
+
+TEST(PdbReader, FilesThatAreNone) {
+  refuse("", {"a.pdb", "no ATOM"});
+  refuse("hello\n", {"a.pdb", "no ATOM"});
+  refuse("REMARK only\nEND\n", {"a.pdb", "no ATOM"});
+  test::expect_refused([] { (void)read_trajectory("no-such-file.pdb"); },
+                       {"no-such-file.pdb", "cannot open"});
+  EXPECT_THROW((void)read_trajectory(test::data_file("trajectories/1l2y.dcd").replace_extension(".pdb")),
+               InputError);
+}
+
+TEST(PdbReader, CompressedFile) {
+  const auto path = test::temporary("a.PDB.gz");
+  const std::string text = test::read_bytes(test::data_file("proteins/2f4k.pdb"));
+  const gzFile out = gzopen(path.c_str(), "wb");
+  gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
+  gzclose(out);
+  EXPECT_EQ(read_trajectory(path).bead_count(), 105U);
+}
+
+TEST(PdbReader, OneBead) { EXPECT_EQ(read(pdb_line({}), {.selection = Selection::ca}).bead_count(), 1U); }
+
+TEST(PdbReader, ShiftedNamesWithoutElements) {
+  // As CHARMM writes them: names from column 13, no column for elements.
+  std::string text;
+  for (const char* name : {"N   ", "HN  ", "CA  ", "HG1 ", "CD  ", "SG  ", "C   "})
+    text +=
+        std::string("ATOM      1 ") + name + " HSD     1       1.000   2.000   3.000  1.00  0.00      SEGA\n";
+  EXPECT_EQ(read(text).element_radii, (std::vector<double>{1.55, 1.7, 1.7}));
+  EXPECT_EQ(read(text, {.selection = Selection::all}).element_radii,
+            (std::vector<double>{1.55, 1.2, 1.7, 1.2, 1.7, 1.8, 1.7}));
+}
+
+TEST(PdbReader, CellsOfCrystalsAreNoBoxes) {
+  const auto frame = [](double x) {
+    return pdb_line({.number = 1, .x = 9}) + pdb_line({.number = 2, .x = x}) +
+           pdb_line({.number = 3, .x = x + 2});
+  };
+  const ReadOptions ca{.selection = Selection::ca};
+  const std::string box = "CRYST1   10.000   10.000   10.000  90.00  90.00  90.00 P 1           1\n";
+  const std::string crystal = "CRYST1   10.000   10.000   10.000  90.00  90.00  90.00 P 21 21 21    4\n";
+  const std::string dummy = "CRYST1    1.000    1.000    1.000  90.00  90.00  90.00 P 1           1\n";
+  EXPECT_EQ(read(box + models({frame(1), frame(1)}), ca).frames[1](0, 1), 11);
+  EXPECT_EQ(read(models({box + frame(1), box + frame(1)}), ca).frames[1](0, 1), 11);
+  EXPECT_EQ(read(box + frame(1), ca).frames[0](0, 1), 1);
+  EXPECT_EQ(read(crystal + models({frame(1), frame(1)}), ca).frames[1](0, 1), 1);
+  EXPECT_EQ(read(dummy + models({frame(1), frame(1)}), ca).frames[1](0, 1), 1);
+}
+
+TEST(PdbReader, TopologyIsForDcdFiles) {
+  const Trajectory trajectory = read(pdb_residue(1), {.topology = "unused.pdb"});
+  ASSERT_EQ(trajectory.warnings.size(), 1U);
+  EXPECT_NE(trajectory.warnings[0].find("--topology"), std::string::npos);
+}
+
+TEST(PdbModels, AtomsAreNumberedByTheirPlace) {
+  std::string text;
+  for (int i = 0; i < 100002; ++i) text += "ATOM  xxxxx  CA  ALA A   1       0.000   0.000   0.000\n";
+  const PdbText split = split_pdb_models(text);
+  ASSERT_EQ(split.models.size(), 1U);
+  const std::string lines = atom_lines("f", split.models[0]);
+  const auto serial = [&](std::size_t i) { return lines.substr(i * (lines.size() / 100002) + 6, 5); };
+  EXPECT_EQ(serial(0), "    0");
+  EXPECT_EQ(serial(99999), "99999");
+  EXPECT_EQ(serial(100000), "A0000");
+  EXPECT_EQ(serial(100001), "A0001");
+}
+
+TEST(PdbModels, LargeTopology) {
+  std::string text;
+  for (int i = 0; i < 100010; ++i)
+    text += pdb_line(
+        {.name = "O", .residue = "HOH", .chain = 'W', .number = i % 10000, .het = true, .element = "O"});
+  const auto topology = test::write_file("t.pdb", text + pdb_residue(1));
+  const test::DcdMaker maker = test::DcdMaker::chain(100013, 1);
+  const Trajectory trajectory =
+      read_trajectory(test::write_file("a.dcd", maker.bytes()), {.topology = topology});
+  EXPECT_EQ(trajectory.frames[0](0, 0), 1.5 * 100010);
+}
+
+}  // namespace
+}  // namespace kds

@@ -1,0 +1,158 @@
+// Whatever a file holds: frames that keep their promises come out, or an InputError.
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "motions/readers/instance.h"
+#include "motions/readers/read_trajectory.h"
+#include "motions/scene/radii.h"
+#include "tests/motions/test_files.h"
+
+namespace kds {
+namespace {
+
+using namespace std::string_view_literals;
+
+std::string mutated(std::string bytes, std::mt19937& random) {
+  const auto below = [&](std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+  };
+  constexpr std::string_view interesting = "\0\n\r \t-+.0129eE:;'\"_#\x7f\x80\xff"sv;
+  for (std::size_t changes = 1 + below(4); changes > 0 && !bytes.empty(); --changes) {
+    const std::size_t place = below(bytes.size());
+    switch (below(6)) {
+      case 0:
+        bytes[place] = static_cast<char>(below(256));
+        break;
+      case 1:
+        bytes[place] = interesting[below(interesting.size())];
+        break;
+      case 2:
+        bytes[place] = static_cast<char>(bytes[place] ^ (1 << below(8)));
+        break;
+      case 3:
+        bytes.erase(place, 1 + below(8));
+        break;
+      case 4:
+        bytes.insert(place, 1, interesting[below(interesting.size())]);
+        break;
+      default:
+        bytes.insert(place, bytes.substr(below(bytes.size()), 1 + below(90)));
+        break;
+    }
+  }
+  return bytes;
+}
+
+void expect_sound(const Trajectory& trajectory) {
+  ASSERT_FALSE(trajectory.frames.empty());
+  ASSERT_GT(trajectory.bead_count(), 0U);
+  ASSERT_EQ(trajectory.frames.size(), trajectory.frame_numbers.size());
+  for (const Eigen::Matrix3Xd& frame : trajectory.frames) {
+    ASSERT_EQ(static_cast<std::size_t>(frame.cols()), trajectory.bead_count());
+    ASSERT_TRUE(frame.allFinite());
+  }
+  if (!trajectory.element_radii.empty()) {
+    ASSERT_EQ(trajectory.element_radii.size(), trajectory.bead_count());
+  }
+  for (const std::size_t b : trajectory.breaks) ASSERT_LT(b + 1, trajectory.bead_count());
+  for (const std::string& warning : trajectory.warnings) ASSERT_EQ(warning.find('\n'), std::string::npos);
+}
+
+// Returns how many files were read after all.
+template <class Read>
+int fuzz(const std::string& name, const std::string& bytes, int rounds, const Read& read) {
+  std::mt19937 random(20);
+  int accepted = 0;
+  for (int round = 0; round < rounds; ++round) {
+    const auto path = test::write_file(name, mutated(bytes, random));
+    try {
+      read(path);
+      ++accepted;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos) << error.what();
+      EXPECT_LT(std::string_view(error.what()).size(), 2000U);
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << "round " << round << ": " << error.what();
+    }
+    if (testing::Test::HasFailure()) break;
+  }
+  return accepted;
+}
+
+void read_and_check(const std::filesystem::path& path, const ReadOptions& options = {}) {
+  const Trajectory trajectory = read_trajectory(path, options);
+  expect_sound(trajectory);
+  for (const char* policy : {"auto", "element:fit"}) {
+    try {
+      EXPECT_EQ(bead_radii(policy, std::span(&trajectory, 1)).size(), trajectory.bead_count());
+    } catch (const InputError&) {
+    }
+  }
+}
+
+TEST(ReaderFuzz, Dcd) {
+  test::DcdMaker maker = test::DcdMaker::chain(4, 3);
+  EXPECT_GT(fuzz("a.dcd", maker.bytes(), 1500, [](const auto& path) { read_and_check(path); }), 10);
+  maker.cell = true;
+  maker.free_atoms = {2, 4};
+  maker.big_endian = true;
+  fuzz("a.dcd", maker.bytes(), 1500, [](const auto& path) { read_and_check(path); });
+  fuzz("a.dcd", maker.bytes(), 500, [](const auto& path) { read_and_check(path, {.frames = {0, 2, 1}}); });
+  maker.marker_size = 8;
+  fuzz("a.dcd", maker.bytes(), 500, [](const auto& path) { read_and_check(path); });
+}
+
+TEST(ReaderFuzz, Pdb) {
+  const std::string model = test::pdb_residue(1) + test::pdb_residue(2) + "TER\n" +
+                            test::pdb_line({.name = "O", .residue = "HOH", .number = 3, .het = true});
+  const std::string cell = "CRYST1   20.000   20.000   20.000  90.00  90.00  90.00 P 1           1\n";
+  const std::string text =
+      cell + "MODEL        1\n" + model + "ENDMDL\nMODEL        2\n" + model + "ENDMDL\nEND\n";
+  for (const Selection selection : {Selection::automatic, Selection::all})
+    EXPECT_GT(
+        fuzz("a.pdb", text, 1500, [&](const auto& path) { read_and_check(path, {.selection = selection}); }),
+        10);
+}
+
+TEST(ReaderFuzz, Mmcif) {
+  std::string text = test::read_bytes(test::data_file("proteins/6wqa.cif"));
+  // A few residues' worth of the atoms, with the header of their loop.
+  const std::size_t loop = text.find("loop_\n_atom_site.");
+  ASSERT_NE(loop, std::string::npos);
+  const std::size_t end = text.find('\n', loop + 4000);
+  text = "data_X\n_cell.length_a 1\nloop_\n_entity.id\n_entity.type\n1 polymer\n" +
+         text.substr(loop, end - loop + 1);
+  EXPECT_GT(fuzz("a.cif", text, 1500, [](const auto& path) { read_and_check(path); }), 10);
+}
+
+TEST(ReaderFuzz, Xyz) {
+  const std::string text =
+      "3\nLattice=\"10 0 0 0 10 0 0 0 10\"\nC 0 0 0\nN 1.5 0 0\nO 3 0 0\n3\nnext\nC 0 1 0\nN 1.5 1 0\nO 3 1 "
+      "0\n";
+  EXPECT_GT(fuzz("a.xyz", text, 2000, [](const auto& path) { read_and_check(path); }), 10);
+}
+
+TEST(ReaderFuzz, Instance) {
+  const std::string text = "3 2 2\n0.5 1 2 3 4 5\n-1 -2 -3 -4 -5 -6\n1e-3 1 0.25 7 8 9\n";
+  EXPECT_GT(fuzz("a.txt", text, 2000,
+                 [](const auto& path) {
+                   (void)is_instance_file(path);
+                   const Instance instance = read_instance(path);
+                   ASSERT_EQ(instance.control_points.size(),
+                             instance.point_count() * static_cast<std::size_t>(instance.columns) *
+                                 static_cast<std::size_t>(instance.degree + 1));
+                 }),
+            10);
+}
+
+TEST(ReaderFuzz, Topology) {
+  const auto dcd = test::temporary("b.dcd");
+  test::write_file("b.dcd", test::DcdMaker::chain(6, 2).bytes());
+  fuzz("t.pdb", test::pdb_residue(1) + test::pdb_residue(2), 1000,
+       [&](const auto& path) { read_and_check(dcd, {.topology = path, .selection = Selection::all}); });
+}
+
+}  // namespace
+}  // namespace kds

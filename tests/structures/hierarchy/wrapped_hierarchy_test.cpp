@@ -1,0 +1,506 @@
+#include "structures/hierarchy/wrapped_hierarchy.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "tests/support/cgal_sphere.h"
+#include "tests/support/exact_checks.h"
+#include "tests/support/moving_beads.h"
+#include "tests/support/random_motion.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+
+template <class K>
+using WrappedRig = Rig<WrappedHierarchy<Space, K>, Space>;
+using Necklaces = std::vector<BeadRange>;
+
+Necklaces one_necklace(const Space& motion) { return {{0, static_cast<BeadId>(motion.bead_count() - 1)}}; }
+
+std::span<const BeadId> beads_of(const Basis& basis) { return {basis.begin(), basis.end()}; }
+
+/// Every node against the definition and against CGAL over the rationals.
+template <class K>
+void expect_right_at(const WrappedRig<K>& rig, const Dyadic& time, bool cgal = true) {
+  const auto points = exact_points(rig.motion, time);
+  const NecklaceTree& tree = rig.structure.tree();
+  const std::vector<Basis> bases = rig.structure.bases_at(time);
+  for (NodeId node = 0; node < tree.node_count(); ++node) {
+    const auto [first, last] = tree.range(node);
+    const Basis& basis = bases[node];
+    SCOPED_TRACE(text_of("node ", first, "-", last));
+    ASSERT_EQ(not_smallest_sphere(points, first, last, beads_of(basis), true), std::nullopt);
+    if (!cgal) continue;
+    const test::ExactSphere ours = sphere_through(points, beads_of(basis))->first;
+    const test::ExactSphere theirs = cgal_smallest_sphere(points, first, last);
+    ASSERT_EQ(ours.center, theirs.center);
+    ASSERT_EQ(ours.square, theirs.square);
+  }
+}
+
+template <class K>
+Witness::Look definition(WrappedRig<K>& rig, int stride) {
+  return [&rig, stride, count = 0](const Dyadic& time) mutable -> std::optional<std::string> {
+    if (count++ % stride != 0) return std::nullopt;
+    const auto points = exact_points(rig.motion, time);
+    const NecklaceTree& tree = rig.structure.tree();
+    for (NodeId node = 0; node < tree.node_count(); ++node) {
+      const auto [first, last] = tree.range(node);
+      // Between events the basis need not be strict: beads may be to spare for a whole step (two that stay
+      // together).
+      const Basis& basis = rig.structure.basis(node);
+      if (!sphere_through(points, beads_of(basis))) continue;  // beads that are together for a while
+      if (auto wrong = not_smallest_sphere(points, first, last, beads_of(basis), false)) {
+        return text_of("node ", first, "-", last, ": ", *wrong);
+      }
+    }
+    return std::nullopt;
+  };
+}
+
+/// Each event names its kind and its node's next basis: checks kinds against the set differences of bases.
+template <class K>
+void expect_consistent_log(const WrappedRig<K>& rig, std::map<std::pair<BeadId, BeadId>, Basis> bases) {
+  std::array<std::uint64_t, 3> kinds{};
+  for (const LoggedEvent& e : rig.history.events) {
+    Basis& before = bases.at({e.change.ids[0], e.change.ids[1]});
+    const Basis after(std::span(e.change.ids).subspan(2, e.change.size - 2U));
+    EXPECT_FALSE(after == before);
+    const bool entered =
+        std::any_of(after.begin(), after.end(), [&](BeadId b) { return !before.contains(b); });
+    const bool left = std::any_of(before.begin(), before.end(), [&](BeadId b) { return !after.contains(b); });
+    const std::string_view kind = entered && left ? "pivot" : entered ? "enter" : "leave";
+    EXPECT_EQ(rig.structure.kinds()[e.change.kind].name, kind);
+    ++kinds[e.change.kind];
+    before = after;
+  }
+  for (NodeId node = 0; node < rig.structure.tree().node_count(); ++node) {
+    const auto [first, last] = rig.structure.tree().range(node);
+    EXPECT_EQ(bases.at({first, last}), rig.structure.basis(node));
+  }
+  EXPECT_THAT(rig.structure.statistics.events_by_kind, testing::ElementsAreArray(kinds));
+}
+
+/// Audited between all events, by the structure and by the definition.
+template <class K>
+void run_audited(const std::vector<Space>& steps, const Necklaces& necklaces, int stride = 1) {
+  WrappedRig<K> rig(steps.front(), AuditMode::events, necklaces);
+  Witness witness(rig.simulator, definition(rig, stride));
+  try {
+    rig.motion = steps.front();
+    rig.simulator.build();
+    std::map<std::pair<BeadId, BeadId>, Basis> bases;
+    for (NodeId node = 0; node < rig.structure.tree().node_count(); ++node) {
+      const auto [first, last] = rig.structure.tree().range(node);
+      bases[{first, last}] = rig.structure.basis(node);
+    }
+    expect_right_at(rig, Dyadic(0.0), steps.size() == 1);
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      rig.step(steps[k], k + 1 == steps.size());
+      expect_right_at(rig, Dyadic(1.0), k + 1 == steps.size());
+    }
+    expect_consistent_log(rig, bases);
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << error.what();
+    return;
+  }
+  EXPECT_TRUE(books_balance(rig.structure.statistics));
+
+  WrappedRig<K> replayed(steps.front(), AuditMode::frames, necklaces);
+  EXPECT_NO_THROW(replayed.replay(steps, rig.history));
+  EXPECT_EQ(replayed.simulator.fingerprint(), rig.simulator.fingerprint());
+}
+
+void run_audited(const std::vector<Space>& steps) {
+  run_audited<Filtered>(steps, one_necklace(steps.front()));
+}
+
+std::string to_text(const std::vector<Points>& frames) { return testing::PrintToString(frames); }
+
+template <class K>
+std::uint64_t fingerprint_of(const std::vector<Space>& steps, const Necklaces& necklaces) {
+  WrappedRig<K> rig(steps.front(), AuditMode::none, necklaces);
+  rig.run(steps);
+  return rig.simulator.fingerprint();
+}
+
+// Few beads.
+
+TEST(WrappedHierarchy, OneBeadHasNoNodes) {
+  const Space motion = moving({{1, 2, 3}}, {{4, 5, 6}});
+  WrappedRig<Filtered> rig(motion, AuditMode::events, one_necklace(motion));
+  rig.run();
+  EXPECT_EQ(rig.structure.tree().node_count(), 0U);
+  EXPECT_EQ(rig.history.events.size(), 0U);
+}
+
+TEST(WrappedHierarchy, TwoBeadsHaveNoEvents) {
+  run_audited({moving({{0, 0, 0}, {1, 0, 0}}, {{5, 0, 0}, {1, 7, 0}})});
+  run_audited({moving({{0, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {0, 0, 0}})});  // through each other
+  run_audited({moving({{0, 0, 0}, {1, 0, 0}}, {{2, 0, 0}, {2, 0, 0}})});  // meeting at the end
+  run_audited({moving({{2, 0, 0}, {2, 0, 0}}, {{0, 0, 0}, {1, 0, 0}})});  // parting at the start
+  run_audited({moving({{2, 0, 0}, {2, 0, 0}}, {{3, 1, 0}, {3, 1, 0}})});  // together
+  run_audited(through({{{2, 0, 0}, {2, 0, 0}}, {{3, 1, 0}, {3, 1, 0}}, {{3, 1, 0}, {4, 1, 0}}}));
+}
+
+TEST(WrappedHierarchy, ThreeBeads) {
+  // An obtuse triangle becomes acute, and obtuse at another bead: enter, then leave.
+  const std::vector<Space> steps{
+      moving({{-4, 0, 0}, {4, 0, 0}, {-3, 1, 0}}, {{-4, 0, 0}, {4, 0, 0}, {14, 1, 0}})};
+  WrappedRig<Filtered> rig(steps.front(), AuditMode::events, one_necklace(steps.front()));
+  rig.run(steps);
+  EXPECT_THAT(rig.structure.statistics.events_by_kind, testing::ElementsAre(1, 1, 0));
+  run_audited(steps);
+  run_audited({moving({{-4, 0, 0}, {4, 0, 0}, {0, 0, 0}}, {{-4, 0, 0}, {4, 0, 0}, {0, 9, 0}})});
+  run_audited({moving({{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {0, 0, 0}, {-1, 0, 0}})});  // all meet
+  run_audited(
+      {moving({{-1, 0, 0}, {1, 0, 0}, {0, 3, 0}}, {{1, 0, 0}, {-1, 0, 0}, {0, 3, 0}})});  // two trade places
+}
+
+// A square that bends through its plane: four beads on one circle at that moment, all basis beads before and
+// after.
+TEST(WrappedHierarchy, AFourBeadBasisPassesThroughAPlane) {
+  const auto bent = [](double s, std::initializer_list<std::array<double, 3>> more) {
+    Points points{{2, 0, s}, {-2, 0, s}, {0, 2, -s}, {0, -2, -s}};
+    points.insert(points.end(), more);
+    return points;
+  };
+  run_audited({moving(bent(-1, {}), bent(1, {}))});
+  run_audited({moving(bent(-1, {{0, 0, 0}}), bent(1, {{0, 0, 0}}))});
+  run_audited({moving(bent(-1, {{1, 0, 0}, {0, 1, 1}}), bent(1, {{1, 0, 0}, {0, 1, 1}}))});
+  run_audited(through({bent(-1, {{0, 0, 0}}), bent(0, {{0, 0, 0}}), bent(1, {{0, 0, 0}})}));
+  run_audited<Exact>({moving(bent(-1, {{0, 0, 0}}), bent(1, {{0, 0, 0}}))}, {{0, 4}});
+  // Not at the middle of the step, and not in a plane of axes.
+  run_audited({moving(bent(-1, {{0, 0, 0}}), bent(4, {{0, 0, 0}}))});
+}
+
+// Halfway the four basis beads lie in one plane and each touches the others' sphere: no certificate changes
+// sign, and yet the basis turns over.
+TEST(WrappedHierarchy, ABasisTurnsOverByTouchingAlone) {
+  run_audited({moving({{2, 2, 0}, {0, 2, 0}, {2, 0, 0}, {2, 2, 2}, {2, 0, 2}, {0, 0, 0}, {0, 0, 2}},
+                      {{0, 0, 2}, {2, 0, 2}, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 2}, {2, 2, 0}})});
+}
+
+TEST(WrappedHierarchy, BeadsInOnePlace) {
+  const Points together(6, {1, 2, 3});
+  const Points apart{{0, 0, 0}, {3, 1, 0}, {0, 4, 1}, {2, 0, 5}, {1, 1, 1}, {3, 3, 3}};
+  run_audited({moving(together, together)});
+  run_audited({moving(together, apart)});
+  run_audited({moving(apart, together)});
+  run_audited(through({apart, together, apart}));
+  run_audited(through({apart, together, together, apart}));
+  Points pairs = apart;
+  pairs[1] = pairs[0];
+  pairs[3] = pairs[2];
+  run_audited(through({apart, pairs, pairs, apart}));
+  run_audited({moving(pairs, pairs)});
+}
+
+TEST(WrappedHierarchy, BeadsOnOneLine) {
+  Points line, turned, reversed, crowded;
+  for (int i = 0; i < 12; ++i) {
+    line.push_back({static_cast<double>(i), 2.0 * i, 0});
+    turned.push_back({static_cast<double>(-i), i * 0.5, 3.0 * i});
+    reversed.push_back({11.0 - i, 2.0 * (11 - i), 0});
+    crowded.push_back({static_cast<double>(i * 5 % 12), 2.0 * (i * 5 % 12), 0});
+  }
+  run_audited({moving(line, line)});
+  run_audited({moving(line, turned)});
+  run_audited({moving(line, reversed)});
+  run_audited({moving(line, crowded)});
+  run_audited(through({line, crowded, reversed, turned, line}));
+}
+
+TEST(WrappedHierarchy, Grids) {
+  Points grid, turned, sheared;
+  for (int i = 0; i < 27; ++i) {
+    const double x = i % 3, y = i / 3 % 3, z = i / 9;
+    grid.push_back({x, y, z});
+    turned.push_back({2 - y, x, z});  // by a quarter: on the way it shrinks, and stays a grid
+    sheared.push_back({x + y, y - z, z + x});
+  }
+  run_audited<Filtered>({moving(grid, grid)}, {{0, 26}});
+  run_audited<Filtered>({moving(grid, turned)}, {{0, 26}}, 3);
+  run_audited<Filtered>({moving(grid, sheared)}, {{0, 26}}, 3);
+  run_audited<Filtered>(through({grid, turned, sheared, grid}), {{0, 26}}, 5);
+}
+
+TEST(WrappedHierarchy, RotatingPolygonsAndHelix) {
+  for (const int corners : {4, 5, 6, 8}) {
+    std::vector<Points> frames(4);
+    for (int k = 0; k < 4; ++k) {
+      for (int i = 0; i < corners; ++i) {
+        const double angle = 2 * std::numbers::pi * i / corners + 0.4 * k;
+        frames[static_cast<std::size_t>(k)].push_back({std::cos(angle), std::sin(angle), 0.1 * k});
+      }
+    }
+    SCOPED_TRACE(corners);
+    run_audited(through(frames));
+  }
+  std::vector<Points> frames(3);
+  for (int k = 0; k < 3; ++k) {
+    for (int i = 0; i < 24; ++i) {
+      const double angle = 2 * std::numbers::pi * i / 8 + 0.3 * k;
+      frames[static_cast<std::size_t>(k)].push_back({std::cos(angle), std::sin(angle), 0.25 * i});
+    }
+  }
+  run_audited(through(frames));
+  // The same with whole coordinates: a square and an octagon of 3-4-5 triangles, a quarter turn on.
+  const Points octagon{{5, 0, 0},  {4, 3, 0},   {3, 4, 0},   {0, 5, 0},  {-3, 4, 0}, {-4, 3, 0},
+                       {-5, 0, 0}, {-4, -3, 0}, {-3, -4, 0}, {0, -5, 0}, {3, -4, 0}, {4, -3, 0}};
+  Points turned;
+  for (const auto& p : octagon) turned.push_back({-p[1], p[0], 0});
+  run_audited({moving(octagon, turned)});
+  for (auto& p : turned) p[2] = p[0];
+  run_audited({moving(octagon, turned)});
+}
+
+TEST(WrappedHierarchy, RandomMotionsFullOfTies) {
+  std::mt19937 random(21);
+  for (int round = 0; round < 300; ++round) {
+    const std::size_t beads = 2 + random() % 9;
+    const int range = 2 + static_cast<int>(random() % 4);
+    Points from = random_grid_points(random, beads, range);
+    Points to = random_grid_points(random, beads, range);
+    if (round % 5 == 0) {
+      for (auto& p : from) p[2] = 0;
+      for (auto& p : to) p[2] = 0;
+    }
+    SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
+    run_audited({moving(from, to)});
+    if (HasFailure()) return;
+  }
+}
+
+TEST(WrappedHierarchy, RandomFramesFullOfTies) {
+  std::mt19937 random(22);
+  for (int round = 0; round < 80; ++round) {
+    const std::size_t beads = 3 + random() % 7;
+    std::vector<Points> frames;
+    for (int k = 0; k < 4; ++k)
+      frames.push_back(k > 0 && random() % 4 == 0 ? frames.back() : random_grid_points(random, beads, 3));
+    SCOPED_TRACE(text_of("round ", round, ": ", to_text(frames)));
+    run_audited(through(frames));
+    if (HasFailure()) return;
+  }
+}
+
+// Symmetric motions p -> -p, mirrored and turned ones: everything happens at u = 1/2.
+TEST(WrappedHierarchy, SymmetricMotions) {
+  std::mt19937 random(23);
+  for (int round = 0; round < 150; ++round) {
+    const Points from = random_grid_points(random, 4 + random() % 4, 5);
+    Points to = from;
+    for (auto& p : to) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (((round % 7 + 1) >> axis & 1) != 0) p[static_cast<std::size_t>(axis)] *= -1;
+      }
+    }
+    SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
+    run_audited({moving(from, to)});
+    if (HasFailure()) return;
+  }
+}
+
+// Real input, general position.
+
+TEST(WrappedHierarchy, RightAtTheFramesOfATrajectory) {
+  const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 3);
+  WrappedRig<Filtered> rig(steps.front(), AuditMode::none, one_necklace(steps.front()));
+  rig.simulator.build();
+  expect_right_at(rig, Dyadic(0.0));
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    rig.step(steps[k], k + 1 == steps.size());
+    expect_right_at(rig, Dyadic(1.0));
+  }
+  EXPECT_GT(rig.external_events(), 5U);
+  EXPECT_TRUE(books_balance(rig.structure.statistics));
+  EXPECT_EQ(rig.structure.statistics.rebuilds, 0U);
+}
+
+TEST(WrappedHierarchy, AuditsPassOnCoarseFrames) {
+  const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 400, 200);
+  run_audited<Filtered>(steps, one_necklace(steps.front()), 10);
+}
+
+TEST(WrappedHierarchy, RandomInstance) {
+  const Space motion = instance_motion<Space>("d3_n50_linear");
+  run_audited<Filtered>({motion}, {{0, 49}}, 10);
+}
+
+TEST(WrappedHierarchy, KernelsAgree) {
+  const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 60, 30);
+  const std::vector<Space> instance{instance_motion<Space>("d3_n20_linear")};
+  for (const auto& [motion, last] : {std::pair(&steps, 107U), std::pair(&instance, 19U)}) {
+    const Necklaces necklaces{{0, last}};
+    WrappedRig<Filtered> filtered(motion->front(), AuditMode::none, necklaces);
+    filtered.run(*motion);
+    EXPECT_EQ(fingerprint_of<Exact>(*motion, necklaces), filtered.simulator.fingerprint());
+    // One function may fail in two nodes at once: the double kernel has them in any order.
+    WrappedRig<Fast> fast(motion->front(), AuditMode::none, necklaces);
+    fast.run(*motion);
+    const auto changes = [](const History& history) {
+      std::vector<std::pair<std::size_t, std::array<BeadId, 10>>> all;
+      for (const LoggedEvent& e : history.events) all.emplace_back(e.step, e.change.ids);
+      std::sort(all.begin(), all.end());
+      return all;
+    };
+    EXPECT_EQ(changes(fast.history), changes(filtered.history));
+  }
+}
+
+TEST(WrappedHierarchy, ExactAgreesOnMotionsFullOfTies) {
+  std::mt19937 random(24);
+  for (int round = 0; round < 60; ++round) {
+    const Points from = random_grid_points(random, 7, 4);
+    const Points to = random_grid_points(random, 7, 4);
+    SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
+    try {
+      EXPECT_EQ(fingerprint_of<Exact>({moving(from, to)}, {{0, 6}}),
+                fingerprint_of<Filtered>({moving(from, to)}, {{0, 6}}));
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << error.what();
+    }
+    if (HasFailure()) return;
+  }
+}
+
+TEST(WrappedHierarchy, FastAlwaysEnds) {
+#ifdef __SANITIZE_ADDRESS__
+  constexpr int rounds = 10;
+#else
+  constexpr int rounds = 100;
+#endif
+  std::mt19937 random(25);
+  for (int round = 0; round < rounds; ++round) {
+    const Points from = random_grid_points(random, 9, 3);
+    const Points to = random_grid_points(random, 9, 3);
+    SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
+    ASSERT_NO_THROW((void)fingerprint_of<Fast>(through({from, to, from}), {{0, 8}}));
+  }
+}
+
+TEST(WrappedHierarchy, DegenerateInstances) {
+  for (const char* name :
+       {"static", "half", "rigid", "gridrigid", "gridscale", "converge", "gridrand", "gridint", "swap"}) {
+    SCOPED_TRACE(name);
+    const Space motion = instance_motion<Space>(std::string("degenerate_d3_n64_") + name);
+    run_audited<Filtered>({motion}, {{0, 63}}, 20);
+    WrappedRig<Fast> fast(motion, AuditMode::none, one_necklace(motion));
+    EXPECT_NO_THROW(fast.run());
+  }
+}
+
+TEST(WrappedHierarchy, SeveralNecklaces) {
+  const Space motion = instance_motion<Space>("d3_n50_linear");
+  const Necklaces necklaces{{0, 16}, {17, 17}, {18, 19}, {20, 49}};
+  run_audited<Filtered>({motion}, necklaces, 10);
+  // Each behaves as it does alone.
+  WrappedRig<Filtered> all(motion, AuditMode::none, necklaces);
+  all.run();
+  std::uint64_t alone = 0;
+  for (const BeadRange& necklace : necklaces) {
+    WrappedRig<Filtered> rig(motion, AuditMode::none, Necklaces{necklace});
+    rig.run();
+    alone += rig.external_events();
+  }
+  EXPECT_EQ(all.external_events(), alone);
+}
+
+TEST(WrappedHierarchy, RefusesChangesThatCannotBe) {
+  const Space motion = instance_motion<Space>("d3_n20_linear");
+  WrappedRig<Filtered> rig(motion, AuditMode::none, one_necklace(motion));
+  rig.run();
+  EXPECT_THROW(rig.structure.apply({0, 4, {1, 4, 1, 4}}), std::invalid_argument);
+  EXPECT_THROW(rig.structure.apply({0, 4, {0, 4, 0, 5}}), std::invalid_argument);
+  rig.structure.apply({0, 4, {0, 4, 0, 4}});
+}
+
+TEST(WrappedHierarchy, TheExactStageIsRareInGeneralPosition) {
+  const Space motion = instance_motion<Space>("d3_n50_linear");
+  WrappedRig<Filtered> rig(motion, AuditMode::none, one_necklace(motion));
+  rig.run();
+  const auto& statistics = rig.structure.statistics;
+  EXPECT_LT(statistics.stages.exact, statistics.certificates.created / 100);
+  EXPECT_LT(statistics.stages.signs_exact, 100U);
+}
+
+// The audit must be able to fail: any other basis is wrong.
+TEST(WrappedHierarchy, AuditsNoticeEveryWrongBasis) {
+  const Space motion = instance_motion<Space>("d3_n20_linear");
+  WrappedRig<Filtered> rig(motion, AuditMode::frames, one_necklace(motion));
+  rig.run();
+  using Hierarchy = WrappedHierarchy<Space, Filtered>;
+  std::mt19937 random(26);
+  for (NodeId node = 0; node < rig.structure.tree().node_count(); ++node) {
+    const auto [first, last] = rig.structure.tree().range(node);
+    const Basis right = rig.structure.basis(node);
+    for (int attempt = 0; attempt < 10; ++attempt) {
+      Change change{Hierarchy::pivot, 2, {first, last}};
+      for (BeadId b = first; b <= last && change.size < 6; ++b) {
+        if (random() % 2 == 0) change.ids[change.size++] = b;
+      }
+      if (change.size == 2) continue;
+      const Basis other(std::span(change.ids).subspan(2, change.size - 2U));
+      // A basis with beads to spare is one still, as at a frame where a bead is about to leave.
+      const bool contains =
+          std::all_of(right.begin(), right.end(), [&](BeadId b) { return other.contains(b); });
+      rig.structure.apply(change);
+      EXPECT_EQ(rig.structure.audit(Dyadic(1.0)) == std::nullopt, contains);
+    }
+    Change back{Hierarchy::pivot, static_cast<std::uint8_t>(2 + right.size), {first, last}};
+    std::copy(right.begin(), right.end(), back.ids.begin() + 2);
+    rig.structure.apply(back);
+    EXPECT_EQ(rig.structure.audit(Dyadic(1.0)), std::nullopt);
+  }
+  EXPECT_NE(rig.structure.audit(Dyadic(0.0)), std::nullopt);
+}
+
+TEST(WrappedHierarchy, ATranslationGivesNoEvent) {
+  const Space first = trajectory_steps("villin_hp36_300K.dcd", 0, 1).front();
+  std::vector<Points> frames(11, Points(first.bead_count()));
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    for (BeadId b = 0; b < first.bead_count(); ++b) {
+      // Whole multiples of 2^-12: a sum is not rounded.
+      for (int axis = 0; axis < 3; ++axis) {
+        frames[k][b][static_cast<std::size_t>(axis)] =
+            std::round(first.coordinate(b, 0, axis) * 4096) / 4096 + static_cast<double>(k) * (0.5 + axis);
+      }
+    }
+  }
+  const auto steps = through(frames);
+  WrappedRig<Filtered> rig(steps.front(), AuditMode::frames, one_necklace(steps.front()));
+  rig.run(steps);
+  EXPECT_EQ(rig.history.events.size(), 0U);
+  EXPECT_EQ(rig.structure.statistics.certificates.failed, 0U);
+  EXPECT_EQ(rig.structure.statistics.certificates.never_failing,
+            rig.structure.statistics.certificates.created);
+}
+
+// Beads that jostle in slow motion: most nodes rest, some wake up, and the reference moves up. Now and then
+// the chain jumps.
+TEST(WrappedHierarchy, NodesRestInSlowMotion) {
+  Random random(5);
+  std::vector<Points> frames(1, Points(60));
+  for (std::size_t b = 1; b < 60; ++b) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      frames[0][b][axis] = frames[0][b - 1][axis] + uniform(random);
+  }
+  for (int k = 1; k < 40; ++k) {
+    frames.push_back(frames.back());
+    for (auto& point : frames.back())
+      for (double& x : point) x += (k % 13 == 0 ? 0.5 : 0.01) * uniform(random) + 0.3;
+  }
+  const auto steps = through(frames);
+  run_audited(steps);
+  EXPECT_EQ(fingerprint_of<Filtered>(steps, one_necklace(steps.front())),
+            fingerprint_of<Exact>(steps, one_necklace(steps.front())));
+}
+
+}  // namespace
+}  // namespace kds

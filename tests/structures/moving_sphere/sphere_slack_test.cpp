@@ -1,0 +1,176 @@
+// Tolerances of spheres against the bases of balls that have wandered as far, found on integers.
+
+#include "structures/moving_sphere/sphere_slack.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "structures/enclosing_sphere/enclosing_sphere.h"
+#include "structures/hierarchy/node_slack.h"
+#include "tests/support/moving_beads.h"
+#include "tests/support/random_motion.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+
+template <int D>
+struct Cloud {
+  Eigen::Matrix3Xd centers;
+  std::vector<double> radii;
+
+  [[nodiscard]] SmallestSphere smallest() const {
+    return smallest_sphere(Balls<D>(centers, radii), 0, static_cast<BeadId>(radii.size() - 1), {},
+                           ExactUse::everywhere);
+  }
+  [[nodiscard]] BeadPaths<D> paths() const {
+    BezierMotion<D, 1> motion(radii.size());
+    for (BeadId b = 0; b < radii.size(); ++b) {
+      for (int k = 0; k <= 1; ++k) {
+        for (int axis = 0; axis < D; ++axis) motion.set_coordinate(b, k, axis, centers(axis, b));
+        motion.set_radius(b, k, radii[b]);
+      }
+    }
+    BeadPaths<D> result;
+    result.set(motion);
+    return result;
+  }
+};
+
+template <int D>
+Cloud<D> random_cloud(Random& random, bool equal) {
+  Cloud<D> cloud;
+  const auto count = static_cast<Eigen::Index>(2 + random() % 9);
+  cloud.centers.setZero(3, count);
+  const double flat = random() % 3 == 0 ? 0.01 : 1;
+  for (Eigen::Index b = 0; b < count; ++b) {
+    for (int axis = 0; axis < D; ++axis) cloud.centers(axis, b) = uniform(random) * (axis == 0 ? flat : 1);
+    cloud.radii.push_back(equal ? 0.5 : uniform(random, 0.1, 0.4));
+  }
+  return cloud;
+}
+
+/// All balls moved by `distance`: at random, or so that the sphere shrinks and others stick out.
+template <int D>
+Cloud<D> wandered(const Cloud<D>& cloud, const SmallestSphere& smallest, double distance, int how,
+                  Random& random) {
+  Cloud<D> moved = cloud;
+  const Eigen::Vector3d& middle = smallest.sphere.center;
+  for (Eigen::Index b = 0; b < cloud.centers.cols(); ++b) {
+    Eigen::Vector3d way = Eigen::Vector3d::Zero();
+    for (int axis = 0; axis < D; ++axis) way[axis] = uniform(random);
+    const bool member = smallest.basis.contains(static_cast<BeadId>(b));
+    const Eigen::Vector3d outwards = cloud.centers.col(b) - middle;
+    if (how == 1 && outwards.norm() > 0) way = member ? -outwards : outwards;
+    if (how == 2 && !member && outwards.norm() > 0) way = outwards;
+    if (how == 3 && outwards.norm() > 0) way += (member ? -2 : 2) * outwards.normalized();
+    moved.centers.col(b) += way * (distance * (1 - 0x1p-40) / way.norm());
+  }
+  return moved;
+}
+
+struct Tally {
+  int asked = 0, proved = 0, changed_beyond = 0;
+};
+
+template <int D>
+void judge(unsigned seed, bool equal, int exponent, Tally& tally) {
+  Random random(seed);
+  Cloud<D> cloud = random_cloud<D>(random, equal);
+  cloud.centers *= std::ldexp(1.0, exponent);
+  for (double& r : cloud.radii) r = std::ldexp(r, exponent);
+  const SmallestSphere smallest = cloud.smallest();
+  const BeadRange all{0, static_cast<BeadId>(cloud.radii.size() - 1)};
+  const double wanted = std::ldexp(1.0, exponent);
+  double tolerance = 0;
+  sphere_tolerances<D>(cloud.paths(), {&all, 1}, {&smallest.basis, 1}, {&wanted, 1}, {&tolerance, 1});
+  ++tally.asked;
+  if (!(tolerance > 0)) return;
+  ++tally.proved;
+  EXPECT_LE(tolerance, wanted);
+  for (int round = 0; round < 12; ++round) {
+    EXPECT_EQ(wandered(cloud, smallest, tolerance, round % 4, random).smallest().basis, smallest.basis)
+        << "seed " << seed << ", round " << round;
+    tally.changed_beyond +=
+        wandered(cloud, smallest, 8 * tolerance, round % 4, random).smallest().basis == smallest.basis ? 0
+                                                                                                       : 1;
+  }
+}
+
+TEST(SphereTolerance, BasesStayWhileBallsWanderNoFarther) {
+  Tally space, plane;
+  for (unsigned seed = 0; seed < 160; ++seed) {
+    judge<3>(seed, seed % 2 == 0, 0, space);
+    judge<2>(seed, seed % 2 == 0, 0, plane);
+  }
+  for (const Tally& tally : {space, plane}) {
+    EXPECT_GT(tally.proved, tally.asked / 2);
+    EXPECT_GT(tally.changed_beyond, tally.proved);  // nor is it far too small
+  }
+}
+
+TEST(SphereTolerance, ScalesWithTheInput) {
+  for (const int exponent : {-300, -140, 100, 140, 300}) {
+    Tally tally;
+    for (unsigned seed = 0; seed < 20; ++seed) judge<3>(seed, seed % 2 == 0, exponent, tally);
+    EXPECT_EQ(tally.proved > 6, std::abs(exponent) <= 140) << exponent;
+    EXPECT_EQ(tally.proved == 0, std::abs(exponent) > 140) << exponent;
+  }
+}
+
+// A bead on the sphere, a basis bead to spare, a flat basis: nothing is left.
+TEST(SphereTolerance, NoneWhereTheBasisIsAboutToChange) {
+  Cloud<3> square;
+  square.centers.resize(3, 4);
+  square.centers << 0, 2, 2, 0, 0, 0, 2, 2, 0, 0, 0, 0;
+  square.radii.assign(4, 0.5);
+  Cloud<3> line = square;
+  line.centers << 0, 1, 2, 0.5, 0, 0, 0, 0, 0, 0, 0, 0;
+  const BeadRange all{0, 3};
+  const double wanted = 1;
+  for (const auto& [cloud, beads] : {std::pair<Cloud<3>, std::vector<BeadId>>{square, {0, 2}},
+                                     {square, {0, 1, 2}},
+                                     {line, {0, 1, 2}},
+                                     {square, {0, 1, 2, 3}}}) {
+    const Basis basis(beads);
+    double tolerance = 1;
+    sphere_tolerances<3>(cloud.paths(), {&all, 1}, {&basis, 1}, {&wanted, 1}, {&tolerance, 1});
+    EXPECT_LE(tolerance, 0);
+  }
+}
+
+// A pair and two beads well inside its sphere, of which one goes `away` in the middle of the step. All swing
+// along x, so far perhaps that differences are no numbers.
+TEST(NodeSlack, ABeadThatGoesAwayAndBackWithinAStep) {
+  const std::array y{-1.0, 1.0, 0.0, 0.0}, z{0.0, 0.0, 0.3, 0.2};
+  const std::array necklace{BeadRange{0, 3}};
+  const NecklaceTree tree(necklace);
+  const Basis pair(std::array<BeadId, 2>{0, 1});
+  const auto rests = [&](double swing, double away) {
+    BezierMotion<3, 2> motion(4);
+    for (BeadId b = 0; b < 4; ++b) {
+      for (int k = 0; k <= 2; ++k) {
+        motion.set_coordinate(b, k, 0, k == 1 ? -swing : swing);
+        motion.set_coordinate(b, k, 1, y[b]);
+        motion.set_coordinate(b, k, 2, z[b] + (k == 1 && b == 2 ? away : 0));
+        motion.set_radius(b, k, 1);
+      }
+    }
+    BeadPaths<3> paths;
+    paths.set(motion);
+    NodeSlack<3> resting(tree);
+    std::vector<NodeId> nodes{*tree.find(necklace[0])};
+    resting.take_out_resting(paths, nodes, [&](NodeId) -> const Basis& { return pair; });
+    return nodes.empty();
+  };
+  EXPECT_TRUE(rests(0, 0));
+  EXPECT_TRUE(rests(1, 0));
+  for (const double swing : {0.0, 1.0, 1e10, 1.2e308}) EXPECT_FALSE(rests(swing, 50)) << swing;
+}
+
+}  // namespace
+}  // namespace kds

@@ -1,0 +1,391 @@
+// A facet is found positive only where its certificate, judged on integers, never fails, a cell only where it
+// is, judged on integers; and every facet is looked at once.
+
+#include "structures/power_diagram/facet_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "certificates/search/failure_search.h"
+#include "certificates/types/orientation.h"
+#include "motions/curves/lifted_motion.h"
+#include "tests/support/random_motion.h"
+
+namespace kds {
+namespace {
+
+/// On integers.
+template <Motion M>
+bool holds(const M& motion, const TriangulationCell<M::dimension>& cell, int facet) {
+  decltype(PowerTest<M::dimension>::beads) beads{};
+  std::copy(cell.vertex.begin(), cell.vertex.end(), beads.begin());
+  beads.back() = cell.apex[static_cast<std::size_t>(facet)];
+  StageCounts stages;
+  const Failure failure = first_failure<Exact>(PowerTest<M::dimension>(beads, 1), motion, Instant(0),
+                                               KnownAtStart::unknown, stages);
+  return failure.kind == Failure::Kind::never;
+}
+
+/// On integers, where the step ends.
+template <Motion M>
+bool is_positive_at_end(const M& motion, const TriangulationCell<M::dimension>& cell) {
+  return exact_function(Orientation<M::dimension>(cell.vertex, 1), motion).sign_at(Dyadic(1.0)) > 0;
+}
+
+template <int dimension>
+struct Found {
+  std::set<FacetId> doubts;
+  std::map<CellId, bool> ends;
+
+  void doubt(FacetId facet) { EXPECT_TRUE(doubts.insert(facet).second) << facet; }
+  void at_end(CellId cell, bool positive) { EXPECT_TRUE(ends.emplace(cell, positive).second) << cell; }
+};
+
+/// A cell of the first beads, another beyond each facet, and the same turned over.
+template <int dimension>
+std::array<TriangulationCell<dimension>, 2> cell_both_ways() {
+  TriangulationCell<dimension> cell;
+  for (BeadId i = 0; i <= dimension; ++i) {
+    cell.vertex[i] = i;
+    cell.apex[i] = dimension + 1 + i;
+  }
+  TriangulationCell<dimension> turned = cell;
+  std::swap(turned.vertex[0], turned.vertex[1]);
+  return {cell, turned};
+}
+
+/// Looks at all facets of some cells, and judges them; in a unit of length that is off by 2^off.
+template <Motion M>
+void expect_right(const M& motion, std::span<const TriangulationCell<M::dimension>> cells,
+                  std::uint64_t& found, int off = 0) {
+  Found<M::dimension> all, some;
+  const LengthUnit unit(exponent_of_length(motion, cells) + off);
+  FacetFilter<M> positive(motion, unit);
+  for (CellId id = 0; id < cells.size(); ++id) positive.look_at(cells[id], id, all_facets<M::dimension>, all);
+  positive.finish(all);
+  positive.finish(all);  // nothing is left
+  const std::set<FacetId>& doubts = all.doubts;
+  EXPECT_EQ(positive.count() + doubts.size(), cells.size() * (M::dimension + 1));
+  EXPECT_EQ(all.ends.size(), cells.size());
+  for (CellId id = 0; id < cells.size(); ++id) {
+    for (int i = 0; i <= M::dimension; ++i)
+      EXPECT_TRUE(doubts.contains(facet_id(id, i)) || holds(motion, cells[id], i)) << id << ' ' << i;
+    EXPECT_TRUE(!all.ends[id] || is_positive_at_end(motion, cells[id])) << id;
+  }
+  found += positive.count();
+  // Of some facets, or none, the same is found.
+  FacetFilter<M> positive_of_some(motion, unit);
+  std::vector<unsigned> wanted;
+  for (CellId id = 0; id < cells.size(); ++id) {
+    wanted.push_back((5 * id + cells[0].vertex.size() * found + doubts.size()) & all_facets<M::dimension>);
+    positive_of_some.look_at(cells[id], id, wanted[id], some);
+  }
+  positive_of_some.finish(some);
+  for (CellId id = 0; id < cells.size(); ++id) {
+    for (int i = 0; i <= M::dimension; ++i)
+      EXPECT_EQ(some.doubts.contains(facet_id(id, i)),
+                (wanted[id] >> i & 1U) != 0 && doubts.contains(facet_id(id, i)));
+    EXPECT_TRUE(!some.ends.at(id) || is_positive_at_end(motion, cells[id])) << id;
+  }
+  // A few at a time the same are found.
+  std::vector<CellId> few;
+  for (CellId id = 0; id < cells.size() && id < few_cells; ++id) {
+    few.push_back(id);
+    const auto [facets, at_end] = filter_few_cells(motion, unit, cells, few);
+    for (const CellId cell : few) {
+      for (int i = 0; i <= M::dimension; ++i)
+        EXPECT_NE((facets[cell] >> i & 1U) != 0, doubts.contains(facet_id(cell, i))) << cell << ' ' << i;
+      EXPECT_TRUE(!at_end[cell] || is_positive_at_end(motion, cells[cell])) << cell;
+    }
+  }
+}
+
+template <Motion M>
+void slow_down(M& motion) {
+  for (BeadId b = 0; b < motion.bead_count(); ++b) {
+    for (int k = 1; k <= M::degree; ++k) {
+      for (int axis = 0; axis < M::dimension; ++axis)
+        motion.set_coordinate(b, k, axis,
+                              motion.coordinate(b, 0, axis) * 0.99 + 0.01 * motion.coordinate(b, k, axis));
+    }
+  }
+}
+
+/// Of two cells' worth of beads, nothing degenerate, so slow that some facets hold all the time.
+template <Motion M>
+M slow_motion(test::Random& random) {
+  M motion = test::random_motion<M>(random, 2 * (M::dimension + 1), test::MotionKind::generic);
+  slow_down(motion);
+  return motion;
+}
+
+template <Motion M>
+void expect_right(const M& motion, std::uint64_t& found, int off = 0) {
+  expect_right<M>(motion, cell_both_ways<M::dimension>(), found, off);
+}
+
+template <Motion M>
+void compare(std::uint64_t least_found) {
+  test::Random random(77);
+  std::uint64_t found = 0;
+  for (int round = 0; round < 30; ++round) {
+    for (const test::MotionKind kind : test::all_motion_kinds) {
+      M motion = test::random_motion<M>(random, 2 * (M::dimension + 1), kind);
+      if (round % 2 == 0) slow_down(motion);  // then some hold all the time
+      expect_right(motion, found);
+    }
+  }
+  EXPECT_GT(found, least_found);
+}
+
+TEST(FacetFilter, HoldAllOverTheStep) {
+  compare<BezierMotion<3, 1>>(200);
+  compare<BezierMotion<2, 1>>(200);
+  compare<BezierMotion<3, 3>>(100);
+  compare<LiftedMotion<3>>(100);
+  compare<LiftedMotion<2>>(100);
+}
+
+// Corners of a cube and its mirror image, moved by less and less: where floats round away what decides.
+TEST(FacetFilter, HoldNextToZero) {
+  using M = BezierMotion<3, 1>;
+  test::Random random(5);
+  std::uint64_t found = 0;
+  for (int places = 4; places < 45; ++places) {
+    for (int round = 0; round < 100; ++round) {
+      M motion(8);
+      for (BeadId b = 0; b < 8; ++b) {
+        for (int axis = 0; axis < 3; ++axis) {
+          const double corner = (b >> axis & 1U) != 0 ? 1 : -1;
+          for (int k = 0; k < 2; ++k)
+            motion.set_coordinate(b, k, axis, corner + std::ldexp(test::uniform(random), -places));
+        }
+      }
+      auto cells = cell_both_ways<3>();
+      for (auto& cell : cells) {
+        std::swap(cell.vertex[3], cell.apex[0]);  // corners 0, 1, 2, 4: not in one plane
+      }
+      expect_right<M>(motion, cells, found);
+    }
+  }
+  EXPECT_GT(found, 1000U);
+}
+
+/// All lengths times 2^exponent, exactly.
+template <Motion M>
+void scale_with_drift(M& motion, int exponent) {
+  test::scale(motion, exponent);
+  if constexpr (lifted<M>) {
+    auto drift = typename M::Vector{};
+    for (int axis = 0; axis < M::dimension; ++axis)
+      drift[static_cast<std::size_t>(axis)] = std::ldexp(motion.drift(axis), exponent);
+    motion.set_drift(drift);
+  }
+}
+
+// The unit of length does not matter: what is found is the same, as far as doubles hold the numbers.
+template <Motion M>
+void expect_same_at_any_scale() {
+  test::Random random(6);
+  constexpr int rounds = 4;
+  std::array<std::uint64_t, rounds> expected{};
+  std::uint64_t all = 0;
+  for (int round = 0; round < rounds; ++round) {
+    M base = slow_motion<M>(random);
+    if constexpr (lifted<M>) {
+      auto drift = typename M::Vector{};
+      for (double& x : drift) x = 0.01 * test::uniform(random);
+      base.set_drift(drift);
+    }
+    expect_right(base, expected[static_cast<std::size_t>(round)]);
+    all += expected[static_cast<std::size_t>(round)];
+    for (const int exponent : {-300, -150, -60, -20, -11, -1, 1, 11, 20, 60, 150, 300}) {
+      M motion = base;
+      scale_with_drift(motion, exponent);
+      std::uint64_t found = 0;
+      expect_right(motion, found);
+      EXPECT_EQ(found, expected[static_cast<std::size_t>(round)]) << exponent;
+    }
+  }
+  EXPECT_GT(all, 0U);
+}
+
+TEST(FacetFilter, FindTheSameAtAnyScale) {
+  expect_same_at_any_scale<BezierMotion<3, 1>>();
+  expect_same_at_any_scale<BezierMotion<2, 1>>();
+  expect_same_at_any_scale<LiftedMotion<3>>();
+}
+
+// In a unit that is far off nothing is found, near the ends of what the bound is claimed for what is right.
+TEST(FacetFilter, HoldInAnyUnit) {
+  using M = BezierMotion<3, 1>;
+  test::Random random(6);
+  for (int exponent = -160; exponent <= 160; exponent += 4) {
+    std::uint64_t found = 0;
+    for (int round = 0; round < 4; ++round) {
+      M motion = slow_motion<M>(random);
+      expect_right(motion, found, exponent);
+    }
+    if (std::abs(exponent) <= 8) {
+      EXPECT_GT(found, 0U) << exponent;
+    }
+    if (std::abs(exponent) >= 20) {
+      EXPECT_EQ(found, 0U) << exponent;
+    }
+  }
+}
+
+// Rows of unlike size: some beads a thousand times farther away, or nearer, than others.
+TEST(FacetFilter, HoldWhereRowsAreUnlike) {
+  using M = BezierMotion<3, 1>;
+  test::Random random(8);
+  std::uint64_t found = 0;
+  for (int round = 0; round < 300; ++round) {
+    M motion = slow_motion<M>(random);
+    for (BeadId b = 1; b < 8; ++b) {
+      const int exponent = static_cast<int>(random() % 13) - 6;
+      for (int k = 0; k < 2; ++k) {
+        for (int axis = 0; axis < 3; ++axis) {
+          const double origin = motion.coordinate(0, k, axis);
+          motion.set_coordinate(b, k, axis,
+                                origin + std::ldexp(motion.coordinate(b, k, axis) - origin, exponent));
+        }
+        motion.set_weight(b, k, motion.weight(0, k));
+      }
+    }
+    expect_right(motion, found);
+  }
+  EXPECT_GT(found, 200U);
+}
+
+// Weights that differ by just what the bound lets them, m^2 of a row, by an ulp more and by an ulp less.
+TEST(FacetFilter, HoldWhereWeightsAreAsLargeAsTheyMayBe) {
+  using M = BezierMotion<3, 1>;
+  test::Random random(9);
+  std::uint64_t found = 0;
+  for (int round = 0; round < 600; ++round) {
+    M motion = slow_motion<M>(random);
+    for (BeadId b = 1; b < 8; ++b) {
+      float m = 0;
+      for (int k = 0; k < 2; ++k) {
+        for (int axis = 0; axis < 3; ++axis)
+          m = std::max(
+              m, std::abs(static_cast<float>(motion.coordinate(b, k, axis) - motion.coordinate(0, k, axis))));
+      }
+      double square = static_cast<double>(m * m);
+      if (round % 3 != 0) square = std::nextafter(square, round % 3 == 1 ? 0.0 : 1e9);
+      for (int k = 0; k < 2; ++k)
+        motion.set_weight(b, k, motion.weight(0, k) + (random() % 2 == 0 ? square : -square));
+    }
+    expect_right(motion, found);
+  }
+  EXPECT_GT(found, 50U);
+}
+
+// What all beads share is taken off, whatever is taken for it: the verdicts stay right.
+TEST(FacetFilter, HoldWithDrift) {
+  using M = LiftedMotion<3>;
+  test::Random random(10);
+  std::uint64_t found = 0;
+  for (int round = 0; round < 300; ++round) {
+    M motion = slow_motion<M>(random);
+    const double size = std::ldexp(1.0, static_cast<int>(random() % 12) - 10);
+    M::Vector drift;
+    for (double& x : drift) x = size * test::uniform(random);
+    motion.set_drift(drift);
+    expect_right(motion, found);
+  }
+  EXPECT_GT(found, 100U);
+}
+
+// The code for any processor gives the same bits.
+TEST(FacetFilter, AreTheSameOnAnyProcessor) {
+  using M = BezierMotion<3, 1>;
+  test::Random random(11);
+  for (int round = 0; round < 100; ++round) {
+    M motion = slow_motion<M>(random);
+    CellsInLanes<M> cells;
+    for (auto& beads : cells) {
+      for (BeadId i = 0; i < beads.size(); ++i) beads[i] = (i + static_cast<BeadId>(random() % 8)) % 8;
+    }
+    PositiveBits best, any;
+    for (std::size_t beyond = 0; beyond <= 4; ++beyond) {
+      positive_cells(motion, cells, beyond, LengthUnit(), best);
+      positive_cells_anywhere(motion, cells, beyond, LengthUnit(), any);
+      EXPECT_EQ(best, any);
+    }
+  }
+}
+
+template <int dimension>
+void expect_each_once() {
+  test::Random random(7);
+  Eigen::Matrix3Xd centers(3, 200);
+  for (auto& x : centers.reshaped()) x = test::uniform(random);
+  RegularTriangulation<dimension> triangulation;
+  static_cast<void>(triangulation.build(centers, std::vector<double>(200, 0.0)));
+  const auto cells = triangulation.cells();
+  FacetCover cover;
+  cover.start(cells.size());
+  std::map<FacetId, int> times;
+  std::size_t left_out = 0;
+  for (CellId id = 0; id < cells.size(); ++id) {
+    const unsigned finite = finite_facets(cells[id]);
+    const unsigned facets = cover.facets_of(cells[id], id, finite == all_facets<dimension>);
+    left_out += facets == 0 ? 1 : 0;
+    EXPECT_EQ(finite == 0, std::find(cells[id].vertex.begin(), cells[id].vertex.end(), infinite_bead) !=
+                               cells[id].vertex.end());
+    for (int i = 0; i <= dimension; ++i) {
+      const FacetId here = facet_id(id, i);
+      EXPECT_EQ(finite == 0 || (finite >> i & 1U) != 0,
+                finite == 0 || triangulation.apex_beyond(id, i) != infinite_bead);
+      if ((facets >> i & 1U) != 0) ++times[std::min(here, triangulation.beyond(id, i))];
+    }
+  }
+  EXPECT_EQ(times.size(), cells.size() * (dimension + 1) / 2);
+  for (const auto& [facet, count] : times) EXPECT_EQ(count, 1) << facet;
+  EXPECT_GT(4 * left_out, cells.size());
+}
+
+TEST(FacetCover, HasEachFacetOnce) {
+  expect_each_once<3>();
+  expect_each_once<2>();
+}
+
+// Facets that name infinity are not found, and do not get in the way of others.
+TEST(FacetFilter, OfAFewAreFinite) {
+  using M = BezierMotion<3, 1>;
+  test::Random random(8);
+  std::uint64_t found = 0;
+  for (int round = 0; round < 50; ++round) {
+    M motion = slow_motion<M>(random);
+    const auto [cell, turned] = cell_both_ways<3>();
+    auto infinite = cell, beside_infinite = turned;
+    infinite.vertex[2] = infinite_bead;
+    beside_infinite.apex[1] = infinite_bead;
+    const std::array cells{infinite, cell, infinite, beside_infinite};
+    const std::array<CellId, 4> few{0, 1, 2, 3};
+    const LengthUnit unit(exponent_of_length<M>(motion, cells));
+    const auto [facets, at_end] = filter_few_cells<M>(motion, unit, cells, few);
+    EXPECT_FALSE(at_end[0] || at_end[2]);
+    EXPECT_EQ(facets[0], 0U);
+    EXPECT_EQ(facets[2], 0U);
+    EXPECT_EQ(facets[3] & 2U, 0U);
+    for (const CellId id : {1U, 3U}) {
+      for (int i = 0; i < 4; ++i) {
+        if ((facets[id] >> i & 1U) == 0) continue;
+        ++found;
+        EXPECT_TRUE(holds(motion, cells[id], i));
+      }
+    }
+    EXPECT_EQ(filter_few_cells<M>(motion, unit, cells, std::array<CellId, 1>{0}).facets[0], 0U);
+  }
+  EXPECT_GT(found, 20U);
+}
+
+}  // namespace
+}  // namespace kds

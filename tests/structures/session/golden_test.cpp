@@ -1,0 +1,72 @@
+// Fingerprints of whole runs: the order of all events and every change. They are the same on every machine
+// and for every exact kernel, and change only for a stated reason (another event order, other kinds or ids of
+// changes).
+
+#include <gtest/gtest.h>
+
+#include "structures/hierarchy/wrapped_hierarchy.h"
+#include "structures/power_diagram/power_diagram.h"
+#include "structures/sorted/sorted_list.h"
+#include "tests/support/moving_beads.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+
+struct Outcome {
+  std::size_t events;
+  std::uint64_t fingerprint;
+  friend bool operator==(const Outcome&, const Outcome&) = default;
+};
+void PrintTo(const Outcome& outcome, std::ostream* out) {
+  *out << "{" << outcome.events << ", 0x" << std::hex << outcome.fingerprint << std::dec << "U}";
+}
+
+template <class Structure, Motion M, class... Extra>
+Outcome outcome(const std::vector<M>& steps, const Extra&... extra) {
+  Rig<Structure, M> rig(steps.front(), AuditMode::none, extra...);
+  rig.run(steps);
+  return {rig.history.events.size(), rig.simulator.fingerprint()};
+}
+
+template <template <Motion, Kernel> class Structure, Motion M, class... Extra>
+void expect_outcome(const Outcome& expected, const std::vector<M>& steps, bool also_exact,
+                    const Extra&... extra) {
+  EXPECT_EQ((outcome<Structure<M, Filtered>>(steps, extra...)), expected);
+  if (also_exact) {
+    EXPECT_EQ((outcome<Structure<M, Exact>>(steps, extra...)), expected);
+  }
+}
+
+TEST(Golden, Sorted) {
+  using Line = BezierMotion<1, 1>;
+  expect_outcome<SortedList>({97, 0xeebc21a036896536U}, std::vector{instance_motion<Line>("d1_n20_linear")},
+                             true);
+  expect_outcome<SortedList>({2743, 0x7da57f034a047f6dU},
+                             std::vector{instance_motion<Line>("d1_n100_linear")}, false);
+  expect_outcome<SortedList>({213, 0x86e9e5c6453aa748U},
+                             std::vector{instance_motion<BezierMotion<1, 3>>("d1_n20_degree3")}, true);
+}
+
+TEST(Golden, Power) {
+  expect_outcome<PowerDiagram>({234, 0x5cf3fdb288c34025U},
+                               std::vector{instance_motion<Space>("d3_n20_linear")}, true);
+  expect_outcome<PowerDiagram>({1453, 0x38f5c5fc38aa5f0aU},
+                               std::vector{instance_motion<Space>("d3_n50_linear")}, false);
+  expect_outcome<PowerDiagram>({135, 0x7a5ee64d8d0c79b1U}, trajectory_steps("villin_hp36_300K.dcd", 0, 3),
+                               false);
+}
+
+TEST(Golden, Wrapped) {
+  const std::vector<BeadRange> twenty{{0, 19}}, villin{{0, 107}};
+  expect_outcome<WrappedHierarchy>({55, 0x3e33acc948c732faU},
+                                   std::vector{instance_motion<Space>("d3_n20_linear")}, true, twenty);
+  expect_outcome<WrappedHierarchy>({102, 0x9422769cbd99fe0U}, trajectory_steps("villin_hp36_300K.dcd", 0, 10),
+                                   true, villin);
+  expect_outcome<WrappedHierarchy>({70, 0x5469ff274173177cU},
+                                   trajectory_steps("villin_hp36_300K.dcd", 0, 900, 300), false, villin);
+}
+
+}  // namespace
+}  // namespace kds
