@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <concepts>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "certificates/search/failure_search.h"
-#include "certificates/search/radical_search.h"
+#include "certificates/search/certificate_search.h"
 #include "kds/kinetic_structure.h"
 #include "kds/simulator.h"
 #include "motions/base/grow_little.h"
@@ -28,20 +28,22 @@ enum class CertificateHandle : std::uint32_t {
   return static_cast<std::uint32_t>(guard);
 }
 
-template <class Certificate, Motion M, Kernel K>
-requires CertificateFor<Certificate, M> || RadicalCertificateFor<Certificate, M>
+template <NamedCertificate Certificate>
 class CertificateTable : public FailureSource {
  public:
-  /// `number` tells the structure's tables apart in KineticStructure::fail.
+  /// `number` tells the structure's tables apart in KineticStructure::fail. Throws std::logic_error where the
+  /// run has certificates of another type with the same number.
+  template <int Dimension>
   CertificateTable(Simulator& simulator, KineticStructure& owner, std::size_t structure, unsigned number,
-                   const M& motion, TouchPolicy touches = TouchPolicy::ignored)
+                   const MotionRef<Dimension>& motion, TouchPolicy touches = TouchPolicy::ignored)
       : simulator_(simulator),
         owner_(owner),
         structure_(structure),
         number_(number),
-        motion_(motion),
-        touches_(touches) {
-    simulator.add_table(*this);
+        search_(search_over<Certificate>(motion)),
+        touches_(touches),
+        most_in_step_(1'000'000 + 100'000 * motion.bead_count()) {
+    simulator.add_table(*this, Certificate::type);
   }
 
   /// Guards the structure by `certificate` from now to the end of the step. `place` says where it stands in
@@ -49,7 +51,7 @@ class CertificateTable : public FailureSource {
   [[nodiscard]] CertificateHandle watch(const Certificate& certificate, std::uint32_t place,
                                         KnownAtStart birth = KnownAtStart::unknown) {
     Failure failure;
-    search({&certificate, 1}, {&birth, 1}, {&failure, 1});
+    find_failures({&certificate, 1}, {&birth, 1}, {&failure, 1});
     return hold(certificate, place, failure);
   }
 
@@ -131,8 +133,11 @@ class CertificateTable : public FailureSource {
   [[nodiscard]] std::uint32_t place_in_structure(std::uint32_t slot) const { return entries_[slot].place; }
 
   // The engine's side.
-  [[nodiscard]] ExactPolynomial exact_function(std::uint32_t slot) const override {
-    return kds::exact_function(entries_[slot].certificate, motion_);
+  /// What tells of certificates that are not in the table.
+  [[nodiscard]] const CertificateSearch<Certificate>& search() const { return *search_; }
+
+  [[nodiscard]] ExactFunction exact_function(std::uint32_t slot) const override {
+    return search_->exact_function(entries_[slot].certificate);
   }
   [[nodiscard]] Identity identity(std::uint32_t slot) const override {
     return entries_[slot].certificate.identity();
@@ -188,8 +193,9 @@ class CertificateTable : public FailureSource {
         while (to < count && known_[to] == 0) ++to;
       }
       if (from < to) {
-        search(std::span(waiting_).subspan(from, to - from), std::span(births_).subspan(from, to - from),
-               std::span(failures_).subspan(from, to - from));
+        find_failures(std::span(waiting_).subspan(from, to - from),
+                      std::span(births_).subspan(from, to - from),
+                      std::span(failures_).subspan(from, to - from));
       }
       from = to;
     }
@@ -215,19 +221,19 @@ class CertificateTable : public FailureSource {
     failures_.resize(room);
   }
 
-  void search(std::span<const Certificate> certificates, std::span<const KnownAtStart> births,
-              std::span<Failure> failures) {
-    if constexpr (std::same_as<K, Fast>) {
+  void find_failures(std::span<const Certificate> certificates, std::span<const KnownAtStart> births,
+                     std::span<Failure> failures) {
+    if (simulator_.kernel() == Kernel::fast) {
       // Doubles may contradict themselves without end: after so many certificates in a step none is looked at
       // any more, and all are taken to hold.
       created_in_step_ += certificates.size();
-      if (created_in_step_ > 1'000'000 + 100'000 * motion_.bead_count()) {
+      if (created_in_step_ > most_in_step_) {
         std::fill(failures.begin(), failures.end(), Failure{});
         return;
       }
     }
-    first_failures<K>(certificates, motion_, simulator_.now(), births, owner_.statistics.stages, touches_,
-                      failures);
+    search_->first_failures(simulator_.kernel(), certificates, simulator_.now(), births,
+                            owner_.statistics.stages, touches_, failures);
   }
 
   [[nodiscard]] CertificateHandle hold(const Certificate& certificate, std::uint32_t place,
@@ -263,8 +269,9 @@ class CertificateTable : public FailureSource {
   KineticStructure& owner_;
   std::size_t structure_;
   unsigned number_;
-  const M& motion_;
+  std::unique_ptr<CertificateSearch<Certificate>> search_;
   TouchPolicy touches_;
+  std::uint64_t most_in_step_;  // of certificates, with `fast`
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> free_;
   // Enqueued, with their places and births, and what becomes of them: room for more than there are.

@@ -10,18 +10,18 @@
 
 namespace kds {
 
-template <Motion M, Kernel K, class... Certificates>
+template <class... Certificates>
 class CertificateTables {
  public:
   static constexpr std::size_t count = sizeof...(Certificates);
 
   /// `touches(certificate type)` says what the table of this type does about touches: it is called with a
   /// `std::type_identity`.
-  template <class TouchesOf>
-  CertificateTables(Simulator& simulator, KineticStructure& owner, std::size_t structure, const M& motion,
-                    TouchesOf touches)
-      : tables_(Made<Certificates>{simulator, owner, structure, motion,
-                                   touches(std::type_identity<Certificates>{})}...) {}
+  template <int Dimension, class TouchesOf>
+  CertificateTables(Simulator& simulator, KineticStructure& owner, std::size_t structure,
+                    const MotionRef<Dimension>& motion, TouchesOf touches)
+      : tables_(Made<Certificates, Dimension>{simulator, owner, structure, motion,
+                                              touches(std::type_identity<Certificates>{})}...) {}
 
   template <class Certificate>
   [[nodiscard]] auto& of() {
@@ -42,20 +42,21 @@ class CertificateTables {
   }();
 
  private:
-  template <class Certificate>
+  template <class Certificate, int Dimension>
   struct Made {
     Simulator& simulator;
     KineticStructure& owner;
     std::size_t structure;
-    const M& motion;
+    const MotionRef<Dimension>& motion;
     TouchPolicy touches;
   };
   /// A tuple can hold what can be neither copied nor moved, if one thing makes it.
   template <class Certificate>
-  struct Table final : CertificateTable<Certificate, M, K> {
-    explicit Table(const Made<Certificate>& made)
-        : CertificateTable<Certificate, M, K>(made.simulator, made.owner, made.structure,
-                                              number_of<Certificate>, made.motion, made.touches) {}
+  struct Table final : CertificateTable<Certificate> {
+    template <int Dimension>
+    explicit Table(const Made<Certificate, Dimension>& made)
+        : CertificateTable<Certificate>(made.simulator, made.owner, made.structure, number_of<Certificate>,
+                                        made.motion, made.touches) {}
   };
 
   std::tuple<Table<Certificates>...> tables_;

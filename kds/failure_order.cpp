@@ -2,6 +2,8 @@
 
 #include <tuple>
 
+#include "certificates/exact/exact_time.h"
+
 namespace kds {
 
 int FailureOrder::compare_times(ScheduledFailure& a, ScheduledFailure& b) {
@@ -28,8 +30,8 @@ int FailureOrder::compare(ScheduledFailure& a, ScheduledFailure& b, bool& one_fu
     return 0;
   }
   ++counts_.exact;
-  ExactTime exact_a = exact_time(a.source->exact_function(a.slot), a.time);
-  ExactTime exact_b = exact_time(b.source->exact_function(b.slot), b.time);
+  ExactTime exact_a = exact_time(*a.source->exact_function(a.slot), a.time);
+  ExactTime exact_b = exact_time(*b.source->exact_function(b.slot), b.time);
   const int order = ExactTime::compare(exact_a, exact_b);
   narrow(a.time, exact_a);
   narrow(b.time, exact_b);

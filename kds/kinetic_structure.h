@@ -11,9 +11,10 @@
 
 #include "kds/change.h"
 #include "kds/statistics.h"
-#include "motions/numbers/exact_number.h"
 
 namespace kds {
+
+class Dyadic;
 
 class KineticStructure {
  public:
@@ -39,7 +40,9 @@ class KineticStructure {
   /// All failures at this very time are handled. Asked only if `needs_after_batch` was set.
   virtual void after_batch() {}
   /// The step's end is reached: positions are those at u = 1. No certificate is left.
-  virtual void finish_step(bool last) { static_cast<void>(last); }
+  virtual void finish_step() {}
+  /// No step follows.
+  virtual void finish() {}
 
   /// Makes a logged change again, without certificates (replay). Throws std::invalid_argument if it cannot be
   /// made.

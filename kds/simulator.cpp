@@ -5,16 +5,43 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "certificates/exact/exact_time.h"
+
 namespace kds {
 
 std::size_t Simulator::add(KineticStructure& structure) {
+  if (phase_ != Phase::new_run)
+    throw std::logic_error(fmt::format(
+        "{} is added to a run whose structures are built already: add it before build()", structure.name()));
   structures_.push_back(&structure);
   structure.statistics.events_by_kind.assign(structure.kinds().size(), 0);
   watch_.add_lane();
   return structures_.size() - 1;
 }
 
+void Simulator::add_table(FailureSource& table, const CertificateType& type) {
+  for (const CertificateType& other : types_) {
+    if (other.number == type.number && other.name != type.name)
+      throw std::logic_error(
+          fmt::format("certificate types {} and {} have the same number {}: give one of them another",
+                      other.name, type.name, type.number));
+  }
+  types_.push_back(type);
+  tables_.push_back(&table);
+}
+
+void Simulator::require(Phase phase, const char* what) const {
+  if (phase_ == phase) return;
+  throw std::logic_error(
+      fmt::format("{}: {}", what,
+                  phase_ == Phase::new_run         ? "the structures have not been built: call build() first"
+                  : phase_ == Phase::between_steps ? "no step has been entered: call enter_step() first"
+                                                   : "a step is under way: call leave_step() first"));
+}
+
 void Simulator::build() {
+  if (phase_ == Phase::within_step) require(Phase::between_steps, "build()");
+  phase_ = Phase::between_steps;
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     watch_.charge(s + 1);
     structures_[s]->build();
@@ -24,12 +51,22 @@ void Simulator::build() {
   watch_.reset();
 }
 
-void Simulator::run_step(bool last) {
+void Simulator::run_step() {
   enter_step();
-  leave_step(last);
+  leave_step();
+}
+
+void Simulator::finish() {
+  require(Phase::between_steps, "finish()");
+  for (std::size_t s = 0; s < structures_.size(); ++s) {
+    watch_.charge(s + 1);
+    structures_[s]->finish();
+  }
+  watch_.charge(Stopwatch::stopped);
 }
 
 void Simulator::enter_step() {
+  require(Phase::between_steps, "a step");
   begin_step();
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     watch_.charge(s + 1);
@@ -40,6 +77,7 @@ void Simulator::enter_step() {
 }
 
 void Simulator::run_until(const Dyadic& time) {
+  require(Phase::within_step, "run_until()");
   ExactTime stop(time);
   if (ExactTime::compare(stop, now_.exact()) < 0 || !(time < Dyadic(1.0)))
     throw std::invalid_argument(fmt::format("a run until u = {}: expected a time from {} on, before 1",
@@ -50,15 +88,16 @@ void Simulator::run_until(const Dyadic& time) {
   watch_.charge(Stopwatch::stopped);
 }
 
-void Simulator::leave_step(bool last) {
+void Simulator::leave_step() {
+  require(Phase::within_step, "leave_step()");
   run_events(nullptr);
-  finish_step(last);
+  finish_step();
 }
 
-bool Simulator::try_step(std::uint64_t most, bool last) {
+bool Simulator::try_step(std::uint64_t most) {
   enter_step();
   if (run_events(nullptr, most)) {
-    finish_step(last);
+    finish_step();
     return true;
   }
   clear_step();
@@ -68,6 +107,7 @@ bool Simulator::try_step(std::uint64_t most, bool last) {
 }
 
 void Simulator::begin_step() {
+  phase_ = Phase::within_step;
   now_ = Instant(0);
   present_ = {};
   for (KineticStructure* structure : structures_) structure->statistics.events_per_step.push_back(0);
@@ -75,17 +115,18 @@ void Simulator::begin_step() {
 }
 
 void Simulator::clear_step() {
+  phase_ = Phase::between_steps;
   now_ = Instant(1);
   present_ = {};
   for (FailureSource* table : tables_) table->clear();
   queue_.clear();
 }
 
-void Simulator::finish_step(bool last) {
+void Simulator::finish_step() {
   clear_step();
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     watch_.charge(s + 1);
-    structures_[s]->finish_step(last);
+    structures_[s]->finish_step();
   }
   watch_.charge(Stopwatch::stopped);
   if (audits_ != AuditMode::none) audit(Dyadic(1.0));
@@ -98,7 +139,8 @@ void Simulator::build_for_replay() {
   recording_ = true;
 }
 
-void Simulator::replay_step(std::span<const Replayed> events, bool last) {
+void Simulator::replay_step(std::span<const Replayed> events) {
+  require(Phase::between_steps, "a step");
   begin_step();
   for (const Replayed& event : events) {
     now_ = Instant(FailureTime{event.lower, event.upper, 0, false});
@@ -111,7 +153,7 @@ void Simulator::replay_step(std::span<const Replayed> events, bool last) {
     record(event.structure, event.change);
     watch_.charge(nobody);
   }
-  finish_step(last);
+  finish_step();
 }
 
 bool Simulator::run_events(const Dyadic* until, std::uint64_t most) {
@@ -138,7 +180,7 @@ bool Simulator::run_events(const Dyadic* until, std::uint64_t most) {
 bool Simulator::is_after(const ScheduledFailure& failure, const Dyadic& time) {
   if (failure.time.lower > time.round_up()) return true;
   if (failure.time.upper < time.round_down()) return false;
-  ExactTime failing = exact_time(failure.source->exact_function(failure.slot), failure.time);
+  ExactTime failing = exact_time(*failure.source->exact_function(failure.slot), failure.time);
   ExactTime limit(time);
   return ExactTime::compare(limit, failing) < 0;
 }
@@ -157,7 +199,7 @@ void Simulator::advance(ScheduledFailure* next) {
   next = queue_.empty() ? nullptr : &queue_.top();
   if (audits_ != AuditMode::events) return;
   ExactTime then = next == nullptr ? ExactTime(Dyadic(1.0))
-                                   : exact_time(next->source->exact_function(next->slot), next->time);
+                                   : exact_time(*next->source->exact_function(next->slot), next->time);
   if (ExactTime::compare(now_.exact(), then) < 0) audit(dyadic_between(now_.exact(), then));
 }
 

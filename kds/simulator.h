@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "certificates/base/certificate_type.h"
+#include "certificates/base/kernel.h"
 #include "certificates/exact/instant.h"
 #include "kds/audit.h"
 #include "kds/event_log.h"
@@ -32,28 +34,35 @@ class FailureSource : public ScheduledSource {
 
 class Simulator {
  public:
-  explicit Simulator(AuditMode audits = AuditMode::none) : queue_(order_), audits_(audits) {}
+  explicit Simulator(AuditMode audits = AuditMode::none, Kernel kernel = Kernel::filtered)
+      : queue_(order_), audits_(audits), kernel_(kernel) {}
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 
-  /// Structures act in the order they are added. They must outlive the simulator's use.
+  /// Structures act in the order they are added. They must outlive the simulator's use. Throws
+  /// std::logic_error once the structures are built.
   std::size_t add(KineticStructure& structure);
-  void add_table(FailureSource& table) { tables_.push_back(&table); }
+  /// Throws std::logic_error where certificates of another type have the same number.
+  void add_table(FailureSource& table, const CertificateType& type);
   void listen(EventListener& listener) { listeners_.push_back(&listener); }
 
   /// Builds all structures. The motion must be that of the first step.
   void build();
-  /// Runs [0,1) of the motion's present step, the simulator's next, and reaches its end.
-  void run_step(bool last);
+  /// Runs [0,1) of the motion's present step, the simulator's next, and reaches its end. Throws
+  /// std::logic_error where nothing has been built.
+  void run_step();
+  /// No step follows.
+  void finish();
   /// The same in parts, for what is done to structures while time runs: enters the step, runs to some times,
   /// ascending, and leaves. At each of them all that happens until then, or right then, has happened, and the
-  /// structures are settled. Throws std::invalid_argument where a time is not in [now, 1).
+  /// structures are settled. Throws std::invalid_argument where a time is not in [now, 1), std::logic_error
+  /// outside a step.
   void enter_step();
   void run_until(const Dyadic& time);
-  void leave_step(bool last);
+  void leave_step();
   /// As run_step, but not beyond `most` failures: if there are more the step is given up, and false. Then
   /// the structures stand somewhere within it, are not asked to finish, and must be built anew at its end.
-  [[nodiscard]] bool try_step(std::uint64_t most, bool last);
+  [[nodiscard]] bool try_step(std::uint64_t most);
 
   /// A logged event, to be made again; `where` names it in messages.
   struct Replayed {
@@ -65,8 +74,9 @@ class Simulator {
   /// The same as build and run_step, but the changes come from a log: no certificate, no queue. Throws
   /// std::invalid_argument, with the event's `where`, if a change cannot be made.
   void build_for_replay();
-  void replay_step(std::span<const Replayed> events, bool last);
+  void replay_step(std::span<const Replayed> events);
 
+  [[nodiscard]] Kernel kernel() const { return kernel_; }
   [[nodiscard]] std::size_t step() const { return step_; }
   [[nodiscard]] const Instant& now() const { return now_; }
   /// Counts different times: events at the very same time share a moment.
@@ -86,11 +96,13 @@ class Simulator {
   [[nodiscard]] double seconds_of(std::size_t structure) const { return watch_.seconds(structure + 1); }
 
  private:
+  enum class Phase : std::uint8_t { new_run, between_steps, within_step };
   static constexpr std::size_t nobody = 0;  // the stopwatch's lane of the engine; structures follow
 
+  void require(Phase phase, const char* what) const;
   void begin_step();
   void clear_step();
-  void finish_step(bool last);
+  void finish_step();
   static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
   /// Those until a time, or all of the step; false where `most` were not enough.
   bool run_events(const Dyadic* until, std::uint64_t most = no_limit);
@@ -105,7 +117,10 @@ class Simulator {
   std::vector<KineticStructure*> structures_;
   std::vector<FailureSource*> tables_;
   std::vector<EventListener*> listeners_;
+  std::vector<CertificateType> types_;
   AuditMode audits_;
+  Kernel kernel_;
+  Phase phase_ = Phase::new_run;
   std::size_t step_ = 0;
   Instant now_;
   ScheduledFailure present_;  // the event that made it now; no source at the start of a step

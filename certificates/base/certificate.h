@@ -7,33 +7,12 @@
 // The function is a static `formula(view, beads)`, or its negative where side() is false. One that asks for
 // weights or radii says so: `static constexpr bool uses_weights = true` (`uses_radii`).
 
-#include <array>
 #include <concepts>
-#include <cstdint>
 
+#include "certificates/base/certificate_type.h"
 #include "motions/views/motion_view.h"
 
 namespace kds {
-
-/// Names the function of a certificate among all of a run, whatever structure holds it. Certificates with the
-/// same identity have, up to a positive or negative factor, the same function. Ties between failure times are
-/// broken by it: type first, then beads.
-struct Identity {
-  std::uint32_t type = 0;
-  std::array<BeadId, 5> beads{};  ///< unused places hold the highest id
-
-  friend constexpr auto operator<=>(const Identity&, const Identity&) = default;
-};
-
-/// Types in the order in which simultaneous failures are handled.
-enum class CertificateType : std::uint32_t {
-  precedes,
-  orientation,
-  power_test,
-  bead_in_sphere,
-  contact,
-  ball_in_sphere,
-};
 
 /// What a function asks of beads besides their centres: it says so by `uses_weights` and `uses_radii`.
 template <class F>
@@ -65,21 +44,7 @@ template <class F, MotionView View>
   }
 }
 
-/// The identity of a certificate that keeps its beads in one order.
-template <std::size_t N>
-[[nodiscard]] constexpr Identity identity_of(CertificateType type, const std::array<BeadId, N>& beads) {
-  static_assert(N <= 5);
-  Identity identity{static_cast<std::uint32_t>(type), {no_bead, no_bead, no_bead, no_bead, no_bead}};
-  for (std::size_t i = 0; i < N; ++i) identity.beads[i] = beads[i];
-  return identity;
-}
-
 template <class C, class M>
-concept CertificateFor = FunctionOfBeads<C, M> && requires(const C& certificate) {
-  { certificate.identity() } -> std::same_as<Identity>;
-  {
-    certificate.side()
-    } -> std::same_as<bool>;  // differs between a function and its negative of one identity
-};
+concept CertificateFor = FunctionOfBeads<C, M> && NamedCertificate<C>;
 
 }  // namespace kds

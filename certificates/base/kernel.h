@@ -1,25 +1,26 @@
 #pragma once
-// The three number kernels: one template parameter of everything that decides a sign or a time.
+// The three number kernels, chosen when a run starts: what decides a sign or a time.
 
-#include <concepts>
+#include <array>
+#include <cstdint>
 #include <string_view>
 
 namespace kds {
 
-/// Plain double, no guarantee. Its work is bounded; it may be wrong.
-struct Fast {
-  static constexpr std::string_view name = "fast";
-};
-/// Exact answers: double with proved error bounds first, integers for what is left. The default.
-struct Filtered {
-  static constexpr std::string_view name = "filtered";
-};
-/// Integers only: exact, slow, the oracle of the other two.
-struct Exact {
-  static constexpr std::string_view name = "exact";
+enum class Kernel : std::uint8_t {
+  /// Plain double in the same lanes and with the same first filters as `filtered`, without bounds, proofs or
+  /// integers. Its work is bounded; it may be wrong.
+  fast,
+  /// Exact answers: double with proved error bounds first, integers for what is left. The default.
+  filtered,
+  /// Integers only: exact, slow, the oracle of the other two.
+  exact,
 };
 
-template <class K>
-concept Kernel = std::same_as<K, Fast> || std::same_as<K, Filtered> || std::same_as<K, Exact>;
+/// In the order of the enumerators.
+inline constexpr std::array<std::string_view, 3> kernel_names{"fast", "filtered", "exact"};
+[[nodiscard]] constexpr std::string_view name_of(Kernel kernel) {
+  return kernel_names[static_cast<std::size_t>(kernel)];
+}
 
 }  // namespace kds

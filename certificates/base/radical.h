@@ -28,9 +28,8 @@ concept RadicalOf = FunctionOfBeads<typename R::Rational, M> && FunctionOfBeads<
     FunctionOfBeads<typename R::Norm, M>;
 
 template <class C, class M>
-concept RadicalCertificateFor = RadicalOf<typename C::Radical, M> && requires(const C& certificate) {
-  { certificate.identity() } -> std::same_as<Identity>;
-  { certificate.side() } -> std::same_as<bool>;      // false: positive where the radical is negative
+concept RadicalCertificateFor = NamedCertificate<C> && RadicalOf<typename C::Radical, M> &&
+    requires(const C& certificate) {  // side() is false: positive where the radical is negative
   { certificate.root_sign() } -> std::same_as<int>;  // 1 or -1, by which B is to be multiplied
 };
 

@@ -26,36 +26,35 @@ struct CoefficientBits {
   int power = 0;
 };
 
-template <class Function, class M>
-[[nodiscard]] CoefficientBits derive_coefficient_bits() {
+/// Of a function's values over magnitudes.
+template <class Magnitudes>
+[[nodiscard]] CoefficientBits coefficient_bits(const Magnitudes& magnitudes) {
   CoefficientBits result;
-  for (const Magnitude& m : function_of(Function{}, MagnitudeViewOf<M>{}).scaled) {
+  for (const Magnitude& m : magnitudes.scaled) {
     // Rounded on the way: by far less than one bit.
     result = {std::max(result.bits, std::ilogb(m.bound) + 2), m.power};
   }
   return result;
 }
-template <class Function, class M>
-inline const CoefficientBits coefficient_bits = derive_coefficient_bits<Function, M>();
 
-// Rarely called and large: one copy for all kernels.
 template <class Function, Motion M>
-[[nodiscard, gnu::noinline]] ExactPolynomial exact_function(const Function& function, const M& motion) {
+[[nodiscard]] ExactPolynomial exact_function_of(const Function& function, const M& motion,
+                                                const CoefficientBits& size) {
   constexpr Channels channels = channels_of<Function>;
   const WholeScale scale = whole_scale<channels>(motion, function.beads);
-  const CoefficientBits& size = coefficient_bits<Function, M>;
   const std::size_t count = residues_for(size.bits + size.power * (scale.bits + 1));
   if (count > residue_folds.size())
     return ExactPolynomial(function_of(function, IntegerView<M, channels>(motion, scale)));
 
-  constexpr int degree = decltype(function_of(function, DoubleView<M>(motion)))::degree;
-  std::array<std::array<std::uint64_t, residue_folds.size()>, degree + 1> residues;
+  using Residual = std::array<std::uint64_t, residue_folds.size()>;
+  Coefficients<Residual> residues;  // of each coefficient
   for (std::size_t i = 0; i < count; ++i) {
     const auto p = function_of(function, ResidueView<M, channels>(motion, scale, {residue_folds[i]}));
-    for (std::size_t k = 0; k <= degree; ++k) residues[k][i] = p.scaled[k].value;
+    residues.resize(p.scaled.size());
+    for (std::size_t k = 0; k < p.scaled.size(); ++k) residues[k][i] = p.scaled[k].value;
   }
   std::vector<Integer> scaled;
-  scaled.reserve(degree + 1);
+  scaled.reserve(residues.size());
   for (const auto& coefficient : residues)
     scaled.push_back(whole_number(std::span(coefficient).first(count)));
   return ExactPolynomial(std::move(scaled));

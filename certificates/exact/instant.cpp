@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "certificates/exact/exact_time.h"
+
 namespace kds {
 
 ExactTime exact_time(const ExactPolynomial& function, const FailureTime& time) {
@@ -19,6 +21,18 @@ void narrow(FailureTime& time, const ExactTime& exact) {
   if (!time.isolating || exact.is_dyadic()) return;
   time.lower = std::max(time.lower, exact.lower().round_down());
   time.upper = std::min(time.upper, exact.upper().round_up());
+}
+
+Instant::Instant(const Dyadic& u) : time_{u.round_down(), u.round_up(), 0, false}, exact_(new ExactTime(u)) {}
+
+void Instant::Delete::operator()(ExactTime* time) const { delete time; }
+
+ExactTime& Instant::exact() const {
+  if (!exact_) {
+    exact_.reset(new ExactTime(source_ == nullptr ? ExactTime(Dyadic(time_.lower))
+                                                  : exact_time(*source_->exact_function(slot_), time_)));
+  }
+  return *exact_;
 }
 
 bool Instant::narrow() const {

@@ -2,19 +2,25 @@
 // The present time of a run within a step, as certificates need it: a bracket in doubles and, only when the
 // exact stage asks, the exact number behind it.
 
-#include <optional>
-#include <utility>
+#include <cstdint>
+#include <memory>
 
 #include "certificates/base/failure_time.h"
-#include "certificates/exact/exact_time.h"
 
 namespace kds {
+
+class Dyadic;
+class ExactPolynomial;
+class ExactTime;
+
+/// A certificate's function on whole numbers.
+using ExactFunction = std::shared_ptr<const ExactPolynomial>;
 
 /// Whoever holds certificates can say exactly what their functions are.
 class CertificateSource {
  public:
   virtual ~CertificateSource() = default;
-  [[nodiscard]] virtual ExactPolynomial exact_function(std::uint32_t slot) const = 0;
+  [[nodiscard]] virtual ExactFunction exact_function(std::uint32_t slot) const = 0;
 };
 
 /// The root that a failure time stands for. Exact.
@@ -25,9 +31,9 @@ void narrow(FailureTime& time, const ExactTime& exact);
 
 class Instant {
  public:
-  /// The start of a step, or another dyadic time.
-  explicit Instant(double u = 0) : time_{u, u, 0, false}, exact_(ExactTime(Dyadic(u))) {}
-  explicit Instant(const Dyadic& u) : time_{u.round_down(), u.round_up(), 0, false}, exact_(ExactTime(u)) {}
+  /// The start of a step, or another time that is a double.
+  explicit Instant(double u = 0) : time_{u, u, 0, false} {}
+  explicit Instant(const Dyadic& u);
   /// A bracket with nothing behind it: for reports, not for decisions.
   explicit Instant(const FailureTime& time) : time_(time) {}
   /// The failure time of a certificate, which must stay available while the instant lasts.
@@ -42,16 +48,17 @@ class Instant {
   [[nodiscard]] bool last() const { return time_.last; }
   /// Narrows the bracket as far as doubles go, once: true if that was still to be done.
   bool narrow() const;
-  [[nodiscard]] ExactTime& exact() const {
-    if (!exact_) exact_ = exact_time(source_->exact_function(slot_), time_);
-    return *exact_;
-  }
+  [[nodiscard]] ExactTime& exact() const;
 
  private:
+  struct Delete {  // exact numbers are seen by those who ask for them alone
+    void operator()(ExactTime* time) const;
+  };
+
   mutable FailureTime time_;
   const CertificateSource* source_ = nullptr;
   std::uint32_t slot_ = 0;
-  mutable std::optional<ExactTime> exact_;
+  mutable std::unique_ptr<ExactTime, Delete> exact_;
   mutable bool narrowed_ = false;
 };
 

@@ -3,8 +3,10 @@
 // look at their signs. It says what BoundedPolynomial says one by one, and leaves to it what needs a
 // subdivision. No allocation.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <tuple>
 
 #include "certificates/base/certificate.h"
@@ -13,6 +15,10 @@
 #include "motions/views/lanes_view.h"
 
 namespace kds {
+
+/// What filters charge for rounding: all of it, or, with `fast`, nothing. There signs are what they seem to
+/// be.
+enum class Rounding : std::uint8_t { charged, ignored };
 
 /// The present time and what is known at it of each lane's function.
 struct LanesNow {
@@ -33,6 +39,18 @@ struct LanesOutcome {
   LanesDescent<Degree> descent;  ///< polynomial and errors of all lanes that are not positive
 };
 
+/// The filter's constants for a certificate type and a motion of constant degree (error_bound.h).
+template <int Degree>
+struct LanesBound {
+  int power = 0;
+  std::array<double, static_cast<std::size_t>(Degree) + 1> coefficient{};
+  double uniform = 0;
+
+  explicit LanesBound(const ErrorBound& bound) : power(bound.power), uniform(bound.uniform) {
+    std::copy_n(bound.coefficient.begin(), coefficient.size(), coefficient.begin());
+  }
+};
+
 template <class Certificate>
 inline constexpr std::size_t bead_places = std::tuple_size_v<decltype(Certificate{}.beads)>;
 
@@ -50,18 +68,18 @@ struct ScaledLanes {
 template <class Certificate, Motion M, int Degree>
 [[gnu::always_inline]] inline void evaluate_lanes(
     const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
-    const Lanes& sides, ScaledLanes<Degree>& lanes) {
+    const Lanes& sides, const LanesBound<Degree>& bound, double charge, ScaledLanes<Degree>& lanes) {
   decltype(Certificate{}.beads) places{};
   for (std::size_t p = 0; p < places.size(); ++p) places[p] = static_cast<BeadId>(p);
   const LanesView<M, bead_places<Certificate>, channels_of<Certificate>> view(motion, tuples);
   const auto function = Certificate::formula(view, places);
-  const auto& bound = error_bound<Certificate, M>;
 
   const Lanes length = view.largest_length();
   Lanes scale(1.0);
   for (int i = 0; i < bound.power; ++i) scale = scale * length;
   scale =
       Lanes::choose((scale >= Lanes(0x1p-900)) & (scale <= Lanes(0x1p900)), scale, Lanes(__builtin_nan("")));
+  scale = scale * Lanes(charge);
   lanes.error_scale = scale;
   lanes.positive = scale >= Lanes(0.0);
   for (std::size_t k = 0; k <= Degree; ++k) {
@@ -73,7 +91,7 @@ template <class Certificate, Motion M, int Degree>
 /// Plain coefficients and the errors that go with them.
 template <int Degree>
 [[gnu::always_inline]] inline void bound_lanes(const ScaledLanes<Degree>& given, double uniform_bound,
-                                               LanesDescent<Degree>& lanes) {
+                                               double charge, LanesDescent<Degree>& lanes) {
   Lanes largest(0.0);
   for (std::size_t k = 0; k <= Degree; ++k) {
     lanes.bernstein[k] = given.scaled[k] / Lanes(static_cast<double>(binomial(Degree, static_cast<int>(k))));
@@ -81,8 +99,10 @@ template <int Degree>
   }
   const Lanes uniform = Lanes::choose(largest >= Lanes(0x1p-900), Lanes(uniform_bound) * given.error_scale,
                                       Lanes(__builtin_nan("")));
-  lanes.value_error = uniform + Lanes(value_rounding(Degree)) * largest;
-  lanes.local_error = uniform + Lanes(local_rounding(Degree)) * largest;
+  // A hair, so that what is known to be positive seems to be.
+  const Lanes least(charge == 0 ? 0x1p-1000 : 0.0);
+  lanes.value_error = uniform + Lanes(charge * value_rounding(Degree)) * largest + least;
+  lanes.local_error = uniform + Lanes(charge * local_rounding(Degree)) * largest + least;
 }
 
 /// How far from its value at the upper end a function may be elsewhere in the present bracket.
@@ -104,12 +124,14 @@ template <int Degree>
 template <class Certificate, Motion M, int Degree>
 [[KDS_LANES_TARGETS]] void classify_lanes(
     const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
-    const Lanes& sides, const LanesNow& now, LanesOutcome<Degree>& out) {
+    const Lanes& sides, const LanesBound<Degree>& bound, Rounding rounding, const LanesNow& now,
+    LanesOutcome<Degree>& out) {
+  const double charge = rounding == Rounding::charged ? 1 : 0;
   detail::ScaledLanes<Degree> given;
-  detail::evaluate_lanes<Certificate>(motion, tuples, sides, given);
+  detail::evaluate_lanes<Certificate>(motion, tuples, sides, bound, charge, given);
   out.positive = given.positive;
   if (Lanes::all(out.positive)) return;
-  detail::bound_lanes(given, error_bound<Certificate, M>.uniform, out.descent);
+  detail::bound_lanes(given, bound.uniform, charge, out.descent);
   auto right = out.descent.bernstein;  // the part after now
   if (now.upper > 0) casteljau(right, Lanes(now.upper));
   // At its own root the bracket holds no other one, and at its upper end the function is positive.

@@ -17,13 +17,10 @@
 // 1-t), and t itself, at most a quotient of such numbers, by 4u, which moves a coefficient by at most 2n * 4u
 // max|c|. Together 12 u n max|c|; evaluation at a double is one subdivision.
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <utility>
 
-#include "certificates/base/certificate.h"
+#include "motions/numbers/coefficients.h"
+#include "motions/numbers/magnitude.h"
 
 namespace kds {
 
@@ -35,10 +32,9 @@ inline constexpr int subdivisions = 2;  // one cuts off what is after the part, 
   return (subdivisions + 2) * value_rounding(degree);
 }
 
-template <int Degree>
 struct ErrorBound {
   int power = 0;  ///< h
-  std::array<double, static_cast<std::size_t>(Degree) + 1> coefficient{};
+  Coefficients<double> coefficient;
   double uniform = 0;
 
   /// M^h, or a NaN that fails every comparison where the bound is not proved.
@@ -48,27 +44,5 @@ struct ErrorBound {
     return result >= 0x1p-900 && result <= 0x1p900 ? result : std::nan("");
   }
 };
-
-template <class Certificate, class M>
-ErrorBound<decltype(function_of(Certificate{}, DoubleView<M>(std::declval<const M&>())))::degree>
-derive_error_bound() {
-  const auto magnitudes = function_of(Certificate{}, MagnitudeViewOf<M>{});
-  constexpr int degree = decltype(magnitudes)::degree;
-  constexpr double inflation = 1 + 0x1p-30;
-  constexpr double u = Magnitude::unit_roundoff;
-
-  ErrorBound<degree> bound;
-  for (std::size_t k = 0; k < magnitudes.scaled.size(); ++k) {
-    const Magnitude& m = magnitudes.scaled[k];
-    const auto choose = static_cast<double>(binomial(degree, static_cast<int>(k)));
-    bound.power = m.power;
-    bound.coefficient[k] = m.error * inflation;
-    bound.uniform = std::max(bound.uniform, (m.error + u * (m.bound + m.error)) / choose * inflation);
-  }
-  return bound;
-}
-
-template <class Certificate, class M>
-inline const auto error_bound = derive_error_bound<Certificate, M>();
 
 }  // namespace kds

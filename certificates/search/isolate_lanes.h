@@ -13,29 +13,31 @@ struct LanesShape {
   Lanes::Mask one_descent;  ///< positive at its start, negative at its end, one root between
 };
 
-template <std::size_t N>
-[[gnu::always_inline]] inline LanesShape shape_of(const std::array<Lanes, N>& c, const Lanes& error) {
+template <class Row>
+[[gnu::always_inline]] inline LanesShape shape_of(const Row& c, const Lanes& error) {
+  const std::size_t count = c.size();
   Lanes::Mask before = c[0] > error;
-  Lanes::Mask after = c[N - 1] < -error;
+  Lanes::Mask after = c[count - 1] < -error;
   const Lanes::Mask descends = before & after;
   Lanes::Mask certain = -(before + after);
-  for (std::size_t k = 1; k < N; ++k) {
+  for (std::size_t k = 1; k < count; ++k) {
     before &= c[k] > error;
-    after &= c[N - 1 - k] < -error;
+    after &= c[count - 1 - k] < -error;
     certain -= before + after;
   }
   // + ... + ? - ... - with one doubtful coefficient or none has exactly one sign variation whatever that one
   // is: one root, by Descartes.
-  constexpr long enough = N - 1;
+  const long enough = static_cast<long>(count) - 1;
   return {before, descends & (certain >= Lanes::Mask{enough, enough, enough, enough})};
 }
 
 /// In place: the polynomial on [0, u] from that on [0, 1].
-template <std::size_t N>
-[[gnu::always_inline]] inline void casteljau_left(std::array<Lanes, N>& c, const Lanes& u) {
+template <class Row>
+[[gnu::always_inline]] inline void casteljau_left(Row& c, const Lanes& u) {
   const Lanes v = Lanes(1.0) - u;
-  for (std::size_t round = 1; round < N; ++round) {
-    for (std::size_t i = N - 1; i >= round; --i) c[i] = v * c[i - 1] + u * c[i];
+  const std::size_t count = c.size();
+  for (std::size_t round = 1; round < count; ++round) {
+    for (std::size_t i = count - 1; i >= round; --i) c[i] = v * c[i - 1] + u * c[i];
   }
 }
 
@@ -53,16 +55,17 @@ struct LanesSearch {
 }
 
 /// Where the control polygon first falls below zero, in [0,1]; 1 if it does not.
-template <std::size_t N>
-[[gnu::always_inline]] inline Lanes first_descent_of_polygon(const std::array<Lanes, N>& c) {
-  Lanes place(static_cast<double>(N - 1)), left(0.0), right(-1.0);
-  for (std::size_t k = N - 1; k-- > 0;) {
+template <class Row>
+[[gnu::always_inline]] inline Lanes first_descent_of_polygon(const Row& c) {
+  const std::size_t last = c.size() - 1;
+  Lanes place(static_cast<double>(last)), left(0.0), right(-1.0);
+  for (std::size_t k = last; k-- > 0;) {
     const Lanes::Mask falls = (c[k] > Lanes(0.0)) & (c[k + 1] <= Lanes(0.0));
     place = Lanes::choose(falls, Lanes(static_cast<double>(k)), place);
     left = Lanes::choose(falls, c[k], left);
     right = Lanes::choose(falls, c[k + 1], right);
   }
-  return (place + left / (left - right)) * Lanes(1.0 / static_cast<double>(N - 1));
+  return (place + left / (left - right)) * Lanes(1.0 / static_cast<double>(last));
 }
 
 /// Searches the wanted lanes after `from`, where they are certainly positive: by their computed value, or

@@ -2,6 +2,7 @@
 // Four isolated descents narrowed at once: Halley on the local polynomials, guarded by the bracket of signs
 // seen so far, then a bracket around the result whose ends are proved. No allocation.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -10,8 +11,9 @@
 
 namespace kds {
 
+/// Of a degree that is a constant, or (any_degree) known at run time.
 template <int Degree>
-using LanesCoefficients = std::array<Lanes, static_cast<std::size_t>(Degree) + 1>;
+using LanesCoefficients = decltype(Bernstein<Lanes, Degree>::scaled);
 
 /// A polynomial on [0,1] as in BoundedPolynomial, and its part on [lower, upper], which is certainly positive
 /// at lower, negative at upper, and has one root.
@@ -23,10 +25,10 @@ struct LanesDescent {
 };
 
 /// In place: the polynomial on [u, 1] from that on [0, 1]; the first coefficient becomes the value at u.
-template <std::size_t N>
-[[gnu::always_inline]] inline Lanes casteljau(std::array<Lanes, N>& c, const Lanes& u) {
+template <class Row>
+[[gnu::always_inline]] inline Lanes casteljau(Row& c, const Lanes& u) {
   const Lanes v = Lanes(1) - u;
-  for (std::size_t round = N - 1; round > 0; --round) {
+  for (std::size_t round = c.size() - 1; round > 0; --round) {
     for (std::size_t i = 0; i < round; ++i) c[i] = v * c[i] + u * c[i + 1];
   }
   return c[0];
@@ -35,51 +37,55 @@ template <std::size_t N>
 namespace detail {
 
 /// Odd and even powers apart: half as long a chain of operations as Horner's rule.
-template <std::size_t N>
-[[gnu::always_inline]] inline Lanes value_of_powers(const std::array<Lanes, N>& c, const Lanes& t,
-                                                    const Lanes& square) {
-  if constexpr (N == 1) {
-    return c[0];
-  } else {
-    Lanes later = c[N - 1], next = c[N - 2];
-    for (std::size_t k = N - 2; k-- > 0;) {
-      const Lanes sum = later * square + c[k];
-      later = next;
-      next = sum;
-    }
-    return next + t * later;
+template <class Row>
+[[gnu::always_inline]] inline Lanes value_of_powers(const Row& c, const Lanes& t, const Lanes& square) {
+  if (c.size() == 1) return c[0];
+  Lanes later = c[c.size() - 1], next = c[c.size() - 2];
+  for (std::size_t k = c.size() - 2; k-- > 0;) {
+    const Lanes sum = later * square + c[k];
+    later = next;
+    next = sum;
   }
+  return next + t * later;
 }
 
 /// The derivative's coefficients, divided by `divisor`.
 template <std::size_t N>
 [[gnu::always_inline]] inline std::array<Lanes, N - 1> derivative(const std::array<Lanes, N>& c,
                                                                   double divisor) {
-  std::array<Lanes, N - 1> result;
+  std::array<Lanes, std::max<std::size_t>(N, 2) - 1> result;
   for (std::size_t k = 1; k < N; ++k) result[k - 1] = Lanes(static_cast<double>(k) / divisor) * c[k];
+  return result;
+}
+[[nodiscard]] inline Coefficients<Lanes> derivative(const Coefficients<Lanes>& c, double divisor) {
+  Coefficients<Lanes> result;
+  result.resize(c.size() - 1);
+  for (std::size_t k = 1; k < c.size(); ++k) result[k - 1] = Lanes(static_cast<double>(k) / divisor) * c[k];
   return result;
 }
 
 /// Near the descent of the polynomial with these coefficients on [0,1]; `slope` is its derivative there.
-template <std::size_t N>
-[[gnu::always_inline]] inline Lanes halley(const std::array<Lanes, N>& c, Lanes::Mask moving, Lanes& slope) {
-  constexpr int degree = static_cast<int>(N) - 1;
+template <class Row>
+[[gnu::always_inline]] inline Lanes halley(const Row& c, Lanes::Mask moving, Lanes& slope) {
+  const std::size_t count = c.size();
+  const int degree = static_cast<int>(count) - 1;
   // Where the control polygon descends through zero.
   Lanes place(0.0), left(0.0), right(-1.0);
-  for (std::size_t k = 0; k + 1 < N; ++k) {
+  for (std::size_t k = 0; k + 1 < count; ++k) {
     const Lanes::Mask crosses = (c[k] > Lanes(0.0)) & (c[k + 1] <= Lanes(0.0));
     place = Lanes::choose(crosses, Lanes(static_cast<double>(k)), place);
     left = Lanes::choose(crosses, c[k], left);
     right = Lanes::choose(crosses, c[k + 1], right);
   }
   Lanes t = (place + left / (left - right)) * Lanes(1.0 / degree);
-  std::array<Lanes, N> power = c;  // coefficients of t^k, by forward differences
-  for (std::size_t r = 1; r < N; ++r) {
-    for (std::size_t i = N - 1; i >= r; --i) power[i] = power[i] - power[i - 1];
+  Row power = c;  // coefficients of t^k, by forward differences
+  for (std::size_t r = 1; r < count; ++r) {
+    for (std::size_t i = count - 1; i >= r; --i) power[i] = power[i] - power[i - 1];
   }
-  for (std::size_t k = 1; k + 1 < N; ++k)
+  for (std::size_t k = 1; k + 1 < count; ++k)
     power[k] = Lanes(static_cast<double>(binomial(degree, static_cast<int>(k)))) * power[k];
   const auto first = derivative(power, 1);
+  const auto second = derivative(first, 2);  // half of it; of a line none
 
   Lanes low(0.0), high(1.0);
   for (int iteration = 0; iteration < 40 && Lanes::any(moving); ++iteration) {
@@ -87,8 +93,8 @@ template <std::size_t N>
     const Lanes value = value_of_powers(power, t, square);
     slope = value_of_powers(first, t, square);
     Lanes change = value / slope;
-    if constexpr (N > 2) {
-      const Lanes bend = value_of_powers(derivative(first, 2), t, square);
+    if (count > 2) {
+      const Lanes bend = value_of_powers(second, t, square);
       change = value * slope / (slope * slope - value * bend);
     }
     const Lanes::Mask before = value > Lanes(0.0);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <span>
 
 #include "motions/views/motion_view.h"
 
@@ -20,9 +21,9 @@ namespace kds {
 }
 
 /// A function over this view names beads by their place among those given. Of the first all are seen.
-template <Motion M, std::size_t Places>
+template <Motion M, std::size_t Places, Channels channels = Channels{false, true}>
 class TrackedMoment {
-  static_assert(!lifted<M>);
+  static_assert(!lifted<M> || !channels.weights, "weights between frames are no Bezier curves");
 
  public:
   using Number = TrackedDouble;
@@ -30,22 +31,29 @@ class TrackedMoment {
   static constexpr int degree = 0;
 
   /// From `lower` to `upper`, within [0,1].
-  TrackedMoment(const M& motion, const std::array<BeadId, Places>& beads, double lower, double upper) {
-    const double scale = scale_to_unit<Channels{false, true}>(motion, beads);
+  TrackedMoment(const M& motion, std::span<const BeadId> beads, double lower, double upper) {
+    const double scale = scale_to_unit<channels>(motion, beads);
+    const int own = degree_of(motion);
     const TrackedDouble later{upper, 0}, earlier = rounded(1 - upper);
-    const double length = M::degree * (upper - lower) * TrackedDouble::inflation;
+    const double length = own * (upper - lower) * TrackedDouble::inflation;
+    const auto during = [&](auto control) { return value(own, control, earlier, later, length); };
     for (std::size_t place = 1; place < Places; ++place) {
-      for (int axis = 0; axis <= dimension; ++axis) {
-        seen_[place][static_cast<std::size_t>(axis)] = value(
-            [&](int k) {
-              const auto of = [&](BeadId b) {
-                return axis < dimension ? motion.coordinate(b, k, axis) : motion.radius(b, k);
-              };
-              return rounded((of(beads[place]) - of(beads[0])) * scale);
-            },
-            earlier, later, length);
+      const BeadId bead = beads[place], first = beads[0];
+      for (int axis = 0; axis < dimension; ++axis) {
+        seen_[place][static_cast<std::size_t>(axis)] = during([&](int k) {
+          return rounded((motion.coordinate(bead, k, axis) - motion.coordinate(first, k, axis)) * scale);
+        });
       }
+      if constexpr (channels.radii)
+        seen_[place][of_radius] = during(
+            [&](int k) { return rounded((motion.radius(bead, k) - motion.radius(first, k)) * scale); });
+      if constexpr (channels.weights)
+        seen_[place][of_weight] = during([&](int k) {
+          return rounded((motion.weight(bead, k) - motion.weight(first, k)) * scale * scale);
+        });
     }
+    if constexpr (channels.radii)
+      first_radius_ = during([&](int k) { return rounded(motion.radius(beads[0], k) * scale); });
   }
 
   [[nodiscard]] BernsteinVector<TrackedDouble, 0, dimension> difference(BeadId i, BeadId j) const {
@@ -53,20 +61,33 @@ class TrackedMoment {
     for (std::size_t axis = 0; axis < dimension; ++axis) result[axis].scaled[0] = between(i, j, axis);
     return result;
   }
-  [[nodiscard]] Bernstein<TrackedDouble, 0> radius_difference(BeadId i, BeadId j) const {
-    return {{between(i, j, dimension)}};
+  [[nodiscard]] Bernstein<TrackedDouble, 0> radius_difference(BeadId i, BeadId j) const
+      requires(channels.radii) {
+    return {{between(i, j, of_radius)}};
+  }
+  [[nodiscard]] Bernstein<TrackedDouble, 0> radius_sum(BeadId i, BeadId j) const requires(channels.radii) {
+    return {{seen_[i][of_radius] + seen_[j][of_radius] + first_radius_ + first_radius_}};
+  }
+  [[nodiscard]] Bernstein<TrackedDouble, 0> weight_difference(BeadId i, BeadId j) const
+      requires(channels.weights) {
+    return {{between(i, j, of_weight)}};
   }
 
  private:
+  static constexpr std::size_t of_radius = dimension, of_weight = dimension + (channels.radii ? 1 : 0);
+  static constexpr std::size_t columns = of_weight + (channels.weights ? 1 : 0);
+
   static TrackedDouble rounded(double x) {
     return {x, TrackedDouble::unit_roundoff * std::abs(x) + TrackedDouble::lost_to_underflow};
   }
   /// At the end, and how far it may be from that before: |p'| <= degree * the steepest of the control
   /// polygon.
   template <std::invocable<int> Control>
-  static TrackedDouble value(Control control, const TrackedDouble& earlier, const TrackedDouble& later,
-                             double length) {
-    std::array<TrackedDouble, M::degree + 1> points;
+  static TrackedDouble value(int degree, Control control, const TrackedDouble& earlier,
+                             const TrackedDouble& later, double length) {
+    Bernstein<TrackedDouble, M::degree> curve;
+    curve.set_degree(degree);
+    auto& points = curve.scaled;
     double steepest = 0;
     for (std::size_t k = 0; k < points.size(); ++k) {
       points[k] = control(static_cast<int>(k));
@@ -74,7 +95,7 @@ class TrackedMoment {
         steepest = std::max(steepest, std::abs(points[k].value - points[k - 1].value) + points[k].error +
                                           points[k - 1].error);
     }
-    for (std::size_t round = M::degree; round > 0; --round) {
+    for (std::size_t round = points.size() - 1; round > 0; --round) {
       for (std::size_t k = 0; k < round; ++k) points[k] = earlier * points[k] + later * points[k + 1];
     }
     points[0].error += steepest * length;
@@ -86,7 +107,8 @@ class TrackedMoment {
     return seen_[i][column] - seen_[j][column];
   }
 
-  std::array<std::array<TrackedDouble, dimension + 1>, Places> seen_{};  // from the first
+  std::array<std::array<TrackedDouble, columns>, Places> seen_{};  // from the first
+  TrackedDouble first_radius_;
 };
 
 static_assert(MotionView<TrackedMoment<BezierMotion<3, 1>, 3>>);

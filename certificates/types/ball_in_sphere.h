@@ -159,6 +159,7 @@ struct SimplexSphere : BallsFromBase<Dimension + 1, View> {
 template <int Dimension, int Size>
 struct BallInSphere {
   static_assert((Dimension == 2 || Dimension == 3) && Size >= 1 && Size <= Dimension + 1);
+  static constexpr CertificateType type{5, "ball_in_sphere"};
   static constexpr bool full = Size == Dimension + 1;
 
   using Beads = std::array<BeadId, Size + 1>;
@@ -171,7 +172,7 @@ struct BallInSphere {
   [[nodiscard]] Identity identity() const {
     Beads named = beads;
     if (full && orientation < 0) std::swap(named[0], named[1]);
-    return identity_of(CertificateType::ball_in_sphere, named);
+    return identity_of(type, named);
   }
 
   [[nodiscard]] bool side() const { return inside; }
@@ -183,7 +184,7 @@ struct BallInSphere {
     if constexpr (Size == 1) return false;  // A and B say so themselves
     for (std::size_t i = 0; i < Size; ++i) {
       bool smaller = false;
-      for (int k = 0; k <= M::degree; ++k)
+      for (int k = 0; k <= degree_of(motion); ++k)
         smaller |= motion.radius(beads[i], k) < motion.radius(beads[Size], k);
       if (!smaller) return false;
     }

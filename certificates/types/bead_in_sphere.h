@@ -20,11 +20,12 @@ namespace kds {
 template <int Size>
 struct BeadInSphere {
   static_assert(Size >= 1 && Size <= 3);
+  static constexpr CertificateType type{3, "bead_in_sphere"};
 
   std::array<BeadId, Size + 1> beads{};  ///< the basis, ascending; then the bead
   bool inside = true;
 
-  [[nodiscard]] Identity identity() const { return identity_of(CertificateType::bead_in_sphere, beads); }
+  [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
 
   [[nodiscard]] bool side() const { return inside; }
 

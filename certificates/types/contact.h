@@ -9,6 +9,7 @@
 namespace kds {
 
 struct Contact {
+  static constexpr CertificateType type{4, "contact"};
   static constexpr bool uses_radii = true;
 
   std::array<BeadId, 2> beads{};  ///< ascending
@@ -20,7 +21,7 @@ struct Contact {
     static_cast<void>(sort_beads(beads));
   }
 
-  [[nodiscard]] Identity identity() const { return identity_of(CertificateType::contact, beads); }
+  [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
 
   [[nodiscard]] bool side() const { return sign > 0; }
 

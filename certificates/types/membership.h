@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <concepts>
+#include <cstdint>
 #include <span>
 
 #include "certificates/types/ball_in_sphere.h"
@@ -21,10 +22,10 @@ namespace kds {
 namespace detail {
 
 /// Whether `value(bead, k)` is the same for all of these beads, for every control point k.
-template <Motion M, std::invocable<BeadId, int> Value>
-[[nodiscard]] bool all_equal(std::span<const BeadId> beads, Value value) {
+template <std::invocable<BeadId, int> Value>
+[[nodiscard]] bool all_equal(std::span<const BeadId> beads, int degree, Value value) {
   return std::all_of(beads.begin(), beads.end(), [&](BeadId bead) {
-    for (int k = 0; k <= M::degree; ++k) {
+    for (int k = 0; k <= degree; ++k) {
       if (value(bead, k) != value(beads.front(), k)) return false;
     }
     return true;
@@ -42,26 +43,27 @@ template <std::size_t N>
 }  // namespace detail
 
 /// What is promised of the radii of a necklace.
-enum class Radii {
-  equal,  ///< the same for all beads, and so are weights: radical certificates are not even compiled
+enum class Radii : std::uint8_t {
+  equal,  ///< the same for all beads, and so are weights: no certificate is radical
   any
 };
 
 /// Calls `visit` with the certificate that `bead` lies inside (or, not `inside`, outside) the sphere of
 /// `basis`: 1 to dimension + 1 beads, ascending. `orientation` is a full basis' own (orientation.h).
-template <Radii radii = Radii::any, Motion M, class Visit>
-decltype(auto) visit_membership(const M& motion, std::span<const BeadId> basis, BeadId bead, bool inside,
-                                int orientation, Visit&& visit) {
+template <Motion M, class Visit>
+decltype(auto) visit_membership(Radii radii, const M& motion, std::span<const BeadId> basis, BeadId bead,
+                                bool inside, int orientation, Visit&& visit) {
   constexpr std::size_t full = M::dimension + 1;
   const bool is_full = basis.size() == full;
   std::array<BeadId, full + 1> all{};
   std::copy(basis.begin(), basis.end(), all.begin());
   all[basis.size()] = bead;
-  if constexpr (radii == Radii::any) {
+  if (radii == Radii::any) {
     const auto beads = std::span(all).first(basis.size() + 1);
     const bool equal =
-        detail::all_equal<M>(beads, [&](BeadId b, int k) { return motion.radius(b, k); }) &&
-        (!is_full || detail::all_equal<M>(beads, [&](BeadId b, int k) { return motion.weight(b, k); }));
+        detail::all_equal(beads, degree_of(motion), [&](BeadId b, int k) { return motion.radius(b, k); }) &&
+        (!is_full ||
+         detail::all_equal(beads, degree_of(motion), [&](BeadId b, int k) { return motion.weight(b, k); }));
     if (!equal) {
       if (is_full) return visit(BallInSphere<M::dimension, full>{all, inside, orientation});
       if (basis.size() == 1)

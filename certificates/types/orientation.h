@@ -13,6 +13,7 @@ namespace kds {
 template <int Dimension>
 struct Orientation {
   static_assert(Dimension == 2 || Dimension == 3);
+  static constexpr CertificateType type{1, "orientation"};
   static constexpr std::size_t size = Dimension + 1;
 
   std::array<BeadId, size> beads{};  ///< ascending
@@ -24,7 +25,7 @@ struct Orientation {
     sign = sign_wanted * sort_beads(beads);
   }
 
-  [[nodiscard]] Identity identity() const { return identity_of(CertificateType::orientation, beads); }
+  [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
 
   [[nodiscard]] bool side() const { return sign > 0; }
 

@@ -27,6 +27,7 @@ template <MotionView View>
 template <int Dimension>
 struct PowerTest {
   static_assert(Dimension == 2 || Dimension == 3);
+  static constexpr CertificateType type{2, "power_test"};
   static constexpr std::size_t size = Dimension + 2;
   static constexpr bool uses_weights = true;
 
@@ -39,7 +40,7 @@ struct PowerTest {
     sign = sign_wanted * sort_beads(beads);
   }
 
-  [[nodiscard]] Identity identity() const { return identity_of(CertificateType::power_test, beads); }
+  [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
 
   [[nodiscard]] bool side() const { return sign > 0; }
 

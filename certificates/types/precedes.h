@@ -7,6 +7,8 @@
 namespace kds {
 
 struct Precedes {
+  static constexpr CertificateType type{0, "precedes"};
+
   std::array<BeadId, 2> beads{};  ///< ascending
   int sign = 1;
 
@@ -14,7 +16,7 @@ struct Precedes {
   /// Holds while the first bead lies before the second.
   Precedes(std::array<BeadId, 2> in_order) : beads(in_order), sign(sort_beads(beads)) {}
 
-  [[nodiscard]] Identity identity() const { return identity_of(CertificateType::precedes, beads); }
+  [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
 
   [[nodiscard]] bool side() const { return sign > 0; }
 

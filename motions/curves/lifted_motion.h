@@ -25,7 +25,9 @@ class LiftedMotion : public BezierMotion<DimensionValue, 1> {
   using BezierMotion<DimensionValue, 1>::BezierMotion;
 
   [[nodiscard]] double drift(int axis) const { return drift_[static_cast<std::size_t>(axis)]; }
-  void set_drift(const Vector& drift) { drift_ = drift; }
+  void set_drift(const Vector& drift) {
+    for (std::size_t axis = 0; axis < drift.size(); ++axis) drift_[axis] = finite(drift[axis]);
+  }
 
  private:
   Vector drift_{};

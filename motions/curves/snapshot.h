@@ -41,6 +41,7 @@ class Snapshot {
   [[nodiscard]] double coordinate(BeadId bead, int, int axis) const { return records_[bead].control[axis]; }
   [[nodiscard]] double weight(BeadId bead, int) const { return records_[bead].control[dimension]; }
   [[nodiscard]] double radius(BeadId, int) const { return 0; }
+  [[nodiscard]] const double* radii(BeadId) const { return &no_radius; }
   /// The weight last.
   [[nodiscard]] const double* control_point(BeadId bead, int) const { return records_[bead].control; }
 
@@ -48,6 +49,7 @@ class Snapshot {
   struct alignas(DimensionValue == 3 ? 32 : 8) Record {
     double control[DimensionValue + 1] = {};
   };
+  static constexpr double no_radius = 0;
   std::vector<Record> records_;
 };
 

@@ -4,11 +4,17 @@
 //   p(u) = sum_k scaled[k] u^k (1-u)^(Degree-k).
 // In this form a product is a plain convolution and nothing is ever divided, so every ring will do as Number:
 // double, an error-bound magnitude, integers. Exact where Number is.
+//
+// The degree is a constant of the type, or, where that is negative, -m, m times a degree known only when the
+// program runs: sums and products of such degrees follow by the same arithmetic.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 
+#include "motions/numbers/coefficients.h"
 #include "motions/numbers/sum_of_products.h"
 
 namespace kds {
@@ -20,25 +26,83 @@ namespace kds {
   return result;
 }
 
+/// The degree of the type of a polynomial whose degree is that of a motion known only at run time.
+inline constexpr int any_degree = -1;
+
+namespace detail {
+
+// Polynomials whose degrees are known at run time share these, whatever their degrees are called.
+
+template <class Number>
+[[gnu::noinline]] void add_to(Coefficients<Number>& a, const Coefficients<Number>& b) {
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] += b[k];
+}
+template <class Number>
+[[gnu::noinline]] void subtract_from(Coefficients<Number>& a, const Coefficients<Number>& b) {
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] -= b[k];
+}
+template <class Number>
+[[gnu::noinline]] void negate(Coefficients<Number>& a) {
+  for (Number& c : a) c = -std::move(c);
+}
+
+/// Coefficient k of a product.
+template <class Number, class A, class B>
+constexpr Number convolved(const A& a, const B& b, std::size_t k) {
+  const std::size_t to_a = a.size() - 1, to_b = b.size() - 1;
+  const std::size_t first = k > to_b ? k - to_b : 0;
+  const std::size_t last = k < to_a ? k : to_a;
+  SumOfProducts<Number> sum(a[first], b[k - first]);
+  for (std::size_t i = first + 1; i <= last; ++i) sum.add(a[i], b[k - i]);
+  return std::move(sum).value();
+}
+template <class Number>
+[[gnu::noinline]] void multiply(const Coefficients<Number>& a, const Coefficients<Number>& b,
+                                Coefficients<Number>& product) {
+  product.resize(a.size() + b.size() - 1);
+  for (std::size_t k = 0; k < product.size(); ++k) product[k] = convolved<Number>(a, b, k);
+}
+
+}  // namespace detail
+
 template <class NumberType, int DegreeValue>
 struct Bernstein {
   using Number = NumberType;
   static constexpr int degree = DegreeValue;
 
-  std::array<Number, static_cast<std::size_t>(DegreeValue) + 1> scaled;
+  std::conditional_t<(DegreeValue < 0), Coefficients<Number>,
+                     std::array<Number, static_cast<std::size_t>(std::max(DegreeValue, 0)) + 1>>
+      scaled;
+
+  /// Room for coefficients of this degree, which is the type's own where that is a constant.
+  constexpr void set_degree([[maybe_unused]] int of_this_degree) {
+    if constexpr (DegreeValue < 0) scaled.resize(static_cast<std::size_t>(of_this_degree) + 1);
+  }
 
   constexpr Bernstein& operator+=(const Bernstein& other) {
-    for (std::size_t k = 0; k < scaled.size(); ++k) scaled[k] += other.scaled[k];
+    if constexpr (DegreeValue < 0) {
+      detail::add_to<Number>(scaled, other.scaled);
+    } else {
+      for (std::size_t k = 0; k < scaled.size(); ++k) scaled[k] += other.scaled[k];
+    }
     return *this;
   }
   constexpr Bernstein& operator-=(const Bernstein& other) {
-    for (std::size_t k = 0; k < scaled.size(); ++k) scaled[k] -= other.scaled[k];
+    if constexpr (DegreeValue < 0) {
+      detail::subtract_from<Number>(scaled, other.scaled);
+    } else {
+      for (std::size_t k = 0; k < scaled.size(); ++k) scaled[k] -= other.scaled[k];
+    }
     return *this;
   }
   friend constexpr Bernstein operator+(Bernstein a, const Bernstein& b) { return a += b; }
   friend constexpr Bernstein operator-(Bernstein a, const Bernstein& b) { return a -= b; }
   friend constexpr Bernstein operator-(Bernstein a) {
-    for (Number& c : a.scaled) c = -std::move(c);
+    if constexpr (DegreeValue < 0) {
+      detail::negate<Number>(a.scaled);
+    } else {
+      for (Number& c : a.scaled) c = -std::move(c);
+    }
     return a;
   }
 };
@@ -46,12 +110,11 @@ struct Bernstein {
 template <class Number, int A, int B>
 constexpr Bernstein<Number, A + B> operator*(const Bernstein<Number, A>& a, const Bernstein<Number, B>& b) {
   Bernstein<Number, A + B> product;
-  for (std::size_t k = 0; k < product.scaled.size(); ++k) {
-    const std::size_t first = k > B ? k - B : 0;
-    const std::size_t last = k < A ? k : A;
-    SumOfProducts<Number> sum(a.scaled[first], b.scaled[k - first]);
-    for (std::size_t i = first + 1; i <= last; ++i) sum.add(a.scaled[i], b.scaled[k - i]);
-    product.scaled[k] = std::move(sum).value();
+  if constexpr (A + B < 0) {
+    detail::multiply<Number>(a.scaled, b.scaled, product.scaled);
+  } else {
+    for (std::size_t k = 0; k < product.scaled.size(); ++k)
+      product.scaled[k] = detail::convolved<Number>(a.scaled, b.scaled, k);
   }
   return product;
 }
@@ -59,9 +122,19 @@ constexpr Bernstein<Number, A + B> operator*(const Bernstein<Number, A>& a, cons
 /// The same polynomial written with a higher degree: multiplied by (u + (1-u)) again and again.
 template <int To, class Number, int From>
 constexpr Bernstein<Number, To> elevate(const Bernstein<Number, From>& p) {
-  static_assert(To >= From);
+  static_assert(From < 0 ? To <= From && To % From == 0 : To >= From);
   if constexpr (To == From) {
     return p;
+  } else if constexpr (From < 0) {
+    const std::size_t own = p.scaled.size() - 1, to = own * static_cast<std::size_t>(To / From);
+    Bernstein<Number, To> result;
+    result.set_degree(static_cast<int>(to));
+    std::copy(p.scaled.begin(), p.scaled.end(), result.scaled.begin());
+    for (std::size_t degree = own; degree < to; ++degree) {
+      result.scaled[degree + 1] = result.scaled[degree];
+      for (std::size_t k = degree; k > 0; --k) result.scaled[k] += result.scaled[k - 1];
+    }
+    return result;
   } else {
     Bernstein<Number, From + 1> next;
     next.scaled[0] = p.scaled[0];

@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "motions/curves/bezier_motion.h"
-#include "motions/curves/elevated_motion.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/numbers/bernstein.h"
 #include "motions/numbers/float_lanes.h"
@@ -43,7 +42,6 @@ class FloatLanesView {
   template <std::size_t Places>
   [[gnu::always_inline]] FloatLanesView(const M& motion, const std::array<BeadId, Places>* tuples,
                                         std::size_t place, const LengthUnit& unit) {
-    static_assert(!elevated<M>);  // its degree is the highest it may have, not that of its control points
     const Lanes::Vector scales = unit.scales<dimension>();
     for (int k = 0; k <= degree; ++k) {
       std::array<typename Number::Row, Number::width> rows;

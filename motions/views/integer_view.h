@@ -13,8 +13,8 @@
 #include <cstdlib>
 #include <span>
 
-#include "motions/curves/bezier_motion.h"
-#include "motions/curves/elevated_motion.h"
+#include "motions/curves/curves.h"
+#include "motions/curves/lifted_motion.h"
 #include "motions/numbers/bernstein.h"
 #include "motions/numbers/exact_number.h"
 #include "motions/numbers/modular.h"
@@ -27,7 +27,7 @@ namespace kds {
 template <Channels channels, Motion M, std::invocable<double, int> Visit>
 void each_control(const M& motion, std::span<const BeadId> beads, Visit visit) {
   for (const BeadId bead : beads) {
-    for (int k = 0; k <= M::degree; ++k) {
+    for (int k = 0; k <= degree_of(motion); ++k) {
       for (int axis = 0; axis < M::dimension; ++axis) visit(motion.coordinate(bead, k, axis), 1);
       if constexpr (channels.weights) visit(motion.weight(bead, k), 2);
       if constexpr (channels.radii) visit(motion.radius(bead, k), 1);
@@ -122,23 +122,12 @@ class ExactView {
   template <std::invocable<int> Value>
   [[nodiscard]] Bernstein<Number, degree> polynomial(Value value) const {
     Bernstein<Number, degree> result;
-    if constexpr (elevated<M>) {  // times (1-u + u)^(the degrees that are missing)
-      const int own = motion_.own_degree();
-      for (Number& scaled : result.scaled) scaled = ring_.of(0);
-      for (int i = 0; i <= own; ++i) {
-        const Number control = value(i);
-        for (int k = i; k <= i + degree - own; ++k) {
-          Number term = control;
-          term *= binomial(own, i) * binomial(degree - own, k - i);
-          result.scaled[static_cast<std::size_t>(k)] += term;
-        }
-      }
-    } else {
-      for (int k = 0; k <= degree; ++k) {
-        Number& scaled = result.scaled[static_cast<std::size_t>(k)];
-        scaled = value(k);
-        if (0 < k && k < degree) scaled *= binomial(degree, k);
-      }
+    const int own = degree_of(motion_);
+    result.set_degree(own);
+    for (int k = 0; k <= own; ++k) {
+      Number& scaled = result.scaled[static_cast<std::size_t>(k)];
+      scaled = value(k);
+      if (0 < k && k < own) scaled *= binomial(own, k);
     }
     return result;
   }
@@ -174,7 +163,10 @@ class MomentView {
 
   /// The motion at `time` in [0,1]; may be asked for these beads alone.
   MomentView(const M& motion, std::span<const BeadId> beads, const Dyadic& time)
-      : moving_(motion, beads), later_(time.numerator()), time_exponent_(time.exponent()) {
+      : moving_(motion, beads),
+        degree_(degree_of(motion)),
+        later_(time.numerator()),
+        time_exponent_(time.exponent()) {
     earlier_ = (Integer(1) << time_exponent_) - later_;
   }
 
@@ -201,12 +193,12 @@ class MomentView {
  private:
   /// Coordinates carry the time's denominator to the degree's power, squares must carry its square.
   [[nodiscard]] Bernstein<Integer, 0> squares(const Bernstein<Integer, M::degree>& p) const {
-    return {{at_moment(p) << (time_exponent_ * static_cast<unsigned>(M::degree))}};
+    return {{at_moment(p) << (time_exponent_ * static_cast<unsigned>(degree_))}};
   }
   [[nodiscard]] Integer at_moment(const Bernstein<Integer, M::degree>& p) const {
-    Integer value = p.scaled[M::degree];
+    Integer value = p.scaled[static_cast<std::size_t>(degree_)];
     Integer power = 1;
-    for (int k = M::degree - 1; k >= 0; --k) {  // Horner in u, one more factor (1-u) a step
+    for (int k = degree_ - 1; k >= 0; --k) {  // Horner in u, one more factor (1-u) a step
       power *= earlier_;
       value = value * later_ + p.scaled[static_cast<std::size_t>(k)] * power;
     }
@@ -214,13 +206,14 @@ class MomentView {
   }
 
   IntegerView<M, channels> moving_;
+  int degree_;
   Integer later_;    // u * 2^time_exponent
   Integer earlier_;  // (1-u) * 2^time_exponent
   unsigned time_exponent_;
 };
 
-static_assert(MotionView<IntegerView<BezierMotion<3, 1>>>);
-static_assert(MotionView<ResidueView<BezierMotion<3, 1>>>);
-static_assert(MotionView<MomentView<BezierMotion<3, 1>>>);
+static_assert(MotionView<IntegerView<Curves<3>>>);
+static_assert(MotionView<ResidueView<Curves<3>>>);
+static_assert(MotionView<MomentView<Curves<3>>>);
 
 }  // namespace kds

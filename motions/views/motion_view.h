@@ -19,6 +19,7 @@
 #include <span>
 
 #include "motions/curves/bezier_motion.h"
+#include "motions/curves/curves.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/numbers/bernstein.h"
 #include "motions/numbers/magnitude.h"
@@ -62,12 +63,14 @@ class DoubleView {
   /// centre of i minus centre of j
   [[nodiscard]] BernsteinVector<double, degree, dimension> difference(BeadId i, BeadId j) const {
     BernsteinVector<double, degree, dimension> result;
+    const int own = degree_of(motion_);
     for (int axis = 0; axis < dimension; ++axis) {
-      for (int k = 0; k <= degree; ++k) {
+      auto& coordinate = result[static_cast<std::size_t>(axis)];
+      coordinate.set_degree(own);
+      for (int k = 0; k <= own; ++k) {
         const double d = motion_.coordinate(i, k, axis) - motion_.coordinate(j, k, axis);
         length_ = std::max(length_, std::abs(d));
-        result[static_cast<std::size_t>(axis)].scaled[static_cast<std::size_t>(k)] =
-            static_cast<double>(binomial(degree, k)) * d;
+        coordinate.scaled[static_cast<std::size_t>(k)] = static_cast<double>(binomial(own, k)) * d;
       }
     }
     return result;
@@ -75,10 +78,12 @@ class DoubleView {
   /// weight of i minus weight of j
   [[nodiscard]] Bernstein<double, degree> weight_difference(BeadId i, BeadId j) const {
     Bernstein<double, degree> result;
-    for (int k = 0; k <= degree; ++k) {
+    const int own = degree_of(motion_);
+    result.set_degree(own);
+    for (int k = 0; k <= own; ++k) {
       const double d = motion_.weight(i, k) - motion_.weight(j, k);
       weight_ = std::max(weight_, std::abs(d));
-      result.scaled[static_cast<std::size_t>(k)] = static_cast<double>(binomial(degree, k)) * d;
+      result.scaled[static_cast<std::size_t>(k)] = static_cast<double>(binomial(own, k)) * d;
     }
     return result;
   }
@@ -115,10 +120,12 @@ class DoubleView {
   template <std::invocable<int> Value>
   [[nodiscard]] Bernstein<double, degree> radii(Value value) const {
     Bernstein<double, degree> result;
-    for (int k = 0; k <= degree; ++k) {
+    const int own = degree_of(motion_);
+    result.set_degree(own);
+    for (int k = 0; k <= own; ++k) {
       const double r = value(k);
       length_ = std::max(length_, std::abs(r));
-      result.scaled[static_cast<std::size_t>(k)] = static_cast<double>(binomial(degree, k)) * r;
+      result.scaled[static_cast<std::size_t>(k)] = static_cast<double>(binomial(own, k)) * r;
     }
     return result;
   }
@@ -135,7 +142,7 @@ template <Channels channels = all_channels, Motion M>
   double length = 0;
   double weight = 0;
   for (const BeadId bead : beads) {
-    for (int k = 0; k <= M::degree; ++k) {
+    for (int k = 0; k <= degree_of(motion); ++k) {
       for (int axis = 0; axis < M::dimension; ++axis)
         length = std::max(length,
                           std::abs(motion.coordinate(bead, k, axis) - motion.coordinate(beads[0], k, axis)));
@@ -163,29 +170,22 @@ class TrackedView {
   [[nodiscard]] BernsteinVector<TrackedDouble, degree, dimension> difference(BeadId i, BeadId j) const {
     BernsteinVector<TrackedDouble, degree, dimension> result;
     for (int axis = 0; axis < dimension; ++axis) {
-      for (int k = 0; k <= degree; ++k) {
-        result[static_cast<std::size_t>(axis)].scaled[static_cast<std::size_t>(k)] =
-            chosen(k, scaled(motion_.coordinate(i, k, axis) - motion_.coordinate(j, k, axis)));
-      }
+      result[static_cast<std::size_t>(axis)] = polynomial(
+          [&](int k) { return scaled(motion_.coordinate(i, k, axis) - motion_.coordinate(j, k, axis)); });
     }
     return result;
   }
   [[nodiscard]] Bernstein<TrackedDouble, degree> weight_difference(BeadId i, BeadId j) const
       requires(channels.weights) {
-    Bernstein<TrackedDouble, degree> result;
-    for (int k = 0; k <= degree; ++k) {
-      result.scaled[static_cast<std::size_t>(k)] =
-          chosen(k, scaled_twice(motion_.weight(i, k) - motion_.weight(j, k)));
-    }
-    return result;
+    return polynomial([&](int k) { return scaled_twice(motion_.weight(i, k) - motion_.weight(j, k)); });
   }
   [[nodiscard]] Bernstein<TrackedDouble, degree> radius_difference(BeadId i, BeadId j) const
       requires(channels.radii) {
-    return radii([&](int k) { return motion_.radius(i, k) - motion_.radius(j, k); });
+    return polynomial([&](int k) { return scaled(motion_.radius(i, k) - motion_.radius(j, k)); });
   }
   [[nodiscard]] Bernstein<TrackedDouble, degree> radius_sum(BeadId i, BeadId j) const
       requires(channels.radii) {
-    return radii([&](int k) { return motion_.radius(i, k) + motion_.radius(j, k); });
+    return polynomial([&](int k) { return scaled(motion_.radius(i, k) + motion_.radius(j, k)); });
   }
   [[nodiscard]] Bernstein<TrackedDouble, 1> lift_difference(BeadId i, BeadId j) const
       requires(channels.weights&& lifted<M>) {
@@ -203,10 +203,15 @@ class TrackedView {
 
  private:
   template <std::invocable<int> Value>
-  [[nodiscard]] Bernstein<TrackedDouble, degree> radii(Value value) const {
+  [[nodiscard]] Bernstein<TrackedDouble, degree> polynomial(Value value) const {
     Bernstein<TrackedDouble, degree> result;
-    for (int k = 0; k <= degree; ++k)
-      result.scaled[static_cast<std::size_t>(k)] = chosen(k, scaled(value(k)));
+    const int own = degree_of(motion_);
+    result.set_degree(own);
+    for (int k = 0; k <= own; ++k) {
+      TrackedDouble& scaled = result.scaled[static_cast<std::size_t>(k)];
+      scaled = value(k);
+      if (0 < k && k < own) scaled = TrackedDouble{static_cast<double>(binomial(own, k)), 0} * scaled;
+    }
     return result;
   }
 
@@ -221,12 +226,6 @@ class TrackedView {
     return {x, TrackedDouble::unit_roundoff * std::abs(x) + TrackedDouble::lost_to_underflow};
   }
 
-  /// C(degree, k) times x
-  static TrackedDouble chosen(int k, const TrackedDouble& x) {
-    if (k == 0 || k == degree) return x;
-    return TrackedDouble{static_cast<double>(binomial(degree, k)), 0} * x;
-  }
-
   const M& motion_;
   double scale_;
 };
@@ -237,6 +236,9 @@ class MagnitudeView {
   using Number = NumberType;
   static constexpr int dimension = DimensionValue;
   static constexpr int degree = DegreeValue;
+
+  /// Of motions of this degree, which is the view's own where that is a constant.
+  explicit MagnitudeView(int own_degree = DegreeValue) : own_degree_(own_degree) {}
 
   [[nodiscard]] BernsteinVector<Number, degree, dimension> difference(BeadId, BeadId) const {
     BernsteinVector<Number, degree, dimension> result;
@@ -256,21 +258,24 @@ class MagnitudeView {
   }
 
  private:
-  static Bernstein<Number, degree> polynomial(int power) {
+  [[nodiscard]] Bernstein<Number, degree> polynomial(int power) const {
     Bernstein<Number, degree> result;
-    for (int k = 0; k <= degree; ++k) {
+    result.set_degree(own_degree_);
+    for (int k = 0; k <= own_degree_; ++k) {
       result.scaled[static_cast<std::size_t>(k)] =
-          Number::constant(static_cast<double>(binomial(degree, k))) * Number::input_difference(power);
+          Number::constant(static_cast<double>(binomial(own_degree_, k))) * Number::input_difference(power);
     }
     return result;
   }
+
+  int own_degree_;
 };
 
 template <Motion M, class Number = Magnitude>
 using MagnitudeViewOf = MagnitudeView<M::dimension, M::degree, lifted<M>, Number>;
 
 static_assert(MotionView<DoubleView<BezierMotion<3, 1>>>);
-static_assert(MotionView<TrackedView<BezierMotion<3, 1>>>);
+static_assert(MotionView<TrackedView<BezierMotion<3, 1>>> && MotionView<TrackedView<Curves<3>>>);
 static_assert(MotionView<MagnitudeView<3, 1>>);
 
 }  // namespace kds

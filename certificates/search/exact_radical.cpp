@@ -1,8 +1,10 @@
-#include "certificates/search/radical_search.h"
+#include "certificates/search/exact_radical.h"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
+
+#include "certificates/search/exact_search.h"
 
 namespace kds {
 

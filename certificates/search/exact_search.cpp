@@ -1,4 +1,4 @@
-#include "certificates/search/failure_search.h"
+#include "certificates/search/exact_search.h"
 
 #include <algorithm>
 

@@ -1,0 +1,100 @@
+#include "certificates/search/radical_walk.h"
+
+#include <cmath>
+
+namespace kds {
+namespace {
+
+/// A narrower bracket around the only root of the norm in this one, where it turns from `sign`: around the
+/// root of the polynomial as it is in double, as far as signs are certain.
+[[nodiscard]] BoundedPolynomial::Bracket narrowed(const RadicalInDouble& certificate,
+                                                  BoundedPolynomial::Bracket bracket, int sign) {
+  const double root =
+      (sign > 0 ? certificate.norm() : -certificate.norm()).root_between(bracket.lower, bracket.upper);
+  bool below = true, above = true;  // ends still to be found
+  for (double reach = 0x1p-38; (below || above) && reach < 0.1; reach *= 64) {
+    if (below && root - reach > bracket.lower && certificate.certain_norm_at(root - reach) == sign) {
+      bracket.lower = root - reach;
+      below = false;
+    }
+    if (above && root + reach < bracket.upper && certificate.certain_norm_at(root + reach) == -sign) {
+      bracket.upper = root + reach;
+      above = false;
+    }
+  }
+  return bracket;
+}
+
+/// Walks from candidate to candidate while they prove not to be failures, from `from` on, where the
+/// certificate holds and the norm has the sign `known`, if that is not 0.
+[[nodiscard]] std::optional<Failure> walk_candidates(const RadicalInDouble& certificate, double from,
+                                                     int known = 0) {
+  constexpr int most_candidates = 8;
+  // So wide a bracket would overlap others, and few signs would be certain all over it.
+  constexpr double wide = 0x1p-30;
+  for (int candidate = 0; candidate < most_candidates; ++candidate, known = 0) {
+    const BoundedPolynomial& norm = certificate.norm();
+    const int sign = known != 0 ? known : certificate.certain_norm_at(from);
+    if (sign == 0) return std::nullopt;
+    const auto next = (sign > 0 ? norm : -norm).first_descent(from, true);
+    if (next.verdict == Verdict::never) return Failure{};
+    if (next.verdict == Verdict::undecided) return std::nullopt;
+    auto bracket = next.bracket;
+    if (bracket.upper - bracket.lower > wide) bracket = narrowed(certificate, bracket, sign);
+    const auto [lower, upper] = bracket;
+    // The norm has one zero in the bracket. What A and B are certain to be all over it tells the sign just
+    // after, or the certificate has gone out of use before. Else the bracket's end tells it, unless it goes
+    // out of use in between.
+    int after = certificate.sign_by_norm(-sign, lower, upper);
+    if (after == 0 && certificate.is_usable_on(lower, upper))
+      after = certificate.sign_by_norm(-sign, upper, upper);
+    if (after == 0) return std::nullopt;
+    if (after < 0) return Failure{Failure::Kind::later, {lower, upper, 0, true}};
+    from = upper;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Failure> proved_failure(const RadicalInDouble& certificate, const Instant& now,
+                                      KnownAtStart known) {
+  if (known == KnownAtStart::at_own_root) {
+    if (!now.isolating()) return std::nullopt;
+    const int norm = certificate.norm_while_it_holds(now.lower(), now.upper());
+    return norm == 0 ? std::nullopt : walk_candidates(certificate, now.upper(), norm);
+  }
+  static_cast<void>(certificate.norm());  // it is wanted soon, and knows signs already
+  const int sign = certificate.certain_sign_on(now.lower(), now.upper());
+  // A sign below zero may belong to a sphere that is none, its beads in one place: integers know.
+  if (sign <= 0) return std::nullopt;
+  return walk_candidates(certificate, now.upper());
+}
+
+Failure fast_first_failure(const RadicalInDouble& certificate, const Instant& now, KnownAtStart known,
+                           StageCounts& stages) {
+  for (const double c : certificate.norm().bernstein) {
+    if (!std::isfinite(c)) return {};  // nothing can be said
+  }
+  const auto sign_at = [&](double u) { return certificate.certain_sign_on(u, u); };
+  double from = now.upper();
+  if (known == KnownAtStart::at_own_root || sign_at(from) == 0) {
+    // Leave the root behind: the smallest step that makes the sign certain, or give the certificate up.
+    double step = 0x1p-50;
+    while (from + step < 1 && sign_at(from + step) <= 0 && step < 0x1p-20) step *= 4;
+    from += step;
+    if (!(from < 1)) return {};
+    if (known == KnownAtStart::at_own_root && sign_at(from) <= 0) return {};
+  }
+  if (sign_at(from) < 0) return {Failure::Kind::at_birth, {now.upper(), now.upper(), 0, false}};
+  const auto failure = walk_candidates(certificate, from);
+  if (!failure || failure->kind != Failure::Kind::later) {
+    ++stages.coefficients;
+    return {};
+  }
+  ++stages.isolation;
+  const double time = 0.5 * (failure->time.lower + failure->time.upper);
+  return {Failure::Kind::later, {time, time, 0, false}};
+}
+
+}  // namespace kds

@@ -1,0 +1,101 @@
+#pragma once
+// The control points of a motion where they lie, whatever the motion's type: what structures and searches see
+// of it. Exact: nothing is copied. Curves hold pointers, valid until the motion gets room for other beads.
+//
+//   Curves           of a degree known at run time
+//   FixedCurves      of one that is a constant: what is compiled for vectors of beads
+//   LiftedCurves     of a lifted motion (lifted_motion.h), whose degree is 1
+
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <type_traits>
+
+#include "motions/base/bead.h"
+#include "motions/curves/motion.h"
+#include "motions/numbers/bernstein.h"
+
+namespace kds {
+
+template <int DimensionValue>
+class Curves {
+ public:
+  static constexpr int dimension = DimensionValue;
+  static constexpr int degree = any_degree;
+
+  Curves() = default;
+  /// Throws std::invalid_argument where control points do not lie as the concept asks.
+  template <Motion M>
+  requires(M::dimension == DimensionValue) explicit Curves(const M& motion)
+      : degree_(degree_of(motion)), beads_(motion.bead_count()) {
+    if (beads_ == 0) return;
+    points_ = motion.control_point(0, 0);
+    radii_ = motion.radii(0);
+    if (beads_ > 1) {
+      stride_ = motion.control_point(1, 0) - points_;
+      radii_stride_ = motion.radii(1) - radii_;
+    }
+    if (degree_ > 0 && motion.control_point(0, 1) != points_ + (dimension + 1))
+      throw std::invalid_argument("control points of a bead do not lie in a row");
+  }
+
+  [[nodiscard]] int own_degree() const { return degree_; }
+  [[nodiscard]] std::size_t bead_count() const { return beads_; }
+  [[nodiscard, gnu::always_inline]] const double* control_point(BeadId bead, int k) const {
+    return points_ + stride_ * static_cast<std::ptrdiff_t>(bead) + (dimension + 1) * k;
+  }
+  [[nodiscard, gnu::always_inline]] double coordinate(BeadId bead, int k, int axis) const {
+    return control_point(bead, k)[axis];
+  }
+  [[nodiscard, gnu::always_inline]] double weight(BeadId bead, int k) const {
+    return control_point(bead, k)[dimension];
+  }
+  [[nodiscard, gnu::always_inline]] const double* radii(BeadId bead) const {
+    return radii_ + radii_stride_ * static_cast<std::ptrdiff_t>(bead);
+  }
+  [[nodiscard, gnu::always_inline]] double radius(BeadId bead, int k) const { return radii(bead)[k]; }
+
+ private:
+  const double* points_ = nullptr;
+  const double* radii_ = nullptr;
+  std::ptrdiff_t stride_ = 0, radii_stride_ = 0;  // from bead to bead, in doubles
+  int degree_ = 1;
+  std::size_t beads_ = 0;
+};
+
+template <int DimensionValue, int DegreeValue>
+class FixedCurves : public Curves<DimensionValue> {
+ public:
+  static constexpr int degree = DegreeValue;
+  /// Curves of this degree, or, with degree 0, what stands at their start.
+  explicit FixedCurves(const Curves<DimensionValue>& curves) : Curves<DimensionValue>(curves) {}
+};
+
+template <int DimensionValue>
+class LiftedCurves : public Curves<DimensionValue> {
+ public:
+  static constexpr int degree = 1;
+  static constexpr bool is_lifted = true;
+  using Vector = std::array<double, static_cast<std::size_t>(DimensionValue)>;
+
+  LiftedCurves(const Curves<DimensionValue>& curves, const Vector& drift)
+      : Curves<DimensionValue>(curves), drift_(drift) {}
+  template <Motion M>
+  requires(lifted<M>) explicit LiftedCurves(const M& motion) : Curves<DimensionValue>(motion) {
+    for (int axis = 0; axis < DimensionValue; ++axis)
+      drift_[static_cast<std::size_t>(axis)] = motion.drift(axis);
+  }
+
+  [[nodiscard]] double drift(int axis) const { return drift_[static_cast<std::size_t>(axis)]; }
+
+ private:
+  Vector drift_{};
+};
+
+/// A motion's curves, lifted or not.
+template <Motion M>
+using CurvesOf = std::conditional_t<lifted<M>, LiftedCurves<M::dimension>, Curves<M::dimension>>;
+
+static_assert(Motion<Curves<3>> && Motion<FixedCurves<3, 1>> && Motion<LiftedCurves<3>>);
+
+}  // namespace kds

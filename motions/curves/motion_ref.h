@@ -1,0 +1,54 @@
+#pragma once
+// A motion as structures hold it: any motion of the dimension, whatever its type and degree. What is behind
+// it may be set to the next step at any time; it must outlive whoever holds it.
+
+#include <array>
+#include <cstddef>
+
+#include "motions/curves/curves.h"
+
+namespace kds {
+
+template <int DimensionValue>
+class MotionRef {
+ public:
+  static constexpr int dimension = DimensionValue;
+  using Vector = std::array<double, static_cast<std::size_t>(DimensionValue)>;
+
+  template <Motion M>
+  requires(M::dimension == DimensionValue) MotionRef(const M& motion)  // NOLINT: every motion is one
+      : motion_(&motion),
+        curves_([](const void* of) { return Curves<DimensionValue>(*static_cast<const M*>(of)); }) {
+    if constexpr (lifted<M>) {
+      drift_ = [](const void* of) {
+        Vector drift;
+        for (int axis = 0; axis < DimensionValue; ++axis)
+          drift[static_cast<std::size_t>(axis)] = static_cast<const M*>(of)->drift(axis);
+        return drift;
+      };
+    }
+  }
+
+  [[nodiscard]] Curves<DimensionValue> curves() const { return curves_(motion_); }
+  [[nodiscard]] int degree() const { return curves().own_degree(); }
+  [[nodiscard]] std::size_t bead_count() const { return curves().bead_count(); }
+  [[nodiscard]] bool is_lifted() const { return drift_ != nullptr; }
+  /// Of a lifted motion.
+  [[nodiscard]] LiftedCurves<DimensionValue> lifted_curves() const { return {curves(), drift_(motion_)}; }
+
+  /// Calls `use` with the curves as what they are.
+  template <class Use>
+  decltype(auto) visit(Use use) const {
+    if constexpr (DimensionValue > 1) {
+      if (is_lifted()) return use(lifted_curves());
+    }
+    return use(curves());
+  }
+
+ private:
+  const void* motion_;
+  Curves<DimensionValue> (*curves_)(const void*);
+  Vector (*drift_)(const void*) = nullptr;
+};
+
+}  // namespace kds
