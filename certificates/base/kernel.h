@@ -17,6 +17,13 @@ enum class Kernel : std::uint8_t {
   exact,
 };
 
+/// What filters charge for rounding: all of it, or, with `fast`, nothing. There signs are what they seem to
+/// be.
+enum class Rounding : std::uint8_t { charged, ignored };
+[[nodiscard]] constexpr Rounding rounding_of(Kernel kernel) {
+  return kernel == Kernel::fast ? Rounding::ignored : Rounding::charged;
+}
+
 /// In the order of the enumerators.
 inline constexpr std::array<std::string_view, 3> kernel_names{"fast", "filtered", "exact"};
 [[nodiscard]] constexpr std::string_view name_of(Kernel kernel) {

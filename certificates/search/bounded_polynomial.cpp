@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "certificates/search/isolate_lanes.h"
+#include "certificates/search/lanes_descent.h"
 
 namespace kds {
 
@@ -69,8 +69,7 @@ double BoundedPolynomial::root_between(double lower, double upper) const {
   LanesCoefficients<any_degree> part = in_lanes(bernstein);
   casteljau_left(part, Lanes(upper));
   casteljau(part, Lanes(lower / upper));
-  Lanes slope;
-  return lower + (upper - lower) * detail::halley(part, first_lane, slope).v[0];
+  return lower + (upper - lower) * descent_of(part);
 }
 
 BoundedPolynomial operator-(BoundedPolynomial p) {

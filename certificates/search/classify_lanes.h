@@ -10,15 +10,12 @@
 #include <tuple>
 
 #include "certificates/base/certificate.h"
+#include "certificates/base/kernel.h"
 #include "certificates/search/error_bound.h"
-#include "certificates/search/isolate_lanes.h"
+#include "certificates/search/lanes_descent.h"
 #include "motions/views/lanes_view.h"
 
 namespace kds {
-
-/// What filters charge for rounding: all of it, or, with `fast`, nothing. There signs are what they seem to
-/// be.
-enum class Rounding : std::uint8_t { charged, ignored };
 
 /// The present time and what is known at it of each lane's function.
 struct LanesNow {

@@ -283,6 +283,13 @@ class SearchOver final : public CertificateSearch<Certificate> {
   Lanes4 filter_;
 };
 
+/// One certificate at a time, which is shorter to compile: for types that are rare.
+template <class Certificate, int Dimension>
+[[nodiscard]] std::unique_ptr<CertificateSearch<Certificate>> search_one_by_one(
+    const MotionRef<Dimension>& motion) {
+  return std::make_unique<SearchOver<Certificate, Curves<Dimension>>>(motion);
+}
+
 }  // namespace detail
 
 /// In lanes for degrees 1 to 3 and lifted motion.

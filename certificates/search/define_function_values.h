@@ -140,6 +140,12 @@ ExactPolynomial FunctionValues<F, C>::exact(const F& function, const C& curves) 
 }
 
 template <class F, class C>
+int FunctionValues<F, C>::sign_at_rest(const F& function, const C& curves) {
+  const int sign = sign_during(function, curves, 0, 0);
+  return sign != 0 ? sign : sign_at(function, curves, Dyadic(0.0));
+}
+
+template <class F, class C>
 int FunctionValues<F, C>::sign_at(const F& function, const C& curves, const Dyadic& time) {
   return function_of(function, MomentView<C, channels_of<F>>(curves, function.beads, time)).scaled[0].sign();
 }

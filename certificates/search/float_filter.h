@@ -19,7 +19,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "certificates/search/cell_filter.h"
 #include "certificates/search/power_cofactors.h"
 #include "motions/views/float_lanes_view.h"
 #include "motions/views/motion_view.h"
@@ -44,22 +46,40 @@ struct FloatPowerBound {
   float orientation_at_end;
 };
 
-template <Motion M>
-auto derive_float_power_bound() {
+/// `C`: Curves or LiftedCurves.
+template <class C>
+void derive_float_power_bound(int degree, std::span<float> coefficient, float& orientation_at_end) {
   constexpr double inflation = 1 + 0x1p-8;
-  using View = MagnitudeViewOf<M, MagnitudeIn<24>>;
-  const PowerRow<View> row(View(), 1, 0);
+  using View = MagnitudeView<C::dimension, C::degree, lifted<C>, MagnitudeIn<24>>;
+  const PowerRow<View> row(View(degree), 1, 0);
   const auto cofactors = power_cofactors<View>([&](std::size_t) { return row; });
   const auto magnitudes = cofactors.with(row);
-  FloatPowerBound<decltype(magnitudes)::degree + 1> bound{};
-  for (std::size_t k = 0; k < bound.coefficient.size(); ++k)
-    bound.coefficient[k] = static_cast<float>(magnitudes.scaled[k].error * inflation);
-  bound.orientation_at_end = static_cast<float>(cofactors.lift.scaled.back().error * inflation);
-  return bound;
+  for (std::size_t k = 0; k < coefficient.size(); ++k)
+    coefficient[k] = static_cast<float>(magnitudes.scaled[k].error * inflation);
+  const auto& scaled = cofactors.lift.scaled;
+  orientation_at_end = static_cast<float>(scaled[scaled.size() - 1].error * inflation);
 }
 
 template <Motion M>
-inline const auto float_power_bound = derive_float_power_bound<M>();
+[[nodiscard]] auto float_power_bound() {
+  constexpr std::size_t lift_degree = lifted<M> ? 1 : 2 * M::degree;
+  FloatPowerBound<static_cast<std::size_t>(M::dimension * M::degree) + lift_degree + 1> bound{};
+  if constexpr (M::degree == 0) {  // where beads are: the orientation alone
+    derive_float_power_bound<Curves<M::dimension>>(0, {}, bound.orientation_at_end);
+  } else {
+    derive_float_power_bound<CurvesOf<M>>(M::degree, bound.coefficient, bound.orientation_at_end);
+  }
+  return bound;
+}
+template <Motion M>
+using FloatPowerBoundOf = decltype(float_power_bound<M>());
+
+/// What the filter knows of the rounding of a motion's power tests, and of orientations where beads are.
+template <Motion M>
+struct FloatFilterBounds {
+  FloatPowerBoundOf<M> of_step = float_power_bound<M>();
+  FloatPowerBoundOf<FixedCurves<M::dimension, 0>> at_end = float_power_bound<FixedCurves<M::dimension, 0>>();
+};
 
 template <class FloatLanes>
 class RowSizes {
@@ -93,46 +113,18 @@ class RowSizes {
 
 }  // namespace detail
 
-/// Eight cells: the beads of each, then beads beyond facets of it.
-template <Motion M>
-using CellsInLanes = std::array<std::array<BeadId, 2 * (M::dimension + 1)>, FloatLanes::width>;
-
-/// Of each cell one bit for each bead beyond, in that order: whether the power test of the cell and that bead
-/// is certainly positive. And one more, whether the cell certainly is where the step ends.
-using PositiveBits = std::array<std::uint32_t, FloatLanes::width>;
-template <Motion M>
-inline constexpr unsigned positive_at_end = 2U << M::dimension;
-
 namespace detail {
 
-/// A motion's end, as one that stands still.
-template <Motion M>
-class AtEnd {
- public:
-  static constexpr int dimension = M::dimension;
-  static constexpr int degree = 0;
-  explicit AtEnd(const M& motion) : motion_(motion) {}
-  [[nodiscard]] std::size_t bead_count() const { return motion_.bead_count(); }
-  [[nodiscard]] double coordinate(BeadId bead, int, int axis) const {
-    return motion_.coordinate(bead, M::degree, axis);
-  }
-  [[nodiscard]] double weight(BeadId bead, int) const { return motion_.weight(bead, M::degree); }
-  [[nodiscard]] const double* control_point(BeadId bead, int) const {
-    return motion_.control_point(bead, M::degree);
-  }
-  [[nodiscard]] double radius(BeadId bead, int) const { return motion_.radius(bead, M::degree); }
-
- private:
-  const M& motion_;
-};
-
-/// The same of no beads beyond.
+/// Of cells with no beads beyond them.
 template <class FloatLanes, Motion M>
-[[gnu::always_inline]] inline void find_positive_at_end(const M& motion, const CellsInLanes<M>& all_cells,
+[[gnu::always_inline]] inline void find_positive_at_end(const M& motion,
+                                                        const CellsInLanes<M::dimension>& all_cells,
                                                         std::size_t first, const LengthUnit& unit,
+                                                        const FloatFilterBounds<M>& bounds, float charge,
                                                         PositiveBits& positive) {
-  using View = FloatLanesView<AtEnd<M>, FloatLanes>;
-  const AtEnd<M> end(motion);
+  using End = FixedCurves<M::dimension, 0>;
+  using View = FloatLanesView<End, FloatLanes>;
+  const End end(motion.at_end());
   RowSizes<FloatLanes> sizes;
   const auto cofactors = power_cofactors<View>([&](std::size_t place) __attribute__((always_inline)) {
     const View view(end, &all_cells[first], place, unit);
@@ -142,20 +134,21 @@ template <class FloatLanes, Motion M>
   });
   const typename FloatLanes::Mask bits =
       cofactors.lift.scaled.back() >
-      FloatLanes(float_power_bound<AtEnd<M>>.orientation_at_end) * sizes.error_scale_without_lift();
+      FloatLanes(charge * bounds.at_end.orientation_at_end) * sizes.error_scale_without_lift();
   for (std::size_t lane = 0; lane < FloatLanes::width; ++lane)
-    positive[first + lane] = bits[lane] != 0 ? positive_at_end<M> : 0;
+    positive[first + lane] = bits[lane] != 0 ? positive_at_end<M::dimension> : 0;
 }
 
 /// As many cells from the first on as there are lanes; of each as many beads beyond it.
 template <class FloatLanes, Motion M>
-[[gnu::always_inline]] inline void find_positive_cells(const M& motion, const CellsInLanes<M>& all_cells,
-                                                       std::size_t first, std::size_t beyond,
-                                                       const LengthUnit& unit, PositiveBits& positive) {
-  if (beyond == 0) return find_positive_at_end<FloatLanes>(motion, all_cells, first, unit, positive);
+[[gnu::always_inline]] inline void find_positive_cells(
+    const M& motion, const CellsInLanes<M::dimension>& all_cells, std::size_t first, std::size_t beyond,
+    const LengthUnit& unit, const FloatFilterBounds<M>& bounds, float charge, PositiveBits& positive) {
+  if (beyond == 0)
+    return find_positive_at_end<FloatLanes>(motion, all_cells, first, unit, bounds, charge, positive);
   using View = FloatLanesView<M, FloatLanes>;
   constexpr std::size_t vertices = M::dimension + 1;
-  const auto& bound = float_power_bound<M>;
+  const auto& bound = bounds.of_step;
   const auto* cells = &all_cells[first];
   RowSizes<FloatLanes> cell_sizes;
   const auto row_of = [&](std::size_t place) __attribute__((always_inline)) {
@@ -167,8 +160,8 @@ template <class FloatLanes, Motion M>
   const auto cofactors = power_cofactors<View>(row_of);
   typename FloatLanes::Mask bits =
       (cofactors.lift.scaled.back() >
-       FloatLanes(bound.orientation_at_end) * cell_sizes.error_scale_without_lift()) &
-      static_cast<int>(positive_at_end<M>);
+       FloatLanes(charge * bound.orientation_at_end) * cell_sizes.error_scale_without_lift()) &
+      static_cast<int>(positive_at_end<M::dimension>);
   int bit = 1;
   for (std::size_t place = vertices; place < vertices + beyond; ++place, bit += bit) {
     const View view(motion, cells, place, unit);
@@ -176,7 +169,7 @@ template <class FloatLanes, Motion M>
     const auto function = cofactors.with(row);
     RowSizes<FloatLanes> sizes = cell_sizes;
     sizes.take(view);
-    const FloatLanes scale = sizes.error_scale();
+    const FloatLanes scale = FloatLanes(charge) * sizes.error_scale();
     typename FloatLanes::Mask all = scale >= scale;
     for (std::size_t k = 0; k < function.scaled.size(); ++k)
       all &= function.scaled[k] > FloatLanes(bound.coefficient[k]) * scale;
@@ -188,39 +181,22 @@ template <class FloatLanes, Motion M>
 
 }  // namespace detail
 
-/// On any processor: four at a time.
+/// Four cells from the first on.
 template <Motion M>
-[[gnu::flatten, gnu::noinline]] void positive_cells_anywhere(const M& motion, const CellsInLanes<M>& cells,
-                                                             std::size_t beyond, const LengthUnit& unit,
-                                                             PositiveBits& positive) {
-  for (std::size_t first = 0; first < FloatLanes::width; first += 4)
-    detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, first, beyond, unit, positive);
+[[KDS_FLOAT_LANES_TARGETS]] void find_in_four(const M& motion, const CellsInLanes<M::dimension>& cells,
+                                              std::size_t first, std::size_t beyond, const LengthUnit& unit,
+                                              const detail::FloatFilterBounds<M>& bounds, float charge,
+                                              PositiveBits& positive) {
+  detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, first, beyond, unit, bounds, charge, positive);
 }
 
-/// The first four alone, with all beads beyond them.
+/// Eight at once: for processors with vectors as long as that, on others slower than twice four.
 template <Motion M>
-[[KDS_FLOAT_LANES_TARGETS]] void four_positive_cells(const M& motion, const CellsInLanes<M>& cells,
-                                                     const LengthUnit& unit, PositiveBits& positive) {
-  detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, 0, M::dimension + 1, unit, positive);
-}
-
-/// Eight at once: for processors with vectors as long as that, on others slower than four.
-template <Motion M>
-[[KDS_FLOAT_LANES_TARGETS]] void positive_cells_at_once(const M& motion, const CellsInLanes<M>& cells,
-                                                        std::size_t beyond, const LengthUnit& unit,
-                                                        PositiveBits& positive) {
-  detail::find_positive_cells<FloatLanes>(motion, cells, 0, beyond, unit, positive);
-}
-
-/// Of each cell the first `beyond` beads beyond it.
-template <Motion M>
-void positive_cells(const M& motion, const CellsInLanes<M>& cells, std::size_t beyond, const LengthUnit& unit,
-                    PositiveBits& positive) {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") != 0)
-    return positive_cells_at_once(motion, cells, beyond, unit, positive);
-#endif
-  positive_cells_anywhere(motion, cells, beyond, unit, positive);
+[[KDS_FLOAT_LANES_TARGETS]] void find_in_eight(const M& motion, const CellsInLanes<M::dimension>& cells,
+                                               std::size_t beyond, const LengthUnit& unit,
+                                               const detail::FloatFilterBounds<M>& bounds, float charge,
+                                               PositiveBits& positive) {
+  detail::find_positive_cells<FloatLanes>(motion, cells, 0, beyond, unit, bounds, charge, positive);
 }
 
 }  // namespace kds

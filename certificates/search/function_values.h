@@ -34,6 +34,8 @@ struct FunctionValues {
 
   /// On whole numbers, times a positive one. Exact.
   [[nodiscard]] static ExactPolynomial exact(const F& function, const C& curves);
+  /// 1, 0 or -1 of curves of degree 0. Exact, in double where that will do.
+  [[nodiscard]] static int sign_at_rest(const F& function, const C& curves);
   /// 1, 0 or -1 at a time of [0,1]. Exact.
   [[nodiscard]] static int sign_at(const F& function, const C& curves, const Dyadic& time);
 };

@@ -68,7 +68,7 @@ struct MomentBound {
 template <class Function, int Dimension>
 MomentBound derive_moment_bound() {
   constexpr double inflation = 1 + 0x1p-20;
-  const auto value = function_of(Function{}, MagnitudeView<Dimension, 0, false, MagnitudeIn<24>>{}).scaled[0];
+  const auto value = function_of(Function{}, MagnitudeView<Dimension, 0, false, MagnitudeIn<24>>()).scaled[0];
   return {value.error * inflation, value.power};
 }
 

@@ -72,7 +72,7 @@ class ReachView {
 /// What rounding alone may do to the formula at one position: at most error M^power.
 template <class Certificate, int Dimension>
 inline const Magnitude magnitude_at_rest =
-    function_of(Certificate{}, MagnitudeView<Dimension, 0>{}).scaled[0];
+    function_of(Certificate{}, MagnitudeView<Dimension, 0>()).scaled[0];
 
 /// For four certificates, at the start of the motion's step: how far any of their beads' coordinate
 /// differences may move before it can fail.

@@ -39,6 +39,15 @@ class Curves {
       throw std::invalid_argument("control points of a bead do not lie in a row");
   }
 
+  /// Where the beads are at the end of the step, as curves of degree 0.
+  [[nodiscard]] Curves at_end() const {
+    Curves end = *this;
+    if (beads_ > 0) end.points_ += (dimension + 1) * degree_;
+    if (beads_ > 0) end.radii_ += degree_;
+    end.degree_ = 0;
+    return end;
+  }
+
   [[nodiscard]] int own_degree() const { return degree_; }
   [[nodiscard]] std::size_t bead_count() const { return beads_; }
   [[nodiscard, gnu::always_inline]] const double* control_point(BeadId bead, int k) const {

@@ -10,20 +10,20 @@
 #include <span>
 #include <vector>
 
-#include "motions/curves/bezier_motion.h"
+#include "motions/curves/curves.h"
 #include "motions/numbers/lanes.h"
 #include "motions/views/motion_view.h"
 
 namespace kds {
 
 /// Of weights and radii those that matter must stay as they are.
-template <Motion M, Channels channels = all_channels>
+template <int Dimension, Channels channels = all_channels>
 class Displacements {
  public:
   [[nodiscard]] bool has_reference() const { return !reference_.empty(); }
   void forget_reference() { reference_.clear(); }
   /// From now on beads stray from where they are at the start of the motion's step.
-  void set_reference(const M& motion) {
+  void set_reference(const Curves<Dimension>& motion) {
     reference_.resize(motion.bead_count());
     for (BeadId b = 0; b < reference_.size(); ++b) {
       const Lanes p = point(motion, b, 0);
@@ -37,35 +37,36 @@ class Displacements {
   }
 
   /// One number a bead for the whole step: the largest of its control points.
-  void look_at(const M& motion) {
+  void look_at(const Curves<Dimension>& motion) {
     strays_.resize(reference_.size());
     measure(motion, drift_of(motion));
   }
   [[nodiscard]] std::span<const double> strays() const { return strays_; }
 
  private:
-  static_assert(M::dimension < Lanes::width);
-  using Drift = std::array<Lanes, M::degree + 1>;
+  static_assert(Dimension < Lanes::width);
+  using Drift = Coefficients<Lanes>;  // of each control point
 
   /// Coordinates, the weight after them, zeros.
-  [[nodiscard, gnu::always_inline]] static Lanes point(const M& motion, BeadId b, int k) {
+  [[nodiscard, gnu::always_inline]] static Lanes point(const Curves<Dimension>& motion, BeadId b, int k) {
     const double* p = motion.control_point(b, k);
-    if constexpr (M::dimension == 3) return Lanes::load(p);
+    if constexpr (Dimension == 3) return Lanes::load(p);
     Lanes::Vector v{};
-    for (int i = 0; i <= M::dimension; ++i) v[i] = p[i];
+    for (int i = 0; i <= Dimension; ++i) v[i] = p[i];
     return v;
   }
 
-  [[nodiscard, gnu::always_inline]] Lanes moved(const M& motion, BeadId b, int k) const {
+  [[nodiscard, gnu::always_inline]] Lanes moved(const Curves<Dimension>& motion, BeadId b, int k) const {
     return point(motion, b, k) - Lanes(Lanes::load(reference_[b].data()));
   }
 
   /// Any vector will do; the mean displacement of some beads does well. Weights do not drift.
-  [[nodiscard]] Drift drift_of(const M& motion) const {
+  [[nodiscard]] Drift drift_of(const Curves<Dimension>& motion) const {
     constexpr std::size_t most = 512;
     const auto stride = static_cast<BeadId>(1 + reference_.size() / most);
     Drift drift;
-    for (int k = 0; k <= M::degree; ++k) {
+    drift.resize(static_cast<std::size_t>(motion.own_degree()) + 1);
+    for (int k = 0; k <= motion.own_degree(); ++k) {
       Lanes sum(0.0), count(0.0);
       for (BeadId b = 0; b < reference_.size(); b += stride) {
         sum += moved(motion, b, k);
@@ -73,27 +74,28 @@ class Displacements {
       }
       sum = sum / count;
       for (int i = 0; i < static_cast<int>(Lanes::width); ++i) {
-        if (i >= M::dimension || !std::isfinite(sum.v[i])) sum.v[i] = 0;
+        if (i >= Dimension || !std::isfinite(sum.v[i])) sum.v[i] = 0;
       }
       drift[static_cast<std::size_t>(k)] = sum;
     }
     return drift;
   }
 
-  [[KDS_LANES_TARGETS]] void measure(const M& motion, const Drift& drift) {
+  [[KDS_LANES_TARGETS]] void measure(const Curves<Dimension>& motion, const Drift& drift) {
     const Lanes rounding(0x1p-51);  // of two differences, and to spare
+    const int degree = motion.own_degree();
     for (BeadId b = 0; b < reference_.size(); ++b) {
       Lanes most(0.0);
       bool same_radius = true;
-      for (int k = 0; k <= M::degree; ++k) {
+      for (int k = 0; k <= degree; ++k) {
         const Lanes d = moved(motion, b, k);
         const Lanes alone = Lanes::abs(d - drift[static_cast<std::size_t>(k)]);
         most = Lanes::max(most, alone + rounding * (Lanes::abs(d) + alone));
         if constexpr (channels.radii) same_radius &= motion.radius(b, k) == radii_[b];
       }
       double stray = most.v[0];
-      for (int axis = 1; axis < M::dimension; ++axis) stray = std::max(stray, most.v[axis]);
-      const bool same = same_radius && most.v[M::dimension] == 0;  // no difference rounds to zero
+      for (int axis = 1; axis < Dimension; ++axis) stray = std::max(stray, most.v[axis]);
+      const bool same = same_radius && most.v[Dimension] == 0;  // no difference rounds to zero
       strays_[b] = same ? stray : std::numeric_limits<double>::infinity();
     }
   }

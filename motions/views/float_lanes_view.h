@@ -12,25 +12,9 @@
 #include "motions/curves/lifted_motion.h"
 #include "motions/numbers/bernstein.h"
 #include "motions/numbers/float_lanes.h"
+#include "motions/views/length_unit.h"
 
 namespace kds {
-
-/// Lengths in a unit of 2^exponent: what differences of coordinates, and then of weights, are multiplied by.
-/// Exact but where a double overflows, or what is left is below the least float.
-class LengthUnit {
- public:
-  explicit LengthUnit(int exponent = 0) : scale_(std::ldexp(1.0, -exponent)) {}
-  [[nodiscard, gnu::always_inline]] double scale() const { return scale_; }
-  /// For coordinates, the weight after them.
-  template <int dimension>
-  [[nodiscard, gnu::always_inline]] Lanes::Vector scales() const {
-    if constexpr (dimension == 3) return Lanes::Vector{scale_, scale_, scale_, scale_ * scale_};
-    return Lanes::Vector{scale_, scale_, scale_ * scale_, 0};
-  }
-
- private:
-  double scale_;
-};
 
 template <Motion M, class LanesOfFloats = FloatLanes>
 class FloatLanesView {

@@ -1,0 +1,17 @@
+#pragma once
+// Searches for the questions about faces of a hull (certificates/types/coplanar.h): signs at one moment, each
+// alone. Of a lifted motion its centres are asked.
+
+#include "certificates/search/certificate_search.h"
+#include "certificates/types/coplanar.h"
+
+namespace kds {
+
+template <int Dimension>
+[[nodiscard]] std::unique_ptr<CertificateSearch<SameTurn<Dimension>>> same_turn_search(
+    const MotionRef<Dimension>& motion);
+template <int Dimension>
+[[nodiscard]] std::unique_ptr<CertificateSearch<CentroidInside<Dimension>>> centroid_search(
+    const MotionRef<Dimension>& motion);
+
+}  // namespace kds

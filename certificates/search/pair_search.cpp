@@ -1,0 +1,27 @@
+// Certificates of two beads. In lanes where points have one coordinate, whose one structure is the sorted
+// list.
+#include "certificates/search/define_certificate_search.h"
+#include "certificates/types/contact.h"
+#include "certificates/types/precedes.h"
+
+namespace kds {
+
+template std::unique_ptr<CertificateSearch<Precedes>> search_over(const MotionRef<1>&);
+template <>
+std::unique_ptr<CertificateSearch<Precedes>> search_over(const MotionRef<2>& motion) {
+  return detail::search_one_by_one<Precedes>(motion);
+}
+template <>
+std::unique_ptr<CertificateSearch<Precedes>> search_over(const MotionRef<3>& motion) {
+  return detail::search_one_by_one<Precedes>(motion);
+}
+template <>
+std::unique_ptr<CertificateSearch<Contact>> search_over(const MotionRef<2>& motion) {
+  return detail::search_one_by_one<Contact>(motion);
+}
+template <>
+std::unique_ptr<CertificateSearch<Contact>> search_over(const MotionRef<3>& motion) {
+  return detail::search_one_by_one<Contact>(motion);
+}
+
+}  // namespace kds
