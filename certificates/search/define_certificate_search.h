@@ -110,60 +110,26 @@ class LanesFilter {
   LanesBound<degree> bound_;
 };
 
-/// `C`: Curves, where nothing is compiled for the degree; FixedCurves; LiftedCurves.
+/// Everything but lanes: certificates one at a time. `C`: Curves or LiftedCurves.
 template <class Certificate, class C>
-class SearchOver final : public CertificateSearch<Certificate> {
-  using Values = FunctionValues<Certificate, CurvesOf<C>>;
+class SearchOneByOne : public CertificateSearch<Certificate> {
+ protected:
+  using Values = FunctionValues<Certificate, C>;
   static constexpr int dimension = C::dimension;
-  static constexpr bool in_lanes = C::degree >= 0;
 
  public:
-  explicit SearchOver(const MotionRef<dimension>& motion) : motion_(motion), filter_(make_filter(motion)) {}
+  explicit SearchOneByOne(const MotionRef<dimension>& motion) : motion_(motion) {}
 
   void first_failures(Kernel kernel, std::span<const Certificate> certificates, const Instant& now,
                       std::span<const KnownAtStart> known, StageCounts& stages, TouchPolicy touches,
                       std::span<Failure> failures) const override {
     const C curves = curves_now();
-    const bool exact = kernel == Kernel::exact;
-    const std::size_t at_once = in_lanes && !exact ? Lanes::width : 1;
-    typename Lanes4::Places places{};
-    std::size_t count = 0;
-    const auto alone = [&](std::size_t place) {
-      return careful_first_failure(kernel, certificates[place], curves, now, known[place], stages, touches);
-    };
-    const auto search = [&] {
-      if constexpr (in_lanes) {
-        if (!exact) {
-          filter_.first_failures(kernel, curves, certificates, std::span(places).first(count), now, known,
-                                 stages, failures, alone);
-          count = 0;
-          return;
-        }
-      }
-      failures[places[0]] = alone(places[0]);
-      count = 0;
-    };
-    std::optional<std::size_t> at_own_root;
+    SharedFailure shared;
     for (std::size_t i = 0; i < certificates.size(); ++i) {
-      if (i + at_once < certificates.size()) fetch_early(certificates[i + at_once], curves);
-      if (known[i] == KnownAtStart::at_own_root) {
-        if (at_own_root) continue;
-        at_own_root = i;
-        if (kernel == Kernel::filtered && now.last()) {  // it has none after that
-          failures[i] = {};
-          ++stages.isolation;
-          continue;
-        }
-      }
-      places[count++] = i;
-      if (count == at_once) search();
+      if (!shared.is_to_search(kernel, i, known[i], now, stages, failures)) continue;
+      failures[i] = careful_first_failure(kernel, certificates[i], curves, now, known[i], stages, touches);
     }
-    if (count > 0) search();
-    for (std::size_t i = at_own_root.value_or(certificates.size()) + 1; i < certificates.size(); ++i) {
-      if (known[i] != KnownAtStart::at_own_root) continue;
-      failures[i] = failures[*at_own_root];
-      ++stages.shared;
-    }
+    shared.share(known, stages, failures);
   }
 
   [[nodiscard]] int sign_now(Kernel kernel, const Certificate& certificate, const Instant& now,
@@ -174,23 +140,10 @@ class SearchOver final : public CertificateSearch<Certificate> {
                                     StageCounts& stages) const override {
     return sign_around(kernel, certificate, now, stages, sign_after);
   }
-
   [[nodiscard]] bool all_positive_now(Kernel kernel, std::span<const Certificate> certificates,
                                       const Instant& now, StageCounts& stages) const override {
-    const C curves = curves_now();
-    for (std::size_t i = 0; i < certificates.size(); i += Lanes::width) {
-      const auto some = certificates.subspan(i, std::min(Lanes::width, certificates.size() - i));
-      if constexpr (in_lanes) {
-        if (kernel != Kernel::exact && Lanes4::all_positive(curves, some, now.lower(), now.upper())) {
-          stages.signs_double += some.size();
-          continue;
-        }
-      }
-      for (const Certificate& c : some) {
-        if (sign_now(kernel, c, now, stages) <= 0) return false;
-      }
-    }
-    return true;
+    return std::all_of(certificates.begin(), certificates.end(),
+                       [&](const Certificate& c) { return sign_now(kernel, c, now, stages) > 0; });
   }
 
   [[nodiscard]] int sign_at(const Certificate& certificate, const Dyadic& time) const override {
@@ -200,45 +153,40 @@ class SearchOver final : public CertificateSearch<Certificate> {
     return std::make_shared<const ExactPolynomial>(Values::exact(certificate, curves_now()));
   }
 
- private:
-  struct NoLanes {
-    using Places = std::array<std::size_t, 1>;
+ protected:
+  /// All that are born at their own root have one function: the first is searched for all.
+  class SharedFailure {
+   public:
+    [[nodiscard]] bool is_to_search(Kernel kernel, std::size_t i, KnownAtStart known, const Instant& now,
+                                    StageCounts& stages, std::span<Failure> failures) {
+      if (known != KnownAtStart::at_own_root) return true;
+      if (first_) return false;
+      first_ = i;
+      if (kernel != Kernel::filtered || !now.last()) return true;
+      failures[i] = {};  // it has no root after that
+      ++stages.isolation;
+      return false;
+    }
+    void share(std::span<const KnownAtStart> known, StageCounts& stages, std::span<Failure> failures) const {
+      for (std::size_t i = first_.value_or(known.size()) + 1; i < known.size(); ++i) {
+        if (known[i] != KnownAtStart::at_own_root) continue;
+        failures[i] = failures[*first_];
+        ++stages.shared;
+      }
+    }
+
+   private:
+    std::optional<std::size_t> first_;
   };
-  template <bool some>
-  static auto lanes_type() {
-    if constexpr (some) {
-      return std::type_identity<LanesFilter<Certificate, C>>{};
-    } else {
-      return std::type_identity<NoLanes>{};
-    }
-  }
-  using Lanes4 = typename decltype(lanes_type<in_lanes>())::type;
 
-  [[nodiscard]] static Lanes4 make_filter([[maybe_unused]] const MotionRef<dimension>& motion) {
-    if constexpr (in_lanes) {
-      return Lanes4(Values::error_bound(motion.degree()));
-    } else {
-      return {};
-    }
-  }
-  [[nodiscard]] C curves_now() const {
-    if constexpr (lifted<C>) {
-      return motion_.lifted_curves();
-    } else {
-      return C(motion_.curves());
-    }
-  }
-
-  /// Beads lie anywhere in memory: those of the next certificates are fetched while these are worked on.
-  static void fetch_early(const Certificate& certificate, const C& curves) {
-    for (const BeadId bead : certificate.beads) __builtin_prefetch(curves.control_point(bead, 0));
-  }
+  [[nodiscard]] const MotionRef<dimension>& motion() const { return motion_; }
 
   /// The stages after the first filter.
-  [[nodiscard]] static Failure careful_first_failure(Kernel kernel, const Certificate& certificate,
-                                                     const CurvesOf<C>& curves, const Instant& now,
-                                                     KnownAtStart known, StageCounts& stages,
-                                                     TouchPolicy touches) {
+  [[nodiscard, gnu::noinline]] static Failure careful_first_failure(Kernel kernel,
+                                                                    const Certificate& certificate,
+                                                                    const C& curves, const Instant& now,
+                                                                    KnownAtStart known, StageCounts& stages,
+                                                                    TouchPolicy touches) {
     if (kernel == Kernel::fast)
       return fast_first_failure(Values::bounded(certificate, curves).polynomial, now, known, stages);
     if (kernel == Kernel::filtered) {
@@ -255,11 +203,20 @@ class SearchOver final : public CertificateSearch<Certificate> {
     return exact_first_failure(Values::exact(certificate, curves), now, stages, touches);
   }
 
+ private:
+  [[nodiscard]] C curves_now() const {
+    if constexpr (lifted<C>) {
+      return motion_.lifted_curves();
+    } else {
+      return motion_.curves();
+    }
+  }
+
   /// A sign that doubles find alike all around now, else the one that `exact_sign` finds in integers.
-  [[nodiscard]] int sign_around(Kernel kernel, const Certificate& certificate, const Instant& now,
-                                StageCounts& stages,
-                                int (*exact_sign)(const ExactPolynomial&, ExactTime&)) const {
-    const CurvesOf<C> curves(curves_now());
+  [[nodiscard, gnu::noinline]] int sign_around(Kernel kernel, const Certificate& certificate,
+                                               const Instant& now, StageCounts& stages,
+                                               int (*exact_sign)(const ExactPolynomial&, ExactTime&)) const {
+    const C curves = curves_now();
     if (kernel == Kernel::fast) {
       const double value = Values::bounded(certificate, curves).polynomial.value_at(now.upper());
       return value > 0 ? 1 : value < 0 ? -1 : 0;
@@ -280,14 +237,81 @@ class SearchOver final : public CertificateSearch<Certificate> {
   }
 
   MotionRef<dimension> motion_;
-  Lanes4 filter_;
+};
+
+/// Four at a time through the first filter. `C`: FixedCurves or LiftedCurves.
+template <class Certificate, class C>
+class SearchInLanes final : public SearchOneByOne<Certificate, CurvesOf<C>> {
+  using Base = SearchOneByOne<Certificate, CurvesOf<C>>;
+  using Filter = LanesFilter<Certificate, C>;
+
+ public:
+  explicit SearchInLanes(const MotionRef<C::dimension>& motion)
+      : Base(motion), filter_(Base::Values::error_bound(C::degree)) {}
+
+  void first_failures(Kernel kernel, std::span<const Certificate> certificates, const Instant& now,
+                      std::span<const KnownAtStart> known, StageCounts& stages, TouchPolicy touches,
+                      std::span<Failure> failures) const override {
+    if (kernel == Kernel::exact)
+      return Base::first_failures(kernel, certificates, now, known, stages, touches, failures);
+    const C curves = curves_now();
+    typename Filter::Places places{};
+    std::size_t count = 0;
+    const auto alone = [&](std::size_t place) {
+      return Base::careful_first_failure(kernel, certificates[place], CurvesOf<C>(curves), now, known[place],
+                                         stages, touches);
+    };
+    const auto search = [&] {
+      filter_.first_failures(kernel, curves, certificates, std::span(places).first(count), now, known, stages,
+                             failures, alone);
+      count = 0;
+    };
+    typename Base::SharedFailure shared;
+    for (std::size_t i = 0; i < certificates.size(); ++i) {
+      if (i + Lanes::width < certificates.size()) fetch_early(certificates[i + Lanes::width], curves);
+      if (!shared.is_to_search(kernel, i, known[i], now, stages, failures)) continue;
+      places[count++] = i;
+      if (count == Lanes::width) search();
+    }
+    if (count > 0) search();
+    shared.share(known, stages, failures);
+  }
+
+  [[nodiscard]] bool all_positive_now(Kernel kernel, std::span<const Certificate> certificates,
+                                      const Instant& now, StageCounts& stages) const override {
+    const C curves = curves_now();
+    for (std::size_t i = 0; i < certificates.size(); i += Lanes::width) {
+      const auto some = certificates.subspan(i, std::min(Lanes::width, certificates.size() - i));
+      if (kernel == Kernel::exact || !Filter::all_positive(curves, some, now.lower(), now.upper())) {
+        if (!Base::all_positive_now(kernel, some, now, stages)) return false;
+      } else {
+        stages.signs_double += some.size();
+      }
+    }
+    return true;
+  }
+
+ private:
+  [[nodiscard]] C curves_now() const {
+    if constexpr (lifted<C>) {
+      return this->motion().lifted_curves();
+    } else {
+      return C(this->motion().curves());
+    }
+  }
+  /// Beads lie anywhere in memory: those of the next certificates are fetched while these are worked on.
+  static void fetch_early(const Certificate& certificate, const C& curves) {
+    for (const BeadId bead : certificate.beads) __builtin_prefetch(curves.control_point(bead, 0));
+  }
+
+  Filter filter_;
 };
 
 /// One certificate at a time, which is shorter to compile: for types that are rare.
 template <class Certificate, int Dimension>
 [[nodiscard]] std::unique_ptr<CertificateSearch<Certificate>> search_one_by_one(
     const MotionRef<Dimension>& motion) {
-  return std::make_unique<SearchOver<Certificate, Curves<Dimension>>>(motion);
+  return std::make_unique<SearchOneByOne<Certificate, Curves<Dimension>>>(motion);
 }
 
 }  // namespace detail
@@ -295,23 +319,24 @@ template <class Certificate, int Dimension>
 /// In lanes for degrees 1 to 3 and lifted motion.
 template <class Certificate, int Dimension>
 std::unique_ptr<CertificateSearch<Certificate>> search_over(const MotionRef<Dimension>& motion) {
-  const auto over = [&]<class C>(std::type_identity<C>) -> std::unique_ptr<CertificateSearch<Certificate>> {
-    return std::make_unique<detail::SearchOver<Certificate, C>>(motion);
+  const auto in_lanes =
+      [&]<class C>(std::type_identity<C>) -> std::unique_ptr<CertificateSearch<Certificate>> {
+    return std::make_unique<detail::SearchInLanes<Certificate, C>>(motion);
   };
-  if constexpr (Dimension > 1 && !channels_of<Certificate>.radii) {
-    if (motion.is_lifted()) return over(std::type_identity<LiftedCurves<Dimension>>{});
-  } else {
-    if (motion.is_lifted()) throw std::invalid_argument("radii mean nothing in lifted motion");
+  if (motion.is_lifted() && channels_of<Certificate>.radii)
+    throw std::invalid_argument("radii mean nothing in lifted motion");
+  if constexpr (Dimension > 1 && channels_of<Certificate>.weights && !channels_of<Certificate>.radii) {
+    if (motion.is_lifted()) return in_lanes(std::type_identity<LiftedCurves<Dimension>>{});
   }
-  switch (motion.degree()) {
+  switch (motion.degree()) {  // the centres of a lifted motion move linearly
     case 1:
-      return over(std::type_identity<FixedCurves<Dimension, 1>>{});
+      return in_lanes(std::type_identity<FixedCurves<Dimension, 1>>{});
     case 2:
-      return over(std::type_identity<FixedCurves<Dimension, 2>>{});
+      return in_lanes(std::type_identity<FixedCurves<Dimension, 2>>{});
     case 3:
-      return over(std::type_identity<FixedCurves<Dimension, 3>>{});
+      return in_lanes(std::type_identity<FixedCurves<Dimension, 3>>{});
     default:
-      return over(std::type_identity<Curves<Dimension>>{});
+      return detail::search_one_by_one<Certificate>(motion);
   }
 }
 

@@ -76,7 +76,7 @@ const ErrorBound& FunctionValues<F, C>::error_bound(int degree) {
 }
 
 template <class F, class C>
-BoundedFunction FunctionValues<F, C>::bounded(const F& function, const C& curves) {
+[[gnu::noinline]] BoundedFunction FunctionValues<F, C>::bounded(const F& function, const C& curves) {
   const DoubleView<C> view(curves);
   const auto value = function_of(function, view);
   const auto degree = static_cast<int>(value.scaled.size()) - 1;
@@ -94,7 +94,7 @@ BoundedFunction FunctionValues<F, C>::bounded(const F& function, const C& curves
 }
 
 template <class F, class C>
-BoundedFunction FunctionValues<F, C>::tracked(const F& function, const C& curves) {
+[[gnu::noinline]] BoundedFunction FunctionValues<F, C>::tracked(const F& function, const C& curves) {
   const auto value = function_of(function, TrackedView<C, channels_of<F>>(curves, function.beads));
   const auto degree = static_cast<int>(value.scaled.size()) - 1;
   BoundedFunction result{{}, true};
@@ -116,7 +116,8 @@ BoundedFunction FunctionValues<F, C>::tracked(const F& function, const C& curves
 }
 
 template <class F, class C>
-int FunctionValues<F, C>::sign_during(const F& function, const C& curves, double lower, double upper) {
+[[gnu::noinline]] int FunctionValues<F, C>::sign_during(const F& function, const C& curves, double lower,
+                                                        double upper) {
   if constexpr (lifted<C> && channels_of<F>.weights) {
     return 0;  // weights are no Bezier curves there
   } else {
@@ -131,7 +132,7 @@ int FunctionValues<F, C>::sign_during(const F& function, const C& curves, double
 }
 
 template <class F, class C>
-ExactPolynomial FunctionValues<F, C>::exact(const F& function, const C& curves) {
+[[gnu::noinline]] ExactPolynomial FunctionValues<F, C>::exact(const F& function, const C& curves) {
   static detail::OncePerDegree<CoefficientBits> sizes;
   const CoefficientBits& size = sizes.of(degree_of(curves), [](int degree) {
     return coefficient_bits(function_of(F{}, detail::MagnitudesOf<F, C>(degree)));
@@ -140,13 +141,13 @@ ExactPolynomial FunctionValues<F, C>::exact(const F& function, const C& curves) 
 }
 
 template <class F, class C>
-int FunctionValues<F, C>::sign_at_rest(const F& function, const C& curves) {
+[[gnu::noinline]] int FunctionValues<F, C>::sign_at_rest(const F& function, const C& curves) {
   const int sign = sign_during(function, curves, 0, 0);
   return sign != 0 ? sign : sign_at(function, curves, Dyadic(0.0));
 }
 
 template <class F, class C>
-int FunctionValues<F, C>::sign_at(const F& function, const C& curves, const Dyadic& time) {
+[[gnu::noinline]] int FunctionValues<F, C>::sign_at(const F& function, const C& curves, const Dyadic& time) {
   return function_of(function, MomentView<C, channels_of<F>>(curves, function.beads, time)).scaled[0].sign();
 }
 
