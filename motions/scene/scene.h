@@ -12,7 +12,6 @@
 
 #include "motions/base/bead_range.h"
 #include "motions/curves/bezier_motion.h"
-#include "motions/curves/elevated_motion.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/readers/instance.h"
 #include "motions/readers/trajectory.h"
@@ -64,11 +63,9 @@ class Scene {
       load_between_frames(step, motion);
     } else {
       for (BeadId b = 0; b < bead_count(); ++b) {
-        for (int k = 0; k <= degree_; ++k) set_control_point(step, b, k, motion, k);
-        if constexpr (elevated<M>) set_control_point(step, b, degree_, motion, M::degree);
+        for (int k = 0; k <= degree_; ++k) set_control_point(step, b, k, motion);
       }
     }
-    if constexpr (elevated<M>) motion.set_own_degree(degree_);
     if constexpr (lifted<M>) motion.set_drift(drift<M>(step));
   }
   /// Centres and weights at a frame; from the dimension on coordinates are zero.
@@ -84,11 +81,11 @@ class Scene {
   [[nodiscard]] double third_of_velocity(std::size_t frame, BeadId bead, int axis) const;
   [[nodiscard]] double weight(BeadId bead, int k) const;
   template <Motion M>
-  void set_control_point(std::size_t step, BeadId b, int k, M& motion, int place) const {
+  void set_control_point(std::size_t step, BeadId b, int k, M& motion) const {
     for (int axis = 0; axis < M::dimension; ++axis)
-      motion.set_coordinate(b, place, axis, coordinate(step, b, k, axis));
-    motion.set_weight(b, place, weight(b, k));
-    motion.set_radius(b, place, has_radii_ ? radii_[b] : 0);
+      motion.set_coordinate(b, k, axis, coordinate(step, b, k, axis));
+    motion.set_weight(b, k, weight(b, k));
+    motion.set_radius(b, k, has_radii_ ? radii_[b] : 0);
   }
   /// The same on straight lines, where it is a good part of a step.
   template <Motion M>

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "experiments/run/session.h"
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/necklace/necklace_tree.h"
 #include "structures/necklace/sphere.h"
+#include "structures/session/structure_spec.h"
 #include "structures/triangulation/regular_triangulation.h"
 
 namespace kds {

@@ -1,4 +1,4 @@
-#include "experiments/run/dump_files.h"
+#include "structures/session/dump_files.h"
 
 #include <fmt/format.h>
 

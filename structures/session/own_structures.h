@@ -1,0 +1,20 @@
+#pragma once
+// The framework's own structures as runs know them.
+
+#include "structures/session/structure_spec.h"
+
+namespace kds {
+
+/// Refusals that several have.
+inline constexpr const char* fictitious_radii =
+    "in lifted motion radii between frames are fictitious, and it needs physical ones";
+[[nodiscard]] inline std::string needs_plane_or_space(const Scene& scene) {
+  return "needs points in the plane or in space, this input has " + std::to_string(scene.dimension()) +
+         " coordinate";
+}
+
+[[nodiscard]] StructureSpec sorted_structure();
+[[nodiscard]] StructureSpec wrapped_structure();
+[[nodiscard]] StructureSpec power_structure();
+
+}  // namespace kds

@@ -1,0 +1,60 @@
+#include "structures/session/scene_motion.h"
+
+#include <fmt/format.h>
+
+#include "motions/base/input_error.h"
+#include "motions/curves/any_degree_motion.h"
+
+namespace kds {
+
+namespace {
+
+template <Motion M>
+class MotionOfType final : public SceneMotion {
+ public:
+  template <class... Sizes>
+  explicit MotionOfType(const Scene& scene, Sizes... sizes)
+      : scene_(scene), motion_(scene.bead_count(), sizes...) {}
+  void load(std::size_t step) override { scene_.load(step, motion_); }
+  [[nodiscard]] Ref ref() const override { return MotionRef<M::dimension>(motion_); }
+
+ private:
+  const Scene& scene_;
+  M motion_;
+};
+
+template <int Dimension>
+std::unique_ptr<SceneMotion> make_in(const Scene& scene) {
+  switch (scene.degree()) {
+    case 1:
+      return std::make_unique<MotionOfType<BezierMotion<Dimension, 1>>>(scene);
+    case 2:
+      return std::make_unique<MotionOfType<BezierMotion<Dimension, 2>>>(scene);
+    case 3:
+      return std::make_unique<MotionOfType<BezierMotion<Dimension, 3>>>(scene);
+    default:
+      return std::make_unique<MotionOfType<AnyDegreeMotion<Dimension>>>(scene, scene.degree());
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<SceneMotion> make_scene_motion(const Scene& scene) {
+  if (scene.degree() > highest_degree)
+    throw InputError(
+        fmt::format("motions of degree {}: expected a degree from 1 to {}", scene.degree(), highest_degree));
+  if (scene.is_lifted()) {
+    if (scene.dimension() == 2) return std::make_unique<MotionOfType<LiftedMotion<2>>>(scene);
+    return std::make_unique<MotionOfType<LiftedMotion<3>>>(scene);
+  }
+  switch (scene.dimension()) {
+    case 1:
+      return make_in<1>(scene);
+    case 2:
+      return make_in<2>(scene);
+    default:
+      return make_in<3>(scene);
+  }
+}
+
+}  // namespace kds

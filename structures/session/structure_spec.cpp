@@ -1,0 +1,38 @@
+#include "structures/session/structure_spec.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <tuple>
+
+#include "structures/session/own_structures.h"
+
+namespace kds {
+
+void StructureRegistry::add(StructureSpec spec) {
+  if (find(spec.name) != nullptr)
+    throw std::logic_error("there is a structure '" + spec.name + "' already: give one of them another name");
+  if (!spec.make) throw std::logic_error("structure '" + spec.name + "' does not say how it is made");
+  const auto key = [](const StructureSpec& s) { return std::tie(s.order, s.name); };
+  const auto place = std::find_if(specs_.begin(), specs_.end(),
+                                  [&](const StructureSpec& other) { return key(spec) < key(other); });
+  specs_.insert(place, std::move(spec));
+}
+
+const StructureSpec* StructureRegistry::find(std::string_view name) const {
+  const auto spec =
+      std::find_if(specs_.begin(), specs_.end(), [&](const StructureSpec& s) { return s.name == name; });
+  return spec == specs_.end() ? nullptr : &*spec;
+}
+
+StructureRegistry& structure_registry() {
+  static StructureRegistry registry = [] {
+    StructureRegistry own;
+    own.add(sorted_structure());
+    own.add(wrapped_structure());
+    own.add(power_structure());
+    return own;
+  }();
+  return registry;
+}
+
+}  // namespace kds

@@ -1,0 +1,75 @@
+#pragma once
+// What a run knows of a kinetic structure: one specification a structure, by which runs, dumps, reports and
+// replays know it.
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kds/simulator.h"
+#include "motions/scene/scene.h"
+#include "structures/necklace/node_selection.h"
+#include "structures/session/scene_motion.h"
+
+namespace kds {
+
+/// One file of a dump: its name's ending and its text.
+struct DumpFile {
+  std::string ending;  ///< as in frame-7.wrapped.csv: "wrapped.csv"
+  std::string text;
+};
+
+/// A structure in a run, and what differs between structures outside the simulator.
+class RunningStructure {
+ public:
+  virtual ~RunningStructure() = default;
+
+  [[nodiscard]] virtual KineticStructure& kinetic() = 0;
+  /// The structure at a frame that has just been reached (or, frame 0, built).
+  [[nodiscard]] virtual std::vector<DumpFile> dump(std::size_t frame) const = 0;
+  /// Wall seconds to build the same structure statically at a frame, as a user would without this library.
+  [[nodiscard]] virtual double static_seconds(std::size_t frame) const = 0;
+};
+
+struct StructureSettings {
+  NodeSelection nodes;  ///< of hierarchies
+};
+
+struct StructureSpec {
+  std::string name;
+  /// In what order structures act at one time, and stand in reports: ascending, then by name. Those of the
+  /// framework have 10, 20, 30.
+  int order = 100;
+  /// Whether a run of this scene has it when nobody says which structures to run.
+  std::function<bool(const Scene&)> by_default = [](const Scene&) { return false; };
+  /// Why the scene and this structure do not go together, as the end of a sentence; nothing where they do.
+  std::function<std::optional<std::string>(const Scene&)> refusal = [](const Scene&) {
+    return std::optional<std::string>();
+  };
+  /// Scene and motion outlive what is made.
+  std::function<std::unique_ptr<RunningStructure>(Simulator&, const Scene&, const SceneMotion::Ref&,
+                                                  const StructureSettings&)>
+      make;
+};
+
+class StructureRegistry {
+ public:
+  /// Throws std::logic_error where there is one of that name, or it cannot be made.
+  void add(StructureSpec spec);
+  /// Null where there is none.
+  [[nodiscard]] const StructureSpec* find(std::string_view name) const;
+  /// In their order.
+  [[nodiscard]] const std::vector<StructureSpec>& all() const { return specs_; }
+
+ private:
+  std::vector<StructureSpec> specs_;
+};
+
+/// Of the process: the framework's own structures, and whatever is added before the first run.
+[[nodiscard]] StructureRegistry& structure_registry();
+
+}  // namespace kds
