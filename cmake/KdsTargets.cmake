@@ -7,8 +7,10 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 
 find_program(CCACHE_PROGRAM ccache)
-if(CCACHE_PROGRAM)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  # Without the two, ccache keeps nothing that uses a precompiled header; none of our sources asks what time it is.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+    "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${CCACHE_PROGRAM}")
 endif()
 
 add_library(kds_options INTERFACE)
@@ -52,4 +54,29 @@ function(kds_add_library name)
   target_sources(kds_${name} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${headers})
   set_target_properties(kds_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
   target_link_libraries(kds_${name} PUBLIC kds_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+endfunction()
+
+# kds_precompile(<target> <header>... | REUSE_FROM <target>): headers of others that most files of the target include, parsed
+# once for all of them. Only a saving: each file includes what it uses, and compiles as well with
+# CMAKE_DISABLE_PRECOMPILE_HEADERS. A target, or a file, that is compiled with other options has headers of its own or none
+# (SKIP_PRECOMPILE_HEADERS): g++ takes them all the same, and with them some of the options that they were compiled with.
+function(kds_precompile target)
+  if(ARGV1 STREQUAL "REUSE_FROM")
+    target_precompile_headers(${target} ${ARGN})
+  else()
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+  # ccache asks for these.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -fpch-preprocess)
+  elseif(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    target_compile_options(${target} PRIVATE "SHELL:-Xclang -fno-pch-timestamp")
+  endif()
+endfunction()
+
+# kds_compile_together(<target> <group> <file>...): one compiler run for small files that use the same library templates. A file
+# that is in no group is compiled alone, and so is each with -DKDS_TOGETHER=OFF, which shows what a file forgot to include.
+function(kds_compile_together target group)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${KDS_TOGETHER} UNITY_BUILD_MODE GROUP)
+  set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${group})
 endfunction()

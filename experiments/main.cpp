@@ -13,11 +13,11 @@
 
 #include "experiments/bench/bench_command.h"
 #include "experiments/program/command_line.h"
+#include "experiments/program/destinations.h"
 #include "experiments/program/provenance.h"
 #include "experiments/program/text.h"
 #include "experiments/run/replay_command.h"
 #include "experiments/run/run_command.h"
-#include "experiments/run/run_results.h"
 #include "experiments/scenes/generate_command.h"
 #include "experiments/scenes/info_command.h"
 #include "experiments/stability/stability_command.h"

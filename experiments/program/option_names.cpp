@@ -4,42 +4,6 @@
 
 namespace kds {
 
-std::string_view name_of(FrameMotion motion) {
-  switch (motion) {
-    case FrameMotion::hermite:
-      return "hermite";
-    case FrameMotion::lifted:
-      return "lifted";
-    case FrameMotion::linear:
-      break;
-  }
-  return "linear";
-}
-
-std::string_view name_of(KernelName kernel) {
-  switch (kernel) {
-    case KernelName::fast:
-      return "fast";
-    case KernelName::exact:
-      return "exact";
-    case KernelName::filtered:
-      break;
-  }
-  return "filtered";
-}
-
-std::string_view name_of(AuditMode audit) {
-  switch (audit) {
-    case AuditMode::frames:
-      return "frames";
-    case AuditMode::events:
-      return "events";
-    case AuditMode::none:
-      break;
-  }
-  return "none";
-}
-
 std::string_view name_of(Selection selection) {
   switch (selection) {
     case Selection::backbone:
@@ -57,59 +21,6 @@ std::string_view name_of(Selection selection) {
 std::string name_of(const FrameRange& frames) {
   return fmt::format("{}:{}:{}", frames.first, frames.last ? std::to_string(*frames.last) : "",
                      frames.stride);
-}
-
-namespace {
-
-// As the options take them; empty for all.
-std::string levels_of(const NodeSelection& nodes) {
-  NodeSelection levels = nodes;
-  levels.beads.reset();
-  return levels.restricts() ? fmt::format("{}:{}", nodes.first_level, std::uint64_t{nodes.last_level} + 1)
-                            : "";
-}
-std::string beads_of(const NodeSelection& nodes) {
-  return nodes.beads ? fmt::format("{}:{}", nodes.beads->first, std::uint64_t{nodes.beads->last} + 1) : "";
-}
-
-}  // namespace
-
-std::vector<std::pair<std::string, std::string>> option_settings(const RunOptions& options) {
-  const ReadOptions& reading = options.reading;
-  return {{"motion", std::string(name_of(options.motion))},
-          {"kernel", std::string(name_of(options.kernel))},
-          {"audit", std::string(name_of(options.audit))},
-          {"topology", reading.topology ? reading.topology->string() : ""},
-          {"select", std::string(name_of(reading.selection))},
-          {"chain", reading.chain.value_or("")},
-          {"frames", name_of(reading.frames)},
-          {"radius", options.radius},
-          {"levels", levels_of(options.nodes)},
-          {"nodes", beads_of(options.nodes)}};
-}
-
-std::vector<std::string> option_arguments(const RunOptions& options) {
-  std::vector<std::string> arguments;
-  for (const auto& input : options.inputs) arguments.push_back(std::filesystem::absolute(input).string());
-  const auto add = [&](std::string option, std::string value) {
-    arguments.push_back(std::move(option));
-    arguments.push_back(std::move(value));
-  };
-  if (!options.structures.empty()) add("--structures", fmt::format("{}", fmt::join(options.structures, ",")));
-  add("--motion", std::string(name_of(options.motion)));
-  add("--kernel", std::string(name_of(options.kernel)));
-  add("--audit", std::string(name_of(options.audit)));
-  const ReadOptions& reading = options.reading;
-  if (reading.topology) add("--topology", std::filesystem::absolute(*reading.topology).string());
-  if (reading.selection != Selection::automatic) add("--select", std::string(name_of(reading.selection)));
-  if (reading.chain) add("--chain", *reading.chain);
-  add("--frames", name_of(reading.frames));
-  std::string radius = options.radius;
-  if (radius.starts_with("file:")) radius = "file:" + std::filesystem::absolute(radius.substr(5)).string();
-  add("--radius", radius);
-  if (const std::string levels = levels_of(options.nodes); !levels.empty()) add("--levels", levels);
-  if (const std::string beads = beads_of(options.nodes); !beads.empty()) add("--nodes", beads);
-  return arguments;
 }
 
 }  // namespace kds

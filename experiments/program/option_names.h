@@ -1,25 +1,14 @@
 #pragma once
-// Options of a run by the names that users give them, both ways: for reports, and for logs to be read again.
+// Options of reading by the names that users give them.
 
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
-#include "experiments/run/run_options.h"
+#include "motions/readers/read_trajectory.h"
 
 namespace kds {
 
-[[nodiscard]] std::string_view name_of(FrameMotion motion);
-[[nodiscard]] std::string_view name_of(KernelName kernel);
-[[nodiscard]] std::string_view name_of(AuditMode audit);
 [[nodiscard]] std::string_view name_of(Selection selection);
 [[nodiscard]] std::string name_of(const FrameRange& frames);  ///< FIRST:LAST:STRIDE
-
-/// What was asked for, by option.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> option_settings(const RunOptions& options);
-
-/// The command line that asks for the same run: without outputs, paths made absolute.
-[[nodiscard]] std::vector<std::string> option_arguments(const RunOptions& options);
 
 }  // namespace kds

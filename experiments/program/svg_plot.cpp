@@ -60,8 +60,7 @@ std::string svg_plot(const LinePlot& plot) {
   std::string curves;
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     script += fmt::format("$curve{} << EOD\n", i);
-    for (const auto& [x, y] : plot.curves[i].points)
-      fmt::format_to(std::back_inserter(script), "{:.10g} {:.10g}\n", x, y);
+    for (const auto& [x, y] : plot.curves[i].points) script += fmt::format("{:.10g} {:.10g}\n", x, y);
     script += "EOD\n";
     curves += fmt::format("{}$curve{} using 1:2 with {} linewidth 1.6 linecolor '{}' title {}",
                           i == 0 ? "" : ", ", i, plot.staircase ? "steps" : "lines",

@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "experiments/program/destinations.h"
 #include "experiments/program/taken_paths.h"
-#include "experiments/run/run_results.h"
 
 namespace kds {
 

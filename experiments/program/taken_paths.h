@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/program/destinations.h"
 #include "experiments/program/input_options.h"
-#include "experiments/run/run_results.h"
 
 namespace kds {
 

@@ -5,11 +5,11 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "experiments/program/option_names.h"
 #include "experiments/program/provenance.h"
+#include "experiments/program/result_json.h"
+#include "experiments/run/run_settings.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -52,10 +52,21 @@ class Fields {
   std::string where_;
 };
 
-// get() would turn -1 and 1e300 into some number too.
-std::size_t whole_number(const nlohmann::json& value) {
-  if (!value.is_number_unsigned()) throw nlohmann::json::type_error::create(302, "no whole number", &value);
-  return value.get<std::size_t>();
+// The second line: what the run was asked to do, and what it ran on.
+bool read_header(const Json& header, EventLog& log) {
+  const Json* arguments = header.find("arguments");
+  const Json* beads = header.find("beads");
+  const Json* steps = header.find("steps");
+  if (!arguments || !arguments->items() || !beads || !beads->whole_number() || !steps ||
+      !steps->whole_number())
+    return false;
+  for (const Json& argument : *arguments->items()) {
+    if (!argument.text()) return false;
+    log.arguments.push_back(*argument.text());
+  }
+  log.beads = *beads->whole_number();
+  log.steps = *steps->whole_number();
+  return true;
 }
 
 }  // namespace
@@ -63,15 +74,13 @@ std::size_t whole_number(const nlohmann::json& value) {
 EventLogWriter::EventLogWriter(const std::filesystem::path& path, const RunOptions& options,
                                const Scene& scene)
     : file_(path) {
-  const nlohmann::ordered_json header{{"version", program_version()},
-                                      {"arguments", option_arguments(options)},
-                                      {"beads", scene.bead_count()},
-                                      {"steps", scene.step_count()}};
-  try {
-    file_.stream() << first_line << '\n' << header.dump() << '\n';
-  } catch (const nlohmann::json::type_error&) {
+  const std::optional<std::string> header = line_of({{"version", program_version()},
+                                                     {"arguments", option_arguments(options)},
+                                                     {"beads", scene.bead_count()},
+                                                     {"steps", scene.step_count()}});
+  if (!header)
     throw InputError("--log: a name among the arguments is not UTF-8, so that no log can tell of it");
-  }
+  file_.stream() << first_line << '\n' << *header << '\n';
 }
 
 void EventLogWriter::on_event(const KineticStructure& structure, const LoggedEvent& event) {
@@ -96,15 +105,9 @@ EventLog read_event_log(const std::filesystem::path& path) {
   }
   EventLog log;
   std::getline(in, line);
-  const auto header = nlohmann::json::parse(line, nullptr, false);
-  try {
-    log.arguments = header.at("arguments").get<std::vector<std::string>>();
-    log.beads = whole_number(header.at("beads"));
-    log.steps = whole_number(header.at("steps"));
-  } catch (const nlohmann::json::exception&) {
+  if (!read_header(parse_json(line), log))
     throw InputError(
         fmt::format("{}:2: expected the run's arguments, beads and steps as JSON", path.string()));
-  }
   for (std::size_t number = 3; std::getline(in, line); ++number) {
     const std::string where = fmt::format("{}:{}", path.string(), number);
     Fields fields(line, where);

@@ -17,8 +17,8 @@ std::string events_csv(const RunReport& report) {
       const StructureReport& structure = report.structures[i];
       if (step >= structure.events_per_step.size()) continue;
       cumulative[i] += structure.events_per_step[step];
-      fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", step, structure.name,
-                     structure.events_per_step[step], cumulative[i]);
+      text +=
+          fmt::format("{},{},{},{}\n", step, structure.name, structure.events_per_step[step], cumulative[i]);
     }
   }
   return text;

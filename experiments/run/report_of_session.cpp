@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "experiments/program/option_names.h"
+#include "experiments/run/run_settings.h"
 
 namespace kds {
 

@@ -1,9 +1,6 @@
 #include "experiments/run/run_results.h"
 
-#include <cerrno>
-#include <cstdio>
-#include <stdexcept>
-#include <system_error>
+#include <filesystem>
 
 #include "experiments/program/gnuplot.h"
 #include "experiments/program/output_files.h"
@@ -37,12 +34,6 @@ void deliver(const Destinations& destinations, const RunReport& report, const st
   const std::filesystem::path page = *destinations.out / "report.html";
   write_file_atomically(page, html_report(report));
   if (table_on_stdout) print_to_stdout("report " + page.string() + "\n");
-}
-
-void print_to_stdout(const std::string& text) {
-  errno = 0;
-  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
-  throw std::runtime_error("cannot write to standard output: " + std::generic_category().message(errno));
 }
 
 }  // namespace kds

@@ -4,13 +4,13 @@
 
 #include <optional>
 
-#include "experiments/program/option_names.h"
 #include "experiments/program/output_files.h"
 #include "experiments/program/text.h"
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/make_session_of.h"
 #include "experiments/run/report_of_session.h"
+#include "experiments/run/run_settings.h"
 #include "experiments/run/session.h"
 #include "kds/audit.h"
 

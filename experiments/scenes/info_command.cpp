@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "experiments/program/option_names.h"
 #include "experiments/program/progress_bar.h"
@@ -35,7 +36,7 @@ Json settings_json(const InfoOptions& options) {
 // Points with weights, not balls in a chain: there is nothing to judge.
 TableResults describe(const Instance& instance) {
   Json json;
-  json["input"] = {{"files", {instance.file}},
+  json["input"] = {{"files", std::vector{instance.file}},
                    {"beads", instance.point_count()},
                    {"frames", 2},
                    {"dimension", instance.dimension()},

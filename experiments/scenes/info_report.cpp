@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <vector>
 
 #include "experiments/program/text.h"
 
@@ -23,8 +24,8 @@ Json row_json(const ConditionInfo& info) {
            {"first", Json::array()},
            {"holds", info.holds()}};
   for (std::size_t i = 0; i < info.first.size(); ++i)
-    row["first"].push_back(
-        {{"beads", {info.first[i].first, info.first[i].second}}, {"by", number_or_null(info.by[i])}});
+    row["first"].push_back({{"beads", std::vector{info.first[i].first, info.first[i].second}},
+                            {"by", number_or_null(info.by[i])}});
   return row;
 }
 

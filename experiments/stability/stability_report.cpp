@@ -55,15 +55,13 @@ std::string all_or(const std::vector<std::string>& names) {
 // Of one row, flattened: path by underscores. Text last, in quotes.
 void add_fields(std::vector<std::pair<std::string, std::string>>& fields, const std::string& prefix,
                 const Json& json) {
-  for (const auto& [name, value] : json.items()) {
+  for (const auto& [name, value] : *json.members()) {
     if (name == "reason" || name == "motion") continue;
     const std::string path = prefix.empty() ? name : prefix + "_" + name;
-    if (value.is_object()) {
+    if (value.members() != nullptr) {
       add_fields(fields, path, value);
     } else {
-      fields.emplace_back(path, value.is_null()     ? ""
-                                : value.is_string() ? value.get<std::string>()
-                                                    : value.dump());
+      fields.emplace_back(path, value.is_null() ? "" : value.text() ? *value.text() : *line_of(value));
     }
   }
 }

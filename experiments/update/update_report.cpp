@@ -6,9 +6,9 @@
 #include <map>
 #include <optional>
 
+#include "experiments/program/html_page.h"
 #include "experiments/program/svg_plot.h"
 #include "experiments/program/text.h"
-#include "experiments/run/html_report.h"
 
 namespace kds {
 

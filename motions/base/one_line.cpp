@@ -2,7 +2,7 @@
 
 namespace kds {
 
-std::string one_line(std::string_view message) {
+std::string one_line_message(std::string_view message) {
   std::string line;
   for (const char c : message.substr(0, 300)) {
     const bool blank = c == ' ' || (c >= '\0' && c < ' ');

@@ -7,6 +7,6 @@
 namespace kds {
 
 /// Line ends and other control characters become blanks, runs of blanks one blank; at most 300 characters.
-[[nodiscard]] std::string one_line(std::string_view message);
+[[nodiscard]] std::string one_line_message(std::string_view message);
 
 }  // namespace kds

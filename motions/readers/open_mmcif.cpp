@@ -30,7 +30,7 @@ gemmi::Structure parse(const std::filesystem::path& path) {
     number_atoms(document.blocks.at(0));
     return gemmi::make_structure(document);
   } catch (const std::exception& error) {
-    throw InputError(fmt::format("{}: {}", path.string(), one_line(error.what())));
+    throw InputError(fmt::format("{}: {}", path.string(), one_line_message(error.what())));
   }
 }
 

@@ -31,7 +31,7 @@ class PdbModels : public StructureModels {
     try {
       return gemmi::read_pdb_string(lines, file_).models.at(0);
     } catch (const std::exception& error) {
-      throw InputError(fmt::format("{}: frame {}: {}", file_, k, one_line(error.what())));
+      throw InputError(fmt::format("{}: frame {}: {}", file_, k, one_line_message(error.what())));
     }
   }
 

@@ -47,8 +47,7 @@ void write_xyz(std::ostream& stream, const Trajectory& trajectory, std::string_v
   for (const Eigen::Matrix3Xd& frame : trajectory.frames) {
     text = fmt::format("{}\n{}\n", frame.cols(), about);
     for (Eigen::Index bead = 0; bead < frame.cols(); ++bead)
-      fmt::format_to(std::back_inserter(text), "X {} {} {}\n", frame(0, bead), frame(1, bead),
-                     frame(2, bead));
+      text += fmt::format("X {} {} {}\n", frame(0, bead), frame(1, bead), frame(2, bead));
     put(stream, text);
   }
 }
@@ -63,9 +62,8 @@ void write_pdb(std::ostream& stream, const Trajectory& trajectory, std::string_v
     const Eigen::Matrix3Xd& frame = trajectory.frames[k];
     text = fmt::format("MODEL     {:4}\n", k + 1);
     for (Eigen::Index bead = 0; bead < frame.cols(); ++bead)
-      fmt::format_to(std::back_inserter(text),
-                     "ATOM  {0:5}  CA  UNK A{0:4}    {1:8.3f}{2:8.3f}{3:8.3f}  1.00  0.00           C\n",
-                     bead + 1, frame(0, bead), frame(1, bead), frame(2, bead));
+      text += fmt::format("ATOM  {0:5}  CA  UNK A{0:4}    {1:8.3f}{2:8.3f}{3:8.3f}  1.00  0.00           C\n",
+                          bead + 1, frame(0, bead), frame(1, bead), frame(2, bead));
     text += "TER\nENDMDL\n";
     put(stream, text);
   }

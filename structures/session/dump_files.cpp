@@ -11,14 +11,14 @@ namespace {
 
 std::string bead_lines(std::span<const BeadId> beads) {
   std::string text = "bead\n";
-  for (const BeadId b : beads) fmt::format_to(std::back_inserter(text), "{}\n", b);
+  for (const BeadId b : beads) text += fmt::format("{}\n", b);
   return text;
 }
 
 template <class Cell>
 std::string cell_lines(std::string_view header, std::span<const Cell> cells) {
   std::string text = fmt::format("{}\n", header);
-  for (const Cell& c : cells) fmt::format_to(std::back_inserter(text), "{}\n", fmt::join(c, ","));
+  for (const Cell& c : cells) text += fmt::format("{}\n", fmt::join(c, ","));
   return text;
 }
 
@@ -28,9 +28,9 @@ DumpFile dump_wrapped(std::span<const WrappedNode> nodes) {
   std::string text = "first,last,basis,x,y,z,radius\n";
   for (const WrappedNode& node : nodes) {
     const auto& c = node.sphere.center;
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}\n", node.range.first, node.range.last,
-                   fmt::join(node.basis.begin(), node.basis.end(), " "), c.x(), c.y(), c.z(),
-                   node.sphere.radius);
+    text += fmt::format("{},{},{},{},{},{},{}\n", node.range.first, node.range.last,
+                        fmt::join(node.basis.begin(), node.basis.end(), " "), c.x(), c.y(), c.z(),
+                        node.sphere.radius);
   }
   return {"wrapped.csv", std::move(text)};
 }

@@ -114,8 +114,9 @@ TEST(SceneInfo, CountsOverFramesAndListsTheFirst) {
 
 TEST(SceneInfo, InfinityIsNullInJson) {
   const SceneInfo info = describe({necklace("a", {row({0, 0, 2})})}, {1, 0, 1});
-  Json json;
-  add_scene(json, info);
+  kds::Json scene;
+  add_scene(scene, info);
+  const Json json = Json::parse(text_of(scene));
   EXPECT_EQ(json["necklaces"][0]["radius_ratio"], nullptr);
   EXPECT_EQ(json["necklaces"][0]["bond_ratio"], nullptr);
   EXPECT_EQ(json["rows"][3]["first"][0]["beads"], Json::array({1, 0}));

@@ -15,6 +15,7 @@
 namespace kds::test {
 namespace {
 
+using Json = nlohmann::ordered_json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -139,7 +140,7 @@ TEST(UpdateReport, RowsInAllForms) {
   kinetic.seconds = 0.0005;
   kinetic.ratio = 0.5;
   const std::array rows{rebuild, kinetic};
-  const Json json = update_rows_json(rows);
+  const Json json = Json::parse(text_of(update_rows_json(rows)));
   EXPECT_EQ(json[0]["events"], nullptr);
   EXPECT_EQ(json[0]["efficiency"], nullptr);
   EXPECT_EQ(json[1]["efficiency"], 0.5);
