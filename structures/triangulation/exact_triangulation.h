@@ -15,8 +15,7 @@ struct ExactBead {
   Rational weight;
 };
 
-/// Built by CGAL with exact numbers. With `oriented`, infinite cells too, as they are; else finite cells only,
-/// beads ascending, sorted.
+/// Built by CGAL with exact numbers. With `oriented`, infinite cells too, as they are; else as from doubles.
 template <int Dimension>
 [[nodiscard]] StaticTriangulation<Dimension> static_triangulation(std::span<const ExactBead> beads,
                                                                   bool oriented);
