@@ -7,30 +7,50 @@ namespace kds {
 
 namespace {
 
+// Whether bead `b` alone sticks out.
+template <class Form>
+bool sticks_out(const Balls<Form::Dimension>& balls, const typename Form::Sphere& sphere, BeadId b) {
+  detail::Farthest one;
+  one.scan(Form::measure(balls, sphere), b, b);
+  return one.result() > sphere.outer;
+}
+
+template <class Form>
+[[KDS_SCAN_TARGETS]] std::size_t count_outside(const Balls<Form::Dimension>& balls,
+                                               const typename Form::Sphere& sphere, BeadId first,
+                                               BeadId last) {
+  return detail::count_outside<Form>(
+      balls,
+      sphere, [&](const auto&, const auto& look) __attribute__((always_inline)) { look(first, last); });
+}
+template <class Form>
+[[KDS_SCAN_TARGETS]] BeadId escaped_bead(const Balls<Form::Dimension>& balls,
+                                         const typename Form::Sphere& sphere, BeadId first, BeadId last) {
+  return detail::escaped_bead<Form>(
+      balls,
+      sphere, [&](const auto&, const auto& look) __attribute__((always_inline)) { look(first, last); });
+}
+
 // Whether the basis was proved.
 template <class Form>
-[[KDS_SCAN_TARGETS]] bool settle(const Balls<Form::Dimension>& balls, BeadId first, BeadId last,
-                                 std::span<const BeadId> guess, Basis& basis, Cage<Form::Dimension>& cage) {
+bool pivot_to_proof(const Balls<Form::Dimension>& balls, BeadId first, BeadId last,
+                    std::span<const BeadId> guess, Basis& basis, Cage<Form::Dimension>& cage) {
   using Sphere = typename Form::Sphere;
-  const auto visit = [&](const Sphere&, const auto& look) __attribute__((always_inline)) {
-    look(first, last);
-  };
   basis = Basis(guess.empty() ? std::span<const BeadId>(&first, 1) : guess.first(1));
   for (const BeadId b : guess.empty() ? guess : guess.subspan(1)) {
     if (basis.contains(b)) continue;
     const Sphere sphere = detail::sphere_of_basis<Form>(balls, basis);
-    detail::Farthest one;
-    one.scan(Form::measure(balls, sphere), b, b);
-    if (one.result() > sphere.outer && !Form::pivot(balls, basis, b)) return false;
+    if (sticks_out<Form>(balls, sphere, b) && !Form::pivot(balls, basis, b)) return false;
   }
   for (int pivots = 0; pivots < detail::most_pivots; ++pivots) {
     const Sphere sphere = detail::sphere_of_basis<Form>(balls, basis);
-    const std::size_t outside = detail::count_outside<Form>(balls, sphere, visit);
-    if (detail::is_proved<Form>(basis, sphere, outside)) {
+    if (detail::is_proved<Form>(basis, sphere, count_outside<Form>(balls, sphere, first, last))) {
       cage = {sphere.center, sphere.radius};
       return true;
     }
-    if (!detail::next_basis<Form>(balls, basis, sphere, visit)) return false;
+    if (!detail::next_basis<Form>(balls, basis, sphere,
+                                  [&] { return escaped_bead<Form>(balls, sphere, first, last); }))
+      return false;
   }
   return false;
 }
@@ -47,9 +67,9 @@ SmallestSphere smallest_sphere(const Balls<Dimension>& balls, BeadId first, Bead
   if (use == ExactUse::everywhere) {
     result.basis = Basis(std::span<const BeadId>(&first, 1));
   } else if (of_points) {
-    proved = settle<PointForm<Dimension>>(balls, first, last, guess, result.basis, cage);
+    proved = pivot_to_proof<PointForm<Dimension>>(balls, first, last, guess, result.basis, cage);
   } else {
-    proved = settle<BallForm<Dimension>>(balls, first, last, guess, result.basis, cage);
+    proved = pivot_to_proof<BallForm<Dimension>>(balls, first, last, guess, result.basis, cage);
   }
   if (!proved) {
     result.took_exact = true;

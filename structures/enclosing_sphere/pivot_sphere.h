@@ -44,10 +44,30 @@ template <class Form>
   return sphere.certain & (outside == basis.size);
 }
 
-/// Where that is no proof: the next basis. False if doubles know none.
+/// A bead that sticks out farthest, or no_bead where none does for certain; `visit` as above.
 template <class Form, class Visit>
-[[gnu::always_inline]] inline bool next_basis(const Balls<Form::Dimension>& balls, Basis& basis,
-                                              const typename Form::Sphere& sphere, const Visit& visit) {
+[[gnu::always_inline]] inline BeadId escaped_bead(const Balls<Form::Dimension>& balls,
+                                                  const typename Form::Sphere& sphere, const Visit& visit) {
+  const auto measure = Form::measure(balls, sphere);
+  Farthest farthest;
+  visit(
+      sphere, [&](BeadId first, BeadId last)
+                  __attribute__((always_inline)) { farthest.scan(measure, first, last); });
+  const double value = farthest.result();
+  if (!(value > sphere.outer)) return no_bead;
+  BeadId escaped = no_bead;
+  visit(
+      sphere, [&](BeadId first, BeadId last) __attribute__((always_inline)) {
+        if (escaped == no_bead) escaped = find_value(measure, first, last, value);
+      });
+  return escaped;
+}
+
+/// Where that is no proof: the next basis. `find_escaped()` looks for the bead that has to come in. False if
+/// doubles know none.
+template <class Form, class Find>
+bool next_basis(const Balls<Form::Dimension>& balls, Basis& basis, const typename Form::Sphere& sphere,
+                const Find& find_escaped) {
   if (basis.size > 1 && !(sphere.least > 0)) {
     if (!(sphere.least < -1e-9)) return false;  // a right basis must not be changed
     std::size_t place = 0;
@@ -57,18 +77,7 @@ template <class Form, class Visit>
     erase_place(basis, place);
     return true;
   }
-  const auto measure = Form::measure(balls, sphere);
-  Farthest farthest;
-  visit(
-      sphere, [&](BeadId first, BeadId last)
-                  __attribute__((always_inline)) { farthest.scan(measure, first, last); });
-  const double value = farthest.result();
-  if (!(value > sphere.outer)) return false;
-  BeadId escaped = no_bead;
-  visit(
-      sphere, [&](BeadId first, BeadId last) __attribute__((always_inline)) {
-        if (escaped == no_bead) escaped = find_value(measure, first, last, value);
-      });
+  const BeadId escaped = find_escaped();
   return escaped != no_bead && !basis.contains(escaped) && Form::pivot(balls, basis, escaped);
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "structures/enclosing_sphere/pivot_sphere.h"
+#include "structures/enclosing_sphere/scan_targets.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
 
 namespace kds::detail {
@@ -39,8 +40,9 @@ Cage<Form::Dimension> trusted_cage(const Balls<Form::Dimension>& balls, Basis ba
   }
 }
 
-/// Spheres of nodes from those below or from old bases. What is called from a loop over beads is inlined into
-/// it (scan_targets.h).
+/// Spheres of nodes from those below or from old bases. Loops over beads and over the spheres of many nodes
+/// are functions of their own, compiled for each kind of vectors (scan_targets.h); what decides between them
+/// is not.
 template <class Form>
 class NodeWrapper {
  public:
@@ -57,7 +59,7 @@ class NodeWrapper {
   WrapCounts counts{};
 
   // Nodes that do not depend on each other.
-  [[gnu::always_inline]] void wrap(const NodeId* nodes, std::size_t count, Start start) {
+  void wrap(const NodeId* nodes, std::size_t count, Start start) {
     std::array<Pending, nodes_at_a_time> pending;
     for (std::size_t i = 0; i < count; ++i) pending[i] = {nodes[i], {}};
     if (start == Start::children) {
@@ -72,16 +74,9 @@ class NodeWrapper {
     std::array<std::size_t, nodes_at_a_time> outside;
     std::size_t waiting = count;
     for (int round = 0; waiting > 0; ++round) {
-      const auto visit_below = [&](std::size_t i) __attribute__((always_inline)) {
-        return [ this, node = pending[i].node ](const Sphere& sphere, const auto& look)
-            __attribute__((always_inline)) {
-          visit_blocks(node, sphere, look);
-        };
-      };
       // One thing after the other for all of them: a processor overlaps what does not branch.
       spheres_of(pending.data(), waiting, spheres.data());
-      for (std::size_t i = 0; i < waiting; ++i)
-        outside[i] = count_outside<Form>(balls, spheres[i], visit_below(i));
+      count_all_outside(pending.data(), waiting, spheres.data(), outside.data());
       std::size_t left = 0;
       for (std::size_t i = 0; i < waiting; ++i) {
         const NodeId node = pending[i].node;
@@ -89,7 +84,7 @@ class NodeWrapper {
           cages[node] = {spheres[i].center, spheres[i].radius};
           loose[node] = 0;
           if (round > 0) finish(pending[i], start);
-        } else if (round < most_pivots && next_basis<Form>(balls, bases[node], spheres[i], visit_below(i))) {
+        } else if (round < most_pivots && improve(node, spheres[i])) {
           ++counts.pivots;
           pending[left++] = pending[i];
         } else {
@@ -102,7 +97,7 @@ class NodeWrapper {
   }
 
   // Spheres of the bases as they are.
-  [[gnu::always_inline]] void trust(const NodeId* nodes, std::size_t count) {
+  void trust(const NodeId* nodes, std::size_t count) {
     std::array<Pending, nodes_at_a_time> pending;
     std::array<Sphere, nodes_at_a_time> spheres;
     for (std::size_t i = 0; i < count; ++i) pending[i].node = nodes[i];
@@ -115,8 +110,8 @@ class NodeWrapper {
 
   // By a cascade from where it ended last, or from the children; `known`: the run's list, `next`: the new
   // one.
-  [[gnu::always_inline]] void wrap_by_cascade(NodeId node, const std::vector<std::uint32_t>& known,
-                                              std::vector<std::uint32_t>& next) {
+  void wrap_by_cascade(NodeId node, const std::vector<std::uint32_t>& known,
+                       std::vector<std::uint32_t>& next) {
     const Sphere sphere = sphere_of_basis<Form>(balls, bases[node]);
     const BottomUpOrder::Group old = frontiers.of_node[node];
     const auto start = static_cast<std::uint32_t>(next.size());
@@ -132,14 +127,14 @@ class NodeWrapper {
   }
 
   // Nodes of two beads.
-  [[gnu::always_inline]] void trust_pairs(const NodeId* nodes, std::size_t count) {
+  void trust_pairs(const NodeId* nodes, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       const BeadRange range = tree.range(nodes[i]);
       cages[nodes[i]] = cage_of_pair(range);
       if (!is_basis(range, cages[nodes[i]])) cages[nodes[i]] = trusted_cage<Form>(balls, bases[nodes[i]]);
     }
   }
-  [[gnu::always_inline]] void wrap_pairs(const NodeId* nodes, std::size_t count, Start start) {
+  void wrap_pairs(const NodeId* nodes, std::size_t count, Start start) {
     for (std::size_t i = 0; i < count; ++i) {
       const NodeId node = nodes[i];
       const BeadRange range = tree.range(node);
@@ -207,7 +202,7 @@ class NodeWrapper {
     return true;
   }
 
-  [[gnu::always_inline]] void finish(const Pending& done, Start start) {
+  void finish(const Pending& done, Start start) {
     if (start == Start::old_bases && !(done.old == bases[done.node])) ++counts.changed;
   }
 
@@ -218,9 +213,27 @@ class NodeWrapper {
     cages[node] = enclosing_sphere_exactly(balls, range.first, range.last, bases[node], Form::of_points);
   }
 
+  // How many beads of each node are not inside its sphere for certain.
+  [[KDS_SCAN_TARGETS]] void count_all_outside(const Pending* pending, std::size_t count,
+                                              const Sphere* spheres, std::size_t* outside) {
+    for (std::size_t i = 0; i < count; ++i)
+      outside[i] = count_outside<Form>(balls, spheres[i], below(pending[i].node));
+  }
+  [[KDS_SCAN_TARGETS]] BeadId escaped_from(NodeId node, const Sphere& sphere) {
+    return escaped_bead<Form>(balls, sphere, below(node));
+  }
+  bool improve(NodeId node, const Sphere& sphere) {
+    return next_basis<Form>(balls, bases[node], sphere, [&] { return escaped_from(node, sphere); });
+  }
+  [[gnu::always_inline]] auto below(NodeId node) {
+    return [ this, node ](const Sphere& sphere, const auto& look) __attribute__((always_inline)) {
+      visit_blocks(node, sphere, look);
+    };
+  }
+
   // Spheres of the nodes' bases, four at a time among those of one size.
   template <bool bounds = true>
-  [[gnu::always_inline]] void spheres_of(const Pending* pending, std::size_t count, Sphere* spheres) const {
+  [[KDS_LANES_TARGETS]] void spheres_of(const Pending* pending, std::size_t count, Sphere* spheres) const {
     std::array<std::array<std::uint8_t, nodes_at_a_time>, 4> places;
     std::array<std::size_t, 4> of_size{};
     for (std::size_t i = 0; i < count; ++i) {
@@ -301,8 +314,8 @@ class NodeWrapper {
   }
 
   // Whether all that is below the node is inside; appends where that was seen, from the left.
-  bool cascade(NodeId node, const Sphere& sphere, std::span<const std::uint32_t> known,
-               std::vector<std::uint32_t>& next) {
+  [[KDS_SCAN_TARGETS]] bool cascade(NodeId node, const Sphere& sphere, std::span<const std::uint32_t> known,
+                                    std::vector<std::uint32_t>& next) {
     const auto child = [](NodeId v, BeadId leaf) {
       return v == NecklaceTree::leaf ? Frontiers::bead | leaf : v;
     };
@@ -340,67 +353,83 @@ class NodeWrapper {
     return true;
   }
 
-  [[gnu::always_inline]] std::span<const BeadId> members(NodeId child, const BeadId& leaf) const {
+  std::span<const BeadId> members(NodeId child, const BeadId& leaf) const {
     return child == NecklaceTree::leaf ? std::span<const BeadId>(&leaf, 1)
                                        : std::span<const BeadId>(bases[child].begin(), bases[child].size);
   }
   // Of the beads of both children's bases.
-  [[gnu::always_inline]] Basis far_pair_of(NodeId node) const {
+  Basis far_pair_of(NodeId node) const {
     const BeadRange range = tree.range(node);
     const NodeId left = tree.left(node);
     return far_pair<Form>(balls, members(tree.right(node), range.last), members(left, range.first),
                           left == NecklaceTree::leaf ? center_of(balls, range.first) : cages[left].center);
   }
 
-  // Makes the bases those of the beads of both children's bases, most likely.
-  [[gnu::always_inline]] void pivot_among_children(const NodeId* nodes, std::size_t count) {
-    struct Few {
-      std::array<std::array<double, 8>, Dimension> centers;
-      std::array<double, 8> radii;
-      std::array<BeadId, 8> ids;
+  // The beads of both children's bases, of which some may come twice.
+  struct Few {
+    std::array<std::array<double, 8>, Dimension> centers;
+    std::array<double, 8> radii;
+    std::array<BeadId, 8> ids;
+  };
+  Few few_of(NodeId node) const {
+    const BeadRange range = tree.range(node);
+    const auto of_left = members(tree.left(node), range.first);
+    const auto of_right = members(tree.right(node), range.last);
+    Few few;
+    for (std::size_t k = 0; k < 8; ++k) {
+      const std::size_t r = k - of_left.size();
+      const BeadId b = k < of_left.size() ? of_left[k] : of_right[r < of_right.size() ? r : 0];
+      few.ids[k] = b;
+      for (std::size_t axis = 0; axis < Dimension; ++axis) few.centers[axis][k] = balls.coordinates(axis)[b];
+      few.radii[k] = balls.radii()[b];
+    }
+    return few;
+  }
+  // Of each sphere the bead among `few[place]` that sticks out farthest, or no_bead.
+  [[KDS_SCAN_TARGETS]] void escaped_of_few(const Few* few, const std::uint8_t* place, std::size_t count,
+                                           const Sphere* spheres, BeadId* escaped) const {
+    const auto measure_of = [&](std::size_t i) __attribute__((always_inline)) {
+      auto measure = Form::measure(balls, spheres[i]);
+      for (std::size_t axis = 0; axis < Dimension; ++axis)
+        measure.centers[axis] = few[place[i]].centers[axis].data();
+      if constexpr (!Form::of_points) measure.radii = few[place[i]].radii.data();
+      return measure;
     };
+    std::array<double, nodes_at_a_time> farthest;
+    for (std::size_t i = 0; i < count; ++i) {
+      Farthest most;
+      most.scan(measure_of(i), 0, 7);
+      farthest[i] = most.result();
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      escaped[i] = no_bead;
+      if (!(farthest[i] > spheres[i].outer) || !(spheres[i].least > 0)) continue;
+      const BeadId found = find_value(measure_of(i), 0, 7, farthest[i]);
+      if (found != no_bead) escaped[i] = few[place[i]].ids[found];
+    }
+  }
+
+  // Makes the bases those of the beads of both children's bases, most likely.
+  void pivot_among_children(const NodeId* nodes, std::size_t count) {
     std::array<Few, nodes_at_a_time> few;
     std::array<Sphere, nodes_at_a_time> spheres;
-    std::array<double, nodes_at_a_time> farthest;
+    std::array<BeadId, nodes_at_a_time> escaped;
     std::array<Pending, nodes_at_a_time> pending;
     std::array<std::uint8_t, nodes_at_a_time> place;
     for (std::size_t i = 0; i < count; ++i) {
-      const BeadRange range = tree.range(nodes[i]);
-      const auto of_left = members(tree.left(nodes[i]), range.first);
-      const auto of_right = members(tree.right(nodes[i]), range.last);
-      for (std::size_t k = 0; k < 8; ++k) {
-        const std::size_t r = k - of_left.size();
-        const BeadId b = k < of_left.size() ? of_left[k] : of_right[r < of_right.size() ? r : 0];
-        few[i].ids[k] = b;
-        for (std::size_t axis = 0; axis < Dimension; ++axis)
-          few[i].centers[axis][k] = balls.coordinates(axis)[b];
-        few[i].radii[k] = balls.radii()[b];
-      }
+      few[i] = few_of(nodes[i]);
       pending[i].node = nodes[i];
       place[i] = static_cast<std::uint8_t>(i);
     }
     std::size_t waiting = count;
     for (int round = 0; waiting > 0 && round < 8; ++round) {
       spheres_of(pending.data(), waiting, spheres.data());
-      const auto measure_of = [&](std::size_t i) __attribute__((always_inline)) {
-        auto measure = Form::measure(balls, spheres[i]);
-        for (std::size_t axis = 0; axis < Dimension; ++axis)
-          measure.centers[axis] = few[place[i]].centers[axis].data();
-        if constexpr (!Form::of_points) measure.radii = few[place[i]].radii.data();
-        return measure;
-      };
-      for (std::size_t i = 0; i < waiting; ++i) {
-        Farthest most;
-        most.scan(measure_of(i), 0, 7);
-        farthest[i] = most.result();
-      }
+      escaped_of_few(few.data(), place.data(), waiting, spheres.data(), escaped.data());
       std::size_t left = 0;
       for (std::size_t i = 0; i < waiting; ++i) {
-        if (!(farthest[i] > spheres[i].outer) || !(spheres[i].least > 0)) continue;
         Basis& basis = bases[pending[i].node];
-        const BeadId found = find_value(measure_of(i), 0, 7, farthest[i]);
-        const BeadId escaped = found == no_bead ? no_bead : few[place[i]].ids[found];
-        if (escaped == no_bead || basis.contains(escaped) || !Form::pivot(balls, basis, escaped)) continue;
+        if (escaped[i] == no_bead || basis.contains(escaped[i]) || !Form::pivot(balls, basis, escaped[i]))
+          continue;
         ++counts.pivots;
         pending[left].node = pending[i].node;
         place[left++] = place[i];

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "structures/enclosing_sphere/scan_targets.h"
 #include "structures/hierarchy/hierarchy_kernels.h"
 #include "structures/hierarchy/parallel_passes.h"
 
@@ -23,8 +22,8 @@ std::span<const NodeId> nodes_of(const BottomUpOrder& order, std::span<const Bot
 }
 
 template <class Form>
-[[KDS_SCAN_TARGETS]] void wrap_groups(NodeWrapper<Form>& wrapper, const BottomUpOrder& order,
-                                      std::span<const BottomUpOrder::Group> groups, Start start) {
+void wrap_groups(NodeWrapper<Form>& wrapper, const BottomUpOrder& order,
+                 std::span<const BottomUpOrder::Group> groups, Start start) {
   const auto beads = [&](std::size_t g) {
     const BeadRange range = wrapper.tree.range(order.nodes(groups[g])[0]);
     return range.last - range.first + 1;
@@ -47,8 +46,8 @@ template <class Form>
 }
 
 template <class Form>
-[[KDS_SCAN_TARGETS]] void trust_groups(NodeWrapper<Form>& wrapper, const BottomUpOrder& order,
-                                       std::span<const BottomUpOrder::Group> groups) {
+void trust_groups(NodeWrapper<Form>& wrapper, const BottomUpOrder& order,
+                  std::span<const BottomUpOrder::Group> groups) {
   if (groups.empty()) return;
   const auto lowest = order.nodes(groups[0]);
   const BeadRange range = wrapper.tree.range(lowest[0]);
@@ -61,9 +60,8 @@ template <class Form>
 }
 
 template <class Form>
-[[KDS_SCAN_TARGETS]] void cascade_groups(NodeWrapper<Form>& wrapper, const BottomUpOrder& order,
-                                         std::span<const BottomUpOrder::Group> groups,
-                                         std::vector<std::uint32_t>& frontiers) {
+void cascade_groups(NodeWrapper<Form>& wrapper, const BottomUpOrder& order,
+                    std::span<const BottomUpOrder::Group> groups, std::vector<std::uint32_t>& frontiers) {
   std::vector<std::uint32_t> next;
   next.reserve(frontiers.size());
   for (const BottomUpOrder::Group& group : groups) {

@@ -6,6 +6,7 @@
 
 #include "motions/views/integer_view.h"
 #include "structures/power_diagram/power_diagram.h"
+#include "structures/triangulation/exact_triangulation.h"
 
 namespace kds {
 

@@ -39,7 +39,16 @@ DiagramEdges edges_of(const RegularTriangulation<Dimension>& triangulation, std:
   return {BeadPairs(beads, pairs), std::move(hidden)};
 }
 
+template <int Dimension>
+DiagramEdges static_edges(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  RegularTriangulation<Dimension> triangulation;
+  auto built = triangulation.build_bare(centers, weights);
+  return {BeadPairs(weights.size(), triangulation.finite_edges()), std::move(built.hidden)};
+}
+
 template DiagramEdges edges_of(const RegularTriangulation<2>&, std::size_t, std::vector<BeadId>);
 template DiagramEdges edges_of(const RegularTriangulation<3>&, std::size_t, std::vector<BeadId>);
+template DiagramEdges static_edges<2>(const Eigen::Matrix3Xd&, std::span<const double>);
+template DiagramEdges static_edges<3>(const Eigen::Matrix3Xd&, std::span<const double>);
 
 }  // namespace kds

@@ -1,4 +1,4 @@
-// Static regular triangulations of exact positions: for audits between events, and rebuilds there.
+#include "structures/triangulation/exact_triangulation.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 

@@ -253,7 +253,42 @@ auto RegularTriangulation<Dimension>::finite_cells() const -> std::vector<Beads>
   return sorted_finite_cells<Dimension>(up_to_date().triangulation);
 }
 
+template <int Dimension>
+auto RegularTriangulation<Dimension>::finite_edges() const -> std::vector<std::pair<BeadId, BeadId>> {
+  std::vector<std::pair<BeadId, BeadId>> edges;
+  const auto& triangulation = up_to_date().triangulation;
+  if (triangulation.dimension() < 1) return edges;
+  for (const auto& edge : triangulation.finite_edges()) {
+    const auto [a, b] = Cgal::Types::ends(edge);
+    edges.emplace_back(a->info(), b->info());
+  }
+  return edges;
+}
+
+template <int Dimension>
+StaticTriangulation<Dimension> static_triangulation(const Eigen::Matrix3Xd& centers,
+                                                    std::span<const double> weights) {
+  RegularTriangulation<Dimension> triangulation;
+  auto built = triangulation.build_bare(centers, weights);
+  built.cells = triangulation.finite_cells();
+  return built;
+}
+
+template <int Dimension>
+Seconds seconds_to_triangulate(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  std::vector<typename CgalOf<Dimension>::Type::Weighted_point> points;
+  points.reserve(weights.size());
+  for (std::size_t b = 0; b < weights.size(); ++b)
+    points.push_back(weighted_point<Dimension>(centers, weights, b));
+  return seconds_of(
+      [&] { const typename CgalOf<Dimension>::Type triangulation(points.begin(), points.end()); });
+}
+
 template class RegularTriangulation<2>;
 template class RegularTriangulation<3>;
+template StaticTriangulation<2> static_triangulation(const Eigen::Matrix3Xd&, std::span<const double>);
+template StaticTriangulation<3> static_triangulation(const Eigen::Matrix3Xd&, std::span<const double>);
+template Seconds seconds_to_triangulate<2>(const Eigen::Matrix3Xd&, std::span<const double>);
+template Seconds seconds_to_triangulate<3>(const Eigen::Matrix3Xd&, std::span<const double>);
 
 }  // namespace kds

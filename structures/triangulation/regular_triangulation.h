@@ -17,12 +17,12 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kds/seconds.h"
 #include "motions/base/bead.h"
 #include "motions/curves/snapshot.h"
-#include "motions/numbers/exact_number.h"
 
 namespace kds {
 
@@ -56,12 +56,6 @@ struct alignas(Dimension == 3 ? 64 : 4) TriangulationCell {
   }
 };
 
-/// Position and weight of a bead at one time, exactly.
-struct ExactBead {
-  std::array<Rational, 3> center;
-  Rational weight;
-};
-
 /// Cells of a static triangulation, and beads without a cell of their own in the power diagram.
 template <int Dimension>
 struct StaticTriangulation {
@@ -74,10 +68,6 @@ struct StaticTriangulation {
 template <int Dimension>
 [[nodiscard]] StaticTriangulation<Dimension> static_triangulation(const Eigen::Matrix3Xd& centers,
                                                                   std::span<const double> weights);
-/// Built by CGAL with exact numbers. With `oriented`, infinite cells too, as they are; else as above.
-template <int Dimension>
-[[nodiscard]] StaticTriangulation<Dimension> static_triangulation(std::span<const ExactBead> beads,
-                                                                  bool oriented);
 
 /// What CGAL takes for the same from doubles, which is what a user would do at every frame instead.
 template <int Dimension>
@@ -202,6 +192,8 @@ class RegularTriangulation {
   [[nodiscard]] int least_orientation() const;
   /// Finite cells, beads ascending, sorted.
   [[nodiscard]] std::vector<Beads> finite_cells() const;
+  /// The two beads of each finite edge; also where the beads span less than the space.
+  [[nodiscard]] std::vector<std::pair<BeadId, BeadId>> finite_edges() const;
 
  private:
   struct Cgal;

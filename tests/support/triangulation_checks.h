@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "structures/triangulation/exact_triangulation.h"
 #include "structures/triangulation/regular_triangulation.h"
 #include "structures/triangulation/sorted_cells.h"
 #include "tests/support/exact_checks.h"
