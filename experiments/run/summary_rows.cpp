@@ -124,8 +124,8 @@ std::vector<std::pair<std::string, std::string>> input_lines(const RunReport& re
   std::string scene = fmt::format("{} beads, {} frames, dimension {}", with_thousands(report.beads),
                                   with_thousands(report.frames), report.dimension);
   scene += report.radius_min == report.radius_max
-               ? fmt::format(", radius {:.4g}", report.radius_min)
-               : fmt::format(", radii {:.4g} to {:.4g}", report.radius_min, report.radius_max);
+               ? fmt::format(", radius {:.6g}", report.radius_min)
+               : fmt::format(", radii {:.6g} to {:.6g}", report.radius_min, report.radius_max);
   std::vector<std::string> settings;
   for (const auto& [name, value] : report.settings)
     if (!value.empty()) settings.push_back(name + " " + value);
