@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "experiments/bench/bench_chains.h"
 #include "experiments/bench/bench_report.h"
@@ -50,6 +51,30 @@ TEST(BenchReport, RatioGoalAndWhatHolds) {
   EXPECT_EQ(json["rows"][3]["goal"], nullptr);
   EXPECT_EQ(json["rows"][3]["holds"], nullptr);
   EXPECT_THAT(bench_csv(std::array{held}), testing::HasSubstr("a,x,3,2,ns,peer,10,0.2,0.25,true"));
+}
+
+TEST(BenchReport, ColumnsOfTheTableAreAligned) {
+  const BenchRow tidy{"a", "x", 3, 2, "ns", "peer", 10, 0.25}, wide{"a name of more than twenty-four letters",
+                                                                    "an input of more than thirty letters",
+                                                                    1234567,
+                                                                    1.234e-10,
+                                                                    "events/step",
+                                                                    "",
+                                                                    std::nullopt,
+                                                                    std::nullopt};
+  const std::string table = bench_table(std::array{tidy, wide});
+  std::array<std::string, 3> lines;
+  std::istringstream in(table);
+  for (std::string& line : lines) std::getline(in, line);
+  for (const char* left : {"input", "unit", "holds"}) {
+    const std::size_t column = lines[0].find(left);
+    for (const std::string& line : lines) {
+      EXPECT_EQ(line[column - 1], ' ') << line;
+      EXPECT_NE(line[column], ' ') << line;
+    }
+  }
+  EXPECT_EQ(lines[0].find("value") + 5, lines[2].find("1.234e-10") + 9);
+  EXPECT_THAT(table, testing::Not(testing::HasSubstr(" \n")));
 }
 
 TEST(Bench, HierarchiesGiveARowForEachMeasureAndInput) {
@@ -148,6 +173,20 @@ TEST(Bench, EngineRunsEveryInstanceOfAFolder) {
   EXPECT_EQ(goals, 1U);
 }
 
+TEST(Bench, FindsItsDataFromAnyFolder) {
+  const test::ScratchDirectory directory;
+  const std::filesystem::path instances = directory / "kinetic";
+  std::filesystem::create_directory(instances);
+  std::filesystem::copy_file(test::data_file("kinetic/d1_n20_linear.txt"), instances / "d1_n20_linear.txt");
+  const auto rows = [&](const std::string& line) {
+    const test::ProgramRun run = test::run_shell("cd \"$1\" && \"$0\" " + line, {directory.path().string()});
+    EXPECT_EQ(run.code, 0) << run.err;
+    return Json::parse(run.out)["rows"].size();
+  };
+  EXPECT_GT(rows("bench certificates --json - --quiet"), 10U);
+  EXPECT_EQ(rows("bench engine --data . --json - --quiet"), 6U);  // one instance, three kernels
+}
+
 TEST(Bench, RefusesWhatItDoesNotKnow) {
   for (const Arguments& arguments :
        {Arguments{"bench"}, Arguments{"bench", "spheres"}, Arguments{"bench", "hierarchies", "--sizes", "1"},
@@ -157,6 +196,7 @@ TEST(Bench, RefusesWhatItDoesNotKnow) {
         Arguments{"bench", "engine", "--instances", "none"},
         Arguments{"bench", "certificates", "--instances", KDS_DATA_DIR},
         Arguments{"bench", "engine", "--instances", KDS_DATA_DIR},
+        Arguments{"bench", "hierarchies", "--data", "none"}, Arguments{"bench", "engine", "--data", "none"},
         Arguments{"bench", "hierarchies", "--sizes", "10", "--trajectories", "none.dcd"}}) {
     const test::ProgramRun result = test::run_program(arguments);
     EXPECT_EQ(result.code, 2);
