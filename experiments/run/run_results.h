@@ -23,7 +23,7 @@ void check_destinations(const Destinations& destinations);
 void deliver(const Destinations& destinations, const RunReport& report, const std::string& json,
              const std::string& table);
 
-/// Throws std::runtime_error where standard output is closed or full.
+/// Throws OutputError where standard output is closed or full.
 void print_to_stdout(const std::string& text);
 
 }  // namespace kds

@@ -38,13 +38,22 @@ std::string xyz(const std::vector<std::string>& beads) {
 }
 
 TEST(Program, HelpAndVersionSucceed) {
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"--help"}, {"-h"}, {"--version"}, {"run", "--help"}, {"replay", "--help"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"-h"},
+                                                    {"--version"},
+                                                    {"run", "--help"},
+                                                    {"replay", "--help"},
+                                                    {"help"},
+                                                    {"help", "bench"}}) {
     const ProgramRun run = run_program(arguments);
     EXPECT_EQ(run.code, 0);
     EXPECT_EQ(run.err, "");
     EXPECT_THAT(run.out, HasSubstr("kds"));
   }
+  EXPECT_EQ(run_program({"help"}).out, run_program({"--help"}).out);
+  EXPECT_EQ(run_program({"help", "run"}).out, run_program({"run", "--help"}).out);
+  expect_refused({"help", "fly"}, {"unknown command 'fly'"});
+  expect_refused({"help", "run", "info"}, {"one command"});
 }
 
 TEST(Program, RefusesWrongUsage) {
@@ -452,12 +461,83 @@ TEST(Program, ANameThatIsNoTextCannotBeLogged) {
   EXPECT_EQ(directory.entries(), 1U);
 }
 
-TEST(Program, AClosedOrFullOutputIsAFailure) {
+TEST(Program, AFullOutputIsAFailureWithTheSystemsReason) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  const ProgramRun run = run_program({"run", kSmall, "--quiet", "--json", "/dev/full"});
-  EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("/dev/full"));
-  EXPECT_THAT(run.err, Not(HasSubstr("terminate")));
+  const ScratchDirectory directory;
+  const std::string log = (directory / "events.log").string(), model = (directory / "model.xyz").string();
+  ASSERT_EQ(run_program({"run", kSmall, "--log", log, "--quiet"}).code, 0);
+  std::filesystem::create_symlink("/dev/full", model);
+  const auto expect_full = [](const ProgramRun& run) {
+    EXPECT_EQ(run.code, 1);
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("No space left on device"));
+  };
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"run", kSmall, "--quiet", "--json", "/dev/full"},
+        {"run", kSmall, "--quiet", "--log", "/dev/full"},
+        {"run", data_file("kinetic/d1_n200_linear.txt"), "--quiet", "--log", "/dev/full"},
+        {"replay", log, "--quiet", "--json", "/dev/full"},
+        {"info", kSmall, "--quiet", "--json", "/dev/full"},
+        {"generate", "helix", "--beads", "10", "--quiet", "-o", model}})
+    expect_full(run_program(arguments));
+  for (const char* line :
+       {"\"$0\" --help", "\"$0\" help run", "\"$0\" run \"$1\"", "\"$0\" run \"$1\" --json -",
+        "\"$0\" info \"$1\"", "\"$0\" replay \"$2\"", "\"$0\" replay \"$2\" --json -"})
+    expect_full(run_shell(std::string(line) + " > /dev/full", {kSmall, log}));
+}
+
+// Files of more than 4 KB cannot be written: as on a full disk, but for the reason.
+TEST(Program, ADiskThatFillsUpLeavesNoHalfResults) {
+  const ScratchDirectory directory;
+  const std::string out = (directory / "out/below").string();
+  const auto expect_full = [&](const std::string& arguments) {
+    const ProgramRun run =
+        run_shell("ulimit -f 8; \"$0\" " + arguments, {data_file("kinetic/d3_n100_linear.txt"), out});
+    EXPECT_EQ(run.code, 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("cannot write: File too large"));
+    EXPECT_EQ(directory.entries(), 0U) << arguments;
+  };
+  expect_full("run \"$1\" --quiet --dump \"$2\"");
+  expect_full("generate helix --beads 1000 --quiet -o \"${2%/out/below}/m.xyz\"");
+  expect_full("stability --quiet --subjects orientation,power_test --cases 1 --out \"$2\"");
+}
+
+TEST(Program, ARefusalMakesNoDirectory) {
+  const ScratchDirectory directory;
+  const std::string input =
+      directory.file("a.xyz", xyz({"0 0 0", "1 0 0", "2 0.5 0"}) + xyz({"0 0 0", "nan 0 0", "2 0 0"}));
+  const std::string flat = directory.file("flat.xyz", xyz({"0 0 0", "1 0 1", "2 1 2", "3 0 3", "4 1 4"}) +
+                                                          xyz({"0 1 0", "1 0 1", "2 2 2", "3 0 3", "4 2 4"}));
+  const std::string log = directory.file("log", "not a log\n");
+  for (const char* option : {"--out", "--dump"}) {
+    const std::string there = (directory / "new/there").string();
+    expect_refused({"run", input, option, there}, {"frame 1"});
+    expect_refused({"run", flat, option, there, "--structures", "wrapped,power"}, {"plane"});  // at its end
+    expect_refused({"run", kSmall, option, there, "--structures", "power"}, {"power"});
+    EXPECT_FALSE(std::filesystem::exists(directory / "new"));
+  }
+  for (const char* command : {"info", "update", "replay"}) {
+    const std::string of = command == std::string("replay") ? log : input;
+    expect_refused({command, of, "--out", (directory / "new").string()}, {of});
+    EXPECT_FALSE(std::filesystem::exists(directory / "new"));
+  }
+  std::filesystem::create_directory(directory / "old");
+  directory.file("old/frame-0.wrapped.csv", "precious");
+  expect_refused({"run", flat, "--dump", (directory / "old").string()}, {"plane"});
+  EXPECT_EQ(content_of(directory / "old/frame-0.wrapped.csv"), "precious");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory / "old"), {}), 1);
+}
+
+TEST(Program, WarningsWaitUntilTheInputIsAccepted) {
+  const ScratchDirectory directory;
+  const std::string cut = directory.file("cut.xyz", xyz({"0 0 0", "1 0 0", "2 0 0", "9 0 0"}) +
+                                                        xyz({"0 0 0", "1 0 0", "2 0 0", "9 1 0"}) + "4\n");
+  const std::string bad = directory.file("bad.xyz", "what\n");
+  EXPECT_THAT(run_program({"run", cut, "--frames", ":2", "--structures", "wrapped"}).err,
+              HasSubstr("warning: " + cut));
+  for (const char* command : {"run", "info", "update"})
+    expect_refused({command, cut, bad, "--frames", ":2"}, {"bad.xyz"});
+  expect_refused({"run", cut, "--frames", ":2", "--structures", "wrapped", "--nodes", "70:80"}, {"--nodes"});
 }
 
 TEST(Program, StandardStreamsMayBeClosed) {
@@ -475,8 +555,8 @@ TEST(Program, AFileThatMayNotGrowIsAFailureWithoutATrace) {
   const std::string log = (directory / "events.log").string();
   const ProgramRun run = run_shell("ulimit -f 8; \"$0\" run \"$1\" --quiet --log \"$2\"",
                                    {data_file("kinetic/d1_n200_linear.txt"), log});
-  EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("events.log: cannot write"));
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.err, HasSubstr("events.log: cannot write: File too large"));
   EXPECT_EQ(directory.entries(), 0U);
 }
 
@@ -485,7 +565,7 @@ TEST(Program, AnInterruptedRunLeavesNothingBehind) {
     const ScratchDirectory directory;
     // Waits for the log in the making, and ends the program then.
     const ProgramRun run = run_shell(
-        "\"$0\" run \"$1\" --log \"$2/events.log\" --audit events & "
+        "\"$0\" run \"$1\" --log \"$2/events.log\" --dump \"$2/made/dump\" --audit events & "
         "i=0; while [ -z \"$seen\" ] && [ $i -lt 200 ]; do sleep 0.05; seen=$(ls -A \"$2\" | grep part); "
         "i=$((i+1)); done; echo \"$seen\"; kill -$3 $!; wait $!",
         {data_file("trajectories/villin_hp36_300K.dcd"), directory.path().string(), signal});
@@ -493,6 +573,20 @@ TEST(Program, AnInterruptedRunLeavesNothingBehind) {
     EXPECT_THAT(run.out, HasSubstr(".part"));
     EXPECT_EQ(directory.entries(), 0U);
   }
+}
+
+TEST(Program, WhatAKilledRunLeftIsClearedByTheNext) {
+  const ScratchDirectory directory;
+  const std::string there = directory.path().string();
+  const ProgramRun killed = run_shell(
+      "\"$0\" run \"$1\" --dump \"$2\" --audit events & "
+      "i=0; while [ -z \"$seen\" ] && [ $i -lt 200 ]; do sleep 0.05; seen=$(ls -A \"$2\"/.kds-*); "
+      "i=$((i+1)); done; kill -KILL $!; wait $!",
+      {data_file("trajectories/villin_hp36_300K.dcd"), there});
+  EXPECT_EQ(killed.code, 128 + 9) << killed.err;
+  ASSERT_EQ(directory.entries(), 1U);
+  EXPECT_EQ(run_program({"run", data_file("kinetic/d3_n20_linear.txt"), "--quiet", "--dump", there}).code, 0);
+  EXPECT_EQ(directory.entries(), 4U);  // cells and hidden beads of two frames
 }
 
 }  // namespace
