@@ -33,6 +33,14 @@ TEST(BenchChains, EveryBeadMovesByTheDistance) {
   EXPECT_EQ(frames, jostled_frames(start, 0.01, 4));  // the same again
 }
 
+TEST(BenchChains, PlanarOnesStayInThePlane) {
+  for (const Eigen::Matrix3Xd& start : {planar_spiral(300), model_at_rest("grid", 300, 0.5, 2)})
+    for (const Eigen::Matrix3Xd& frame : jostled_frames(start, 0.1, 3, 2)) {
+      EXPECT_EQ(frame.row(2).cwiseAbs().maxCoeff(), 0);
+      EXPECT_GT((frame.rowwise().maxCoeff() - frame.rowwise().minCoeff()).head(2).minCoeff(), 10);
+    }
+}
+
 TEST(BenchReport, RatioGoalAndWhatHolds) {
   const BenchRow held{"a", "x", 3, 2, "ns", "peer", 10, 0.25}, missed{"b", "x", 3, 4, "ns", "peer", 10, 0.25},
       alone{"c", "x", 3, 4, "ns", "", std::nullopt, 3}, free{"d", "x", 3, 4, "ns", "peer", 8, std::nullopt},
@@ -90,7 +98,7 @@ TEST(Bench, HierarchiesGiveARowForEachMeasureAndInput) {
     names.insert(row["name"]);
     inputs.insert(row["input"]);
     // So few beads may pass a few steps without an event.
-    EXPECT_GE(row["value"].get<double>(), row["unit"] == "events/frame" ? 0 : 1e-9);
+    EXPECT_GE(row["value"].get<double>(), row["unit"] == "events/step" ? 0 : 1e-9);
     EXPECT_EQ(row["ratio"].is_null(), row["peer_value"].is_null() || row["peer_value"] == 0);
     if (!row["ratio"].is_null()) {
       EXPECT_DOUBLE_EQ(row["ratio"].get<double>(),
@@ -102,7 +110,7 @@ TEST(Bench, HierarchiesGiveARowForEachMeasureAndInput) {
     }
   }
   EXPECT_EQ(names.size(), 12U);
-  EXPECT_EQ(inputs.size(), 10U);  // four inputs, equal and unequal radii, a query, a rotation
+  EXPECT_EQ(inputs.size(), 14U);  // six inputs, equal and unequal radii, a query, a rotation
 }
 
 TEST(Bench, PowerGivesARowForEachTechniqueAndInput) {
@@ -124,7 +132,7 @@ TEST(Bench, PowerGivesARowForEachTechniqueAndInput) {
   EXPECT_THAT(names, testing::ElementsAre("activate", "auto to best", "auto to rebuild", "greedy", "kinetic",
                                           "lifted", "reinsert"));
   EXPECT_THAT(goals, testing::ElementsAre("auto to best", "auto to rebuild", "kinetic"));
-  EXPECT_EQ(inputs.size(), 8U);  // four strides, four chains
+  EXPECT_EQ(inputs.size(), 10U);  // four strides, six chains
 }
 
 TEST(Bench, CertificatesGiveARowEachWithTheGoalsThatThereAre) {
