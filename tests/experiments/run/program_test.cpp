@@ -1,5 +1,6 @@
 // The program from outside: exit codes, one line for each mistake, and where results go.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -393,6 +394,43 @@ TEST(Program, RunsSeveralNecklacesOnOneClock) {
   expect_refused({"run", three, other}, {"other.xyz", "three.xyz", "equal frame counts"});
   expect_refused({"run", resting, resting}, {"two frames"});
   expect_refused({"run", kSmall, other}, {"d1_n20_linear.txt", "alone"});
+}
+
+TEST(Program, RunsTheChainsOfAComplexOnOneClock) {
+  const ScratchDirectory directory;
+  std::string complex;
+  for (int model = 1; model <= 2; ++model) {
+    complex += fmt::format("MODEL     {:4}\n", model);
+    for (const char chain : {'A', 'B', 'C'})
+      for (int residue = 1; residue <= 3; ++residue)
+        for (const char* name : {"N", "CA", "C"})
+          complex += fmt::format("ATOM      1  {:<3} ALA {}{:4}    {:8.3f}{:8.3f}{:8.3f}\n", name, chain,
+                                 residue, 4.5 * residue + 1.5 * (name[0] == 'C') + 1.5 * (name[1] == '\0'),
+                                 9.0 * (chain - 'A'), 0.5 * model * residue * (residue % 2));
+    complex += "ENDMDL\n";
+  }
+  const std::string file = directory.file("complex.pdb", complex);
+  const auto beads = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "run");
+    arguments.insert(arguments.end(), {"--structures", "wrapped", "--audit", "events", "--json", "-"});
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.err.empty(), std::find(arguments.begin(), arguments.end(), "--chain") != arguments.end());
+    return Json::parse(run.out)["input"]["beads"].get<int>();
+  };
+  EXPECT_EQ(beads({file}), 9);
+  EXPECT_EQ(beads({file, "--chain", "B"}), 9);
+  EXPECT_EQ(beads({file, "--chain", "A,C,B"}), 27);
+  EXPECT_EQ(beads({file, file, "--chain", "A,B"}), 36);
+  EXPECT_EQ(beads({file, file, "--chain", "A,B/C"}), 27);
+  EXPECT_THAT(run_program({"info", file}).err, HasSubstr("chains B, C not read; --chain B or --chain A,B"));
+  const Json info = Json::parse(run_program({"info", file, "--chain", "A,B", "--json", "-"}).out);
+  EXPECT_EQ(info["necklaces"].size(), 2U);
+  EXPECT_EQ(info["necklaces"][1]["file"], file + " chain B");
+  expect_refused({"run", file, "--chain", "A/B"}, {"--chain", "2 INPUTs", "1 is"});
+  expect_refused({"run", file, "--chain", "A,"}, {"--chain", "leaves a name empty"});
+  expect_refused({"run", file, "--chain", "A,A"}, {"--chain", "twice"});
+  expect_refused({"run", file, "--chain", "A,X"}, {"--chain", "has no chain 'X'"});
 }
 
 TEST(Program, StandardOutputHoldsWhatWasAskedFor) {

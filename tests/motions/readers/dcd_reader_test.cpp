@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -228,6 +229,8 @@ TEST(DcdReader, TopologyPicksAtoms) {
     return places;
   };
   EXPECT_EQ(x({.topology = topology}), (std::vector<double>{1, 2, 3}));
+  EXPECT_THAT(read(maker.bytes(), {.topology = topology}).warnings,
+              testing::ElementsAre(testing::HasSubstr("t.pdb: chain A not read; --chain A or --chain B,A")));
   EXPECT_EQ(x({.topology = topology, .chain = "A"}), (std::vector<double>{4, 5, 6, 9, 10, 11}));
   EXPECT_EQ(x({.topology = topology, .selection = Selection::ca, .chain = "A"}),
             (std::vector<double>{5, 10}));
@@ -237,6 +240,11 @@ TEST(DcdReader, TopologyPicksAtoms) {
   const Trajectory beads = read(DcdMaker::chain(6, 2).bytes(), {.topology = topology, .chain = "A"});
   EXPECT_EQ(beads.bead_count(), 6U);
   EXPECT_EQ(beads.element_radii.front(), 1.55);
+  const std::vector<Trajectory> both = read_trajectories(
+      test::write_file("a.dcd", DcdMaker::chain(9, 2).bytes()), {.topology = topology, .chain = "A,B"});
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_EQ(both[0].bead_count(), 6U);
+  EXPECT_EQ(both[1].frames[0](0, 0), 9);
   refuse(DcdMaker::chain(11, 2).bytes(), {"a.dcd", "11 atoms", "t.pdb names 12 (3 of them selected)"},
          {.topology = topology});
   refuse(maker.bytes(), {"no-such-file.pdb"}, {.topology = "no-such-file.pdb"});
