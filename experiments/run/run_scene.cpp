@@ -14,6 +14,7 @@
 #include "experiments/run/report_of_session.h"
 #include "experiments/run/session.h"
 #include "kds/audit.h"
+#include "motions/base/input_error.h"
 
 namespace kds {
 
@@ -23,6 +24,22 @@ void write_dump(std::optional<StagedFiles>& dumps, std::size_t frame, Session& s
   if (!dumps) return;
   for (const DumpFile& file : session.dump(frame))
     dumps->write(fmt::format("frame-{}.{}", frame, file.ending), file.text);
+}
+
+// Structures count steps from 0: the message says which frames of the file these are.
+void run_step(Session& session, const Scene& scene, std::size_t step, const RunOptions& options) {
+  const auto named = [&](const char* message) {
+    return fmt::format("{} (step {} leads from frame {} to frame {})", message, step,
+                       scene.frame_number(step), scene.frame_number(step + 1));
+  };
+  try {
+    session.simulator().run_step(step + 1 == scene.step_count());
+  } catch (const AuditError& error) {
+    throw AuditError(fmt::format("{}\nto see it again: kds run {}", named(error.what()),
+                                 shell_words(option_arguments(options))));
+  } catch (const InputError& error) {
+    throw InputError(named(error.what()));
+  }
 }
 
 }  // namespace
@@ -49,12 +66,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   write_dump(dumps, 0, *session);
   for (std::size_t step = 0; step < scene.step_count(); ++step) {
     session->load(step);
-    try {
-      session->simulator().run_step(step + 1 == scene.step_count());
-    } catch (const AuditError& error) {
-      throw AuditError(fmt::format("{}\nto see it again: kds run {}", error.what(),
-                                   shell_words(option_arguments(options))));
-    }
+    run_step(*session, scene, step, options);
     write_dump(dumps, step + 1, *session);
     progress(step + 1, scene.step_count());
   }

@@ -205,6 +205,10 @@ FramesRead read_dcd(const std::filesystem::path& path, const ReadOptions& option
   trajectory.frame_numbers = select_frames(trajectory.file, options.frames, held, trajectory.warnings);
   warn_of_false_count(dcd.layout(), held, trajectory);
 
+  if (const auto& times = dcd.layout().times)
+    for (const std::size_t k : trajectory.frame_numbers)
+      trajectory.times.push_back(times->first + static_cast<double>(k) * times->step);
+
   Beads beads = choose_beads(trajectory.file, options, dcd.layout().atom_count);
   trajectory.element_radii = std::move(beads.element_radii);
   if (beads.unread) trajectory.warnings.push_back(std::move(*beads.unread));

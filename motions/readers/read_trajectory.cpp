@@ -51,6 +51,7 @@ std::vector<Trajectory> split_chains(Trajectory all, const std::vector<ChainRead
     Trajectory& necklace = necklaces.emplace_back();
     necklace.file = fmt::format("{} chain {}", all.file, name.empty() ? "' '" : name);
     necklace.frame_numbers = all.frame_numbers;
+    necklace.times = all.times;
     for (const Eigen::Matrix3Xd& frame : all.frames)
       necklace.frames.emplace_back(
           frame.middleCols(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(bead_count)));

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
@@ -394,6 +396,49 @@ TEST(Program, RunsSeveralNecklacesOnOneClock) {
   expect_refused({"run", three, other}, {"other.xyz", "three.xyz", "equal frame counts"});
   expect_refused({"run", resting, resting}, {"two frames"});
   expect_refused({"run", kSmall, other}, {"d1_n20_linear.txt", "alone"});
+}
+
+TEST(Program, NamesFramesByTheirNumberInTheFile) {
+  const ScratchDirectory directory;
+  const std::string out = (directory / "out").string(), dump = (directory / "dump").string();
+  const ProgramRun run = run_program({"run", kTrajectory, "--frames", "100:125:10", "--structures", "wrapped",
+                                      "--out", out, "--dump", dump});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("a stride of 10 ends at frame 120; 4 frames behind it are left out"));
+  EXPECT_THAT(run.out, HasSubstr("108 beads, 3 frames (100 to 120), dimension 3"));
+  EXPECT_THAT(content_of(out + "/events.csv"), HasSubstr("\n100,wrapped,"));
+  EXPECT_THAT(content_of(out + "/events.csv"), HasSubstr("\n110,wrapped,"));
+  const Json input = Json::parse(content_of(out + "/summary.json"))["input"];
+  EXPECT_EQ(input["first_frame"], 100);
+  EXPECT_EQ(input["last_frame"], 120);
+  EXPECT_FALSE(input.contains("picoseconds"));
+  EXPECT_TRUE(std::filesystem::exists(dump + "/frame-2.wrapped.csv"));  // dumps count the frames of the run
+  const Json info = Json::parse(
+      run_program({"info", kTrajectory, "--frames", "100:121:10", "--radius", "0.5", "--json", "-"}).out);
+  EXPECT_EQ(info["rows"][0]["first_frame"], 100);
+  std::string flat;
+  for (int k = 0; k < 4; ++k)
+    flat += xyz({"0 0 0", "1 0 1", "2 " + std::to_string(k) + " 2", "3 0 3", "4 1 4"});
+  expect_refused({"run", directory.file("flat.xyz", flat), "--structures", "power", "--frames", "2:"},
+                 {"plane", "from frame 2 to frame 3"});
+}
+
+TEST(Program, TellsTheTimesThatAFileHas) {
+  const ScratchDirectory directory;
+  std::string bytes = content_of(kTrajectory);
+  const float length = 2 / 48.88821F;  // steps of 2 fs, ten of them a frame
+  const std::int32_t steps = 10;
+  std::memcpy(&bytes[8 + 4 * 2], &steps, sizeof steps);
+  std::memcpy(&bytes[8 + 4 * 9], &length, sizeof length);
+  const ProgramRun run =
+      run_program({"run", directory.file("timed.dcd", bytes), "--frames", "100:103", "--structures",
+                   "wrapped", "--out", (directory / "out").string(), "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(Json::parse(run.out)["input"]["picoseconds"], Json::array({2.0, 2.04}));
+  const std::string csv = content_of(directory / "out/events.csv");
+  EXPECT_TRUE(csv.starts_with("frame,structure,events,cumulative,picoseconds\n100,wrapped,")) << csv;
+  EXPECT_THAT(csv, HasSubstr(",2.02\n"));
+  EXPECT_THAT(content_of(directory / "out/report.html"), HasSubstr("from 2 to 2.04 ps"));
 }
 
 TEST(Program, RunsTheChainsOfAComplexOnOneClock) {

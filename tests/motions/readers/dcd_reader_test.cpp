@@ -204,6 +204,37 @@ TEST(DcdReader, CellsThatAreNone) {
   }
 }
 
+TEST(DcdReader, TellsTheTimesOfFramesWhereTheHeaderHasThem) {
+  DcdMaker maker = DcdMaker::chain(4, 7);
+  const auto times = [&](std::int32_t first, std::int32_t steps, double length) {
+    maker.first_step = first;
+    maker.steps_a_frame = steps;
+    maker.step_length = length;
+    return read(maker.bytes(), {.frames = {1, std::nullopt, 2}}).times;
+  };
+  constexpr double femtoseconds = 1 / 48.88821;
+  for (const bool big_endian : {false, true})
+    for (const std::int32_t version : {24, 0}) {
+      maker.big_endian = big_endian;
+      maker.version = version;
+      // Steps of 2 fs, a frame every 500 of them: 1 ps.
+      EXPECT_EQ(times(0, 500, 2 * femtoseconds), (std::vector<double>{1, 3, 5}));
+      EXPECT_EQ(times(500, 500, 2 * femtoseconds), (std::vector<double>{2, 4, 6}));
+      EXPECT_EQ(times(0, 1, 20 * femtoseconds), (std::vector<double>{0.02, 3 * 0.02, 5 * 0.02}));
+      // Written by programs that do not know, or no numbers that times can have.
+      EXPECT_TRUE(times(0, 1, 1).empty());
+      EXPECT_TRUE(times(0, 0, 0).empty());
+      EXPECT_TRUE(times(0, 1, 0).empty());
+      EXPECT_TRUE(times(0, -1, 0.1).empty());
+      EXPECT_TRUE(times(-7, 1, 0.1).empty());
+      EXPECT_TRUE(times(0, 1, -0.1).empty());
+      EXPECT_TRUE(times(0, 1, std::numeric_limits<double>::quiet_NaN()).empty());
+      EXPECT_TRUE(times(0, 1, 1e-30).empty());
+      EXPECT_TRUE(times(0, 1, 1e30).empty());
+    }
+  EXPECT_TRUE(read_trajectory(test::data_file("trajectories/villin_hp36_300K.dcd")).times.empty());
+}
+
 TEST(DcdReader, ResiduesNeedATopology) {
   const std::string bytes = DcdMaker::chain(6, 2).bytes();
   EXPECT_EQ(read(bytes, {.selection = Selection::all}).bead_count(), 6U);
