@@ -49,9 +49,25 @@ std::string program_help() {
   for (const Command& command : kCommands)
     text += fmt::format("  {:<10} {}\n", command.name, command.summary);
   return text +
-         "\n  --help     print this, or the options of a command: kds run --help\n"
+         "\n  help       print this, or the options of a command: kds help run\n"
+         "  --help     the same: kds --help, kds run --help\n"
          "  --version  print the version\n\n"
          "exit codes: 0 done, 1 failed inside (a failed audit too), 2 wrong usage or input\n";
+}
+
+const Command& command_of(const std::string& name) {
+  for (const Command& command : kCommands)
+    if (command.name == name) return command;
+  throw InputError(
+      fmt::format("unknown {} '{}' (see kds --help)", name.starts_with('-') ? "option" : "command", name));
+}
+
+// kds help, kds help COMMAND
+int help(const Arguments& of) {
+  if (of.empty()) throw HelpRequest{program_help()};
+  if (of.size() > 1)
+    throw InputError(fmt::format("kds help takes one command, not {} (see kds --help)", of.size()));
+  return command_of(of.front()).run({"--help"});
 }
 
 int run_program(const Arguments& arguments) {
@@ -59,10 +75,8 @@ int run_program(const Arguments& arguments) {
   const std::string& name = arguments.front();
   if (name == "--help" || name == "-h") throw HelpRequest{program_help()};
   if (name == "--version") throw HelpRequest{"kds " + program_version() + "\n"};
-  for (const Command& command : kCommands)
-    if (command.name == name) return command.run({arguments.begin() + 1, arguments.end()});
-  throw InputError(
-      fmt::format("unknown {} '{}' (see kds --help)", name.starts_with('-') ? "option" : "command", name));
+  const Arguments rest(arguments.begin() + 1, arguments.end());
+  return name == "help" ? help(rest) : command_of(name).run(rest);
 }
 
 // Without a throw: standard error may be closed.

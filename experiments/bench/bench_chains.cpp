@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "motions/base/input_error.h"
 #include "motions/models/model.h"
 #include "motions/models/random.h"
+#include "motions/models/spiral.h"
 #include "motions/readers/read_trajectory.h"
 #include "motions/scene/radii.h"
 
@@ -26,20 +29,26 @@ BenchChain read_bench_chain(const std::filesystem::path& path, std::size_t strid
   return chain;
 }
 
-Eigen::Matrix3Xd model_at_rest(std::string_view name, std::size_t beads, double jitter) {
+Eigen::Matrix3Xd model_at_rest(std::string_view name, std::size_t beads, double jitter, int dimension) {
   const models::Model* model = models::find_model(name);
   models::Settings settings{.beads = beads, .motion = models::ShapeMotion::rest};
   if (model->takes(models::Setting::jitter)) settings.jitter = jitter;
+  if (model->takes(models::Setting::dimension)) settings.dimension = dimension;
   return models::generate(*model, settings).front().frames.front();
 }
 
+Eigen::Matrix3Xd planar_spiral(std::size_t beads) {
+  return models::spiral(beads, std::sqrt(static_cast<double>(beads) / 10), 1);
+}
+
 std::vector<Eigen::Matrix3Xd> jostled_frames(const Eigen::Matrix3Xd& start, double distance,
-                                             std::size_t frames) {
+                                             std::size_t frames, int dimension) {
   models::Random random(1);
   std::vector<Eigen::Matrix3Xd> all{start};
   while (all.size() < frames) {
     all.push_back(all.back());
-    for (Eigen::Index b = 0; b < start.cols(); ++b) all.back().col(b) += distance * random.direction();
+    for (Eigen::Index b = 0; b < start.cols(); ++b)
+      all.back().col(b) += distance * random.direction(dimension);
   }
   return all;
 }

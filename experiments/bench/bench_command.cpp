@@ -26,10 +26,12 @@ namespace {
 constexpr std::array kOptions{
     OptionSpec{"--sizes", "LIST",
                "hierarchies, power: beads of generated chains (default: 640,10240,102400; power: 10240)"},
+    OptionSpec{"--data", "DIR",
+               "the folder that holds trajectories and kinetic (default: data beside the sources)"},
     OptionSpec{"--trajectories", "LIST",
-               "hierarchies, power: trajectory files (default: those of data/trajectories here, *.dcd)"},
+               "hierarchies, power: trajectory files (default: DIR/trajectories/*.dcd)"},
     OptionSpec{"--instances", "DIR",
-               "certificates, engine: the folder of moving-point files (default: data/kinetic)"},
+               "certificates, engine: the folder of moving-point files (default: kinetic in that of --data)"},
     OptionSpec{"--rounds", "N", "interleaved runs of ours and the peer, at least 5 (default: 5)"},
     OptionSpec{"--out", "DIR", "write bench.json and bench.csv there (default: none)"},
     OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
@@ -47,7 +49,7 @@ constexpr CommandSpec kCommand{
     kOptions,
     "kds bench certificates\n"
     "kds bench hierarchies\n"
-    "kds bench power --sizes 10240 --trajectories data/trajectories/villin_hp36_300K.dcd --json -",
+    "kds bench power --sizes 10240 --trajectories villin_hp36_300K.dcd --json -",
 };
 
 /// What the command line says.
@@ -106,11 +108,21 @@ std::size_t parse_count(std::string_view option, const std::string& text, std::s
   throw InputError(fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, least, most));
 }
 
-std::vector<std::filesystem::path> trajectories_here() {
-  std::vector<std::filesystem::path> found;
+// A folder of the data that inputs are taken from unless they are named one by one.
+std::filesystem::path data_folder(const ParsedArguments& parsed, const char* name, const char* instead) {
+  const std::filesystem::path data = parsed.value("--data").value_or(KDS_SOURCE_DATA_DIR);
   std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator("data/trajectories", none))
+  if (std::filesystem::is_directory(data / name, none)) return data / name;
+  throw InputError(
+      fmt::format("--data: there is no folder {}; expected the folder data of the sources, or inputs with {}",
+                  (data / name).string(), instead));
+}
+
+std::vector<std::filesystem::path> trajectories_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".dcd") found.push_back(entry.path());
+  if (found.empty()) throw InputError(fmt::format("--data: no .dcd file in {}", folder.string()));
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -134,10 +146,14 @@ int bench_command(const Arguments& arguments) {
   }
   if (const auto list = parsed.value("--trajectories")) {
     for (const std::string& path : split(*list, ',')) inputs.trajectories.emplace_back(path);
-  } else {
-    inputs.trajectories = trajectories_here();
+  } else if (chains) {
+    inputs.trajectories = trajectories_in(data_folder(parsed, "trajectories", "--trajectories"));
   }
-  inputs.instances = parsed.value("--instances").value_or("data/kinetic");
+  if (const auto folder = parsed.value("--instances")) {
+    inputs.instances = *folder;
+  } else if (!chains) {
+    inputs.instances = data_folder(parsed, "kinetic", "--instances");
+  }
   if (const auto text = parsed.value("--rounds")) inputs.rounds = parse_count("--rounds", *text, 5);
   Destinations destinations;
   if (const auto text = parsed.value("--out")) {

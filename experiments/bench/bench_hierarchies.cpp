@@ -45,6 +45,7 @@ std::optional<double> kinetic_factor(std::string_view name) {
   return std::nullopt;
 }
 
+template <int Dimension>
 class Measured {
  public:
   Measured(const Input& input, std::vector<BenchRow>& rows) : input_(input), rows_(rows) {
@@ -55,15 +56,15 @@ class Measured {
 
   /// A round is once over all frames: with each hierarchy, then with the peer.
   void run(std::size_t rounds) {
-    StaticWrappedHierarchy<3> built(necklace_), updated(necklace_), naive(necklace_), cascade(necklace_),
-        trusting(necklace_);
-    LayeredHierarchy<3> layered(necklace_);
+    StaticWrappedHierarchy<Dimension> built(necklace_), updated(necklace_), naive(necklace_),
+        cascade(necklace_), trusting(necklace_);
+    LayeredHierarchy<Dimension> layered(necklace_);
     std::vector<double> peer, build, layer, update, by_naive, by_cascade, trust;
-    const std::span<const Balls<3>> later = std::span(balls_).subspan(1);
+    const std::span<const Balls<Dimension>> later = std::span(balls_).subspan(1);
     const auto over_frames = [&](auto& hierarchy, auto&& step) {
       if constexpr (requires { hierarchy.update(balls_[0]); }) hierarchy.build(balls_[0]);
       return processor_seconds_of([&] {
-        for (const Balls<3>& now : later) step(hierarchy, now);
+        for (const Balls<Dimension>& now : later) step(hierarchy, now);
       });
     };
     for (std::size_t round = 0; round < rounds; ++round) {
@@ -76,7 +77,8 @@ class Measured {
       trust.push_back(over_frames(trusting, [](auto& h, const auto& now) { h.update(now, Update::trust); }));
       peer.push_back(0);
       for (std::size_t k = 1; k < balls_.size(); ++k)
-        peer.back() += seconds_to_wrap<3>(built.tree().ranges(), input_.frames[k], input_.radii).processor;
+        peer.back() +=
+            seconds_to_wrap<Dimension>(built.tree().ranges(), input_.frames[k], input_.radii).processor;
     }
     const double nodes = static_cast<double>(built.tree().node_count() * later.size());
     const double cgal = median_of(peer) / nodes * 1e9;
@@ -97,7 +99,7 @@ class Measured {
   const Input& input_;
   std::vector<BenchRow>& rows_;
   std::vector<BeadRange> necklace_;
-  std::vector<Balls<3>> balls_;
+  std::vector<Balls<Dimension>> balls_;
 };
 
 // Rigid, from frame to frame: whatever events there are linear motion makes, since it squeezes.
@@ -176,6 +178,11 @@ std::vector<BenchRow> bench_hierarchies(const HierarchyBenchOptions& options,
     });
   }
   for (const std::size_t beads : options.sizes) {
+    const auto add_planar = [&](const char* name, const auto& start) {
+      inputs.emplace_back([=] {
+        return Input{{name, jostled_frames(start(), 0.01, 20, 2), std::vector<double>(beads, 1.0), 2}};
+      });
+    };
     for (const char* model : {"helix", "random-chain", "grid"}) {
       inputs.emplace_back([name = std::string(model), beads] {
         Input input{
@@ -187,6 +194,8 @@ std::vector<BenchRow> bench_hierarchies(const HierarchyBenchOptions& options,
         return input;
       });
     }
+    add_planar("planar grid", [=] { return model_at_rest("grid", beads, 0.05, 2); });
+    add_planar("planar spiral", [=] { return planar_spiral(beads); });
   }
   std::vector<BenchRow> rows;
   std::size_t done = 0;
@@ -196,7 +205,11 @@ std::vector<BenchRow> bench_hierarchies(const HierarchyBenchOptions& options,
       const Input one = equal ? input : with_unequal_radii(input);
       // A small hierarchy is done many times.
       const std::size_t rounds = std::max(options.rounds, 50000 / (one.radii.size() * one.frames.size()));
-      Measured(one, rows).run(rounds);
+      if (one.dimension == 2) {
+        Measured<2>(one, rows).run(rounds);
+      } else {
+        Measured<3>(one, rows).run(rounds);
+      }
       bench_kinetic_steps(one, rounds, one.kinetic, rows);
       bench_kinetic_events(one, rows);
       progress(++done, 2 * inputs.size());

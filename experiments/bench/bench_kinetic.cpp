@@ -39,6 +39,19 @@ Run run_all_steps(const Scene& scene) {
   return run;
 }
 
+// From frame to frame, statically.
+template <int Dimension>
+std::uint64_t bases_that_change(const BenchChain& chain) {
+  const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(chain.radii.size() - 1)}};
+  StaticWrappedHierarchy<Dimension> hierarchy(necklace);
+  std::uint64_t changed = 0;
+  for (std::size_t k = 0; k < chain.frames.size(); ++k) {
+    const Balls<Dimension> balls(chain.frames[k], chain.radii);
+    changed += k == 0 ? (hierarchy.build(balls), 0) : hierarchy.update(balls).changed;
+  }
+  return changed;
+}
+
 }  // namespace
 
 void bench_kinetic_steps(const BenchChain& chain, std::size_t rounds, std::optional<double> factor,
@@ -50,7 +63,9 @@ void bench_kinetic_steps(const BenchChain& chain, std::size_t rounds, std::optio
     ours.push_back(run_all_steps(scene).seconds);
     peer.push_back(0);
     for (std::size_t k = 1; k < chain.frames.size(); ++k)
-      peer.back() += seconds_to_wrap<3>(tree.ranges(), chain.frames[k], chain.radii).processor;
+      peer.back() += (chain.dimension == 2 ? seconds_to_wrap<2>(tree.ranges(), chain.frames[k], chain.radii)
+                                           : seconds_to_wrap<3>(tree.ranges(), chain.frames[k], chain.radii))
+                         .processor;
   }
   const double nanoseconds = 1e9 / static_cast<double>(tree.node_count() * scene.step_count());
   rows.push_back({"wrapped kinetic step", chain.name, chain.radii.size(), median_of(ours) * nanoseconds,
@@ -59,18 +74,13 @@ void bench_kinetic_steps(const BenchChain& chain, std::size_t rounds, std::optio
 }
 
 void bench_kinetic_events(const BenchChain& chain, std::vector<BenchRow>& rows) {
-  const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(chain.radii.size() - 1)}};
-  StaticWrappedHierarchy<3> hierarchy(necklace);
-  std::uint64_t changed = 0;
-  for (std::size_t k = 0; k < chain.frames.size(); ++k) {
-    const Balls<3> balls(chain.frames[k], chain.radii);
-    changed += k == 0 ? (hierarchy.build(balls), 0) : hierarchy.update(balls).changed;
-  }
+  const std::uint64_t changed =
+      chain.dimension == 2 ? bases_that_change<2>(chain) : bases_that_change<3>(chain);
   const auto steps = static_cast<double>(chain.frames.size() - 1);
   const auto row = [&](const char* name, FrameMotion motion) {
     const Run run = run_all_steps(scene_of(chain, motion));
     rows.push_back({name, chain.name, chain.radii.size(), static_cast<double>(run.events) / steps,
-                    "events/frame", "bases that differ", static_cast<double>(changed) / steps, std::nullopt});
+                    "events/step", "bases that differ", static_cast<double>(changed) / steps, std::nullopt});
   };
   row("wrapped events, linear", FrameMotion::linear);
   row("wrapped events, hermite", FrameMotion::hermite);

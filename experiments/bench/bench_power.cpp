@@ -18,18 +18,22 @@ namespace kds {
 
 namespace {
 
-constexpr std::string_view peer_name = "CGAL Regular_triangulation_3";
+constexpr std::string_view peer_name(int dimension) {
+  return dimension == 2 ? "CGAL Regular_triangulation_2" : "CGAL Regular_triangulation_3";
+}
 
 struct Input {
   std::string name;
   std::vector<Eigen::Matrix3Xd> frames;
   std::vector<double> weights;
+  int dimension;
   std::optional<double> goal;  ///< of the kinetic step: its time to the peer's, at most
 
   Input(BenchChain chain, std::optional<double> time)
       : name(std::move(chain.name)),
         frames(std::move(chain.frames)),
         weights(std::move(chain.radii)),
+        dimension(chain.dimension),
         goal(time) {
     for (double& w : weights) w *= w;
   }
@@ -44,13 +48,18 @@ constexpr std::array techniques{
     Technique{"kinetic", UpdateTechnique::kinetic},   Technique{"lifted", UpdateTechnique::lifted},
     Technique{"activate", UpdateTechnique::activate}, Technique{"auto", UpdateTechnique::automatic}};
 
-double seconds_by(UpdateTechnique technique, const Input& input) {
-  const auto update = make_diagram_update<3>(technique);
+template <int Dimension>
+double seconds_in(UpdateTechnique technique, const Input& input) {
+  const auto update = make_diagram_update<Dimension>(technique);
   update->build(input.frames[0], input.weights);
   return processor_seconds_of([&] {
     for (std::size_t k = 1; k < input.frames.size(); ++k)
       static_cast<void>(update->advance(input.frames[k], input.weights));
   });
+}
+
+double seconds_by(UpdateTechnique technique, const Input& input) {
+  return input.dimension == 2 ? seconds_in<2>(technique, input) : seconds_in<3>(technique, input);
 }
 
 // A round is once over all frames with each technique, the peer first.
@@ -73,11 +82,11 @@ void measure(const Input& input, std::size_t rounds, std::vector<BenchRow>& rows
   for (const Technique& t : techniques) {
     const double value = median_of(ours[t.name]) * microseconds;
     if (t.technique == UpdateTechnique::automatic) {
-      row("auto to rebuild", value, peer_name, cgal, 1.05);
+      row("auto to rebuild", value, peer_name(input.dimension), cgal, 1.05);
       row("auto to best", value, best_name, best, 1.1);
       continue;
     }
-    row(std::string(t.name), value, peer_name, cgal,
+    row(std::string(t.name), value, peer_name(input.dimension), cgal,
         t.technique == UpdateTechnique::kinetic ? input.goal : std::nullopt);
     if (value < best) {
       best = value;
@@ -108,12 +117,17 @@ std::vector<BenchRow> bench_power(const PowerBenchOptions& options,
   for (const std::filesystem::path& path : options.trajectories) {
     for (const std::size_t stride : strides) inputs.emplace_back([=] { return read_input(path, stride); });
   }
-  const auto add_chain = [&](const char* name, const auto& start, double step, double factor) {
+  const auto add = [&](const char* name, const auto& start, double step, int dimension,
+                       std::optional<double> goal) {
     inputs.emplace_back([=] {
-      BenchChain chain{fmt::format("{} {} r", name, step), jostled_frames(start(), step, 9), {}};
+      BenchChain chain{
+          fmt::format("{} {} r", name, step), jostled_frames(start(), step, 9, dimension), {}, dimension};
       chain.radii.assign(static_cast<std::size_t>(chain.frames[0].cols()), 1.0);
-      return Input(std::move(chain), 1 / factor);
+      return Input(std::move(chain), goal);
     });
+  };
+  const auto add_chain = [&](const char* name, const auto& start, double step, double factor) {
+    add(name, start, step, 3, 1 / factor);
   };
   for (const std::size_t beads : options.sizes) {
     const auto chain = [=] { return model_at_rest("random-chain", beads); };
@@ -122,6 +136,11 @@ std::vector<BenchRow> bench_power(const PowerBenchOptions& options,
     add_chain("random-chain", chain, 0.1, 4);
     add_chain("grid jitter 0.5 r", grid(0.5), 0.1, 2.2);
     add_chain("grid jitter 0.05 r", grid(0.05), 0.1, 2.2);  // nearly cubes: many balls on one sphere
+    add(
+        "planar grid jitter 0.5 r", [=] { return model_at_rest("grid", beads, 0.5, 2); }, 0.1, 2,
+        std::nullopt);
+    add(
+        "planar spiral", [=] { return planar_spiral(beads); }, 0.01, 2, std::nullopt);
   }
   std::vector<BenchRow> rows;
   std::size_t done = 0;

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "experiments/program/result_json.h"
 
 namespace kds {
@@ -46,13 +50,25 @@ std::string bench_csv(std::span<const BenchRow> rows) {
 }
 
 std::string bench_table(std::span<const BenchRow> rows) {
-  std::string text = fmt::format("{:<24} {:<30} {:>7} {:>9} {:<9} {:>9} {:>8} {:>8}  {:<5} {}\n", "name",
-                                 "input", "n", "value", "unit", "peer", "ratio", "goal", "holds", "peer is");
+  std::vector<std::array<std::string, 10>> lines{
+      {"name", "input", "n", "value", "unit", "peer", "ratio", "goal", "holds", "peer is"}};
   for (const BenchRow& row : rows) {
     const auto holds = row.holds();
-    text += fmt::format("{:<24} {:<30} {:>7} {:>9} {:<9} {:>9} {:>8} {:>8}  {:<5} {}\n", row.name, row.input,
-                        row.n, figure(row.value), row.unit, figure(row.peer_value), figure(row.ratio()),
-                        figure(row.goal), holds ? (*holds ? "yes" : "no") : "-", row.peer);
+    lines.push_back({row.name, row.input, fmt::format("{}", row.n), figure(row.value), row.unit,
+                     figure(row.peer_value), figure(row.ratio()), figure(row.goal),
+                     holds ? (*holds ? "yes" : "no") : "-", row.peer});
+  }
+  constexpr std::string_view alignment = "<<>><>>><<";
+  std::array<std::size_t, alignment.size()> widths{};
+  for (const auto& line : lines)
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  std::string text;
+  for (const auto& line : lines) {
+    std::string printed;
+    for (std::size_t i = 0; i < line.size(); ++i)
+      printed += alignment[i] == '<' ? fmt::format("{:<{}}  ", line[i], widths[i])
+                                     : fmt::format("{:>{}}  ", line[i], widths[i]);
+    text += printed.substr(0, printed.find_last_not_of(' ') + 1) + "\n";
   }
   return text;
 }

@@ -2,15 +2,15 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <stdexcept>
-#include <system_error>
+
+#include "experiments/program/output_error.h"
 
 namespace kds {
 
 void print_to_stdout(const std::string& text) {
   errno = 0;
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
-  throw std::runtime_error("cannot write to standard output: " + std::generic_category().message(errno));
+  fail_to_write("cannot write to standard output", errno);
 }
 
 }  // namespace kds

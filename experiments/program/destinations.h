@@ -13,7 +13,7 @@ struct Destinations {
   bool quiet = false;
 };
 
-/// Throws std::runtime_error where standard output is closed or full.
+/// Throws OutputError where standard output is closed or full.
 void print_to_stdout(const std::string& text);
 
 }  // namespace kds

@@ -1,9 +1,11 @@
 #include "experiments/program/input_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "experiments/program/option_values.h"
+#include "experiments/program/text.h"
 
 namespace kds {
 
@@ -27,6 +29,24 @@ std::string parse_radius(const std::string& rule) {
       fmt::format("--radius: '{}' is not auto, a positive number, element, element:fit or file:PATH", rule));
 }
 
+// Chains are for all inputs, or for each its own.
+void check_chains(const std::string& chains, std::size_t inputs) {
+  const std::vector<std::string> lists = split(chains, '/');
+  if (lists.size() > 1 && lists.size() != inputs)
+    throw InputError(fmt::format("--chain: '{}' is for {} INPUTs, given {} {}", chains, lists.size(), inputs,
+                                 inputs == 1 ? "is" : "are"));
+  for (const std::string& list : lists) {
+    if (list.empty() && lists.size() > 1) continue;  // the default chain of that input
+    const std::vector<std::string> names = split(list, ',');
+    for (const std::string& name : names) {
+      if (name.empty())
+        throw InputError(fmt::format("--chain: '{}' leaves a name empty; expected names as in A,B", chains));
+      if (std::count(names.begin(), names.end(), name) > 1)
+        throw InputError(fmt::format("--chain: {} is listed twice in '{}'", name, list));
+    }
+  }
+}
+
 void check_exists(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError(fmt::format("{}: no such file", path.string()));
@@ -47,9 +67,19 @@ InputOptions parse_input_options(const ParsedArguments& parsed, std::string_view
   options.reading.topology = path_of(parsed, "--topology");
   options.reading.selection = chosen(parsed, "--select", kSelections).value_or(Selection::automatic);
   options.reading.chain = parsed.value("--chain");
+  if (options.reading.chain) check_chains(*options.reading.chain, options.inputs.size());
   if (const auto range = parsed.value("--frames")) options.reading.frames = parse_frame_range(*range);
   if (const auto rule = parsed.value("--radius")) options.radius = parse_radius(*rule);
   return options;
+}
+
+ReadOptions reading_of(const InputOptions& options, std::size_t input) {
+  ReadOptions reading = options.reading;
+  if (!reading.chain) return reading;
+  const std::vector<std::string> lists = split(*reading.chain, '/');
+  const std::string& own = lists.size() == 1 ? lists.front() : lists.at(input);
+  reading.chain = own.empty() ? std::nullopt : std::optional(own);
+  return reading;
 }
 
 void check_inputs_exist(const InputOptions& options) {

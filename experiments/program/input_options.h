@@ -14,7 +14,7 @@ namespace kds {
 
 struct InputOptions {
   std::vector<std::filesystem::path> inputs;
-  ReadOptions reading;  ///< --topology, --select, --chain, --frames
+  ReadOptions reading;  ///< --topology, --select, --chain (as given, of all inputs), --frames
   std::string radius = "auto";
 };
 
@@ -23,7 +23,9 @@ inline constexpr std::array kInputOptions{
                "PDB or mmCIF that names the atoms of a DCD (default: its atoms are the beads)"},
     OptionSpec{"--select", "NAME",
                "backbone (N, CA, C), ca or all (default: backbone where residues are known)"},
-    OptionSpec{"--chain", "ID", "the chain to read (default: the first polymer chain)"},
+    OptionSpec{"--chain", "IDS",
+               "the chain to read, or several, a necklace each: A,B; for each INPUT its own: A,B/C"
+               " (default: the first polymer chain)"},
     OptionSpec{"--frames", "RANGE", "FIRST:LAST:STRIDE, from 0, LAST excluded (default: all)"},
     OptionSpec{"--radius", "RULE", "auto, a number, element, element:fit or file:PATH (default: auto)"},
 };
@@ -33,6 +35,9 @@ inline constexpr std::string_view kInputHelp =
 
 /// `command` as in kds run. Throws InputError naming the option; opens no file.
 [[nodiscard]] InputOptions parse_input_options(const ParsedArguments& parsed, std::string_view command);
+
+/// How the input of this number is to be read: with its own chains.
+[[nodiscard]] ReadOptions reading_of(const InputOptions& options, std::size_t input);
 
 /// Throws InputError where an input or the topology is no file.
 void check_inputs_exist(const InputOptions& options);

@@ -4,20 +4,18 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
-#include <string>
+#include <locale>
 #include <system_error>
 #include <utility>
 
+#include "experiments/program/output_error.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string reason(int error) { return std::generic_category().message(error); }
 
 fs::path directory_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
@@ -30,39 +28,36 @@ bool is_device(const fs::path& path) {
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
-// A new empty file in the directory; on failure errno tells why and the path is empty.
-fs::path make_temporary(const fs::path& directory) {
-  static std::atomic<unsigned> counter{0};
+// The deepest part of the path that exists.
+fs::path existing_part(const fs::path& path, const std::string& subject) {
+  fs::path part = path;
   for (;;) {
-    fs::path name = directory / fmt::format(".kds-{}-{}.part", ::getpid(), counter++);
-    const int file = ::open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-    if (file >= 0) {
-      ::close(file);
-      return name;
-    }
-    if (errno != EEXIST) return {};
+    std::error_code error;
+    const fs::file_status status = fs::status(part.empty() ? "." : part, error);
+    if (fs::exists(status)) return part.empty() ? "." : part;
+    if (status.type() != fs::file_type::not_found) fail_to_write(subject, error.value());
+    part = part.parent_path();
   }
 }
 
 void probe(const fs::path& directory, const std::string& subject) {
-  const fs::path temporary = make_temporary(directory);
-  if (temporary.empty()) throw InputError(fmt::format("{}: {}", subject, reason(errno)));
-  std::error_code ignored;
-  fs::remove(temporary, ignored);
+  const Part trial(directory, Part::Kind::file, subject);
 }
 
 }  // namespace
 
-void ensure_directory(const fs::path& path, std::string_view option) {
+void check_directory(const fs::path& path, std::string_view option,
+                     std::initializer_list<std::string_view> names) {
+  const std::string place = fmt::format("{} {}", option, path.string());
+  const fs::path there = existing_part(path, place + ": cannot make the directory");
   std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (fs::exists(status) && !fs::is_directory(status))
-    throw InputError(fmt::format("{} {}: is a file, expected a directory", option, path.string()));
-  fs::create_directories(path, error);
-  if (error)
-    throw InputError(
-        fmt::format("{} {}: cannot make the directory: {}", option, path.string(), error.message()));
-  probe(path, fmt::format("{} {}: cannot write there", option, path.string()));
+  if (!fs::is_directory(there, error))
+    throw InputError(fmt::format("{}: {}is a file, expected a directory", place,
+                                 there == path ? "" : there.string() + " "));
+  probe(there, fmt::format("{}: cannot write {}", place, there == path ? "there" : "in " + there.string()));
+  for (const std::string_view name : names)
+    if (fs::is_directory(path / name, error))
+      throw InputError(fmt::format("{} {}: is a directory, expected a file", option, (path / name).string()));
 }
 
 void ensure_writable_file(const fs::path& path, std::string_view option) {
@@ -77,39 +72,37 @@ void ensure_writable_file(const fs::path& path, std::string_view option) {
   probe(directory, fmt::format("{} {}: cannot write", option, path.string()));
 }
 
-AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)) {
+AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)), stream_(nullptr) {
   std::error_code ignored;
   if (fs::is_directory(path_, ignored))
     throw InputError(fmt::format("{}: is a directory, expected a file", path_.string()));
-  if (!is_device(path_)) {
-    temporary_ = make_temporary(directory_of(path_));
-    if (temporary_.empty())
-      throw InputError(fmt::format("{}: cannot write: {}", path_.string(), reason(errno)));
-    unfinished_.emplace(temporary_.string());
+  if (is_device(path_)) {
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail_to_write(subject(), errno);
+  } else {
+    clear_stale_parts(directory_of(path_));
+    part_.emplace(directory_of(path_), Part::Kind::file, subject());
   }
-  stream_.open(temporary_.empty() ? path_ : temporary_, std::ios::binary);
+  buffer_.emplace(part_ ? part_->descriptor() : descriptor_);
+  stream_.rdbuf(&*buffer_);
   stream_.imbue(std::locale::classic());
 }
 
 AtomicFile::~AtomicFile() {
-  if (temporary_.empty()) return;
-  stream_.close();
-  std::error_code ignored;
-  fs::remove(temporary_, ignored);
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void AtomicFile::check() const {
+  if (buffer_->error() != 0) fail_to_write(subject(), buffer_->error());
 }
 
 void AtomicFile::commit() {
-  errno = 0;
-  stream_.close();
-  if (!stream_)
-    throw InputError(
-        fmt::format("{}: cannot write: {}", path_.string(), errno == 0 ? "output failed" : reason(errno)));
-  if (temporary_.empty()) return;
-  std::error_code error;
-  fs::rename(temporary_, path_, error);
-  if (error) throw InputError(fmt::format("{}: cannot write: {}", path_.string(), error.message()));
-  temporary_.clear();
-  unfinished_.reset();
+  buffer_->pubsync();
+  check();
+  // Some file systems tell only here that there is no room; the file itself stays open, and locked.
+  const int copy = ::dup(part_ ? part_->descriptor() : descriptor_);
+  if (copy >= 0 && ::close(copy) != 0) fail_to_write(subject(), errno);
+  if (part_) part_->become(path_, subject());
 }
 
 void write_file_atomically(const fs::path& path, std::string_view content) {

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 
+#include "experiments/program/made_directories.h"
 #include "experiments/program/output_files.h"
 #include "experiments/program/taken_paths.h"
 
@@ -17,13 +19,14 @@ void check_table_destinations(const Destinations& destinations, const std::strin
 
   if (json_file) ensure_writable_file(*destinations.json, "--json");
   if (!destinations.out) return;
-  ensure_directory(*destinations.out, "--out");
-  for (const std::string& file : files) ensure_writable_file(*destinations.out / file, "--out");
+  check_directory(*destinations.out, "--out", {files[0], files[1]});
 }
 
 void deliver_table(const Destinations& destinations, const std::string& name, const TableResults& results) {
   const bool json_on_stdout = destinations.json == "-";
+  std::optional<MadeDirectories> made;
   if (destinations.out) {
+    made.emplace(*destinations.out, "--out");
     write_file_atomically(*destinations.out / (name + ".json"), results.json);
     write_file_atomically(*destinations.out / (name + ".csv"), results.csv);
   }

@@ -2,23 +2,36 @@
 
 #include <unistd.h>
 
-#include <array>
-#include <atomic>
 #include <csignal>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 namespace kds {
+
+// Entries are never freed, so that the handler may walk the list at any moment; a null path is nobody's.
+struct UnfinishedFile::Entry {
+  std::atomic<const char*> path{nullptr};
+  Entry* next = nullptr;
+};
+
 namespace {
 
-// All that a signal handler may look at. A run writes one log and one other file at a time.
-constexpr std::size_t kSlots = 16;
-std::array<std::atomic<const char*>, kSlots> unfinished{};
-static_assert(std::atomic<const char*>::is_always_lock_free);
+using Entry = UnfinishedFile::Entry;
+
+std::atomic<Entry*> all_entries{nullptr};
+static_assert(std::atomic<Entry*>::is_always_lock_free && std::atomic<const char*>::is_always_lock_free);
 
 extern "C" void remove_unfinished_and_end(int signal) {
-  for (const auto& slot : unfinished)
-    if (const char* path = slot.load()) ::unlink(path);
+  for (const Entry* entry = all_entries.load(); entry != nullptr; entry = entry->next)
+    if (const char* path = entry->path.load()) ::unlink(path);
+  for (bool removed = true; removed;) {  // a folder is empty once the folders in it are gone
+    removed = false;
+    for (const Entry* entry = all_entries.load(); entry != nullptr; entry = entry->next) {
+      const char* path = entry->path.load();
+      if (path != nullptr && ::rmdir(path) == 0) removed = true;
+    }
+  }
   ::raise(signal);  // its default action, restored by SA_RESETHAND
 }
 
@@ -32,23 +45,34 @@ void handle_signals() {
   }
 }
 
-std::size_t take_slot(const char* path) {
-  for (std::size_t slot = 0; slot < kSlots; ++slot) {
-    const char* nobody = nullptr;
-    if (unfinished[slot].compare_exchange_strong(nobody, path)) return slot;
+std::mutex free_entries_mutex;
+std::vector<Entry*> free_entries;
+
+Entry* take_entry(const char* path) {
+  const std::lock_guard lock(free_entries_mutex);
+  if (free_entries.empty()) {
+    Entry* const entry = new Entry;
+    entry->next = all_entries.load();
+    all_entries.store(entry);
+    free_entries.push_back(entry);
   }
-  return kSlots;  // all taken: this one would stay behind
+  Entry* const entry = free_entries.back();
+  free_entries.pop_back();
+  entry->path.store(path);
+  return entry;
 }
 
 }  // namespace
 
-UnfinishedFile::UnfinishedFile(std::string path) : path_(std::move(path)), slot_(take_slot(path_.c_str())) {
+UnfinishedFile::UnfinishedFile(std::string path) : path_(std::move(path)), entry_(take_entry(path_.c_str())) {
   static std::once_flag once;
   std::call_once(once, handle_signals);
 }
 
 UnfinishedFile::~UnfinishedFile() {
-  if (slot_ < kSlots) unfinished[slot_].store(nullptr);
+  const std::lock_guard lock(free_entries_mutex);
+  entry_->path.store(nullptr);
+  free_entries.push_back(entry_);
 }
 
 }  // namespace kds

@@ -1,12 +1,13 @@
 #pragma once
-// A file being written, which must not stay behind if the user stops the program.
+// A file or folder in the making, which must not stay behind if the user stops the program.
 
-#include <cstddef>
+#include <atomic>
 #include <string>
 
 namespace kds {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP remove the file of that name before they end the program.
+/// While it lives, SIGINT, SIGTERM and SIGHUP remove the file of that name before they end the program; a
+/// folder too, if it is empty then.
 class UnfinishedFile {
  public:
   explicit UnfinishedFile(std::string path);
@@ -14,9 +15,11 @@ class UnfinishedFile {
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
 
+  struct Entry;  ///< of the list that the signal handler walks
+
  private:
   std::string path_;
-  std::size_t slot_;
+  Entry* entry_;
 };
 
 }  // namespace kds

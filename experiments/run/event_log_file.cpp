@@ -88,6 +88,7 @@ void EventLogWriter::on_event(const KineticStructure& structure, const LoggedEve
   file_.stream() << fmt::format("{} {} {} {} {} {}\n", event.step, structure.name(),
                                 structure.kinds()[change.kind].name, event.lower, event.upper,
                                 fmt::join(change.ids.begin(), change.ids.begin() + change.size, " "));
+  file_.check();
   ++events_;
 }
 

@@ -75,28 +75,31 @@ std::string table(const RunReport& report) {
 
 std::string plots_over_time(const RunReport& report) {
   const std::size_t width = bin_width(step_count(report), kMostBins);
-  LinePlot rate{"rate", "frame", "events per frame", true, {}};
+  LinePlot rate{"rate", "frame", "events per step", true, {}};
   LinePlot sum{"sum", "frame", "events so far", false, {}};
   for (const StructureReport& structure : report.structures) {
-    Curve per_frame{structure.name, {}}, so_far{structure.name, {{0.0, 0.0}}};
+    const auto place = [&](std::size_t frame) { return static_cast<double>(frame_number(report, frame)); };
+    Curve per_step{structure.name, {}}, so_far{structure.name, {{place(0), 0.0}}};
     for (const EventBin& bin : bin_events(structure.events_per_step, width)) {
-      const double first = static_cast<double>(bin.first_step), steps = static_cast<double>(bin.steps);
-      const double mean = static_cast<double>(bin.events) / steps;
-      if (!per_frame.points.empty()) per_frame.points.pop_back();
-      per_frame.points.insert(per_frame.points.end(),
-                              {{first, mean}, {first + steps, mean}});  // to the bin's end
-      so_far.points.emplace_back(first + steps, static_cast<double>(bin.cumulative));
+      const double first = place(bin.first_step), end = place(bin.first_step + bin.steps);
+      const double mean = static_cast<double>(bin.events) / static_cast<double>(bin.steps);
+      if (!per_step.points.empty()) per_step.points.pop_back();
+      per_step.points.insert(per_step.points.end(), {{first, mean}, {end, mean}});
+      so_far.points.emplace_back(end, static_cast<double>(bin.cumulative));
     }
-    rate.curves.push_back(std::move(per_frame));
+    rate.curves.push_back(std::move(per_step));
     sum.curves.push_back(std::move(so_far));
   }
   std::string rate_caption = "Events between each frame and the next.",
               sum_caption = "Events since the first frame.";
   if (width > 1) {
     rate_caption =
-        fmt::format("Events between a frame and the next, each point the mean over {} frames.", width);
-    sum_caption += fmt::format(" One point for {} frames.", width);
+        fmt::format("Events between a frame and the next, each point the mean over {} steps.", width);
+    sum_caption += fmt::format(" One point for {} steps.", width);
   }
+  if (report.times.size() > 1)
+    sum_caption += fmt::format(" The frames are those from {:.6g} to {:.6g} ps.", report.times.front(),
+                               report.times.back());
   return html_figure(svg_plot(rate), rate_caption) + html_figure(svg_plot(sum), sum_caption);
 }
 

@@ -31,10 +31,11 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
 std::vector<Trajectory> read_necklaces(const InputOptions& options,
                                        const std::function<void(const std::string&)>& warn) {
   std::vector<Trajectory> necklaces;
-  for (const auto& input : options.inputs) {
-    necklaces.push_back(read_trajectory(input, options.reading));
-    for (const std::string& warning : necklaces.back().warnings) warn(warning);
-  }
+  for (std::size_t i = 0; i < options.inputs.size(); ++i)
+    for (Trajectory& necklace : read_trajectories(options.inputs[i], reading_of(options, i))) {
+      for (const std::string& warning : necklace.warnings) warn(warning);
+      necklaces.push_back(std::move(necklace));
+    }
   return necklaces;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "experiments/program/warnings.h"
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/parse_run_options.h"
@@ -47,7 +48,8 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
                         const std::function<void(const std::string&)>& warn) {
   const EventLog log = read_event_log(path);
   const RunOptions options = options_of(log, path);
-  const Scene scene = load_scene(options, warn);
+  HeldWarnings warnings;
+  const Scene scene = load_scene(options, warnings.hold());
   if (scene.bead_count() != log.beads || scene.step_count() != log.steps) {
     throw InputError(fmt::format("{}: the inputs have {} beads and {} steps, the log tells of {} and {}",
                                  path.string(), scene.bead_count(), scene.step_count(), log.beads,
@@ -78,6 +80,7 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
   }
 
   simulator.build_for_replay();
+  warnings.release(warn);
   for (std::size_t step = 0; step < steps.size(); ++step) {
     session->load(step);
     try {

@@ -37,6 +37,11 @@ Json run_json(const RunReport& report) {
   json["input"] = {{"files", report.files},           {"beads", report.beads},
                    {"frames", report.frames},         {"dimension", report.dimension},
                    {"radius_min", report.radius_min}, {"radius_max", report.radius_max}};
+  if (!report.frame_numbers.empty()) {
+    json["input"]["first_frame"] = report.frame_numbers.front();
+    json["input"]["last_frame"] = report.frame_numbers.back();
+  }
+  if (!report.times.empty()) json["input"]["picoseconds"] = {report.times.front(), report.times.back()};
   json["settings"] = Json::object();
   for (const auto& [name, value] : report.settings) json["settings"][name] = value;
   json["structures"] = Json::object();

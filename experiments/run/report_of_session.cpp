@@ -56,6 +56,8 @@ RunReport report_of(Session& session, const Scene& scene, const RunOptions& opti
   for (const auto& input : options.inputs) report.files.push_back(input.string());
   report.beads = scene.bead_count();
   report.frames = scene.frame_count();
+  for (std::size_t k = 0; k < scene.frame_count(); ++k) report.frame_numbers.push_back(scene.frame_number(k));
+  report.times = scene.times();
   report.dimension = scene.dimension();
   const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
   report.radius_min = *least;

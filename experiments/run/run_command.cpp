@@ -33,7 +33,7 @@ void check_before_run(const RunOptions& options, const Destinations& destination
   check_apart(options, destinations);
   check_destinations(destinations);
   if (options.log) ensure_writable_file(*options.log, "--log");
-  if (options.dump) ensure_directory(*options.dump, "--dump");
+  if (options.dump) check_directory(*options.dump, "--dump");
 }
 
 }  // namespace

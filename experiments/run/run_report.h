@@ -28,6 +28,8 @@ struct StructureReport {
 struct RunReport {
   std::vector<std::string> files;
   std::uint64_t beads = 0, frames = 0;
+  std::vector<std::size_t> frame_numbers;  ///< of the file, one a frame
+  std::vector<double> times;               ///< of the frames, in picoseconds; empty where the file has none
   int dimension = 3;
   double radius_min = 0, radius_max = 0;
   std::vector<std::pair<std::string, std::string>>

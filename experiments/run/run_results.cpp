@@ -1,8 +1,11 @@
 #include "experiments/run/run_results.h"
 
 #include <filesystem>
+#include <optional>
 
 #include "experiments/program/gnuplot.h"
+#include "experiments/program/made_directories.h"
+#include "experiments/program/output_error.h"
 #include "experiments/program/output_files.h"
 #include "experiments/run/events_csv.h"
 #include "experiments/run/html_report.h"
@@ -13,9 +16,7 @@ void check_destinations(const Destinations& destinations) {
   if (destinations.json && *destinations.json != "-") ensure_writable_file(*destinations.json, "--json");
   if (!destinations.out) return;
   require_gnuplot("--out");
-  ensure_directory(*destinations.out, "--out");
-  for (const char* name : {"summary.json", "events.csv", "report.html"})
-    ensure_writable_file(*destinations.out / name, "--out");
+  check_directory(*destinations.out, "--out", {"summary.json", "events.csv", "report.html"});
 }
 
 void deliver(const Destinations& destinations, const RunReport& report, const std::string& json,
@@ -23,7 +24,9 @@ void deliver(const Destinations& destinations, const RunReport& report, const st
   const bool json_on_stdout = destinations.json == "-";
   const bool table_on_stdout = !destinations.quiet && !json_on_stdout;
   // The figures first: should the plots fail, they are safe.
+  std::optional<MadeDirectories> made;
   if (destinations.out) {
+    made.emplace(*destinations.out, "--out");
     write_file_atomically(*destinations.out / "summary.json", json);
     write_file_atomically(*destinations.out / "events.csv", events_csv(report));
   }

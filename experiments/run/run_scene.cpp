@@ -4,8 +4,9 @@
 
 #include <optional>
 
-#include "experiments/program/output_files.h"
+#include "experiments/program/staged_files.h"
 #include "experiments/program/text.h"
+#include "experiments/program/warnings.h"
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/make_session_of.h"
@@ -13,14 +14,31 @@
 #include "experiments/run/run_settings.h"
 #include "experiments/run/session.h"
 #include "kds/audit.h"
+#include "motions/base/input_error.h"
 
 namespace kds {
 
 namespace {
 
-void write_dump(const std::filesystem::path& directory, std::size_t frame, Session& session) {
-  for (const DumpFile& file : session.dump(frame)) {
-    write_file_atomically(directory / fmt::format("frame-{}.{}", frame, file.ending), file.text);
+void write_dump(std::optional<StagedFiles>& dumps, std::size_t frame, Session& session) {
+  if (!dumps) return;
+  for (const DumpFile& file : session.dump(frame))
+    dumps->write(fmt::format("frame-{}.{}", frame, file.ending), file.text);
+}
+
+// Structures count steps from 0: the message says which frames of the file these are.
+void run_step(Session& session, const Scene& scene, std::size_t step, const RunOptions& options) {
+  const auto named = [&](const char* message) {
+    return fmt::format("{} (step {} leads from frame {} to frame {})", message, step,
+                       scene.frame_number(step), scene.frame_number(step + 1));
+  };
+  try {
+    session.simulator().run_step(step + 1 == scene.step_count());
+  } catch (const AuditError& error) {
+    throw AuditError(fmt::format("{}\nto see it again: kds run {}", named(error.what()),
+                                 shell_words(option_arguments(options))));
+  } catch (const InputError& error) {
+    throw InputError(named(error.what()));
   }
 }
 
@@ -28,29 +46,28 @@ void write_dump(const std::filesystem::path& directory, std::size_t frame, Sessi
 
 RunReport run_scene(const RunOptions& options, const Progress& progress,
                     const std::function<void(const std::string&)>& warn) {
-  const Scene scene = load_scene(options, warn);
+  HeldWarnings warnings;
+  const Scene scene = load_scene(options, warnings.hold());
   const auto session = make_session(scene, session_options(options, scene, options.audit));
   if (scene.degree() > highest_filtered_degree)
-    warn(fmt::format("motions of degree {}: all is decided in whole numbers, as with --kernel exact",
-                     scene.degree()));
+    warnings.hold()(fmt::format(
+        "motions of degree {}: all is decided in whole numbers, as with --kernel exact", scene.degree()));
   std::optional<EventLogWriter> log;
   if (options.log) {
     log.emplace(*options.log, options, scene);
     session->simulator().listen(*log);
   }
 
+  std::optional<StagedFiles> dumps;
+  if (options.dump) dumps.emplace(*options.dump, "--dump");
   session->load(0);
   session->simulator().build();
-  if (options.dump) write_dump(*options.dump, 0, *session);
+  warnings.release(warn);
+  write_dump(dumps, 0, *session);
   for (std::size_t step = 0; step < scene.step_count(); ++step) {
     session->load(step);
-    try {
-      session->simulator().run_step(step + 1 == scene.step_count());
-    } catch (const AuditError& error) {
-      throw AuditError(fmt::format("{}\nto see it again: kds run {}", error.what(),
-                                   shell_words(option_arguments(options))));
-    }
-    if (options.dump) write_dump(*options.dump, step + 1, *session);
+    run_step(*session, scene, step, options);
+    write_dump(dumps, step + 1, *session);
     progress(step + 1, scene.step_count());
   }
 
@@ -60,6 +77,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
     session->time_static_builds(frame, static_seconds);
   for (std::size_t s = 0; s < report.structures.size(); ++s)
     report.structures[s].static_seconds = static_seconds[s];
+  if (dumps) dumps->commit();
   if (log) log->commit(report.fingerprint);
   return report;
 }

@@ -94,6 +94,18 @@ std::string ratio(const StructureReport& structure) {
   return structure.static_seconds > 0 ? short_decimal(structure.seconds / structure.static_seconds) : "-";
 }
 
+// Where they are not simply the first of a file, or their times are known.
+std::string which_frames(const RunReport& report) {
+  if (report.frame_numbers.empty()) return "";
+  const std::size_t first = report.frame_numbers.front(), last = report.frame_numbers.back();
+  std::string text;
+  if (last + 1 != report.frames) text = fmt::format("{} to {}", first, last);
+  if (!report.times.empty())
+    text += fmt::format("{}{:.6g} to {:.6g} ps", text.empty() ? "" : ", ", report.times.front(),
+                        report.times.back());
+  return text.empty() ? text : fmt::format(" ({})", text);
+}
+
 }  // namespace
 
 std::string kind_label(const std::string& kind) { return kind == "wander" ? kind + " (internal)" : kind; }
@@ -102,7 +114,7 @@ std::vector<SummaryRow> summary_rows(const RunReport& report) {
   std::vector<SummaryRow> rows;
   rows.push_back(row(report, "events", false, count(&StructureReport::events_total)));
   add_kinds(rows, report);
-  rows.push_back(row(report, "events per frame", false, per_step));
+  rows.push_back(row(report, "events per step", false, per_step));
   rows.push_back(row(report, "certificates created", false, count(&StructureReport::created)));
   rows.push_back(row(report, "never failing", true, count(&StructureReport::never_failing)));
   rows.push_back(row(report, "cancelled", true, count(&StructureReport::cancelled)));
@@ -121,17 +133,21 @@ std::vector<SummaryRow> summary_rows(const RunReport& report) {
 }
 
 std::vector<std::pair<std::string, std::string>> input_lines(const RunReport& report) {
-  std::string scene = fmt::format("{} beads, {} frames, dimension {}", with_thousands(report.beads),
-                                  with_thousands(report.frames), report.dimension);
+  std::string scene = fmt::format("{} beads, {} frames{}, dimension {}", with_thousands(report.beads),
+                                  with_thousands(report.frames), which_frames(report), report.dimension);
   scene += report.radius_min == report.radius_max
-               ? fmt::format(", radius {:.4g}", report.radius_min)
-               : fmt::format(", radii {:.4g} to {:.4g}", report.radius_min, report.radius_max);
+               ? fmt::format(", radius {:.6g}", report.radius_min)
+               : fmt::format(", radii {:.6g} to {:.6g}", report.radius_min, report.radius_max);
   std::vector<std::string> settings;
   for (const auto& [name, value] : report.settings)
     if (!value.empty()) settings.push_back(name + " " + value);
   return {{"input", fmt::format("{}", fmt::join(report.files, ", "))},
           {"scene", scene},
           {"settings", fmt::format("{}", fmt::join(settings, ", "))}};
+}
+
+std::size_t frame_number(const RunReport& report, std::size_t frame) {
+  return frame < report.frame_numbers.size() ? report.frame_numbers[frame] : frame;
 }
 
 std::size_t step_count(const RunReport& report) {

@@ -72,7 +72,7 @@ constexpr std::array kModelOptions{
                 [](auto o, auto& t, Settings& s) { s.pitch = parse_real(o, t, {0, 1e6, true}); }, write_real<&Settings::pitch>},
     ModelOption{Setting::gap, {"--gap", "X", "between the rows of a grid, in diameters (default: 0.05)"},
                 [](auto o, auto& t, Settings& s) { s.gap = parse_real(o, t, {0, 0.9}); }, write_real<&Settings::gap>},
-    ModelOption{Setting::dimension, {"--dimension", "D", "of a grid, 2 or 3 (default: 3)"},
+    ModelOption{Setting::dimension, {"--dimension", "D", "of a grid and its motion, 2 or 3 (default: 3)"},
                 [](auto o, auto& t, Settings& s) { s.dimension = static_cast<int>(parse_whole_number(o, t, 2, 3)); },
                 [](const Settings& s) { return fmt::format("{}", *s.dimension); }},
     ModelOption{Setting::jitter, {"--jitter", "X", "how far the beads of a grid are moved at random, in radii (default: 0)"},

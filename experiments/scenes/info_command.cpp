@@ -54,15 +54,17 @@ TableResults describe(const Instance& instance) {
 
 TableResults describe(const InfoOptions& options, ProgressBar& bar) {
   Json warnings = Json::array();
-  const std::vector<Trajectory> necklaces = read_necklaces(options.input, [&](const std::string& warning) {
-    warnings.push_back(warning);
-    print_warning(bar, warning);
-  });
+  HeldWarnings held;
+  const std::vector<Trajectory> necklaces = read_necklaces(options.input, held.hold());
   const std::vector<double> radii = bead_radii(options.input.radius, necklaces);
   const SceneInfo info =
       describe_scene(necklaces, radii, options.validate,
                      [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
   bar.erase();
+  held.release([&](const std::string& warning) {
+    warnings.push_back(warning);
+    print_warning(bar, warning);
+  });
   Json json;
   add_scene(json, info);
   json["settings"] = settings_json(options);

@@ -44,22 +44,21 @@ class Description {
   Description(std::span<const Trajectory> trajectories, std::span<const double> radii)
       : trajectories_(trajectories), radii_(radii) {
     std::size_t beads = 0;
-    const Trajectory* longest = nullptr;
     for (const Trajectory& t : trajectories) {
-      if (longest == nullptr || t.frames.size() > longest->frames.size()) longest = &t;
+      if (longest_ == nullptr || t.frames.size() > longest_->frames.size()) longest_ = &t;
       const auto first = static_cast<BeadId>(beads);
       beads += t.bead_count();
       info_.necklaces.push_back(
           {t.file, {first, static_cast<BeadId>(beads - 1)}, t.frames.size(), {}, {}, t.breaks});
     }
     for (const Trajectory& t : trajectories)
-      if (t.frames.size() != longest->frames.size() && t.frames.size() != 1)
+      if (t.frames.size() != longest_->frames.size() && t.frames.size() != 1)
         throw InputError(fmt::format(
             "{}: {} frames, but {} has {}; necklaces of a scene need equal frame counts (or one frame: at "
             "rest)",
-            t.file, t.frames.size(), longest->file, longest->frames.size()));
+            t.file, t.frames.size(), longest_->file, longest_->frames.size()));
     info_.beads = beads;
-    info_.frames = longest->frames.size();
+    info_.frames = longest_->frames.size();
     info_.radius_min = *std::min_element(radii.begin(), radii.end());
     info_.radius_max = *std::max_element(radii.begin(), radii.end());
     for (const Condition condition : kConditions)
@@ -88,7 +87,7 @@ class Description {
       const Violations& violations = report[info.condition];
       if (violations.count == 0) continue;
       if (info.violations == 0) {
-        info.first_frame = frame;
+        info.first_frame = longest_->frame_number(frame);
         info.first = violations.listed;
         for (const Violation& violation : info.first)
           info.by.push_back(distance_from_holding(necklaces, info.condition, violation));
@@ -103,6 +102,7 @@ class Description {
  private:
   std::span<const Trajectory> trajectories_;
   std::span<const double> radii_;
+  const Trajectory* longest_ = nullptr;
   Eigen::Matrix3Xd centers_;
   SceneInfo info_;
 };

@@ -26,7 +26,7 @@ struct ConditionInfo {
   Condition condition{};
   std::size_t violations = 0;    ///< over all frames
   std::size_t frames = 0;        ///< in which it is violated
-  std::size_t first_frame = 0;   ///< of these, in the run
+  std::size_t first_frame = 0;   ///< of these, by its number in the file
   std::vector<Violation> first;  ///< the first in that frame
   /// How far each is from holding, rounded: a gap or a depth as a length, uniformity as a ratio.
   std::vector<double> by;

@@ -23,6 +23,7 @@ struct Frames {
     for (std::size_t k = 0; k < scene.frame_count(); ++k) {
       centers.push_back(scene.centers(k));
       weights.push_back(scene.weights(k));
+      numbers.push_back(scene.frame_number(k));
     }
     StaticTriangulation<Dimension> before;
     for (std::size_t k = 0; k < centers.size(); ++k) {
@@ -37,6 +38,7 @@ struct Frames {
   std::vector<Eigen::Matrix3Xd> centers;
   std::vector<std::vector<double>> weights;
   std::vector<StaticTriangulation<Dimension>> diagrams;
+  std::vector<std::size_t> numbers;  ///< of the frames in the file
 
  private:
   void compare(const StaticTriangulation<Dimension>& before, const StaticTriangulation<Dimension>& now,
@@ -62,12 +64,17 @@ std::vector<Trajectory> strided(const std::vector<Trajectory>& necklaces, std::s
   for (Trajectory& necklace : some) {
     if (necklace.frames.size() == 1) continue;  // at rest
     std::vector<Eigen::Matrix3Xd> kept;
-    for (std::size_t k = 0; k < necklace.frames.size(); k += stride) kept.push_back(necklace.frames[k]);
+    std::vector<std::size_t> numbers;
+    for (std::size_t k = 0; k < necklace.frames.size(); k += stride) {
+      kept.push_back(necklace.frames[k]);
+      numbers.push_back(necklace.frame_number(k));
+    }
     if (kept.size() < 2)
       throw InputError(fmt::format("--strides: {} leaves one of the {} frames of {}; expected two or more",
                                    stride, necklace.frames.size(), necklace.file));
     necklace.frames = std::move(kept);
-    necklace.frame_numbers.clear();
+    necklace.frame_numbers = std::move(numbers);
+    necklace.times.clear();
   }
   return some;
 }
@@ -136,7 +143,7 @@ class Comparison {
         ++row.audits;
         audit_update<Dimension>(
             update->diagram(), frames_.diagrams[k], [&] { return update->fault(); },
-            fmt::format("{} at stride {}, frame {} of those left", row.technique, row.task.stride, k));
+            fmt::format("{} at stride {}, frame {}", row.technique, row.task.stride, frames_.numbers[k]));
       }
     }
     if (!first) return seconds;

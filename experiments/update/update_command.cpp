@@ -65,20 +65,22 @@ int update_command(const Arguments& arguments) {
   taken.read(options.input);
   if (options.out) taken.write("--out", *options.out / "report.html");
   check_table_destinations(destinations, kName, taken);
-  if (options.out) ensure_writable_file(*options.out / "report.html", "--out");
+  if (options.out) check_directory(*options.out, "--out", {"report.html"});
 
   ProgressBar bar(!options.quiet);
   if (const auto instance = read_lone_instance(options.input))
     throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
   Json warnings = Json::array();
-  const std::vector<Trajectory> necklaces = read_necklaces(options.input, [&](const std::string& warning) {
-    warnings.push_back(warning);
-    print_warning(bar, warning);
-  });
+  HeldWarnings held;
+  const std::vector<Trajectory> necklaces = read_necklaces(options.input, held.hold());
   const std::vector<double> radii = bead_radii(options.input.radius, necklaces);
   const std::vector<UpdateRow> rows = compare_updates(
       necklaces, radii, options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
   bar.erase();
+  held.release([&](const std::string& warning) {
+    warnings.push_back(warning);
+    print_warning(bar, warning);
+  });
 
   Json json;
   json["input"] = input_json(options, necklaces, radii);

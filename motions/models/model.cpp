@@ -34,16 +34,17 @@ Trajectory trajectory(std::string name, std::vector<Shape> frames) {
 
 std::vector<Trajectory> moved(std::string name, const Shape& shape, const Settings& settings,
                               Random& random) {
+  const int dimension = settings.dimension.value_or(3);
   std::vector<Shape> frames;
   switch (*settings.motion) {
     case ShapeMotion::rest:
       frames.assign(settings.frames, shape);
       break;
     case ShapeMotion::rotate:
-      frames = rotating(shape, settings.frames, *settings.step);
+      frames = rotating(shape, settings.frames, *settings.step, dimension);
       break;
     case ShapeMotion::wander:
-      frames = wandering(shape, settings.frames, *settings.step, random);
+      frames = wandering(shape, settings.frames, *settings.step, random, dimension);
       break;
   }
   return {trajectory(std::move(name), std::move(frames))};
@@ -87,7 +88,7 @@ std::vector<Trajectory> make_grid(const Settings& s) {
     throw InputError("--bond: too short to join the rows of a grid; expected more than (1 + gap) / 2");
   Random random(s.seed);
   Shape grid = packed_grid(s.beads, *s.dimension, *s.gap, *s.bond);
-  if (*s.jitter > 0) grid = jittered(std::move(grid), *s.jitter, random);
+  if (*s.jitter > 0) grid = jittered(std::move(grid), *s.jitter, random, *s.dimension);
   return moved("grid", grid, s, random);
 }
 

@@ -16,11 +16,12 @@ class Random {
   /// In [0, 1), a multiple of 2^-53.
   [[nodiscard]] double uniform() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
 
-  /// A unit vector, by rejection from the cube around the ball.
-  [[nodiscard]] Eigen::Vector3d direction() {
+  /// A unit vector whose coordinates from `dimension` on are zero, by rejection from the cube around the
+  /// ball.
+  [[nodiscard]] Eigen::Vector3d direction(int dimension = 3) {
     for (;;) {
-      Eigen::Vector3d d;
-      for (Eigen::Index axis = 0; axis < 3; ++axis) d[axis] = 2 * uniform() - 1;
+      Eigen::Vector3d d = Eigen::Vector3d::Zero();
+      for (Eigen::Index axis = 0; axis < dimension; ++axis) d[axis] = 2 * uniform() - 1;
       const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
       if (square <= 1 && square >= 0x1p-20) return d / std::sqrt(square);
     }

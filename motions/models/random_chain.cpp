@@ -78,10 +78,10 @@ Shape random_chain(std::size_t beads, double fill, Random& random, double bond) 
   return shape;
 }
 
-Shape jittered(Shape shape, double distance, Random& random) {
+Shape jittered(Shape shape, double distance, Random& random, int dimension) {
   for (Eigen::Index bead = 0; bead < shape.cols(); ++bead) {
     const double length = distance * radius * random.uniform();
-    shape.col(bead) += length * random.direction();
+    shape.col(bead) += length * random.direction(dimension);
   }
   return shape;
 }

@@ -13,7 +13,8 @@ namespace kds::models {
 /// InputError where no room is found.
 [[nodiscard]] Shape random_chain(std::size_t beads, double fill, Random& random, double bond = usual_bond);
 
-/// Every bead moved in a random direction, by up to `distance` radii. No condition is kept.
-[[nodiscard]] Shape jittered(Shape shape, double distance, Random& random);
+/// Every bead moved in a random direction, of `dimension` 2 in its plane z = 0, by up to `distance`
+/// radii. No condition is kept.
+[[nodiscard]] Shape jittered(Shape shape, double distance, Random& random, int dimension = 3);
 
 }  // namespace kds::models

@@ -67,9 +67,9 @@ bool keeps_apart(const Shape& before, const Shape& now, const Neighbours& neighb
 
 }  // namespace
 
-std::vector<Shape> rotating(const Shape& shape, std::size_t frames, double step) {
+std::vector<Shape> rotating(const Shape& shape, std::size_t frames, double step, int dimension) {
   const double norm = std::sqrt(14.0);
-  const Vector3d axis{1 / norm, 2 / norm, 3 / norm};
+  const Vector3d axis = dimension == 2 ? Vector3d::UnitZ() : Vector3d{1 / norm, 2 / norm, 3 / norm};
   const Vector3d middle = centroid(shape);
   const auto cross = [&](const Vector3d& v) {
     return Vector3d{axis[1] * v[2] - axis[2] * v[1], axis[2] * v[0] - axis[0] * v[2],
@@ -96,7 +96,8 @@ std::vector<Shape> rotating(const Shape& shape, std::size_t frames, double step)
   return result;
 }
 
-std::vector<Shape> wandering(const Shape& shape, std::size_t frames, double step, Random& random) {
+std::vector<Shape> wandering(const Shape& shape, std::size_t frames, double step, Random& random,
+                             int dimension) {
   constexpr int tries = 20;
   std::vector<Shape> result{shape};
   while (result.size() < frames) {
@@ -105,7 +106,7 @@ std::vector<Shape> wandering(const Shape& shape, std::size_t frames, double step
     Shape now = before;
     for (Index bead = 0; bead < now.cols(); ++bead) {
       for (int n = 0; n < tries; ++n) {
-        const Vector3d place = before.col(bead) + step * radius * random.direction();
+        const Vector3d place = before.col(bead) + step * radius * random.direction(dimension);
         if (!keeps_bonds(before, now, bead, place)) continue;
         if (!keeps_apart(before, now, neighbours, bead, place)) continue;
         now.col(bead) = place;

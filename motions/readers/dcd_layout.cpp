@@ -101,6 +101,23 @@ std::vector<std::uint32_t> free_atoms(const std::string& file, const HeaderReade
   return atoms;
 }
 
+// The header holds the number of frame 0's step, the steps between frames and the length of a step in the
+// unit of CHARMM (AKMA). Programs that do not know the times leave zeros or ones there.
+std::optional<DcdLayout::Times> frame_times(const HeaderReader& reader, const std::vector<char>& header) {
+  constexpr double akma = 0.04888821;  // picoseconds
+  const std::int32_t first = reader.integer(header, 2), steps = reader.integer(header, 3);
+  const char* const place = header.data() + std::size_t{4} * 10;
+  const bool by_xplor = reader.integer(header, 20) == 0;
+  const double length = by_xplor ? reader.layout.number<double>(place)
+                                 : static_cast<double>(reader.layout.number<float>(place));
+  if (first < 0 || steps < 1 || (steps == 1 && length == 1)) return std::nullopt;
+  const double picoseconds = steps * length * akma;
+  if (!(picoseconds >= 1e-6 && picoseconds <= 1e9)) return std::nullopt;  // NaN neither
+  // As many digits as a float has: 0.02 and not 0.0199999996.
+  const double step = *parse_double(fmt::format("{:.6g}", picoseconds));
+  return DcdLayout::Times{step * (static_cast<double>(first) / steps), step};
+}
+
 }  // namespace
 
 FramesHeld DcdLayout::frames_held() const {
@@ -123,6 +140,7 @@ DcdLayout read_dcd_layout(const std::string& file, std::ifstream& stream) {
     layout.has_cell = reader.integer(header, 11) != 0;
     layout.has_fourth = reader.integer(header, 12) != 0;
   }
+  layout.times = frame_times(reader, header);
   (void)reader.record("title");
 
   const std::int64_t atoms = reader.integer(reader.record_of("number of atoms", 4), 0);

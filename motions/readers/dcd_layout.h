@@ -13,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,12 @@ struct DcdLayout {
   bool has_fourth = false;
   std::uint64_t atom_count = 0;
   std::vector<std::uint32_t> free_atoms;  ///< from 0; empty: none is fixed
-  std::uint64_t frames_begin = 0;         ///< byte of the file
+  /// Of frame 0, and from each frame to the next, in picoseconds; none where the header cannot be right.
+  struct Times {
+    double first = 0, step = 0;
+  };
+  std::optional<Times> times;
+  std::uint64_t frames_begin = 0;  ///< byte of the file
   std::uint64_t file_size = 0;
 
   [[nodiscard]] std::uint64_t atoms_in_frame(std::size_t k) const {

@@ -105,6 +105,8 @@ class DcdFile {
 struct Beads {
   std::vector<std::size_t> atoms;
   std::vector<double> element_radii;
+  std::vector<ChainRead> chains;
+  std::optional<std::string> unread;  ///< a line about chains of the file that are not read
 };
 
 Beads all_beads(std::uint64_t atom_count) {
@@ -132,6 +134,7 @@ Beads choose_beads(const std::string& file, const ReadOptions& options, std::uin
   Beads beads;
   if (topology.atom_count == atom_count) {
     beads.atoms = std::move(topology.selected);
+    beads.unread = std::move(topology.unread);
   } else if (topology.selected.size() == atom_count) {
     beads = all_beads(atom_count);
   } else {
@@ -140,6 +143,7 @@ Beads choose_beads(const std::string& file, const ReadOptions& options, std::uin
                                  topology.selected.size()));
   }
   beads.element_radii = std::move(topology.element_radii);
+  beads.chains = std::move(topology.chains);
   return beads;
 }
 
@@ -201,8 +205,14 @@ FramesRead read_dcd(const std::filesystem::path& path, const ReadOptions& option
   trajectory.frame_numbers = select_frames(trajectory.file, options.frames, held, trajectory.warnings);
   warn_of_false_count(dcd.layout(), held, trajectory);
 
+  if (const auto& times = dcd.layout().times)
+    for (const std::size_t k : trajectory.frame_numbers)
+      trajectory.times.push_back(times->first + static_cast<double>(k) * times->step);
+
   Beads beads = choose_beads(trajectory.file, options, dcd.layout().atom_count);
   trajectory.element_radii = std::move(beads.element_radii);
+  if (beads.unread) trajectory.warnings.push_back(std::move(*beads.unread));
+  read.chains = std::move(beads.chains);
   Atoms atoms(dcd);
   for (const std::size_t k : trajectory.frame_numbers) {
     trajectory.frames.push_back(atoms.beads(k, beads.atoms));

@@ -42,6 +42,10 @@ std::vector<std::size_t> select_frames(const std::string& file, const FrameRange
     frames.push_back(k);
     if (range.stride >= last - k) break;  // adding so large a stride could wrap around
   }
+  if (const std::size_t behind = last - 1 - frames.back(); behind > 0)
+    warnings.push_back(fmt::format("{}: a stride of {} ends at frame {}; {} behind it {} left out", file,
+                                   range.stride, frames.back(), counted(behind, "frame"),
+                                   behind == 1 ? "is" : "are"));
   return frames;
 }
 

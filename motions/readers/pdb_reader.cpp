@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <gemmi/model.hpp>
+#include <iterator>
+#include <utility>
 
 #include "motions/base/file_ending.h"
 #include "motions/base/input_error.h"
@@ -49,6 +51,30 @@ void check_same_atoms(const std::string& file, std::size_t first_frame,
                                  atoms.size(), expected.size(), first_frame));
 }
 
+struct SelectedChains {
+  std::vector<SelectedAtom> atoms;
+  std::vector<ChainRead> chains;
+};
+
+SelectedChains select_chains(const std::string& place, const gemmi::Model& model, Selection selection,
+                             const std::optional<std::string>& list) {
+  SelectedChains selected;
+  for (const std::string& chain : chains_asked_for(place, model, list)) {
+    std::vector<SelectedAtom> atoms = select_polymer_atoms(place, model, selection, chain);
+    selected.chains.push_back({chain, atoms.size()});
+    std::move(atoms.begin(), atoms.end(), std::back_inserter(selected.atoms));
+  }
+  return selected;
+}
+
+// Who names chains knows the others.
+std::optional<std::string> unread_chains(const std::string& file, const gemmi::Model& model,
+                                         Selection selection, const std::optional<std::string>& list,
+                                         const SelectedChains& selected) {
+  if (list) return std::nullopt;
+  return describe_unread_chains(file, model, selected.chains.front().name, selection);
+}
+
 }  // namespace
 
 bool is_structure_file(const std::filesystem::path& path) {
@@ -69,11 +95,14 @@ FramesRead read_structure(const std::filesystem::path& path, const ReadOptions& 
     const gemmi::Model model = models->model(k);
     const std::string place =
         held.whole == 1 ? trajectory.file : fmt::format("{}: frame {}", trajectory.file, k);
-    const std::vector<SelectedAtom> atoms =
-        select_polymer_atoms(place, model, options.selection, options.chain);
+    SelectedChains selected = select_chains(place, model, options.selection, options.chain);
+    const std::vector<SelectedAtom>& atoms = selected.atoms;
     if (trajectory.frames.empty()) {
       names = names_of(atoms);
       trajectory.element_radii = element_radii_of(atoms);
+      if (auto unread = unread_chains(trajectory.file, model, options.selection, options.chain, selected))
+        trajectory.warnings.push_back(std::move(*unread));
+      read.chains = std::move(selected.chains);
     } else {
       check_same_atoms(trajectory.file, trajectory.frame_numbers.front(), names, k, atoms);
     }
@@ -90,10 +119,12 @@ Topology read_topology(const std::filesystem::path& path, Selection selection,
   Topology topology;
   for (const gemmi::Chain& part : model.chains)
     for (const gemmi::Residue& residue : part.residues) topology.atom_count += residue.atoms.size();
-  const std::vector<SelectedAtom> atoms = select_polymer_atoms(path.string(), model, selection, chain);
-  for (const SelectedAtom& selected : atoms)
-    topology.selected.push_back(static_cast<std::size_t>(selected.atom->serial));
-  topology.element_radii = element_radii_of(atoms);
+  SelectedChains selected = select_chains(path.string(), model, selection, chain);
+  for (const SelectedAtom& atom : selected.atoms)
+    topology.selected.push_back(static_cast<std::size_t>(atom.atom->serial));
+  topology.element_radii = element_radii_of(selected.atoms);
+  topology.unread = unread_chains(path.string(), model, selection, chain, selected);
+  topology.chains = std::move(selected.chains);
   return topology;
 }
 

@@ -20,6 +20,8 @@ namespace kds {
 struct Topology {
   std::size_t atom_count = 0;         ///< with all alternate locations, waters and ligands
   std::vector<std::size_t> selected;  ///< places of the beads, in chain order
+  std::vector<ChainRead> chains;      ///< that they belong to
+  std::optional<std::string> unread;  ///< a line about other chains, where the default chain is read
   std::vector<double> element_radii;  ///< of the beads; empty where elements are unknown
 };
 

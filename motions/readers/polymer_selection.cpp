@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <gemmi/model.hpp>
 #include <gemmi/resinfo.hpp>
@@ -81,6 +82,7 @@ std::vector<std::string> chain_names(const gemmi::Model& model) {
   return names;
 }
 
+// The first with amino acids, else the first with nucleotides.
 std::string default_chain(const std::string& file, const gemmi::Model& model) {
   const std::vector<std::string> names = chain_names(model);
   for (const Polymer wanted : {Polymer::protein, Polymer::nucleic})
@@ -89,17 +91,14 @@ std::string default_chain(const std::string& file, const gemmi::Model& model) {
   throw InputError(fmt::format("{}: no chain of amino acids or nucleotides in this file", file));
 }
 
-std::string chain_or_default(const std::string& file, const gemmi::Model& model,
-                             const std::optional<std::string>& wanted) {
-  if (!wanted) return default_chain(file, model);
-  const std::string name(trimmed(*wanted));
-  const std::vector<std::string> names = chain_names(model);
-  for (const std::string& held : names)
-    if (held == name) return name;
-  std::vector<std::string> listed;
-  for (const std::string& held : names) listed.push_back(held.empty() ? "' '" : held);
-  throw InputError(
-      fmt::format("--chain: {} has no chain {}, it has {}", file, in_quotes(name), fmt::join(listed, ", ")));
+// As in messages.
+std::string shown(const std::string& chain) { return chain.empty() ? "' '" : chain; }
+
+std::string listed(const std::vector<std::string>& chains, std::size_t most) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(most, chains.size()); ++i) names.push_back(shown(chains[i]));
+  const std::string text = fmt::format("{}", fmt::join(names, ", "));
+  return chains.size() > most ? fmt::format("{} and {} more", text, chains.size() - most) : text;
 }
 
 std::vector<const gemmi::Atom*> named_atoms(const gemmi::Residue& residue, Selection selection) {
@@ -139,16 +138,11 @@ std::string element_of(const gemmi::Atom& atom) {
 }
 
 std::string describe(const gemmi::Atom& atom, const gemmi::Residue& residue, const std::string& chain) {
-  return fmt::format("{} of {} {} in chain {}", atom.name, residue.name, residue.seqid.str(),
-                     chain.empty() ? "' '" : chain);
+  return fmt::format("{} of {} {} in chain {}", atom.name, residue.name, residue.seqid.str(), shown(chain));
 }
 
-}  // namespace
-
-std::vector<SelectedAtom> select_polymer_atoms(const std::string& file, const gemmi::Model& model,
-                                               Selection selection,
-                                               const std::optional<std::string>& wanted) {
-  const std::string chain = chain_or_default(file, model, wanted);
+std::vector<SelectedAtom> atoms_of_chain(const gemmi::Model& model, Selection selection,
+                                         const std::string& chain) {
   std::vector<SelectedAtom> atoms;
   const auto select = [&](Selection which) {
     for (const Candidate& candidate : polymer_residues(model, chain))
@@ -157,6 +151,52 @@ std::vector<SelectedAtom> select_polymer_atoms(const std::string& file, const ge
   };
   select(selection);
   if (atoms.empty() && selection == Selection::automatic) select(Selection::ca);  // a coarse-grained model
+  return atoms;
+}
+
+}  // namespace
+
+std::vector<std::string> chains_asked_for(const std::string& file, const gemmi::Model& model,
+                                          const std::optional<std::string>& list) {
+  if (!list) return {default_chain(file, model)};
+  const std::vector<std::string> held = chain_names(model);
+  std::vector<std::string> wanted;
+  for (std::string_view rest = *list;;) {
+    const std::size_t comma = rest.find(',');
+    const std::string name(trimmed(rest.substr(0, comma)));
+    if (std::find(held.begin(), held.end(), name) == held.end())
+      throw InputError(fmt::format("--chain: {} has no chain {}, it has {}", file, in_quotes(name),
+                                   listed(held, held.size())));
+    if (std::find(wanted.begin(), wanted.end(), name) != wanted.end())
+      throw InputError(fmt::format("--chain: {} is listed twice for {}", in_quotes(name), file));
+    wanted.push_back(name);
+    if (comma == std::string_view::npos) return wanted;
+    rest.remove_prefix(comma + 1);
+  }
+}
+
+std::optional<std::string> describe_unread_chains(const std::string& file, const gemmi::Model& model,
+                                                  const std::string& read, Selection selection) {
+  std::vector<std::string> unread, readable;
+  for (const std::string& name : chain_names(model)) {
+    const std::vector<Candidate> residues = polymer_residues(model, name);
+    if (name == read || !(has(residues, Polymer::protein) || has(residues, Polymer::nucleic))) continue;
+    unread.push_back(name);
+    if (!atoms_of_chain(model, selection, name).empty()) readable.push_back(name);
+  }
+  if (unread.empty()) return std::nullopt;
+  constexpr std::size_t most = 10;
+  std::string line =
+      fmt::format("{}: {} {} not read", file, unread.size() == 1 ? "chain" : "chains", listed(unread, most));
+  if (!readable.empty())
+    line += fmt::format("; --chain {1} or --chain {0},{1} reads {2}", shown(read), shown(readable.front()),
+                        readable.size() == 1 ? "it" : "them likewise");
+  return line;
+}
+
+std::vector<SelectedAtom> select_polymer_atoms(const std::string& file, const gemmi::Model& model,
+                                               Selection selection, const std::string& chain) {
+  std::vector<SelectedAtom> atoms = atoms_of_chain(model, selection, chain);
   if (atoms.empty()) {
     const char* what = selection == Selection::all  ? "any residue of a polymer"
                        : selection == Selection::ca ? "an atom CA in any residue of a polymer"

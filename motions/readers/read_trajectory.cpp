@@ -39,6 +39,32 @@ void check_finite(const Trajectory& trajectory) {
   }
 }
 
+// A necklace for each chain. What the file as a whole warns of goes with the first.
+std::vector<Trajectory> split_chains(Trajectory all, const std::vector<ChainRead>& chains) {
+  std::vector<Trajectory> necklaces;
+  if (chains.size() < 2) {
+    necklaces.push_back(std::move(all));
+    return necklaces;
+  }
+  std::size_t first = 0;
+  for (const auto& [name, bead_count] : chains) {
+    Trajectory& necklace = necklaces.emplace_back();
+    necklace.file = fmt::format("{} chain {}", all.file, name.empty() ? "' '" : name);
+    necklace.frame_numbers = all.frame_numbers;
+    necklace.times = all.times;
+    for (const Eigen::Matrix3Xd& frame : all.frames)
+      necklace.frames.emplace_back(
+          frame.middleCols(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(bead_count)));
+    if (!all.element_radii.empty()) {
+      const auto radius = all.element_radii.begin() + static_cast<std::ptrdiff_t>(first);
+      necklace.element_radii.assign(radius, radius + static_cast<std::ptrdiff_t>(bead_count));
+    }
+    first += bead_count;
+  }
+  necklaces.front().warnings = std::move(all.warnings);
+  return necklaces;
+}
+
 }  // namespace
 
 FrameRange parse_frame_range(std::string_view text) {
@@ -69,20 +95,30 @@ FrameRange parse_frame_range(std::string_view text) {
   return range;
 }
 
-Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions& options) {
+std::vector<Trajectory> read_trajectories(const std::filesystem::path& path, const ReadOptions& options) {
   FramesRead read = read_by_ending(path, options);
-  Trajectory trajectory = std::move(read.trajectory);
-  check_finite(trajectory);
+  check_finite(read.trajectory);
   if (options.topology && file_ending(path) != ".dcd")
-    trajectory.warnings.push_back(
-        fmt::format("{}: --topology is left unread, it serves DCD files", trajectory.file));
-  if (const std::size_t moved = make_whole(trajectory.frames, read.cells); moved > 0)
-    trajectory.warnings.push_back(fmt::format("{}: made whole across the periodic cell in {}",
-                                              trajectory.file, counted(moved, "frame")));
-  if (read.chain_like) trajectory.breaks = find_chain_breaks(trajectory.frames.front());
-  if (!trajectory.breaks.empty())
-    trajectory.warnings.push_back(describe_chain_breaks(trajectory.file, trajectory.breaks));
-  return trajectory;
+    read.trajectory.warnings.push_back(
+        fmt::format("{}: --topology is left unread, it serves DCD files", read.trajectory.file));
+  std::vector<Trajectory> necklaces = split_chains(std::move(read.trajectory), read.chains);
+  for (Trajectory& necklace : necklaces) {
+    if (const std::size_t moved = make_whole(necklace.frames, read.cells); moved > 0)
+      necklace.warnings.push_back(fmt::format("{}: made whole across the periodic cell in {}", necklace.file,
+                                              counted(moved, "frame")));
+    if (read.chain_like) necklace.breaks = find_chain_breaks(necklace.frames.front());
+    if (!necklace.breaks.empty())
+      necklace.warnings.push_back(describe_chain_breaks(necklace.file, necklace.breaks));
+  }
+  return necklaces;
+}
+
+Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions& options) {
+  std::vector<Trajectory> necklaces = read_trajectories(path, options);
+  if (necklaces.size() > 1)
+    throw InputError(fmt::format("--chain: expected one chain of {}, found {}", path.string(),
+                                 in_quotes(options.chain.value_or(""))));
+  return std::move(necklaces.front());
 }
 
 }  // namespace kds

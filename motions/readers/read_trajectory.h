@@ -1,11 +1,13 @@
 #pragma once
-// Reads one necklace: the format is told by the file's ending (.pdb .ent .cif .mmcif [.gz], .dcd, .xyz).
+// Reads necklaces, one unless several chains are asked for: the format is told by the file's ending (.pdb
+// .ent .cif .mmcif [.gz], .dcd, .xyz).
 
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "motions/readers/trajectory.h"
 
@@ -28,7 +30,7 @@ enum class Selection {
 struct ReadOptions {
   std::optional<std::filesystem::path> topology = {};  ///< PDB or mmCIF that names the atoms of a DCD
   Selection selection = Selection::automatic;
-  std::optional<std::string> chain = {};  ///< none: the first polymer chain
+  std::optional<std::string> chain = {};  ///< or several between commas; none: the first polymer chain
   FrameRange frames = {};
 };
 
@@ -40,5 +42,9 @@ struct ReadOptions {
 /// consecutive beads are meant to be bonded (not for `all` atoms of known residues). Throws InputError naming
 /// the file and, where it applies, the frame, bead or option at fault.
 [[nodiscard]] Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// The same for as many chains as `options` name, a necklace each, in that order.
+[[nodiscard]] std::vector<Trajectory> read_trajectories(const std::filesystem::path& path,
+                                                        const ReadOptions& options = {});
 
 }  // namespace kds

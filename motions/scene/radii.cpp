@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
+#include "motions/numbers/exact_number.h"
 #include "motions/scene/fit_radii.h"
 
 namespace kds {
@@ -19,20 +22,36 @@ std::size_t bead_count(std::span<const Trajectory> necklaces) {
   return count;
 }
 
-double longest_bond(const Trajectory& necklace) {
-  double longest = 0;
-  for (const Eigen::Matrix3Xd& frame : necklace.frames)
-    for (Eigen::Index i = 0; i + 1 < frame.cols(); ++i) {
-      const auto& breaks = necklace.breaks;
-      if (std::find(breaks.begin(), breaks.end(), static_cast<std::size_t>(i)) != breaks.end()) continue;
-      longest = std::max(longest, (frame.col(i + 1) - frame.col(i)).stableNorm());
-    }
-  return longest;
+using Ends = std::array<Eigen::Vector3d, 2>;
+
+// Calls visit(ends, rounded length) for every bond of every frame; a chain break is no bond.
+template <class Visit>
+void visit_bonds(std::span<const Trajectory> necklaces, const Visit& visit) {
+  for (const Trajectory& necklace : necklaces) {
+    const auto& breaks = necklace.breaks;
+    for (const Eigen::Matrix3Xd& frame : necklace.frames)
+      for (Eigen::Index i = 0; i + 1 < frame.cols(); ++i) {
+        if (std::find(breaks.begin(), breaks.end(), static_cast<std::size_t>(i)) != breaks.end()) continue;
+        const Ends ends{frame.col(i), frame.col(i + 1)};
+        visit(ends, (ends[1] - ends[0]).stableNorm());
+      }
+  }
 }
 
+// Whether two balls of this radius meet, decided exactly.
+bool balls_meet(const Ends& centers, double radius) {
+  Rational rest = 4 * Dyadic(radius).rational() * Dyadic(radius).rational();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Rational d = Dyadic(centers[1][axis]).rational() - Dyadic(centers[0][axis]).rational();
+    rest -= d * d;
+  }
+  return rest >= 0;
+}
+
+// The least double of which consecutive beads meet: half of a rounded length may leave a gap of half an ulp.
 double automatic_radius(std::span<const Trajectory> necklaces) {
   double longest = 0;
-  for (const Trajectory& necklace : necklaces) longest = std::max(longest, longest_bond(necklace));
+  visit_bonds(necklaces, [&](const Ends&, double length) { longest = std::max(longest, length); });
   if (!(longest > 0))
     throw InputError(
         "--radius: auto is half the longest bond, and here no bond is longer than 0; give --radius NUMBER");
@@ -40,7 +59,14 @@ double automatic_radius(std::span<const Trajectory> necklaces) {
     throw InputError(
         "--radius: auto is half the longest bond, and here that is beyond all numbers; "
         "give --radius NUMBER");
-  return longest / 2;
+  constexpr double rounding = 0x1p-48;  // well above the relative error of a length
+  double radius = longest / 2 * (1 - rounding);
+  visit_bonds(necklaces, [&](const Ends& ends, double length) {
+    if (length < longest * (1 - 2 * rounding) || balls_meet(ends, radius)) return;
+    radius = std::max(radius, length / 2 * (1 - 4 * std::numeric_limits<double>::epsilon()));
+    while (!balls_meet(ends, radius)) radius = std::nextafter(radius, longest);
+  });
+  return radius;
 }
 
 std::vector<double> element_radii(const std::string& policy, std::span<const Trajectory> necklaces) {

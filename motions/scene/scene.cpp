@@ -21,7 +21,7 @@ void check_frame(const Trajectory& necklace, std::size_t frame) {
   for (Eigen::Index bead = 0; bead < centers.cols(); ++bead) {
     if (centers.col(bead).allFinite()) continue;
     throw InputError(fmt::format("{}: frame {}, bead {}: expected finite coordinates, found {}, {}, {}",
-                                 necklace.file, frame, bead, centers(0, bead), centers(1, bead),
+                                 necklace.file, necklace.frame_number(frame), bead, centers(0, bead), centers(1, bead),
                                  centers(2, bead)));
   }
 }
@@ -67,6 +67,8 @@ Scene::Scene(std::span<const Trajectory> necklaces, std::vector<double> radii, F
   }
   if (beads == 0) throw InputError(fmt::format("{}: expected beads, found none", longest->file));
   frame_count_ = longest->frames.size();
+  frame_numbers_ = longest->frame_numbers;
+  times_ = longest->times;
   frames_.assign(frame_count_, Eigen::Matrix3Xd(3, static_cast<Eigen::Index>(beads)));
   for (std::size_t n = 0; n < necklaces.size(); ++n) {
     const auto& frames = necklaces[n].frames;
@@ -168,9 +170,9 @@ double Scene::coordinate(std::size_t step, BeadId bead, int k, int axis) const {
                               : frames_[step + 1](axis, bead) - third_of_velocity(step + 1, bead, axis);
   if (!std::isfinite(point)) {
     throw InputError(
-        fmt::format("bead {}, step {}: moves too far for a Hermite curve in doubles; expected finite "
-                    "control points",
-                    bead, step));
+        fmt::format("bead {}, between frames {} and {}: moves too far for a Hermite curve in doubles; expected "
+                    "finite control points",
+                    bead, frame_number(step), frame_number(step + 1)));
   }
   return point;
 }

@@ -46,6 +46,12 @@ class Scene {
   /// An instance has two: u = 0 and u = 1.
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
   [[nodiscard]] std::size_t step_count() const { return frame_count_ - 1; }
+  /// Of the file, for messages and results.
+  [[nodiscard]] std::size_t frame_number(std::size_t frame) const {
+    return frame < frame_numbers_.size() ? frame_numbers_[frame] : frame;
+  }
+  /// Of the frames, in picoseconds; empty where the file has none.
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
   [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   [[nodiscard]] bool equal_radii() const;
@@ -123,6 +129,8 @@ class Scene {
   std::array<Eigen::Index, 3> axes_{0, 1, 2};  // the input's, of each axis of the scene
   double height_ = 0;                          // of a planar scene along the last of them
   Instance instance_;
+  std::vector<std::size_t> frame_numbers_;  // empty: from 0 on
+  std::vector<double> times_;
 };
 
 }  // namespace kds

@@ -106,7 +106,9 @@ struct DcdMaker {
   bool fourth = false;
   std::vector<std::int32_t> free_atoms;  ///< from 1; empty: none is fixed
   std::string magic = "CORD";
-  std::int32_t version = 24;
+  std::int32_t version = 24;  ///< 0: of X-PLOR
+  std::int32_t first_step = 0, steps_a_frame = 0;
+  double step_length = 0;                                 ///< in the unit of CHARMM
   std::int32_t atoms_claimed = -1;                        ///< -1: those of frame 0
   std::vector<std::vector<std::array<float, 3>>> frames;  ///< all atoms of each
 
@@ -129,9 +131,20 @@ struct DcdMaker {
     const std::size_t atoms = frames.empty() ? 0 : frames[0].size();
     std::array<std::int32_t, 20> numbers{};
     numbers[0] = claim_as_said ? frames_claimed : static_cast<std::int32_t>(frames.size());
+    numbers[1] = first_step;
+    numbers[2] = steps_a_frame;
+    if (version == 0) {
+      std::memcpy(&numbers[9], &step_length, sizeof step_length);
+      if (big_endian) std::swap(numbers[9], numbers[10]);
+    } else {
+      const auto length = static_cast<float>(step_length);
+      std::memcpy(&numbers[9], &length, sizeof length);
+    }
     numbers[8] = free_atoms.empty() ? 0 : static_cast<std::int32_t>(atoms - free_atoms.size());
-    numbers[10] = cell ? 1 : 0;
-    numbers[11] = fourth ? 1 : 0;
+    if (version != 0) {
+      numbers[10] = cell ? 1 : 0;
+      numbers[11] = fourth ? 1 : 0;
+    }
     numbers[19] = version;
     std::string first = magic;
     for (const std::int32_t number : numbers) put(first, number);

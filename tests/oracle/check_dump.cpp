@@ -68,9 +68,11 @@ Report check_dump(const Scene& scene, const fs::path& dir, std::size_t every) {
     const std::string where = "frame " + std::to_string(k) + ": ";
     ++report.frames;
     if (fs::exists(dump_file(dir, k, "power")) && fs::exists(dump_file(dir, k, "hidden"))) {
-      const auto cells = read_file(dump_file(dir, k, "power"), read_cells, report);
+      const auto cells = read_file(
+          dump_file(dir, k, "power"), [&](const fs::path& file) { return read_cells(file, scene.dimension); },
+          report);
       const auto hidden = read_file(dump_file(dir, k, "hidden"), read_hidden, report);
-      if (cells && hidden) check_power(frame, {*cells, *hidden}, where, report);
+      if (cells && hidden) check_power(scene.in_plane(k), scene.dimension, {*cells, *hidden}, where, report);
     }
     if (fs::exists(dump_file(dir, k, "wrapped"))) {
       const auto nodes = read_file(dump_file(dir, k, "wrapped"), read_nodes, report);
@@ -83,8 +85,8 @@ Report check_dump(const Scene& scene, const fs::path& dir, std::size_t every) {
 void write_static_dump(const Scene& scene, const fs::path& dir) {
   fs::create_directories(dir);
   for (std::size_t k = 0; k < scene.frames.size(); ++k) {
-    const PowerDiagram diagram = static_power_diagram(scene.frames[k]);
-    write_cells(dump_file(dir, k, "power"), diagram.cells);
+    const PowerDiagram diagram = static_power_diagram(scene.in_plane(k), scene.dimension);
+    write_cells(dump_file(dir, k, "power"), diagram.cells, scene.dimension);
     write_hidden(dump_file(dir, k, "hidden"), diagram.hidden);
     write_nodes(dump_file(dir, k, "wrapped"), static_hierarchy(scene.frames[k], scene.ends));
   }

@@ -2,7 +2,8 @@
 // kds.
 //
 //   check_dumps --dump DIR INPUT... [--frames FIRST:LAST:STRIDE] [--radius R|file:PATH|auto] [--every K]
-//   INPUT: --dcd FILE [--select-from PDB] | --pdb FILE   (several: several necklaces) | --instance FILE
+//   INPUT: --dcd FILE [--select-from PDB] | --pdb FILE | --xyz FILE   (several: several necklaces)
+//          | --instance FILE
 //   check_dumps --make --dump DIR INPUT...     writes a right dump from static structures
 //   check_dumps --self-test [INPUT...]         spoils right dumps and demands to notice
 //
@@ -72,6 +73,8 @@ Options parse(const std::vector<std::string>& words) {
       options.scene.inputs.push_back({oracle::FileKind::dcd, value, {}});
     } else if (word == "--pdb") {
       options.scene.inputs.push_back({oracle::FileKind::pdb, value, {}});
+    } else if (word == "--xyz") {
+      options.scene.inputs.push_back({oracle::FileKind::xyz, value, {}});
     } else if (word == "--instance") {
       options.scene.inputs.push_back({oracle::FileKind::instance, value, {}});
     } else if (word == "--select-from") {
@@ -94,7 +97,7 @@ int run(const Options& options) {
   std::optional<oracle::Scene> scene;
   if (!options.scene.inputs.empty()) scene = oracle::read_scene(options.scene);
   if (options.self_test) return oracle::self_test(scene);
-  if (!scene) throw UsageError("an input is needed: --dcd, --pdb or --instance");
+  if (!scene) throw UsageError("an input is needed: --dcd, --pdb, --xyz or --instance");
   if (options.dump.empty()) throw UsageError("--dump: a directory is needed");
   if (options.make) {
     oracle::write_static_dump(*scene, options.dump);

@@ -2,10 +2,13 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Exact_rational.h>
+#include <CGAL/Regular_triangulation_2.h>
 #include <CGAL/Regular_triangulation_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -13,51 +16,103 @@ namespace oracle {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Vertex = CGAL::Triangulation_vertex_base_with_info_3<unsigned, Kernel,
-                                                           CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
-using Structure =
-    CGAL::Triangulation_data_structure_3<Vertex, CGAL::Regular_triangulation_cell_base_3<Kernel>>;
-using Triangulation = CGAL::Regular_triangulation_3<Kernel, Structure>;
-using Point = Kernel::Point_3;
-using WeightedPoint = Kernel::Weighted_point_3;
 using Rational = CGAL::Exact_rational;
 
-std::vector<WeightedPoint> weighted_points(const Frame& frame) {
-  std::vector<WeightedPoint> points;
-  points.reserve(frame.size());
-  for (const Ball& ball : frame) {
-    points.emplace_back(Point(ball.centre[0], ball.centre[1], ball.centre[2]), ball.weight);
+struct BeadOfVertex {
+  unsigned bead = std::numeric_limits<unsigned>::max();
+};
+
+template <int space>
+struct Geometry;
+
+template <>
+struct Geometry<2> {
+  using Vertex =
+      CGAL::Triangulation_vertex_base_with_info_2<BeadOfVertex, Kernel,
+                                                  CGAL::Regular_triangulation_vertex_base_2<Kernel>>;
+  using Structure =
+      CGAL::Triangulation_data_structure_2<Vertex, CGAL::Regular_triangulation_face_base_2<Kernel>>;
+  using Triangulation = CGAL::Regular_triangulation_2<Kernel, Structure>;
+  using WeightedPoint = Kernel::Weighted_point_2;
+  using Points = std::vector<WeightedPoint>;
+
+  static WeightedPoint weighted_point(const Ball& ball) {
+    return {Kernel::Point_2(ball.centre[0], ball.centre[1]), ball.weight};
   }
+  static CGAL::Orientation turn(const Points& p, const Cell& c) {
+    return CGAL::orientation(p[c[0]].point(), p[c[1]].point(), p[c[2]].point());
+  }
+  static CGAL::Oriented_side power_test(const Points& p, const Cell& c, unsigned bead) {
+    return CGAL::power_side_of_oriented_power_circle(p[c[0]], p[c[1]], p[c[2]], p[bead]);
+  }
+  static bool is_hidden(const Triangulation::Vertex_handle& vertex) { return vertex->is_hidden(); }
+  static auto cells_of(const Triangulation& t) { return t.finite_face_handles(); }
+};
+
+template <>
+struct Geometry<3> {
+  using Vertex =
+      CGAL::Triangulation_vertex_base_with_info_3<BeadOfVertex, Kernel,
+                                                  CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
+  using Structure =
+      CGAL::Triangulation_data_structure_3<Vertex, CGAL::Regular_triangulation_cell_base_3<Kernel>>;
+  using Triangulation = CGAL::Regular_triangulation_3<Kernel, Structure>;
+  using WeightedPoint = Kernel::Weighted_point_3;
+  using Points = std::vector<WeightedPoint>;
+
+  static WeightedPoint weighted_point(const Ball& ball) {
+    return {Kernel::Point_3(ball.centre[0], ball.centre[1], ball.centre[2]), ball.weight};
+  }
+  static CGAL::Orientation turn(const Points& p, const Cell& c) {
+    return CGAL::orientation(p[c[0]].point(), p[c[1]].point(), p[c[2]].point(), p[c[3]].point());
+  }
+  static CGAL::Oriented_side power_test(const Points& p, const Cell& c, unsigned bead) {
+    return CGAL::power_side_of_oriented_power_sphere(p[c[0]], p[c[1]], p[c[2]], p[c[3]], p[bead]);
+  }
+  static bool is_hidden(const Triangulation::Vertex_handle&) { return false; }  // it keeps no such vertices
+  static auto cells_of(const Triangulation& t) { return t.finite_cell_handles(); }
+};
+
+template <int space>
+std::vector<typename Geometry<space>::WeightedPoint> weighted_points(const Frame& frame) {
+  std::vector<typename Geometry<space>::WeightedPoint> points;
+  points.reserve(frame.size());
+  for (const Ball& ball : frame) points.push_back(Geometry<space>::weighted_point(ball));
   return points;
 }
 
-std::string text(const Cell& cell) {
-  return std::to_string(cell[0]) + "," + std::to_string(cell[1]) + "," + std::to_string(cell[2]) + "," +
-         std::to_string(cell[3]);
+std::string text(const std::vector<unsigned>& beads) {
+  std::string line;
+  for (const unsigned bead : beads) line.append(line.empty() ? "" : ",").append(std::to_string(bead));
+  return line;
 }
 
+// Times 2 in the plane, 6 in space.
 Rational volume_of(const Frame& frame, const std::vector<Cell>& cells) {
   Rational sum = 0;
   for (const Cell& cell : cells) {
+    const std::size_t space = cell.size() - 1;
     std::array<std::array<Rational, 3>, 3> d;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t i = 0; i < space; ++i) {
+      for (std::size_t c = 0; c < space; ++c) {
         d[i][c] = Rational(frame[cell[i + 1]].centre[c]) - Rational(frame[cell[0]].centre[c]);
       }
     }
-    const Rational det = d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) -
-                         d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0]) +
-                         d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
+    const Rational det = space == 2 ? Rational(d[0][0] * d[1][1] - d[0][1] * d[1][0])
+                                    : Rational(d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) -
+                                               d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0]) +
+                                               d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]));
     sum += CGAL::abs(det);
   }
   return sum;
 }
 
 // Proves a triangulation regular, or says what is wrong with it.
+template <int space>
 class Proof {
  public:
   Proof(const Frame& frame, const PowerDiagram& dumped)
-      : frame_(frame), dumped_(dumped), points_(weighted_points(frame)) {}
+      : frame_(frame), dumped_(dumped), points_(weighted_points<space>(frame)) {}
 
   std::optional<std::string> objection(const PowerDiagram& reference) {
     if (auto wrong = flat_cell()) return wrong;
@@ -71,35 +126,29 @@ class Proof {
 
  private:
   struct Facet {
-    std::array<unsigned, 3> beads;
-    unsigned cell, apex;
+    std::vector<unsigned> beads;
+    std::size_t cell;
+    unsigned apex;
   };
-
-  const Point& point(unsigned bead) const { return points_[bead].point(); }
 
   std::optional<std::string> flat_cell() {
     oriented_ = dumped_.cells;
     for (Cell& cell : oriented_) {
-      const auto turn = CGAL::orientation(point(cell[0]), point(cell[1]), point(cell[2]), point(cell[3]));
-      if (turn == CGAL::COPLANAR) return "cell " + text(cell) + " is flat";
+      const auto turn = Geometry<space>::turn(points_, cell);
+      if (turn == CGAL::ZERO) return "cell " + text(cell) + " is flat";
       if (turn == CGAL::NEGATIVE) std::swap(cell[0], cell[1]);
     }
     return std::nullopt;
   }
 
-  CGAL::Oriented_side power_test(const Cell& cell, unsigned bead) const {
-    return CGAL::power_side_of_oriented_power_sphere(points_[cell[0]], points_[cell[1]], points_[cell[2]],
-                                                     points_[cell[3]], points_[bead]);
-  }
-
   std::optional<std::string> bad_facet() const {
     std::vector<Facet> facets;
-    for (unsigned k = 0; k < dumped_.cells.size(); ++k) {
-      const Cell& c = dumped_.cells[k];
-      facets.push_back({{c[1], c[2], c[3]}, k, c[0]});
-      facets.push_back({{c[0], c[2], c[3]}, k, c[1]});
-      facets.push_back({{c[0], c[1], c[3]}, k, c[2]});
-      facets.push_back({{c[0], c[1], c[2]}, k, c[3]});
+    for (std::size_t k = 0; k < dumped_.cells.size(); ++k) {
+      for (std::size_t i = 0; i <= space; ++i) {
+        Facet facet{dumped_.cells[k], k, dumped_.cells[k][i]};
+        facet.beads.erase(facet.beads.begin() + static_cast<std::ptrdiff_t>(i));
+        facets.push_back(std::move(facet));
+      }
     }
     std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.beads < b.beads; });
     for (std::size_t i = 0; i < facets.size();) {
@@ -107,15 +156,16 @@ class Proof {
       while (end < facets.size() && facets[end].beads == facets[i].beads) ++end;
       const Facet& f = facets[i];
       const auto side = [&](unsigned bead) {
-        return CGAL::orientation(point(f.beads[0]), point(f.beads[1]), point(f.beads[2]), point(bead));
+        Cell cell = f.beads;
+        cell.push_back(bead);
+        return Geometry<space>::turn(points_, cell);
       };
-      const std::string name =
-          std::to_string(f.beads[0]) + "," + std::to_string(f.beads[1]) + "," + std::to_string(f.beads[2]);
+      const std::string name = text(f.beads);
       if (end - i > 2) return "facet " + name + " belongs to more than two cells";
       if (end - i == 2) {
         const Facet& g = facets[i + 1];
         if (side(f.apex) == side(g.apex)) return "two cells lie on the same side of facet " + name;
-        if (power_test(oriented_[f.cell], g.apex) == CGAL::ON_POSITIVE_SIDE) {
+        if (Geometry<space>::power_test(points_, oriented_[f.cell], g.apex) == CGAL::ON_POSITIVE_SIDE) {
           return "facet " + name + " fails the power test";
         }
       } else {
@@ -134,7 +184,7 @@ class Proof {
   std::optional<std::string> wrong_hidden_bead() const {
     for (const unsigned bead : dumped_.hidden) {
       for (const Cell& cell : oriented_) {
-        if (power_test(cell, bead) == CGAL::ON_POSITIVE_SIDE) {
+        if (Geometry<space>::power_test(points_, cell, bead) == CGAL::ON_POSITIVE_SIDE) {
           return "bead " + std::to_string(bead) + " is not hidden";
         }
       }
@@ -144,7 +194,7 @@ class Proof {
 
   const Frame& frame_;
   const PowerDiagram& dumped_;
-  std::vector<WeightedPoint> points_;
+  typename Geometry<space>::Points points_;
   std::vector<Cell> oriented_;  ///< the same cells, positively oriented
 };
 
@@ -155,7 +205,7 @@ bool well_formed(std::size_t beads, const PowerDiagram& dumped, bool solid, cons
   std::vector<char> vertex(beads, 0), hidden(beads, 0);
   for (std::size_t k = 0; k < dumped.cells.size(); ++k) {
     const Cell& cell = dumped.cells[k];
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i + 1 < cell.size(); ++i) {
       if (cell[i] >= cell[i + 1]) report.mismatch(where + "cell " + text(cell) + ": ids do not ascend");
     }
     if (k > 0 && dumped.cells[k - 1] == cell)
@@ -187,7 +237,8 @@ bool well_formed(std::size_t beads, const PowerDiagram& dumped, bool solid, cons
   return report.mismatch_count == before;
 }
 
-// Where all beads lie in a plane there are no cells; of coincident beads any may be the one seen.
+// Where all beads lie in a plane (on a line of it) there are no cells; of coincident beads any may be the one
+// seen.
 bool same_visible_points(const Frame& frame, const PowerDiagram& dumped, const PowerDiagram& reference) {
   const auto visible = [&](const std::vector<unsigned>& hidden) {
     std::vector<std::array<double, 4>> points;
@@ -203,56 +254,63 @@ bool same_visible_points(const Frame& frame, const PowerDiagram& dumped, const P
   return dumped.cells.empty() && visible(dumped.hidden) == visible(reference.hidden);
 }
 
-}  // namespace
-
-PowerDiagram static_power_diagram(const Frame& frame, bool backwards) {
-  std::vector<std::pair<WeightedPoint, unsigned>> input;
-  for (const WeightedPoint& point : weighted_points(frame)) {
-    input.emplace_back(point, static_cast<unsigned>(input.size()));
-  }
-  Triangulation triangulation;
-  if (backwards) {
-    for (auto it = input.rbegin(); it != input.rend(); ++it) {
-      const auto vertex = triangulation.insert(it->first);
-      if (vertex != Triangulation::Vertex_handle()) vertex->info() = it->second;
-    }
-  } else {
-    triangulation.insert(input.begin(), input.end());
+template <int space>
+PowerDiagram static_diagram(const Frame& frame, bool backwards) {
+  typename Geometry<space>::Triangulation triangulation;
+  const auto points = weighted_points<space>(frame);
+  for (unsigned i = 0; i < points.size(); ++i) {
+    const unsigned bead = backwards ? static_cast<unsigned>(points.size()) - 1 - i : i;
+    const auto vertex = triangulation.insert(points[bead]);
+    // None for a hidden point in space; for one that is there already the vertex that stands for both.
+    if (vertex != decltype(vertex)() && vertex->info().bead == BeadOfVertex{}.bead)
+      vertex->info().bead = bead;
   }
   PowerDiagram result;
   result.dimension = triangulation.dimension();
   std::vector<char> visible(frame.size(), 0);
-  for (const auto v : triangulation.finite_vertex_handles()) visible[v->info()] = 1;
+  for (const auto v : triangulation.finite_vertex_handles())
+    if (!Geometry<space>::is_hidden(v)) visible[v->info().bead] = 1;
   for (unsigned bead = 0; bead < frame.size(); ++bead) {
     if (!visible[bead]) result.hidden.push_back(bead);
   }
-  if (result.dimension == 3) {
-    for (const auto c : triangulation.finite_cell_handles()) {
-      Cell cell{c->vertex(0)->info(), c->vertex(1)->info(), c->vertex(2)->info(), c->vertex(3)->info()};
+  if (result.dimension == space) {
+    for (const auto c : Geometry<space>::cells_of(triangulation)) {
+      Cell cell;
+      for (int i = 0; i <= space; ++i) cell.push_back(c->vertex(i)->info().bead);
       std::sort(cell.begin(), cell.end());
-      result.cells.push_back(cell);
+      result.cells.push_back(std::move(cell));
     }
     std::sort(result.cells.begin(), result.cells.end());
   }
   return result;
 }
 
-void check_power(const Frame& frame, const PowerDiagram& dumped, const std::string& where, Report& report) {
-  const PowerDiagram reference = static_power_diagram(frame);
+}  // namespace
+
+PowerDiagram static_power_diagram(const Frame& frame, int space, bool backwards) {
+  return space == 2 ? static_diagram<2>(frame, backwards) : static_diagram<3>(frame, backwards);
+}
+
+void check_power(const Frame& frame, int space, const PowerDiagram& dumped, const std::string& where,
+                 Report& report) {
+  const PowerDiagram reference = static_power_diagram(frame, space);
   report.cells += dumped.cells.size();
-  if (!well_formed(frame.size(), dumped, reference.dimension == 3, where, report)) return;
+  if (!well_formed(frame.size(), dumped, reference.dimension == space, where, report)) return;
   std::vector<unsigned> hidden = dumped.hidden;
   std::sort(hidden.begin(), hidden.end());
   if (dumped.cells == reference.cells && hidden == reference.hidden) return;
-  if (reference.dimension < 3) {
+  if (reference.dimension < space) {
     if (same_visible_points(frame, dumped, reference)) {
       ++report.degenerate;
     } else {
-      report.mismatch(where + "the beads span no volume, but there are cells or other hidden beads");
+      report.mismatch(where + "the beads span no " + (space == 2 ? "area" : "volume") +
+                      ", but there are cells or other hidden beads");
     }
     return;
   }
-  if (const auto objection = Proof(frame, dumped).objection(reference)) {
+  const auto objection = space == 2 ? Proof<2>(frame, dumped).objection(reference)
+                                    : Proof<3>(frame, dumped).objection(reference);
+  if (objection) {
     report.mismatch(where + *objection);
   } else {
     ++report.degenerate;  // two different regular triangulations exist

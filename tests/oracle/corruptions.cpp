@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include "check_power.h"
@@ -22,35 +23,45 @@ void tidy(std::vector<Cell>& cells) {
 
 bool has(const Cell& cell, unsigned bead) { return std::find(cell.begin(), cell.end(), bead) != cell.end(); }
 
-double turn(const Frame& f, unsigned a, unsigned b, unsigned c, unsigned d) {
+// The volume that the beads of a cell span, with a sign.
+double turn(const Frame& f, const Cell& beads) {
   std::array<std::array<double, 3>, 3> v{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    v[0][k] = f[b].centre[k] - f[a].centre[k];
-    v[1][k] = f[c].centre[k] - f[a].centre[k];
-    v[2][k] = f[d].centre[k] - f[a].centre[k];
+  for (std::size_t i = 0; i + 1 < beads.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) v[i][k] = f[beads[i + 1]].centre[k] - f[beads[0]].centre[k];
   }
+  if (beads.size() == 3) return v[0][0] * v[1][1] - v[0][1] * v[1][0];
   return v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) -
          v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0]) +
          v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
 }
 
-// A flip that leaves a sound triangulation, which only the power test can tell from the right one.
-bool flip_two_to_three(const Frame& frame, std::vector<Cell>& cells) {
+// Two cells exchanged for those around the line through their apexes, 2-3 in space and 2-2 in the plane: a
+// sound triangulation, which only the power test can tell from the right one.
+bool flip_around_apexes(const Frame& frame, std::vector<Cell>& cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     for (std::size_t j = i + 1; j < cells.size(); ++j) {
       std::vector<unsigned> common, apexes;
       std::set_intersection(cells[i].begin(), cells[i].end(), cells[j].begin(), cells[j].end(),
                             std::back_inserter(common));
-      if (common.size() != 3) continue;
+      if (common.size() + 1 != cells[i].size()) continue;
       std::set_symmetric_difference(cells[i].begin(), cells[i].end(), cells[j].begin(), cells[j].end(),
                                     std::back_inserter(apexes));
-      const auto [a, b, c] = std::array{common[0], common[1], common[2]};
-      const unsigned d = apexes[0], e = apexes[1];
-      const double x = turn(frame, d, e, a, b), y = turn(frame, d, e, b, c), z = turn(frame, d, e, c, a);
-      if (!((x > 1e-6 && y > 1e-6 && z > 1e-6) || (x < -1e-6 && y < -1e-6 && z < -1e-6))) continue;
-      cells[i] = {a, b, d, e};
-      cells[j] = {b, c, d, e};
-      cells.push_back({a, c, d, e});
+      std::vector<Cell> flipped;
+      std::size_t positive = 0, negative = 0;
+      for (std::size_t left_out = 0; left_out < common.size(); ++left_out) {
+        Cell cell = apexes;  // the rest of the common facet in cyclic order
+        for (std::size_t k = 1; k < common.size(); ++k)
+          cell.push_back(common[(left_out + k) % common.size()]);
+        // In the plane the two new cells lie on both sides of the line.
+        const double sign = common.size() == 2 && left_out == 1 ? -1 : 1;
+        if (sign * turn(frame, cell) > 1e-6) ++positive;
+        if (sign * turn(frame, cell) < -1e-6) ++negative;
+        flipped.push_back(std::move(cell));
+      }
+      if (positive != common.size() && negative != common.size()) continue;
+      cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(j));
+      cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(i));
+      cells.insert(cells.end(), flipped.begin(), flipped.end());
       tidy(cells);
       return true;
     }
@@ -58,22 +69,23 @@ bool flip_two_to_three(const Frame& frame, std::vector<Cell>& cells) {
   return false;
 }
 
-// Two hull facets in one plane, covered by a cell without volume: all facets still pair up.
+// Two hull facets in one plane (on one line), covered by a cell without volume: all facets still pair up.
 bool cover_with_flat_cell(const Frame& frame, std::vector<Cell>& cells) {
-  std::map<std::array<unsigned, 3>, int> facets;
-  for (const Cell& c : cells) {
-    for (const auto& facet :
-         {std::array{c[0], c[1], c[2]}, {c[0], c[1], c[3]}, {c[0], c[2], c[3]}, {c[1], c[2], c[3]}}) {
+  std::map<std::vector<unsigned>, int> facets;
+  for (const Cell& cell : cells) {
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      std::vector<unsigned> facet = cell;
+      facet.erase(facet.begin() + static_cast<std::ptrdiff_t>(i));
       ++facets[facet];
     }
   }
   for (const auto& [f, uses] : facets) {
     for (const auto& [g, others] : facets) {
-      std::vector<unsigned> beads;
+      Cell beads;
       std::set_union(f.begin(), f.end(), g.begin(), g.end(), std::back_inserter(beads));
-      if (uses != 1 || others != 1 || beads.size() != 4) continue;
-      if (turn(frame, beads[0], beads[1], beads[2], beads[3]) != 0) continue;
-      cells.push_back({beads[0], beads[1], beads[2], beads[3]});
+      if (uses != 1 || others != 1 || beads.size() != f.size() + 1) continue;
+      if (turn(frame, beads) != 0) continue;
+      cells.push_back(beads);
       tidy(cells);
       return true;
     }
@@ -119,7 +131,7 @@ std::vector<Corruption> power_corruptions() {
          Cell& cell = t.cells[dice.below(t.cells.size())];
          const auto bead = static_cast<unsigned>(dice.below(s.bead_count()));
          if (has(cell, bead)) return false;
-         cell[dice.below(4)] = bead;
+         cell[dice.below(cell.size())] = bead;
          tidy(t.cells);
          return true;
        }},
@@ -136,8 +148,9 @@ std::vector<Corruption> power_corruptions() {
        }},
       {"a cell too many",
        [](const Scene& s, Tables& t, Dice& dice) {
-         const auto a = static_cast<unsigned>(dice.below(s.bead_count() - 3));
-         const Cell cell{a, a + 1, a + 2, a + 3};
+         Cell cell(t.cells[0].size());
+         std::iota(cell.begin(), cell.end(),
+                   static_cast<unsigned>(dice.below(s.bead_count() + 1 - cell.size())));
          if (std::find(t.cells.begin(), t.cells.end(), cell) != t.cells.end()) return false;
          t.cells.push_back(cell);
          tidy(t.cells);
@@ -152,12 +165,12 @@ std::vector<Corruption> power_corruptions() {
       {"ids out of order",
        [](const Scene&, Tables& t, Dice& dice) {
          Cell& cell = t.cells[dice.below(t.cells.size())];
-         std::swap(cell[2], cell[3]);
+         std::swap(cell[1], cell[2]);
          return true;
        }},
       {"an id out of range",
        [](const Scene& s, Tables& t, Dice&) {
-         t.cells.back()[3] = static_cast<unsigned>(s.bead_count());
+         t.cells.back().back() = static_cast<unsigned>(s.bead_count());
          return true;
        }},
       {"no cells",
@@ -181,9 +194,9 @@ std::vector<Corruption> power_corruptions() {
        [](const Scene& s, Tables& t, Dice& dice) {
          const unsigned bead = t.cells[dice.below(t.cells.size())][2];
          if (twin(s.frames[0], bead)) return false;
-         Frame rest = s.frames[0];
+         Frame rest = s.in_plane(0);
          rest.erase(rest.begin() + bead);
-         const PowerDiagram diagram = static_power_diagram(rest);
+         const PowerDiagram diagram = static_power_diagram(rest, s.dimension);
          const auto renumbered = [&](unsigned i) { return i < bead ? i : i + 1; };
          t.cells = diagram.cells;
          t.hidden = {bead};
@@ -207,18 +220,18 @@ std::vector<Corruption> power_corruptions() {
        }},
       {"another frame's cells",
        [](const Scene& s, Tables& t, Dice&) {
-         const PowerDiagram other = static_power_diagram(s.frames[1]);
+         const PowerDiagram other = static_power_diagram(s.in_plane(1), s.dimension);
          if (other.cells == t.cells) return false;
          t.cells = other.cells;
          t.hidden = other.hidden;
          return true;
        }},
       {"a flat cell on the hull",
-       [](const Scene& s, Tables& t, Dice&) { return cover_with_flat_cell(s.frames[0], t.cells); }},
+       [](const Scene& s, Tables& t, Dice&) { return cover_with_flat_cell(s.in_plane(0), t.cells); }},
       {"cells of coincident beads as well",
        [](const Scene& s, Tables& t, Dice&) { return add_cells_of_twins(s.frames[0], t); }},
       {"a wrong flip",
-       [](const Scene& s, Tables& t, Dice&) { return flip_two_to_three(s.frames[0], t.cells); }},
+       [](const Scene& s, Tables& t, Dice&) { return flip_around_apexes(s.in_plane(0), t.cells); }},
   };
 }
 

@@ -53,7 +53,7 @@ std::string shortest(double value) {
   return std::string(text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr);
 }
 
-constexpr std::string_view cell_header = "a,b,c,d";
+constexpr std::string_view cell_header(int space) { return space == 2 ? "a,b,c" : "a,b,c,d"; }
 constexpr std::string_view hidden_header = "bead";
 constexpr std::string_view node_header = "first,last,basis,x,y,z,radius";
 
@@ -64,12 +64,12 @@ std::filesystem::path dump_file(const std::filesystem::path& dir, std::size_t fr
   return dir / ("frame-" + std::to_string(frame) + "." + what + ".csv");
 }
 
-std::vector<Cell> read_cells(const std::filesystem::path& path) {
+std::vector<Cell> read_cells(const std::filesystem::path& path, int space) {
   std::vector<Cell> cells;
-  for_each_line(path, cell_header, [&](const auto& fields) {
-    Cell cell{};
-    for (std::size_t i = 0; i < 4; ++i) cell[i] = number<unsigned>(fields[i]);
-    cells.push_back(cell);
+  for_each_line(path, cell_header(space), [&](const auto& fields) {
+    Cell cell;
+    for (const auto field : fields) cell.push_back(number<unsigned>(field));
+    cells.push_back(std::move(cell));
   });
   return cells;
 }
@@ -95,10 +95,13 @@ std::vector<Node> read_nodes(const std::filesystem::path& path) {
   return nodes;
 }
 
-void write_cells(const std::filesystem::path& path, const std::vector<Cell>& cells) {
+void write_cells(const std::filesystem::path& path, const std::vector<Cell>& cells, int space) {
   std::ofstream out(path);
-  out << cell_header << '\n';
-  for (const Cell& c : cells) out << c[0] << ',' << c[1] << ',' << c[2] << ',' << c[3] << '\n';
+  out << cell_header(space) << '\n';
+  for (const Cell& cell : cells) {
+    for (std::size_t i = 0; i < cell.size(); ++i) out << (i ? "," : "") << cell[i];
+    out << '\n';
+  }
 }
 
 void write_hidden(const std::filesystem::path& path, const std::vector<unsigned>& hidden) {

@@ -10,7 +10,7 @@
 
 namespace oracle {
 
-using Cell = std::array<unsigned, 4>;
+using Cell = std::vector<unsigned>;  ///< a bead a corner
 
 struct Node {
   unsigned first = 0, last = 0;
@@ -27,11 +27,12 @@ struct FormError : std::runtime_error {
 [[nodiscard]] std::filesystem::path dump_file(const std::filesystem::path& dir, std::size_t frame,
                                               const std::string& what);
 
-[[nodiscard]] std::vector<Cell> read_cells(const std::filesystem::path& path);
+/// Of a diagram in the plane (`space` 2) or in space (3).
+[[nodiscard]] std::vector<Cell> read_cells(const std::filesystem::path& path, int space);
 [[nodiscard]] std::vector<unsigned> read_hidden(const std::filesystem::path& path);
 [[nodiscard]] std::vector<Node> read_nodes(const std::filesystem::path& path);
 
-void write_cells(const std::filesystem::path& path, const std::vector<Cell>& cells);
+void write_cells(const std::filesystem::path& path, const std::vector<Cell>& cells, int space);
 void write_hidden(const std::filesystem::path& path, const std::vector<unsigned>& hidden);
 void write_nodes(const std::filesystem::path& path, const std::vector<Node>& nodes);
 

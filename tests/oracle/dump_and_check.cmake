@@ -1,7 +1,8 @@
 # Runs `kds run` with its dumps written and its frames audited, and lets check_dumps judge them:
 #
 #   cmake -DKDS=<program> -DCHECK=<check_dumps> -DSCRATCH=<directory of its own> "-DRUN=<arguments of kds run>"
-#         "-DINPUT=<the same input in the words of check_dumps>" -P dump_and_check.cmake
+#         "-DINPUT=<the same input in the words of check_dumps>" ["-DGENERATE=<arguments of kds generate>"]
+#         -P dump_and_check.cmake
 cmake_minimum_required(VERSION 3.25)
 
 foreach(needed KDS CHECK SCRATCH RUN INPUT)
@@ -23,6 +24,9 @@ endfunction()
 
 file(REMOVE_RECURSE "${SCRATCH}")
 file(MAKE_DIRECTORY "${SCRATCH}")
+if(GENERATE)
+  must_succeed("${KDS}" generate ${GENERATE} --quiet)
+endif()
 must_succeed("${KDS}" run ${RUN} --audit frames --dump "${SCRATCH}" --quiet)
 must_succeed("${CHECK}" --dump "${SCRATCH}" ${INPUT})
 file(REMOVE_RECURSE "${SCRATCH}")

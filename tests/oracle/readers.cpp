@@ -158,12 +158,34 @@ PdbBackbone read_pdb(const std::filesystem::path& path) {
   return backbone;
 }
 
-std::vector<Frame> read_instance(const std::filesystem::path& path) {
+std::vector<Points> read_xyz(const std::filesystem::path& path) {
+  std::istringstream in(read_text(path));
+  std::vector<Points> frames;
+  for (std::string line; std::getline(in, line);) {
+    Points points(std::stoul(line));
+    std::getline(in, line);  // a comment
+    for (auto& point : points) {
+      if (!std::getline(in, line)) throw UsageError(path.string() + ": ends inside a frame");
+      std::istringstream fields(line);
+      std::string symbol, word;
+      fields >> symbol;
+      for (double& x : point) {
+        fields >> word;
+        x = std::stod(word);
+      }
+    }
+    frames.push_back(std::move(points));
+  }
+  return frames;
+}
+
+std::vector<Frame> read_instance(const std::filesystem::path& path, int& dimension) {
   std::istringstream in(read_text(path));
   std::size_t n = 0, width = 0, degree = 0;
-  if (!(in >> n >> width >> degree) || (width != 3 && width != 4) || degree == 0) {
-    throw UsageError(path.string() + ": not an instance with three columns (and a weight)");
+  if (!(in >> n >> width >> degree) || width < 2 || width > 4 || degree == 0) {
+    throw UsageError(path.string() + ": not an instance with two columns, or three (and a weight)");
   }
+  dimension = width == 2 ? 2 : 3;
   std::vector<Frame> frames(2, Frame(n));
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t c = 0; c < width; ++c) {

@@ -12,6 +12,7 @@ namespace {
 
 std::vector<Points> bead_frames(const Input& input) {
   if (input.kind == FileKind::pdb) return read_pdb(input.path).models;
+  if (input.kind == FileKind::xyz) return read_xyz(input.path);
   std::vector<Points> frames = read_dcd(input.path);
   if (!input.names || frames.empty()) return frames;
   const PdbBackbone names = read_pdb(*input.names);
@@ -63,14 +64,37 @@ std::vector<double> radii_of_file(const std::string& path, std::size_t beads) {
   return radii;
 }
 
+// Fewer than four beads always lie in some plane.
+void find_plane(Scene& scene) {
+  if (scene.bead_count() < 4) return;
+  for (const auto& axes : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}) {
+    const double height = scene.frames[0][0].centre[axes[2]];
+    const bool flat = std::all_of(scene.frames.begin(), scene.frames.end(), [&](const Frame& frame) {
+      return std::all_of(frame.begin(), frame.end(),
+                         [&](const Ball& ball) { return ball.centre[axes[2]] == height; });
+    });
+    if (!flat) continue;
+    scene.dimension = 2;
+    scene.axes = axes;
+    return;
+  }
+}
+
 }  // namespace
 
+Frame Scene::in_plane(std::size_t frame) const {
+  Frame turned = frames[frame];
+  for (std::size_t i = 0; i < turned.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) turned[i].centre[c] = frames[frame][i].centre[axes[c]];
+  return turned;
+}
+
 Scene read_scene(const SceneOptions& options) {
-  if (options.inputs.empty()) throw UsageError("an input is needed: --dcd, --pdb or --instance");
+  if (options.inputs.empty()) throw UsageError("an input is needed: --dcd, --pdb, --xyz or --instance");
   Scene scene;
   if (options.inputs[0].kind == FileKind::instance) {
     if (options.inputs.size() > 1) throw UsageError("an instance file is a scene by itself");
-    scene.frames = read_instance(options.inputs[0].path);
+    scene.frames = read_instance(options.inputs[0].path, scene.dimension);
     scene.ends = {scene.frames[0].size()};
     return scene;
   }
@@ -116,6 +140,7 @@ Scene read_scene(const SceneOptions& options) {
       }
     }
   }
+  find_plane(scene);
   return scene;
 }
 

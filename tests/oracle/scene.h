@@ -27,11 +27,16 @@ using Frame = std::vector<Ball>;
 struct Scene {
   std::vector<Frame> frames;
   std::vector<std::size_t> ends;  ///< one past the last bead of each necklace
+  /// 2: the points of a planar instance, or the beads of a trajectory that keep to one plane x, y or z =
+  /// constant; then the coordinates in that plane come first in what `in_plane` returns.
+  int dimension = 3;
+  std::array<std::size_t, 3> axes{0, 1, 2};
 
+  [[nodiscard]] Frame in_plane(std::size_t frame) const;
   [[nodiscard]] std::size_t bead_count() const { return ends.empty() ? 0 : ends.back(); }
 };
 
-enum class FileKind { dcd, pdb, instance };
+enum class FileKind { dcd, pdb, xyz, instance };
 
 struct Input {
   FileKind kind = FileKind::dcd;
@@ -60,7 +65,10 @@ struct PdbBackbone {
 
 [[nodiscard]] std::vector<Points> read_dcd(const std::filesystem::path& path);
 [[nodiscard]] PdbBackbone read_pdb(const std::filesystem::path& path);
-[[nodiscard]] std::vector<Frame> read_instance(const std::filesystem::path& path);
+[[nodiscard]] std::vector<Points> read_xyz(const std::filesystem::path& path);
+
+/// Those of a planar instance have z = 0; `dimension` tells.
+[[nodiscard]] std::vector<Frame> read_instance(const std::filesystem::path& path, int& dimension);
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);
 
 }  // namespace oracle

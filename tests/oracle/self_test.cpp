@@ -34,8 +34,9 @@ class SelfTest {
     expect(right.frames == named.scene.frames.size() && right.cells > 0 && right.nodes > 0,
            named.name + ": nothing was checked");
 
-    original_ = {read_cells(dump_file(dump, 0, "power")), read_hidden(dump_file(dump, 0, "hidden")),
-                 read_nodes(dump_file(dump, 0, "wrapped"))};
+    space_ = named.scene.dimension;
+    original_ = {read_cells(dump_file(dump, 0, "power"), named.scene.dimension),
+                 read_hidden(dump_file(dump, 0, "hidden")), read_nodes(dump_file(dump, 0, "wrapped"))};
     Scene two = named.scene;  // the frames that corruptions look at
     two.frames.resize(std::min<std::size_t>(two.frames.size(), 2));
     if (two.frames.size() < 2) return;
@@ -80,7 +81,7 @@ class SelfTest {
  private:
   void write(const Tables& tables, const fs::path& dump) const {
     if (fs::exists(dump_file(dump, 0, "power"))) {
-      write_cells(dump_file(dump, 0, "power"), tables.cells);
+      write_cells(dump_file(dump, 0, "power"), tables.cells, space_);
       write_hidden(dump_file(dump, 0, "hidden"), tables.hidden);
     } else {
       write_nodes(dump_file(dump, 0, "wrapped"), tables.nodes);
@@ -135,9 +136,9 @@ class SelfTest {
 
   // Another of the grid's many triangulations must pass.
   void other_triangulation(const NamedScene& named, const Scene& scene, const fs::path& dump) {
-    Frame mirrored = scene.frames[0];
+    Frame mirrored = scene.in_plane(0);
     for (Ball& ball : mirrored) ball.centre[0] = -ball.centre[0];
-    const PowerDiagram diagram = static_power_diagram(mirrored, true);
+    const PowerDiagram diagram = static_power_diagram(mirrored, scene.dimension, true);
     expect(diagram.cells != original_.cells, named.name + ": the mirror image has the same cells");
     Tables tables = original_;
     tables.cells = diagram.cells;
@@ -153,6 +154,7 @@ class SelfTest {
 
   fs::path dir_;
   Tables original_;
+  int space_ = 3;  ///< of the scene at hand
   std::vector<std::string> used_;
 };
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <utility>
 
+#include "check_power.h"
 #include "self_test.h"
 
 namespace oracle {
@@ -170,9 +171,10 @@ Scene twin_scene(const fs::path& path, Dice& dice) {
 
 Scene instance_scene(const fs::path& path, Dice& dice, int width, int degree, bool grid) {
   std::vector<std::vector<double>> rows;
+  const int side = width == 2 ? 8 : 4;
   for (int i = 0; i < (grid ? 64 : 28); ++i) {
     std::vector<double> row;
-    const std::array<int, 3> place{i / 16, i / 4 % 4, i % 4};
+    const std::array<int, 3> place{i / side % side, i % side, i / side / side};
     for (int c = 0; c < width; ++c) {
       for (int k = 0; k <= degree; ++k) {
         // Weights large enough for some beads to be hidden.
@@ -247,6 +249,26 @@ std::vector<NamedScene> made_scenes(const fs::path& dir, std::vector<std::string
   scenes.push_back({"weighted instance", instance_scene(dir / "w3.txt", dice, 4, 1, false)});
   scenes.push_back({"twins", twin_scene(dir / "twins.txt", dice)});
   scenes.push_back({"grid", instance_scene(dir / "grid.txt", dice, 3, 1, true), false});
+  scenes.push_back({"planar instance", instance_scene(dir / "d2.txt", dice, 2, 2, false)});
+  scenes.push_back({"planar grid", instance_scene(dir / "grid2.txt", dice, 2, 1, true), false});
+  expect(scenes.back().scene.dimension == 2, "planar grid: dimension");
+
+  // Beads of two sizes in the plane y = 7, some of them hidden.
+  SceneOptions flat;
+  std::ofstream xyz(dir / "flat.xyz"), radii(dir / "radii.txt");
+  for (int k = 0; k < 2; ++k) {
+    xyz << "40\na comment\n";
+    for (int i = 0; i < 40; ++i) xyz << "C " << dice.unit() << " 7 " << dice.unit() << '\n';
+  }
+  for (int i = 0; i < 40; ++i) radii << (i % 5 == 0 ? "0.3\n" : "0.05\n");
+  xyz.close();
+  radii.close();
+  flat.inputs = {{FileKind::xyz, dir / "flat.xyz", {}}};
+  flat.radius = "file:" + (dir / "radii.txt").string();
+  scenes.push_back({"beads in a plane", read_scene(flat)});
+  expect(scenes.back().scene.dimension == 2 && scenes.back().scene.frames[1][39].centre[1] == 7 &&
+             !static_power_diagram(scenes.back().scene.in_plane(0), 2).hidden.empty(),
+         "beads in a plane: what was read");
   return scenes;
 }
 

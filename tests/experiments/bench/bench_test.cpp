@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "experiments/bench/bench_chains.h"
 #include "experiments/bench/bench_report.h"
@@ -32,6 +33,14 @@ TEST(BenchChains, EveryBeadMovesByTheDistance) {
   EXPECT_EQ(frames, jostled_frames(start, 0.01, 4));  // the same again
 }
 
+TEST(BenchChains, PlanarOnesStayInThePlane) {
+  for (const Eigen::Matrix3Xd& start : {planar_spiral(300), model_at_rest("grid", 300, 0.5, 2)})
+    for (const Eigen::Matrix3Xd& frame : jostled_frames(start, 0.1, 3, 2)) {
+      EXPECT_EQ(frame.row(2).cwiseAbs().maxCoeff(), 0);
+      EXPECT_GT((frame.rowwise().maxCoeff() - frame.rowwise().minCoeff()).head(2).minCoeff(), 10);
+    }
+}
+
 TEST(BenchReport, RatioGoalAndWhatHolds) {
   const BenchRow held{"a", "x", 3, 2, "ns", "peer", 10, 0.25}, missed{"b", "x", 3, 4, "ns", "peer", 10, 0.25},
       alone{"c", "x", 3, 4, "ns", "", std::nullopt, 3}, free{"d", "x", 3, 4, "ns", "peer", 8, std::nullopt},
@@ -52,6 +61,30 @@ TEST(BenchReport, RatioGoalAndWhatHolds) {
   EXPECT_THAT(bench_csv(std::array{held}), testing::HasSubstr("a,x,3,2,ns,peer,10,0.2,0.25,true"));
 }
 
+TEST(BenchReport, ColumnsOfTheTableAreAligned) {
+  const BenchRow tidy{"a", "x", 3, 2, "ns", "peer", 10, 0.25}, wide{"a name of more than twenty-four letters",
+                                                                    "an input of more than thirty letters",
+                                                                    1234567,
+                                                                    1.234e-10,
+                                                                    "events/step",
+                                                                    "",
+                                                                    std::nullopt,
+                                                                    std::nullopt};
+  const std::string table = bench_table(std::array{tidy, wide});
+  std::array<std::string, 3> lines;
+  std::istringstream in(table);
+  for (std::string& line : lines) std::getline(in, line);
+  for (const char* left : {"input", "unit", "holds"}) {
+    const std::size_t column = lines[0].find(left);
+    for (const std::string& line : lines) {
+      EXPECT_EQ(line[column - 1], ' ') << line;
+      EXPECT_NE(line[column], ' ') << line;
+    }
+  }
+  EXPECT_EQ(lines[0].find("value") + 5, lines[2].find("1.234e-10") + 9);
+  EXPECT_THAT(table, testing::Not(testing::HasSubstr(" \n")));
+}
+
 TEST(Bench, HierarchiesGiveARowForEachMeasureAndInput) {
   const test::ProgramRun result =
       test::run_program({"bench", "hierarchies", "--sizes", "40,64", "--trajectories",
@@ -65,7 +98,7 @@ TEST(Bench, HierarchiesGiveARowForEachMeasureAndInput) {
     names.insert(row["name"]);
     inputs.insert(row["input"]);
     // So few beads may pass a few steps without an event.
-    EXPECT_GE(row["value"].get<double>(), row["unit"] == "events/frame" ? 0 : 1e-9);
+    EXPECT_GE(row["value"].get<double>(), row["unit"] == "events/step" ? 0 : 1e-9);
     EXPECT_EQ(row["ratio"].is_null(), row["peer_value"].is_null() || row["peer_value"] == 0);
     if (!row["ratio"].is_null()) {
       EXPECT_DOUBLE_EQ(row["ratio"].get<double>(),
@@ -77,7 +110,7 @@ TEST(Bench, HierarchiesGiveARowForEachMeasureAndInput) {
     }
   }
   EXPECT_EQ(names.size(), 12U);
-  EXPECT_EQ(inputs.size(), 10U);  // four inputs, equal and unequal radii, a query, a rotation
+  EXPECT_EQ(inputs.size(), 14U);  // six inputs, equal and unequal radii, a query, a rotation
 }
 
 TEST(Bench, PowerGivesARowForEachTechniqueAndInput) {
@@ -99,7 +132,7 @@ TEST(Bench, PowerGivesARowForEachTechniqueAndInput) {
   EXPECT_THAT(names, testing::ElementsAre("activate", "auto to best", "auto to rebuild", "greedy", "kinetic",
                                           "lifted", "reinsert"));
   EXPECT_THAT(goals, testing::ElementsAre("auto to best", "auto to rebuild", "kinetic"));
-  EXPECT_EQ(inputs.size(), 8U);  // four strides, four chains
+  EXPECT_EQ(inputs.size(), 10U);  // four strides, six chains
 }
 
 TEST(Bench, CertificatesGiveARowEachWithTheGoalsThatThereAre) {
@@ -148,6 +181,20 @@ TEST(Bench, EngineRunsEveryInstanceOfAFolder) {
   EXPECT_EQ(goals, 1U);
 }
 
+TEST(Bench, FindsItsDataFromAnyFolder) {
+  const test::ScratchDirectory directory;
+  const std::filesystem::path instances = directory / "kinetic";
+  std::filesystem::create_directory(instances);
+  std::filesystem::copy_file(test::data_file("kinetic/d1_n20_linear.txt"), instances / "d1_n20_linear.txt");
+  const auto rows = [&](const std::string& line) {
+    const test::ProgramRun run = test::run_shell("cd \"$1\" && \"$0\" " + line, {directory.path().string()});
+    EXPECT_EQ(run.code, 0) << run.err;
+    return Json::parse(run.out)["rows"].size();
+  };
+  EXPECT_GT(rows("bench certificates --json - --quiet"), 10U);
+  EXPECT_EQ(rows("bench engine --data . --json - --quiet"), 6U);  // one instance, three kernels
+}
+
 TEST(Bench, RefusesWhatItDoesNotKnow) {
   for (const Arguments& arguments :
        {Arguments{"bench"}, Arguments{"bench", "spheres"}, Arguments{"bench", "hierarchies", "--sizes", "1"},
@@ -157,6 +204,7 @@ TEST(Bench, RefusesWhatItDoesNotKnow) {
         Arguments{"bench", "engine", "--instances", "none"},
         Arguments{"bench", "certificates", "--instances", KDS_DATA_DIR},
         Arguments{"bench", "engine", "--instances", KDS_DATA_DIR},
+        Arguments{"bench", "hierarchies", "--data", "none"}, Arguments{"bench", "engine", "--data", "none"},
         Arguments{"bench", "hierarchies", "--sizes", "10", "--trajectories", "none.dcd"}}) {
     const test::ProgramRun result = test::run_program(arguments);
     EXPECT_EQ(result.code, 2);

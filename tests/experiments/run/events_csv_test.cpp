@@ -19,6 +19,18 @@ TEST(EventsCsv, HasOneLineForEachFrameAndStructure) {
             "2,power,20,30\n");
 }
 
+TEST(EventsCsv, NamesFramesByTheirNumberInTheFileAndTellsTheirTimes) {
+  RunReport report = test::sample_report();
+  report.structures.pop_back();
+  report.frame_numbers = {100, 110, 120, 130};
+  EXPECT_EQ(events_csv(report),
+            "frame,structure,events,cumulative\n100,wrapped,1,1\n110,wrapped,2,3\n120,wrapped,3,6\n");
+  report.times = {2, 2.2, 2.4, 2.6};
+  EXPECT_EQ(events_csv(report),
+            "frame,structure,events,cumulative,picoseconds\n"
+            "100,wrapped,1,1,2\n110,wrapped,2,3,2.2\n120,wrapped,3,6,2.4\n");
+}
+
 TEST(EventsCsv, IsAHeaderWithoutSteps) { EXPECT_EQ(events_csv({}), "frame,structure,events,cumulative\n"); }
 
 TEST(EventBins, HoldEveryStepOnce) {

@@ -86,7 +86,7 @@ TEST(HtmlReport, ShowsTableAndBothPlots) {
   expect_sound(html);
   EXPECT_EQ(count(html, "<svg"), 2U);
   for (const char* text : {"<title>kds run: chain.pdb</title>", "1,234,567", "0000000000abcdef", "wrapped",
-                           "power", "events per frame", "events so far", "motion linear, kernel filtered"})
+                           "power", "events per step", "events so far", "motion linear, kernel filtered"})
     EXPECT_THAT(html, HasSubstr(text));
 }
 
@@ -114,7 +114,7 @@ TEST(HtmlReport, LongRunsStaySmall) {
   report.structures[1].events_per_step.assign(300000, 1000000);
   const std::string html = html_report(report);
   EXPECT_LT(html.size(), 500000U);
-  EXPECT_THAT(html, HasSubstr("the mean over 500 frames"));
+  EXPECT_THAT(html, HasSubstr("the mean over 500 steps"));
 }
 
 TEST(HtmlReport, NoEventsAreNoFailure) {

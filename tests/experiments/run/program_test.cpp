@@ -1,9 +1,12 @@
 // The program from outside: exit codes, one line for each mistake, and where results go.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
@@ -38,13 +41,22 @@ std::string xyz(const std::vector<std::string>& beads) {
 }
 
 TEST(Program, HelpAndVersionSucceed) {
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"--help"}, {"-h"}, {"--version"}, {"run", "--help"}, {"replay", "--help"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"-h"},
+                                                    {"--version"},
+                                                    {"run", "--help"},
+                                                    {"replay", "--help"},
+                                                    {"help"},
+                                                    {"help", "bench"}}) {
     const ProgramRun run = run_program(arguments);
     EXPECT_EQ(run.code, 0);
     EXPECT_EQ(run.err, "");
     EXPECT_THAT(run.out, HasSubstr("kds"));
   }
+  EXPECT_EQ(run_program({"help"}).out, run_program({"--help"}).out);
+  EXPECT_EQ(run_program({"help", "run"}).out, run_program({"run", "--help"}).out);
+  expect_refused({"help", "fly"}, {"unknown command 'fly'"});
+  expect_refused({"help", "run", "info"}, {"one command"});
 }
 
 TEST(Program, RefusesWrongUsage) {
@@ -386,6 +398,86 @@ TEST(Program, RunsSeveralNecklacesOnOneClock) {
   expect_refused({"run", kSmall, other}, {"d1_n20_linear.txt", "alone"});
 }
 
+TEST(Program, NamesFramesByTheirNumberInTheFile) {
+  const ScratchDirectory directory;
+  const std::string out = (directory / "out").string(), dump = (directory / "dump").string();
+  const ProgramRun run = run_program({"run", kTrajectory, "--frames", "100:125:10", "--structures", "wrapped",
+                                      "--out", out, "--dump", dump});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("a stride of 10 ends at frame 120; 4 frames behind it are left out"));
+  EXPECT_THAT(run.out, HasSubstr("108 beads, 3 frames (100 to 120), dimension 3"));
+  EXPECT_THAT(content_of(out + "/events.csv"), HasSubstr("\n100,wrapped,"));
+  EXPECT_THAT(content_of(out + "/events.csv"), HasSubstr("\n110,wrapped,"));
+  const Json input = Json::parse(content_of(out + "/summary.json"))["input"];
+  EXPECT_EQ(input["first_frame"], 100);
+  EXPECT_EQ(input["last_frame"], 120);
+  EXPECT_FALSE(input.contains("picoseconds"));
+  EXPECT_TRUE(std::filesystem::exists(dump + "/frame-2.wrapped.csv"));  // dumps count the frames of the run
+  const Json info = Json::parse(
+      run_program({"info", kTrajectory, "--frames", "100:121:10", "--radius", "0.5", "--json", "-"}).out);
+  EXPECT_EQ(info["rows"][0]["first_frame"], 100);
+  std::string flat;
+  for (int k = 0; k < 4; ++k)
+    flat += xyz({"0 0 0", "1 0 1", "2 " + std::to_string(k) + " 2", "3 0 3", "4 1 4"});
+  expect_refused({"run", directory.file("flat.xyz", flat), "--structures", "power", "--frames", "2:"},
+                 {"plane", "from frame 2 to frame 3"});
+}
+
+TEST(Program, TellsTheTimesThatAFileHas) {
+  const ScratchDirectory directory;
+  std::string bytes = content_of(kTrajectory);
+  const float length = 2 / 48.88821F;  // steps of 2 fs, ten of them a frame
+  const std::int32_t steps = 10;
+  std::memcpy(&bytes[8 + 4 * 2], &steps, sizeof steps);
+  std::memcpy(&bytes[8 + 4 * 9], &length, sizeof length);
+  const ProgramRun run =
+      run_program({"run", directory.file("timed.dcd", bytes), "--frames", "100:103", "--structures",
+                   "wrapped", "--out", (directory / "out").string(), "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(Json::parse(run.out)["input"]["picoseconds"], Json::array({2.0, 2.04}));
+  const std::string csv = content_of(directory / "out/events.csv");
+  EXPECT_TRUE(csv.starts_with("frame,structure,events,cumulative,picoseconds\n100,wrapped,")) << csv;
+  EXPECT_THAT(csv, HasSubstr(",2.02\n"));
+  EXPECT_THAT(content_of(directory / "out/report.html"), HasSubstr("from 2 to 2.04 ps"));
+}
+
+TEST(Program, RunsTheChainsOfAComplexOnOneClock) {
+  const ScratchDirectory directory;
+  std::string complex;
+  for (int model = 1; model <= 2; ++model) {
+    complex += fmt::format("MODEL     {:4}\n", model);
+    for (const char chain : {'A', 'B', 'C'})
+      for (int residue = 1; residue <= 3; ++residue)
+        for (const char* name : {"N", "CA", "C"})
+          complex += fmt::format("ATOM      1  {:<3} ALA {}{:4}    {:8.3f}{:8.3f}{:8.3f}\n", name, chain,
+                                 residue, 4.5 * residue + 1.5 * (name[0] == 'C') + 1.5 * (name[1] == '\0'),
+                                 9.0 * (chain - 'A'), 0.5 * model * residue * (residue % 2));
+    complex += "ENDMDL\n";
+  }
+  const std::string file = directory.file("complex.pdb", complex);
+  const auto beads = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "run");
+    arguments.insert(arguments.end(), {"--structures", "wrapped", "--audit", "events", "--json", "-"});
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.err.empty(), std::find(arguments.begin(), arguments.end(), "--chain") != arguments.end());
+    return Json::parse(run.out)["input"]["beads"].get<int>();
+  };
+  EXPECT_EQ(beads({file}), 9);
+  EXPECT_EQ(beads({file, "--chain", "B"}), 9);
+  EXPECT_EQ(beads({file, "--chain", "A,C,B"}), 27);
+  EXPECT_EQ(beads({file, file, "--chain", "A,B"}), 36);
+  EXPECT_EQ(beads({file, file, "--chain", "A,B/C"}), 27);
+  EXPECT_THAT(run_program({"info", file}).err, HasSubstr("chains B, C not read; --chain B or --chain A,B"));
+  const Json info = Json::parse(run_program({"info", file, "--chain", "A,B", "--json", "-"}).out);
+  EXPECT_EQ(info["necklaces"].size(), 2U);
+  EXPECT_EQ(info["necklaces"][1]["file"], file + " chain B");
+  expect_refused({"run", file, "--chain", "A/B"}, {"--chain", "2 INPUTs", "1 is"});
+  expect_refused({"run", file, "--chain", "A,"}, {"--chain", "leaves a name empty"});
+  expect_refused({"run", file, "--chain", "A,A"}, {"--chain", "twice"});
+  expect_refused({"run", file, "--chain", "A,X"}, {"--chain", "has no chain 'X'"});
+}
+
 TEST(Program, StandardOutputHoldsWhatWasAskedFor) {
   const ProgramRun table = run_program({"run", kSmall});
   EXPECT_EQ(table.code, 0) << table.err;
@@ -452,12 +544,83 @@ TEST(Program, ANameThatIsNoTextCannotBeLogged) {
   EXPECT_EQ(directory.entries(), 1U);
 }
 
-TEST(Program, AClosedOrFullOutputIsAFailure) {
+TEST(Program, AFullOutputIsAFailureWithTheSystemsReason) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  const ProgramRun run = run_program({"run", kSmall, "--quiet", "--json", "/dev/full"});
-  EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("/dev/full"));
-  EXPECT_THAT(run.err, Not(HasSubstr("terminate")));
+  const ScratchDirectory directory;
+  const std::string log = (directory / "events.log").string(), model = (directory / "model.xyz").string();
+  ASSERT_EQ(run_program({"run", kSmall, "--log", log, "--quiet"}).code, 0);
+  std::filesystem::create_symlink("/dev/full", model);
+  const auto expect_full = [](const ProgramRun& run) {
+    EXPECT_EQ(run.code, 1);
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("No space left on device"));
+  };
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"run", kSmall, "--quiet", "--json", "/dev/full"},
+        {"run", kSmall, "--quiet", "--log", "/dev/full"},
+        {"run", data_file("kinetic/d1_n200_linear.txt"), "--quiet", "--log", "/dev/full"},
+        {"replay", log, "--quiet", "--json", "/dev/full"},
+        {"info", kSmall, "--quiet", "--json", "/dev/full"},
+        {"generate", "helix", "--beads", "10", "--quiet", "-o", model}})
+    expect_full(run_program(arguments));
+  for (const char* line :
+       {"\"$0\" --help", "\"$0\" help run", "\"$0\" run \"$1\"", "\"$0\" run \"$1\" --json -",
+        "\"$0\" info \"$1\"", "\"$0\" replay \"$2\"", "\"$0\" replay \"$2\" --json -"})
+    expect_full(run_shell(std::string(line) + " > /dev/full", {kSmall, log}));
+}
+
+// Files of more than 4 KB cannot be written: as on a full disk, but for the reason.
+TEST(Program, ADiskThatFillsUpLeavesNoHalfResults) {
+  const ScratchDirectory directory;
+  const std::string out = (directory / "out/below").string();
+  const auto expect_full = [&](const std::string& arguments) {
+    const ProgramRun run =
+        run_shell("ulimit -f 8; \"$0\" " + arguments, {data_file("kinetic/d3_n100_linear.txt"), out});
+    EXPECT_EQ(run.code, 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("cannot write: File too large"));
+    EXPECT_EQ(directory.entries(), 0U) << arguments;
+  };
+  expect_full("run \"$1\" --quiet --dump \"$2\"");
+  expect_full("generate helix --beads 1000 --quiet -o \"${2%/out/below}/m.xyz\"");
+  expect_full("stability --quiet --subjects orientation,power_test --cases 1 --out \"$2\"");
+}
+
+TEST(Program, ARefusalMakesNoDirectory) {
+  const ScratchDirectory directory;
+  const std::string input =
+      directory.file("a.xyz", xyz({"0 0 0", "1 0 0", "2 0.5 0"}) + xyz({"0 0 0", "nan 0 0", "2 0 0"}));
+  const std::string flat = directory.file("flat.xyz", xyz({"0 0 0", "1 0 1", "2 1 2", "3 0 3", "4 1 4"}) +
+                                                          xyz({"0 1 0", "1 0 1", "2 2 2", "3 0 3", "4 2 4"}));
+  const std::string log = directory.file("log", "not a log\n");
+  for (const char* option : {"--out", "--dump"}) {
+    const std::string there = (directory / "new/there").string();
+    expect_refused({"run", input, option, there}, {"frame 1"});
+    expect_refused({"run", flat, option, there, "--structures", "wrapped,power"}, {"plane"});  // at its end
+    expect_refused({"run", kSmall, option, there, "--structures", "power"}, {"power"});
+    EXPECT_FALSE(std::filesystem::exists(directory / "new"));
+  }
+  for (const char* command : {"info", "update", "replay"}) {
+    const std::string of = command == std::string("replay") ? log : input;
+    expect_refused({command, of, "--out", (directory / "new").string()}, {of});
+    EXPECT_FALSE(std::filesystem::exists(directory / "new"));
+  }
+  std::filesystem::create_directory(directory / "old");
+  directory.file("old/frame-0.wrapped.csv", "precious");
+  expect_refused({"run", flat, "--dump", (directory / "old").string()}, {"plane"});
+  EXPECT_EQ(content_of(directory / "old/frame-0.wrapped.csv"), "precious");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory / "old"), {}), 1);
+}
+
+TEST(Program, WarningsWaitUntilTheInputIsAccepted) {
+  const ScratchDirectory directory;
+  const std::string cut = directory.file("cut.xyz", xyz({"0 0 0", "1 0 0", "2 0 0", "9 0 0"}) +
+                                                        xyz({"0 0 0", "1 0 0", "2 0 0", "9 1 0"}) + "4\n");
+  const std::string bad = directory.file("bad.xyz", "what\n");
+  EXPECT_THAT(run_program({"run", cut, "--frames", ":2", "--structures", "wrapped"}).err,
+              HasSubstr("warning: " + cut));
+  for (const char* command : {"run", "info", "update"})
+    expect_refused({command, cut, bad, "--frames", ":2"}, {"bad.xyz"});
+  expect_refused({"run", cut, "--frames", ":2", "--structures", "wrapped", "--nodes", "70:80"}, {"--nodes"});
 }
 
 TEST(Program, StandardStreamsMayBeClosed) {
@@ -475,8 +638,8 @@ TEST(Program, AFileThatMayNotGrowIsAFailureWithoutATrace) {
   const std::string log = (directory / "events.log").string();
   const ProgramRun run = run_shell("ulimit -f 8; \"$0\" run \"$1\" --quiet --log \"$2\"",
                                    {data_file("kinetic/d1_n200_linear.txt"), log});
-  EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("events.log: cannot write"));
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.err, HasSubstr("events.log: cannot write: File too large"));
   EXPECT_EQ(directory.entries(), 0U);
 }
 
@@ -485,7 +648,7 @@ TEST(Program, AnInterruptedRunLeavesNothingBehind) {
     const ScratchDirectory directory;
     // Waits for the log in the making, and ends the program then.
     const ProgramRun run = run_shell(
-        "\"$0\" run \"$1\" --log \"$2/events.log\" --audit events & "
+        "\"$0\" run \"$1\" --log \"$2/events.log\" --dump \"$2/made/dump\" --audit events & "
         "i=0; while [ -z \"$seen\" ] && [ $i -lt 200 ]; do sleep 0.05; seen=$(ls -A \"$2\" | grep part); "
         "i=$((i+1)); done; echo \"$seen\"; kill -$3 $!; wait $!",
         {data_file("trajectories/villin_hp36_300K.dcd"), directory.path().string(), signal});
@@ -493,6 +656,20 @@ TEST(Program, AnInterruptedRunLeavesNothingBehind) {
     EXPECT_THAT(run.out, HasSubstr(".part"));
     EXPECT_EQ(directory.entries(), 0U);
   }
+}
+
+TEST(Program, WhatAKilledRunLeftIsClearedByTheNext) {
+  const ScratchDirectory directory;
+  const std::string there = directory.path().string();
+  const ProgramRun killed = run_shell(
+      "\"$0\" run \"$1\" --dump \"$2\" --audit events & "
+      "i=0; while [ -z \"$seen\" ] && [ $i -lt 200 ]; do sleep 0.05; seen=$(ls -A \"$2\"/.kds-*); "
+      "i=$((i+1)); done; kill -KILL $!; wait $!",
+      {data_file("trajectories/villin_hp36_300K.dcd"), there});
+  EXPECT_EQ(killed.code, 128 + 9) << killed.err;
+  ASSERT_EQ(directory.entries(), 1U);
+  EXPECT_EQ(run_program({"run", data_file("kinetic/d3_n20_linear.txt"), "--quiet", "--dump", there}).code, 0);
+  EXPECT_EQ(directory.entries(), 4U);  // cells and hidden beads of two frames
 }
 
 }  // namespace

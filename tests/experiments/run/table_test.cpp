@@ -22,7 +22,7 @@ TEST(Table, ComparesStructuresFigureByFigure) {
   EXPECT_THAT(table, ContainsRegex("\n  enter +3 +-\n"));
   EXPECT_THAT(table, ContainsRegex("\n  2-3 +- +17\n"));
   EXPECT_THAT(table, ContainsRegex("\n  wander .internal. +- +5\n"));
-  EXPECT_THAT(table, ContainsRegex("\nevents per frame +2.000 +10.00\n"));
+  EXPECT_THAT(table, ContainsRegex("\nevents per step +2.000 +10.00\n"));
   EXPECT_THAT(table, ContainsRegex("\ncertificates created +1,234,567 +0\n"));
   EXPECT_THAT(table, ContainsRegex(
                          "\nfailure times settled by\n  double, all coefficients positive +1,000,000 +40\n"));
@@ -31,6 +31,16 @@ TEST(Table, ComparesStructuresFigureByFigure) {
   EXPECT_THAT(table, ContainsRegex("\n  kinetic / static +0.250 +-\n"));
   EXPECT_THAT(table, ContainsRegex("\nrebuilds +0 +1\n"));
   EXPECT_TRUE(table.ends_with("\nfingerprint 0000000000abcdef\n"));
+}
+
+TEST(Table, NamesFramesByTheirNumberInTheFile) {
+  RunReport report = test::sample_report();
+  report.frame_numbers = {0, 1, 2, 3};
+  EXPECT_THAT(comparison_table(report), HasSubstr("36 beads, 4 frames, dimension 3"));
+  report.frame_numbers = {100, 110, 120, 130};
+  EXPECT_THAT(comparison_table(report), HasSubstr("36 beads, 4 frames (100 to 130), dimension 3"));
+  report.times = {2, 2.2, 2.4, 2.6};
+  EXPECT_THAT(comparison_table(report), HasSubstr("4 frames (100 to 130, 2 to 2.6 ps), dimension 3"));
 }
 
 TEST(Table, ColumnsAreAligned) {

@@ -157,6 +157,18 @@ TEST(Info, OfATrajectoryThatIsProper) {
   EXPECT_EQ(info["proper"], true);
 }
 
+TEST(Info, FindsNoGapThatTheAutomaticRadiusLeft) {
+  const std::vector<std::string> input{data_file("trajectories/random100_400K_first200.dcd"), "--frames",
+                                       "::9"};
+  std::vector<std::string> info{"info", "--json", "-"}, run{"run", "--structures", "wrapped", "--json", "-"};
+  info.insert(info.end(), input.begin(), input.end());
+  run.insert(run.end(), input.begin(), input.end());
+  const Json told = Json::parse(run_program(info).out), ran = Json::parse(run_program(run).out);
+  EXPECT_EQ(told["rows"][0]["condition"], "connected");
+  EXPECT_EQ(told["rows"][0]["violations"], 0);
+  EXPECT_EQ(told["input"]["radius_max"], ran["input"]["radius_max"]);
+}
+
 TEST(Info, OfAnInstance) {
   const ProgramRun run = run_program({"info", data_file("kinetic/w3_n20_degree2_visible.txt")});
   EXPECT_EQ(run.code, 0) << run.err;

@@ -205,6 +205,18 @@ TEST(ModelRotating, IsRigidAndTakesItsSteps) {
   EXPECT_EQ(rotating(shape, 2, 0)[1], shape);
 }
 
+TEST(PlanarGrid, StaysInItsPlaneWhateverTheMotion) {
+  Settings settings{.beads = 60, .frames = 20, .motion = {}, .step = 0.3, .dimension = 2, .jitter = 0.2};
+  for (const ShapeMotion motion : {ShapeMotion::rest, ShapeMotion::rotate, ShapeMotion::wander}) {
+    settings.motion = motion;
+    const Trajectory grid = generate(*find_model("grid"), settings).front();
+    ASSERT_EQ(grid.frames.size(), 20U);
+    for (const Shape& frame : grid.frames) EXPECT_EQ(frame.row(2).cwiseAbs().maxCoeff(), 0);
+    const double moved = (grid.frames[19] - grid.frames[0]).colwise().norm().maxCoeff();
+    EXPECT_EQ(moved > 0.5, motion != ShapeMotion::rest);
+  }
+}
+
 TEST(ModelWandering, DoesNotMakeWorseWhatIsWrongAlready) {
   Shape broken(3, 4);  // 0-1 too long, 1-3 too near
   broken << 0, 3, 4.5, 4, 0, 0, 0, 0.5, 0, 0, 0, 0;

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -203,6 +204,37 @@ TEST(DcdReader, CellsThatAreNone) {
   }
 }
 
+TEST(DcdReader, TellsTheTimesOfFramesWhereTheHeaderHasThem) {
+  DcdMaker maker = DcdMaker::chain(4, 7);
+  const auto times = [&](std::int32_t first, std::int32_t steps, double length) {
+    maker.first_step = first;
+    maker.steps_a_frame = steps;
+    maker.step_length = length;
+    return read(maker.bytes(), {.frames = {1, std::nullopt, 2}}).times;
+  };
+  constexpr double femtoseconds = 1 / 48.88821;
+  for (const bool big_endian : {false, true})
+    for (const std::int32_t version : {24, 0}) {
+      maker.big_endian = big_endian;
+      maker.version = version;
+      // Steps of 2 fs, a frame every 500 of them: 1 ps.
+      EXPECT_EQ(times(0, 500, 2 * femtoseconds), (std::vector<double>{1, 3, 5}));
+      EXPECT_EQ(times(500, 500, 2 * femtoseconds), (std::vector<double>{2, 4, 6}));
+      EXPECT_EQ(times(0, 1, 20 * femtoseconds), (std::vector<double>{0.02, 3 * 0.02, 5 * 0.02}));
+      // Written by programs that do not know, or no numbers that times can have.
+      EXPECT_TRUE(times(0, 1, 1).empty());
+      EXPECT_TRUE(times(0, 0, 0).empty());
+      EXPECT_TRUE(times(0, 1, 0).empty());
+      EXPECT_TRUE(times(0, -1, 0.1).empty());
+      EXPECT_TRUE(times(-7, 1, 0.1).empty());
+      EXPECT_TRUE(times(0, 1, -0.1).empty());
+      EXPECT_TRUE(times(0, 1, std::numeric_limits<double>::quiet_NaN()).empty());
+      EXPECT_TRUE(times(0, 1, 1e-30).empty());
+      EXPECT_TRUE(times(0, 1, 1e30).empty());
+    }
+  EXPECT_TRUE(read_trajectory(test::data_file("trajectories/villin_hp36_300K.dcd")).times.empty());
+}
+
 TEST(DcdReader, ResiduesNeedATopology) {
   const std::string bytes = DcdMaker::chain(6, 2).bytes();
   EXPECT_EQ(read(bytes, {.selection = Selection::all}).bead_count(), 6U);
@@ -228,6 +260,8 @@ TEST(DcdReader, TopologyPicksAtoms) {
     return places;
   };
   EXPECT_EQ(x({.topology = topology}), (std::vector<double>{1, 2, 3}));
+  EXPECT_THAT(read(maker.bytes(), {.topology = topology}).warnings,
+              testing::ElementsAre(testing::HasSubstr("t.pdb: chain A not read; --chain A or --chain B,A")));
   EXPECT_EQ(x({.topology = topology, .chain = "A"}), (std::vector<double>{4, 5, 6, 9, 10, 11}));
   EXPECT_EQ(x({.topology = topology, .selection = Selection::ca, .chain = "A"}),
             (std::vector<double>{5, 10}));
@@ -237,6 +271,11 @@ TEST(DcdReader, TopologyPicksAtoms) {
   const Trajectory beads = read(DcdMaker::chain(6, 2).bytes(), {.topology = topology, .chain = "A"});
   EXPECT_EQ(beads.bead_count(), 6U);
   EXPECT_EQ(beads.element_radii.front(), 1.55);
+  const std::vector<Trajectory> both = read_trajectories(
+      test::write_file("a.dcd", DcdMaker::chain(9, 2).bytes()), {.topology = topology, .chain = "A,B"});
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_EQ(both[0].bead_count(), 6U);
+  EXPECT_EQ(both[1].frames[0](0, 0), 9);
   refuse(DcdMaker::chain(11, 2).bytes(), {"a.dcd", "11 atoms", "t.pdb names 12 (3 of them selected)"},
          {.topology = topology});
   refuse(maker.bytes(), {"no-such-file.pdb"}, {.topology = "no-such-file.pdb"});

@@ -42,6 +42,22 @@ TEST(FrameRange, Select) {
   EXPECT_EQ(select("::18446744073709551615", {5, false}), (Frames{0}));
 }
 
+TEST(FrameRange, TellsOfFramesBehindTheLastOneThatAStrideMeets) {
+  const auto warnings = [](std::string_view range, std::size_t whole) {
+    std::vector<std::string> lines;
+    (void)select_frames("f", parse_frame_range(range), {whole, false}, lines);
+    return lines;
+  };
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(warnings("0:100:7", 200),
+            Lines{"f: a stride of 7 ends at frame 98; 1 frame behind it is left out"});
+  EXPECT_EQ(warnings("::10", 1000),
+            Lines{"f: a stride of 10 ends at frame 990; 9 frames behind it are left out"});
+  EXPECT_TRUE(warnings("0:99:7", 200).empty());
+  EXPECT_TRUE(warnings(":5", 200).empty());
+  EXPECT_TRUE(warnings("::10", 1).empty());
+}
+
 TEST(FrameRange, FramesThatAreNotThere) {
   test::expect_refused([] { (void)select("3:", {3, false}); }, {"--frames", "f", "3 frames"});
   test::expect_refused([] { (void)select(":4", {3, false}); }, {"--frames", "f", "3 frames"});

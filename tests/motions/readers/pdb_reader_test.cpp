@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -121,6 +122,47 @@ TEST(PdbReader, Chains) {
   refuse(pdb_line({.name = "O", .residue = "HOH", .het = true, .element = "O"}),
          {"a.pdb", "no chain of amino acids"});
   EXPECT_EQ(read(pdb_residue(1, ' '), {.chain = " "}).bead_count(), 3U);
+}
+
+TEST(PdbReader, SeveralChainsAreANecklaceEach) {
+  const std::string model = pdb_residue(1, 'A') + pdb_residue(2, 'A') + pdb_residue(1, 'B', 9) +
+                            pdb_residue(1, 'C', 20) + pdb_residue(7, 'C', 20);
+  const std::filesystem::path file =
+      test::write_file("a.pdb", "MODEL 1\n" + model + "ENDMDL\nMODEL 2\n" + model + "ENDMDL\n");
+  const std::vector<Trajectory> necklaces = read_trajectories(file, {.chain = "C,A"});
+  ASSERT_EQ(necklaces.size(), 2U);
+  EXPECT_EQ(necklaces[0].file, file.string() + " chain C");
+  EXPECT_EQ(necklaces[0].frames[1].row(1).minCoeff(), 20);
+  EXPECT_EQ(necklaces[0].breaks, std::vector<std::size_t>{2});  // none between the chains
+  EXPECT_EQ(necklaces[1].frames[1].row(1).maxCoeff(), 0);
+  EXPECT_TRUE(necklaces[1].breaks.empty());
+  for (const Trajectory& necklace : necklaces) {
+    EXPECT_EQ(necklace.bead_count(), 6U);
+    EXPECT_EQ(necklace.element_radii.size(), 6U);
+    EXPECT_EQ(necklace.frame_numbers, (std::vector<std::size_t>{0, 1}));
+  }
+  EXPECT_EQ(read_trajectories(file).size(), 1U);
+  refuse(model, {"--chain", "one chain"}, {.chain = "A,B"});
+  refuse(model, {"--chain", "'A' is listed twice"}, {.chain = "A,B,A"});
+  refuse(model, {"--chain", "has no chain 'X'", "A, B, C"}, {.chain = "A,X"});
+}
+
+TEST(PdbReader, NamesTheChainsThatAreNotRead) {
+  const std::string a = pdb_residue(1, 'A') + pdb_residue(2, 'A');
+  const auto warnings = [](const std::string& text, const ReadOptions& options = {}) {
+    return read(text, options).warnings;
+  };
+  EXPECT_TRUE(warnings(a + pdb_line({.name = "O", .residue = "HOH", .chain = 'W', .het = true})).empty());
+  EXPECT_THAT(
+      warnings(a + pdb_residue(1, 'B')),
+      testing::ElementsAre(testing::EndsWith("a.pdb: chain B not read; --chain B or --chain A,B reads it")));
+  EXPECT_THAT(warnings(a + pdb_residue(1, 'B') + pdb_residue(1, 'C')),
+              testing::ElementsAre(testing::EndsWith(
+                  "a.pdb: chains B, C not read; --chain B or --chain A,B reads them likewise")));
+  EXPECT_TRUE(warnings(a + pdb_residue(1, 'B'), {.chain = "A"}).empty());  // who names chains knows
+  std::string many = a;
+  for (char chain = 'B'; chain <= 'Z'; ++chain) many += pdb_residue(1, chain);
+  EXPECT_THAT(warnings(many).front(), testing::HasSubstr("J, K and 15 more not read"));
 }
 
 TEST(PdbReader, ModelsAreFrames) {

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <random>
 
+#include "motions/numbers/exact_number.h"
 #include "motions/readers/read_trajectory.h"
 #include "motions/readers/vdw_radii.h"
 #include "tests/motions/test_files.h"
@@ -42,6 +46,34 @@ TEST(Radii, AutoIsHalfTheLongestBond) {
   EXPECT_EQ(radii("auto", {broken}), Radii(4, 1));
   EXPECT_EQ(radii("auto", {broken, necklace({{0, 5}})}), Radii(6, 2.5));
   EXPECT_EQ(radii("auto", {necklace({{7}}), necklace({{0, 5}})}), Radii(3, 2.5));
+}
+
+// The exact square of a bond's length, less that of the radii's sum.
+Rational gap(const Eigen::Matrix3Xd& frame, Eigen::Index bead, double radius) {
+  Rational rest = -4 * Dyadic(radius).rational() * Dyadic(radius).rational();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Rational d = Dyadic(frame(axis, bead + 1)).rational() - Dyadic(frame(axis, bead)).rational();
+    rest += d * d;
+  }
+  return rest;
+}
+
+TEST(Radii, AutoIsTheLeastOfWhichTheEndsOfTheLongestBondMeet) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(-1, 1);
+  for (const double scale : {1.0, 1e-3, 1e10, 0x1p-1060, 0x1p500}) {
+    for (int round = 0; round < 50; ++round) {
+      Trajectory trajectory = necklace({{0, 0, 0, 0}});
+      for (double& x : trajectory.frames[0].reshaped()) x = scale * place(random);
+      const double radius = radii("auto", {trajectory}).front();
+      const auto most_gap = [&](double r) {
+        return std::max({gap(trajectory.frames[0], 0, r), gap(trajectory.frames[0], 1, r),
+                         gap(trajectory.frames[0], 2, r)});
+      };
+      EXPECT_LE(most_gap(radius), 0);
+      EXPECT_GT(most_gap(std::nextafter(radius, 0)), 0);
+    }
+  }
 }
 
 TEST(Radii, AutoNeedsABond) {
