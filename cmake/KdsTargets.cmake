@@ -13,10 +13,16 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${CCACHE_PROGRAM}")
 endif()
 
+# What a consumer needs: C++20, the folders' includes, and products that are rounded before they are added, as the error
+# bounds of the filters have it.
+add_library(kds_requirements INTERFACE)
+target_compile_features(kds_requirements INTERFACE cxx_std_20)
+target_include_directories(kds_requirements INTERFACE "${PROJECT_SOURCE_DIR}")
+target_compile_options(kds_requirements INTERFACE -ffp-contract=off)
+
+# What is ours alone.
 add_library(kds_options INTERFACE)
-target_include_directories(kds_options INTERFACE "${PROJECT_SOURCE_DIR}")
-# The error bounds of the filters hold only if a*b+c is rounded twice, as written.
-target_compile_options(kds_options INTERFACE -ffp-contract=off)
+target_link_libraries(kds_options INTERFACE kds_requirements)
 target_compile_options(kds_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wextra-semi)
 # Vectors of four doubles are passed between inlined functions only (motions/numbers/lanes.h).
@@ -53,7 +59,7 @@ function(kds_add_library name)
   add_library(kds::${name} ALIAS kds_${name})
   target_sources(kds_${name} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${headers})
   set_target_properties(kds_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
-  target_link_libraries(kds_${name} PUBLIC kds_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  target_link_libraries(kds_${name} PUBLIC kds_requirements ${ARG_PUBLIC} PRIVATE kds_options ${ARG_PRIVATE})
 endfunction()
 
 # kds_precompile(<target> <header>... | REUSE_FROM <target>): headers of others that most files of the target include, parsed

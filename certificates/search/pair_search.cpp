@@ -16,6 +16,10 @@ std::unique_ptr<CertificateSearch<Precedes>> search_over(const MotionRef<3>& mot
   return detail::search_one_by_one<Precedes>(motion);
 }
 template <>
+std::unique_ptr<CertificateSearch<Contact>> search_over(const MotionRef<1>& motion) {
+  return detail::search_one_by_one<Contact>(motion);
+}
+template <>
 std::unique_ptr<CertificateSearch<Contact>> search_over(const MotionRef<2>& motion) {
   return detail::search_one_by_one<Contact>(motion);
 }

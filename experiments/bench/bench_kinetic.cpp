@@ -3,8 +3,8 @@
 #include <numeric>
 
 #include "experiments/program/timing.h"
-#include "experiments/run/session.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
+#include "structures/session/session.h"
 #include "structures/triangulation/static_build.h"
 
 namespace kds {
@@ -24,14 +24,15 @@ struct Run {
 };
 
 Run run_all_steps(const Scene& scene) {
-  const auto session = make_session(scene, {{"wrapped"}, KernelName::filtered, AuditMode::none, {}});
+  const auto session =
+      std::make_unique<Session>(scene, SessionOptions{{"wrapped"}, Kernel::filtered, AuditMode::none, {}});
   session->load(0);
   session->simulator().build();
   Run run;
   run.seconds = processor_seconds_of([&] {
     for (std::size_t step = 0; step < scene.step_count(); ++step) {
       session->load(step);
-      session->simulator().run_step(step + 1 == scene.step_count());
+      session->simulator().run_step();
     }
   });
   const auto& per_step = session->structures().front()->statistics.events_per_step;

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "experiments/bench/subject.h"
-#include "experiments/run/session.h"
 #include "motions/readers/instance.h"
+#include "structures/session/session.h"
 #include "structures/triangulation/regular_triangulation.h"
 #include "structures/triangulation/static_build.h"
 
@@ -31,7 +31,7 @@ Seconds seconds_to_build(const Scene& scene, const Eigen::Matrix3Xd& centers,
   }
 }
 
-void run_instance(Turns& turns, const std::filesystem::path& file, KernelName kernel) {
+void run_instance(Turns& turns, const std::filesystem::path& file, Kernel kernel) {
   const Scene scene(read_instance(file));
   const std::string structure = scene.dimension() == 1 ? "sorted" : "power";
   const Eigen::Matrix3Xd centers = scene.centers(0);
@@ -41,10 +41,11 @@ void run_instance(Turns& turns, const std::filesystem::path& file, KernelName ke
   std::uint64_t events = 0;
   while (turns.another()) {
     runs.push_back(processor_seconds_of([&] {
-      const auto session = make_session(scene, {{structure}, kernel, AuditMode::none, {}});
+      const auto session =
+          std::make_unique<Session>(scene, SessionOptions{{structure}, kernel, AuditMode::none, {}});
       session->load(0);
       session->simulator().build();
-      session->simulator().run_step(true);
+      session->simulator().run_step();
       const auto& per_step = session->structures().front()->statistics.events_per_step;
       events = std::accumulate(per_step.begin(), per_step.end(), std::uint64_t{0});
     }));
@@ -86,7 +87,7 @@ std::vector<Subject> engine_subjects(const std::filesystem::path& instances) {
     const Instance instance = read_instance(file);
     const std::string stem = file.stem().string();
     const bool sorted = instance.dimension() == 1;
-    const auto add = [&](const char* kernel, KernelName name) {
+    const auto add = [&](const char* kernel, Kernel name) {
       Subject subject{std::string(sorted ? "sorted" : "power") + "/" + stem + "/" + kernel,
                       stem,
                       instance.point_count(),
@@ -96,16 +97,16 @@ std::vector<Subject> engine_subjects(const std::filesystem::path& instances) {
                       [=](Turns& turns) { run_instance(turns, file, name); }};
       const auto goal =
           std::find_if(goals.begin(), goals.end(), [&](const Goal& g) { return g.instance == stem; });
-      if (name == KernelName::filtered && goal != goals.end()) {
+      if (name == Kernel::filtered && goal != goals.end()) {
         subject.most_ns = 1e9 / goal->events_per_second;
         subject.most_ratio = goal->static_builds;
       }
       all.push_back(std::move(subject));
     };
-    add("filtered", KernelName::filtered);
-    add("fast", KernelName::fast);
+    add("filtered", Kernel::filtered);
+    add("fast", Kernel::fast);
     constexpr std::size_t few = 50;  // integers alone take their time
-    if (instance.point_count() <= few) add("exact", KernelName::exact);
+    if (instance.point_count() <= few) add("exact", Kernel::exact);
   }
   return all;
 }

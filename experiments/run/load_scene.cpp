@@ -6,6 +6,7 @@
 
 #include "motions/base/input_error.h"
 #include "motions/scene/radii.h"
+#include "structures/necklace/necklace_tree.h"
 
 namespace kds {
 
@@ -52,15 +53,9 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
   return Scene(necklaces, std::move(radii), options.motion);
 }
 
-SessionOptions session_options(const RunOptions& options, const Scene& scene, AuditMode audits) {
-  SessionOptions session{options.structures, options.kernel, audits, options.nodes};
-  if (session.structures.empty()) {
-    if (!is_instance_file(options.inputs.front())) {
-      session.structures = {"wrapped", "power"};
-    } else {
-      session.structures = {scene.dimension() == 1 ? "sorted" : "power"};
-    }
-  }
+std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& scene, AuditMode audits) {
+  SessionOptions session{options.structures, options.kernel, audits, {options.nodes}};
+  if (session.structures.empty()) session.structures = default_structures(scene);
   const auto& names = session.structures;
   if (options.nodes.restricts() && std::find(names.begin(), names.end(), "wrapped") == names.end())
     throw InputError("--levels, --nodes: they choose nodes of wrapped, which is not among the structures");
@@ -73,7 +68,16 @@ SessionOptions session_options(const RunOptions& options, const Scene& scene, Au
                       "which has {} beads",
                       tree.node_count(), scene.bead_count()));
   }
-  return session;
+  if (options.kernel == Kernel::fast && scene.degree() > highest_fast_degree)
+    throw InputError(
+        fmt::format("--kernel fast: motions of degree {} (above {}) have no lanes to be fast in; "
+                    "expected filtered or exact",
+                    scene.degree(), highest_fast_degree));
+  try {
+    return std::make_unique<Session>(scene, session);
+  } catch (const StructureRefusal& refusal) {
+    throw InputError(fmt::format("--structures {}", refusal.what()));
+  }
 }
 
 }  // namespace kds

@@ -2,14 +2,15 @@
 // From the inputs of a run to its scene.
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/program/input_options.h"
 #include "experiments/run/run_options.h"
-#include "experiments/run/session.h"
 #include "motions/scene/scene.h"
+#include "structures/session/session.h"
 
 namespace kds {
 
@@ -25,7 +26,11 @@ namespace kds {
 [[nodiscard]] Scene load_scene(const RunOptions& options,
                                const std::function<void(const std::string&)>& warn);
 
-/// What the options ask of a session, --structures' default filled in. Throws InputError.
-[[nodiscard]] SessionOptions session_options(const RunOptions& options, const Scene& scene, AuditMode audits);
+/// Above this degree nothing is compiled for lanes.
+inline constexpr int highest_fast_degree = 3;
+
+/// The run of structures that the options ask for, the input's default filled in. Throws InputError.
+[[nodiscard]] std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& scene,
+                                                    AuditMode audits);
 
 }  // namespace kds

@@ -12,6 +12,7 @@
 #include "experiments/program/option_values.h"
 #include "experiments/program/text.h"
 #include "motions/base/input_error.h"
+#include "structures/session/structure_spec.h"
 
 namespace kds {
 namespace {
@@ -47,38 +48,30 @@ constexpr CommandSpec kCommand{
     "kds run models.pdb --kernel exact --audit events --json -",
 };
 
-constexpr std::array kKernels{Choice<KernelName>{"fast", KernelName::fast},
-                              Choice<KernelName>{"filtered", KernelName::filtered},
-                              Choice<KernelName>{"exact", KernelName::exact}};
+constexpr std::array kKernels{Choice<Kernel>{"fast", Kernel::fast},
+                              Choice<Kernel>{"filtered", Kernel::filtered},
+                              Choice<Kernel>{"exact", Kernel::exact}};
 constexpr std::array kAudits{Choice<AuditMode>{"none", AuditMode::none},
                              Choice<AuditMode>{"frames", AuditMode::frames},
                              Choice<AuditMode>{"events", AuditMode::events}};
 constexpr std::array kMotions{Choice<FrameMotion>{"linear", FrameMotion::linear},
                               Choice<FrameMotion>{"hermite", FrameMotion::hermite},
                               Choice<FrameMotion>{"lifted", FrameMotion::lifted}};
-constexpr std::array<std::string_view, 3> kStructures{"sorted", "wrapped", "power"};
-constexpr std::array<std::string_view, 1> kStructuresToCome{"contacts"};
 
-template <class Names>
-bool among(const Names& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-// In the order of kStructures whatever the order given, so that the same set gives the same run.
+// In the order of the registry whatever the order given, so that the same set gives the same run.
 std::vector<std::string> parse_structures(const std::string& list) {
   const std::vector<std::string> names = split(list, ',');
+  std::vector<std::string> known, ordered;
+  for (const StructureSpec& spec : structure_registry().all()) {
+    known.push_back(spec.name);
+    if (std::find(names.begin(), names.end(), spec.name) != names.end()) ordered.push_back(spec.name);
+  }
   for (const std::string& name : names) {
-    if (among(kStructuresToCome, name))
-      throw InputError(fmt::format("--structures: {} is not available yet", name));
-    if (!among(kStructures, name))
-      throw InputError(
-          fmt::format("--structures: '{}' is not one of {}", name, fmt::join(kStructures, ", ")));
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(fmt::format("--structures: '{}' is not one of {}", name, fmt::join(known, ", ")));
     if (std::count(names.begin(), names.end(), name) > 1)
       throw InputError(fmt::format("--structures: {} is listed twice", name));
   }
-  std::vector<std::string> ordered;
-  for (const std::string_view name : kStructures)
-    if (among(names, name)) ordered.emplace_back(name);
   return ordered;
 }
 

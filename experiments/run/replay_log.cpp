@@ -10,9 +10,9 @@
 #include "experiments/run/load_scene.h"
 #include "experiments/run/parse_run_options.h"
 #include "experiments/run/report_of_session.h"
-#include "experiments/run/session.h"
 #include "kds/audit.h"
 #include "motions/base/input_error.h"
+#include "structures/session/session.h"
 
 namespace kds {
 
@@ -57,8 +57,8 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
   }
   // Only the changes are made again: no certificate, no failure time. Frames are audited, unless the run
   // itself promised nothing.
-  const AuditMode audits = options.kernel == KernelName::fast ? AuditMode::none : AuditMode::frames;
-  const auto session = make_session(scene, session_options(options, scene, audits));
+  const AuditMode audits = options.kernel == Kernel::fast ? AuditMode::none : AuditMode::frames;
+  const auto session = open_session(options, scene, audits);
   session->load(0);
   Simulator& simulator = session->simulator();
   const auto& structures = session->structures();
@@ -84,7 +84,7 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
   for (std::size_t step = 0; step < steps.size(); ++step) {
     session->load(step);
     try {
-      simulator.replay_step(steps[step], step + 1 == steps.size());
+      simulator.replay_step(steps[step]);
     } catch (const std::logic_error& reason) {  // changes that do not fit
       throw InputError(reason.what());
     } catch (const AuditError& error) {

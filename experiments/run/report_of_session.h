@@ -3,7 +3,7 @@
 
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
-#include "experiments/run/session.h"
+#include "structures/session/session.h"
 
 namespace kds {
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "certificates/base/kernel.h"
 #include "kds/audit.h"
 #include "motions/readers/read_trajectory.h"
 #include "motions/scene/scene.h"
@@ -13,14 +14,11 @@
 
 namespace kds {
 
-enum class KernelName { fast, filtered, exact };
-
 struct RunOptions {
   std::vector<std::filesystem::path> inputs;
-  std::vector<std::string>
-      structures;  ///< of sorted, wrapped, power, in this order; empty: the input's default
+  std::vector<std::string> structures;  ///< by name, in their order; empty: the input's default
   FrameMotion motion = FrameMotion::linear;
-  KernelName kernel = KernelName::filtered;
+  Kernel kernel = Kernel::filtered;
   ReadOptions reading;  ///< --topology, --select, --chain, --frames
   std::string radius = "auto";
   AuditMode audit = AuditMode::none;

@@ -9,12 +9,11 @@
 #include "experiments/program/warnings.h"
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/load_scene.h"
-#include "experiments/run/make_session_of.h"
 #include "experiments/run/report_of_session.h"
 #include "experiments/run/run_settings.h"
-#include "experiments/run/session.h"
 #include "kds/audit.h"
 #include "motions/base/input_error.h"
+#include "structures/session/session.h"
 
 namespace kds {
 
@@ -26,14 +25,15 @@ void write_dump(std::optional<StagedFiles>& dumps, std::size_t frame, Session& s
     dumps->write(fmt::format("frame-{}.{}", frame, file.ending), file.text);
 }
 
-// Structures count steps from 0: the message says which frames of the file these are.
-void run_step(Session& session, const Scene& scene, std::size_t step, const RunOptions& options) {
+// Structures count steps from 0: messages say which frames of the file these are.
+template <class Work>
+void in_step(const Scene& scene, std::size_t step, const RunOptions& options, Work work) {
   const auto named = [&](const char* message) {
     return fmt::format("{} (step {} leads from frame {} to frame {})", message, step,
                        scene.frame_number(step), scene.frame_number(step + 1));
   };
   try {
-    session.simulator().run_step(step + 1 == scene.step_count());
+    work();
   } catch (const AuditError& error) {
     throw AuditError(fmt::format("{}\nto see it again: kds run {}", named(error.what()),
                                  shell_words(option_arguments(options))));
@@ -42,16 +42,19 @@ void run_step(Session& session, const Scene& scene, std::size_t step, const RunO
   }
 }
 
+/// What is only known when no step follows is about the last one.
+void finish(Session& session, const Scene& scene, const RunOptions& options) {
+  if (scene.step_count() == 0) return;
+  in_step(scene, scene.step_count() - 1, options, [&] { session.simulator().finish(); });
+}
+
 }  // namespace
 
 RunReport run_scene(const RunOptions& options, const Progress& progress,
                     const std::function<void(const std::string&)>& warn) {
   HeldWarnings warnings;
   const Scene scene = load_scene(options, warnings.hold());
-  const auto session = make_session(scene, session_options(options, scene, options.audit));
-  if (scene.degree() > highest_filtered_degree)
-    warnings.hold()(fmt::format(
-        "motions of degree {}: all is decided in whole numbers, as with --kernel exact", scene.degree()));
+  const auto session = open_session(options, scene, options.audit);
   std::optional<EventLogWriter> log;
   if (options.log) {
     log.emplace(*options.log, options, scene);
@@ -66,10 +69,12 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   write_dump(dumps, 0, *session);
   for (std::size_t step = 0; step < scene.step_count(); ++step) {
     session->load(step);
-    run_step(*session, scene, step, options);
+    in_step(scene, step, options, [&] { session->simulator().run_step(); });
     write_dump(dumps, step + 1, *session);
     progress(step + 1, scene.step_count());
   }
+
+  finish(*session, scene, options);
 
   RunReport report = report_of(*session, scene, options);
   std::vector<double> static_seconds;

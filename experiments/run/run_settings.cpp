@@ -24,18 +24,6 @@ std::string_view name_of(FrameMotion motion) {
   return "linear";
 }
 
-std::string_view name_of(KernelName kernel) {
-  switch (kernel) {
-    case KernelName::fast:
-      return "fast";
-    case KernelName::exact:
-      return "exact";
-    case KernelName::filtered:
-      break;
-  }
-  return "filtered";
-}
-
 std::string_view name_of(AuditMode audit) {
   switch (audit) {
     case AuditMode::frames:

@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "certificates/search/radical_search.h"
+#include "certificates/exact/exact_polynomial.h"
 #include "certificates/types/orientation.h"
 #include "experiments/stability/compare_answers.h"
 #include "experiments/stability/stability_radii.h"
@@ -21,53 +22,64 @@
 
 namespace kds {
 
-/// The polynomial whose roots are failures.
-template <class C, Motion M>
-struct RootsOf {
-  using Function = C;
-};
-template <class C, Motion M>
-requires RadicalCertificateFor<C, M>
-struct RootsOf<C, M> {
-  using Function = typename C::Radical::Norm;
-};
-
-template <class C, Motion M>
-inline constexpr int function_degree = decltype(function_of(typename RootsOf<C, M>::Function{},
-                                                            DoubleView<M>(std::declval<const M&>())))::degree;
-
-/// How many times longer than usual the exact stage takes for a case; less than that is not counted.
-template <class C, Motion M>
-inline constexpr double case_cost = [] {
-  constexpr double longer = std::max(1.0, function_degree<C, M> / 6.0);
-  return RadicalCertificateFor<C, M> ? 4 * longer * longer * longer : longer * longer;
+/// What a certificate type asks of beads, all of its polynomials together.
+template <class C>
+inline constexpr Channels channels_asked = [] {
+  if constexpr (requires { typename C::Radical; }) {
+    return channels_of<typename C::Radical::Norm>;
+  } else {
+    return channels_of<C>;
+  }
 }();
 
+template <class C>
+inline constexpr std::size_t beads_named = std::tuple_size_v<decltype(C{}.beads)>;
+
+/// Of the polynomial whose roots are failures.
 template <class C, Motion M>
-inline constexpr Channels channels_asked = channels_of<typename RootsOf<C, M>::Function>;
+[[nodiscard]] int function_degree() {
+  M motion(beads_named<C>);
+  for (BeadId b = 0; b < beads_named<C>; ++b) motion.set_coordinate(b, 0, 0, b);
+  C certificate;
+  std::iota(certificate.beads.begin(), certificate.beads.end(), BeadId{0});
+  const auto search = search_over<C>(MotionRef<M::dimension>(motion));
+  return static_cast<int>(search->exact_function(certificate)->scaled().size()) - 1;
+}
+
+/// How many times longer than usual the exact stage takes for a case; less than that is not counted.
+template <class C>
+[[nodiscard]] double case_cost(int function_degree) {
+  const double longer = std::max(1.0, function_degree / 6.0);
+  constexpr bool radical = requires { typename C::Radical; };
+  return radical ? 4 * longer * longer * longer : longer * longer;
+}
 
 template <class C, Motion M>
 class CertificateTrial {
  public:
-  CertificateTrial(const Extreme& extreme, const StabilityCases& cases) : extreme_(extreme) {
+  CertificateTrial(const Extreme& extreme, const StabilityCases& cases, int function_degree)
+      : extreme_(extreme) {
     const auto count =
-        static_cast<std::size_t>(std::ceil(static_cast<double>(cases.cases) / case_cost<C, M>));
+        static_cast<std::size_t>(std::ceil(static_cast<double>(cases.cases) / case_cost<C>(function_degree)));
     for (std::size_t number = 0; number < count; ++number) {
       SceneRandom random = scene_random(cases.seed, extreme.name, number);
       BeadCurves curves = extreme.make({M::dimension, M::degree, beads}, random);
-      if constexpr (channels_asked<C, M>.radii) give_radii(curves, random);
-      Case made{number, {}, M(0), {}, curves.instance(std::string(extreme.name))};
-      std::iota(made.certificate.beads.begin(), made.certificate.beads.end(), BeadId{0});
-      made.certificate.opposite = random() % 2 == 1;
-      for (double& u : made.times) u = static_cast<double>(random() >> 11U) * 0x1p-53;
+      if constexpr (channels_asked<C>.radii) give_radii(curves, random);
+      auto made = std::make_unique<Case>(curves.instance(std::string(extreme.name)));
+      made->number = number;
+      std::iota(made->certificate.beads.begin(), made->certificate.beads.end(), BeadId{0});
+      const bool opposite = random() % 2 == 1;
+      for (double& u : made->times) u = static_cast<double>(random() >> 11U) * 0x1p-53;
       try {
-        static_cast<void>(Scene(made.instance));
+        static_cast<void>(Scene(made->instance));
       } catch (const InputError& refusal) {
         if (refused_++ == 0) reason_ = refusal.what();
         continue;
       }
-      made.motion = curves.motion<M>();
-      orient(made);
+      made->motion = curves.motion<M>();
+      made->search = search_over<C>(MotionRef<M::dimension>(made->motion));
+      orient(*made);
+      if (opposite) made->certificate = opposite_of(made->certificate);
       cases_.push_back(std::move(made));
     }
   }
@@ -80,20 +92,23 @@ class CertificateTrial {
     row.refused = refused_;
     row.reason = reason_;
     StageCounts uncounted;
-    const auto fast = follow_all<Fast>(uncounted, row.seconds.fast);
-    const auto filtered = follow_all<Filtered>(row.stages, row.seconds.filtered);
-    const auto exact = follow_all<Exact>(uncounted, row.seconds.exact);
-    for (std::size_t i = 0; i < cases_.size(); ++i) compare(row, cases_[i], fast[i], filtered[i], exact[i]);
+    const auto fast = follow_all(Kernel::fast, uncounted, row.seconds.fast);
+    const auto filtered = follow_all(Kernel::filtered, row.stages, row.seconds.filtered);
+    const auto exact = follow_all(Kernel::exact, uncounted, row.seconds.exact);
+    for (std::size_t i = 0; i < cases_.size(); ++i) compare(row, *cases_[i], fast[i], filtered[i], exact[i]);
     return row;
   }
 
  private:
-  static constexpr std::size_t beads = bead_places<C>;
+  static constexpr std::size_t beads = beads_named<C>;
 
   struct Case {
+    explicit Case(Instance made) : instance(std::move(made)) {}
+
     std::size_t number = 0;
-    Sided<C> certificate;
-    M motion;
+    C certificate;
+    M motion{0};
+    std::unique_ptr<CertificateSearch<C>> search;
     std::array<double, 2> times{};  // at which signs are compared, besides 0 and the failures
     Instance instance;
   };
@@ -105,17 +120,20 @@ class CertificateTrial {
       std::copy_n(made.certificate.beads.begin(), basis.beads.size(), basis.beads.begin());
       StageCounts uncounted;
       made.certificate.orientation =
-          sign_just_after<Exact>(basis, made.motion, Instant(0), uncounted) < 0 ? -1 : 1;
+          search_over<Orientation<M::dimension>>(MotionRef<M::dimension>(made.motion))
+                      ->sign_just_after(Kernel::exact, basis, Instant(0), uncounted) < 0
+              ? -1
+              : 1;
     }
   }
 
-  template <Kernel K>
-  [[nodiscard]] std::vector<std::vector<Answer>> follow_all(StageCounts& stages, double& seconds) const {
+  [[nodiscard]] std::vector<std::vector<Answer>> follow_all(Kernel kernel, StageCounts& stages,
+                                                            double& seconds) const {
     std::vector<std::vector<Answer>> answers;
     std::vector<double> spent;
-    for (const Case& c : cases_) {
+    for (const auto& c : cases_) {
       const auto start = std::chrono::steady_clock::now();
-      answers.push_back(follow<K>(c.certificate, c.motion, stages));
+      answers.push_back(follow(kernel, c->certificate, *c->search, stages));
       const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
       spent.push_back(time.count() / static_cast<double>(answers.back().size()));
     }
@@ -125,14 +143,17 @@ class CertificateTrial {
 
   static void compare(StabilityRow& row, const Case& c, const std::vector<Answer>& fast,
                       const std::vector<Answer>& filtered, const std::vector<Answer>& exact) {
-    const BothSides<C, M> functions(c.certificate, c.motion);
-    const FunctionOfSide function = [&](bool opposite) { return functions.exact_function(opposite ? 1 : 0); };
+    const BothSides<C> functions(c.certificate, *c.search);
+    const FunctionOfSide function = [&](bool opposite) {
+      return *functions.exact_function(opposite ? 1 : 0);
+    };
     std::optional<std::string> trouble = disagreement(filtered, exact, function);
     const std::vector<TimedChange> failures = sharp_failures_of(exact, function);
     row.events += failures.size();
     add(row.fast, event_difference(failures, failures_of(fast)));
 
-    std::vector<Instant> times{Instant(0)};
+    std::vector<Instant> times;
+    times.emplace_back(0.0);
     for (const double u : c.times) times.emplace_back(u);
     for (const Answer& answer : exact) {
       if (answer.failure.kind == Failure::Kind::later)
@@ -143,7 +164,7 @@ class CertificateTrial {
     }
     if (!trouble) return;
     ++row.disagreements;
-    if constexpr (channels_asked<C, M>.radii) *trouble += radii_text(c.motion);
+    if constexpr (channels_asked<C>.radii) *trouble += radii_text(c.motion);
     note_trouble(row, c.number, *trouble, instance_text(c.instance));
   }
 
@@ -158,9 +179,9 @@ class CertificateTrial {
 
   static std::optional<std::string> compare_signs(StabilityRow& row, const Case& c, const Instant& now) {
     StageCounts uncounted;
-    const int exact = sign_just_after<Exact>(c.certificate, c.motion, now, uncounted);
-    const int filtered = sign_just_after<Filtered>(c.certificate, c.motion, now, row.stages);
-    const int fast = sign_just_after<Fast>(c.certificate, c.motion, now, uncounted);
+    const int exact = c.search->sign_just_after(Kernel::exact, c.certificate, now, uncounted);
+    const int filtered = c.search->sign_just_after(Kernel::filtered, c.certificate, now, row.stages);
+    const int fast = c.search->sign_just_after(Kernel::fast, c.certificate, now, uncounted);
     ++row.signs;
     row.wrong_signs += fast != exact ? 1 : 0;
     if (filtered == exact) return std::nullopt;
@@ -169,7 +190,7 @@ class CertificateTrial {
   }
 
   const Extreme& extreme_;
-  std::vector<Case> cases_;
+  std::vector<std::unique_ptr<Case>> cases_;  // searches refer to motions
   std::size_t refused_ = 0;
   std::string reason_;
 };
@@ -177,11 +198,11 @@ class CertificateTrial {
 /// A certificate type as a subject.
 template <class C, Motion M>
 [[nodiscard]] StabilitySubject certificate_subject(std::string name) {
-  constexpr bool weighted = channels_asked<C, M>.weights || channels_asked<C, M>.radii;
-  StabilitySubject subject{std::move(name), false, M::dimension, M::degree, function_degree<C, M>,
-                           weighted,        {}};
-  subject.run = [](const Extreme& extreme, const StabilityCases& cases) {
-    return CertificateTrial<C, M>(extreme, cases).run();
+  constexpr bool weighted = channels_asked<C>.weights || channels_asked<C>.radii;
+  const int degree = function_degree<C, M>();
+  StabilitySubject subject{std::move(name), false, M::dimension, M::degree, degree, weighted, {}};
+  subject.run = [degree](const Extreme& extreme, const StabilityCases& cases) {
+    return CertificateTrial<C, M>(extreme, cases, degree).run();
   };
   return subject;
 }

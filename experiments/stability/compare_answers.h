@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "certificates/exact/exact_time.h"
 #include "experiments/stability/event_difference.h"
 #include "experiments/stability/follow_certificate.h"
 

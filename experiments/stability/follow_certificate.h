@@ -1,36 +1,39 @@
 #pragma once
 // One certificate over a whole step: at each failure its opposite takes over, as after a flip.
 
+#include <memory>
 #include <vector>
 
-#include "certificates/search/failure_search.h"
-#include "certificates/search/radical_search.h"
+#include "certificates/search/certificate_search.h"
 
 namespace kds {
 
-/// A certificate or its opposite.
+/// Holds where the other does not.
 template <class C>
-struct Sided : C {
-  bool opposite = false;
-
-  [[nodiscard]] bool side() const { return C::side() != opposite; }
-};
+[[nodiscard]] C opposite_of(C certificate) {
+  if constexpr (requires { certificate.inside; }) {
+    certificate.inside = !certificate.inside;
+  } else {
+    certificate.sign = -certificate.sign;
+  }
+  return certificate;
+}
 
 /// The functions behind an instant: of the certificate (slot 0) and its opposite (slot 1).
-template <class C, Motion M>
+template <class C>
 class BothSides final : public CertificateSource {
  public:
-  BothSides(Sided<C> certificate, const M& motion) : certificate_(certificate), motion_(motion) {}
+  BothSides(const C& certificate, const CertificateSearch<C>& search)
+      : sides_{certificate, opposite_of(certificate)}, search_(search) {}
 
-  [[nodiscard]] ExactPolynomial exact_function(std::uint32_t slot) const override {
-    Sided<C> certificate = certificate_;
-    certificate.opposite = slot == 1;
-    return kds::exact_function(certificate, motion_);
+  [[nodiscard]] const C& side(std::uint32_t slot) const { return sides_[slot]; }
+  [[nodiscard]] ExactFunction exact_function(std::uint32_t slot) const override {
+    return search_.exact_function(sides_[slot]);
   }
 
  private:
-  Sided<C> certificate_;
-  const M& motion_;
+  std::array<C, 2> sides_;
+  const CertificateSearch<C>& search_;
 };
 
 /// One answer of a kernel.
@@ -43,21 +46,25 @@ struct Answer {
 inline constexpr std::size_t most_answers = 64;
 
 /// All answers in turn, up to `never` or `zero`.
-template <Kernel K, class C, Motion M>
-[[nodiscard]] std::vector<Answer> follow(Sided<C> certificate, const M& motion, StageCounts& stages) {
-  const BothSides<C, M> source(certificate, motion);
+template <class C>
+[[nodiscard]] std::vector<Answer> follow(Kernel kernel, const C& certificate,
+                                         const CertificateSearch<C>& search, StageCounts& stages) {
+  const BothSides<C> source(certificate, search);
   std::vector<Answer> answers;
   Instant now(0);
-  KnownAtStart birth = KnownAtStart::unknown;
+  KnownAtStart known = KnownAtStart::unknown;
+  std::uint32_t slot = 0;
   while (answers.size() < most_answers) {
-    const Failure failure = first_failure<K>(certificate, motion, now, birth, stages);
-    answers.push_back({failure, certificate.opposite});
+    Failure failure;
+    search.first_failures(kernel, {&source.side(slot), 1}, now, {&known, 1}, stages, TouchPolicy::ignored,
+                          {&failure, 1});
+    answers.push_back({failure, slot == 1});
     if (failure.kind == Failure::Kind::never || failure.kind == Failure::Kind::zero) break;
     if (failure.kind == Failure::Kind::later) {
-      now = Instant(failure.time, source, certificate.opposite ? 1 : 0);
-      birth = answers.size() % 3 == 0 ? KnownAtStart::unknown : KnownAtStart::at_own_root;  // both must do
+      now = Instant(failure.time, source, slot);
+      known = answers.size() % 3 == 0 ? KnownAtStart::unknown : KnownAtStart::at_own_root;  // both must do
     }
-    certificate.opposite = !certificate.opposite;
+    slot = 1 - slot;
   }
   return answers;
 }

@@ -5,11 +5,11 @@
 #include <optional>
 #include <utility>
 
-#include "experiments/run/session.h"
 #include "experiments/stability/stability_radii.h"
 #include "experiments/stability/stability_subjects.h"
 #include "kds/event_log.h"
 #include "motions/base/input_error.h"
+#include "structures/session/session.h"
 
 namespace kds {
 namespace {
@@ -50,18 +50,19 @@ struct Case {
   std::vector<double> radii;
 };
 
-Outcome outcome_of(const Case& one, const std::string& structure, KernelName kernel, AuditMode audits) {
+Outcome outcome_of(const Case& one, const std::string& structure, Kernel kernel, AuditMode audits) {
   Outcome outcome;
   try {
     const Scene scene(one.instance, one.radii);
-    const auto session = make_session(scene, {{structure}, kernel, audits, {}});
+    const auto session = std::make_unique<Session>(scene, SessionOptions{{structure}, kernel, audits, {}});
     Recorder recorder;
     Simulator& simulator = session->simulator();
     simulator.listen(recorder);
     try {
       session->load(0);
       simulator.build();
-      simulator.run_step(true);
+      simulator.run_step();
+      simulator.finish();
     } catch (const AuditError& error) {
       outcome.failure = error.what();
       outcome.failed_audit = true;
@@ -95,10 +96,10 @@ struct Times {
 };
 
 void add_case(StabilityRow& row, Times& times, const std::string& structure, const Case& one) {
-  const Outcome fast = outcome_of(one, structure, KernelName::fast, AuditMode::none);
-  const Outcome filtered = outcome_of(one, structure, KernelName::filtered, AuditMode::none);
-  const Outcome audited = outcome_of(one, structure, KernelName::filtered, AuditMode::events);
-  const Outcome exact = outcome_of(one, structure, KernelName::exact, AuditMode::none);
+  const Outcome fast = outcome_of(one, structure, Kernel::fast, AuditMode::none);
+  const Outcome filtered = outcome_of(one, structure, Kernel::filtered, AuditMode::none);
+  const Outcome audited = outcome_of(one, structure, Kernel::filtered, AuditMode::events);
+  const Outcome exact = outcome_of(one, structure, Kernel::exact, AuditMode::none);
   ++row.cases;
   row.audits_run += audited.statistics.audits_run;
   row.audits_failed += audited.failed_audit ? 1 : 0;

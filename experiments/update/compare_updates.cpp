@@ -7,9 +7,9 @@
 #include <memory>
 
 #include "experiments/program/timing.h"
-#include "experiments/run/session.h"
 #include "motions/base/input_error.h"
 #include "structures/power_diagram/diagram_update.h"
+#include "structures/session/session.h"
 #include "structures/triangulation/snapshot_faults.h"
 
 namespace kds {
@@ -159,7 +159,8 @@ class Comparison {
   double run_hermite(UpdateRow& row, bool first) const {
     if (first && audit_) row.audits = audited_hermite(row);
     const Scene scene(necklaces_, radii_, FrameMotion::hermite);
-    const auto session = make_session(scene, {{"power"}, KernelName::filtered, AuditMode::none, {}});
+    const auto session =
+        std::make_unique<Session>(scene, SessionOptions{{"power"}, Kernel::filtered, AuditMode::none, {}});
     session->load(0);
     session->simulator().build();
     const double seconds = processor_seconds_of([&] { run_steps(scene, *session); });
@@ -173,7 +174,8 @@ class Comparison {
   }
   std::uint64_t audited_hermite(const UpdateRow& row) const {
     const Scene scene(necklaces_, radii_, FrameMotion::hermite);
-    const auto session = make_session(scene, {{"power"}, KernelName::filtered, AuditMode::frames, {}});
+    const auto session =
+        std::make_unique<Session>(scene, SessionOptions{{"power"}, Kernel::filtered, AuditMode::frames, {}});
     session->load(0);
     session->simulator().build();
     try {
@@ -186,8 +188,9 @@ class Comparison {
   static void run_steps(const Scene& scene, Session& session) {
     for (std::size_t k = 0; k < scene.step_count(); ++k) {
       session.load(k);
-      session.simulator().run_step(k + 1 == scene.step_count());
+      session.simulator().run_step();
     }
+    session.simulator().finish();
   }
 
   std::vector<Trajectory> necklaces_;

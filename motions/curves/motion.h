@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "motions/base/bead.h"
+#include "motions/base/floating_point.h"
 
 namespace kds {
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstddef>
 
+#include "motions/base/floating_point.h"
+
 namespace kds {
 
 // Everything called from such a function must be inlined into it: code compiled for other targets passes

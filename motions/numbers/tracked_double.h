@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+#include "motions/base/floating_point.h"
+
 namespace kds {
 
 template <class Real>

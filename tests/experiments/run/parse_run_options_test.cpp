@@ -27,7 +27,7 @@ TEST(RunOptions, DefaultsAreThoseOfTheContract) {
   EXPECT_THAT(options.inputs, ElementsAre("chain.pdb"));
   EXPECT_TRUE(options.structures.empty());
   EXPECT_EQ(options.motion, FrameMotion::linear);
-  EXPECT_EQ(options.kernel, KernelName::filtered);
+  EXPECT_EQ(options.kernel, Kernel::filtered);
   EXPECT_EQ(options.radius, "auto");
   EXPECT_EQ(options.audit, AuditMode::none);
   EXPECT_EQ(options.reading.selection, Selection::automatic);
@@ -44,7 +44,7 @@ TEST(RunOptions, TakesEveryOption) {
        "b.dcd"});
   EXPECT_THAT(options.inputs, ElementsAre("a.dcd", "b.dcd"));
   EXPECT_THAT(options.structures, ElementsAre("sorted", "power"));
-  EXPECT_EQ(options.kernel, KernelName::exact);
+  EXPECT_EQ(options.kernel, Kernel::exact);
   EXPECT_EQ(options.reading.topology, "top.pdb");
   EXPECT_EQ(options.reading.selection, Selection::ca);
   EXPECT_EQ(options.reading.chain, "B");
@@ -61,8 +61,8 @@ TEST(RunOptions, TakesEveryOption) {
 }
 
 TEST(RunOptions, TakesEveryNamedValue) {
-  EXPECT_EQ(parse_run_options({"--kernel", "fast", "a"}).kernel, KernelName::fast);
-  EXPECT_EQ(parse_run_options({"--kernel=filtered", "a"}).kernel, KernelName::filtered);
+  EXPECT_EQ(parse_run_options({"--kernel", "fast", "a"}).kernel, Kernel::fast);
+  EXPECT_EQ(parse_run_options({"--kernel=filtered", "a"}).kernel, Kernel::filtered);
   EXPECT_EQ(parse_run_options({"a", "--audit", "none"}).audit, AuditMode::none);
   EXPECT_EQ(parse_run_options({"a", "--audit=frames"}).audit, AuditMode::frames);
   EXPECT_EQ(parse_run_options({"a", "--select", "backbone"}).reading.selection, Selection::backbone);

@@ -1,6 +1,4 @@
-#pragma once
-// Certificate types of balls: one line each, for one degree of motion. They take long to
-// compile: each degree in a file of its own (stability_certificates.cpp.in).
+// Certificate types of balls as subjects of `kds stability`: one line each.
 
 #include "certificates/types/ball_in_sphere.h"
 #include "certificates/types/contact.h"
@@ -26,5 +24,8 @@ std::vector<StabilitySubject> ball_certificates() {
       certificate_subject<BallInSphere<3, 4>, Space>("ball_in_sphere_4"),
   };
 }
+
+template std::vector<StabilitySubject> ball_certificates<1>();
+template std::vector<StabilitySubject> ball_certificates<3>();
 
 }  // namespace kds

@@ -1,6 +1,4 @@
-#pragma once
-// Certificate types of beads: one line each, for one degree of motion. They take long to
-// compile: each degree in a file of its own (stability_certificates.cpp.in).
+// Certificate types of beads as subjects of `kds stability`: one line each.
 
 #include "certificates/types/bead_in_sphere.h"
 #include "certificates/types/orientation.h"
@@ -27,5 +25,8 @@ std::vector<StabilitySubject> bead_certificates() {
       certificate_subject<BeadInSphere<3>, Space>("bead_in_sphere_3"),
   };
 }
+
+template std::vector<StabilitySubject> bead_certificates<1>();
+template std::vector<StabilitySubject> bead_certificates<3>();
 
 }  // namespace kds
