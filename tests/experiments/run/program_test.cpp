@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
@@ -448,10 +449,10 @@ TEST(Program, RunsTheChainsOfAComplexOnOneClock) {
     complex += fmt::format("MODEL     {:4}\n", model);
     for (const char chain : {'A', 'B', 'C'})
       for (int residue = 1; residue <= 3; ++residue)
-        for (const char* name : {"N", "CA", "C"})
+        for (const auto& [name, place] : {std::pair("N", 0), {"CA", 1}, {"C", 2}})
           complex += fmt::format("ATOM      1  {:<3} ALA {}{:4}    {:8.3f}{:8.3f}{:8.3f}\n", name, chain,
-                                 residue, 4.5 * residue + 1.5 * (name[0] == 'C') + 1.5 * (name[1] == '\0'),
-                                 9.0 * (chain - 'A'), 0.5 * model * residue * (residue % 2));
+                                 residue, 4.5 * residue + 1.5 * place, 9.0 * (chain - 'A'),
+                                 0.5 * model * residue * (residue % 2));
     complex += "ENDMDL\n";
   }
   const std::string file = directory.file("complex.pdb", complex);

@@ -80,7 +80,7 @@ TEST(Table, OneStructureOfOddFiguresStillPrints) {
   report.radius_max = 2;
   report.files = {"a\nb"};
   const std::string table = comparison_table(report);
-  EXPECT_THAT(table, ContainsRegex("events per frame +-\n"));
+  EXPECT_THAT(table, ContainsRegex("events per step +-\n"));
   EXPECT_THAT(table, testing::Not(HasSubstr("settled by")));
   EXPECT_THAT(table, HasSubstr("radii 1.5 to 2"));
   EXPECT_THAT(table, HasSubstr("input     a b\n"));
