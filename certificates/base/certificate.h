@@ -23,7 +23,8 @@ inline constexpr Channels channels_of = [] {
   return channels;
 }();
 
-/// A function of a few beads' motions. Where weights are fictitious none asks for radii.
+/// A function of a few beads over this motion. Over a lifted motion, whose radii mean nothing, it must not
+/// ask for radii.
 template <class F, class M>
 concept FunctionOfBeads =
     Motion<M> && !(lifted<M> && channels_of<F>.radii) && requires(const F& f, const DoubleView<M>& view) {

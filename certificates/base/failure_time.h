@@ -5,7 +5,7 @@
 // together with the function this determines it. If lower < upper it lies strictly between. If `isolating`,
 // there is no other root in the bracket and the function's signs at lower and at upper differ, both proved.
 // The function is the certificate's own, which turns negative there, or, for a radical certificate, one that
-// has all its roots (radical_search.h) and may change either way. The `fast` kernel gives lower == upper
+// has all its roots (its norm, radical.h) and may change either way. The `fast` kernel gives lower == upper
 // without any proof.
 
 #include <cstdint>
@@ -21,11 +21,11 @@ struct FailureTime {
   bool last = false;   ///< known to be the function's last root in the step, and not at its end
 };
 
-/// Whether a function that touches zero without changing sign is worth an event. It is no failure. But a
-/// structure may want to look at itself at such a moment, which general position does not know.
+/// Whether a structure is told that a function touches zero without changing sign. That is no failure. But
+/// motions in general position have no such moments, so that a structure may have to look at itself then.
 enum class TouchPolicy : std::uint8_t { ignored, reported };
 
-/// What is to be known of a certificate at its birth. "Never" is a value, not a large number.
+/// What a search finds out about a new certificate. That it never fails is a value, not a large number.
 struct Failure {
   enum class Kind : std::uint8_t {
     never,     ///< holds for the rest of the step

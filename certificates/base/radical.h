@@ -1,10 +1,9 @@
 #pragma once
-// What a radical certificate type must offer: positive while A + B sqrt(D) is, for polynomials A, B and D >=
-// 0 of a few beads' motions. D itself is never needed, but it must not be negative, nor a left out factor,
-// while the certificate is in use: the type says why (beyond that, nothing is said), and by `is_usable`, if
-// it has that, whether it is so during a short time. The sign follows from those of A, B and of the norm A^2
-// - B^2 D, each up to a factor that is positive while the certificate is in use; its zeros are among the
-// norm's.
+// What a radical certificate type must offer. It holds while A + B sqrt(D) is positive, for polynomials A, B
+// and D of a few beads' motions. The sign follows from those of A, B and of the norm A^2 - B^2 D, each of
+// them up to a positive factor, and its zeros are among the norm's. D itself is never asked for. But neither
+// D nor such a factor may turn negative while the certificate is in use, or the sign means nothing: the type
+// says why they do not, and, if it has `is_usable`, whether that is so during a short time.
 //
 // The function may be subject to a condition, another radical: it counts as negative where that is. While
 // A + B sqrt(D) is positive the condition must not change sign.
@@ -15,8 +14,8 @@
 
 namespace kds {
 
-/// The sign of A + B sqrt(D) from those of A, B and the norm. With signs of which 0 means "not known", as
-/// filters give them, the answer is that or right.
+/// The sign of A + B sqrt(D) from those of A, B and the norm. Where 0 among these means that a filter does
+/// not know the sign, so does 0 as the answer, and any other answer is right.
 [[nodiscard]] constexpr int sign_of_radical(int a, int b, int norm) {
   if (a == b) return a;
   return norm > 0 ? a : norm < 0 ? b : 0;  // the greater in size decides
@@ -33,7 +32,7 @@ concept RadicalCertificateFor = NamedCertificate<C> && RadicalOf<typename C::Rad
   { certificate.root_sign() } -> std::same_as<int>;  // 1 or -1, by which B is to be multiplied
 };
 
-/// Has a condition, at least for some motions.
+/// A radical certificate type with a condition, at least for some motions.
 template <class C, class M>
 concept ConditionalFor = RadicalOf<typename C::Condition, M> &&
     requires(const C& certificate, const M& motion) {

@@ -23,7 +23,7 @@ namespace detail {
   return exchanged;
 }
 
-/// The greatest of all but some to the end of them.
+/// Moves the greatest of the first beads, one more than there are indices, to their end.
 template <std::size_t N, std::size_t... I>
 [[gnu::always_inline]] constexpr unsigned raise_greatest(std::array<BeadId, N>& beads,
                                                          std::index_sequence<I...>) {
@@ -58,7 +58,7 @@ template <std::size_t N>
   return detail::sign_of_exchanges(detail::raise_all(beads, std::make_index_sequence<N - 1>{}));
 }
 
-/// The same where all but the last are ascending already.
+/// Sorts ascending where all but the last are so already; 1 or -1 likewise.
 template <std::size_t N>
 [[nodiscard, gnu::always_inline]] constexpr int sort_last_bead(std::array<BeadId, N>& beads) {
   return detail::sign_of_exchanges(detail::lower_last(beads, std::make_index_sequence<N - 1>{}));

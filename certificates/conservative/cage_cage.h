@@ -9,7 +9,7 @@
 
 namespace kds {
 
-/// Certainly so all over [lower, upper].
+/// Whether it is proved all over [lower, upper].
 template <Motion M>
 [[nodiscard]] bool cages_disjoint_on(const M& motion, std::span<const BeadId> a, std::span<const BeadId> b,
                                      double lower, double upper) {
@@ -22,8 +22,8 @@ template <Motion M>
   return (square_distance(view, a[0], *first, b[0], *second) - square(reach)).range.lower > 0;
 }
 
-/// The largest time that the test can prove it for, from `from` on, by so many pieces at most. That time
-/// itself is proved too, unless it is `from`.
+/// The largest time such that the test proves it from `from` on, with at most so many pieces. It is proved
+/// for that time too, unless that is `from`.
 template <Motion M>
 [[nodiscard]] double cages_disjoint_until(const M& motion, std::span<const BeadId> a,
                                           std::span<const BeadId> b, double from,

@@ -10,7 +10,7 @@
 
 namespace kds {
 
-/// Certainly so all over [lower, upper].
+/// Whether it is proved all over [lower, upper].
 template <Motion M>
 [[nodiscard]] bool cage_in_cage_on(const M& motion, std::span<const BeadId> inner,
                                    std::span<const BeadId> outer, double lower, double upper) {
@@ -24,7 +24,7 @@ template <Motion M>
   return (square(room) - square_distance(view, inner[0], *in, outer[0], *out)).range.lower >= 0;
 }
 
-/// The largest time that the test can prove it for, from `from` on, by so many pieces at most.
+/// The largest time such that the test proves it from `from` on, with at most so many pieces.
 template <Motion M>
 [[nodiscard]] double cage_in_cage_until(const M& motion, std::span<const BeadId> inner,
                                         std::span<const BeadId> outer, double from,

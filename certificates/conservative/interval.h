@@ -26,10 +26,11 @@ struct Interval {
     return all;
   }
 
-  /// The least interval that holds both; the greatest within both, which share a point.
+  /// The least interval that holds both.
   [[nodiscard]] static Interval hull(const Interval& a, const Interval& b) {
     return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
   }
+  /// What both have in common; they must share a point.
   [[nodiscard]] static Interval common(const Interval& a, const Interval& b) {
     Interval both;
     both.lower = std::max(a.lower, b.lower);

@@ -29,15 +29,15 @@ struct MeanValue {
     return {a.middle * b.middle, a.range * b.range, a.slope * b.range + a.range * b.slope};
   }
   friend MeanValue operator/(const MeanValue& a, const MeanValue& b) {
-    const Interval range = a.range / b.range;
-    return {a.middle / b.middle, range, (a.slope - range * b.slope) / b.range};
+    const Interval quotient = a.range / b.range;
+    return {a.middle / b.middle, quotient, (a.slope - quotient * b.slope) / b.range};
   }
   [[nodiscard]] friend MeanValue square(const MeanValue& a) {
     return {square(a.middle), square(a.range), Interval(2) * (a.range * a.slope)};
   }
   [[nodiscard]] friend MeanValue sqrt(const MeanValue& a) {
-    const Interval range = sqrt(a.range);
-    return {sqrt(a.middle), range, a.slope / (Interval(2) * range)};
+    const Interval root = sqrt(a.range);
+    return {sqrt(a.middle), root, a.slope / (Interval(2) * root)};
   }
 };
 

@@ -26,7 +26,7 @@ struct CoefficientBits {
   int power = 0;
 };
 
-/// Of a function's values over magnitudes.
+/// The bound of a function's coefficients, by its values over magnitudes (motions/numbers/magnitude.h).
 template <class Magnitudes>
 [[nodiscard]] CoefficientBits coefficient_bits(const Magnitudes& magnitudes) {
   CoefficientBits result;

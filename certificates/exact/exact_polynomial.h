@@ -35,7 +35,7 @@ class ExactPolynomial {
   /// The polynomial as seen on [lower, upper], times a positive number.
   [[nodiscard]] ExactPolynomial restricted(const Dyadic& lower, const Dyadic& upper) const;
 
-  /// The roots in [0,1), each once. Roots at u = 1 are dropped.
+  /// A polynomial with the same roots in [0,1), each once; roots at u = 1 are dropped.
   [[nodiscard]] ExactPolynomial square_free() const;
   /// Greatest common divisor as regards roots in [0,1), up to a constant factor.
   [[nodiscard]] static ExactPolynomial gcd(const ExactPolynomial& a, const ExactPolynomial& b);
@@ -46,12 +46,12 @@ class ExactPolynomial {
   std::vector<Integer> scaled_;
 };
 
-/// A root between two dyadics that are no roots, alone there; or, lower == upper, the root itself.
+/// An interval with one root and no root at its ends; or, where lower == upper, the root itself.
 struct RootInterval {
   Dyadic lower, upper;
 };
 
-/// Returns whether there should be more.
+/// Takes one root; returns whether the next one is wanted.
 using RootVisitor = std::function<bool(RootInterval)>;
 
 /// Visits the roots of a square-free polynomial in [lower, upper], ascending; their intervals are disjoint
@@ -59,7 +59,7 @@ using RootVisitor = std::function<bool(RootInterval)>;
 void visit_roots(const ExactPolynomial& square_free, const Dyadic& lower, const Dyadic& upper,
                  const RootVisitor& visit);
 
-/// All of them.
+/// All the roots that visit_roots visits.
 [[nodiscard]] std::vector<RootInterval> isolate_roots(const ExactPolynomial& square_free, const Dyadic& lower,
                                                       const Dyadic& upper);
 

@@ -22,12 +22,14 @@ class ExactTime {
 
   /// Halves the interval, or finds that the time is its middle.
   void refine();
-  /// The same to a narrower interval that holds the time, if it does; else nothing. Ends must not be roots.
+  /// Narrows the interval to this one if the time lies in it; returns whether it does. Ends must not be
+  /// roots.
   bool narrow_to(const Dyadic& lower, const Dyadic& upper);
-  /// To about 2^-44, which keeps nearly all failure times of a step apart: at a guess, or by bisection.
+  /// Narrows the interval to about 2^-44, which keeps nearly all failure times of a step apart: around a
+  /// guess, or by bisection.
   void narrow_for_doubles();
 
-  /// -1, 0, 1. Narrows both.
+  /// -1, 0 or 1 where a is before b, equal, or after. Narrows both.
   [[nodiscard]] static int compare(ExactTime& a, ExactTime& b);
 
  private:

@@ -51,7 +51,7 @@ class Instant {
   [[nodiscard]] ExactTime& exact() const;
 
  private:
-  struct Delete {  // exact numbers are seen by those who ask for them alone
+  struct Delete {  // so that exact numbers are included only by those who use them
     void operator()(ExactTime* time) const;
   };
 

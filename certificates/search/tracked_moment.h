@@ -80,13 +80,13 @@ class TrackedMoment {
   static TrackedDouble rounded(double x) {
     return {x, TrackedDouble::unit_roundoff * std::abs(x) + TrackedDouble::lost_to_underflow};
   }
-  /// At the end, and how far it may be from that before: |p'| <= degree * the steepest of the control
-  /// polygon.
+  /// The value at the end of the time, with how far it may be from that before as an error: |p'| <=
+  /// degree * the steepest slope of the control polygon.
   template <std::invocable<int> Control>
-  static TrackedDouble value(int degree, Control control, const TrackedDouble& earlier,
+  static TrackedDouble value(int own_degree, Control control, const TrackedDouble& earlier,
                              const TrackedDouble& later, double length) {
     Bernstein<TrackedDouble, M::degree> curve;
-    curve.set_degree(degree);
+    curve.set_degree(own_degree);
     auto& points = curve.scaled;
     double steepest = 0;
     for (std::size_t k = 0; k < points.size(); ++k) {

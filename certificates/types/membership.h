@@ -1,7 +1,7 @@
 #pragma once
 // Which certificate says that a ball lies in the sphere of a basis: the one for equal radii where they are
 // equal for the whole step, also among beads of an unequal necklace, else the radical one. In the plane and
-// in space. Exact either way; of one another they are told apart by their identity's type.
+// in space. Exact either way; the types of their identities tell these certificates apart.
 //
 //   equal radii    bases of 1, 2 and (in space) 3 beads: bead_in_sphere.h; full bases: a power test times the
 //                  basis' orientation, where the weights are equal too

@@ -1,12 +1,13 @@
 #pragma once
-// Control points are finite numbers: what is neither has no exact value, and no certificate a function.
+// Control points must be finite: NaN and infinity have no exact value, and certificates over them would have
+// no function.
 
 #include <cmath>
 #include <stdexcept>
 
 namespace kds {
 
-/// The number itself. Throws std::invalid_argument where it is infinite or none.
+/// Returns the number. Throws std::invalid_argument if it is infinite or a NaN.
 [[nodiscard]] inline double finite(double value) {
   if (!std::isfinite(value)) [[unlikely]]
     throw std::invalid_argument("a control point is not a finite number");

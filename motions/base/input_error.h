@@ -1,5 +1,5 @@
 #pragma once
-// What a user gave us is at fault: one line that names the file, frame, bead or option and what was expected.
+// An error in the user's input: one line that names the file, frame, bead or option and what was expected.
 // The program prints it and exits with code 2.
 
 #include <stdexcept>

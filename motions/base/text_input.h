@@ -1,5 +1,6 @@
 #pragma once
-// Text files in, numbers out: a number must take up its field completely, or it is none.
+// Reads text files and the numbers in them. A number must take up its whole field; anything else is no
+// number.
 
 #include <filesystem>
 #include <optional>
@@ -12,7 +13,7 @@ namespace kds {
 /// The whole file, unpacked if it is gzipped. Throws InputError naming the file.
 [[nodiscard]] std::string read_whole_file(const std::filesystem::path& path);
 
-/// The next line of `rest`, which moves on behind it; without line end, a CR before it left out.
+/// Cuts the next line off `rest` and returns it without its line end, LF or CR LF.
 [[nodiscard]] std::string_view next_line(std::string_view& rest);
 
 /// The fields of a line, which blanks and tabs separate.

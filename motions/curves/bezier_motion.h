@@ -1,5 +1,6 @@
 #pragma once
-// The motion of a degree that is a constant (motion.h): the one whose filters are compiled.
+// A motion (motion.h) whose degree is a compile-time constant: filters of certificates are compiled for these
+// degrees.
 
 #include <cstddef>
 #include <vector>
@@ -35,12 +36,12 @@ class BezierMotion {
   void set_radius(BeadId bead, int k, double value) { radii_[bead].control[k] = finite(value); }
 
  private:
-  // All of a bead in one place: linear motion in space fills one cache line.
+  // A bead's control points lie together: those of linear motion in space fill one cache line.
   struct alignas(DimensionValue == 3 && DegreeValue == 1 ? 64 : 8) Record {
     double control[degree + 1][dimension + 1] = {};
   };
   std::vector<Record> records_;
-  // Apart: few certificates ask for them.
+  // Radii have an array of their own, since few certificates ask for them.
   struct Radius {
     double control[degree + 1] = {};
   };

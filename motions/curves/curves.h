@@ -76,7 +76,7 @@ template <int DimensionValue, int DegreeValue>
 class FixedCurves : public Curves<DimensionValue> {
  public:
   static constexpr int degree = DegreeValue;
-  /// Curves of this degree, or, with degree 0, what stands at their start.
+  /// Sees curves of this degree; with degree 0, their first control points alone.
   explicit FixedCurves(const Curves<DimensionValue>& curves) : Curves<DimensionValue>(curves) {}
 };
 

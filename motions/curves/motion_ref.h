@@ -1,6 +1,6 @@
 #pragma once
-// A motion as structures hold it: any motion of the dimension, whatever its type and degree. What is behind
-// it may be set to the next step at any time; it must outlive whoever holds it.
+// A motion as structures hold it: any motion of the dimension, whatever its type and degree. The motion
+// behind it may be set to another step at any time, and must outlive the structures.
 
 #include <array>
 #include <cstddef>
@@ -33,10 +33,10 @@ class MotionRef {
   [[nodiscard]] int degree() const { return curves().own_degree(); }
   [[nodiscard]] std::size_t bead_count() const { return curves().bead_count(); }
   [[nodiscard]] bool is_lifted() const { return drift_ != nullptr; }
-  /// Of a lifted motion.
+  /// The curves with their drift; the motion must be lifted.
   [[nodiscard]] LiftedCurves<DimensionValue> lifted_curves() const { return {curves(), drift_(motion_)}; }
 
-  /// Calls `use` with the curves as what they are.
+  /// Calls `use` with the curves in their own type: LiftedCurves where the motion is lifted, else Curves.
   template <class Use>
   decltype(auto) visit(Use use) const {
     if constexpr (DimensionValue > 1) {

@@ -22,7 +22,7 @@ struct PositionsOf {
   static std::array<Rational, static_cast<std::size_t>(Dimension) + 1> exact_position(
       const Curves<Dimension>& curves, BeadId bead, const Dyadic& time);
   static Rational exact_radius(const Curves<Dimension>& curves, BeadId bead, const Dyadic& time);
-  /// u (1-u) |D|^2 of lifted_motion.h.
+  /// u (1-u) |D|^2, by which lifted motion makes a bead's weight less than linear (lifted_motion.h).
   static Rational exact_dip(const LiftedCurves<Dimension>& curves, BeadId bead,
                             const Dyadic& time) requires(Dimension > 1);
 };
@@ -53,8 +53,7 @@ template <Motion M>
   return detail::PositionsOf<M::dimension>::approximate_radii(CurvesOf<M>(motion), u);
 }
 
-/// Coordinates and, last, the weight of a bead at `time`. Exact; also for what a lifted motion makes of the
-/// weight.
+/// Coordinates and, last, the weight of a bead at `time`, exactly; in lifted motion its fictitious weight.
 template <Motion M>
 [[nodiscard]] auto exact_position(const M& motion, BeadId bead, const Dyadic& time) {
   using Positions = detail::PositionsOf<M::dimension>;

@@ -27,7 +27,7 @@ class Snapshot {
     }
   }
 
-  /// Where a motion's k-th control points are: its ends for k = 0 and k = degree.
+  /// The beads at a motion's k-th control points: k = 0 and k = degree are the ends of its step.
   template <Motion M>
   requires(M::dimension == dimension) void set(const M& motion, int k) {
     records_.resize(motion.bead_count());
@@ -42,7 +42,7 @@ class Snapshot {
   [[nodiscard]] double weight(BeadId bead, int) const { return records_[bead].control[dimension]; }
   [[nodiscard]] double radius(BeadId, int) const { return 0; }
   [[nodiscard]] const double* radii(BeadId) const { return &no_radius; }
-  /// The weight last.
+  /// The coordinates, then the weight.
   [[nodiscard]] const double* control_point(BeadId bead, int) const { return records_[bead].control; }
 
  private:

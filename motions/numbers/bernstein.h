@@ -26,12 +26,12 @@ namespace kds {
   return result;
 }
 
-/// The degree of the type of a polynomial whose degree is that of a motion known only at run time.
+/// The degree, as polynomials name it in their type, of a motion whose degree is known only at run time.
 inline constexpr int any_degree = -1;
 
 namespace detail {
 
-// Polynomials whose degrees are known at run time share these, whatever their degrees are called.
+// Polynomials whose degrees are known at run time share the code below, whatever degrees their types name.
 
 template <class Number>
 [[gnu::noinline]] void add_to(Coefficients<Number>& a, const Coefficients<Number>& b) {
@@ -74,7 +74,7 @@ struct Bernstein {
                      std::array<Number, static_cast<std::size_t>(std::max(DegreeValue, 0)) + 1>>
       scaled;
 
-  /// Room for coefficients of this degree, which is the type's own where that is a constant.
+  /// Makes room for coefficients of this degree; where the type's degree is a constant, it must be that.
   constexpr void set_degree([[maybe_unused]] int of_this_degree) {
     if constexpr (DegreeValue < 0) scaled.resize(static_cast<std::size_t>(of_this_degree) + 1);
   }

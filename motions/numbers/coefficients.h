@@ -28,7 +28,7 @@ class PlainCoefficients {
   }
   ~PlainCoefficients() = default;
 
-  /// New numbers may be anything.
+  /// Keeps the numbers there are; new ones are not set to anything.
   [[gnu::noinline]] void resize(std::size_t size) {
     if (size > room && size > size_) {
       auto more = std::make_unique<Number[]>(size);
@@ -53,7 +53,7 @@ class PlainCoefficients {
  private:
   std::size_t size_ = 0;
   std::unique_ptr<Number[]> more_;
-  alignas(Number) std::byte few_[room * sizeof(Number)];  // left as they are until they are set
+  alignas(Number) std::byte few_[room * sizeof(Number)];  // not initialized
 };
 
 template <class Number>

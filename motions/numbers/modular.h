@@ -59,7 +59,7 @@ struct Residue {
   friend constexpr Residue operator-(const Residue& a) { return Residue{0, a.fold} - a; }
   friend constexpr bool operator==(const Residue& a, const Residue& b) = default;
 
-  /// a^(modulus-2); a must not be zero.
+  /// The inverse, as a^(modulus-2); a must not be zero.
   [[nodiscard]] constexpr Residue inverse() const {
     Residue result{1, fold};
     Residue power = *this;
@@ -76,7 +76,7 @@ struct Residue {
   }
 };
 
-/// Reduces at the end only, of whatever 64 products come to.
+/// Adds products up unreduced as long as 128 bits hold the sum.
 template <>
 class SumOfProducts<Residue> {
  public:

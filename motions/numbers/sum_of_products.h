@@ -1,6 +1,6 @@
 #pragma once
-// a b + c d + ..., which some number types add up faster than one product after the other: they specialize
-// this.
+// The sum of products a b + c d + ...: number types that can add a product faster than by forming it first
+// specialize this class.
 
 #include <utility>
 

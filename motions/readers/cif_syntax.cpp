@@ -86,10 +86,10 @@ class Tokens {
     for (char& c : lower)
       if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     if (word[0] == '_') return Kind::tag;
-    if (lower.starts_with("data_")) return Kind::data;
+    if (lower.compare(0, 5, "data_") == 0) return Kind::data;
     if (lower == "loop_") return Kind::loop;
     if (lower == "stop_") return Kind::stop;
-    if (lower.starts_with("save_") || lower == "global_") return Kind::other_keyword;
+    if (lower.compare(0, 5, "save_") == 0 || lower == "global_") return Kind::other_keyword;
     return Kind::value;
   }
 

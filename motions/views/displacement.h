@@ -1,6 +1,6 @@
 #pragma once
-// How far beads stray in a step from where they were at some earlier frame, drift common to all left out: no
-// coordinate difference of two beads moves by more than the sum of what both stray. Upper bounds, proved,
+// How far beads stray in a step from where they were at some earlier frame, the drift common to all left out:
+// no coordinate difference of two beads moves by more than the sum of what both stray. Upper bounds, proved,
 // rounding included; infinite where a weight or radius changes.
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace kds {
 
-/// Of weights and radii those that matter must stay as they are.
+/// `channels` tells which of weights and radii matter: a bead's displacement is infinite where one changes.
 template <int Dimension, Channels channels = all_channels>
 class Displacements {
  public:
@@ -36,7 +36,8 @@ class Displacements {
     }
   }
 
-  /// One number a bead for the whole step: the largest of its control points.
+  /// Measures the step of the motion: for each bead the largest displacement of its control points, which
+  /// bounds that of the whole step.
   void look_at(const Curves<Dimension>& motion) {
     strays_.resize(reference_.size());
     measure(motion, drift_of(motion));
@@ -47,7 +48,7 @@ class Displacements {
   static_assert(Dimension < Lanes::width);
   using Drift = Coefficients<Lanes>;  // of each control point
 
-  /// Coordinates, the weight after them, zeros.
+  /// A control point in lanes: coordinates, then the weight, then zeros.
   [[nodiscard, gnu::always_inline]] static Lanes point(const Curves<Dimension>& motion, BeadId b, int k) {
     const double* p = motion.control_point(b, k);
     if constexpr (Dimension == 3) return Lanes::load(p);
@@ -60,7 +61,8 @@ class Displacements {
     return point(motion, b, k) - Lanes(Lanes::load(reference_[b].data()));
   }
 
-  /// Any vector will do; the mean displacement of some beads does well. Weights do not drift.
+  /// The drift: bounds hold with any vector, and the mean displacement of a sample of beads keeps them small.
+  /// Weights do not drift.
   [[nodiscard]] Drift drift_of(const Curves<Dimension>& motion) const {
     constexpr std::size_t most = 512;
     const auto stride = static_cast<BeadId>(1 + reference_.size() / most);

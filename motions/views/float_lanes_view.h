@@ -1,8 +1,8 @@
 #pragma once
-// Pairs of beads of one motion, eight or four, seen at once in floats (motion_view.h): answers with what the
-// second of each pair, 1, differs by from the first, 0. Differences are taken in double and rounded to float
-// once, so that it does not matter how far from the origin beads are. On the way lengths are brought to a
-// unit of the caller's, a power of two, so that it does not matter how floats end.
+// Eight or four pairs of beads of one motion, seen at once in floats (motion_view.h): the difference of bead
+// 1 of each pair to its bead 0. Differences are taken in double and rounded to float once, so that the
+// distance from the origin does not matter. On the way lengths are brought to a unit that the caller chooses,
+// a power of two, so that the narrow range of floats does not matter.
 
 #include <array>
 #include <cassert>
@@ -22,7 +22,7 @@ class FloatLanesView {
   using Number = LanesOfFloats;
   static constexpr int dimension = M::dimension;
   static constexpr int degree = M::degree;
-  /// Of each of so many tuples the bead in this place, less the first one.
+  /// The pairs are the first bead of each tuple and the one in this place, one pair for each lane.
   template <std::size_t Places>
   [[gnu::always_inline]] FloatLanesView(const M& motion, const std::array<BeadId, Places>* tuples,
                                         std::size_t place, const LengthUnit& unit) {
@@ -45,7 +45,7 @@ class FloatLanesView {
     }
   }
 
-  /// Of 1 less 0, as all differences here.
+  /// Bead 1 minus bead 0: nothing else may be asked for.
   [[nodiscard, gnu::always_inline]] BernsteinVector<Number, degree, dimension> difference(
       [[maybe_unused]] BeadId i, [[maybe_unused]] BeadId j) const {
     assert(i == 1 && j == 0);
@@ -80,7 +80,7 @@ class FloatLanesView {
   [[nodiscard, gnu::always_inline]] const Number& largest_weight() const { return weight_; }
 
  private:
-  /// The weight last.
+  /// A control point in double, the weight last.
   [[gnu::always_inline]] static Lanes::Vector point(const M& motion, BeadId bead, int k) {
     const double* p = motion.control_point(bead, k);
     if constexpr (dimension == 3) {

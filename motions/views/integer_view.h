@@ -22,8 +22,8 @@
 
 namespace kds {
 
-/// Calls with the number and its power of length, 1 or 2, for all control points of some beads in these
-/// channels.
+/// Calls `visit` with each number of some beads' control points, in these channels, and with its power of
+/// length, 1 or 2.
 template <Channels channels, Motion M, std::invocable<double, int> Visit>
 void each_control(const M& motion, std::span<const BeadId> beads, Visit visit) {
   for (const BeadId bead : beads) {
@@ -38,7 +38,7 @@ void each_control(const M& motion, std::span<const BeadId> beads, Visit visit) {
   }
 }
 
-/// What makes the control points of some beads whole.
+/// The power of two that makes all control points of some beads whole numbers.
 struct WholeScale {
   int exponent = -4096;  ///< lengths times 2^exponent, squares of them times 2^(2 exponent)
   int bits = 0;          ///< lengths are below 2^bits in size then, squares of them below 2^(2 bits)
@@ -78,7 +78,7 @@ class ExactView {
   static constexpr int dimension = M::dimension;
   static constexpr int degree = M::degree;
 
-  /// May be asked for the scale's beads alone.
+  /// Knows only the beads that the scale was made for.
   ExactView(const M& motion, const WholeScale& scale, Ring ring = {})
       : motion_(motion), exponent_(scale.exponent), ring_(ring) {}
   ExactView(const M& motion, std::span<const BeadId> beads)
@@ -161,7 +161,7 @@ class MomentView {
   static constexpr int dimension = M::dimension;
   static constexpr int degree = 0;
 
-  /// The motion at `time` in [0,1]; may be asked for these beads alone.
+  /// The motion at `time` in [0,1]; knows only these beads.
   MomentView(const M& motion, std::span<const BeadId> beads, const Dyadic& time)
       : moving_(motion, beads),
         degree_(degree_of(motion)),

@@ -88,7 +88,7 @@ class LanesView {
     return result;
   }
 
-  /// M itself, where no weight difference exceeds its square; else a NaN.
+  /// M of the error bound (motion_view.h); a NaN where some weight difference exceeds its square.
   [[nodiscard, gnu::always_inline]] Lanes largest_length() const {
     return Lanes::choose(weight_ <= length_ * length_, length_, Lanes(__builtin_nan("")));
   }

@@ -7,13 +7,13 @@
 
 namespace kds {
 
-/// Lengths in a unit of 2^exponent: what differences of coordinates, and then of weights, are multiplied by.
-/// Exact but where a double overflows, or what is left is below the least float.
+/// A unit of length 2^exponent, by the factors that bring differences of coordinates and of weights to it.
+/// The change is exact unless a double overflows, or the result is below the least float.
 class LengthUnit {
  public:
   explicit LengthUnit(int exponent = 0) : scale_(std::ldexp(1.0, -exponent)) {}
   [[nodiscard, gnu::always_inline]] double scale() const { return scale_; }
-  /// For coordinates, the weight after them.
+  /// The factors of a control point's coordinates, then of its weight.
   template <int dimension>
   [[nodiscard, gnu::always_inline]] Lanes::Vector scales() const {
     if constexpr (dimension == 3) return Lanes::Vector{scale_, scale_, scale_, scale_ * scale_};

@@ -34,10 +34,10 @@ struct Channels {
 };
 inline constexpr Channels all_channels{true, true};
 
-/// Answers also with weight_difference(i, j), radius_difference(i, j) and radius_sum(i, j), polynomials of
-/// the same degree, if it was told that they will be asked for, and with lift_difference(i, j) if the motion
-/// is lifted: |x|^2 less the weight (lifted_motion.h), while weight_difference knows the ends of the step
-/// only.
+/// Besides difference(i, j) a view has weight_difference(i, j), radius_difference(i, j) and radius_sum(i, j),
+/// polynomials of the same degree, if it was told that they will be asked for. Of a lifted motion it has
+/// lift_difference(i, j), the difference of |x|^2 less the weight (lifted_motion.h); weight_difference knows
+/// the ends of the step only there.
 template <class V>
 concept MotionView = requires(const V& view, BeadId i, BeadId j) {
   typename V::Number;
@@ -99,7 +99,7 @@ class DoubleView {
   [[nodiscard]] Bernstein<double, 1> lift_difference(BeadId i, BeadId j) const requires(lifted<M>) {
     return lift_of(*this, i, j);
   }
-  /// Of a bead in the step, less the drift.
+  /// How far a bead moves in the step, less the drift.
   [[nodiscard]] std::array<double, dimension> displacement(BeadId bead) const requires(lifted<M>) {
     std::array<double, dimension> result;
     for (int axis = 0; axis < dimension; ++axis) {
@@ -110,8 +110,8 @@ class DoubleView {
     return result;
   }
 
-  /// M of the error bound: no difference or sum answered so far is larger, and no weight difference than its
-  /// square.
+  /// M of the error bound: no difference or sum answered so far is larger, and no weight difference is larger
+  /// than its square.
   [[nodiscard]] double largest_length() const {
     return weight_ <= length_ * length_ ? length_ : std::max(length_, std::sqrt(weight_));
   }
@@ -163,7 +163,7 @@ class TrackedView {
   static constexpr int dimension = M::dimension;
   static constexpr int degree = M::degree;
 
-  /// May be asked for these beads alone.
+  /// Knows only these beads.
   TrackedView(const M& motion, std::span<const BeadId> beads)
       : motion_(motion), scale_(scale_to_unit<channels>(motion, beads)) {}
 
@@ -237,7 +237,7 @@ class MagnitudeView {
   static constexpr int dimension = DimensionValue;
   static constexpr int degree = DegreeValue;
 
-  /// Of motions of this degree, which is the view's own where that is a constant.
+  /// For motions of this degree; where the view's degree is a constant, it is that.
   explicit MagnitudeView(int own_degree = DegreeValue) : own_degree_(own_degree) {}
 
   [[nodiscard]] BernsteinVector<Number, degree, dimension> difference(BeadId, BeadId) const {

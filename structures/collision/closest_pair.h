@@ -76,7 +76,7 @@ template <int Dimension>
 [[nodiscard]] ClosestPairReport closest_pair(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
                                              const DiagramEdges& diagram, const BeadPairs& neighbors);
 
-/// The same with a diagram built for it.
+/// The closest pair, with a diagram built for the purpose.
 template <int Dimension>
 [[nodiscard]] ClosestPairReport closest_pair(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
                                              const BeadPairs& neighbors);

@@ -79,7 +79,7 @@ template <SphereSigns Signs>
   return signs.membership(basis, bead, true, orientation) >= 0;
 }
 
-/// None of its beads is to spare: each lies strictly outside the sphere of the others.
+/// Whether no bead of the basis is to spare: each lies strictly outside the sphere of the others.
 template <SphereSigns Signs>
 [[nodiscard]] bool is_proper(const Basis& basis, Signs& signs) {
   if (basis.size <= 1) return basis.size == 1;
@@ -94,8 +94,9 @@ struct BasisHint {
 };
 
 /// The basis of at most dimension + 2 beads of equal radii: the proper subset whose sphere holds the others.
-/// None only if `signs` contradict themselves, as plain double may. Where several will do, the hint decides
-/// which is found. Any subset may be asked about, since points that are independent have a sphere.
+/// There is no answer only if `signs` contradict themselves, as plain double may. Where several bases will
+/// do, the hint decides which is found. `signs` are asked about any subset, since independent points have a
+/// sphere.
 template <SphereSigns Signs>
 [[nodiscard]] std::optional<Basis> basis_of_points(std::span<const BeadId> beads, Signs& signs,
                                                    BasisHint hint = {}) {
@@ -122,8 +123,8 @@ template <SphereSigns Signs>
   return std::nullopt;
 }
 
-/// The same of balls of any radii. Balls that are independent need not have a sphere that touches them all:
-/// only bases that are proven to be proper are asked about, from single balls up.
+/// The basis of at most dimension + 2 balls of any radii. Independent balls need not have a sphere that
+/// touches them all: `signs` are asked only about bases that are proved proper, from single balls up.
 template <SphereSigns Signs>
 class BasisOfBalls {
  public:

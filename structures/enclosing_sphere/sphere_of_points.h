@@ -80,8 +80,8 @@ template <std::size_t M, int Dimension>
   return b;
 }
 
-/// The same balls with the base where the widest angle is: a triangle's is 60 degrees at least, and so its
-/// system is well conditioned, however short a side.
+/// Three balls in an order in which the base is at the widest angle of their triangle. That is 60 degrees at
+/// least, and so the linear system is well conditioned, however short a side.
 template <class N, int Dimension, std::size_t M>
 [[gnu::always_inline]] inline BasisBalls<N, Dimension, M> from_widest(
     const BasisBalls<N, Dimension, M>& balls) {
@@ -274,7 +274,8 @@ template <bool bounds = true, class N, int Dimension, std::size_t M>
   return sphere;
 }
 
-/// Of one bead: coincident ones are a matter of exact equality.
+/// The sphere of one bead is its centre, without error: whether another one coincides with it is exact
+/// equality.
 template <bool bounds = true, int Dimension>
 [[gnu::always_inline]] inline BasisSphere<double, Dimension> sphere_of_points(
     const BasisBalls<double, Dimension, 0>& balls) {

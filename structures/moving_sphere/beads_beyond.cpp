@@ -120,7 +120,7 @@ void take_out_dipping(const BeadPaths<Dimension>& paths, const Basis& basis,
     const bool inside = (least > 0) & (a + z + 2 * least > lost);
     const bool stays_so = (b == risen) & (a + sure * (z - a) > sure * lost) & (z - a > lost);
     beyond[kept] = b;
-    kept += inside | stays_so ? 0 : 1;
+    kept += (inside | stays_so) ? 0 : 1;
   }
   beyond.resize(kept);
 }

@@ -11,7 +11,7 @@
 
 namespace kds {
 
-/// Of up to four nodes with bases of one size.
+/// What the filter says of up to four nodes with bases of one size.
 template <int Dimension>
 struct ChordFilterResult {
   std::array<bool, 4> steady;

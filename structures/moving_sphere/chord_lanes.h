@@ -31,7 +31,7 @@ struct ChordLanes {
   }
 };
 
-/// Of up to four bases of one size.
+/// Finds the chords of up to four bases of one size.
 template <int Dimension>
 void find_chords(const BeadPaths<Dimension>& paths, std::span<const Basis> bases, const PeriodLanes& period,
                  ChordLanes<Dimension>& chords);

@@ -30,10 +30,10 @@ struct SphereGaps {
   Four lever_error, other_factor;  // and (1 + f) |T| / (2 rho |G|) at most
 };
 
-/// The same gap at four times, to within a loss each.
+/// The gap at four times: each value errs by at most its loss.
 struct GapsAt {
   std::array<double, 4> value, loss;
-  unsigned proved;  // a bit each; else nothing is known
+  unsigned proved;  // one bit for each time; without it nothing is known then
 };
 
 /// `side`: 1 of a ball that is to be inside, else -1.

@@ -41,7 +41,7 @@ template <int N, std::size_t Size>
   for (std::size_t i = 1; i < Size; ++i) sum += coefficient(v[i], k) * coefficient(v[i], k);
   return sum;
 }
-/// Of the length.
+/// An upper bound of the length of a vector of polynomials on [0,1].
 template <int N, std::size_t Size>
 [[gnu::always_inline]] inline Lanes most(const std::array<PolynomialLanes<N>, Size>& v) {
   Lanes highest = square(v, 0);
@@ -49,15 +49,15 @@ template <int N, std::size_t Size>
   return root(highest);
 }
 
-/// What bounds values that nearly vanish at both ends by those of the coefficients between: 1 - u^N - (1-u)^N
-/// <= 1 - 2^(1-N).
+/// A polynomial that vanishes at both ends is at most this share of its largest coefficient:
+/// 1 - u^N - (1-u)^N <= 1 - 2^(1-N).
 template <int N>
 inline constexpr double share_between = [] {
   double share = 1;
   for (int k = 1; k < N; ++k) share /= 2;
   return 1 - share;
 }();
-/// As `most` where the polynomial nearly vanishes at both ends.
+/// An upper bound like `most`, sharper where the polynomial nearly vanishes at both ends.
 template <int N>
 [[gnu::always_inline]] inline Lanes most_between(const PolynomialLanes<N>& p) {
   Lanes inner(0.0);

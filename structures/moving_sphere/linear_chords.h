@@ -22,8 +22,8 @@
 
 namespace kds::detail {
 
-/// As `margin`: a control point is rounded by up to 9 units of 2^-53 of the lengths that went in, a volume or
-/// a residual by 60, below 2^-47.
+/// Plays the part of `margin` in linear motion: a control point is rounded by up to 9 units of 2^-53 of the
+/// lengths that went in, a volume or a residual by 60, below 2^-47.
 inline constexpr double linear_margin = 0x1p-45;
 
 /// R and Q.

@@ -29,7 +29,7 @@ class BeadWord {
   [[nodiscard]] static constexpr std::uint64_t bit_of(BeadId place) {
     return 1ULL << (16 * (place % 4) + place / 4);
   }
-  /// Of the first `count`.
+  /// The bits of the first `count` beads.
   [[nodiscard]] static std::uint64_t first(BeadId count) {
     static constexpr auto words = [] {
       std::array<std::uint64_t, size + 1> word{};

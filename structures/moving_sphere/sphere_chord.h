@@ -46,11 +46,11 @@ struct SphereChord {
 
 struct Period {
   double from = 0, to = 1;
-  /// Until then some bead's weight is known to be positive, for it has just risen from zero.
+  /// Until this time some bead's weight is known to be positive, for it has just risen from zero.
   double sure = 0;
 };
 
-/// Of up to four bases of one size, each in a period of its own: four cost little more than one.
+/// The chords of up to four bases of one size, each in a period of its own: four cost little more than one.
 template <int Dimension>
 void sphere_chords(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
                    std::span<const Period> periods, std::span<SphereChord<Dimension>> chords);

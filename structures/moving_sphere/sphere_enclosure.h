@@ -40,7 +40,7 @@ struct SphereEnclosure {
   unsigned proved;                                    ///< a bit each
 };
 
-/// Of a basis of two or more. The paths are of degree 1.
+/// Encloses the sphere of a basis of two or more balls in four parts of the step. Paths must be of degree 1.
 template <int Dimension>
 void find_motion(const BeadPaths<Dimension>& paths, const Basis& basis, const std::array<Period, 4>& periods,
                  SphereEnclosure<Dimension>& motion);

@@ -29,8 +29,8 @@
 
 namespace kds {
 
-/// Of up to four nodes with bases of one size, at the start of the step: lower bounds, 0 or below where
-/// nothing is proved. No tolerance is larger than what is `wanted` of it.
+/// How far the balls of up to four nodes with bases of one size may move from the start of the step: lower
+/// bounds, 0 or below where nothing is proved, and none above what is `wanted` of it.
 template <int Dimension>
 void sphere_tolerances(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
                        std::span<const Basis> bases, std::span<const double> wanted,

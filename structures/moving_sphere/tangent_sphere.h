@@ -125,8 +125,8 @@ template <int D, std::size_t M, int K>
   return simplex;
 }
 
-/// Of the slope q (sphere_chord.h): bounds at any time, at the start, and how far it is from the part in the
-/// hull of that at the start.
+/// Bounds of the slope q (sphere_chord.h): of its length at any time and at the start, and of how far it is
+/// from the part in the hull of the slope at the start.
 struct SlopeBound {
   Lanes most, at_start, wander;
 };

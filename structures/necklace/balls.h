@@ -38,7 +38,7 @@ class Balls {
     move_to(centers);
   }
 
-  /// The same beads elsewhere. Throws as the constructor does.
+  /// Puts the same balls elsewhere. Throws as the constructor does.
   void move_to(const Eigen::Matrix3Xd& centers) {
     if (static_cast<std::size_t>(centers.cols()) != size())
       throw InputError("expected " + std::to_string(size()) + " beads, not " +

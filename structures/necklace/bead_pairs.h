@@ -19,8 +19,8 @@ class BeadPairs {
   using Pair = std::pair<BeadId, BeadId>;
 
   BeadPairs() = default;
-  /// Of beads 0 ... beads-1. Pairs may come twice and either way round. Throws std::invalid_argument where
-  /// one names a bead twice, or one that there is not.
+  /// Pairs of beads 0 ... beads-1, which may come twice and either way round. Throws std::invalid_argument
+  /// where a pair names one bead twice, or a bead that there is not.
   BeadPairs(std::size_t beads, std::span<const Pair> pairs);
   /// Consecutive beads of each necklace.
   [[nodiscard]] static BeadPairs along(std::size_t beads, std::span<const BeadRange> necklaces);

@@ -15,14 +15,14 @@ struct DiagramEdges {
   std::vector<BeadId> hidden;  ///< ascending
 };
 
-/// Of a triangulation that is kept up, with those of its beads 0 ... beads-1 that are hidden. It must have
-/// cells. Time linear in them.
+/// The edges of a kinetic triangulation, which must have cells; `hidden` are those of its beads 0 ... beads-1
+/// that are. Time linear in the cells.
 template <int Dimension>
 [[nodiscard]] DiagramEdges edges_of(const RegularTriangulation<Dimension>& triangulation, std::size_t beads,
                                     std::vector<BeadId> hidden);
 
-/// Built by CGAL from doubles with exact predicates; also where the beads span less than the space. Centres
-/// have three rows; in the plane the third is not looked at.
+/// The edges of the diagram that CGAL builds from doubles with exact predicates, also where the beads span
+/// less than the space. Centres have three rows; in the plane the third is not looked at.
 template <int Dimension>
 [[nodiscard]] DiagramEdges static_edges(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
 

@@ -31,7 +31,8 @@ class FacetCertificates {
     make(apex, orientation);
     return use(orientation);
   }
-  /// The same without a call: whether it is an orientation, and it made in place.
+  /// What `to` does, in two parts and without a call: whether the certificate is an orientation, and `make`,
+  /// which makes it in place.
   [[nodiscard, gnu::always_inline]] bool on_hull(BeadId apex) const {
     return sorted_.back() == infinite_bead || apex == infinite_bead;
   }
@@ -59,7 +60,7 @@ class FacetCertificates {
   int sign_;
 };
 
-/// The same for one facet.
+/// Calls `use` with the certificate of one facet of a cell.
 template <std::size_t N, class Use>
 [[gnu::always_inline]] inline decltype(auto) with_facet_certificate(const std::array<BeadId, N>& cell,
                                                                     BeadId apex, Use use) {

@@ -42,7 +42,7 @@ class HiddenBeads {
     }
     return beads;
   }
-  /// The same with their hosts.
+  /// The hidden beads, ascending, with their hosts.
   [[nodiscard]] std::vector<HiddenBead> with_hosts() const {
     std::vector<HiddenBead> hidden;
     for (const BeadId b : beads()) hidden.push_back({b, host_[b]});

@@ -1,0 +1,12 @@
+# Every file that docs/glossary.md names is there.
+file(READ "${ROOT}/docs/glossary.md" glossary)
+string(REGEX MATCHALL "`[a-z]+/[a-z_/]+\\.h`" names "${glossary}")
+if(NOT names)
+  message(FATAL_ERROR "docs/glossary.md names no file")
+endif()
+foreach(name ${names})
+  string(REPLACE "`" "" name "${name}")
+  if(NOT EXISTS "${ROOT}/${name}")
+    message(SEND_ERROR "docs/glossary.md names ${name}, which does not exist")
+  endif()
+endforeach()
