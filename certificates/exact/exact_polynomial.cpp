@@ -10,14 +10,14 @@ namespace kds {
 
 namespace {
 
-using Coefficients = std::vector<Integer>;
+using Integers = std::vector<Integer>;
 
-void drop_leading_zeros(Coefficients& c) {
+void drop_leading_zeros(Integers& c) {
   while (!c.empty() && c.back() == 0) c.pop_back();
 }
 
 // Divides by the content, so that remainder sequences stay small.
-void make_primitive(Coefficients& c) {
+void make_primitive(Integers& c) {
   Integer content = 0;
   for (const Integer& x : c) {
     content = boost::multiprecision::gcd(content, x);
@@ -30,9 +30,9 @@ void make_primitive(Coefficients& c) {
 
 // Divides out all factors 1 + t, that is (1-u) + u = 1: what a polynomial carries whose degree is written
 // higher than it is. They would be repeated roots, and common ones.
-void drop_elevation(Coefficients& c) {
+void drop_elevation(Integers& c) {
   while (c.size() > 1) {
-    Coefficients quotient(c.size() - 1);
+    Integers quotient(c.size() - 1);
     Integer rest = 0;
     for (std::size_t k = c.size() - 1; k > 0; --k) {
       rest = c[k] - rest;
@@ -44,7 +44,7 @@ void drop_elevation(Coefficients& c) {
 }
 
 // A positive multiple of the remainder of a by b, both without leading zeros, deg a >= deg b.
-Coefficients pseudo_remainder(Coefficients a, const Coefficients& b) {
+Integers pseudo_remainder(Integers a, const Integers& b) {
   const Integer lead = abs(b.back());
   const bool negative = b.back() < 0;
   while (a.size() >= b.size()) {
@@ -59,7 +59,7 @@ Coefficients pseudo_remainder(Coefficients a, const Coefficients& b) {
   return a;
 }
 
-Coefficients polynomial_gcd(Coefficients a, Coefficients b) {
+Integers polynomial_gcd(Integers a, Integers b) {
   drop_leading_zeros(a);
   drop_leading_zeros(b);
   if (certainly_coprime(a, b)) return {Integer(1)};
@@ -70,7 +70,7 @@ Coefficients polynomial_gcd(Coefficients a, Coefficients b) {
   make_primitive(b);
   if (a.size() < b.size()) std::swap(a, b);
   while (!b.empty()) {
-    Coefficients r = pseudo_remainder(a, b);
+    Integers r = pseudo_remainder(a, b);
     a = std::move(b);
     b = std::move(r);
   }
@@ -78,9 +78,9 @@ Coefficients polynomial_gcd(Coefficients a, Coefficients b) {
 }
 
 // a / b where b divides a over the rationals; the quotient is made primitive.
-Coefficients exact_quotient(Coefficients a, const Coefficients& b) {
+Integers exact_quotient(Integers a, const Integers& b) {
   if (a.size() < b.size()) return {};
-  Coefficients quotient(a.size() - b.size() + 1);
+  Integers quotient(a.size() - b.size() + 1);
   // Multiplying ahead keeps every step whole.
   Integer ahead = 1;
   for (std::size_t i = 0; i < quotient.size(); ++i) ahead *= b.back();
@@ -95,7 +95,7 @@ Coefficients exact_quotient(Coefficients a, const Coefficients& b) {
 
 int sign_of(const Integer& x) { return x.sign(); }
 
-int sign_variations_of(const Coefficients& c) {
+int sign_variations_of(const Integers& c) {
   int variations = 0;
   int last = 0;
   for (const Integer& x : c) {
@@ -168,8 +168,8 @@ ExactPolynomial ExactPolynomial::restricted(const Dyadic& lower, const Dyadic& u
 
   // Horner in u with the growing power of (1-u), both linear forms in (1-s, s).
   if (scaled_.empty()) return {};
-  Coefficients value(scaled_.size());
-  Coefficients power(scaled_.size());
+  Integers value(scaled_.size());
+  Integers power(scaled_.size());
   value[0] = scaled_.back();
   power[0] = 1;
   for (std::size_t size = 2; size <= scaled_.size(); ++size) {
@@ -188,15 +188,15 @@ ExactPolynomial ExactPolynomial::restricted(const Dyadic& lower, const Dyadic& u
 }
 
 ExactPolynomial ExactPolynomial::square_free() const {
-  Coefficients c = scaled_;
+  Integers c = scaled_;
   drop_leading_zeros(c);
   if (c.size() <= 2) return ExactPolynomial(std::move(c));
   if (certainly_square_free(c)) return ExactPolynomial(std::move(c));
   drop_elevation(c);
   if (c.size() <= 2 || certainly_square_free(c)) return ExactPolynomial(std::move(c));
-  Coefficients derivative(c.size() - 1);
+  Integers derivative(c.size() - 1);
   for (std::size_t k = 1; k < c.size(); ++k) derivative[k - 1] = c[k] * k;
-  const Coefficients repeated = polynomial_gcd(c, std::move(derivative));
+  const Integers repeated = polynomial_gcd(c, std::move(derivative));
   if (repeated.size() > 1) {
     c = exact_quotient(std::move(c), repeated);
   } else {
@@ -213,11 +213,11 @@ namespace {
 
 // Bernstein coefficients proper, times a common multiple of the binomials: these are halved by additions,
 // both halves at once.
-Coefficients unscaled(const Coefficients& scaled) {
+Integers unscaled(const Integers& scaled) {
   const int degree = static_cast<int>(scaled.size()) - 1;
   Integer multiple = 1;
   for (int k = 1; k < degree; ++k) multiple = lcm(multiple, Integer(binomial(degree, k)));
-  Coefficients result = scaled;
+  Integers result = scaled;
   for (int k = 0; k <= degree; ++k) result[static_cast<std::size_t>(k)] *= multiple / binomial(degree, k);
   return result;
 }
@@ -232,7 +232,7 @@ class Isolation {
 
   // `local` is the polynomial on [lower, upper], unscaled, and lost. Roots in the open interval, and at
   // `lower` if `with_lower`; false if the visitor wants no more.
-  bool visit(Coefficients& local, const Dyadic& lower, const Dyadic& upper, bool with_lower,
+  bool visit(Integers& local, const Dyadic& lower, const Dyadic& upper, bool with_lower,
              std::size_t depth = 0) {
     const bool root_at_lower = local.front() == 0;
     const bool root_at_upper = local.back() == 0;
@@ -249,7 +249,7 @@ class Isolation {
 
  private:
   // de Casteljau, times 2^degree; `local` becomes the right half.
-  static void halve(Coefficients& local, Coefficients& left) {
+  static void halve(Integers& local, Integers& left) {
     const std::size_t degree = local.size() - 1;
     for (std::size_t round = 0; round <= degree; ++round) {
       shift_up(left[round], local[0], degree - round);
@@ -259,7 +259,7 @@ class Isolation {
   }
 
   const RootVisitor& visit_;
-  std::deque<Coefficients> left_;  // one a level, used again
+  std::deque<Integers> left_;  // one a level, used again
 };
 
 }  // namespace
@@ -271,7 +271,7 @@ void visit_roots(const ExactPolynomial& square_free, const Dyadic& lower, const 
     if (square_free.sign_at(lower) == 0) visit({lower, lower});
     return;
   }
-  Coefficients local = unscaled(square_free.restricted(lower, upper).scaled());
+  Integers local = unscaled(square_free.restricted(lower, upper).scaled());
   const bool root_at_upper = local.back() == 0;
   if (Isolation(visit).visit(local, lower, upper, true) && root_at_upper) visit({upper, upper});
 }

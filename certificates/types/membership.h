@@ -10,12 +10,12 @@
 #include <algorithm>
 #include <array>
 #include <concepts>
-#include <cstdint>
 #include <span>
 
 #include "certificates/types/ball_in_sphere.h"
 #include "certificates/types/bead_in_sphere.h"
 #include "certificates/types/power_test.h"
+#include "certificates/types/radii.h"
 
 namespace kds {
 
@@ -41,12 +41,6 @@ template <std::size_t N>
 }
 
 }  // namespace detail
-
-/// What is promised of the radii of a necklace.
-enum class Radii : std::uint8_t {
-  equal,  ///< the same for all beads, and so are weights: no certificate is radical
-  any
-};
 
 /// Calls `visit` with the certificate that `bead` lies inside (or, not `inside`, outside) the sphere of
 /// `basis`: 1 to dimension + 1 beads, ascending. `orientation` is a full basis' own (orientation.h).

@@ -1,26 +1,29 @@
 #pragma once
 // Who lies in which sphere, by certificates (SphereSigns of basis.h).
 
-#include <concepts>
+#include <algorithm>
 #include <span>
+#include <utility>
 
 #include "certificates/types/membership.h"
 #include "certificates/types/orientation.h"
+#include "motions/curves/curves.h"
 #include "structures/enclosing_sphere/basis.h"
 
 namespace kds {
 
 /// `sign(certificate)` says 1, 0 or -1 for any certificate of membership and any orientation.
-template <Radii radii, Motion M, class Sign>
+template <int Dimension, class Sign>
 class MembershipSigns {
  public:
-  static constexpr int dimension = M::dimension;
+  static constexpr int dimension = Dimension;
 
-  MembershipSigns(const M& motion, Sign sign) : motion_(motion), sign_(std::move(sign)) {}
+  MembershipSigns(const Curves<Dimension>& curves, Radii radii, Sign sign)
+      : curves_(curves), radii_(radii), sign_(std::move(sign)) {}
 
   [[nodiscard]] int membership(const Basis& basis, BeadId bead, bool inside, int orientation) const {
-    return visit_membership<radii>(motion_, std::span(basis.begin(), basis.end()), bead, inside, orientation,
-                                   sign_);
+    return visit_membership(radii_, curves_, std::span(basis.begin(), basis.end()), bead, inside, orientation,
+                            sign_);
   }
   [[nodiscard]] int orientation(const Basis& basis) const {
     Orientation<dimension> certificate;
@@ -29,7 +32,8 @@ class MembershipSigns {
   }
 
  private:
-  const M& motion_;
+  Curves<Dimension> curves_;
+  Radii radii_;
   Sign sign_;
 };
 

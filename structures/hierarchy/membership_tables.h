@@ -2,6 +2,9 @@
 // The certificates of membership (certificates/types/membership.h), a table for each type: equal radii first,
 // by the size of the basis from 1 on.
 
+#include <algorithm>
+
+#include "certificates/search/ball_in_sphere_search.h"
 #include "certificates/types/membership.h"
 #include "kds/certificate_tables.h"
 #include "structures/enclosing_sphere/basis.h"
@@ -10,32 +13,25 @@ namespace kds {
 
 namespace detail {
 
-template <Motion M, Kernel K, int Dimension, Radii radii>
+template <int Dimension>
 struct TablesOfMembership;
-template <Motion M, Kernel K>
-struct TablesOfMembership<M, K, 2, Radii::equal> {
-  using Type = CertificateTables<M, K, BeadInSphere<1>, BeadInSphere<2>, PowerTest<2>>;
-};
-template <Motion M, Kernel K>
-struct TablesOfMembership<M, K, 3, Radii::equal> {
-  using Type = CertificateTables<M, K, BeadInSphere<1>, BeadInSphere<2>, BeadInSphere<3>, PowerTest<3>>;
-};
-template <Motion M, Kernel K>
-struct TablesOfMembership<M, K, 2, Radii::any> {
-  using Type = CertificateTables<M, K, BeadInSphere<1>, BeadInSphere<2>, PowerTest<2>, BallInSphere<2, 1>,
+template <>
+struct TablesOfMembership<2> {
+  using Type = CertificateTables<BeadInSphere<1>, BeadInSphere<2>, PowerTest<2>, BallInSphere<2, 1>,
                                  BallInSphere<2, 2>, BallInSphere<2, 3>>;
 };
-template <Motion M, Kernel K>
-struct TablesOfMembership<M, K, 3, Radii::any> {
+template <>
+struct TablesOfMembership<3> {
   using Type =
-      CertificateTables<M, K, BeadInSphere<1>, BeadInSphere<2>, BeadInSphere<3>, PowerTest<3>,
-                        BallInSphere<3, 1>, BallInSphere<3, 2>, BallInSphere<3, 3>, BallInSphere<3, 4>>;
+      CertificateTables<BeadInSphere<1>, BeadInSphere<2>, BeadInSphere<3>, PowerTest<3>, BallInSphere<3, 1>,
+                        BallInSphere<3, 2>, BallInSphere<3, 3>, BallInSphere<3, 4>>;
 };
 
 }  // namespace detail
 
-template <Motion M, Kernel K, Radii radii>
-using MembershipTables = typename detail::TablesOfMembership<M, K, M::dimension, radii>::Type;
+/// Where radii are promised to be equal those of unequal radii stay empty.
+template <int Dimension>
+using MembershipTables = typename detail::TablesOfMembership<Dimension>::Type;
 
 /// The bead that a certificate of a node with this basis is about.
 template <class Certificate>

@@ -1,7 +1,9 @@
 #include "structures/hierarchy/node_slack.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "motions/numbers/lanes.h"
 
@@ -60,6 +62,44 @@ NodeSlack<Dimension>::NodeSlack(const NecklaceTree& tree)
     halves_[id] = {l == NecklaceTree::leaf ? nodes + tree.range(id).first : l,
                    r == NecklaceTree::leaf ? nodes + tree.range(id).last : r};
   }
+}
+
+template <int Dimension>
+void NodeSlack<Dimension>::take_out_resting(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
+                                            std::vector<NodeId>& nodes) {
+  if (has_reference_) {
+    look_at(paths);
+    if (resting(nodes) >= worth_keeping_) {
+      next_skip_ = 0;
+      lasted_ = true;
+      return take_out(nodes);
+    }
+    if (!lasted_) return give_up();
+  } else if (skip_ > 0) {
+    --skip_;
+    return;
+  }
+  set_reference(paths);
+  look_at(paths);
+  // A few nodes from all over the tree tell whether it is worth while.
+  std::vector<NodeId> some;
+  const std::size_t stride = nodes.size() / sample_size + 1;
+  for (std::size_t i = 0; i < nodes.size(); i += stride) some.push_back(nodes[i]);
+  take_tolerances(paths, bases, some);
+  const double share = resting(some);
+  has_reference_ = share >= least_share;
+  if (!has_reference_) return give_up();
+  lasted_ = false;
+  worth_keeping_ = still_worth * share;
+  take_tolerances(paths, bases, nodes);
+  take_out(nodes);
+}
+
+template <int Dimension>
+void NodeSlack<Dimension>::take_tolerances(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
+                                           std::span<const NodeId> nodes) {
+  for (const NodeId id : nodes) add(paths, id, bases[id]);
+  for (Waiting& some : waiting_) find(paths, some);
 }
 
 template <int Dimension>

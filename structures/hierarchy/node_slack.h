@@ -4,12 +4,9 @@
 // certificate. All tolerances are taken at one reference frame, which is moved up when too many are used up.
 // Where motion is fast, none is taken: a sample tells.
 
-#include <algorithm>
 #include <array>
-#include <concepts>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "structures/moving_sphere/bead_paths.h"
@@ -23,37 +20,9 @@ class NodeSlack {
  public:
   explicit NodeSlack(const NecklaceTree& tree);
 
-  /// At the start of a step. Takes out of `nodes` those that rest in it; `basis_of` tells the basis of a
-  /// node.
-  template <std::invocable<NodeId> BasisOf>
-  void take_out_resting(const BeadPaths<Dimension>& paths, std::vector<NodeId>& nodes, BasisOf basis_of) {
-    if (has_reference_) {
-      look_at(paths);
-      if (resting(nodes) >= worth_keeping_) {
-        next_skip_ = 0;
-        lasted_ = true;
-        return take_out(nodes);
-      }
-      if (!lasted_) return give_up();
-    } else if (skip_ > 0) {
-      --skip_;
-      return;
-    }
-    set_reference(paths);
-    look_at(paths);
-    // A few nodes from all over the tree tell whether it is worth while.
-    std::vector<NodeId> some;
-    const std::size_t stride = nodes.size() / sample_size + 1;
-    for (std::size_t i = 0; i < nodes.size(); i += stride) some.push_back(nodes[i]);
-    take_tolerances(paths, some, basis_of);
-    const double share = resting(some);
-    has_reference_ = share >= least_share;
-    if (!has_reference_) return give_up();
-    lasted_ = false;
-    worth_keeping_ = still_worth * share;
-    take_tolerances(paths, nodes, basis_of);
-    take_out(nodes);
-  }
+  /// At the start of a step. Takes out of `nodes` those that rest in it; `bases` are those of all nodes.
+  void take_out_resting(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
+                        std::vector<NodeId>& nodes);
   /// The node has got another basis.
   void forget(NodeId node) { tolerance_[node] = none; }
 
@@ -81,11 +50,8 @@ class NodeSlack {
   [[nodiscard]] double resting(std::span<const NodeId> nodes) const;
   void take_out(std::vector<NodeId>& nodes) const;
 
-  template <class BasisOf>
-  void take_tolerances(const BeadPaths<Dimension>& paths, std::span<const NodeId> nodes, BasisOf basis_of) {
-    for (const NodeId id : nodes) add(paths, id, basis_of(id));
-    for (Waiting& some : waiting_) find(paths, some);
-  }
+  void take_tolerances(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
+                       std::span<const NodeId> nodes);
 
   /// Nodes with bases of one size.
   struct Waiting {

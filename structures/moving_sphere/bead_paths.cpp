@@ -1,10 +1,42 @@
 #include "structures/moving_sphere/bead_paths.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "motions/numbers/lanes.h"
 
 namespace kds {
 
 namespace {
+
+/// The least and the greatest of each column, in four lanes.
+template <std::size_t Columns>
+struct ColumnRanges {
+  std::array<Lanes, Columns> low, high;
+};
+
+/// Columns of beads' coordinates, the k-th control point's one after another: four beads at a time, as long
+/// as there are four.
+template <int K>
+[[KDS_LANES_TARGETS]] void copy_columns(const FixedCurves<3, K>& curves,
+                                        const std::array<double*, (K + 1) * 3>& to,
+                                        ColumnRanges<(K + 1) * 3>& ranges) {
+  ranges.low.fill(Lanes(HUGE_VAL));
+  ranges.high.fill(Lanes(-HUGE_VAL));
+  for (BeadId b = 0; b + Lanes::width <= curves.bead_count(); b += Lanes::width) {
+    for (int k = 0; k <= K; ++k) {
+      // The weight comes last.
+      const auto axes = Lanes::transposed(curves.control_point(b, k), curves.control_point(b + 1, k),
+                                          curves.control_point(b + 2, k), curves.control_point(b + 3, k));
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t c = static_cast<std::size_t>(k) * 3 + axis;
+        ranges.low[c] = Lanes::min(ranges.low[c], axes[axis]);
+        ranges.high[c] = Lanes::max(ranges.high[c], axes[axis]);
+        __builtin_memcpy(to[c] + b, &axes[axis].v, sizeof axes[axis].v);
+      }
+    }
+  }
+}
 
 // The distance is at least that along the sum of both ends' differences, by control points. Where it is no
 // small part of them the roundings, below 2^-45 of them, do not matter.
@@ -46,6 +78,80 @@ template <int D, int K>
 }
 
 }  // namespace
+
+template <int Dimension>
+void BeadPaths<Dimension>::set(const Curves<Dimension>& curves, bool leave_out_radii) {
+  degree_ = curves.own_degree();
+  beads_ = curves.bead_count();
+  radii_are_left_out_ = leave_out_radii;
+  for (std::size_t c = 0; c < place(degree_ + 1, 0); ++c) columns_[c].resize(beads_ + padding);
+  extent_ = 0;
+  equal_radii_ = true;
+  if (beads_ == 0) return;
+  switch (degree_) {
+    case 1:
+      set_coordinates(FixedCurves<Dimension, 1>(curves));
+      break;
+    case 2:
+      set_coordinates(FixedCurves<Dimension, 2>(curves));
+      break;
+    default:
+      set_coordinates(FixedCurves<Dimension, 3>(curves));
+  }
+  if (!leave_out_radii) set_radii(curves);
+}
+
+template <int Dimension>
+template <int K>
+void BeadPaths<Dimension>::set_coordinates(const FixedCurves<Dimension, K>& curves) {
+  constexpr std::size_t count = (K + 1) * Dimension;
+  std::array<double*, count> to;
+  for (std::size_t c = 0; c < count; ++c)
+    to[c] = columns_[place(static_cast<int>(c / Dimension), static_cast<int>(c % Dimension))].data();
+  std::array<double, count> low, high;
+  low.fill(HUGE_VAL);
+  high.fill(-HUGE_VAL);
+  BeadId b = 0;
+  if constexpr (Dimension == 3) {
+    ColumnRanges<count> ranges;
+    copy_columns(curves, to, ranges);
+    b = static_cast<BeadId>(beads_ - beads_ % Lanes::width);
+    for (std::size_t c = 0; c < count; ++c) {
+      for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+        low[c] = std::min(low[c], ranges.low[c].v[lane]);
+        high[c] = std::max(high[c], ranges.high[c].v[lane]);
+      }
+    }
+  }
+  for (; b < beads_; ++b) {
+    for (std::size_t c = 0; c < count; ++c) {
+      const double x = curves.coordinate(b, static_cast<int>(c / Dimension), static_cast<int>(c % Dimension));
+      to[c][b] = x;
+      low[c] = std::min(low[c], x);
+      high[c] = std::max(high[c], x);
+    }
+  }
+  for (std::size_t c = 0; c < count; ++c) {
+    std::fill_n(to[c] + beads_, padding, to[c][0]);
+    extent_ = std::max(extent_, high[c] - low[c]);
+  }
+}
+
+template <int Dimension>
+void BeadPaths<Dimension>::set_radii(const Curves<Dimension>& curves) {
+  for (int k = 0; k <= degree_; ++k) {
+    double* const to = columns_[place(k, Dimension)].data();
+    double low = curves.radius(0, k), high = low;
+    for (BeadId b = 0; b < beads_; ++b) {
+      to[b] = curves.radius(b, k);
+      low = std::min(low, to[b]);
+      high = std::max(high, to[b]);
+    }
+    std::fill_n(to + beads_, padding, to[0]);
+    equal_radii_ = equal_radii_ && low == high;
+    extent_ = std::max(extent_, high - low);
+  }
+}
 
 template <int Dimension>
 void BeadPaths<Dimension>::find_apart_from_next(std::vector<std::uint8_t>& apart) const {

@@ -25,9 +25,14 @@ struct AtStart {
   int operator()(const Certificate& c) const {
     return function_of(c, MomentView<Space>(motion, c.beads, Dyadic(0.0))).scaled[0].sign();
   }
+  template <int Dimension, int Size>
+  int operator()(const BallInSphere<Dimension, Size>&) const {
+    ADD_FAILURE() << "radii are equal";
+    return 0;
+  }
 };
-MembershipSigns<Radii::equal, Space, AtStart> signs_of(const Space& motion) { return {motion, {motion}}; }
-static_assert(SphereSigns<MembershipSigns<Radii::equal, Space, AtStart>>);
+MembershipSigns<3, AtStart> signs_of(const Space& motion) { return {Curves(motion), Radii::equal, {motion}}; }
+static_assert(SphereSigns<MembershipSigns<3, AtStart>>);
 
 /// Does not know, or knows better.
 template <int answer>

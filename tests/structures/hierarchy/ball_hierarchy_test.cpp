@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "motions/curves/any_degree_motion.h"
+#include "motions/curves/lifted_motion.h"
 #include "structures/hierarchy/wrapped_hierarchy.h"
 #include "tests/support/enclosing_ball.h"
 #include "tests/support/moving_beads.h"
@@ -15,8 +17,12 @@ namespace {
 
 using namespace test;
 
-template <class M, class K, Radii radii>
-using BallRig = Rig<WrappedHierarchy<M, K, radii>, M>;
+template <class M, Kernel kernel, Radii radii>
+struct BallRig : Rig<WrappedHierarchy<M::dimension>, M> {
+  BallRig(const M& first, AuditMode audits, const std::vector<BeadRange>& necklaces,
+          const NodeSelection& selection = {})
+      : Rig<WrappedHierarchy<M::dimension>, M>(first, audits, kernel, necklaces, radii, selection) {}
+};
 
 template <class M>
 std::vector<Ball> balls_of(const M& motion, const Basis& basis, const Dyadic& time) {
@@ -41,7 +47,7 @@ std::optional<std::string> not_smallest(const M& motion, const BeadRange& range,
   return std::nullopt;
 }
 
-template <Radii radii, class K = Filtered, class M>
+template <Radii radii, Kernel K = Kernel::filtered, class M>
 std::uint64_t run_audited(const std::vector<M>& steps, int stride = 1) {
   const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(steps.front().bead_count() - 1)}};
   BallRig<M, K, radii> rig(steps.front(), AuditMode::events, necklace);
@@ -75,7 +81,7 @@ std::uint64_t run_audited(const std::vector<M>& steps, int stride = 1) {
   return rig.external_events();
 }
 
-template <Radii radii, class K, class M>
+template <Radii radii, Kernel K, class M>
 std::uint64_t fingerprint_of(const std::vector<M>& steps) {
   const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(steps.front().bead_count() - 1)}};
   BallRig<M, K, radii> rig(steps.front(), AuditMode::none, necklace);
@@ -125,9 +131,10 @@ std::uint64_t run_random(unsigned rounds, std::size_t most_beads) {
       const std::vector<M> steps = there_and_back(motion);
       events += run_audited<radii>(steps);
       if (testing::Test::HasFailure()) return events;
-      EXPECT_NO_THROW(((void)fingerprint_of<radii, Fast>(steps)));
+      EXPECT_NO_THROW(((void)fingerprint_of<radii, Kernel::fast>(steps)));
       if (seed % 4 == 0) {
-        EXPECT_EQ((fingerprint_of<radii, Exact>(steps)), (fingerprint_of<radii, Filtered>(steps)));
+        EXPECT_EQ((fingerprint_of<radii, Kernel::exact>(steps)),
+                  (fingerprint_of<radii, Kernel::filtered>(steps)));
       }
       if (testing::Test::HasFailure()) return events;
     }
@@ -151,8 +158,8 @@ TEST(BallHierarchy, EqualRadiiEitherWay) {
     Random random(seed);
     auto motion = random_motion<Space>(random, 12, MotionKind::generic);
     make_equal(motion);
-    EXPECT_EQ((fingerprint_of<Radii::any, Filtered>(std::vector{motion})),
-              (fingerprint_of<Radii::equal, Filtered>(std::vector{motion})));
+    EXPECT_EQ((fingerprint_of<Radii::any, Kernel::filtered>(std::vector{motion})),
+              (fingerprint_of<Radii::equal, Kernel::filtered>(std::vector{motion})));
   }
 }
 
@@ -189,8 +196,8 @@ TEST(BallHierarchy, AFullBasisTurnsOverWhileABallEnters) {
     }
     SCOPED_TRACE(last);
     run_audited<Radii::any>(there_and_back(motion));
-    EXPECT_EQ((fingerprint_of<Radii::any, Exact>(std::vector{motion})),
-              (fingerprint_of<Radii::any, Filtered>(std::vector{motion})));
+    EXPECT_EQ((fingerprint_of<Radii::any, Kernel::exact>(std::vector{motion})),
+              (fingerprint_of<Radii::any, Kernel::filtered>(std::vector{motion})));
   }
 }
 
@@ -206,7 +213,39 @@ TEST(BallHierarchy, AProteinWithTwoSizesOfBeads) {
     }
   }
   EXPECT_GT(run_audited<Radii::any>(steps, 5), 0U);
-  EXPECT_EQ((fingerprint_of<Radii::any, Exact>(steps)), (fingerprint_of<Radii::any, Filtered>(steps)));
+  EXPECT_EQ((fingerprint_of<Radii::any, Kernel::exact>(steps)),
+            (fingerprint_of<Radii::any, Kernel::filtered>(steps)));
+}
+
+// Weights of a lifted motion are fictitious between frames, and radii would be.
+TEST(BallHierarchy, RefusesLiftedMotion) {
+  const LiftedMotion<3> motion(3);
+  const std::vector<BeadRange> necklace{{0, 2}};
+  Simulator simulator;
+  for (const Radii radii : {Radii::equal, Radii::any})
+    EXPECT_THROW(WrappedHierarchy<3>(simulator, motion, necklace, radii), std::invalid_argument);
+}
+
+// Bounds on paths are compiled up to degree three: motion of a higher degree goes without.
+TEST(BallHierarchy, MotionOfAHigherDegree) {
+  const std::vector<BeadRange> necklace{{0, 5}};
+  for (const Radii radii : {Radii::equal, Radii::any}) {
+    Random random(7);
+    AnyDegreeMotion<3> quartic(6, 4);
+    for (BeadId b = 0; b < 6; ++b) {
+      for (int k = 0; k <= 4; ++k) {
+        for (int axis = 0; axis < 3; ++axis) quartic.set_coordinate(b, k, axis, uniform(random));
+        quartic.set_radius(b, k, radii == Radii::equal ? 0.25 : 0.25 + 0.125 * (b % 3));
+      }
+    }
+    Rig<WrappedHierarchy<3>, AnyDegreeMotion<3>> filtered(quartic, AuditMode::events, necklace, radii);
+    filtered.run();
+    EXPECT_GT(filtered.external_events(), 0U);
+    Rig<WrappedHierarchy<3>, AnyDegreeMotion<3>> exact(quartic, AuditMode::none, Kernel::exact, necklace,
+                                                       radii);
+    exact.run();
+    EXPECT_EQ(exact.simulator.fingerprint(), filtered.simulator.fingerprint());
+  }
 }
 
 // Only what a scene requires.
@@ -236,10 +275,10 @@ TEST(NodeSelection, OtherNodesMakeNoDifference) {
       if (e.change.ids[0] == range.first && e.change.ids[1] == range.last) some.push_back(e.change.ids);
     return some;
   };
-  BallRig<Space, Filtered, Radii::equal> all(motion, AuditMode::none, necklace);
+  BallRig<Space, Kernel::filtered, Radii::equal> all(motion, AuditMode::none, necklace);
   all.run();
   const NodeSelection selection{2, 3, {}};
-  BallRig<Space, Filtered, Radii::equal> some(motion, AuditMode::events, necklace, selection);
+  BallRig<Space, Kernel::filtered, Radii::equal> some(motion, AuditMode::events, necklace, selection);
   some.run();
   std::size_t kept = 0;
   for (NodeId node = 0; node < all.structure.tree().node_count(); ++node) {
@@ -265,7 +304,7 @@ TEST(NodeSelection, AQueryAtADegenerateFrame) {
        {std::vector{square(1), square(0), square(-1)}, std::vector{apart, together, apart}}) {
     const auto steps = through(frames);
     const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(steps.front().bead_count() - 1)}};
-    BallRig<Space, Filtered, Radii::equal> rig(steps.front(), AuditMode::frames, necklace);
+    BallRig<Space, Kernel::filtered, Radii::equal> rig(steps.front(), AuditMode::frames, necklace);
     std::vector<double> radii;
     rig.structure.keep_what_is_asked_for([&](const auto& sphere) { radii.push_back(sphere(0).radius); });
     rig.run(steps);
@@ -278,7 +317,7 @@ TEST(NodeSelection, AQueryAtADegenerateFrame) {
 TEST(NodeSelection, WhatAQueryAsksFor) {
   const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 6);
   const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(steps.front().bead_count() - 1)}};
-  BallRig<Space, Filtered, Radii::equal> rig(steps.front(), AuditMode::frames, necklace);
+  BallRig<Space, Kernel::filtered, Radii::equal> rig(steps.front(), AuditMode::frames, necklace);
   const NecklaceTree& tree = rig.structure.tree();
   std::vector<std::vector<NodeId>> asked;
   rig.structure.keep_what_is_asked_for([&](const auto& sphere) {
@@ -300,7 +339,7 @@ TEST(NodeSelection, WhatAQueryAsksFor) {
               std::find(asked.back().begin(), asked.back().end(), node) != asked.back().end());
   }
   rig.structure.keep_what_is_asked_for([](const auto& sphere) { (void)sphere(100000); });
-  EXPECT_THROW(rig.step(steps[0], true), std::invalid_argument);
+  EXPECT_THROW(rig.step(steps[0]), std::invalid_argument);
 }
 
 }  // namespace

@@ -16,16 +16,19 @@ namespace {
 
 using namespace test;
 
-template <class K>
-using WrappedRig = Rig<WrappedHierarchy<Space, K>, Space>;
 using Necklaces = std::vector<BeadRange>;
+template <Kernel kernel>
+struct WrappedRig : Rig<WrappedHierarchy<3>, Space> {
+  WrappedRig(const Space& first, AuditMode audits, const Necklaces& necklaces)
+      : Rig(first, audits, kernel, necklaces, Radii::equal) {}
+};
 
 Necklaces one_necklace(const Space& motion) { return {{0, static_cast<BeadId>(motion.bead_count() - 1)}}; }
 
 std::span<const BeadId> beads_of(const Basis& basis) { return {basis.begin(), basis.end()}; }
 
 /// Every node against the definition and against CGAL over the rationals.
-template <class K>
+template <Kernel K>
 void expect_right_at(const WrappedRig<K>& rig, const Dyadic& time, bool cgal = true) {
   const auto points = exact_points(rig.motion, time);
   const NecklaceTree& tree = rig.structure.tree();
@@ -43,7 +46,7 @@ void expect_right_at(const WrappedRig<K>& rig, const Dyadic& time, bool cgal = t
   }
 }
 
-template <class K>
+template <Kernel K>
 Witness::Look definition(WrappedRig<K>& rig, int stride) {
   return [&rig, stride, count = 0](const Dyadic& time) mutable -> std::optional<std::string> {
     if (count++ % stride != 0) return std::nullopt;
@@ -64,7 +67,7 @@ Witness::Look definition(WrappedRig<K>& rig, int stride) {
 }
 
 /// Each event names its kind and its node's next basis: checks kinds against the set differences of bases.
-template <class K>
+template <Kernel K>
 void expect_consistent_log(const WrappedRig<K>& rig, std::map<std::pair<BeadId, BeadId>, Basis> bases) {
   std::array<std::uint64_t, 3> kinds{};
   for (const LoggedEvent& e : rig.history.events) {
@@ -87,7 +90,7 @@ void expect_consistent_log(const WrappedRig<K>& rig, std::map<std::pair<BeadId, 
 }
 
 /// Audited between all events, by the structure and by the definition.
-template <class K>
+template <Kernel K>
 void run_audited(const std::vector<Space>& steps, const Necklaces& necklaces, int stride = 1) {
   WrappedRig<K> rig(steps.front(), AuditMode::events, necklaces);
   Witness witness(rig.simulator, definition(rig, stride));
@@ -101,7 +104,7 @@ void run_audited(const std::vector<Space>& steps, const Necklaces& necklaces, in
     }
     expect_right_at(rig, Dyadic(0.0), steps.size() == 1);
     for (std::size_t k = 0; k < steps.size(); ++k) {
-      rig.step(steps[k], k + 1 == steps.size());
+      rig.step(steps[k]);
       expect_right_at(rig, Dyadic(1.0), k + 1 == steps.size());
     }
     expect_consistent_log(rig, bases);
@@ -117,12 +120,12 @@ void run_audited(const std::vector<Space>& steps, const Necklaces& necklaces, in
 }
 
 void run_audited(const std::vector<Space>& steps) {
-  run_audited<Filtered>(steps, one_necklace(steps.front()));
+  run_audited<Kernel::filtered>(steps, one_necklace(steps.front()));
 }
 
 std::string to_text(const std::vector<Points>& frames) { return testing::PrintToString(frames); }
 
-template <class K>
+template <Kernel K>
 std::uint64_t fingerprint_of(const std::vector<Space>& steps, const Necklaces& necklaces) {
   WrappedRig<K> rig(steps.front(), AuditMode::none, necklaces);
   rig.run(steps);
@@ -133,7 +136,7 @@ std::uint64_t fingerprint_of(const std::vector<Space>& steps, const Necklaces& n
 
 TEST(WrappedHierarchy, OneBeadHasNoNodes) {
   const Space motion = moving({{1, 2, 3}}, {{4, 5, 6}});
-  WrappedRig<Filtered> rig(motion, AuditMode::events, one_necklace(motion));
+  WrappedRig<Kernel::filtered> rig(motion, AuditMode::events, one_necklace(motion));
   rig.run();
   EXPECT_EQ(rig.structure.tree().node_count(), 0U);
   EXPECT_EQ(rig.history.events.size(), 0U);
@@ -152,7 +155,7 @@ TEST(WrappedHierarchy, ThreeBeads) {
   // An obtuse triangle becomes acute, and obtuse at another bead: enter, then leave.
   const std::vector<Space> steps{
       moving({{-4, 0, 0}, {4, 0, 0}, {-3, 1, 0}}, {{-4, 0, 0}, {4, 0, 0}, {14, 1, 0}})};
-  WrappedRig<Filtered> rig(steps.front(), AuditMode::events, one_necklace(steps.front()));
+  WrappedRig<Kernel::filtered> rig(steps.front(), AuditMode::events, one_necklace(steps.front()));
   rig.run(steps);
   EXPECT_THAT(rig.structure.statistics.events_by_kind, testing::ElementsAre(1, 1, 0));
   run_audited(steps);
@@ -174,7 +177,7 @@ TEST(WrappedHierarchy, AFourBeadBasisPassesThroughAPlane) {
   run_audited({moving(bent(-1, {{0, 0, 0}}), bent(1, {{0, 0, 0}}))});
   run_audited({moving(bent(-1, {{1, 0, 0}, {0, 1, 1}}), bent(1, {{1, 0, 0}, {0, 1, 1}}))});
   run_audited(through({bent(-1, {{0, 0, 0}}), bent(0, {{0, 0, 0}}), bent(1, {{0, 0, 0}})}));
-  run_audited<Exact>({moving(bent(-1, {{0, 0, 0}}), bent(1, {{0, 0, 0}}))}, {{0, 4}});
+  run_audited<Kernel::exact>({moving(bent(-1, {{0, 0, 0}}), bent(1, {{0, 0, 0}}))}, {{0, 4}});
   // Not at the middle of the step, and not in a plane of axes.
   run_audited({moving(bent(-1, {{0, 0, 0}}), bent(4, {{0, 0, 0}}))});
 }
@@ -224,10 +227,10 @@ TEST(WrappedHierarchy, Grids) {
     turned.push_back({2 - y, x, z});  // by a quarter: on the way it shrinks, and stays a grid
     sheared.push_back({x + y, y - z, z + x});
   }
-  run_audited<Filtered>({moving(grid, grid)}, {{0, 26}});
-  run_audited<Filtered>({moving(grid, turned)}, {{0, 26}}, 3);
-  run_audited<Filtered>({moving(grid, sheared)}, {{0, 26}}, 3);
-  run_audited<Filtered>(through({grid, turned, sheared, grid}), {{0, 26}}, 5);
+  run_audited<Kernel::filtered>({moving(grid, grid)}, {{0, 26}});
+  run_audited<Kernel::filtered>({moving(grid, turned)}, {{0, 26}}, 3);
+  run_audited<Kernel::filtered>({moving(grid, sheared)}, {{0, 26}}, 3);
+  run_audited<Kernel::filtered>(through({grid, turned, sheared, grid}), {{0, 26}}, 5);
 }
 
 TEST(WrappedHierarchy, RotatingPolygonsAndHelix) {
@@ -311,11 +314,11 @@ TEST(WrappedHierarchy, SymmetricMotions) {
 
 TEST(WrappedHierarchy, RightAtTheFramesOfATrajectory) {
   const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 3);
-  WrappedRig<Filtered> rig(steps.front(), AuditMode::none, one_necklace(steps.front()));
+  WrappedRig<Kernel::filtered> rig(steps.front(), AuditMode::none, one_necklace(steps.front()));
   rig.simulator.build();
   expect_right_at(rig, Dyadic(0.0));
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    rig.step(steps[k], k + 1 == steps.size());
+    rig.step(steps[k]);
     expect_right_at(rig, Dyadic(1.0));
   }
   EXPECT_GT(rig.external_events(), 5U);
@@ -325,12 +328,12 @@ TEST(WrappedHierarchy, RightAtTheFramesOfATrajectory) {
 
 TEST(WrappedHierarchy, AuditsPassOnCoarseFrames) {
   const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 400, 200);
-  run_audited<Filtered>(steps, one_necklace(steps.front()), 10);
+  run_audited<Kernel::filtered>(steps, one_necklace(steps.front()), 10);
 }
 
 TEST(WrappedHierarchy, RandomInstance) {
   const Space motion = instance_motion<Space>("d3_n50_linear");
-  run_audited<Filtered>({motion}, {{0, 49}}, 10);
+  run_audited<Kernel::filtered>({motion}, {{0, 49}}, 10);
 }
 
 TEST(WrappedHierarchy, KernelsAgree) {
@@ -338,11 +341,11 @@ TEST(WrappedHierarchy, KernelsAgree) {
   const std::vector<Space> instance{instance_motion<Space>("d3_n20_linear")};
   for (const auto& [motion, last] : {std::pair(&steps, 107U), std::pair(&instance, 19U)}) {
     const Necklaces necklaces{{0, last}};
-    WrappedRig<Filtered> filtered(motion->front(), AuditMode::none, necklaces);
+    WrappedRig<Kernel::filtered> filtered(motion->front(), AuditMode::none, necklaces);
     filtered.run(*motion);
-    EXPECT_EQ(fingerprint_of<Exact>(*motion, necklaces), filtered.simulator.fingerprint());
+    EXPECT_EQ(fingerprint_of<Kernel::exact>(*motion, necklaces), filtered.simulator.fingerprint());
     // One function may fail in two nodes at once: the double kernel has them in any order.
-    WrappedRig<Fast> fast(motion->front(), AuditMode::none, necklaces);
+    WrappedRig<Kernel::fast> fast(motion->front(), AuditMode::none, necklaces);
     fast.run(*motion);
     const auto changes = [](const History& history) {
       std::vector<std::pair<std::size_t, std::array<BeadId, 10>>> all;
@@ -361,8 +364,8 @@ TEST(WrappedHierarchy, ExactAgreesOnMotionsFullOfTies) {
     const Points to = random_grid_points(random, 7, 4);
     SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
     try {
-      EXPECT_EQ(fingerprint_of<Exact>({moving(from, to)}, {{0, 6}}),
-                fingerprint_of<Filtered>({moving(from, to)}, {{0, 6}}));
+      EXPECT_EQ(fingerprint_of<Kernel::exact>({moving(from, to)}, {{0, 6}}),
+                fingerprint_of<Kernel::filtered>({moving(from, to)}, {{0, 6}}));
     } catch (const std::exception& error) {
       ADD_FAILURE() << error.what();
     }
@@ -381,7 +384,7 @@ TEST(WrappedHierarchy, FastAlwaysEnds) {
     const Points from = random_grid_points(random, 9, 3);
     const Points to = random_grid_points(random, 9, 3);
     SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
-    ASSERT_NO_THROW((void)fingerprint_of<Fast>(through({from, to, from}), {{0, 8}}));
+    ASSERT_NO_THROW((void)fingerprint_of<Kernel::fast>(through({from, to, from}), {{0, 8}}));
   }
 }
 
@@ -390,8 +393,8 @@ TEST(WrappedHierarchy, DegenerateInstances) {
        {"static", "half", "rigid", "gridrigid", "gridscale", "converge", "gridrand", "gridint", "swap"}) {
     SCOPED_TRACE(name);
     const Space motion = instance_motion<Space>(std::string("degenerate_d3_n64_") + name);
-    run_audited<Filtered>({motion}, {{0, 63}}, 20);
-    WrappedRig<Fast> fast(motion, AuditMode::none, one_necklace(motion));
+    run_audited<Kernel::filtered>({motion}, {{0, 63}}, 20);
+    WrappedRig<Kernel::fast> fast(motion, AuditMode::none, one_necklace(motion));
     EXPECT_NO_THROW(fast.run());
   }
 }
@@ -399,13 +402,13 @@ TEST(WrappedHierarchy, DegenerateInstances) {
 TEST(WrappedHierarchy, SeveralNecklaces) {
   const Space motion = instance_motion<Space>("d3_n50_linear");
   const Necklaces necklaces{{0, 16}, {17, 17}, {18, 19}, {20, 49}};
-  run_audited<Filtered>({motion}, necklaces, 10);
+  run_audited<Kernel::filtered>({motion}, necklaces, 10);
   // Each behaves as it does alone.
-  WrappedRig<Filtered> all(motion, AuditMode::none, necklaces);
+  WrappedRig<Kernel::filtered> all(motion, AuditMode::none, necklaces);
   all.run();
   std::uint64_t alone = 0;
   for (const BeadRange& necklace : necklaces) {
-    WrappedRig<Filtered> rig(motion, AuditMode::none, Necklaces{necklace});
+    WrappedRig<Kernel::filtered> rig(motion, AuditMode::none, Necklaces{necklace});
     rig.run();
     alone += rig.external_events();
   }
@@ -414,7 +417,7 @@ TEST(WrappedHierarchy, SeveralNecklaces) {
 
 TEST(WrappedHierarchy, RefusesChangesThatCannotBe) {
   const Space motion = instance_motion<Space>("d3_n20_linear");
-  WrappedRig<Filtered> rig(motion, AuditMode::none, one_necklace(motion));
+  WrappedRig<Kernel::filtered> rig(motion, AuditMode::none, one_necklace(motion));
   rig.run();
   EXPECT_THROW(rig.structure.apply({0, 4, {1, 4, 1, 4}}), std::invalid_argument);
   EXPECT_THROW(rig.structure.apply({0, 4, {0, 4, 0, 5}}), std::invalid_argument);
@@ -423,7 +426,7 @@ TEST(WrappedHierarchy, RefusesChangesThatCannotBe) {
 
 TEST(WrappedHierarchy, TheExactStageIsRareInGeneralPosition) {
   const Space motion = instance_motion<Space>("d3_n50_linear");
-  WrappedRig<Filtered> rig(motion, AuditMode::none, one_necklace(motion));
+  WrappedRig<Kernel::filtered> rig(motion, AuditMode::none, one_necklace(motion));
   rig.run();
   const auto& statistics = rig.structure.statistics;
   EXPECT_LT(statistics.stages.exact, statistics.certificates.created / 100);
@@ -433,9 +436,9 @@ TEST(WrappedHierarchy, TheExactStageIsRareInGeneralPosition) {
 // The audit must be able to fail: any other basis is wrong.
 TEST(WrappedHierarchy, AuditsNoticeEveryWrongBasis) {
   const Space motion = instance_motion<Space>("d3_n20_linear");
-  WrappedRig<Filtered> rig(motion, AuditMode::frames, one_necklace(motion));
+  WrappedRig<Kernel::filtered> rig(motion, AuditMode::frames, one_necklace(motion));
   rig.run();
-  using Hierarchy = WrappedHierarchy<Space, Filtered>;
+  using Hierarchy = WrappedHierarchy<3>;
   std::mt19937 random(26);
   for (NodeId node = 0; node < rig.structure.tree().node_count(); ++node) {
     const auto [first, last] = rig.structure.tree().range(node);
@@ -474,7 +477,7 @@ TEST(WrappedHierarchy, ATranslationGivesNoEvent) {
     }
   }
   const auto steps = through(frames);
-  WrappedRig<Filtered> rig(steps.front(), AuditMode::frames, one_necklace(steps.front()));
+  WrappedRig<Kernel::filtered> rig(steps.front(), AuditMode::frames, one_necklace(steps.front()));
   rig.run(steps);
   EXPECT_EQ(rig.history.events.size(), 0U);
   EXPECT_EQ(rig.structure.statistics.certificates.failed, 0U);
@@ -498,8 +501,8 @@ TEST(WrappedHierarchy, NodesRestInSlowMotion) {
   }
   const auto steps = through(frames);
   run_audited(steps);
-  EXPECT_EQ(fingerprint_of<Filtered>(steps, one_necklace(steps.front())),
-            fingerprint_of<Exact>(steps, one_necklace(steps.front())));
+  EXPECT_EQ(fingerprint_of<Kernel::filtered>(steps, one_necklace(steps.front())),
+            fingerprint_of<Kernel::exact>(steps, one_necklace(steps.front())));
 }
 
 }  // namespace

@@ -9,12 +9,13 @@
 #include <functional>
 #include <numeric>
 
-#include "certificates/search/radical_search.h"
+#include "certificates/exact/exact_time.h"
 #include "certificates/types/membership.h"
 #include "certificates/types/orientation.h"
 #include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/moving_sphere/gap_bounds.h"
+#include "tests/support/integer_search.h"
 #include "tests/support/moving_beads.h"
 #include "tests/support/polynomial_source.h"
 #include "tests/support/random_motion.h"
@@ -34,15 +35,14 @@ void visit_radical(const M& motion, const Basis& basis, BeadId bead, bool inside
                    Visit visit) {
   int orientation = 0;
   if (basis.size == M::dimension + 1) {
-    StageCounts stages;
     Orientation<M::dimension> certificate;
     std::copy(basis.begin(), basis.end(), certificate.beads.begin());
-    orientation = sign_just_after<Exact>(certificate, motion, now, stages);
+    orientation = integer_sign_just_after(certificate, motion, now);
   }
-  visit_membership<Radii::any>(motion, std::span(basis.begin(), basis.end()), bead, inside, orientation,
-                               [&]<class C>(const C& certificate) {
-                                 if constexpr (RadicalCertificateFor<C, M>) visit(certificate);
-                               });
+  visit_membership(Radii::any, motion, std::span(basis.begin(), basis.end()), bead, inside, orientation,
+                   [&]<class C>(const C& certificate) {
+                     if constexpr (RadicalCertificateFor<C, M>) visit(certificate);
+                   });
 }
 
 /// The same time, in a bracket that holds no other root of the norm.
@@ -64,13 +64,11 @@ void judge(const M& motion, const BeadPaths<M::dimension>& paths, const Basis& b
     ++tally.asked;
     const auto ours = crossings.first_failure(paths, basis, bead, inside, from, from, false);
     if (!ours) return;
-    StageCounts stages;
-    const Failure exact =
-        first_failure<Exact>(certificate, motion, Instant(from), KnownAtStart::unknown, stages);
+    const Failure exact = integer_first_failure(certificate, motion, Instant(from));
     ASSERT_EQ(ours->kind, exact.kind);
     ++(ours->kind == Failure::Kind::never ? tally.never : tally.later);
     if (ours->kind == Failure::Kind::never) return;
-    const ExactPolynomial function = exact_function(certificate, motion);
+    const ExactPolynomial function = *search_for(certificate, motion)->exact_function(certificate);
     ASSERT_NO_FATAL_FAILURE(expect_same_time(function, ours->time, exact.time));
 
     // From then on it lies on the other side, at first.
@@ -81,7 +79,7 @@ void judge(const M& motion, const BeadPaths<M::dimension>& paths, const Basis& b
     opposite.inside = !inside;
     const auto next = crossings.first_failure(paths, basis, bead, !inside, now.lower(), now.upper(), true);
     if (!next) return;
-    const Failure exact_next = first_failure<Exact>(opposite, motion, now, KnownAtStart::at_own_root, stages);
+    const Failure exact_next = integer_first_failure(opposite, motion, now, KnownAtStart::at_own_root);
     ASSERT_EQ(next->kind, exact_next.kind);
     ++(next->kind == Failure::Kind::never ? tally.never_again : tally.again);
     if (next->kind == Failure::Kind::later) expect_same_time(function, next->time, exact_next.time);
@@ -106,9 +104,8 @@ void judge_signs(Random& random, const M& motion, const BeadPaths<M::dimension>&
     if ((sphere.proved & at.proved & 1U << i) == 0 || !(std::abs(at.value[i]) > at.loss[i])) continue;
     const Instant now(times[i]);
     visit_radical(motion, basis, bead, true, now, [&](const auto& certificate) {
-      StageCounts stages;
       ++tally.signs;
-      EXPECT_EQ(at.value[i] > 0 ? 1 : -1, (sign_now<Exact>(certificate, motion, now, stages)))
+      EXPECT_EQ(at.value[i] > 0 ? 1 : -1, integer_sign_now(certificate, motion, now))
           << "bead " << bead << " at " << times[i];
     });
   }
@@ -134,7 +131,7 @@ void judge_all(unsigned seed, MotionKind kind, int exponent, Tally& tally) {
   }
   scale(motion, exponent);
   BeadPaths<M::dimension> paths;
-  paths.set(motion);
+  paths.set(Curves(motion));
   const double from = seed % 2 == 0 ? 0 : uniform(random, 0, 0.9);
   const Balls<M::dimension> balls(approximate_positions(motion, from), approximate_radii(motion, from));
   const Basis basis = smallest_sphere(balls, 0, count - 1).basis;
@@ -178,7 +175,7 @@ TEST(SphereCrossing, OfNearlyFlatBases) {
     const double pace = height * std::ldexp(1.0, -static_cast<int>(seed % 5));
     const auto motion = nearly_flat_basis<Space>(random, 6, height, pace);
     BeadPaths<3> paths;
-    paths.set(motion);
+    paths.set(Curves(motion));
     SphereEnclosure<3> sphere;
     find_motion(paths, basis, {Period{0, 0x1p-20}, {0, 0.1}, {0, 0.5}, {0, 1}}, sphere);
     const double square =
@@ -227,7 +224,7 @@ TEST(SphereCrossing, TouchesAreLeftToIntegers) {
     motion.set_radius(2, k, 0.25 + 0x1p-50);
   }
   BeadPaths<3> paths;
-  paths.set(motion);
+  paths.set(Curves(motion));
   GapRoots<3> crossings;
   const Basis pair(std::array<BeadId, 2>{0, 1});
   EXPECT_FALSE(crossings.first_failure(paths, pair, 2, true, 0, 0, false).has_value());
@@ -247,7 +244,7 @@ TEST(SphereCrossing, SignsOfAFastBall) {
       for (BeadId b = 0; b < 3; ++b)
         for (int k = 0; k <= 1; ++k) motion.set_radius(b, k, radii[b]);
       BeadPaths<3> paths;
-      paths.set(motion);
+      paths.set(Curves(motion));
       // The pair's sphere rests: radius R around (0, y, 0).
       const Rational radius = (Rational(2) + Rational(0.25) + Rational(0.3)) / 2;
       const Rational y = radius - Rational(0.25) - 1, room = radius - Rational(0.125);

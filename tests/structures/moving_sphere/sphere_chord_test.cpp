@@ -9,13 +9,12 @@
 #include <algorithm>
 #include <numeric>
 
-#include "certificates/search/failure_search.h"
-#include "certificates/search/radical_search.h"
 #include "certificates/types/membership.h"
 #include "certificates/types/orientation.h"
 #include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/moving_sphere/beads_beyond.h"
+#include "tests/support/integer_search.h"
 #include "tests/support/moving_beads.h"
 #include "tests/support/random_motion.h"
 
@@ -35,17 +34,15 @@ Basis basis_at(const M& motion, const BeadRange& range, double time) {
 /// Of the bead's certificate against the basis, from `now` on.
 template <Radii radii, class M>
 Failure failure_of(const M& motion, const Basis& basis, BeadId bead, bool inside, const Instant& now) {
-  StageCounts stages;
   int orientation = 0;
   if (basis.size == M::dimension + 1) {
     Orientation<M::dimension> certificate;
     std::copy(basis.begin(), basis.end(), certificate.beads.begin());
-    orientation = sign_just_after<Exact>(certificate, motion, now, stages);
+    orientation = integer_sign_just_after(certificate, motion, now);
   }
-  return visit_membership<radii>(
-      motion, std::span(basis.begin(), basis.end()), bead, inside, orientation, [&](const auto& certificate) {
-        return first_failure<Exact>(certificate, motion, now, KnownAtStart::unknown, stages);
-      });
+  return visit_membership(
+      radii, motion, std::span(basis.begin(), basis.end()), bead, inside, orientation,
+      [&](const auto& certificate) { return integer_first_failure(certificate, motion, now); });
 }
 
 /// Whether it holds from `now` to the end of the step, or to an earlier time.
@@ -82,7 +79,7 @@ void judge(const M& motion, double from, Tally& tally) {
   const auto count = static_cast<BeadId>(motion.bead_count());
   const Basis basis = basis_at(motion, {0, count - 1}, from);
   BeadPaths<M::dimension> paths;
-  paths.set(motion);
+  paths.set(Curves(motion));
   const auto chord = sphere_chord(paths, basis, {from, 1});
   if (!chord.proved) return;
   ++tally.proved;
@@ -120,7 +117,7 @@ void judge_risen(const M& motion, double from, double sure, Tally& tally) {
   const auto count = static_cast<BeadId>(motion.bead_count());
   const Basis basis = basis_at(motion, {0, count - 1}, sure);
   BeadPaths<M::dimension> paths;
-  paths.set(motion);
+  paths.set(Curves(motion));
   const Period period{from, 1, sure};
   const auto chord = sphere_chord(paths, basis, period);
   if (!chord.proved) return;
@@ -271,7 +268,7 @@ void judge_next_to_limit(Space motion, const Basis& basis, const SphereChord<3>&
     }
   }
   BeadPaths<3> paths;
-  paths.set(motion);
+  paths.set(Curves(motion));
   std::vector<BeadId> found;
   find_beyond(paths, {4, 4}, basis, chord, 0, found);
   ++(found.empty() ? tally.inside : tally.beyond);
@@ -298,7 +295,7 @@ TEST(SpherePath, BeadsNextToTheLimit) {
     }
     const Basis basis = basis_at(motion, {0, 3}, 0);
     BeadPaths<3> paths;
-    paths.set(motion);
+    paths.set(Curves(motion));
     const auto chord = sphere_chord(paths, basis, {});
     if (!chord.proved || (chord.stays + 1U) != 1U << basis.size) continue;
     const Eigen::Vector3d way(uniform(random), uniform(random), uniform(random));
@@ -320,7 +317,7 @@ TEST(SpherePath, BeadsNextToTheLimitOfNearlyFlatBases) {
     const double pace = height * std::ldexp(1.0, -static_cast<int>(seed % 9));
     const auto motion = nearly_flat_basis<Space>(random, 5, height, pace);
     BeadPaths<3> paths;
-    paths.set(motion);
+    paths.set(Curves(motion));
     const auto chord = sphere_chord(paths, basis, {});
     if (!chord.proved || (chord.stays + 1U) != 1U << basis.size) continue;
     const Eigen::Vector3d across = slope_of(motion, basis, 0).normalized();
@@ -346,7 +343,7 @@ void judge_parts(unsigned seed, Tally& tally) {
     }
   }
   BeadPaths<M::dimension> paths;
-  paths.set(motion);
+  paths.set(Curves(motion));
   const auto count = static_cast<BeadId>(motion.bead_count());
   const double from = seed % 4 == 0 ? 0 : std::uniform_real_distribution<double>(0, 0.9)(random);
   const Basis basis = basis_at(motion, {0, count - 1}, from);
@@ -406,7 +403,7 @@ void judge_pairs(unsigned seed, int& said, int& missed) {
       for (int k = 0; k <= M::degree; ++k) motion.set_radius(b, k, uniform(random, 0, 1));
   }
   BeadPaths<M::dimension> paths;
-  paths.set(motion);
+  paths.set(Curves(motion));
   std::vector<std::uint8_t> apart_from_next;
   paths.find_apart_from_next(apart_from_next);
   for (BeadId b = 0; b < 7; ++b) {
@@ -437,7 +434,7 @@ template <class M>
 void judge_four(Random& random, std::size_t size) {
   const auto motion = random_motion<M>(random, 24, MotionKind::generic);
   BeadPaths<M::dimension> paths;
-  paths.set(motion);
+  paths.set(Curves(motion));
   std::array<Basis, 4> bases;
   constexpr std::array<Period, 4> periods{{{0, 1}, {0.25, 1, 0.26}, {0, 0.25}, {0.3, 0.9, 0.5}}};
   for (std::size_t i = 0; i < bases.size(); ++i) {
@@ -487,7 +484,7 @@ TEST(SpherePath, SeesTheDipOfATurningBasis) {
     end.push_back(start.back());
     const Space motion = moving(start, end);
     BeadPaths<3> paths;
-    paths.set(motion);
+    paths.set(Curves(motion));
     const Basis basis(std::array<BeadId, 3>{0, 1, 2});
     const auto chord = sphere_chord(paths, basis, {});
     ASSERT_TRUE(chord.proved && chord.stays == 7);
@@ -510,7 +507,7 @@ TEST(SpherePath, PrunesCertificatesInSlowMotion) {
   }
   BeadPaths<3> paths;
   const Space motion = moving(from, to);
-  paths.set(motion);
+  paths.set(Curves(motion));
   std::size_t watched = 0, all = 0;
   for (BeadId first = 0; first < 200; first += 25) {
     const BeadRange range{first, first + 24};

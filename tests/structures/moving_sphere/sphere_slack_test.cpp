@@ -36,7 +36,7 @@ struct Cloud {
       }
     }
     BeadPaths<D> result;
-    result.set(motion);
+    result.set(Curves(motion));
     return result;
   }
 };
@@ -161,10 +161,11 @@ TEST(NodeSlack, ABeadThatGoesAwayAndBackWithinAStep) {
       }
     }
     BeadPaths<3> paths;
-    paths.set(motion);
+    paths.set(Curves(motion));
     NodeSlack<3> resting(tree);
     std::vector<NodeId> nodes{*tree.find(necklace[0])};
-    resting.take_out_resting(paths, nodes, [&](NodeId) -> const Basis& { return pair; });
+    const std::vector<Basis> bases(tree.node_count(), pair);
+    resting.take_out_resting(paths, bases, nodes);
     return nodes.empty();
   };
   EXPECT_TRUE(rests(0, 0));

@@ -1,0 +1,22 @@
+#include "certificates/search/ball_in_sphere_search.h"
+
+#include "certificates/search/define_radical_search.h"
+
+namespace kds {
+
+template <>
+std::unique_ptr<CertificateSearch<BallInSphere<2, 1>>> search_over(const MotionRef<2>& motion) {
+  return radical_search_over<BallInSphere<2, 1>>(motion);
+}
+
+template <>
+std::unique_ptr<CertificateSearch<BallInSphere<2, 2>>> search_over(const MotionRef<2>& motion) {
+  return radical_search_over<BallInSphere<2, 2>>(motion);
+}
+
+template <>
+std::unique_ptr<CertificateSearch<BallInSphere<2, 3>>> search_over(const MotionRef<2>& motion) {
+  return radical_search_over<BallInSphere<2, 3>>(motion);
+}
+
+}  // namespace kds

@@ -1,0 +1,73 @@
+#include "structures/hierarchy/basis_repair.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "structures/enclosing_sphere/basis_edit.h"
+#include "structures/necklace/bead_names.h"
+
+namespace kds {
+
+template <int Dimension>
+std::optional<Basis> BasisRepair<Dimension>::basis_just_after(std::span<const BeadId> among, const Basis& old,
+                                                              BeadId escaped) {
+  if (radii_ == Radii::any) return BasisOfBalls(among, signs_).find();
+  BasisHint hint{std::max<std::size_t>(1, old.size - 1U)};
+  if (escaped != no_bead) hint = {old.size, escaped};  // it is outside the sphere of all the others
+  auto basis = basis_of_points(among, signs_, hint);
+  return basis || escaped == no_bead ? basis : basis_of_points(among, signs_);
+}
+
+/// Where the bead's certificate fails now, if the sphere's path proves the next basis.
+template <int Dimension>
+std::optional<Basis> BasisRepair<Dimension>::proved_next_basis(const Basis& old, BeadId bead) {
+  if (old.contains(bead)) {  // it is inside the sphere of its fellows now
+    const Basis rest = without(old, bead);
+    return proofs_.proved_bases({&rest, 1}, no_bead) == 0 ? std::nullopt : std::optional(rest);
+  }
+  // It is outside the sphere of the others now: where their coordinates are positive and all is proved that
+  // a path proves, its own barycentric coordinate has the sign that says so.
+  std::array<Basis, full> next;
+  if (old.size < full) {
+    next[0] = old;
+    insert_bead(next[0], bead);
+    return proofs_.proved_bases({next.data(), 1}, bead) == 0 ? std::nullopt : std::optional(next[0]);
+  }
+  for (std::size_t place = 0; place < full; ++place) {
+    next[place] = old;
+    erase_place(next[place], place);
+    insert_bead(next[place], bead);
+  }
+  const unsigned proved = proofs_.proved_bases(next, no_bead);
+  for (std::size_t place = 0; place < full; ++place) {
+    if ((proved >> place & 1U) != 0 &&
+        is_inside(next[place], old.beads[place], orientation_of(next[place], signs_), signs_))
+      return next[place];
+  }
+  return std::nullopt;
+}
+
+template <int Dimension>
+std::optional<Basis> BasisRepair<Dimension>::next_basis(const Basis& old, BeadId bead, bool failed) {
+  std::array<BeadId, Basis::max_size + 1> all{};
+  std::copy(old.begin(), old.end(), all.begin());
+  std::size_t count = old.size;
+  const bool escaped = bead != no_bead && !old.contains(bead);
+  if (escaped) {
+    std::size_t place = count++;
+    for (; place > 0 && all[place - 1] > bead; --place) all[place] = all[place - 1];
+    all[place] = bead;
+  }
+  const auto among = std::span(all).first(count);
+  std::optional<Basis> next;
+  if (failed && proofs_.proves_bases()) next = proved_next_basis(old, bead);
+  if (!next) next = basis_just_after(among, old, escaped ? bead : no_bead);
+  if (!next && kernel_ != Kernel::fast) throw std::logic_error("no basis among beads " + bead_names(among));
+  return next;
+}
+
+template class BasisRepair<2>;
+template class BasisRepair<3>;
+
+}  // namespace kds

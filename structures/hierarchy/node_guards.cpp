@@ -1,0 +1,202 @@
+#include "structures/hierarchy/node_guards.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "structures/enclosing_sphere/basis_edit.h"
+
+namespace kds {
+
+namespace {
+
+template <class Certificate, int Dimension>
+inline constexpr bool radical_of_two_or_more = RadicalCertificateFor<Certificate, Curves<Dimension>>&&
+                                                   std::tuple_size_v<decltype(Certificate{}.beads)> >= 3;
+
+}  // namespace
+
+// A full basis may turn over where one of its certificates touches zero.
+template <int Dimension>
+NodeGuards<Dimension>::NodeGuards(Simulator& simulator, KineticStructure& owner, std::size_t index,
+                                  const MotionRef<Dimension>& motion, const Curves<Dimension>& curves,
+                                  Radii radii, std::size_t nodes, NodeProofs<Dimension>& proofs)
+    : simulator_(simulator),
+      owner_(owner),
+      curves_(curves),
+      radii_(radii),
+      proofs_(proofs),
+      tables_(simulator, owner, index, motion,
+              []<class C>(std::type_identity<C>) {
+                return C{}.beads.size() == full ? TouchPolicy::reported : TouchPolicy::ignored;
+              }),
+      signs_(simulator, motion, curves, radii, tables_, owner.statistics.stages),
+      held_by_(nodes) {}
+
+template <int Dimension>
+void NodeGuards<Dimension>::start_step(std::span<const ChordCandidate<Dimension>> held_by) {
+  for (const auto& candidate : held_by) held_by_[candidate.node] = {};
+  held_.clear();
+  free_.clear();
+  named_.clear();
+}
+
+template <int Dimension>
+void NodeGuards<Dimension>::hold(NodeId id, CertificateHandle handle, unsigned table) {
+  if (handle == CertificateHandle::violated) return;
+  HeldBy& by = held_by_[id];
+  if (!has_slot(handle)) {
+    ++by.never_failing;
+    return;
+  }
+  std::uint32_t place = 0;
+  if (free_.empty()) {
+    place = static_cast<std::uint32_t>(held_.size());
+    held_.emplace_back();
+  } else {
+    place = free_.back();
+    free_.pop_back();
+  }
+  held_[place] = {handle, by.first, static_cast<std::uint8_t>(table)};
+  by.first = place;
+}
+
+/// The first failure of a radical certificate, where the path of the sphere proves it.
+template <int Dimension>
+template <class Certificate>
+std::optional<Failure> NodeGuards<Dimension>::crossing_of(const Basis& basis, BeadId bead, bool inside,
+                                                          bool at_own_root) {
+  if constexpr (radical_of_two_or_more<Certificate, Dimension>) {
+    if (!proofs_.proves_crossings()) return std::nullopt;
+    const auto failure = proofs_.crossing(basis, bead, inside, at_own_root);
+    if (failure) ++owner_.statistics.stages.isolation;
+    return failure;
+  }
+  return std::nullopt;
+}
+
+template <int Dimension>
+void NodeGuards<Dimension>::enqueue(NodeId id, const Basis& basis, BeadId bead, bool inside,
+                                    int orientation) {
+  visit_membership(radii_, curves_, std::span(basis.begin(), basis.end()), bead, inside, orientation,
+                   [&]<class C>(const C& c) {
+                     const auto& present = signs_.present;
+                     const bool own_root = present && present->is_of(c);
+                     if (own_root && c.side() == present->side) failed_again_ = bead;
+                     const bool at_own_root = own_root || (simulator_.kernel() == Kernel::filtered &&
+                                                           present && present->shares_root_with(c));
+                     if (const auto known = crossing_of<C>(basis, bead, inside, at_own_root)) {
+                       tables_.template of<C>().enqueue_known(c, id, *known);
+                     } else {
+                       tables_.template of<C>().enqueue(
+                           c, id, at_own_root ? KnownAtStart::at_own_root : KnownAtStart::unknown);
+                     }
+                     watched_[Tables::template number_of<C>].push_back(bead);
+                     for (const BeadId b : c.beads) named_.push_back({id, b});
+                   });
+}
+
+template <int Dimension>
+void NodeGuards<Dimension>::enqueue_basis(NodeId id, const Basis& basis, unsigned stays) {
+  if (basis.size < 2 || (radii_ == Radii::equal && basis.size == 2)) return;  // two of one radius never part
+  for (std::size_t i = 0; i < basis.size; ++i) {
+    if ((stays >> i & 1U) == 0) enqueue(id, without(basis, basis.beads[i]), basis.beads[i], false, 0);
+  }
+}
+
+template <int Dimension>
+void NodeGuards<Dimension>::enqueue_beyond(NodeId id, const Basis& basis, std::span<const BeadId> beyond) {
+  if (beyond.empty()) return;
+  const int orientation = orientation_of(basis, signs_);
+  for (const BeadId b : beyond) enqueue(id, basis, b, true, orientation);
+}
+
+template <int Dimension>
+std::span<const NamedBead> NodeGuards<Dimension>::watch_enqueued(bool zero_will_do) {
+  violated_.clear();
+  for (unsigned number = 1; number <= Tables::count; ++number) {
+    if (watched_[number].empty()) continue;
+    tables_.visit(number, [&](auto& table) {
+      std::size_t i = 0;
+      table.watch_enqueued([&](NodeId id, CertificateHandle handle) {
+        const BeadId bead = watched_[number][i++];
+        if (handle == CertificateHandle::violated || (handle == CertificateHandle::zero && !zero_will_do))
+          violated_.push_back({id, bead});
+        hold(id, handle, number);
+      });
+    });
+    watched_[number].clear();
+  }
+  return violated_;
+}
+
+template <int Dimension>
+std::optional<BeadId> NodeGuards<Dimension>::watch_enqueued_of_one(bool zero_will_do) {
+  if (failed_again_) {
+    for (unsigned number = 1; number <= Tables::count; ++number) {
+      tables_.visit(number, [](auto& table) { table.forget_enqueued(); });
+      watched_[number].clear();
+    }
+    return std::exchange(failed_again_, std::nullopt);
+  }
+  const auto violated = watch_enqueued(zero_will_do);
+  return violated.empty() ? std::nullopt : std::optional(violated.front().bead);
+}
+
+template <int Dimension>
+double NodeGuards<Dimension>::guarded_until(NodeId id) {
+  double until = 1;
+  for (std::uint32_t place = held_by_[id].first; place != none; place = held_[place].next) {
+    tables_.visit(held_[place].table, [&](auto& table) {
+      until = std::min(until, table.time(slot_of(held_[place].handle)).upper);
+    });
+  }
+  return until;
+}
+
+template <int Dimension>
+void NodeGuards<Dimension>::drop(NodeId id) {
+  HeldBy& by = held_by_[id];
+  owner_.statistics.certificates.alive -= by.never_failing;
+  by.never_failing = 0;
+  for (std::uint32_t place = by.first; place != none; place = held_[place].next) {
+    tables_.visit(held_[place].table, [&](auto& table) { table.drop(held_[place].handle); });
+    free_.push_back(place);
+  }
+  by.first = none;
+}
+
+template <int Dimension>
+typename NodeGuards<Dimension>::Failed NodeGuards<Dimension>::take_failed(unsigned table, std::uint32_t slot,
+                                                                          std::span<const Basis> bases) {
+  named_.clear();
+  Failed failed;
+  tables_.visit(table, [&](auto& t) {
+    const auto& certificate = t.certificate(slot);
+    failed.node = t.place_in_structure(slot);
+    failed.touches = t.touches(slot);
+    if (failed.touches) return;
+    failed.bead = bead_of(certificate, bases[failed.node]);
+    signs_.present.emplace(certificate);
+  });
+  for (std::uint32_t place = held_by_[failed.node].first; place != none; place = held_[place].next) {
+    HeldCertificate& held = held_[place];
+    if (held.table == table && held.handle == static_cast<CertificateHandle>(slot))
+      held.handle = CertificateHandle::violated;  // gone already
+  }
+  drop(failed.node);
+  return failed;
+}
+
+template <int Dimension>
+void NodeGuards<Dimension>::count_per_bead() {
+  per_bead_.resize(curves_.bead_count());  // all zero in between
+  std::uint64_t& most = owner_.statistics.certificates.per_bead_max;
+  for (const NamedBead& one : named_) most = std::max<std::uint64_t>(most, ++per_bead_[one.bead]);
+  for (const NamedBead& one : named_) per_bead_[one.bead] = 0;
+}
+
+template class NodeGuards<2>;
+template class NodeGuards<3>;
+
+}  // namespace kds

@@ -1,0 +1,390 @@
+#include "structures/hierarchy/wrapped_hierarchy.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "motions/curves/positions.h"
+#include "structures/enclosing_sphere/enclosing_sphere.h"
+#include "structures/enclosing_sphere/integer_balls.h"
+#include "structures/hierarchy/basis_repair.h"
+#include "structures/hierarchy/node_guards.h"
+#include "structures/hierarchy/node_proofs.h"
+#include "structures/necklace/bead_names.h"
+
+namespace kds {
+
+namespace {
+
+template <int Dimension>
+[[nodiscard]] const MotionRef<Dimension>& not_lifted(const MotionRef<Dimension>& motion) {
+  if (motion.is_lifted()) throw std::invalid_argument("radii mean nothing in lifted motion");
+  return motion;
+}
+
+template <int Dimension>
+[[nodiscard]] Balls<Dimension> balls_at_start(const Curves<Dimension>& curves) {
+  return Balls<Dimension>(control_points(curves, 0), control_radii(curves, 0));
+}
+
+[[nodiscard]] std::span<const BeadId> beads_of(const Basis& basis) { return {basis.begin(), basis.end()}; }
+
+}  // namespace
+
+template <int Dimension>
+WrappedHierarchy<Dimension>::WrappedHierarchy(Simulator& simulator, const MotionRef<Dimension>& motion,
+                                              std::span<const BeadRange> necklaces, Radii radii,
+                                              const NodeSelection& selection)
+    : simulator_(simulator),
+      motion_(not_lifted(motion)),
+      radii_(radii),
+      tree_(necklaces),
+      bases_(tree_.node_count()),
+      kept_(select_nodes(tree_, selection)),
+      index_(simulator.add(*this)),
+      proofs_(std::make_unique<NodeProofs<Dimension>>(simulator, tree_, curves_, motion.degree(), radii)),
+      guards_(std::make_unique<NodeGuards<Dimension>>(simulator, *this, index_, motion, curves_, radii,
+                                                      tree_.node_count(), *proofs_)),
+      repair_(
+          std::make_unique<BasisRepair<Dimension>>(simulator.kernel(), radii, *proofs_, guards_->signs())) {
+  sort_kept_nodes();
+}
+
+template <int Dimension>
+WrappedHierarchy<Dimension>::~WrappedHierarchy() = default;
+
+template <int Dimension>
+std::span<const EventKind> WrappedHierarchy<Dimension>::kinds() const {
+  static constexpr std::array<EventKind, 3> kinds{{{"enter"}, {"leave"}, {"pivot"}}};
+  return kinds;
+}
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::keep_what_is_asked_for(NodeQuery query) {
+  query_ = std::move(query);
+}
+
+template <int Dimension>
+bool WrappedHierarchy<Dimension>::is_fast() const {
+  return simulator_.kernel() == Kernel::fast;
+}
+
+template <int Dimension>
+bool WrappedHierarchy<Dimension>::move_together(BeadId a, BeadId b) const {
+  for (int k = 0; k <= curves_.own_degree(); ++k) {
+    for (int axis = 0; axis < Dimension; ++axis) {
+      if (curves_.coordinate(a, k, axis) != curves_.coordinate(b, k, axis)) return false;
+    }
+  }
+  return true;
+}
+
+template <int Dimension>
+bool WrappedHierarchy<Dimension>::is_lone_pair(NodeId id) const {
+  const BeadRange& range = tree_.range(id);
+  return radii_ == Radii::equal && bases_[id].size == 2 && range.last - range.first == 1;
+}
+
+template <int Dimension>
+bool WrappedHierarchy<Dimension>::is_one_bead(NodeId id) const {
+  const Basis& basis = bases_[id];
+  return radii_ == Radii::equal && basis.size == 2 && move_together(basis.beads[0], basis.beads[1]);
+}
+
+template <int Dimension>
+std::string WrappedHierarchy<Dimension>::name_of(NodeId id) const {
+  const BeadRange& range = tree_.range(id);
+  return "node " + std::to_string(range.first) + "-" + std::to_string(range.last);
+}
+
+// The bases at the start of a run, and what a query asks for.
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::build_node(NodeId id, const Balls<Dimension>& balls) {
+  const BeadRange range = tree_.range(id);
+  std::vector<BeadId> guess{range.first, range.last};
+  for (const NodeId child : {tree_.left(id), tree_.right(id)}) {
+    if (child != NecklaceTree::leaf) guess.insert(guess.end(), bases_[child].begin(), bases_[child].end());
+  }
+  bases_[id] = smallest_sphere(balls, range.first, range.last, guess).basis;
+  proofs_->forget(id);
+}
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::build() {
+  curves_ = motion_.curves();
+  if (query_) kept_.assign(bases_.size(), 0);  // it has not asked yet
+  const Balls<Dimension> balls = balls_at_start(curves_);
+  SignsJustAfter<Dimension>& signs = guards_->signs();
+  for (auto id = static_cast<NodeId>(bases_.size()); id-- > 0;) {  // children first
+    if (!keeps(id)) continue;
+    build_node(id, balls);
+    // Put right for the moment after the start: beads on the sphere may leave it.
+    const BeadRange range = tree_.range(id);
+    bool settled = false;
+    for (int i = 0; !settled && (i < most_repairs || !is_fast()); ++i) {
+      settled = true;
+      const int orientation = orientation_of(bases_[id], signs);
+      for (BeadId b = range.first; b <= range.last; ++b) {
+        if (bases_[id].contains(b) || is_inside(bases_[id], b, orientation, signs)) continue;
+        settled = !repair(id, b);
+        break;
+      }
+    }
+  }
+}
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::ask_query() {
+  const Balls<Dimension> balls = balls_at_start(curves_);
+  const std::vector<std::uint8_t> known = std::exchange(kept_, std::vector<std::uint8_t>(bases_.size(), 0));
+  query_([&](NodeId id) {
+    if (id >= bases_.size()) throw std::invalid_argument("the hierarchy has no such node");
+    if (kept_[id] == 0 && known[id] == 0) build_node(id, balls);
+    kept_[id] = 1;
+    return exact_sphere_of(bases_[id], balls);
+  });
+  sort_kept_nodes();
+}
+
+/// Half of all nodes are pairs.
+template <int Dimension>
+void WrappedHierarchy<Dimension>::sort_kept_nodes() {
+  wide_.clear();
+  pairs_.clear();
+  for (NodeId id = 0; id < bases_.size(); ++id) {
+    const BeadRange& range = tree_.range(id);
+    if (keeps(id)) (range.last - range.first == 1 ? pairs_ : wide_).push_back(id);
+  }
+}
+
+// The start of a step. Certificates of all nodes are looked at together, since four cost little more than
+// one; nodes whose basis is not right any more come after that, one by one.
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::start_step() {
+  curves_ = motion_.curves();
+  if (query_) ask_query();
+  guards_->start_step(proofs_->candidates());
+  proofs_->start_step();
+  guarded_ = wide_;
+  proofs_->add_unsettled(pairs_, bases_, guarded_);
+  proofs_->take_out_resting(bases_, guarded_);
+  proofs_->find_candidates(guarded_, bases_);
+  watch_all_nodes();
+  repair_faults();
+}
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::watch_all_nodes() {
+  faults_.assign(bases_.size(), BasisFault::no);
+  watched_ends_.clear();
+  all_watched_.clear();
+  const std::span<const BeadId> all_beyond = proofs_->beyond();
+  std::size_t begin = 0;
+  for (const ChordCandidate<Dimension>& candidate : proofs_->candidates()) {
+    const NodeId id = candidate.node;
+    const Basis& basis = bases_[id];
+    const SphereChord<Dimension>& chord = candidate.chord;
+    const auto beyond = all_beyond.subspan(begin, candidate.end - begin);
+    beyond_.assign(beyond.begin(), beyond.end());
+    begin = candidate.end;
+    // Balls that are not independent need not have a sphere.
+    const bool proper = radii_ == Radii::equal || (chord.proved && chord.stays == (1U << basis.size) - 1U) ||
+                        proofs_->is_proper_at_start(basis);
+    if (!proper) {
+      faults_[id] = BasisFault::improper;
+    } else if (is_one_bead(id)) {
+      faults_[id] = BasisFault::violated;
+    } else if (!is_lone_pair(id)) {
+      guards_->enqueue_basis(id, basis, proofs_->take_out_staying(basis, tree_.range(id), chord, beyond_));
+      all_watched_.insert(all_watched_.end(), beyond_.begin(), beyond_.end());
+    }
+    watched_ends_.push_back(all_watched_.size());
+  }
+  for (const NamedBead& violated : guards_->watch_enqueued(false))
+    faults_[violated.node] = BasisFault::violated;
+  begin = 0;
+  for (std::size_t i = 0; i < watched_ends_.size(); ++i) {
+    const NodeId id = proofs_->candidates()[i].node;
+    const auto beyond = std::span(all_watched_).subspan(begin, watched_ends_[i] - begin);
+    begin = watched_ends_[i];
+    if (beyond.empty() || faults_[id] != BasisFault::no) continue;
+    beyond_.assign(beyond.begin(), beyond.end());
+    enqueue_beyond(id);
+  }
+  for (const NamedBead& violated : guards_->watch_enqueued(true))
+    faults_[violated.node] = BasisFault::violated;
+}
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::repair_faults() {
+  guards_->forget_named_if([this](NodeId id) { return faults_[id] != BasisFault::no; });
+  std::vector<NodeId>& repaired = guarded_;  // in order, as changes are recorded
+  repaired.clear();
+  for (const ChordCandidate<Dimension>& candidate : proofs_->candidates())
+    if (faults_[candidate.node] != BasisFault::no) repaired.push_back(candidate.node);
+  std::sort(repaired.begin(), repaired.end());
+  for (const NodeId id : repaired) {
+    const Basis before = bases_[id];
+    guards_->drop(id);
+    if (faults_[id] == BasisFault::improper) static_cast<void>(repair(id, no_bead));
+    guard_node(id, before, no_bead);
+  }
+  guards_->count_per_bead();
+}
+
+// One node at any time.
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::enqueue_beyond(NodeId id) {
+  if (proofs_->worth_another_look(beyond_.size()) && guards_->holds_any(id))
+    proofs_->take_out_until(guards_->guarded_until(id), bases_[id], beyond_);
+  guards_->enqueue_beyond(id, bases_[id], beyond_);
+}
+
+template <int Dimension>
+std::optional<BeadId> WrappedHierarchy<Dimension>::watch_node(NodeId id, BeadId risen) {
+  guards_->forget_named_of(id);
+  if (is_one_bead(id)) return bases_[id].beads[1];
+  if (is_lone_pair(id)) return std::nullopt;
+  // Basis beads first: where one leaves the other certificates say nothing. Nor do they where a bead is to
+  // spare all the time, its function zero.
+  const unsigned stays = proofs_->find_beads_to_watch(bases_[id], tree_.range(id), risen, beyond_);
+  guards_->enqueue_basis(id, bases_[id], stays);
+  if (const auto to_spare = guards_->watch_enqueued_of_one(false)) return to_spare;
+  enqueue_beyond(id);
+  return guards_->watch_enqueued_of_one(true);
+}
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::guard_node(NodeId id, Basis before, BeadId risen) {
+  for (int repairs = 0;; ++repairs) {
+    const std::optional<BeadId> violated = watch_node(id, risen);
+    if (!violated) break;
+    // `fast` lives with a contradiction until the next event of the node or the next step.
+    if (is_fast() && repairs >= most_repairs) break;
+    guards_->drop(id);
+    risen = no_bead;
+    if (!repair(id, *violated)) {
+      if (!is_fast()) {
+        throw std::logic_error(name_of(id) + ": a basis is violated and right at once, at bead " +
+                               std::to_string(*violated));
+      }
+      ++statistics.rebuilds;
+      break;
+    }
+  }
+  if (!(bases_[id] == before)) record(id, before);
+}
+
+template <int Dimension>
+bool WrappedHierarchy<Dimension>::repair(NodeId id, BeadId bead, bool failed) {
+  proofs_->forget(id);
+  const std::optional<Basis> next = repair_->next_basis(bases_[id], bead, failed);
+  if (!next || *next == bases_[id]) return false;
+  bases_[id] = *next;
+  return true;
+}
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::rebuild_roughly(NodeId id) {
+  ++statistics.rebuilds;
+  const double now = simulator_.now().upper();
+  std::vector<double> radii = approximate_radii(curves_, now);
+  for (double& r : radii) r = std::max(r, 0.0);  // it is rounded
+  const BeadRange range = tree_.range(id);
+  const Basis before = bases_[id];
+  proofs_->forget(id);
+  bases_[id] = smallest_sphere(Balls<Dimension>(approximate_positions(curves_, now), radii), range.first,
+                               range.last, beads_of(before))
+                   .basis;
+}
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::fail(unsigned table, std::uint32_t slot) {
+  const auto [id, bead, touches] = guards_->take_failed(table, slot, bases_);
+  const Basis before = bases_[id];
+  BeadId risen = no_bead;
+  if (!touches) {
+    const bool repaired = repair(id, bead, true);
+    risen = proofs_->risen_bead(before, bases_[id], bead);
+    if (!repaired && is_fast()) rebuild_roughly(id);
+  } else if (radii_ == Radii::any) {
+    // A full basis may turn over without one of its beads leaving: where all meet, or where each touches the
+    // sphere of the others. Then it stays and is guarded anew, for its certificates turn with it.
+    static_cast<void>(repair(id, no_bead));
+  }
+  guard_node(id, before, risen);
+  guards_->forget_failure();
+}
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::record(NodeId id, const Basis& before) {
+  const Basis& after = bases_[id];
+  const auto misses = [](const Basis& basis, const Basis& of) {
+    bool any = false;
+    for (const BeadId b : of) any |= !basis.contains(b);
+    return any;
+  };
+  const bool entered = misses(before, after);
+  const bool left = misses(after, before);
+  Change change{entered && left ? pivot
+                : entered       ? enter
+                                : leave,
+                static_cast<std::uint8_t>(2 + after.size),
+                {tree_.range(id).first, tree_.range(id).last}};
+  std::copy(after.begin(), after.end(), change.ids.begin() + 2);
+  simulator_.record(index_, change);
+}
+
+// Replayed changes, and the bases of a frame proved by their definition.
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::apply(const Change& change) {
+  if (change.size < 3 || change.size > 2 + full)
+    throw std::invalid_argument("a basis has one to " + std::to_string(full) + " beads");
+  const auto node = tree_.find({change.ids[0], change.ids[1]});
+  if (!node) throw std::invalid_argument("the hierarchy has no such node");
+  if (!keeps(*node)) throw std::invalid_argument("the hierarchy does not keep this node");
+  const Basis basis(std::span(change.ids).subspan(2, change.size - 2U));
+  for (const BeadId b : basis) {
+    if (b < change.ids[0] || b > change.ids[1])
+      throw std::invalid_argument("a basis bead is not of its node");
+  }
+  if (std::adjacent_find(basis.begin(), basis.end()) != basis.end())
+    throw std::invalid_argument("a basis bead stands twice");
+  bases_[*node] = basis;
+  proofs_->forget(*node);
+}
+
+template <int Dimension>
+std::vector<Basis> WrappedHierarchy<Dimension>::bases_at(const Dyadic& time) const {
+  const IntegerBalls<Dimension> whole = integer_balls_at(motion_.curves(), time);
+  std::vector<Basis> bases(bases_.size());
+  for (NodeId id = 0; id < bases_.size(); ++id) {
+    if (keeps(id)) bases[id] = proper_part(bases_[id], whole);
+  }
+  return bases;
+}
+
+/// The sphere of a basis that encloses all beads and has no bead to spare is the minimum enclosing one, and
+/// the only one: checking both on integers is as good as building it. Nothing of it comes from certificates.
+template <int Dimension>
+std::optional<std::string> WrappedHierarchy<Dimension>::audit(const Dyadic& time) {
+  const IntegerBalls<Dimension> whole = integer_balls_at(motion_.curves(), time);
+  for (NodeId id = 0; id < bases_.size(); ++id) {
+    if (!keeps(id)) continue;
+    const Basis basis = proper_part(bases_[id], whole);
+    if (const auto bead = bead_outside(basis, tree_.range(id), whole)) {
+      return name_of(id) + " with basis " + bead_names(beads_of(bases_[id])) + ": bead " +
+             std::to_string(*bead) + " sticks out";
+    }
+  }
+  return std::nullopt;
+}
+
+template class WrappedHierarchy<2>;
+template class WrappedHierarchy<3>;
+
+}  // namespace kds
