@@ -112,20 +112,24 @@ template <class Structure, Motion M>
 class Rig {
  public:
   template <class... Extra>
-  explicit Rig(const M& first, AuditMode audits = AuditMode::none, const Extra&... extra)
-      : motion(first), simulator(audits), structure(simulator, motion, extra...) {
+  Rig(const M& first, AuditMode audits, Kernel kernel, const Extra&... extra)
+      : motion(first), simulator(audits, kernel), structure(simulator, motion, extra...) {
     simulator.listen(history);
   }
+  template <class... Extra>
+  explicit Rig(const M& first, AuditMode audits = AuditMode::none, const Extra&... extra)
+      : Rig(first, audits, Kernel::filtered, extra...) {}
 
   void run(const std::vector<M>& steps) {
     motion = steps.front();
     simulator.build();
-    for (std::size_t k = 0; k < steps.size(); ++k) step(steps[k], k + 1 == steps.size());
+    for (const M& next : steps) step(next);
+    simulator.finish();
   }
   void run() { run({M(motion)}); }
-  void step(const M& next, bool last) {
+  void step(const M& next) {
     motion = next;
-    simulator.run_step(last);
+    simulator.run_step();
   }
   /// The same changes from another run's history, without certificates.
   void replay(const std::vector<M>& steps, const History& log) {
@@ -136,8 +140,9 @@ class Rig {
       std::vector<Simulator::Replayed> events;
       for (const LoggedEvent& e : log.of_step(k))
         events.push_back({e.structure, e.lower, e.upper, e.change, ""});
-      simulator.replay_step(events, k + 1 == steps.size());
+      simulator.replay_step(events);
     }
+    simulator.finish();
   }
 
   [[nodiscard]] std::uint64_t external_events() const {
