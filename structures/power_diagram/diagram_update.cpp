@@ -15,9 +15,9 @@ std::unique_ptr<DiagramUpdate<Dimension>> make_diagram_update(UpdateTechnique te
     case UpdateTechnique::greedy:
       return std::make_unique<Reinsertion<Dimension>>(Choice::most_failed);
     case UpdateTechnique::kinetic:
-      return std::make_unique<KineticUpdate<BezierMotion<Dimension, 1>>>();
+      return std::make_unique<KineticUpdate<Dimension>>(UpdateMotion::linear);
     case UpdateTechnique::lifted:
-      return std::make_unique<KineticUpdate<LiftedMotion<Dimension>>>();
+      return std::make_unique<KineticUpdate<Dimension>>(UpdateMotion::lifted);
     case UpdateTechnique::activate:
       return std::make_unique<Activation<Dimension>>();
     case UpdateTechnique::automatic:

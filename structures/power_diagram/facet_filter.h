@@ -1,6 +1,6 @@
 #pragma once
 // Facets whose power test is positive all over a step, as in most steps most are: they are looked at as they
-// lie in the cells, in lanes (certificates/search/float_filter.h), without a certificate made for each. What
+// lie in the cells, in lanes (certificates/search/cell_filter.h), without a certificate made for each. What
 // is not found positive here is for the certificates. Cells that are found positive where the step ends are
 // told as well: they need not be looked at again there.
 
@@ -10,9 +10,13 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
-#include "certificates/search/float_filter.h"
+#include "certificates/base/kernel.h"
+#include "certificates/search/cell_filter.h"
+#include "motions/curves/curves.h"
+#include "motions/views/length_unit.h"
 #include "structures/triangulation/regular_triangulation.h"
 
 namespace kds {
@@ -67,9 +71,10 @@ class FacetCover {
 
 /// The binary exponent of a length that cells have in the motion's step: of the longest side at its start, by
 /// a median over some cells. 0 where there is nothing to be measured.
-template <Motion M>
-[[nodiscard]] int exponent_of_length(const M& motion,
-                                     std::span<const TriangulationCell<M::dimension>> cells) {
+template <int Dimension>
+[[nodiscard]] int exponent_of_length(
+    const Curves<Dimension>& curves,
+    std::type_identity_t<std::span<const TriangulationCell<Dimension>>> cells) {
   constexpr std::size_t looked_at = 15;
   std::array<double, looked_at> longest;
   std::size_t count = 0;
@@ -78,8 +83,8 @@ template <Motion M>
     double most = 0;
     for (const BeadId b : v) {
       if (b == infinite_bead || v[0] == infinite_bead) continue;
-      for (int axis = 0; axis < M::dimension; ++axis)
-        most = std::max(most, std::abs(motion.coordinate(b, 0, axis) - motion.coordinate(v[0], 0, axis)));
+      for (int axis = 0; axis < Dimension; ++axis)
+        most = std::max(most, std::abs(curves.coordinate(b, 0, axis) - curves.coordinate(v[0], 0, axis)));
     }
     if (most > 0 && std::isfinite(most)) longest[count++] = most;
   }
@@ -89,9 +94,6 @@ template <Motion M>
   constexpr int most = 500;  // so that its square is a double
   return std::clamp(std::ilogb(*middle), -most, most);
 }
-
-/// Processors to look for: the best there is, or what any has.
-enum class Processor : std::uint8_t { best, any };
 
 /// Of each set of facets of a cell, one bit each, those facets in order, two bits each.
 inline constexpr auto facet_orders = [] {
@@ -138,12 +140,12 @@ struct FewPositive {
   std::array<unsigned, few_cells> facets{};
   std::array<bool, few_cells> at_end{};
 };
-template <Motion M>
-[[nodiscard]] FewPositive filter_few_cells(const M& motion, const LengthUnit& unit,
-                                           std::span<const TriangulationCell<M::dimension>> cells,
-                                           std::span<const CellId> few) {
+template <int Dimension>
+[[nodiscard]] FewPositive filter_few_cells(
+    const CellFilter<Dimension>& filter, const LengthUnit& unit, Rounding rounding,
+    std::type_identity_t<std::span<const TriangulationCell<Dimension>>> cells, std::span<const CellId> few) {
   FewPositive found;
-  CellsInLanes<M> beads;
+  CellsInLanes<Dimension> beads;
   std::size_t finite = 0;
   for (std::size_t n = 0; n < few.size(); ++n) {
     found.facets[n] = finite_facets(cells[few[n]]);
@@ -152,43 +154,41 @@ template <Motion M>
   if (finite == 0) return found;
   for (std::size_t lane = finite; lane < few_cells; ++lane) beads[lane] = beads[0];
   PositiveBits positive;
-  four_positive_cells(motion, beads, unit, positive);
+  filter.four_positive_cells(beads, unit, rounding, positive);
   for (std::size_t n = 0, lane = 0; n < few.size(); ++n) {
     if (found.facets[n] == 0) continue;
-    found.at_end[n] = (positive[lane] & positive_at_end<M>) != 0;
+    found.at_end[n] = (positive[lane] & positive_at_end<Dimension>) != 0;
     found.facets[n] &= positive[lane++];
   }
   return found;
 }
 
-template <Motion M, Processor processor = Processor::best>
+template <int Dimension>
 class FacetFilter {
  public:
-  static constexpr int dimension = M::dimension;
-
   /// Where lengths are a thousand times as long as the unit or as short, nothing is found.
-  FacetFilter(const M& motion, const LengthUnit& unit) : motion_(motion), unit_(unit) {}
+  FacetFilter(const CellFilter<Dimension>& filter, const LengthUnit& unit, Rounding rounding)
+      : filter_(filter), unit_(unit), rounding_(rounding) {}
 
   /// Those facets of a finite cell, one bit each, that are wanted, of finite_facets, or none. Tells `found`
   /// of this cell or earlier ones: `found.doubt(facet)` of a facet that is not found positive,
   /// `found.at_end(cell)` of a cell that is, where the step ends.
   template <class Found>
-  void look_at(const TriangulationCell<dimension>& cell, CellId id, unsigned wanted, Found& found) {
-    const unsigned count = count_of<dimension>(wanted);
+  void look_at(const TriangulationCell<Dimension>& cell, CellId id, unsigned wanted, Found& found) {
+    const unsigned count = count_of<Dimension>(wanted);
     Batch& batch = batches_[count];  // cells of as many wanted facets: none waits for another's
     put_in_lane(cell, wanted, batch.beads[batch.waiting]);
     batch.cells[batch.waiting] = id;
     batch.wanted[batch.waiting] = wanted;
     ++batch.waiting;
-    if (batch.waiting == FloatLanes::width) flush(count, found);
+    if (batch.waiting == width) flush(count, found);
   }
   template <class Found>
   void finish(Found& found) {
     for (unsigned count = 0; count < batches_.size(); ++count) {
       Batch& batch = batches_[count];
       if (batch.waiting == 0) continue;
-      for (std::size_t lane = batch.waiting; lane < FloatLanes::width; ++lane)
-        batch.beads[lane] = batch.beads[0];
+      for (std::size_t lane = batch.waiting; lane < width; ++lane) batch.beads[lane] = batch.beads[0];
       flush(count, found);
     }
   }
@@ -196,10 +196,11 @@ class FacetFilter {
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
  private:
+  static constexpr std::size_t width = std::tuple_size_v<CellsInLanes<Dimension>>;
   struct Batch {
-    CellsInLanes<M> beads{};
-    std::array<CellId, FloatLanes::width> cells{};
-    std::array<unsigned, FloatLanes::width> wanted{};
+    CellsInLanes<Dimension> beads{};
+    std::array<CellId, width> cells{};
+    std::array<unsigned, width> wanted{};
     std::size_t waiting = 0;
   };
 
@@ -207,24 +208,21 @@ class FacetFilter {
   void flush(unsigned facets, Found& found) {
     Batch& batch = batches_[facets];
     PositiveBits positive;
-    if constexpr (processor == Processor::best) {
-      positive_cells(motion_, batch.beads, facets, unit_, positive);
-    } else {
-      positive_cells_anywhere(motion_, batch.beads, facets, unit_, positive);
-    }
+    filter_.positive_cells(batch.beads, facets, unit_, rounding_, positive);
     const unsigned all = (1U << facets) - 1;
     for (std::size_t lane = 0; lane < batch.waiting; ++lane) {
-      count_ += count_of<dimension>(positive[lane] & all);
+      count_ += count_of<Dimension>(positive[lane] & all);
       for (unsigned left = ~positive[lane] & all; left != 0; left &= left - 1)
         found.doubt(facet_id(batch.cells[lane], facet_at(batch.wanted[lane], std::countr_zero(left))));
-      found.at_end(batch.cells[lane], (positive[lane] & positive_at_end<M>) != 0);
+      found.at_end(batch.cells[lane], (positive[lane] & positive_at_end<Dimension>) != 0);
     }
     batch.waiting = 0;
   }
 
-  const M& motion_;
+  const CellFilter<Dimension>& filter_;
   LengthUnit unit_;
-  std::array<Batch, dimension + 2> batches_;  // by how many facets are wanted of a cell
+  Rounding rounding_;
+  std::array<Batch, Dimension + 2> batches_;  // by how many facets are wanted of a cell
   std::uint64_t count_ = 0;
 };
 

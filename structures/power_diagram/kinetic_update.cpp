@@ -4,47 +4,57 @@
 #include <cmath>
 #include <utility>
 
+#include "certificates/search/snapshot_sign.h"
+#include "kds/simulator.h"
+#include "motions/curves/lifted_motion.h"
+#include "motions/numbers/exact_number.h"
 #include "structures/power_diagram/power_diagram.h"
+#include "structures/triangulation/facet_certificate.h"
+#include "structures/triangulation/hidden_beads.h"
 
 namespace kds {
 
-template <Motion M>
-struct MovingDiagram<M>::Machine {
-  explicit Machine(std::size_t beads) : motion(beads), power(simulator, motion) {}
-  M motion;
+template <int Dimension>
+struct MovingDiagram<Dimension>::Machine {
+  Machine(std::size_t beads, UpdateMotion kind) : motion(beads), power(simulator, of_kind(kind)) {}
+  [[nodiscard]] MotionRef<Dimension> of_kind(UpdateMotion kind) const {
+    if (kind == UpdateMotion::lifted) return motion;
+    return static_cast<const BezierMotion<Dimension, 1>&>(motion);
+  }
+  LiftedMotion<Dimension> motion;
   Simulator simulator;
-  PowerDiagram<M, Filtered> power;
+  PowerDiagram<Dimension> power;
 };
 
-template <Motion M>
-MovingDiagram<M>::MovingDiagram() = default;
+template <int Dimension>
+MovingDiagram<Dimension>::MovingDiagram(UpdateMotion motion) : motion_(motion) {}
 
-template <Motion M>
-MovingDiagram<M>::~MovingDiagram() = default;
+template <int Dimension>
+MovingDiagram<Dimension>::~MovingDiagram() = default;
 
-template <Motion M>
-auto MovingDiagram<M>::diagram() const -> StaticTriangulation<dimension> {
+template <int Dimension>
+auto MovingDiagram<Dimension>::diagram() const -> StaticTriangulation<Dimension> {
   return machine_->power.at_frame(false);
 }
 
-template <Motion M>
-auto MovingDiagram<M>::triangulation() -> RegularTriangulation<dimension>& {
+template <int Dimension>
+auto MovingDiagram<Dimension>::triangulation() -> RegularTriangulation<Dimension>& {
   return machine_->power.triangulation();
 }
 
-template <Motion M>
-bool MovingDiagram<M>::is_solid() const {
+template <int Dimension>
+bool MovingDiagram<Dimension>::is_solid() const {
   return machine_->power.is_solid();
 }
 
-template <Motion M>
-std::size_t MovingDiagram<M>::bead_count() const {
+template <int Dimension>
+std::size_t MovingDiagram<Dimension>::bead_count() const {
   return machine_->motion.bead_count();
 }
 
-template <Motion M>
-void MovingDiagram<M>::build(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
-  machine_ = std::make_unique<Machine>(weights.size());
+template <int Dimension>
+void MovingDiagram<Dimension>::build(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  machine_ = std::make_unique<Machine>(weights.size(), motion_);
   for (BeadId b = 0; b < weights.size(); ++b) {
     set_end(b, centers, weights);
     rest_at_end(b);
@@ -52,41 +62,41 @@ void MovingDiagram<M>::build(const Eigen::Matrix3Xd& centers, std::span<const do
   machine_->simulator.build();
 }
 
-template <Motion M>
-std::optional<std::string> MovingDiagram<M>::fault() const {
+template <int Dimension>
+std::optional<std::string> MovingDiagram<Dimension>::fault() const {
   return machine_->power.audit(Dyadic(1.0));
 }
 
-template <Motion M>
-void MovingDiagram<M>::set_end(BeadId bead, const Eigen::Matrix3Xd& centers,
-                               std::span<const double> weights) {
-  for (int axis = 0; axis < dimension; ++axis)
+template <int Dimension>
+void MovingDiagram<Dimension>::set_end(BeadId bead, const Eigen::Matrix3Xd& centers,
+                                       std::span<const double> weights) {
+  for (int axis = 0; axis < Dimension; ++axis)
     machine_->motion.set_coordinate(bead, 1, axis, centers(axis, bead));
   machine_->motion.set_weight(bead, 1, weights[bead]);
 }
 
-template <Motion M>
-void MovingDiagram<M>::rest_at_end(BeadId bead) {
-  M& motion = machine_->motion;
-  for (int axis = 0; axis < dimension; ++axis)
+template <int Dimension>
+void MovingDiagram<Dimension>::rest_at_end(BeadId bead) {
+  auto& motion = machine_->motion;
+  for (int axis = 0; axis < Dimension; ++axis)
     motion.set_coordinate(bead, 0, axis, motion.coordinate(bead, 1, axis));
   motion.set_weight(bead, 0, motion.weight(bead, 1));
 }
 
-template <Motion M>
-void MovingDiagram<M>::load(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+template <int Dimension>
+void MovingDiagram<Dimension>::load(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
   Eigen::Vector3d moved = Eigen::Vector3d::Zero();
   for (BeadId b = 0; b < weights.size(); ++b) {
     rest_at_end(b);
     set_end(b, centers, weights);
-    if constexpr (lifted<M>) {
-      for (int axis = 0; axis < dimension; ++axis)
+    if (motion_ == UpdateMotion::lifted) {
+      for (int axis = 0; axis < Dimension; ++axis)
         moved[axis] += machine_->motion.coordinate(b, 1, axis) - machine_->motion.coordinate(b, 0, axis);
     }
   }
-  if constexpr (lifted<M>) {  // any vector makes a motion, the mean dips weights the least
-    typename M::Vector drift{};
-    for (int axis = 0; axis < dimension; ++axis) {
+  if (motion_ == UpdateMotion::lifted) {  // any vector makes a motion, the mean dips weights the least
+    typename LiftedMotion<Dimension>::Vector drift{};
+    for (int axis = 0; axis < Dimension; ++axis) {
       const double mean = moved[axis] / static_cast<double>(weights.size());
       drift[static_cast<std::size_t>(axis)] = std::isfinite(mean) ? mean : 0;
     }
@@ -94,52 +104,54 @@ void MovingDiagram<M>::load(const Eigen::Matrix3Xd& centers, std::span<const dou
   }
 }
 
-template <Motion M>
-void MovingDiagram<M>::run_step(UpdateCounts& counts) {
-  machine_->simulator.run_step(true);
+template <int Dimension>
+void MovingDiagram<Dimension>::run_step(UpdateCounts& counts) {
+  machine_->simulator.run_step();
+  machine_->power.rebuild_if_flat();
   add_up(counts);
 }
 
-template <Motion M>
-void MovingDiagram<M>::add_up(UpdateCounts& counts) {
+template <int Dimension>
+void MovingDiagram<Dimension>::add_up(UpdateCounts& counts) {
   counts.events += machine_->power.statistics.events_per_step.back();
   machine_->power.statistics.events_per_step.clear();
   counts.rebuilds += std::exchange(machine_->power.statistics.rebuilds, 0);
 }
 
-template <Motion M>
-void MovingDiagram<M>::move_all(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
-                                UpdateCounts& counts) {
+template <int Dimension>
+void MovingDiagram<Dimension>::move_all(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                                        UpdateCounts& counts) {
   load(centers, weights);
   counts.activated += weights.size();
   run_step(counts);
 }
 
-template <Motion M>
-bool MovingDiagram<M>::try_to_move_all(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
-                                       UpdateCounts& counts) {
+template <int Dimension>
+bool MovingDiagram<Dimension>::try_to_move_all(const Eigen::Matrix3Xd& centers,
+                                               std::span<const double> weights, UpdateCounts& counts) {
   load(centers, weights);
   counts.activated += weights.size();
   // A rebuild takes the time of about two events a bead in space, of one in the plane.
-  constexpr std::uint64_t most_of_a_bead = dimension == 3 ? 3 : 2;
+  constexpr std::uint64_t most_of_a_bead = Dimension == 3 ? 3 : 2;
   const std::uint64_t most = most_of_a_bead * weights.size();
-  const bool moved = machine_->simulator.try_step(most, true);
+  const bool moved = machine_->simulator.try_step(most);
+  if (moved) machine_->power.rebuild_if_flat();
   add_up(counts);
   return moved;
 }
 
-template <Motion M>
-void MovingDiagram<M>::rebuild(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
-                               UpdateCounts& counts) {
+template <int Dimension>
+void MovingDiagram<Dimension>::rebuild(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                                       UpdateCounts& counts) {
   load(centers, weights);
   machine_->power.build_at_end();
   ++counts.rebuilds;
 }
 
 /// All beads of failed certificates.
-template <Motion M>
-void MovingDiagram<M>::activate(const SnapshotFaults& faults, std::vector<char>& moves) const {
-  const RegularTriangulation<dimension>& t = machine_->power.triangulation();
+template <int Dimension>
+void MovingDiagram<Dimension>::activate(const SnapshotFaults& faults, std::vector<char>& moves) const {
+  const RegularTriangulation<Dimension>& t = machine_->power.triangulation();
   const auto add = [&](BeadId bead) {
     if (bead != infinite_bead) moves[bead] = 1;
   };
@@ -161,7 +173,7 @@ namespace {
 /// none, or the walk gets lost among inverted cells.
 template <int Dimension>
 CellId host_at_snapshot(const RegularTriangulation<Dimension>& t, BeadId bead, CellId cell,
-                        const Snapshot<Dimension>& placement) {
+                        const Snapshot<Dimension>& snapshot) {
   for (std::size_t step = 0; step <= t.cells().size(); ++step) {
     const auto& v = t.cells()[cell].vertex;
     if (const auto at = std::find(v.begin(), v.end(), infinite_bead); at != v.end()) {
@@ -173,7 +185,7 @@ CellId host_at_snapshot(const RegularTriangulation<Dimension>& t, BeadId bead, C
     for (int i = 0; i <= Dimension && leaves_by < 0; ++i) {
       auto part = v;
       part[static_cast<std::size_t>(i)] = bead;
-      if (snapshot_sign(Orientation<Dimension>(part, 1), placement) < 0) leaves_by = i;
+      if (snapshot_sign(Orientation<Dimension>(part, 1), snapshot) < 0) leaves_by = i;
     }
     if (leaves_by < 0) return cell;
     cell = cell_of(t.beyond(cell, leaves_by));
@@ -185,10 +197,10 @@ CellId host_at_snapshot(const RegularTriangulation<Dimension>& t, BeadId bead, C
 
 /// Hidden beads, wherever they are hidden, and the beads of the cell they will be in if it does not hide
 /// them.
-template <Motion M>
-void MovingDiagram<M>::hidden_that_show(const Snapshot<dimension>& next, std::vector<char>& moves) {
-  PowerDiagram<M, Filtered>& power = machine_->power;
-  const RegularTriangulation<dimension>& t = power.triangulation();
+template <int Dimension>
+void MovingDiagram<Dimension>::hidden_that_show(const Snapshot<Dimension>& next, std::vector<char>& moves) {
+  PowerDiagram<Dimension>& power = machine_->power;
+  const RegularTriangulation<Dimension>& t = power.triangulation();
   const auto move_cell = [&](CellId cell) {
     for (const BeadId b : t.cells()[cell].vertex)
       if (b != infinite_bead) moves[b] = 1;
@@ -207,22 +219,22 @@ void MovingDiagram<M>::hidden_that_show(const Snapshot<dimension>& next, std::ve
 }
 
 /// Cells that hidden beads are in now.
-template <Motion M>
-void MovingDiagram<M>::house_hidden(const Snapshot<dimension>& next) {
-  PowerDiagram<M, Filtered>& power = machine_->power;
+template <int Dimension>
+void MovingDiagram<Dimension>::house_hidden(const Snapshot<Dimension>& next) {
+  PowerDiagram<Dimension>& power = machine_->power;
   for (const HiddenBead& hidden : power.hidden().with_hosts()) {
     const CellId near = hidden.host == no_cell ? power.some_finite_cell() : hidden.host;
     power.house(hidden.bead, host_at_snapshot(power.triangulation(), hidden.bead, near, next));
   }
 }
 
-template <Motion M>
-void MovingDiagram<M>::move_some(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
-                                 UpdateCounts& counts) {
-  PowerDiagram<M, Filtered>& power = machine_->power;
+template <int Dimension>
+void MovingDiagram<Dimension>::move_some(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
+                                         UpdateCounts& counts) {
+  PowerDiagram<Dimension>& power = machine_->power;
   if (!power.is_solid()) return move_all(centers, weights, counts);  // no cells to test, or flat ones
   triangulation().make_mirror();
-  const Snapshot<dimension> next(centers, weights);
+  const Snapshot<Dimension> next(centers, weights);
   SnapshotFaults faults = snapshot_faults(triangulation(), next);
   counts.tested = faults.tested;
   counts.failed = faults.failed();
@@ -267,11 +279,13 @@ void MovingDiagram<M>::move_some(const Eigen::Matrix3Xd& centers, std::span<cons
   for (BeadId b = 0; b < weights.size(); ++b) set_end(b, centers, weights);
   power.move_only({});
   house_hidden(next);
-  power.reach_frame(true);
+  power.reach_frame();
+  power.rebuild_if_flat();
 }
 
-template <Motion M>
-UpdateCounts KineticUpdate<M>::advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+template <int Dimension>
+UpdateCounts KineticUpdate<Dimension>::advance(const Eigen::Matrix3Xd& centers,
+                                               std::span<const double> weights) {
   UpdateCounts counts;
   this->move_all(centers, weights, counts);
   return counts;
@@ -335,14 +349,10 @@ UpdateCounts AutomaticUpdate<Dimension>::advance(const Eigen::Matrix3Xd& centers
   return counts;
 }
 
-template class MovingDiagram<BezierMotion<2, 1>>;
-template class MovingDiagram<BezierMotion<3, 1>>;
-template class MovingDiagram<LiftedMotion<2>>;
-template class MovingDiagram<LiftedMotion<3>>;
-template class KineticUpdate<BezierMotion<2, 1>>;
-template class KineticUpdate<BezierMotion<3, 1>>;
-template class KineticUpdate<LiftedMotion<2>>;
-template class KineticUpdate<LiftedMotion<3>>;
+template class MovingDiagram<2>;
+template class MovingDiagram<3>;
+template class KineticUpdate<2>;
+template class KineticUpdate<3>;
 template class Activation<2>;
 template class Activation<3>;
 template class AutomaticUpdate<2>;

@@ -2,14 +2,13 @@
 // Updates of a power diagram by motion (diagram_update.h): all beads in time order, or only those that have
 // to move.
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "motions/curves/bezier_motion.h"
-#include "motions/curves/lifted_motion.h"
 #include "motions/curves/snapshot.h"
 #include "structures/power_diagram/diagram_update.h"
 #include "structures/triangulation/regular_triangulation.h"
@@ -17,35 +16,36 @@
 
 namespace kds {
 
-/// A power diagram on a clock of its own that goes from frame to frame.
-template <Motion M>
-class MovingDiagram : public DiagramUpdate<M::dimension> {
- public:
-  static constexpr int dimension = M::dimension;
+/// How beads move between frames.
+enum class UpdateMotion : std::uint8_t { linear, lifted };
 
-  MovingDiagram();
+/// A power diagram on a clock of its own that goes from frame to frame.
+template <int Dimension>
+class MovingDiagram : public DiagramUpdate<Dimension> {
+ public:
+  explicit MovingDiagram(UpdateMotion motion = UpdateMotion::linear);
   ~MovingDiagram() override;
   void build(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
-  [[nodiscard]] StaticTriangulation<dimension> diagram() const override;
+  [[nodiscard]] StaticTriangulation<Dimension> diagram() const override;
   [[nodiscard]] std::optional<std::string> fault() const override;
 
  protected:
   /// All beads move, in one step.
   void move_all(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
-  /// The same, but given up, and false, where many more events come than a rebuild takes time for: it is to
-  /// be rebuilt then.
+  /// Like move_all; returns false, and is given up, once more events happen than a rebuild takes time for: it
+  /// is to be rebuilt then.
   [[nodiscard]] bool try_to_move_all(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
                                      UpdateCounts& counts);
   /// Only beads that must, in as many steps as it takes. Falls back on move_all where cells are flat or
   /// missing, and where most beads would have to move at once.
   void move_some(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
   void rebuild(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
-  [[nodiscard]] RegularTriangulation<dimension>& triangulation();
+  [[nodiscard]] RegularTriangulation<Dimension>& triangulation();
   [[nodiscard]] bool is_solid() const;
   [[nodiscard]] std::size_t bead_count() const;
 
  private:
-  struct Machine;  // the diagram takes long to compile: in one file
+  struct Machine;
 
   void load(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
   void set_end(BeadId bead, const Eigen::Matrix3Xd& centers, std::span<const double> weights);
@@ -53,20 +53,22 @@ class MovingDiagram : public DiagramUpdate<M::dimension> {
   void run_step(UpdateCounts& counts);
   void add_up(UpdateCounts& counts);
   void activate(const SnapshotFaults& faults, std::vector<char>& moves) const;
-  void hidden_that_show(const Snapshot<dimension>& next, std::vector<char>& moves);
-  void house_hidden(const Snapshot<dimension>& next);
+  void hidden_that_show(const Snapshot<Dimension>& next, std::vector<char>& moves);
+  void house_hidden(const Snapshot<Dimension>& next);
 
+  UpdateMotion motion_;
   std::unique_ptr<Machine> machine_;
 };
 
-template <Motion M>
-class KineticUpdate final : public MovingDiagram<M> {
+template <int Dimension>
+class KineticUpdate final : public MovingDiagram<Dimension> {
  public:
+  using MovingDiagram<Dimension>::MovingDiagram;
   UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
 };
 
 template <int Dimension>
-class Activation final : public MovingDiagram<BezierMotion<Dimension, 1>> {
+class Activation final : public MovingDiagram<Dimension> {
  public:
   UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
 };
@@ -74,7 +76,7 @@ class Activation final : public MovingDiagram<BezierMotion<Dimension, 1>> {
 /// What it has seen fail counts the less the longer ago: motion goes on much as before, and a sample of one
 /// frame is small.
 template <int Dimension>
-class AutomaticUpdate final : public MovingDiagram<BezierMotion<Dimension, 1>> {
+class AutomaticUpdate final : public MovingDiagram<Dimension> {
  public:
   UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
 
@@ -84,9 +86,7 @@ class AutomaticUpdate final : public MovingDiagram<BezierMotion<Dimension, 1>> {
   std::uint64_t samples_ = 0;
 };
 
-extern template class MovingDiagram<BezierMotion<2, 1>>;
-extern template class MovingDiagram<BezierMotion<3, 1>>;
-extern template class MovingDiagram<LiftedMotion<2>>;
-extern template class MovingDiagram<LiftedMotion<3>>;
+extern template class MovingDiagram<2>;
+extern template class MovingDiagram<3>;
 
 }  // namespace kds

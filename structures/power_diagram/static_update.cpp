@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "certificates/search/snapshot_sign.h"
 #include "motions/base/input_error.h"
 #include "structures/triangulation/regularity_fault.h"
 
@@ -103,13 +104,13 @@ void StaticUpdate<Dimension>::rebuild(const Eigen::Matrix3Xd& centers, std::span
   auto built = triangulation_.build_bare(centers, weights);
   hidden_ = std::move(built.hidden);
   affine_dimension_ = built.dimension;
-  placement_ = Snapshot<Dimension>(centers, weights);
+  frame_ = Snapshot<Dimension>(centers, weights);
 }
 
 template <int Dimension>
 void StaticUpdate<Dimension>::find_hidden() {
   hidden_.clear();
-  for (BeadId b = 0; b < placement_.bead_count(); ++b)
+  for (BeadId b = 0; b < frame_.bead_count(); ++b)
     if (!triangulation_.is_vertex(b)) hidden_.push_back(b);
 }
 
@@ -124,8 +125,8 @@ std::optional<std::string> StaticUpdate<Dimension>::fault() const {
   if (!triangulation_.has_mirror()) return std::nullopt;  // as CGAL built it
   std::vector<HiddenBead> hidden;
   for (const BeadId b : hidden_) hidden.push_back({b, no_cell});
-  return regularity_fault(triangulation_, static_cast<BeadId>(placement_.bead_count()), hidden, false,
-                          [this](const auto& function) { return snapshot_sign(function, placement_); });
+  return regularity_fault(triangulation_, static_cast<BeadId>(frame_.bead_count()), hidden, false,
+                          [this](const auto& function) { return snapshot_sign(function, frame_); });
 }
 
 template <int Dimension>
@@ -137,8 +138,7 @@ UpdateCounts Rebuild<Dimension>::advance(const Eigen::Matrix3Xd& centers, std::s
 template <int Dimension>
 std::vector<BeadId> Reinsertion<Dimension>::choose(const SnapshotFaults& faults) const {
   const auto failed = suspects_of(this->triangulation_, faults);
-  return choice_ == Choice::any ? one_of_each(failed)
-                                : most_failed_first(failed, this->placement_.bead_count());
+  return choice_ == Choice::any ? one_of_each(failed) : most_failed_first(failed, this->frame_.bead_count());
 }
 
 template <int Dimension>
@@ -172,7 +172,7 @@ UpdateCounts Reinsertion<Dimension>::advance(const Eigen::Matrix3Xd& centers,
   this->triangulation_.set_points(centers, weights);
   out.insert(out.end(), this->hidden_.begin(), this->hidden_.end());  // any of them may have come back
   std::sort(out.begin(), out.end());
-  this->placement_ = next;
+  this->frame_ = next;
   if (!out.empty()) {
     this->triangulation_.put_in(out, centers, weights);
     static_cast<void>(this->triangulation_.mirror_changes());

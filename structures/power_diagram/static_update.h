@@ -21,8 +21,8 @@ class StaticUpdate : public DiagramUpdate<Dimension> {
   void find_hidden();
 
   RegularTriangulation<Dimension> triangulation_;
-  std::vector<BeadId> hidden_;     ///< ascending
-  Snapshot<Dimension> placement_;  ///< of the frame reached
+  std::vector<BeadId> hidden_;  ///< ascending
+  Snapshot<Dimension> frame_;   ///< of the frame reached
   int affine_dimension_ = Dimension;
 };
 

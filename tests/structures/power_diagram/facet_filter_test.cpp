@@ -10,9 +10,11 @@
 #include <set>
 #include <vector>
 
-#include "certificates/search/failure_search.h"
+#include "certificates/search/certificate_search.h"
 #include "certificates/types/orientation.h"
+#include "certificates/types/power_test.h"
 #include "motions/curves/lifted_motion.h"
+#include "motions/numbers/exact_number.h"
 #include "tests/support/random_motion.h"
 
 namespace kds {
@@ -24,16 +26,21 @@ bool holds(const M& motion, const TriangulationCell<M::dimension>& cell, int fac
   decltype(PowerTest<M::dimension>::beads) beads{};
   std::copy(cell.vertex.begin(), cell.vertex.end(), beads.begin());
   beads.back() = cell.apex[static_cast<std::size_t>(facet)];
+  const PowerTest<M::dimension> certificate(beads, 1);
+  const KnownAtStart known = KnownAtStart::unknown;
   StageCounts stages;
-  const Failure failure = first_failure<Exact>(PowerTest<M::dimension>(beads, 1), motion, Instant(0),
-                                               KnownAtStart::unknown, stages);
+  Failure failure;
+  search_over<PowerTest<M::dimension>>(MotionRef<M::dimension>(motion))
+      ->first_failures(Kernel::exact, {&certificate, 1}, Instant(0), {&known, 1}, stages,
+                       TouchPolicy::ignored, {&failure, 1});
   return failure.kind == Failure::Kind::never;
 }
 
 /// On integers, where the step ends.
 template <Motion M>
 bool is_positive_at_end(const M& motion, const TriangulationCell<M::dimension>& cell) {
-  return exact_function(Orientation<M::dimension>(cell.vertex, 1), motion).sign_at(Dyadic(1.0)) > 0;
+  return search_over<Orientation<M::dimension>>(MotionRef<M::dimension>(motion))
+             ->sign_at(Orientation<M::dimension>(cell.vertex, 1), Dyadic(1.0)) > 0;
 }
 
 template <int dimension>
@@ -63,8 +70,9 @@ template <Motion M>
 void expect_right(const M& motion, std::span<const TriangulationCell<M::dimension>> cells,
                   std::uint64_t& found, int off = 0) {
   Found<M::dimension> all, some;
-  const LengthUnit unit(exponent_of_length(motion, cells) + off);
-  FacetFilter<M> positive(motion, unit);
+  const LengthUnit unit(exponent_of_length(Curves<M::dimension>(motion), cells) + off);
+  const auto filter = cell_filter_over(MotionRef<M::dimension>(motion));
+  FacetFilter positive(*filter, unit, Rounding::charged);
   for (CellId id = 0; id < cells.size(); ++id) positive.look_at(cells[id], id, all_facets<M::dimension>, all);
   positive.finish(all);
   positive.finish(all);  // nothing is left
@@ -78,7 +86,7 @@ void expect_right(const M& motion, std::span<const TriangulationCell<M::dimensio
   }
   found += positive.count();
   // Of some facets, or none, the same is found.
-  FacetFilter<M> positive_of_some(motion, unit);
+  FacetFilter positive_of_some(*filter, unit, Rounding::charged);
   std::vector<unsigned> wanted;
   for (CellId id = 0; id < cells.size(); ++id) {
     wanted.push_back((5 * id + cells[0].vertex.size() * found + doubts.size()) & all_facets<M::dimension>);
@@ -95,7 +103,7 @@ void expect_right(const M& motion, std::span<const TriangulationCell<M::dimensio
   std::vector<CellId> few;
   for (CellId id = 0; id < cells.size() && id < few_cells; ++id) {
     few.push_back(id);
-    const auto [facets, at_end] = filter_few_cells(motion, unit, cells, few);
+    const auto [facets, at_end] = filter_few_cells(*filter, unit, Rounding::charged, cells, few);
     for (const CellId cell : few) {
       for (int i = 0; i <= M::dimension; ++i)
         EXPECT_NE((facets[cell] >> i & 1U) != 0, doubts.contains(facet_id(cell, i))) << cell << ' ' << i;
@@ -308,14 +316,16 @@ TEST(FacetFilter, AreTheSameOnAnyProcessor) {
   test::Random random(11);
   for (int round = 0; round < 100; ++round) {
     M motion = slow_motion<M>(random);
-    CellsInLanes<M> cells;
+    const auto filter = cell_filter_over(MotionRef<3>(motion));
+    const auto filter_for_any = cell_filter_for_any_processor(MotionRef<3>(motion));
+    CellsInLanes<3> cells;
     for (auto& beads : cells) {
       for (BeadId i = 0; i < beads.size(); ++i) beads[i] = (i + static_cast<BeadId>(random() % 8)) % 8;
     }
     PositiveBits best, any;
     for (std::size_t beyond = 0; beyond <= 4; ++beyond) {
-      positive_cells(motion, cells, beyond, LengthUnit(), best);
-      positive_cells_anywhere(motion, cells, beyond, LengthUnit(), any);
+      filter->positive_cells(cells, beyond, LengthUnit(), Rounding::charged, best);
+      filter_for_any->positive_cells(cells, beyond, LengthUnit(), Rounding::charged, any);
       EXPECT_EQ(best, any);
     }
   }
@@ -369,8 +379,9 @@ TEST(FacetFilter, OfAFewAreFinite) {
     beside_infinite.apex[1] = infinite_bead;
     const std::array cells{infinite, cell, infinite, beside_infinite};
     const std::array<CellId, 4> few{0, 1, 2, 3};
-    const LengthUnit unit(exponent_of_length<M>(motion, cells));
-    const auto [facets, at_end] = filter_few_cells<M>(motion, unit, cells, few);
+    const LengthUnit unit(exponent_of_length(Curves<3>(motion), cells));
+    const auto filter = cell_filter_over(MotionRef<3>(motion));
+    const auto [facets, at_end] = filter_few_cells(*filter, unit, Rounding::charged, cells, few);
     EXPECT_FALSE(at_end[0] || at_end[2]);
     EXPECT_EQ(facets[0], 0U);
     EXPECT_EQ(facets[2], 0U);
@@ -382,7 +393,8 @@ TEST(FacetFilter, OfAFewAreFinite) {
         EXPECT_TRUE(holds(motion, cells[id], i));
       }
     }
-    EXPECT_EQ(filter_few_cells<M>(motion, unit, cells, std::array<CellId, 1>{0}).facets[0], 0U);
+    EXPECT_EQ(filter_few_cells(*filter, unit, Rounding::charged, cells, std::array<CellId, 1>{0}).facets[0],
+              0U);
   }
   EXPECT_GT(found, 20U);
 }

@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <concepts>
 #include <vector>
 
-#include "certificates/search/failure_search.h"
+#include "certificates/search/certificate_search.h"
 #include "motions/curves/positions.h"
+#include "structures/triangulation/facet_certificate.h"
 #include "tests/support/random_motion.h"
 
 namespace kds {
@@ -25,7 +27,10 @@ void expect_resting_to_hold(double distance, double least_share) {
   }
   RegularTriangulation<dimension> triangulation;
   static_cast<void>(triangulation.build(control_points(motion, 1), control_weights(motion, 1)));
-  FacetSlack<M> tolerances;
+  FacetSlack<dimension> tolerances;
+  const MotionRef<dimension> any(motion);
+  const auto power_tests = search_over<PowerTest<dimension>>(any);
+  const auto orientations = search_over<Orientation<dimension>>(any);
   StageCounts stages;
   std::size_t resting = 0, all = 0;
   for (int step = 0; step < 4; ++step) {
@@ -36,7 +41,7 @@ void expect_resting_to_hold(double distance, double least_share) {
         motion.set_coordinate(b, 1, axis, x + distance * (1 + test::uniform(random)));  // and a drift
       }
     }
-    tolerances.start_step(motion, triangulation);
+    tolerances.start_step(any.curves(), triangulation);
     if (!tolerances.any()) continue;
     std::vector<unsigned> others(triangulation.cells().size(), 0);
     tolerances.for_the_others(triangulation, [&](CellId cell, unsigned facets) {
@@ -55,11 +60,21 @@ void expect_resting_to_hold(double distance, double least_share) {
         ++all;
         if (other) continue;
         ++resting;
-        with_facet_certificate(cell.vertex, triangulation.apex_beyond(id, i), [&](const auto& certificate) {
-          EXPECT_EQ(
-              (first_failure<Exact>(certificate, motion, Instant(0), KnownAtStart::unknown, stages).kind),
-              Failure::Kind::never);
-        });
+        with_facet_certificate(
+            cell.vertex, triangulation.apex_beyond(id, i), [&]<class C>(const C& certificate) {
+              const KnownAtStart known = KnownAtStart::unknown;
+              Failure failure;
+              const auto search = [&](const auto& searches) {
+                searches.first_failures(Kernel::exact, {&certificate, 1}, Instant(0), {&known, 1}, stages,
+                                        TouchPolicy::ignored, {&failure, 1});
+              };
+              if constexpr (std::same_as<C, PowerTest<dimension>>) {
+                search(*power_tests);
+              } else {
+                search(*orientations);
+              }
+              EXPECT_EQ(failure.kind, Failure::Kind::never);
+            });
       }
     }
     // What is forgotten, at both cells, is looked at, once.

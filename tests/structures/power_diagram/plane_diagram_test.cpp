@@ -16,6 +16,8 @@ using namespace test;
 
 template <int Degree>
 using Plane = BezierMotion<2, Degree>;
+template <class M>
+using RigOf = Rig<PowerDiagram<M::dimension>, M>;
 using Point = std::array<Rational, 2>;
 
 Rational turn(const Point& a, const Point& b, const Point& c) {
@@ -76,7 +78,7 @@ std::vector<Point> points_at(const M& motion, const Dyadic& time) {
 
 /// Looks at every `stride`-th audit, a moment later: cells may be flat at a single moment without an event.
 template <class M>
-Witness::Look definition(const Rig<PowerDiagram<M, Filtered>, M>& rig, int stride) {
+Witness::Look definition(const RigOf<M>& rig, int stride) {
   return [&rig, stride, count = 0](const Dyadic& time) mutable -> std::optional<std::string> {
     if (time == Dyadic(0.0) || time == Dyadic(1.0) || count++ % stride != 0) return std::nullopt;
     const Dyadic later((time.numerator() << 100U) + 1, time.exponent() + 100);
@@ -88,12 +90,12 @@ template <class M>
 void expect_events(const std::string& name, std::uint64_t events) {
   SCOPED_TRACE(name);
   const M motion = instance_motion<M>(name);
-  Rig<PowerDiagram<M, Filtered>, M> rig(motion, AuditMode::frames);
+  RigOf<M> rig(motion, AuditMode::frames);
   rig.run();
   EXPECT_EQ(rig.external_events(), events);
   EXPECT_EQ(rig.structure.statistics.rebuilds, 0U);
   EXPECT_TRUE(books_balance(rig.structure.statistics));
-  Rig<PowerDiagram<M, Filtered>, M> replayed(motion, AuditMode::frames);
+  RigOf<M> replayed(motion, AuditMode::frames);
   ASSERT_NO_THROW(replayed.replay({motion}, rig.history));
   EXPECT_EQ(replayed.simulator.fingerprint(), rig.simulator.fingerprint());
 }
@@ -121,9 +123,9 @@ template <class M>
 void expect_kernels_agree(const std::string& name) {
   SCOPED_TRACE(name);
   const M motion = instance_motion<M>(name);
-  Rig<PowerDiagram<M, Filtered>, M> filtered(motion, AuditMode::events);
-  Rig<PowerDiagram<M, Exact>, M> exact(motion);
-  Rig<PowerDiagram<M, Fast>, M> fast(motion);
+  RigOf<M> filtered(motion, AuditMode::events);
+  RigOf<M> exact(motion, AuditMode::none, Kernel::exact);
+  RigOf<M> fast(motion, AuditMode::none, Kernel::fast);
   ASSERT_NO_THROW(filtered.run());
   exact.run();
   fast.run();
@@ -140,7 +142,7 @@ TEST(PlaneDiagram, KernelsAgree) {
 
 TEST(PlaneDiagram, IsDelaunayBetweenAllEvents) {
   const auto motion = instance_motion<Plane<1>>("d2_n50_linear");
-  Rig<PowerDiagram<Plane<1>, Filtered>, Plane<1>> rig(motion, AuditMode::events);
+  RigOf<Plane<1>> rig(motion, AuditMode::events);
   Witness witness(rig.simulator, definition(rig, 9));
   ASSERT_NO_THROW(rig.run());
   EXPECT_EQ(not_delaunay(points_at(motion, Dyadic(1.0)), rig.structure.at_frame(false).cells), std::nullopt);
@@ -150,7 +152,7 @@ class DegeneratePlane : public testing::TestWithParam<const char*> {};
 
 TEST_P(DegeneratePlane, AuditsPassBetweenAllEvents) {
   const auto motion = instance_motion<Plane<1>>(std::string("degenerate_d2_n64_") + GetParam());
-  Rig<PowerDiagram<Plane<1>, Filtered>, Plane<1>> rig(motion, AuditMode::events);
+  RigOf<Plane<1>> rig(motion, AuditMode::events);
   Witness witness(rig.simulator, definition(rig, 20));
   ASSERT_NO_THROW(rig.run());
   EXPECT_TRUE(books_balance(rig.structure.statistics));
@@ -186,10 +188,10 @@ TEST(PlaneDiagram, RandomMotionsFullOfTies) {
         motion.set_coordinate(b, 1, axis, to[b][static_cast<std::size_t>(axis)]);
       }
     }
-    Rig<PowerDiagram<Plane<1>, Filtered>, Plane<1>> rig(motion, AuditMode::events);
+    RigOf<Plane<1>> rig(motion, AuditMode::events);
     Witness witness(rig.simulator, definition(rig, 1));
-    Rig<PowerDiagram<Plane<1>, Exact>, Plane<1>> exact(motion);
-    Rig<PowerDiagram<Plane<1>, Fast>, Plane<1>> fast(motion);
+    RigOf<Plane<1>> exact(motion, AuditMode::none, Kernel::exact);
+    RigOf<Plane<1>> fast(motion, AuditMode::none, Kernel::fast);
     try {
       rig.run();
       exact.run();
@@ -222,8 +224,8 @@ TEST(PlaneDiagram, KernelsHouseHiddenBeadsAtVerticesAlike) {
         motion.set_weight(b, k, random() % 3);
       }
     }
-    Rig<PowerDiagram<Plane<1>, Filtered>, Plane<1>> filtered(motion);
-    Rig<PowerDiagram<Plane<1>, Exact>, Plane<1>> exact(motion);
+    RigOf<Plane<1>> filtered(motion);
+    RigOf<Plane<1>> exact(motion, AuditMode::none, Kernel::exact);
     filtered.run();
     exact.run();
     EXPECT_EQ(exact.simulator.fingerprint(), filtered.simulator.fingerprint()) << seed;

@@ -19,7 +19,7 @@ using namespace test;
 using testing::HasSubstr;
 
 template <class M>
-using Diagram = PowerDiagram<M, Filtered>;
+using Diagram = PowerDiagram<M::dimension>;
 
 enum class Scene { generic, weighted, grid, grid_at_rest, line };
 constexpr std::array all_scenes{Scene::generic, Scene::weighted, Scene::grid, Scene::grid_at_rest,
@@ -114,8 +114,9 @@ void run(unsigned seed, Scene scene, Totals& totals) {
         }
       }
     }
-    simulator.leave_step(step == 1);
+    simulator.leave_step();
   }
+  simulator.finish();
   EXPECT_TRUE(books_balance(diagram.statistics));
   const auto& kinds = diagram.statistics.events_by_kind;
   totals.inserts += kinds[Diagram<M>::inserts];
@@ -204,7 +205,7 @@ TEST(PowerDiagramEdits, RefusesBadCalls) {
   refused([&] { diagram.erase(3); }, "at least 4 beads");
   diagram.insert(5);
   diagram.insert(4);
-  rig.simulator.leave_step(true);
+  rig.simulator.leave_step();
   refused([&] { diagram.erase(3); }, "only within a step");
   EXPECT_EQ(diagram.statistics.events_by_kind[Diagram<Space>::inserts], 2U);
   EXPECT_EQ(diagram.statistics.events_by_kind[Diagram<Space>::erases], 1U);
@@ -235,7 +236,7 @@ TEST(PowerDiagramEdits, HidesAndShows) {
   EXPECT_EQ(rig.structure.at_frame(true).cells, cells);
   EXPECT_TRUE(rig.structure.at_frame(true).hidden.empty());
   EXPECT_EQ(rig.structure.statistics.rebuilds, 0U);
-  rig.simulator.leave_step(true);
+  rig.simulator.leave_step();
 }
 
 TEST(PowerDiagramEdits, AreReplayed) {
@@ -268,8 +269,9 @@ TEST(PowerDiagramEdits, AreReplayed) {
         }
         rig.structure.change_motion(50, [] {});
       }
-      rig.simulator.leave_step(step == 1);
+      rig.simulator.leave_step();
     }
+    rig.simulator.finish();
     again.replay(steps, rig.history);
     EXPECT_EQ(again.simulator.fingerprint(), rig.simulator.fingerprint());
     EXPECT_EQ(again.history.events.size(), rig.history.events.size());
@@ -285,14 +287,13 @@ TEST(PowerDiagramEdits, AreReplayed) {
 }
 
 /// Inserts, erases and bends under one kernel.
-template <Kernel K>
-std::pair<std::uint64_t, std::uint64_t> run_kernel() {
+std::pair<std::uint64_t, std::uint64_t> run_kernel(Kernel kernel) {
   using Plane = BezierMotion<2, 1>;
   Random random(77);
   Plane motion(30);
   for (BeadId b = 0; b < 30; ++b) set_curve(motion, b, random, Scene::weighted);
-  Simulator simulator;
-  PowerDiagram<Plane, K> diagram(simulator, motion);
+  Simulator simulator(AuditMode::none, kernel);
+  PowerDiagram<2> diagram(simulator, motion);
   for (BeadId b = 0; b < 10; ++b) diagram.leave_out(b);
   simulator.build();
   simulator.enter_step();
@@ -306,15 +307,15 @@ std::pair<std::uint64_t, std::uint64_t> run_kernel() {
     }
     diagram.change_motion(25, [&] { bend(motion, 25, k / 16.0, random); });
   }
-  simulator.leave_step(true);
+  simulator.leave_step();
   EXPECT_EQ(diagram.statistics.rebuilds, 0U);
   return {simulator.fingerprint(), diagram.statistics.certificates.created};
 }
 
 TEST(PowerDiagramEdits, KernelsAgree) {
-  const auto filtered = run_kernel<Filtered>();
-  EXPECT_EQ(run_kernel<Exact>(), filtered);
-  EXPECT_EQ(run_kernel<Fast>(), filtered);
+  const auto filtered = run_kernel(Kernel::filtered);
+  EXPECT_EQ(run_kernel(Kernel::exact), filtered);
+  EXPECT_EQ(run_kernel(Kernel::fast), filtered);
 }
 
 TEST(PowerDiagramEdits, ReplayRefusesWhatDoesNotFit) {
@@ -381,7 +382,7 @@ TEST(PowerDiagramEdits, CostFollowsTheDegree) {
     certificates[large] = static_cast<double>(s.certificates.created - certificates_before) / edits;
     signs[large] = static_cast<double>(signs_taken() - signs_before) / edits;
     EXPECT_EQ(s.rebuilds, 0U);
-    rig.simulator.leave_step(true);
+    rig.simulator.leave_step();
   }
   EXPECT_LT(certificates[1], 1.3 * certificates[0]);
   EXPECT_LT(signs[1], 1.3 * signs[0]);

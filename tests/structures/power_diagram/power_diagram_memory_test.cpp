@@ -66,7 +66,7 @@ TEST(PowerDiagramMemory, IsBelowOneAndAHalfKilobytesABead) {
       const double cgal = bytes_of_cgal(motion);
       const double before = bytes_allocated();
       Simulator simulator;
-      PowerDiagram<Space, Filtered> diagram(simulator, motion);
+      PowerDiagram<3> diagram(simulator, motion);
       simulator.build();
       double most = 0;
       for (int k = 0; k < 4; ++k) {
@@ -75,7 +75,7 @@ TEST(PowerDiagramMemory, IsBelowOneAndAHalfKilobytesABead) {
           most = std::max(most, bytes_allocated() - before);
           simulator.run_until(Dyadic(eighth / 8.0));
         }
-        simulator.leave_step(false);
+        simulator.leave_step();
         most = std::max(most, bytes_allocated() - before);
         move_on(motion, random, step);
       }

@@ -14,12 +14,10 @@ namespace {
 
 using namespace test;
 
-template <class K>
-using PowerRig = Rig<PowerDiagram<Space, K>, Space>;
+using PowerRig = Rig<PowerDiagram<3>, Space>;
 
 /// The final cells at u = 1, checked by the definition and against CGAL over the rationals.
-template <class K>
-void expect_right_at_the_end(PowerRig<K>& rig) {
+void expect_right_at_the_end(PowerRig& rig) {
   const StaticTriangulation<3> end = rig.structure.at_frame(false);
   const auto points = exact_points(rig.motion, Dyadic(1.0));
   const CgalCells cgal = cgal_regular_cells(points);
@@ -32,8 +30,7 @@ void expect_right_at_the_end(PowerRig<K>& rig) {
 /// Looks at every `stride`-th audit between events of the first step with its own eyes. (Later steps may
 /// start from a flat frame, which `at_frame` answers for.) It looks a moment later: cells may be flat at a
 /// single moment without an event.
-template <class K>
-Witness::Look definition(PowerRig<K>& rig, int stride) {
+Witness::Look definition(PowerRig& rig, int stride) {
   return [&rig, stride, count = 0](const Dyadic& time) mutable -> std::optional<std::string> {
     if (rig.simulator.step() != 0 || time == Dyadic(0.0) || time == Dyadic(1.0) || count++ % stride != 0)
       return std::nullopt;
@@ -43,9 +40,8 @@ Witness::Look definition(PowerRig<K>& rig, int stride) {
 }
 
 /// Runs with audits between all events. Clean refusals (InputError) are allowed and returned as true.
-template <class K>
-bool run_audited(const std::vector<Space>& steps, bool look = true) {
-  PowerRig<K> rig(steps.front(), AuditMode::events);
+bool run_audited(const std::vector<Space>& steps, bool look = true, Kernel kernel = Kernel::filtered) {
+  PowerRig rig(steps.front(), AuditMode::events, kernel);
   Witness witness(
       rig.simulator, look ? definition(rig, 1) : [](const Dyadic&) { return std::nullopt; });
   try {
@@ -75,7 +71,7 @@ class PowerInstance : public testing::TestWithParam<Count> {};
 
 TEST_P(PowerInstance, HasTheEventsOfCgal) {
   const Space motion = instance_motion<Space>(GetParam().name);
-  PowerRig<Filtered> rig(motion, AuditMode::frames);
+  PowerRig rig(motion, AuditMode::frames);
   rig.run();
   EXPECT_EQ(rig.external_events(), GetParam().events);
   EXPECT_EQ(rig.structure.statistics.rebuilds, 0U);
@@ -85,7 +81,7 @@ TEST_P(PowerInstance, HasTheEventsOfCgal) {
   EXPECT_TRUE(books_balance(rig.structure.statistics));
   expect_right_at_the_end(rig);
 
-  PowerRig<Filtered> replayed(motion, AuditMode::frames);
+  PowerRig replayed(motion, AuditMode::frames);
   ASSERT_NO_THROW(replayed.replay({motion}, rig.history));
   EXPECT_EQ(replayed.simulator.fingerprint(), rig.simulator.fingerprint());
   EXPECT_EQ(replayed.structure.at_frame(false).cells, rig.structure.at_frame(false).cells);
@@ -98,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Data, PowerInstance,
 
 TEST(PowerDiagram, AuditsPassBetweenAllEvents) {
   for (const auto& [name, stride] : {std::pair("d3_n20_linear", 5), std::pair("d3_n50_linear", 200)}) {
-    PowerRig<Filtered> rig(instance_motion<Space>(name), AuditMode::events);
+    PowerRig rig(instance_motion<Space>(name), AuditMode::events);
     Witness witness(rig.simulator, definition(rig, stride));
     ASSERT_NO_THROW(rig.run()) << name;
     EXPECT_EQ(rig.structure.statistics.audits_run,
@@ -109,13 +105,13 @@ TEST(PowerDiagram, AuditsPassBetweenAllEvents) {
 // The diagram that is kept up knows the closest pair at every frame.
 TEST(PowerDiagram, EdgesAtFramesHaveTheClosestPair) {
   const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 4);
-  PowerRig<Filtered> rig(steps[0]);
+  PowerRig rig(steps[0]);
   const std::vector<double> radii(rig.motion.bead_count(), 0.5);
   const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(radii.size() - 1)}};
   const BeadPairs neighbors = BeadPairs::along(radii.size(), necklace);
   rig.simulator.build();
   for (const Space& step : steps) {
-    rig.step(step, false);
+    rig.step(step);
     const Eigen::Matrix3Xd centers = control_points(step, 1);
     const auto kept = closest_pair<3>(centers, radii, rig.structure.edges_at_frame(false), neighbors);
     const auto built = closest_pair<3>(centers, radii, neighbors);
@@ -128,11 +124,11 @@ TEST(PowerDiagram, EdgesAtFramesHaveTheClosestPair) {
 
 TEST(PowerDiagram, KernelsAgree) {
   const Space motion = instance_motion<Space>("d3_n20_linear");
-  PowerRig<Filtered> filtered(motion);
+  PowerRig filtered(motion);
   filtered.run();
-  PowerRig<Exact> exact(motion);
+  PowerRig exact(motion, AuditMode::none, Kernel::exact);
   exact.run();
-  PowerRig<Fast> fast(motion);
+  PowerRig fast(motion, AuditMode::none, Kernel::fast);
   fast.run();
   EXPECT_EQ(exact.simulator.fingerprint(), filtered.simulator.fingerprint());
   EXPECT_EQ(fast.simulator.fingerprint(), filtered.simulator.fingerprint());
@@ -144,9 +140,9 @@ TEST(PowerDiagram, KernelsAgree) {
 
 TEST(PowerDiagram, KernelsAgreeOnRealTrajectories) {
   const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 4, 2);
-  PowerRig<Filtered> filtered(steps.front(), AuditMode::frames);
+  PowerRig filtered(steps.front(), AuditMode::frames);
   filtered.run(steps);
-  PowerRig<Fast> fast(steps.front());
+  PowerRig fast(steps.front(), AuditMode::none, Kernel::fast);
   fast.run(steps);
   EXPECT_GT(filtered.external_events(), 0U);
   EXPECT_EQ(filtered.structure.statistics.rebuilds, 0U);
@@ -157,7 +153,7 @@ TEST(PowerDiagram, KernelsAgreeOnRealTrajectories) {
 // Flips as logged: made on a set of cells by hand they lead from CGAL's cells at u = 0 to those at u = 1.
 TEST(PowerDiagram, LoggedFlipsTurnTheFirstCellsIntoTheLast) {
   const Space motion = instance_motion<Space>("d3_n20_linear");
-  PowerRig<Filtered> rig(motion);
+  PowerRig rig(motion);
   rig.run();
   using Cells = std::set<CellBeads<3>>;
   const auto start = cgal_regular_cells(exact_points(motion, Dyadic(0.0))).cells;
@@ -197,7 +193,7 @@ TEST(PowerDiagram, LoggedFlipsTurnTheFirstCellsIntoTheLast) {
 
 // Certificates are born at their own root all the time; the double stages must settle them.
 TEST(PowerDiagram, TheExactStageIsRareInGeneralPosition) {
-  PowerRig<Filtered> rig(instance_motion<Space>("d3_n50_linear"));
+  PowerRig rig(instance_motion<Space>("d3_n50_linear"));
   rig.run();
   const StageCounts& stages = rig.structure.statistics.stages;
   EXPECT_LT(stages.exact, rig.structure.statistics.certificates.created / 100);
@@ -206,7 +202,7 @@ TEST(PowerDiagram, TheExactStageIsRareInGeneralPosition) {
 
 TEST(PowerDiagram, CountsCertificatesPerBead) {
   const Points start{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  PowerRig<Filtered> rig(moving(start, start));
+  PowerRig rig(moving(start, start));
   rig.run();
   // Four facets of the one cell, each with infinity for a fifth, and six between infinite cells.
   EXPECT_EQ(rig.structure.statistics.certificates.created, 10U);
@@ -217,7 +213,7 @@ TEST(PowerDiagram, CountsCertificatesPerBead) {
 // The audit must be able to fail: every flip that can be made of a right diagram makes it wrong.
 TEST(PowerDiagram, AuditsNoticeEveryWrongFlip) {
   const Space motion = instance_motion<Space>("d3_n20_linear");
-  PowerRig<Filtered> rig(motion, AuditMode::frames);
+  PowerRig rig(motion, AuditMode::frames);
   rig.run();
   EXPECT_EQ(rig.structure.audit(Dyadic(1.0)), std::nullopt);
   int tried = 0;
@@ -225,9 +221,9 @@ TEST(PowerDiagram, AuditsNoticeEveryWrongFlip) {
     const bool to_edge = rig.structure.kinds()[e.change.kind].name == "2-3";
     for (const bool forth : {to_edge, !to_edge}) {
       Change change = e.change;
-      change.kind = forth ? PowerDiagram<Space, Filtered>::to_edge : PowerDiagram<Space, Filtered>::to_facet;
+      change.kind = forth ? PowerDiagram<3>::to_edge : PowerDiagram<3>::to_facet;
       Change back = e.change;
-      back.kind = forth ? PowerDiagram<Space, Filtered>::to_facet : PowerDiagram<Space, Filtered>::to_edge;
+      back.kind = forth ? PowerDiagram<3>::to_facet : PowerDiagram<3>::to_edge;
       // Only what leaves a triangulation: no second edge between two beads, no second facet of three.
       const auto together = [cells = rig.structure.at_frame(false).cells](std::span<const BeadId> beads) {
         return std::any_of(cells.begin(), cells.end(), [&](const CellBeads<3>& cell) {
@@ -257,9 +253,9 @@ TEST(PowerDiagram, AuditsNoticeEveryWrongFlip) {
 
 TEST(PowerDiagram, RefusesChangesThatCannotBe) {
   const Points points{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 5}, {0, 0, -5}};
-  PowerRig<Filtered> rig(moving(points, points));
+  PowerRig rig(moving(points, points));
   rig.run();
-  using Diagram = PowerDiagram<Space, Filtered>;
+  using Diagram = PowerDiagram<3>;
   EXPECT_THROW(rig.structure.apply({Diagram::to_edge, 5, {0, 1, 3, 2, 4}}),
                std::invalid_argument);  // another apex
   EXPECT_THROW(rig.structure.apply({Diagram::to_edge, 5, {0, 3, 4, 1, 2}}),
@@ -274,33 +270,32 @@ TEST(PowerDiagram, RefusesChangesThatCannotBe) {
 // A log may have been edited: the diagram must stay a triangulation.
 TEST(PowerDiagram, RefusesASecondEdgeBetweenTwoBeads) {
   const Points points{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 1}, {0, 0, -1}};  // three cells around 3-4
-  PowerRig<Filtered> rig(moving(points, points));
+  PowerRig rig(moving(points, points));
   rig.run();
-  EXPECT_THROW(rig.structure.apply({PowerDiagram<Space, Filtered>::to_edge, 5, {0, 3, 4, 1, 2}}),
-               std::invalid_argument);
+  EXPECT_THROW(rig.structure.apply({PowerDiagram<3>::to_edge, 5, {0, 3, 4, 1, 2}}), std::invalid_argument);
 }
 
 // Scenes by hand.
 
 TEST(PowerDiagram, NeedsFourBeads) {
-  PowerRig<Filtered> rig(moving({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}));
+  PowerRig rig(moving({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}));
   EXPECT_THROW(rig.run(), InputError);
 }
 
 TEST(PowerDiagram, FourBeads) {
   const Points start{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  PowerRig<Filtered> still(moving(start, start), AuditMode::events);
+  PowerRig still(moving(start, start), AuditMode::events);
   ASSERT_NO_THROW(still.run());
   EXPECT_EQ(still.history.events.size(), 0U);
   EXPECT_THAT(still.structure.at_frame(false).cells, testing::ElementsAre(CellBeads<3>{0, 1, 2, 3}));
   // The tetrahedron turns inside out: through a triangle with a bead inside; through a square; through both
   // at once.
-  EXPECT_FALSE(run_audited<Filtered>({moving(start, {{1, 1, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})}));
-  EXPECT_FALSE(run_audited<Filtered>({moving({{1, 0, 1}, {-1, 0, 1}, {0, 1, -1}, {0, -1, -1}},
-                                             {{1, 0, -1}, {-1, 0, -1}, {0, 1, 2}, {0, -1, 2}})}));
-  EXPECT_FALSE(run_audited<Filtered>({moving(start, {{0, 0, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}})}));
+  EXPECT_FALSE(run_audited({moving(start, {{1, 1, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})}));
+  EXPECT_FALSE(run_audited({moving({{1, 0, 1}, {-1, 0, 1}, {0, 1, -1}, {0, -1, -1}},
+                                   {{1, 0, -1}, {-1, 0, -1}, {0, 1, 2}, {0, -1, 2}})}));
+  EXPECT_FALSE(run_audited({moving(start, {{0, 0, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}})}));
   for (const Space& motion : {moving(start, {{1, 1, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})}) {
-    EXPECT_FALSE(run_audited<Exact>({motion}));
+    EXPECT_FALSE(run_audited({motion}, true, Kernel::exact));
   }
 }
 
@@ -310,24 +305,24 @@ TEST(PowerDiagram, FiveBeads) {
   Points from = base, to = base;
   from.push_back({0, 0, -1});
   to.push_back({0, 0, 1});
-  EXPECT_FALSE(run_audited<Filtered>({moving(from, to)}));
+  EXPECT_FALSE(run_audited({moving(from, to)}));
   from.back() = {1, 0, -7};
   to.back() = {1, 2, 17};
-  EXPECT_FALSE(run_audited<Filtered>({moving(from, to)}));
+  EXPECT_FALSE(run_audited({moving(from, to)}));
   // Cospherical for ever: an octahedron that loses a bead, turned by a quarter in its plane.
-  EXPECT_FALSE(run_audited<Filtered>({moving({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
-                                             {{0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}})}));
+  EXPECT_FALSE(run_audited({moving({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
+                                   {{0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}})}));
 }
 
 TEST(PowerDiagram, CoplanarAtTheStart) {
   const Points flat{{0, 0, 0}, {4, 0, 0}, {0, 5, 0}, {6, 7, 0}, {2, 3, 0}, {-3, 2, 0}};
   Points lifted = flat;
   for (std::size_t b = 0; b < lifted.size(); ++b) lifted[b][2] = static_cast<double>(b * b % 5);
-  PowerRig<Filtered> rig(moving(flat, lifted), AuditMode::events);
+  PowerRig rig(moving(flat, lifted), AuditMode::events);
   Witness witness(rig.simulator, definition(rig, 1));
   ASSERT_NO_THROW(rig.simulator.build());
   EXPECT_TRUE(rig.structure.at_frame(true).cells.empty()) << "cells of a frame that is flat";
-  ASSERT_NO_THROW(rig.simulator.run_step(true));
+  ASSERT_NO_THROW(rig.simulator.run_step());
   EXPECT_TRUE(books_balance(rig.structure.statistics));
   expect_right_at_the_end(rig);
 }
@@ -339,7 +334,7 @@ TEST(PowerDiagram, CoplanarAtTheStartThenFarFromIt) {
     for (auto& p : flat) p[2] = p[0];
     const Points to = random_grid_points(random, 7, 20);
     SCOPED_TRACE(to_text({flat, to}));
-    run_audited<Filtered>({moving(flat, to)});
+    run_audited({moving(flat, to)});
     if (HasFailure()) return;
   }
 }
@@ -349,22 +344,22 @@ TEST(PowerDiagram, CoplanarAtTheEndOrInBetween) {
   Points flat = solid, mirrored = solid;
   for (auto& p : flat) p[2] = 0;
   for (auto& p : mirrored) p[2] = -p[2];
-  EXPECT_FALSE(run_audited<Filtered>({moving(solid, flat)}));
-  EXPECT_FALSE(run_audited<Filtered>({moving(solid, mirrored)}));
-  EXPECT_FALSE(run_audited<Filtered>(through({solid, flat, mirrored})));
-  EXPECT_FALSE(run_audited<Filtered>(through({solid, flat, solid})));
+  EXPECT_FALSE(run_audited({moving(solid, flat)}));
+  EXPECT_FALSE(run_audited({moving(solid, mirrored)}));
+  EXPECT_FALSE(run_audited(through({solid, flat, mirrored})));
+  EXPECT_FALSE(run_audited(through({solid, flat, solid})));
 }
 
 TEST(PowerDiagram, CoplanarAllTheTimeIsRefused) {
   const Points flat{{0, 0, 0}, {4, 0, 0}, {0, 5, 0}, {6, 7, 0}, {2, 3, 0}};
   const Points other{{1, 0, 0}, {4, 2, 0}, {0, 5, 0}, {6, 8, 0}, {2, 1, 0}};
-  PowerRig<Filtered> rig(moving(flat, other));
+  PowerRig rig(moving(flat, other));
   EXPECT_THROW(rig.run(), InputError);
   // After a step in space it may be refused, or done rightly.
   Points solid = flat;
   solid[2][2] = 1;
-  run_audited<Filtered>(through({solid, flat, other}));
-  run_audited<Filtered>(through({solid, flat, other, solid}));
+  run_audited(through({solid, flat, other}));
+  run_audited(through({solid, flat, other, solid}));
 }
 
 TEST(PowerDiagram, BeadsThatMeet) {
@@ -375,22 +370,22 @@ TEST(PowerDiagram, BeadsThatMeet) {
     return points;
   };
   // In between, at the end, at a frame and back, at a frame and through, from the start.
-  EXPECT_FALSE(run_audited<Filtered>({moving(with({{1, 1, 1}, {3, 3, 3}}), with({{3, 3, 3}, {1, 1, 1}}))}));
-  EXPECT_FALSE(run_audited<Filtered>({moving(with({{1, 1, 1}, {3, 3, 3}}), with({{2, 2, 2}, {2, 2, 2}}))}));
-  EXPECT_FALSE(run_audited<Filtered>(
+  EXPECT_FALSE(run_audited({moving(with({{1, 1, 1}, {3, 3, 3}}), with({{3, 3, 3}, {1, 1, 1}}))}));
+  EXPECT_FALSE(run_audited({moving(with({{1, 1, 1}, {3, 3, 3}}), with({{2, 2, 2}, {2, 2, 2}}))}));
+  EXPECT_FALSE(run_audited(
       through({with({{1, 1, 1}, {3, 3, 3}}), with({{2, 2, 2}, {2, 2, 2}}), with({{1, 1, 1}, {3, 3, 3}})})));
-  EXPECT_FALSE(run_audited<Filtered>(
+  EXPECT_FALSE(run_audited(
       through({with({{1, 1, 1}, {3, 3, 3}}), with({{2, 2, 2}, {2, 2, 2}}), with({{3, 3, 3}, {1, 1, 1}})})));
   const std::vector<Space> parting{moving(with({{2, 2, 2}, {2, 2, 2}}), with({{3, 3, 3}, {1, 1, 1}}))};
-  EXPECT_FALSE(run_audited<Filtered>(parting));
-  PowerRig<Filtered> rig(parting.front());
+  EXPECT_FALSE(run_audited(parting));
+  PowerRig rig(parting.front());
   rig.simulator.build();
   EXPECT_EQ(rig.structure.at_frame(true).hidden.size(), 1U) << "one of two beads in one place at the start";
 }
 
 TEST(PowerDiagram, OfBeadsInOnePlaceForGoodOneIsHidden) {
   const Points points{{0, 0, 0}, {5, 0, 1}, {0, 6, 0}, {1, 0, 7}, {6, 5, 4}, {6, 5, 4}};
-  PowerRig<Filtered> rig(moving(points, points), AuditMode::events);
+  PowerRig rig(moving(points, points), AuditMode::events);
   ASSERT_NO_THROW(rig.run());
   EXPECT_EQ(rig.structure.at_frame(false).hidden.size(), 1U);
 }
@@ -398,9 +393,8 @@ TEST(PowerDiagram, OfBeadsInOnePlaceForGoodOneIsHidden) {
 // Two beads pass each other along an edge of the hull, on a line with its ends for ever: certificates that
 // are zero all the time see no fold.
 TEST(PowerDiagram, BeadsThatTradePlacesAlongAnEdgeOfTheHull) {
-  EXPECT_FALSE(
-      run_audited<Filtered>({moving({{1, 0, 1}, {1, 1, 0}, {1, 1, 1}, {1, 1, 0}, {1, 0, 1}, {0, 0, 0}},
-                                    {{1, 0, 1}, {1, 1, 0}, {1, 1, 0}, {1, 0, 1}, {1, 1, 0}, {0, 1, 1}})}));
+  EXPECT_FALSE(run_audited({moving({{1, 0, 1}, {1, 1, 0}, {1, 1, 1}, {1, 1, 0}, {1, 0, 1}, {0, 0, 0}},
+                                   {{1, 0, 1}, {1, 1, 0}, {1, 1, 0}, {1, 0, 1}, {1, 1, 0}, {0, 1, 1}})}));
 }
 
 // A cell that is flat at a frame and stays so for the step after it, as repeated frames have it.
@@ -410,8 +404,8 @@ TEST(PowerDiagram, FlatCellsDoNotOutliveTheirFrame) {
   for (std::size_t b = 0; b < 4; ++b) square[b][2] = 0;
   for (const double height : {9.0, 2.0, 0.5}) {
     square[4][2] = height;
-    run_audited<Filtered>(through({solid, square, square, solid}));
-    run_audited<Filtered>(through({solid, square, square, square}));
+    run_audited(through({solid, square, square, solid}));
+    run_audited(through({solid, square, square, square}));
   }
 }
 
@@ -432,10 +426,10 @@ TEST(PowerDiagram, StepsInOnePlaneHaveNoCells) {
                                             {line, line, slid, flat, solid, line, line}}) {
     SCOPED_TRACE(to_text(frames));
     const std::vector<Space> steps = through(frames);
-    EXPECT_FALSE(run_audited<Filtered>(steps, false));
-    PowerRig<Filtered> filtered(steps.front()), again(steps.front());
-    PowerRig<Exact> exact(steps.front());
-    PowerRig<Fast> fast(steps.front());
+    EXPECT_FALSE(run_audited(steps, false));
+    PowerRig filtered(steps.front()), again(steps.front());
+    PowerRig exact(steps.front(), AuditMode::none, Kernel::exact);
+    PowerRig fast(steps.front(), AuditMode::none, Kernel::fast);
     filtered.run(steps);
     exact.run(steps);
     fast.run(steps);
@@ -444,7 +438,7 @@ TEST(PowerDiagram, StepsInOnePlaneHaveNoCells) {
     EXPECT_EQ(filtered.simulator.fingerprint(), again.simulator.fingerprint());
     EXPECT_EQ(filtered.structure.at_frame(false).cells, again.structure.at_frame(false).cells);
   }
-  EXPECT_TRUE(run_audited<Filtered>(through({flat, slid, flat}), false)) << "never any";
+  EXPECT_TRUE(run_audited(through({flat, slid, flat}), false)) << "never any";
 }
 
 // Flat at the start, and at the very next time that a rebuild is tried at too.
@@ -452,7 +446,7 @@ TEST(PowerDiagram, FlatAtTwoTimesIsNotFlatForGood) {
   const double soon = 0x1p-200;
   const Points from{{soon, 0, 0}, {0, 0, 0}, {5, 0, 0}, {0, 0, 0}},
       to{{soon, 0, 0}, {1, 0, 0}, {5, 1, 0}, {0, 0, 1}};
-  PowerRig<Filtered> rig(moving(from, to), AuditMode::events);
+  PowerRig rig(moving(from, to), AuditMode::events);
   EXPECT_THROW(rig.run(), InputError) << "closer than it can be rebuilt between";
 }
 
@@ -464,7 +458,7 @@ class DegeneratePower : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(DegeneratePower, AuditsPassBetweenAllEvents) {
-  PowerRig<Filtered> rig(motion, AuditMode::events);
+  PowerRig rig(motion, AuditMode::events);
   Witness witness(rig.simulator, definition(rig, 40));
   ASSERT_NO_THROW(rig.run());
   EXPECT_TRUE(books_balance(rig.structure.statistics));
@@ -484,7 +478,7 @@ TEST_P(DegeneratePower, AuditsPassBetweenAllEvents) {
 }
 
 TEST_P(DegeneratePower, FastEndsAndIsRightAtTheFrameItEndsIn) {
-  PowerRig<Fast> rig(motion);
+  PowerRig rig(motion, AuditMode::none, Kernel::fast);
   ASSERT_NO_THROW(rig.run());
 }
 
@@ -502,7 +496,7 @@ TEST(PowerDiagram, RandomMotionsFullOfTies) {
     const Points from = random_grid_points(random, beads, range);
     const Points to = random_grid_points(random, beads, range);
     SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
-    ++(run_audited<Filtered>({moving(from, to)}) ? refused : ran);
+    ++(run_audited({moving(from, to)}) ? refused : ran);
     if (HasFailure()) return;
   }
   EXPECT_GT(ran, 350);
@@ -516,7 +510,7 @@ TEST(PowerDiagram, RandomFramesFullOfTies) {
     for (int k = 0; k < 4; ++k)
       frames.push_back(k > 0 && random() % 4 == 0 ? frames.back() : random_grid_points(random, beads, 3));
     SCOPED_TRACE(text_of("round ", round, ": ", to_text(frames)));
-    run_audited<Filtered>(through(frames));
+    run_audited(through(frames));
     if (HasFailure()) return;
   }
 }
@@ -527,8 +521,8 @@ TEST(PowerDiagram, ExactAgreesOnMotionsFullOfTies) {
     const Points from = random_grid_points(random, 7, 4);
     const Points to = random_grid_points(random, 7, 4);
     SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
-    PowerRig<Filtered> filtered(moving(from, to));
-    PowerRig<Exact> exact(moving(from, to));
+    PowerRig filtered(moving(from, to));
+    PowerRig exact(moving(from, to), AuditMode::none, Kernel::exact);
     try {
       filtered.run();
       exact.run();
@@ -556,8 +550,8 @@ TEST(PowerDiagram, ExactAgreesOnTwinsThatStayTogether) {
     Space motion = moving(from, to);
     for (BeadId b = 0; b < beads; ++b)
       for (int k = 0; k <= 1; ++k) motion.set_weight(b, k, weighted ? b % 3 : 0);
-    PowerRig<Filtered> filtered(motion);
-    PowerRig<Exact> exact(motion);
+    PowerRig filtered(motion);
+    PowerRig exact(motion, AuditMode::none, Kernel::exact);
     try {
       filtered.run();
       exact.run();
@@ -575,7 +569,7 @@ TEST(PowerDiagram, FastAlwaysEnds) {
     const Points from = random_grid_points(random, 8, 3);
     const Points to = random_grid_points(random, 8, 3);
     SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
-    PowerRig<Fast> rig(moving(from, to));
+    PowerRig rig(moving(from, to), AuditMode::none, Kernel::fast);
     try {
       rig.run();
     } catch (const InputError&) {
@@ -603,9 +597,9 @@ TEST(PowerDiagram, InSlowMotionMostFacetsRest) {
   std::mt19937 random(8);
   for (const double step : {1e-9, 1e-4, 5e-4}) {
     const auto steps = creeping(random, 40, 16, step);
-    PowerRig<Filtered> filtered(steps.front(), step > 1e-9 ? AuditMode::events : AuditMode::frames);
+    PowerRig filtered(steps.front(), step > 1e-9 ? AuditMode::events : AuditMode::frames);
     filtered.run(steps);
-    PowerRig<Exact> exact(steps.front());
+    PowerRig exact(steps.front(), AuditMode::none, Kernel::exact);
     exact.run(steps);
     EXPECT_EQ(filtered.simulator.fingerprint(), exact.simulator.fingerprint());
     const auto& counts = filtered.structure.statistics.certificates;
@@ -632,7 +626,7 @@ TEST(PowerDiagram, ATranslationGivesNoEvent) {
       }
     }
   }
-  PowerRig<Filtered> rig(moving(frames[0], frames[1]), AuditMode::frames);
+  PowerRig rig(moving(frames[0], frames[1]), AuditMode::frames);
   rig.run(through(frames));
   EXPECT_EQ(rig.history.events.size(), 0U);
   EXPECT_EQ(rig.structure.statistics.certificates.failed, 0U);

@@ -16,14 +16,14 @@ namespace {
 using namespace test;
 
 template <class M>
-using PowerOf = PowerDiagram<M, Filtered>;
+using PowerOf = PowerDiagram<M::dimension>;
 
 TEST(WeightedDiagram, ExactKernelAgrees) {
   for (const char* name : {"w3_n20_linear", "w3_n20_linear_movingweights"}) {
     const auto motion = instance_motion<Space>(name);
     Rig<PowerOf<Space>, Space> filtered(motion);
     filtered.run();
-    Rig<PowerDiagram<Space, Exact>, Space> exact(motion);
+    Rig<PowerOf<Space>, Space> exact(motion, AuditMode::none, Kernel::exact);
     exact.run();
     EXPECT_EQ(exact.simulator.fingerprint(), filtered.simulator.fingerprint()) << name;
   }

@@ -15,7 +15,7 @@ namespace kds {
 namespace {
 
 using namespace test;
-using Diagram = PowerDiagram<Space, Filtered>;
+using Diagram = PowerDiagram<3>;
 using WeightedRig = Rig<Diagram, Space>;
 using testing::ElementsAre;
 

@@ -1,0 +1,393 @@
+#include "structures/power_diagram/diagram_editor.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <unordered_set>
+#include <utility>
+
+#include "certificates/exact/exact_time.h"
+#include "motions/curves/positions.h"
+#include "structures/power_diagram/static_diagrams.h"
+
+namespace kds {
+
+namespace {
+
+/// The side of a facet on which a cell is: the same for two cells with the facet on the same side. `v` is
+/// positively oriented.
+template <std::size_t N>
+struct FacetSide {
+  std::array<BeadId, N - 1> beads{};
+  bool even = false;
+
+  FacetSide(const std::array<BeadId, N>& v, std::size_t opposite) {
+    for (std::size_t j = 0, k = 0; j < N; ++j) {
+      if (j != opposite) beads[k++] = v[j];
+    }
+    even = (sort_beads(beads) > 0) == ((N - 1 - opposite) % 2 == 0);
+  }
+  [[nodiscard]] FacetSide beyond() const {
+    FacetSide side = *this;
+    side.even = !even;
+    return side;
+  }
+  friend auto operator<=>(const FacetSide&, const FacetSide&) = default;
+};
+
+/// The beads of a cell ascending, but for the last two where that would turn it over.
+template <std::size_t N>
+std::array<BeadId, N> in_order(std::array<BeadId, N> cell) {
+  if (sort_beads(cell) < 0) std::swap(cell[N - 2], cell[N - 1]);
+  return cell;
+}
+
+}  // namespace
+
+template <int Dimension>
+void DiagramEditor<Dimension>::set_absent(BeadId bead, bool absent) {
+  if (state_.is_absent(bead) == absent) return;
+  state_.absent.resize(state_.bead_count(), 0);
+  state_.absent[bead] = absent ? 1 : 0;
+  state_.absent_count += absent ? 1 : -1;
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::require_edit(BeadId bead, bool present) const {
+  if (bead >= state_.bead_count()) throw std::invalid_argument("there is no bead " + std::to_string(bead));
+  if (state_.is_absent(bead) == present)
+    throw std::invalid_argument("bead " + std::to_string(bead) +
+                                (present ? " is not in the diagram" : " is in the diagram already"));
+}
+
+template <int Dimension>
+Dyadic DiagramEditor<Dimension>::time_of_edit() const {
+  if (!state_.within_step || !state_.simulator.now().exact().is_dyadic())
+    throw std::invalid_argument("the diagram can be edited only within a step, between events");
+  if (!state_.has_cells()) rebuilder_.refuse_flat(state_.simulator.step());
+  return state_.simulator.now().exact().lower();
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::leave_out(BeadId bead) {
+  require_edit(bead, true);
+  if (!state_.triangulation.cells().empty())
+    throw std::invalid_argument("beads are left out before the diagram is built");
+  set_absent(bead, true);
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::insert(BeadId bead, BeadId near) {
+  require_edit(bead, false);
+  if (near != no_bead) require_edit(near, true);
+  static_cast<void>(time_of_edit());
+  const CellId from = cell_near(near);
+  set_absent(bead, false);
+  put_in(bead, from);
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::erase(BeadId bead) {
+  require_edit(bead, true);
+  const Dyadic time = time_of_edit();
+  if (state_.bead_count() - state_.absent_count <= Dimension + 1)
+    throw std::invalid_argument("the power diagram needs at least " + std::to_string(Dimension + 1) +
+                                " beads");
+  if (state_.hidden.contains(bead)) return take_out_hidden(bead);
+  const std::vector<CellId> around = state_.triangulation.cells_around(bead);
+  hidden_.displace(around);
+  take_out(bead, around, time);
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::change_motion(BeadId bead, const std::function<void()>& set_curve) {
+  require_edit(bead, true);
+  const Dyadic time = time_of_edit();
+  state_.present = {};
+  const bool hidden = state_.hidden.contains(bead);
+  std::vector<CellId> around;
+  if (hidden) {
+    hidden_.drop(bead);
+  } else {
+    around = state_.triangulation.cells_around(bead);
+  }
+  hidden_.displace(around);
+  facets_.drop_around(around);
+  const auto position = [&] {
+    return state_.motion.visit([&](const auto& curves) { return exact_position(curves, bead, time); });
+  };
+  const auto before = position();
+  set_curve();
+  state_.curves = state_.motion.curves();
+  if (position() != before) {
+    state_.record({Events::changes, 1, {bead}});
+    BeadId near = no_bead;
+    if (hidden) {
+      take_out_hidden(bead);
+    } else {
+      const Beads& v = state_.beads_of(around[0]);
+      near = *std::find_if(v.begin(), v.end(), [&](BeadId b) { return b != bead && b != infinite_bead; });
+      take_out(bead, around, time);
+    }
+    const CellId from = cell_near(near);
+    set_absent(bead, false);
+    return put_in(bead, from);
+  }
+  if (hidden) {
+    hidden_.watch(bead);
+  } else {
+    facets_.watch_around(around);
+    hidden_.rehouse(around[0]);
+  }
+  finish_edit(Events::changes, bead);
+}
+
+template <int Dimension>
+CellId DiagramEditor<Dimension>::cell_near(BeadId near) const {
+  if (near != no_bead && !state_.hidden.contains(near)) return state_.triangulation.cells_around(near)[0];
+  const CellId host = near == no_bead ? no_cell : state_.hidden.host(near);
+  return host == no_cell ? state_.some_finite_cell() : host;
+}
+
+template <int Dimension>
+int DiagramEditor<Dimension>::power_against(BeadId bead, CellId cell) {
+  return with_facet_certificate(state_.beads_of(cell), bead, [this](const auto& certificate) {
+    return state_.sign_just_after(certificate);
+  });
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::put_in(BeadId bead, CellId from) {
+  state_.present = {};
+  const CellId cell = hidden_.walk_to(bead, from);
+  if (cell == no_cell) return rebuild_after_edit(Events::inserts, bead);
+  if (!state_.is_infinite(cell) && power_against(bead, cell) >= 0) {
+    hidden_.hide(bead);
+    hidden_.enter(bead, cell);
+    return finish_edit(Events::inserts, bead);
+  }
+  for (const bool zero_too : {false, true}) {
+    const std::vector<CellId> hole = cells_in_conflict(bead, cell, zero_too);
+    const std::vector<Beads> made = star_in_place_of(hole, bead);
+    if (!can_fill(hole, made)) continue;
+    hidden_.displace(hole);
+    fill(hole, made);
+    return finish_edit(Events::inserts, bead);
+  }
+  rebuild_after_edit(Events::inserts, bead);
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::take_out_hidden(BeadId bead) {
+  hidden_.drop(bead);
+  state_.hidden.show(bead);
+  set_absent(bead, true);
+  finish_edit(Events::erases, bead);
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::take_out(BeadId bead, std::span<const CellId> hole, const Dyadic& time) {
+  state_.present = {};
+  set_absent(bead, true);
+  std::vector<BeadId> beads(hidden_.displaced().begin(), hidden_.displaced().end());
+  for (const CellId cell : hole) {
+    const Beads& v = state_.beads_of(cell);
+    std::copy_if(v.begin(), v.end(), std::back_inserter(beads),
+                 [bead](BeadId b) { return b != bead && b != infinite_bead; });
+  }
+  std::vector<Beads> made = fill_of(hole, bead, beads, time);
+  if (made.empty()) {  // these may lie in one plane: the beads beyond do not
+    for (const CellId cell : hole) {
+      if (const BeadId b = state_.apex(cell, state_.place_of(cell, bead)); b != infinite_bead)
+        beads.push_back(b);
+    }
+    made = fill_of(hole, bead, beads, time);
+  }
+  if (!can_fill(hole, made)) return rebuild_after_edit(Events::erases, bead);
+  fill(hole, made);
+  finish_edit(Events::erases, bead);
+}
+
+/// The connected cells that the bead is in conflict with, among them `start`.
+template <int Dimension>
+std::vector<CellId> DiagramEditor<Dimension>::cells_in_conflict(BeadId bead, CellId start, bool zero_too) {
+  std::vector<CellId> found{start};
+  std::unordered_set<CellId> looked_at{start};
+  for (std::size_t next = 0; next < found.size(); ++next) {
+    for (int i = 0; i <= Dimension; ++i) {
+      const CellId beside = state_.neighbor(found[next], i);
+      if (!looked_at.insert(beside).second) continue;
+      const int sign = power_against(bead, beside);
+      if (sign < 0 || (zero_too && sign == 0)) found.push_back(beside);
+    }
+  }
+  return found;
+}
+
+template <int Dimension>
+auto DiagramEditor<Dimension>::star_in_place_of(std::span<const CellId> hole, BeadId bead) const
+    -> std::vector<Beads> {
+  const std::unordered_set<CellId> inside(hole.begin(), hole.end());
+  std::vector<Beads> made;
+  for (const CellId cell : hole) {
+    for (int i = 0; i <= Dimension; ++i) {
+      if (!inside.contains(state_.neighbor(cell, i)))
+        made.push_back(State::with(state_.beads_of(cell), i, bead));
+    }
+  }
+  return made;
+}
+
+/// Cells for the place of those around a bead, of the static triangulation of some others, among them all
+/// around it; none if it does not have the facets around.
+template <int Dimension>
+auto DiagramEditor<Dimension>::fill_of(std::span<const CellId> hole, BeadId bead, std::vector<BeadId> beads,
+                                       const Dyadic& time) const -> std::vector<Beads> {
+  using Side = FacetSide<Dimension + 1>;
+  std::sort(beads.begin(), beads.end());
+  beads.erase(std::unique(beads.begin(), beads.end()), beads.end());
+  const auto built = static_diagram(state_, std::span<const BeadId>(beads), time, true);
+  std::map<Side, std::size_t> cell_on;
+  for (std::size_t c = 0; c < built.cells.size(); ++c) {
+    for (std::size_t i = 0; i <= Dimension; ++i) cell_on.emplace(Side(built.cells[c], i), c);
+  }
+  std::vector<Side> open;
+  for (const CellId cell : hole)
+    open.emplace_back(state_.beads_of(cell), static_cast<std::size_t>(state_.place_of(cell, bead)));
+  std::vector<Side> around = open;
+  std::sort(around.begin(), around.end());
+  std::vector<char> taken(built.cells.size(), 0);
+  std::vector<Beads> made;
+  while (!open.empty()) {
+    const auto cell = cell_on.find(open.back());
+    open.pop_back();
+    if (cell == cell_on.end()) return {};
+    const Beads& v = built.cells[cell->second];
+    if (std::exchange(taken[cell->second], 1) != 0) continue;
+    made.push_back(v);
+    for (std::size_t i = 0; i <= Dimension; ++i) {
+      const Side side(v, i);
+      if (!std::binary_search(around.begin(), around.end(), side)) open.push_back(side.beyond());
+    }
+  }
+  return made;
+}
+
+template <int Dimension>
+bool DiagramEditor<Dimension>::can_fill(std::span<const CellId> hole, std::span<const Beads> made) {
+  return state_.triangulation.fits(hole, made) &&
+         std::all_of(made.begin(), made.end(), [this](const Beads& cell) {
+           const Orientation<Dimension> orientation(cell, 1);
+           return orientation.beads.back() == infinite_bead || state_.sign_just_after(orientation) > 0;
+         });
+}
+
+/// Exchanges cells whose hidden beads are displaced, and guards the new ones.
+template <int Dimension>
+void DiagramEditor<Dimension>::fill(std::span<const CellId> hole, std::span<const Beads> made) {
+  facets_.drop_around(hole);
+  std::vector<Beads> cleared, filled;
+  for (const CellId cell : hole) {
+    cleared.push_back(state_.beads_of(cell));
+    std::sort(cleared.back().begin(), cleared.back().end());
+  }
+  for (const Beads& cell : made) filled.push_back(in_order(cell));
+  for (auto* cells : {&cleared, &filled}) {
+    std::sort(cells->begin(), cells->end());
+    for (const Beads& cell : *cells) {
+      Change change{cells == &cleared ? Events::clears : Events::fills, Dimension + 1, {}};
+      std::copy(cell.begin(), cell.end(), change.ids.begin());
+      state_.record(change);
+    }
+  }
+  const std::vector<CellId> cells = exchange_cells(hole, filled);
+  facets_.watch_around(cells);
+  hidden_.rehouse(cells[0]);
+}
+
+/// Beads that have no cell any more are hidden, and displaced; hidden ones that have cells come back.
+template <int Dimension>
+std::vector<CellId> DiagramEditor<Dimension>::exchange_cells(std::span<const CellId> hole,
+                                                             std::span<const Beads> made) {
+  std::vector<BeadId> before;
+  for (const CellId cell : hole) {
+    const Beads& v = state_.beads_of(cell);
+    before.insert(before.end(), v.begin(), v.end());
+  }
+  std::sort(before.begin(), before.end());
+  before.erase(std::unique(before.begin(), before.end()), before.end());
+  std::vector<CellId> cells = state_.triangulation.replace(hole, made);
+  for (const BeadId b : before) {
+    if (state_.is_absent(b) || state_.triangulation.is_vertex(b)) continue;
+    hidden_.hide(b);
+    hidden_.add_displaced(b);
+  }
+  for (const Beads& cell : made) {
+    for (const BeadId b : cell) {
+      if (b == infinite_bead || !state_.hidden.contains(b)) continue;
+      state_.hidden.show(b);
+      hidden_.remove_displaced(b);
+    }
+  }
+  return cells;
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::finish_edit(Kind kind, BeadId bead) {
+  state_.record({kind, 1, {bead}});
+  if (!state_.owner.needs_after_batch) return;
+  state_.owner.needs_after_batch = false;
+  rebuilder_.after_batch();
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::rebuild_after_edit(Kind kind, BeadId bead) {
+  state_.record({kind, 1, {bead}});
+  state_.owner.needs_after_batch = false;
+  rebuilder_.rebuild_at_first_time_that_works();
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::apply(const Change& change) {
+  const auto& id = change.ids;
+  if (change.kind > Events::changes || change.size != (change.kind <= Events::fills ? Dimension + 1 : 1))
+    throw std::invalid_argument("an edit has other numbers of beads");
+  for (std::size_t i = 0; i < change.size; ++i) {
+    if (id[i] >= state_.bead_count() && (change.kind > Events::fills || id[i] != infinite_bead))
+      throw std::invalid_argument("there is no bead " + std::to_string(id[i]));
+  }
+  if (change.kind <= Events::fills) {
+    Beads cell{};
+    std::copy_n(id.begin(), Dimension + 1, cell.begin());
+    if (change.kind == Events::fills) return filled_.push_back(cell);
+    const auto stands = state_.triangulation.find_cell(cell);
+    if (!stands) throw std::invalid_argument("the diagram has no such cell");
+    return cleared_.push_back(*stands);
+  }
+  const BeadId bead = id[0];
+  require_edit(bead, change.kind != Events::inserts);
+  const std::vector<CellId> hole = std::exchange(cleared_, {});
+  const std::vector<Beads> made = std::exchange(filled_, {});
+  if (change.kind == Events::changes) {
+    if (!hole.empty() || !made.empty()) throw std::invalid_argument("a change of motion changes no cells");
+    return;
+  }
+  if (!(hole.empty() && made.empty()) && !state_.triangulation.fits(hole, made))
+    throw std::invalid_argument("the cells do not fill the place of those cleared");
+  set_absent(bead, change.kind == Events::erases);
+  if (!hole.empty()) {
+    hidden_.forget_displaced();
+    static_cast<void>(exchange_cells(hole, made));
+  } else if (change.kind == Events::inserts) {
+    state_.hidden.hide(bead);
+  } else if (state_.hidden.contains(bead)) {
+    state_.hidden.show(bead);
+  }
+}
+
+template class DiagramEditor<2>;
+template class DiagramEditor<3>;
+
+}  // namespace kds

@@ -1,0 +1,63 @@
+#pragma once
+// What happens to a kinetic power diagram, by kinds: events, and edits as logs have them.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "kds/change.h"
+#include "kds/statistics.h"
+
+namespace kds {
+
+/// Ids of a flip: those of the face that goes, then those of the face that comes, in space the triangle
+/// first; each ascending. Where a bead vanishes or comes back: those of the one cell, ascending, then the
+/// bead. Where one wanders: itself, then its host's, ascending. Ids of a rebuild: its time numerator /
+/// 2^exponent as exponent, then 32-bit words of the numerator, lowest first. Ids of a cell that an edit
+/// clears: ascending; of one that fills its place, positively oriented: ascending but for the last two
+/// perhaps. Of an insert, erase or change: the bead.
+template <int Dimension>
+struct DiagramEvents {
+  /// In the plane `to_edge` is the 2-2 flip, and there is no `to_facet`.
+  enum Kind : std::uint8_t {
+    to_edge,
+    to_facet,
+    hides = Dimension == 3 ? 2 : 1,
+    shows,
+    wanders,
+    rebuild,
+    // Edits: all their cells that go and that come, then what it was.
+    clears,
+    fills,
+    inserts,
+    erases,
+    changes,
+  };
+
+  [[nodiscard]] static std::span<const EventKind> all_kinds() {
+    static constexpr EventKind wander{"wander", false};
+    static constexpr EventKind rebuilt{"rebuild", false, true};
+    static constexpr EventKind clear{"clear", false, true}, fill{"fill", false, true};
+    static constexpr EventKind insert{"insert", false, true}, erase{"erase", false, true},
+        change{"change", false, true};
+    static constexpr std::array<EventKind, 11> in_space{
+        {{"2-3"}, {"3-2"}, {"4-1"}, {"1-4"}, wander, rebuilt, clear, fill, insert, erase, change}};
+    static constexpr std::array<EventKind, 10> in_plane{
+        {{"2-2"}, {"3-1"}, {"1-3"}, wander, rebuilt, clear, fill, insert, erase, change}};
+    if constexpr (Dimension == 3) return in_space;
+    return in_plane;
+  }
+
+  /// A bead that vanishes into a cell, or comes back there.
+  [[nodiscard]] static Change of_hidden(Kind kind, const std::array<BeadId, Dimension + 1>& cell,
+                                        BeadId bead) {
+    Change change{kind, Dimension + 2, {}};
+    std::copy(cell.begin(), cell.end(), change.ids.begin());
+    std::sort(change.ids.begin(), change.ids.begin() + Dimension + 1);
+    change.ids[Dimension + 1] = bead;
+    return change;
+  }
+};
+
+}  // namespace kds

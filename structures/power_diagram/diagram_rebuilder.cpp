@@ -1,0 +1,182 @@
+#include "structures/power_diagram/diagram_rebuilder.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "certificates/exact/exact_time.h"
+#include "motions/base/input_error.h"
+#include "motions/curves/positions.h"
+#include "structures/power_diagram/diagram_checks.h"
+#include "structures/power_diagram/static_diagrams.h"
+
+namespace kds {
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::start_step() {
+  rough_rebuilds_ = 0;
+  coarsest_that_worked_ = coarsest_grid;
+}
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::watch_all() {
+  facets_.watch_all();
+  hidden_.watch_all();
+}
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::after_batch() {
+  const bool wrong = state_.doubt == Doubt::wrong || is_wrong_just_after(state_);
+  state_.clear_doubt();
+  if (!wrong) return;
+  if (state_.simulator.kernel() == Kernel::fast) {
+    rebuild_roughly();
+  } else {
+    rebuild_at_first_time_that_works();
+  }
+}
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::build_from_control_points(int k) {
+  state_.curves = state_.motion.curves();
+  const Eigen::Matrix3Xd points = control_points(state_.curves, k);
+  const std::vector<double> weights = control_weights(state_.curves, k);
+  RegularTriangulation<Dimension>& triangulation = state_.triangulation;
+  if (state_.absent_count == 0) return forget_steps(triangulation.build(points, weights));
+  const std::vector<BeadId> present = beads_present(state_);
+  const auto built =
+      static_diagram(state_, std::span<const BeadId>(present), Dyadic(k == 0 ? 0.0 : 1.0), true);
+  triangulation.assign(state_.bead_count(), built.cells);
+  triangulation.set_points(points, weights);
+  forget_steps(built);
+}
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::build_bare_at_end() {
+  state_.clear_doubt();
+  state_.curves = state_.motion.curves();
+  const int k = state_.curves.own_degree();
+  forget_steps(
+      state_.triangulation.build_bare(control_points(state_.curves, k), control_weights(state_.curves, k)));
+}
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::forget_steps(const StaticTriangulation<Dimension>& built) {
+  facets_.forget_cells();
+  state_.hidden.assign(state_.bead_count(), built.hidden);
+  state_.affine_dimension = built.dimension;
+  state_.has_had_cells |= built.dimension == Dimension;
+  state_.flat = false;
+}
+
+template <int Dimension>
+bool DiagramRebuilder<Dimension>::assign_static(const Dyadic& time) {
+  const std::vector<BeadId> present = beads_present(state_);
+  const auto built = static_diagram(state_, std::span<const BeadId>(present), time, true);
+  if (built.dimension < Dimension) return false;
+  state_.affine_dimension = Dimension;
+  state_.has_had_cells = true;
+  state_.hidden.assign(state_.bead_count(), built.hidden);
+  state_.triangulation.assign(state_.bead_count(), built.cells);
+  return true;
+}
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::drop_all() {
+  facets_.drop_all();
+  hidden_.drop_all();
+}
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::record(const Dyadic& time) {
+  ++state_.owner.statistics.rebuilds;
+  Change change{Events::rebuild, 1, {time.exponent()}};
+  for (Integer rest = time.numerator(); rest != 0 && change.size < change.ids.size(); rest >>= 32U) {
+    change.ids[change.size++] = static_cast<BeadId>(Integer(rest & 0xffffffffU));
+  }
+  state_.record(change);
+}
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::apply(const Change& change) {
+  if (change.size < 1 || change.ids[0] > finest_grid)
+    throw std::invalid_argument("this is no time of a rebuild");
+  Integer numerator = 0;
+  for (std::size_t i = change.size; i-- > 1;) numerator = (numerator << 32U) + change.ids[i];
+  const Dyadic time(numerator, change.ids[0]);
+  if (!(time < Dyadic(1.0)) || !assign_static(time))
+    throw std::invalid_argument("no diagram can be built at this time");
+}
+
+template <int Dimension>
+bool DiagramRebuilder<Dimension>::nothing_fails_until(const Dyadic& time) const {
+  ExactTime limit(time);
+  const auto later = [&](const auto& table, CertificateHandle guard) {
+    if (!has_slot(guard)) return true;
+    ExactTime failure = exact_time(*table.exact_function(slot_of(guard)), table.time(slot_of(guard)));
+    return ExactTime::compare(limit, failure) < 0;
+  };
+  return facets_.all_of(later) && hidden_.all_of(later);
+}
+
+template <int Dimension>
+bool DiagramRebuilder<Dimension>::try_to_rebuild() {
+  drop_all();
+  state_.present = {};
+  bool solid = false;  // at some time
+  for (unsigned bits = coarsest_that_worked_; bits <= finest_grid; bits += bits < 32 ? 4 : 12) {
+    const Dyadic time = next_on_grid(state_.simulator.now().exact(), bits);
+    if (!(time < Dyadic(1.0))) continue;
+    if (!assign_static(time)) continue;
+    solid = true;
+    state_.clear_doubt();
+    watch_all();
+    if (state_.doubt != Doubt::wrong && nothing_fails_until(time)) {
+      state_.clear_doubt();
+      coarsest_that_worked_ = bits;
+      record(time);
+      return true;
+    }
+    drop_all();
+  }
+  state_.clear_doubt();
+  if (!solid) return false;
+  if (state_.simulator.kernel() == Kernel::fast) {  // doubles contradict themselves
+    rebuild_roughly();
+    return true;
+  }
+  throw InputError("step " + std::to_string(state_.simulator.step()) +
+                   " at u = " + std::to_string(state_.simulator.now().upper()) +
+                   ": events of the power diagram within 2^-" + std::to_string(finest_grid) +
+                   " of the step, closer than it can be rebuilt between");
+}
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::rebuild_at_first_time_that_works() {
+  if (!try_to_rebuild()) refuse_flat(state_.simulator.step());
+}
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::refuse_flat(std::size_t step) {
+  throw InputError(
+      std::string("all beads stay ") + (Dimension == 3 ? "in one plane" : "on one line") + " in step " +
+      std::to_string(step) + "; the power diagram " +
+      (Dimension == 3 ? "in space needs four that do not" : "in the plane needs three that do not"));
+}
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::rebuild_roughly() {
+  constexpr int most_in_a_step = 8;
+  if (++rough_rebuilds_ > most_in_a_step) return;
+  drop_all();
+  state_.present = {};
+  const Dyadic time(state_.simulator.now().upper() + 0x1p-16);
+  if (!(time < Dyadic(1.0)) || !assign_static(time)) return watch_all();  // as it is
+  watch_all();
+  state_.clear_doubt();
+  record(time);
+}
+
+template class DiagramRebuilder<2>;
+template class DiagramRebuilder<3>;
+
+}  // namespace kds

@@ -1,0 +1,61 @@
+#pragma once
+// Where flips do not suffice: simultaneous events that block each other, cells that turn over unseen, frames
+// where beads coincide or all lie in one plane. Then the diagram is built anew, by CGAL with exact numbers,
+// at a time after the present one so near that nothing is skipped, and the rebuild is counted.
+
+#include "structures/power_diagram/facet_guards.h"
+#include "structures/power_diagram/hidden_guards.h"
+
+namespace kds {
+
+template <int Dimension>
+class DiagramRebuilder {
+  using State = DiagramState<Dimension>;
+  using Events = typename State::Events;
+
+ public:
+  DiagramRebuilder(State& state, FacetGuards<Dimension>& facets, HiddenGuards<Dimension>& hidden)
+      : state_(state), facets_(facets), hidden_(hidden) {}
+
+  /// From the k-th control points, an end of the step.
+  void build_from_control_points(int k);
+  /// As CGAL does it at the end of the step; the mirror is made when a step starts.
+  void build_bare_at_end();
+  /// Rebuilds are counted anew.
+  void start_step();
+  /// Guards facets and hidden beads, all of them.
+  void watch_all();
+  /// If the diagram is wrong just after the events of one time, it is built anew.
+  void after_batch();
+  /// False, and no cells, where all beads stay in one plane or on one line.
+  [[nodiscard]] bool try_to_rebuild();
+  /// Rebuilds at the first time on ever finer grids after now before which nothing fails.
+  void rebuild_at_first_time_that_works();
+  /// That no cells can be built in a step.
+  [[noreturn]] static void refuse_flat(std::size_t step);
+  /// Makes a logged rebuild again, without certificates. Throws std::invalid_argument if it cannot be made.
+  void apply(const Change& change);
+
+ private:
+  static constexpr unsigned coarsest_grid = 8, finest_grid = 200;  // binary places of a rebuild's time
+
+  void forget_steps(const StaticTriangulation<Dimension>& built);
+  /// The static diagram at `time`; false, and nothing changed, where it is flat.
+  [[nodiscard]] bool assign_static(const Dyadic& time);
+  /// `fast`: rebuilds near now from doubles, a few times a step; what is violated then stays so.
+  void rebuild_roughly();
+  void drop_all();
+  [[nodiscard]] bool nothing_fails_until(const Dyadic& time) const;
+  void record(const Dyadic& time);
+
+  State& state_;
+  FacetGuards<Dimension>& facets_;
+  HiddenGuards<Dimension>& hidden_;
+  int rough_rebuilds_ = 0;                         // in this step
+  unsigned coarsest_that_worked_ = coarsest_grid;  // in this step: blocked flips come in crowds
+};
+
+extern template class DiagramRebuilder<2>;
+extern template class DiagramRebuilder<3>;
+
+}  // namespace kds

@@ -1,0 +1,155 @@
+#pragma once
+// What the parts of a power diagram share: the triangulation and its hidden beads, the motion, the event that
+// is being handled, and whether the diagram is in doubt.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "certificates/search/certificate_search.h"
+#include "certificates/search/hull_search.h"
+#include "kds/certificate_table.h"
+#include "kds/simulator.h"
+#include "motions/curves/motion_ref.h"
+#include "structures/power_diagram/diagram_events.h"
+#include "structures/triangulation/facet_certificate.h"
+#include "structures/triangulation/hidden_beads.h"
+#include "structures/triangulation/regular_triangulation.h"
+
+namespace kds {
+
+/// In general position an event changes one flip's beads and nothing else. Where more happens at once, or a
+/// certificate touches zero, the diagram is checked after it, and rebuilt if it is wrong: cells can turn over
+/// unseen only at such moments.
+enum class Doubt : std::uint8_t { none, unclear, wrong };
+
+template <int Dimension>
+struct DiagramState {
+  static_assert(Dimension == 2 || Dimension == 3);
+  using Beads = CellBeads<Dimension>;
+  using Events = DiagramEvents<Dimension>;
+
+  /// `structure`: the owner's number in the simulator.
+  DiagramState(Simulator& in, const MotionRef<Dimension>& of, KineticStructure& diagram,
+               std::size_t structure)
+      : simulator(in),
+        motion(of),
+        owner(diagram),
+        index(structure),
+        searches_(search_over<PowerTest<Dimension>>(of), search_over<Orientation<Dimension>>(of),
+                  same_turn_search(of), centroid_search(of)) {}
+
+  Simulator& simulator;
+  MotionRef<Dimension> motion;
+  KineticStructure& owner;
+  std::size_t index;
+
+  Curves<Dimension> curves;  ///< of the motion: taken when it is built, and when a step starts
+  RegularTriangulation<Dimension> triangulation;
+  HiddenBeads hidden;
+  std::vector<char> absent;  ///< of each bead, if any was ever left out
+  std::size_t absent_count = 0;
+  int affine_dimension = Dimension;  ///< of the beads; below, no cells
+  bool has_had_cells = false;
+  bool flat = false;         ///< some cell is flat at the frame just reached
+  bool within_step = false;  ///< of all beads
+
+  /// The certificate that fails now; outside events no certificate's.
+  Identity present;
+  Doubt doubt = Doubt::none;
+
+  void suspect(Doubt more) {
+    doubt = std::max(doubt, more);
+    owner.needs_after_batch = true;
+  }
+  void clear_doubt() {
+    doubt = Doubt::none;
+    owner.needs_after_batch = false;
+  }
+
+  [[nodiscard]] BeadId bead_count() const { return static_cast<BeadId>(motion.bead_count()); }
+  [[nodiscard]] bool is_absent(BeadId bead) const { return bead < absent.size() && absent[bead] != 0; }
+  [[nodiscard]] bool has_cells() const { return affine_dimension == Dimension; }
+  void record(const Change& change) { simulator.record(index, change); }
+
+  // Cells.
+
+  [[nodiscard]] const Beads& beads_of(CellId cell) const { return triangulation.cells()[cell].vertex; }
+  [[nodiscard]] BeadId vertex(CellId cell, int i) const {
+    return beads_of(cell)[static_cast<std::size_t>(i)];
+  }
+  /// Dimension + 1 where it is no vertex.
+  [[nodiscard]] int place_of(CellId cell, BeadId bead) const {
+    const Beads& v = beads_of(cell);
+    return static_cast<int>(std::find(v.begin(), v.end(), bead) - v.begin());
+  }
+  [[nodiscard]] bool is_infinite(CellId cell) const { return place_of(cell, infinite_bead) <= Dimension; }
+  [[nodiscard]] CellId neighbor(CellId cell, int i) const { return cell_of(triangulation.beyond(cell, i)); }
+  /// The same facet as the cell beyond it has it.
+  [[nodiscard]] std::pair<CellId, int> across(CellId cell, int i) const {
+    const FacetId beyond = triangulation.beyond(cell, i);
+    return {cell_of(beyond), index_of(beyond)};
+  }
+  /// The bead beyond facet i.
+  [[nodiscard]] BeadId apex(CellId cell, int i) const { return triangulation.apex_beyond(cell, i); }
+  [[nodiscard]] CellId some_finite_cell() const {
+    CellId cell = 0;
+    while (!triangulation.is_live(cell) || is_infinite(cell)) ++cell;
+    return cell;
+  }
+  /// The cell with `bead` in place i instead: its orientation is that of the cell if it is on the same side.
+  [[nodiscard]] static Beads with(Beads cell, int i, BeadId bead) {
+    cell[static_cast<std::size_t>(i)] = bead;
+    return cell;
+  }
+
+  // Signs.
+
+  template <class Function>
+  [[nodiscard]] const CertificateSearch<Function>& search() const {
+    return *std::get<std::unique_ptr<CertificateSearch<Function>>>(searches_);
+  }
+  template <class Function>
+  [[nodiscard]] int sign_now(const Function& function) {
+    return search<Function>().sign_now(simulator.kernel(), function, simulator.now(),
+                                       owner.statistics.stages);
+  }
+  template <class Function>
+  [[nodiscard]] int sign_just_after(const Function& function) {
+    return search<Function>().sign_just_after(simulator.kernel(), function, simulator.now(),
+                                              owner.statistics.stages);
+  }
+  [[nodiscard]] bool all_positive_now(std::span<const Orientation<Dimension>> cells) {
+    return search<Orientation<Dimension>>().all_positive_now(simulator.kernel(), cells, simulator.now(),
+                                                             owner.statistics.stages);
+  }
+
+  // Certificates of the present event.
+
+  template <class Certificate>
+  [[nodiscard]] KnownAtStart known_of(const Certificate& certificate) const {
+    return certificate.identity() == present ? KnownAtStart::at_own_root : KnownAtStart::unknown;
+  }
+  /// Gives up a guard. One of other beads that fails right now as well would have meant another change.
+  template <class Table>
+  void give_up(Table& table, CertificateHandle guard) {
+    if (has_slot(guard) && table.time(slot_of(guard)).lower <= simulator.now().upper() &&
+        table.identity(slot_of(guard)) != present)
+      suspect(Doubt::unclear);
+    table.drop(guard);
+  }
+
+ private:
+  std::tuple<std::unique_ptr<CertificateSearch<PowerTest<Dimension>>>,
+             std::unique_ptr<CertificateSearch<Orientation<Dimension>>>,
+             std::unique_ptr<CertificateSearch<SameTurn<Dimension>>>,
+             std::unique_ptr<CertificateSearch<CentroidInside<Dimension>>>>
+      searches_;
+};
+
+}  // namespace kds

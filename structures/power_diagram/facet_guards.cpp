@@ -1,0 +1,307 @@
+#include "structures/power_diagram/facet_guards.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace kds {
+
+template <int Dimension>
+FacetGuards<Dimension>::FacetGuards(State& state)
+    : state_(state),
+      power_tests_(state.simulator, state.owner, state.index, powers, state.motion, TouchPolicy::reported),
+      orientations_(state.simulator, state.owner, state.index, orientations, state.motion,
+                    TouchPolicy::reported),
+      filter_(cell_filter_over(state.motion)) {}
+
+template <int Dimension>
+void FacetGuards<Dimension>::start_step() {
+  // Tolerances take weights as constant.
+  if (state_.simulator.kernel() != Kernel::exact && !state_.motion.is_lifted() && all_move())
+    slack_.start_step(state_.curves, state_.triangulation);
+  guarded_ = false;
+  ends_positive_.clear();
+}
+
+template <int Dimension>
+void FacetGuards<Dimension>::move_only(std::vector<char> moving) {
+  moving_ = std::move(moving);
+  flipped_.clear();
+  ends_positive_.clear();  // steps of other beads end elsewhere
+  if (!all_move()) slack_.forget_all();
+}
+
+template <int Dimension>
+void FacetGuards<Dimension>::forget_cells() {
+  slack_.forget_all();
+  ends_positive_.clear();
+  notes_ = Notes::any;
+}
+
+template <int Dimension>
+void FacetGuards<Dimension>::drop_all() {
+  forget_cells();
+  if (guarded_) for_all_facets([this](CellId cell, int i) { drop(cell, i); });
+}
+
+template <int Dimension>
+void FacetGuards<Dimension>::enqueue(CellId cell, int i) {
+  enqueue(FacetCertificates(state_.beads_of(cell)), cell, i, KnownAtStart::unknown);
+}
+
+template <int Dimension>
+void FacetGuards<Dimension>::enqueue(const FacetCertificates<Dimension + 1>& certificates, CellId cell, int i,
+                                     KnownAtStart known) {
+  // Either side may tell, which depends on what filters proved. Not so the facet's place: in which order
+  // failures of one time are handled, and what a flip makes.
+  const FacetId place = std::min(facet_id(cell, i), state_.triangulation.beyond(cell, i));
+  const BeadId beyond = state_.apex(cell, i);
+  if (certificates.on_hull(beyond)) {
+    certificates.make(beyond, orientations_.one_of_many(place, known));
+  } else {
+    certificates.make(beyond, power_tests_.one_of_many(place, known));
+  }
+}
+
+template <int Dimension>
+void FacetGuards<Dimension>::watch_all() {
+  guarded_ = true;
+  ends_positive_.assign(all_move() ? state_.triangulation.cells().size() : 0, 0);
+  unit_ = LengthUnit(exponent_of_length(state_.curves, state_.triangulation.cells()));
+  if (!all_move()) {
+    watch_marked();
+  } else if (state_.simulator.kernel() == Kernel::exact) {
+    watch_all_moving<false>();
+  } else {
+    watch_all_moving<true>();
+  }
+  watch_enqueued();
+}
+
+template <int Dimension>
+template <bool in_lanes>
+void FacetGuards<Dimension>::watch_all_moving() {
+  /// What FacetFilter finds.
+  struct Finding {
+    FacetGuards& guards;
+    void doubt(FacetId facet) const { guards.enqueue(cell_of(facet), index_of(facet)); }
+    void at_end(CellId cell, bool positive) const { guards.ends_positive_[cell] = positive ? 1 : 0; }
+  };
+  Finding finding{*this};
+  FacetFilter<Dimension> positive(*filter_, unit_, rounding_of(state_.simulator.kernel()));
+  RegularTriangulation<Dimension>& triangulation = state_.triangulation;
+  const auto cells = triangulation.cells();
+  const auto look_at = [&](CellId cell, unsigned facets, unsigned finite) {
+    if constexpr (in_lanes)
+      if (finite != 0) positive.look_at(cells[cell], cell, facets & finite, finding);
+    for (unsigned left = facets & ~finite; left != 0; left &= left - 1) enqueue(cell, std::countr_zero(left));
+  };
+  const auto finite_of = [&](CellId cell) { return in_lanes ? finite_facets(cells[cell]) : 0; };
+  std::uint64_t at_rest = 0;
+  if (slack_.any()) {
+    note_resting();
+    std::uint64_t others = 0;
+    slack_.for_the_others(triangulation, [&](CellId cell, unsigned facets) {
+      others += count_of<Dimension>(facets);
+      look_at(cell, facets, finite_of(cell));
+    });
+    at_rest = triangulation.live_count() * (Dimension + 1) / 2 - others;
+  } else {
+    constexpr std::size_t ahead = 12;
+    notes_ = Notes::any;
+    cover_.start(cells.size());
+    for (CellId cell = 0; cell < cells.size(); ++cell) {
+      if (!triangulation.is_live(cell)) continue;
+      __builtin_prefetch(&cells[cell] + ahead);
+      triangulation.note_all(cell, resting_note);
+      const unsigned finite = finite_of(cell);
+      look_at(cell, cover_.facets_of(cells[cell], cell, finite == all_facets<Dimension>), finite);
+    }
+  }
+  if constexpr (in_lanes) positive.finish(finding);
+  power_tests_.hold_never(at_rest + positive.count());
+  state_.owner.statistics.stages.coefficients += positive.count();
+  state_.owner.statistics.stages.tolerance += at_rest;
+}
+
+/// Notes of all facets that they rest: cells whose notes say so already are not touched.
+template <int Dimension>
+void FacetGuards<Dimension>::note_resting() {
+  if (notes_ == Notes::resting) {
+    for (const CellId cell : noted_) state_.triangulation.note_all(cell, resting_note);
+  } else {
+    for (CellId cell = 0; cell < state_.triangulation.cells().size(); ++cell)
+      state_.triangulation.note_all(cell, resting_note);
+  }
+  noted_.clear();
+  notes_ = Notes::resting;
+}
+
+/// Guards the facets with a bead that moves.
+template <int Dimension>
+void FacetGuards<Dimension>::watch_marked() {
+  notes_ = Notes::any;
+  RegularTriangulation<Dimension>& triangulation = state_.triangulation;
+  const auto moves = [this](BeadId bead) { return bead != infinite_bead && moving_[bead] != 0; };
+  std::vector<char> has_moving(triangulation.cells().size(), 0);
+  for (CellId cell = 0; cell < has_moving.size(); ++cell) {
+    triangulation.note_all(cell, resting_note);
+    const Beads& v = state_.beads_of(cell);
+    has_moving[cell] = triangulation.is_live(cell) && std::any_of(v.begin(), v.end(), moves) ? 1 : 0;
+  }
+  std::uint64_t watched = 0, all = 0;
+  for (CellId cell = 0; cell < has_moving.size(); ++cell) {
+    if (triangulation.is_live(cell)) all += Dimension + 1;
+    if (has_moving[cell] == 0) continue;
+    for (int i = 0; i <= Dimension; ++i) {
+      const CellId other = state_.neighbor(cell, i);
+      if (has_moving[other] != 0 && other < cell) continue;
+      enqueue(cell, i);
+      ++watched;
+    }
+  }
+  power_tests_.hold_never(all / 2 - watched);
+}
+
+template <int Dimension>
+void FacetGuards<Dimension>::watch_enqueued() {
+  const auto take = [this](FacetId facet, CertificateHandle guard, About about) {
+    if (guard == CertificateHandle::violated) state_.suspect(Doubt::wrong);
+    set_guard(cell_of(facet), index_of(facet), {guard, about});
+  };
+  power_tests_.watch_enqueued([&](FacetId facet, CertificateHandle guard) {
+    take(facet, guard, About::power);
+    if (guard == CertificateHandle::zero) watch_cells_beside(cell_of(facet), index_of(facet));
+  });
+  orientations_.watch_enqueued(
+      [&](FacetId facet, CertificateHandle guard) { take(facet, guard, About::hull); });
+}
+
+/// Where a power test is zero for the whole step.
+template <int Dimension>
+void FacetGuards<Dimension>::watch_cells_beside(CellId cell, int i) {
+  power_tests_.drop(guard(cell, i).guard);
+  for (const auto& [own, k] : {std::pair(cell, i), state_.across(cell, i)}) watch_cell(own, k);
+}
+
+template <int Dimension>
+void FacetGuards<Dimension>::watch_cell(CellId cell, int i) {
+  const Orientation<Dimension> orientation(state_.beads_of(cell), 1);
+  const CertificateHandle guard =
+      orientations_.watch(orientation, facet_id(cell, i), state_.known_of(orientation));
+  set_own_guard(cell, i, {guard, About::cell});
+  if (guard == CertificateHandle::violated) state_.suspect(Doubt::wrong);
+}
+
+/// Of each of a few new cells the facets whose power test is known to be positive all over the step, as most
+/// to other cells than these are.
+template <int Dimension>
+auto FacetGuards<Dimension>::positive_all_over(std::span<const CellId> cells)
+    -> std::array<unsigned, few_cells> {
+  const Kernel kernel = state_.simulator.kernel();
+  FewPositive found;
+  if (kernel != Kernel::exact)
+    found = filter_few_cells(*filter_, unit_, rounding_of(kernel), state_.triangulation.cells(), cells);
+  grow_little(ends_positive_, state_.triangulation.cells().size());
+  for (std::size_t c = 0; c < cells.size(); ++c) ends_positive_[cells[c]] = found.at_end[c] ? 1 : 0;
+  return found.facets;
+}
+
+template <int Dimension>
+void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
+  if (!all_move()) flipped_.insert(flipped_.end(), cells.begin(), cells.end());
+  StageCounts& stages = state_.owner.statistics.stages;
+  const bool in_event = state_.present != Identity{};
+  const KnownAtStart known = in_event ? KnownAtStart::at_own_root : KnownAtStart::unknown;
+  const bool inner_hold = in_event && state_.simulator.now().last();
+  bool first_inner = true;
+  std::uint64_t positive = 0;
+  std::array<unsigned, few_cells> hold{};
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const CellId cell = cells[c];
+    if (c % few_cells == 0) hold = positive_all_over(cells.subspan(c, std::min(few_cells, cells.size() - c)));
+    const FacetCertificates certificates(state_.beads_of(cell));
+    for (int i = 0; i <= Dimension; ++i) {
+      const auto [other, k] = state_.across(cell, i);
+      slack_.forget(cell, i);
+      slack_.forget(other, k);
+      const auto at = std::find(cells.begin(), cells.end(), other) - cells.begin();
+      if (at == static_cast<std::ptrdiff_t>(cells.size())) {
+        if ((hold[c % few_cells] >> i & 1U) != 0) {
+          set_guard(cell, i, {CertificateHandle::never, About::power});
+          ++positive;
+        } else {
+          enqueue(certificates, cell, i, KnownAtStart::unknown);
+        }
+      } else if (at < static_cast<std::ptrdiff_t>(c)) {
+        continue;  // met already
+      } else if (inner_hold) {
+        hold_inner(cell, i);
+        ++(first_inner ? stages.isolation : stages.shared);
+        first_inner = false;
+      } else {
+        enqueue(certificates, cell, i, known);
+      }
+    }
+  }
+  power_tests_.hold_never(positive);
+  stages.coefficients += positive;
+  watch_enqueued();
+}
+
+/// A facet between two cells of an event whose function has no root any more.
+template <int Dimension>
+void FacetGuards<Dimension>::hold_inner(CellId cell, int i) {
+  const bool on_hull = state_.present.type == Orientation<Dimension>::type.number;
+  set_guard(cell, i, {CertificateHandle::never, on_hull ? About::hull : About::power});
+  power_tests_.hold_never(1);
+}
+
+template <int Dimension>
+auto FacetGuards<Dimension>::take_failure(unsigned table, std::uint32_t slot) -> std::optional<Failed> {
+  const FacetId place =
+      table == powers ? power_tests_.place_in_structure(slot) : orientations_.place_in_structure(slot);
+  const CellId cell = cell_of(place);
+  const int facet = index_of(place);
+  state_.triangulation.fetch_around(cell, facet);
+  fetch_scheduled(cell);
+  fetch_scheduled(state_.neighbor(cell, facet));
+  const bool touch = table == powers ? power_tests_.touches(slot) : orientations_.touches(slot);
+  if (touch) state_.suspect(Doubt::unclear);
+  if (guard(cell, facet).about == About::cell) {
+    set_own_guard(cell, facet, {CertificateHandle::violated, About::cell});
+    if (touch) {
+      watch_cell(cell, facet);
+    } else {
+      state_.suspect(Doubt::wrong);  // cospherical cells turn over: no flip tells how to go on
+    }
+    return std::nullopt;
+  }
+  forget(cell, facet);
+  if (state_.doubt == Doubt::wrong) return std::nullopt;
+  if (touch) {
+    enqueue(cell, facet);
+    watch_enqueued();
+    return std::nullopt;
+  }
+  return Failed{cell, facet, table == powers ? power_tests_.identity(slot) : orientations_.identity(slot)};
+}
+
+template <int Dimension>
+void FacetGuards<Dimension>::fetch(CellId cell, bool next) const {
+  state_.triangulation.fetch(cell, next);
+  if (!next) return;
+  for (int i = 0; i <= Dimension; ++i) {
+    if (const FacetGuard facet = guard(cell, i); facet.about == About::power) power_tests_.fetch(facet.guard);
+  }
+  const auto& named = state_.triangulation.cells()[cell];
+  for (const auto* beads : {&named.vertex, &named.apex}) {
+    for (const BeadId bead : *beads) {
+      if (bead != infinite_bead) __builtin_prefetch(state_.curves.control_point(bead, 0));
+    }
+  }
+}
+
+template class FacetGuards<2>;
+template class FacetGuards<3>;
+
+}  // namespace kds

@@ -1,0 +1,175 @@
+#pragma once
+// The certificates of a power diagram's facets (facet_certificate.h), made and given up together. Facets that
+// filters find to hold all over a step have no certificate of their own and are counted only.
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "certificates/search/cell_filter.h"
+#include "kds/certificate_table.h"
+#include "motions/base/grow_little.h"
+#include "motions/views/length_unit.h"
+#include "structures/power_diagram/diagram_state.h"
+#include "structures/power_diagram/facet_filter.h"
+#include "structures/power_diagram/facet_guard.h"
+#include "structures/power_diagram/facet_slack.h"
+
+namespace kds {
+
+template <int Dimension>
+class FacetGuards {
+  using State = DiagramState<Dimension>;
+  using Beads = typename State::Beads;
+
+ public:
+  /// Numbers of its tables.
+  enum : unsigned { powers = 0, orientations = 1 };
+
+  explicit FacetGuards(State& state);
+
+  /// The guards of the step before are gone.
+  void start_step();
+  /// Guards all facets; those that rest in this step need no certificate, and those whose test is positive
+  /// all over the step, as most are, nothing but to be counted.
+  void watch_all();
+  /// Guards all facets of new cells. Those between two of them, where an event made these, have all of its
+  /// beads, and its function.
+  void watch_around(std::span<const CellId> cells);
+  /// Gives up a facet's guard; where there is none any more, nothing.
+  void drop(CellId cell, int i) {
+    const FacetGuard facet = guard(cell, i);
+    if (facet.about == About::power) {
+      state_.give_up(power_tests_, facet.guard);
+    } else {
+      state_.give_up(orientations_, facet.guard);
+    }
+    if (facet.about == About::cell) {
+      const auto [other, k] = state_.across(cell, i);
+      state_.give_up(orientations_, guard(other, k).guard);
+    }
+    forget(cell, i);
+  }
+  /// All those of some cells; the second drop of a facet between two of them finds it gone.
+  void drop_around(std::span<const CellId> cells) {
+    for (const CellId cell : cells) {
+      for (int i = 0; i <= Dimension; ++i) drop(cell, i);
+    }
+  }
+  void drop_all();
+  /// Another triangulation follows: nothing is known of its cells and facets, and none is guarded.
+  void forget_cells();
+
+  /// A certificate that fails, or touches zero, and what asks for a flip.
+  struct Failed {
+    CellId cell;
+    int facet;
+    Identity identity;
+  };
+  [[nodiscard]] std::optional<Failed> take_failure(unsigned table, std::uint32_t slot);
+
+  /// Whether `holds(table, guard)` of all guards.
+  template <class Holds>
+  [[nodiscard]] bool all_of(Holds holds) const {
+    const auto guard_holds = [&](FacetGuard g) {
+      return g.about == About::power ? holds(power_tests_, g.guard) : holds(orientations_, g.guard);
+    };
+    bool all = true;
+    for_all_facets([&](CellId cell, int i) {
+      const auto [other, k] = state_.across(cell, i);
+      all = all && guard_holds(guard(cell, i)) &&
+            (guard(cell, i).about != About::cell || guard_holds(guard(other, k)));
+    });
+    return all;
+  }
+
+  /// From now on only the beads marked, one entry a bead, move in a step. Facets of beads that all rest need
+  /// no certificate. Empty: all beads move.
+  void move_only(std::vector<char> moving);
+  [[nodiscard]] bool all_move() const { return moving_.empty(); }
+  /// Cells that flips made since then, some more than once, some gone again.
+  [[nodiscard]] std::span<const CellId> flipped() const { return flipped_; }
+
+  /// Of each cell whether it is known to be positive where the step ends; fewer than there are cells, or
+  /// none.
+  [[nodiscard]] std::span<const std::uint8_t> known_positive_at_end() const { return ends_positive_; }
+  void forget_ends() { ends_positive_.clear(); }
+
+  /// A flip there comes near: first its cell, then what that names.
+  void fetch(CellId cell, bool next) const;
+
+ private:
+  using About = FacetGuard::About;
+  static constexpr std::uint32_t resting_note = FacetGuard{CertificateHandle::never, About::power}.packed();
+
+  [[nodiscard]] FacetGuard guard(CellId cell, int i) const {
+    return FacetGuard::of(state_.triangulation.cells()[cell].note[static_cast<std::size_t>(i)]);
+  }
+  /// As this cell has it alone.
+  void set_own_guard(CellId cell, int i, FacetGuard value) {
+    state_.triangulation.note(cell, i) = value.packed();
+    if (notes_ == Notes::any || value.packed() == resting_note) return;
+    append_little(noted_, cell);
+    if (8 * noted_.size() > state_.triangulation.cells().size()) notes_ = Notes::any;  // then it does not pay
+  }
+  void set_guard(CellId cell, int i, FacetGuard value) {
+    set_own_guard(cell, i, value);
+    const auto [other, k] = state_.across(cell, i);
+    set_own_guard(other, k, value);
+  }
+  void forget(CellId cell, int i) { set_guard(cell, i, {}); }
+  template <class Visit>
+  void for_all_facets(Visit visit) const {
+    for (CellId cell = 0; cell < state_.triangulation.cells().size(); ++cell) {
+      if (!state_.triangulation.is_live(cell)) continue;
+      for (int i = 0; i <= Dimension; ++i) {
+        if (cell < state_.neighbor(cell, i)) visit(cell, i);
+      }
+    }
+  }
+
+  /// Facets are guarded together: enqueue some, then watch them.
+  void enqueue(CellId cell, int i);
+  void enqueue(const FacetCertificates<Dimension + 1>& certificates, CellId cell, int i, KnownAtStart known);
+  void watch_enqueued();
+  /// With the filter, or, without lanes, one facet at a time.
+  template <bool in_lanes>
+  void watch_all_moving();
+  void watch_marked();
+  void note_resting();
+  void hold_inner(CellId cell, int i);
+  void watch_cells_beside(CellId cell, int i);
+  void watch_cell(CellId cell, int i);
+  [[nodiscard]] std::array<unsigned, few_cells> positive_all_over(std::span<const CellId> cells);
+  /// Fetches the failures that a flip will cancel.
+  void fetch_scheduled(CellId cell) const {
+    for (int i = 0; i <= Dimension; ++i) {
+      if (const FacetGuard facet = guard(cell, i); facet.about == About::power)
+        power_tests_.fetch_scheduled(facet.guard);
+    }
+  }
+
+  State& state_;
+  CertificateTable<PowerTest<Dimension>> power_tests_;
+  CertificateTable<Orientation<Dimension>> orientations_;
+  std::unique_ptr<CellFilter<Dimension>> filter_;
+  bool guarded_ = false;
+  /// What the notes of cells say: anything, or that all facets rest but perhaps those of `noted_`.
+  enum class Notes : std::uint8_t { any, resting };
+  Notes notes_ = Notes::any;
+  std::vector<CellId> noted_;
+  FacetCover cover_;
+  LengthUnit unit_;  // near the cells' lengths in this step
+  std::vector<std::uint8_t> ends_positive_;
+  FacetSlack<Dimension> slack_;
+  std::vector<char> moving_;  // of each bead; empty: all move
+  std::vector<CellId> flipped_;
+};
+
+extern template class FacetGuards<2>;
+extern template class FacetGuards<3>;
+
+}  // namespace kds

@@ -1,0 +1,189 @@
+#include "structures/power_diagram/hidden_guards.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace kds {
+
+template <int Dimension>
+HiddenGuards<Dimension>::HiddenGuards(State& state)
+    : state_(state),
+      appearances_(state.simulator, state.owner, state.index, appearing, state.motion),
+      departures_(state.simulator, state.owner, state.index, departing, state.motion) {}
+
+template <int Dimension>
+void HiddenGuards<Dimension>::enqueue(BeadId bead) {
+  const Beads& v = state_.beads_of(state_.hidden.host(bead));
+  for (int i = 0; i <= Dimension; ++i) {
+    const Orientation<Dimension> inside(State::with(v, i, bead), 1);
+    departures_.enqueue_one_of_many(inside, facet_id(bead, i), state_.known_of(inside));
+  }
+  std::array<BeadId, Dimension + 2> beads{};
+  std::copy(v.begin(), v.end(), beads.begin());
+  beads.back() = bead;
+  const PowerTest<Dimension> above(beads, 1);
+  appearances_.enqueue_one_of_many(above, bead, state_.known_of(above));
+}
+
+template <int Dimension>
+void HiddenGuards<Dimension>::watch_enqueued() {
+  const auto take = [this](BeadId bead, int i, CertificateHandle guard) {
+    if (guard == CertificateHandle::violated) state_.suspect(Doubt::wrong);
+    guards_[bead][static_cast<std::size_t>(i)] = guard;
+  };
+  appearances_.watch_enqueued(
+      [&](BeadId bead, CertificateHandle guard) { take(bead, Dimension + 1, guard); });
+  departures_.watch_enqueued(
+      [&](FacetId place, CertificateHandle guard) { take(cell_of(place), index_of(place), guard); });
+}
+
+template <int Dimension>
+void HiddenGuards<Dimension>::watch(BeadId bead) {
+  enqueue(bead);
+  watch_enqueued();
+}
+
+template <int Dimension>
+void HiddenGuards<Dimension>::enter(BeadId bead, CellId host) {
+  state_.hidden.enter(bead, host);
+  watch(bead);
+}
+
+template <int Dimension>
+void HiddenGuards<Dimension>::hide(BeadId bead) {
+  state_.hidden.hide(bead);
+  guards_.resize(state_.bead_count(), no_guards);
+}
+
+template <int Dimension>
+void HiddenGuards<Dimension>::drop(BeadId bead) {
+  for (std::size_t i = 0; i <= Dimension; ++i) state_.give_up(departures_, guards_[bead][i]);
+  state_.give_up(appearances_, guards_[bead].back());
+  guards_[bead] = no_guards;
+}
+
+template <int Dimension>
+void HiddenGuards<Dimension>::drop_all() {
+  for (BeadId bead = 0; bead < guards_.size(); ++bead) drop(bead);
+}
+
+template <int Dimension>
+void HiddenGuards<Dimension>::watch_all() {
+  const HiddenBeads& hidden = state_.hidden;
+  guards_.assign(hidden.empty() ? 0 : state_.bead_count(), no_guards);
+  displaced_.clear();
+  if (hidden.empty()) return;
+  for (const BeadId bead : hidden.beads()) {
+    if (hidden.host(bead) == no_cell) {
+      displaced_.push_back(bead);
+    } else {
+      enqueue(bead);
+    }
+  }
+  const auto take = [this](BeadId bead, int i, CertificateHandle guard) {
+    guards_[bead][static_cast<std::size_t>(i)] = guard;
+    if (guard == CertificateHandle::violated) displaced_.push_back(bead);
+  };
+  departures_.watch_enqueued(
+      [&](FacetId place, CertificateHandle guard) { take(cell_of(place), index_of(place), guard); });
+  appearances_.watch_enqueued(
+      [&](BeadId bead, CertificateHandle guard) { take(bead, Dimension + 1, guard); });
+  std::sort(displaced_.begin(), displaced_.end());
+  displaced_.erase(std::unique(displaced_.begin(), displaced_.end()), displaced_.end());
+  for (const BeadId bead : displaced_) drop(bead);
+  rehouse(state_.some_finite_cell());
+}
+
+template <int Dimension>
+void HiddenGuards<Dimension>::displace(std::span<const CellId> cells) {
+  displaced_.clear();
+  if (state_.hidden.empty()) return;
+  for (const CellId cell : cells) state_.hidden.empty_out(cell, displaced_);
+  for (const BeadId bead : displaced_) drop(bead);
+  std::sort(displaced_.begin(), displaced_.end());
+}
+
+template <int Dimension>
+void HiddenGuards<Dimension>::add_displaced(BeadId bead) {
+  displaced_.insert(std::upper_bound(displaced_.begin(), displaced_.end(), bead), bead);
+}
+
+template <int Dimension>
+void HiddenGuards<Dimension>::rehouse(CellId near) {
+  if (displaced_.empty()) return;
+  HiddenBeads& hidden = state_.hidden;
+  for (const BeadId bead : displaced_) {
+    const CellId from = hidden.host(bead) == no_cell ? near : hidden.host(bead);
+    const CellId host = find_host(bead, from);
+    if (host == no_cell) {
+      state_.suspect(Doubt::wrong);
+      continue;
+    }
+    hidden.enter(bead, host);
+    enqueue(bead);
+  }
+  displaced_.clear();
+  watch_enqueued();
+}
+
+template <int Dimension>
+CellId HiddenGuards<Dimension>::walk_to(BeadId bead, CellId cell, int came_from) {
+  if (state_.is_infinite(cell)) {
+    cell = state_.neighbor(cell, state_.place_of(cell, infinite_bead));
+    came_from = -1;
+  }
+  const std::size_t most_steps = state_.triangulation.cells().size();
+  for (std::size_t step = 0; step <= most_steps; ++step) {
+    if (state_.is_infinite(cell)) return cell;
+    const Beads& v = state_.beads_of(cell);
+    int leaves_by = -1;
+    for (int i = 0; i <= Dimension && leaves_by < 0; ++i) {
+      if (i != came_from && state_.sign_just_after(Orientation<Dimension>(State::with(v, i, bead), 1)) < 0)
+        leaves_by = i;
+    }
+    if (leaves_by < 0) return cell;
+    std::tie(cell, came_from) = state_.across(cell, leaves_by);
+  }
+  return no_cell;
+}
+
+/// The host of a bead just after now; no_cell where none is found.
+template <int Dimension>
+CellId HiddenGuards<Dimension>::find_host(BeadId bead, CellId cell, int came_from) {
+  const CellId at = walk_to(bead, cell, came_from);
+  return at == no_cell || state_.is_infinite(at) ? no_cell : at;
+}
+
+template <int Dimension>
+void HiddenGuards<Dimension>::wander(BeadId bead, int facet) {
+  const auto [beyond, came_from] = state_.across(state_.hidden.host(bead), facet);
+  drop(bead);
+  const CellId host = find_host(bead, beyond, came_from);
+  if (host == no_cell) return state_.suspect(Doubt::wrong);
+  Change change{Events::wanders, Dimension + 2, {bead}};
+  const Beads& v = state_.beads_of(host);
+  std::copy(v.begin(), v.end(), change.ids.begin() + 1);
+  std::sort(change.ids.begin() + 1, change.ids.begin() + Dimension + 2);
+  state_.record(change);
+  enter(bead, host);
+}
+
+template <int Dimension>
+auto HiddenGuards<Dimension>::take_failure(unsigned table, std::uint32_t slot) -> std::optional<Failed> {
+  Failed failed;
+  if (table == appearing) {
+    failed = {appearances_.place_in_structure(slot), std::nullopt, appearances_.identity(slot)};
+    guards_[failed.bead].back() = CertificateHandle::violated;
+  } else {
+    const FacetId place = departures_.place_in_structure(slot);
+    failed = {cell_of(place), index_of(place), departures_.identity(slot)};
+    guards_[failed.bead][static_cast<std::size_t>(index_of(place))] = CertificateHandle::violated;
+  }
+  if (state_.doubt == Doubt::wrong) return std::nullopt;
+  return failed;
+}
+
+template class HiddenGuards<2>;
+template class HiddenGuards<3>;
+
+}  // namespace kds

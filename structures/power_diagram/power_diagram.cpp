@@ -1,0 +1,243 @@
+#include "structures/power_diagram/power_diagram.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "motions/base/input_error.h"
+#include "structures/power_diagram/diagram_checks.h"
+#include "structures/power_diagram/diagram_editor.h"
+#include "structures/power_diagram/diagram_flips.h"
+#include "structures/power_diagram/diagram_rebuilder.h"
+#include "structures/power_diagram/static_diagrams.h"
+#include "structures/triangulation/snapshot_faults.h"
+
+namespace kds {
+
+template <int Dimension>
+struct PowerDiagram<Dimension>::Parts {
+  Parts(Simulator& simulator, const MotionRef<Dimension>& motion, PowerDiagram& diagram)
+      : state(simulator, motion, diagram, simulator.add(diagram)),
+        facets(state),
+        hidden(state),
+        flips(state, facets, hidden),
+        rebuilder(state, facets, hidden),
+        editor(state, facets, hidden, rebuilder) {}
+
+  DiagramState<Dimension> state;
+  FacetGuards<Dimension> facets;
+  HiddenGuards<Dimension> hidden;
+  DiagramFlips<Dimension> flips;
+  DiagramRebuilder<Dimension> rebuilder;
+  DiagramEditor<Dimension> editor;
+};
+
+template <int Dimension>
+PowerDiagram<Dimension>::PowerDiagram(Simulator& simulator, const MotionRef<Dimension>& motion)
+    : parts_(std::make_unique<Parts>(simulator, motion, *this)) {}
+
+template <int Dimension>
+PowerDiagram<Dimension>::~PowerDiagram() = default;
+
+template <int Dimension>
+void PowerDiagram<Dimension>::build() {
+  const std::size_t beads = parts_->state.bead_count() - parts_->state.absent_count;
+  if (beads <= Dimension) {
+    throw InputError("the power diagram needs at least " + std::to_string(Dimension + 1) +
+                     " beads, the input has " + std::to_string(beads));
+  }
+  parts_->rebuilder.build_from_control_points(0);
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::start_step() {
+  auto& [state, facets, hidden, flips, rebuilder, editor] = *parts_;
+  state.curves = state.motion.curves();
+  state.triangulation.make_mirror();
+  facets.start_step();
+  hidden.start_step();
+  rebuilder.start_step();
+  if (state.has_cells() && !(state.flat && is_wrong_just_after(state))) {
+    rebuilder.watch_all();
+  } else if (!rebuilder.try_to_rebuild()) {
+    // All beads stay in one plane, or on one line: no cells, no events.
+    rebuilder.build_from_control_points(0);
+  }
+  state.flat = false;
+  state.within_step = facets.all_move();
+  if (state.within_step && state.has_cells()) count_certificates_per_bead();
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::fail(unsigned table, std::uint32_t slot) {
+  parts_->flips.fail(table, slot);
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::fetch(unsigned table, std::uint32_t place, bool next) const {
+  if (table < HiddenGuards<Dimension>::appearing) parts_->facets.fetch(cell_of(place), next);
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::after_batch() {
+  parts_->rebuilder.after_batch();
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::finish_step() {
+  parts_->state.within_step = false;
+  if (parts_->facets.all_move()) reach_frame();
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::finish() {
+  rebuild_if_flat();
+  const std::size_t steps = parts_->state.simulator.step();
+  if (!parts_->state.has_had_cells && steps > 0) DiagramRebuilder<Dimension>::refuse_flat(steps - 1);
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::reach_frame() {
+  auto& [state, facets, hidden, flips, rebuilder, editor] = *parts_;
+  const Curves<Dimension> curves = state.motion.curves();
+  const auto build_anew = [&] {
+    rebuilder.build_from_control_points(curves.own_degree());
+    ++statistics.rebuilds;
+  };
+  if (!state.has_cells()) return build_anew();
+  const Snapshot<Dimension>& end = state.triangulation.set_points(curves, curves.own_degree());
+  const int least = least_orientation(state.triangulation, end, facets.known_positive_at_end());
+  facets.forget_ends();
+  if (least < 0 && state.simulator.kernel() != Kernel::fast)
+    throw std::logic_error("a cell of the power diagram is inverted");
+  state.flat = least == 0;
+  if (least < 0) build_anew();
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::rebuild_if_flat() {
+  if (!parts_->state.flat) return;
+  parts_->rebuilder.build_from_control_points(parts_->state.motion.degree());
+  ++statistics.rebuilds;
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::build_at_end() {
+  parts_->rebuilder.build_bare_at_end();
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::apply(const Change& change) {
+  if (change.kind < this->rebuild) {
+    parts_->flips.apply(change);
+  } else if (change.kind == this->rebuild) {
+    parts_->rebuilder.apply(change);
+  } else {
+    parts_->editor.apply(change);
+  }
+}
+
+template <int Dimension>
+std::optional<std::string> PowerDiagram<Dimension>::audit(const Dyadic& time) {
+  return audit_of(parts_->state, time);
+}
+
+template <int Dimension>
+StaticTriangulation<Dimension> PowerDiagram<Dimension>::at_frame(bool first) const {
+  const auto& state = parts_->state;
+  if (is_solid()) return {state.triangulation.finite_cells(), state.hidden.beads(), Dimension};
+  return static_diagram_at_end(state, first ? 0 : state.motion.degree());
+}
+
+template <int Dimension>
+DiagramEdges PowerDiagram<Dimension>::edges_at_frame(bool first) const {
+  const auto& state = parts_->state;
+  if (state.has_cells()) return edges_of(state.triangulation, state.bead_count(), state.hidden.beads());
+  return static_edges_at_end(state, first ? 0 : state.motion.degree());
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::leave_out(BeadId bead) {
+  parts_->editor.leave_out(bead);
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::insert(BeadId bead, BeadId near) {
+  parts_->editor.insert(bead, near);
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::erase(BeadId bead) {
+  parts_->editor.erase(bead);
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::change_motion(BeadId bead, const std::function<void()>& set_curve) {
+  parts_->editor.change_motion(bead, set_curve);
+}
+
+template <int Dimension>
+bool PowerDiagram<Dimension>::is_absent(BeadId bead) const {
+  return parts_->state.is_absent(bead);
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::move_only(std::vector<char> moving) {
+  parts_->facets.move_only(std::move(moving));
+}
+
+template <int Dimension>
+std::span<const CellId> PowerDiagram<Dimension>::flipped() const {
+  return parts_->facets.flipped();
+}
+
+template <int Dimension>
+bool PowerDiagram<Dimension>::is_solid() const {
+  return parts_->state.has_cells() && !parts_->state.flat;
+}
+
+template <int Dimension>
+RegularTriangulation<Dimension>& PowerDiagram<Dimension>::triangulation() {
+  return parts_->state.triangulation;
+}
+
+template <int Dimension>
+const HiddenBeads& PowerDiagram<Dimension>::hidden() const {
+  return parts_->state.hidden;
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::house(BeadId hidden, CellId host) {
+  if (host != no_cell) parts_->state.hidden.enter(hidden, host);
+}
+
+template <int Dimension>
+CellId PowerDiagram<Dimension>::some_finite_cell() const {
+  return parts_->state.some_finite_cell();
+}
+
+/// A cell's own facets name all of its vertices but one each, and the beads beyond them: a bead is named by
+/// half its cells' facets with it, each shared by two of its cells, and once by each of its cells for the
+/// facet opposite to it. In space that makes 5/2 for each cell, in the plane 2.
+template <int Dimension>
+void PowerDiagram<Dimension>::count_certificates_per_bead() {
+  const auto& state = parts_->state;
+  const auto count_of = [](std::uint64_t cells) { return cells * (Dimension + 2) / 2; };
+  const auto cells_at = state.triangulation.cells_at();
+  std::uint64_t most = 0;
+  if (!cells_at.empty()) most = count_of(*std::max_element(cells_at.begin(), cells_at.end()));
+  if (!state.hidden.empty()) {
+    std::vector<std::uint64_t> more(state.bead_count(), 0);
+    for (const HiddenBead& hidden : state.hidden.with_hosts()) {
+      if (hidden.host == no_cell) continue;
+      more[hidden.bead] += Dimension + 2;
+      for (const BeadId b : state.beads_of(hidden.host)) more[b] += Dimension + 1;
+    }
+    for (BeadId b = 0; b < more.size(); ++b) most = std::max(most, more[b] + count_of(cells_at[b]));
+  }
+  statistics.certificates.per_bead_max = std::max(statistics.certificates.per_bead_max, most);
+}
+
+template class PowerDiagram<2>;
+template class PowerDiagram<3>;
+
+}  // namespace kds
