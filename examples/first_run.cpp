@@ -14,8 +14,8 @@ int main() {
       for (int end = 0; end < 2; ++end)  // the fifth moves to (2, 2, 2)
         motion.set_coordinate(bead, end, axis, bead == 4 && end == 1 ? 2.0 : start[bead][axis]);
   kds::Simulator simulator(kds::AuditMode::events);  // checks against CGAL between all events
-  kds::PowerDiagram<Motion, kds::Filtered> diagram(simulator, motion);
+  kds::PowerDiagram<3> diagram(simulator, motion);
   simulator.build();
-  simulator.run_step(true);
+  simulator.run_step();
   std::printf("flips: %d\n", int(diagram.statistics.events_per_step.front()));
 }

@@ -6,7 +6,8 @@
 #include <concepts>
 
 #include "certificates/conservative/mean_value.h"
-#include "motions/curves/bezier_motion.h"
+#include "motions/curves/curves.h"
+#include "motions/numbers/bernstein.h"
 
 namespace kds {
 
@@ -38,8 +39,7 @@ class PieceView {
   }
 
  private:
-  static constexpr std::size_t degree = M::degree;
-  using Points = std::array<Interval, degree + 1>;
+  using Points = decltype(Bernstein<Interval, M::degree>::scaled);
   struct Parameter {
     Interval u, v;  // v = 1 - u
   };
@@ -51,7 +51,10 @@ class PieceView {
 
   template <std::invocable<int> Control>
   [[nodiscard]] MeanValue enclosed(Control control) const {
-    Points points;
+    Bernstein<Interval, M::degree> curve;
+    curve.set_degree(degree_of(motion_));
+    Points& points = curve.scaled;
+    const std::size_t degree = points.size() - 1;
     bool constant = true;
     for (std::size_t k = 0; k <= degree; ++k) {
       points[k] = control(static_cast<int>(k));
@@ -59,7 +62,7 @@ class PieceView {
     }
     if (constant) return {points[0], points[0], Interval(0)};
     // Point i of the piece: `upper` in i arguments of the blossom, `lower` in the others.
-    Points piece;
+    Points piece = points;
     for (std::size_t i = 0; i <= degree; ++i) {
       Points p = points;
       for (std::size_t round = degree; round > 0; --round) {
