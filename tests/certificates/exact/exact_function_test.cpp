@@ -29,7 +29,7 @@ template <class C, class M>
 void expect_same(const C& certificate, const M& motion) {
   constexpr Channels channels = channels_of<C>;
   const auto expected = function_of(certificate, IntegerView<M, channels>(motion, certificate.beads));
-  const ExactPolynomial function = exact_function(certificate, motion);
+  const ExactPolynomial function = test::exact_function(certificate, motion);
   EXPECT_EQ(function.scaled(), ExactPolynomial(expected).scaled());
   const CoefficientBits& size = coefficient_bits<C, M>;
   const int length_bits = whole_scale<channels>(motion, certificate.beads).bits + 1;
@@ -100,7 +100,7 @@ TYPED_TEST(ExactFunction, OfBeadsAtTheOriginIsZero) {
   const typename TypeParam::M motion(TypeParam::beads);
   const auto certificate = test::random_certificate<C>(random);
   expect_same(certificate, motion);
-  EXPECT_TRUE(exact_function(certificate, motion).is_zero());
+  EXPECT_TRUE(test::exact_function(certificate, motion).is_zero());
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "certificates/search/radical_search.h"
+#include "tests/support/searches.h"
 #include "tests/support/ball_motions.h"
 
 namespace kds {
@@ -20,8 +20,8 @@ Answer ask(const M& motion, bool inside, int orientation) {
   return visit_membership(motion, basis, static_cast<BeadId>(basis.size()), inside, orientation,
                           [&](const auto& certificate) {
                             StageCounts stages;
-                            const int sign = sign_now<Exact>(certificate, motion, Instant(0.5), stages);
-                            EXPECT_EQ((sign_now<Filtered>(certificate, motion, Instant(0.5), stages)), sign);
+                            const int sign = test::sign_now(Kernel::exact, certificate, motion, Instant(0.5), stages);
+                            EXPECT_EQ((test::sign_now(Kernel::filtered, certificate, motion, Instant(0.5), stages)), sign);
                             return Answer{certificate.identity().type, sign};
                           });
 }
