@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "certificates/search/define_radical_search.h"
 #include "tests/support/searches.h"
 #include "tests/support/ball_motions.h"
 
@@ -83,9 +84,10 @@ TEST(BallInSphere, FailsJustBeforeItGoesOutOfUse) {
   EXPECT_LE(filtered.time.lower, exact.time.upper);
   EXPECT_GE(filtered.time.upper, exact.time.lower);
   const double after = 0.49968902421425;  // where the other failure is doubtful, in double
+  const Curves<3> curves(motion);
   const auto usable = [&](double from, double to) {
-    return detail::CertificateInDouble<detail::OwnFilter, BallInSphere<3, 2>, BezierMotion<3, 1>>(certificate,
-                                                                                                  motion)
+    return detail::CertificateInDouble<BallInSphere<3, 2>, Curves<3>>(detail::Errors::own_filter, certificate,
+                                                                      curves)
         .is_usable_on(from, to);
   };
   EXPECT_TRUE(usable(0.3, 0.3001));
