@@ -4,21 +4,31 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <random>
 
 #include "certificates/types/ball_in_sphere.h"
 #include "certificates/types/contact.h"
+#include "certificates/search/define_radical_search.h"
 #include "certificates/types/precedes.h"
+#include "motions/curves/bezier_motion.h"
+#include "tests/support/searches.h"
 
 namespace kds {
+
+template <>
+std::unique_ptr<CertificateSearch<BallInSphere<2, 1>>> search_over(const MotionRef<2>& motion) {
+  return radical_search_over<BallInSphere<2, 1>>(motion);
+}
+
 namespace {
 
+using test::all_kernels;
 using Line = BezierMotion<1, 1>;
 
-template <class K>
 class Owner final : public KineticStructure {
  public:
-  Owner(Simulator& simulator, const Line& motion)
+  Owner(Simulator& simulator, const MotionRef<1>& motion)
       : unused(simulator, *this, 0, 3, motion), table(simulator, *this, simulator.add(*this), 5, motion) {}
 
   [[nodiscard]] std::string_view name() const override { return "owner"; }
@@ -39,8 +49,8 @@ class Owner final : public KineticStructure {
   std::function<void()> on_start;
   std::function<void(std::uint32_t)> on_fail;
   std::vector<std::uint32_t> failed;
-  CertificateTable<Precedes, Line, K> unused;
-  CertificateTable<Precedes, Line, K> table;
+  CertificateTable<Precedes> unused;
+  CertificateTable<Precedes> table;
 };
 
 // Bead i stands at i; beads 10 + i move from 100 to -100 + i.
@@ -55,14 +65,13 @@ Line sweeping() {
   return motion;
 }
 
-template <class K>
-class CertificateTableTest : public testing::Test {
+class CertificateTableTest : public testing::TestWithParam<Kernel> {
  protected:
   void run(std::function<void()> start, std::function<void(std::uint32_t)> fail = {}) {
     owner.on_start = std::move(start);
     owner.on_fail = std::move(fail);
     simulator.build();
-    simulator.run_step(true);
+    simulator.run_step();
   }
   [[nodiscard]] const CertificateCounts& counts() const { return owner.statistics.certificates; }
   void expect_sum() const {
@@ -70,143 +79,143 @@ class CertificateTableTest : public testing::Test {
   }
 
   Line motion = sweeping();
-  Simulator simulator;
-  Owner<K> owner{simulator, motion};
+  Simulator simulator{AuditMode::none, GetParam()};
+  Owner owner{simulator, motion};
 };
 
-using Kernels = testing::Types<Fast, Filtered, Exact>;
-TYPED_TEST_SUITE(CertificateTableTest, Kernels);
+INSTANTIATE_TEST_SUITE_P(Kernels, CertificateTableTest, testing::ValuesIn(all_kernels),
+                         [](const auto& test) { return std::string(name_of(test.param)); });
 
-TYPED_TEST(CertificateTableTest, ForgetsWhatNeverFails) {
-  this->run([this] {
-    EXPECT_EQ(this->owner.table.watch({{0, 1}}, 7), CertificateHandle::never);
-    EXPECT_EQ(this->counts().alive, 1U);
+TEST_P(CertificateTableTest, ForgetsWhatNeverFails) {
+  run([this] {
+    EXPECT_EQ(owner.table.watch({{0, 1}}, 7), CertificateHandle::never);
+    EXPECT_EQ(counts().alive, 1U);
   });
-  EXPECT_EQ(this->counts().created, 1U);
-  EXPECT_EQ(this->counts().never_failing, 1U);
-  EXPECT_EQ(this->counts().peak, 1U);
-  EXPECT_EQ(this->counts().failed, 0U);
-  EXPECT_EQ(this->counts().alive, 0U);
-  this->expect_sum();
+  EXPECT_EQ(counts().created, 1U);
+  EXPECT_EQ(counts().never_failing, 1U);
+  EXPECT_EQ(counts().peak, 1U);
+  EXPECT_EQ(counts().failed, 0U);
+  EXPECT_EQ(counts().alive, 0U);
+  expect_sum();
 }
 
-TYPED_TEST(CertificateTableTest, KeepsNothingOfWhatIsViolatedAtBirth) {
-  this->run([this] {
-    EXPECT_EQ(this->owner.table.watch({{1, 0}}, 7), CertificateHandle::violated);
-    EXPECT_EQ(this->counts().alive, 0U);
-    this->owner.table.drop(CertificateHandle::violated);  // nothing to give up
-    EXPECT_EQ(this->counts().alive, 0U);
+TEST_P(CertificateTableTest, KeepsNothingOfWhatIsViolatedAtBirth) {
+  run([this] {
+    EXPECT_EQ(owner.table.watch({{1, 0}}, 7), CertificateHandle::violated);
+    EXPECT_EQ(counts().alive, 0U);
+    owner.table.drop(CertificateHandle::violated);  // nothing to give up
+    EXPECT_EQ(counts().alive, 0U);
   });
-  EXPECT_EQ(this->counts().created, 1U);
-  EXPECT_EQ(this->counts().failed, 1U);
-  EXPECT_EQ(this->counts().peak, 0U);
-  EXPECT_TRUE(this->owner.failed.empty());
-  this->expect_sum();
+  EXPECT_EQ(counts().created, 1U);
+  EXPECT_EQ(counts().failed, 1U);
+  EXPECT_EQ(counts().peak, 0U);
+  EXPECT_TRUE(owner.failed.empty());
+  expect_sum();
 }
 
-TYPED_TEST(CertificateTableTest, TellsTheOwnerOfFailures) {
-  this->run([this] {
-    const CertificateHandle guard = this->owner.table.watch({{3, 12}}, 70);
+TEST_P(CertificateTableTest, TellsTheOwnerOfFailures) {
+  run([this] {
+    const CertificateHandle guard = owner.table.watch({{3, 12}}, 70);
     ASSERT_TRUE(has_slot(guard));
     const std::uint32_t slot = slot_of(guard);
-    EXPECT_EQ(this->owner.table.certificate(slot).beads, (std::array<BeadId, 2>{3, 12}));
-    EXPECT_EQ(this->owner.table.place_in_structure(slot), 70U);
-    EXPECT_EQ(this->owner.table.identity(slot), (Precedes{{12, 3}}).identity());
+    EXPECT_EQ(owner.table.certificate(slot).beads, (std::array<BeadId, 2>{3, 12}));
+    EXPECT_EQ(owner.table.place_in_structure(slot), 70U);
+    EXPECT_EQ(owner.table.identity(slot), (Precedes{{12, 3}}).identity());
     // 100 - 198 u = 3
-    EXPECT_NEAR(this->owner.table.time(slot).lower, 97.0 / 198, 1e-9);
-    EXPECT_NEAR(this->owner.table.time(slot).upper, 97.0 / 198, 1e-9);
-    EXPECT_EQ(this->counts().alive, 1U);
+    EXPECT_NEAR(owner.table.time(slot).lower, 97.0 / 198, 1e-9);
+    EXPECT_NEAR(owner.table.time(slot).upper, 97.0 / 198, 1e-9);
+    EXPECT_EQ(counts().alive, 1U);
   });
-  EXPECT_THAT(this->owner.failed, testing::ElementsAre(70));
-  EXPECT_EQ(this->counts().failed, 1U);
-  EXPECT_EQ(this->counts().alive, 0U);
-  this->expect_sum();
+  EXPECT_THAT(owner.failed, testing::ElementsAre(70));
+  EXPECT_EQ(counts().failed, 1U);
+  EXPECT_EQ(counts().alive, 0U);
+  expect_sum();
 }
 
-TYPED_TEST(CertificateTableTest, FailuresAreOutOfTheCountWhenTheOwnerIsTold) {
-  this->run(
+TEST_P(CertificateTableTest, FailuresAreOutOfTheCountWhenTheOwnerIsTold) {
+  run(
       [this] {
-        (void)this->owner.table.watch({{3, 12}}, 0);
+        (void)owner.table.watch({{3, 12}}, 0);
       },
       [this](std::uint32_t) {
-        EXPECT_EQ(this->counts().failed, 1U);
-        EXPECT_EQ(this->counts().alive, 0U);
+        EXPECT_EQ(counts().failed, 1U);
+        EXPECT_EQ(counts().alive, 0U);
       });
-  EXPECT_EQ(this->owner.failed.size(), 1U);
+  EXPECT_EQ(owner.failed.size(), 1U);
 }
 
-TYPED_TEST(CertificateTableTest, DroppedOnesDoNotFail) {
-  this->run([this] {
-    const CertificateHandle a = this->owner.table.watch({{3, 12}}, 1);
-    const CertificateHandle b = this->owner.table.watch({{4, 12}}, 2);
-    const CertificateHandle never = this->owner.table.watch({{4, 5}}, 3);
-    const CertificateHandle never_too = this->owner.table.watch({{5, 6}}, 3);
-    EXPECT_EQ(this->counts().alive, 4U);
-    this->owner.table.drop(a);
-    EXPECT_EQ(this->counts().alive, 3U);
-    this->owner.table.drop(never);
-    EXPECT_EQ(this->counts().alive, 2U);
-    EXPECT_EQ(this->counts().cancelled, 1U);
-    this->owner.table.drop_never(1);
-    EXPECT_EQ(this->counts().alive, 1U);
+TEST_P(CertificateTableTest, DroppedOnesDoNotFail) {
+  run([this] {
+    const CertificateHandle a = owner.table.watch({{3, 12}}, 1);
+    const CertificateHandle b = owner.table.watch({{4, 12}}, 2);
+    const CertificateHandle never = owner.table.watch({{4, 5}}, 3);
+    const CertificateHandle never_too = owner.table.watch({{5, 6}}, 3);
+    EXPECT_EQ(counts().alive, 4U);
+    owner.table.drop(a);
+    EXPECT_EQ(counts().alive, 3U);
+    owner.table.drop(never);
+    EXPECT_EQ(counts().alive, 2U);
+    EXPECT_EQ(counts().cancelled, 1U);
+    owner.table.drop_never(1);
+    EXPECT_EQ(counts().alive, 1U);
     (void)b;
     (void)never_too;
   });
-  EXPECT_THAT(this->owner.failed, testing::ElementsAre(2));
-  EXPECT_EQ(this->counts().created, 4U);
-  EXPECT_EQ(this->counts().never_failing, 2U);
-  EXPECT_EQ(this->counts().cancelled, 1U);
-  EXPECT_EQ(this->counts().failed, 1U);
-  EXPECT_EQ(this->counts().peak, 4U);
-  this->expect_sum();
+  EXPECT_THAT(owner.failed, testing::ElementsAre(2));
+  EXPECT_EQ(counts().created, 4U);
+  EXPECT_EQ(counts().never_failing, 2U);
+  EXPECT_EQ(counts().cancelled, 1U);
+  EXPECT_EQ(counts().failed, 1U);
+  EXPECT_EQ(counts().peak, 4U);
+  expect_sum();
 }
 
-TYPED_TEST(CertificateTableTest, SlotsAreUsedAgain) {
-  this->run([this] {
-    const CertificateHandle a = this->owner.table.watch({{3, 12}}, 1);
-    const CertificateHandle b = this->owner.table.watch({{4, 12}}, 2);
-    this->owner.table.drop(a);
-    const CertificateHandle c = this->owner.table.watch({{5, 12}}, 3);
+TEST_P(CertificateTableTest, SlotsAreUsedAgain) {
+  run([this] {
+    const CertificateHandle a = owner.table.watch({{3, 12}}, 1);
+    const CertificateHandle b = owner.table.watch({{4, 12}}, 2);
+    owner.table.drop(a);
+    const CertificateHandle c = owner.table.watch({{5, 12}}, 3);
     EXPECT_EQ(slot_of(c), slot_of(a));
     EXPECT_NE(slot_of(c), slot_of(b));
-    EXPECT_EQ(this->owner.table.certificate(slot_of(c)).beads[0], 5U);
-    EXPECT_EQ(this->owner.table.place_in_structure(slot_of(b)), 2U);
+    EXPECT_EQ(owner.table.certificate(slot_of(c)).beads[0], 5U);
+    EXPECT_EQ(owner.table.place_in_structure(slot_of(b)), 2U);
   });
-  EXPECT_THAT(this->owner.failed, testing::ElementsAre(3, 2));
+  EXPECT_THAT(owner.failed, testing::ElementsAre(3, 2));
 }
 
 // The present event's function must stay known while it is present.
-TYPED_TEST(CertificateTableTest, TheFailingSlotIsNotUsedAgainAtOnce) {
+TEST_P(CertificateTableTest, TheFailingSlotIsNotUsedAgainAtOnce) {
   std::vector<std::uint32_t> slots;
-  this->run(
+  run(
       [this] {
-        (void)this->owner.table.watch({{9, 12}}, 9);
+        (void)owner.table.watch({{9, 12}}, 9);
       },
       [&](std::uint32_t slot) {
         slots.push_back(slot);
-        const BeadId next = 9 - static_cast<BeadId>(this->owner.failed.size());
+        const BeadId next = 9 - static_cast<BeadId>(owner.failed.size());
         if (next > 4) {
-          const CertificateHandle guard = this->owner.table.watch({{next, 12}}, next);
+          const CertificateHandle guard = owner.table.watch({{next, 12}}, next);
           EXPECT_TRUE(has_slot(guard));
           EXPECT_NE(slot_of(guard), slot);
         }
       });
-  EXPECT_THAT(this->owner.failed, testing::ElementsAre(9, 8, 7, 6, 5));
+  EXPECT_THAT(owner.failed, testing::ElementsAre(9, 8, 7, 6, 5));
   // But after it: two slots do for all.
   EXPECT_EQ(*std::max_element(slots.begin(), slots.end()), 1U);
 }
 
-TYPED_TEST(CertificateTableTest, PlacesTellStructuresTablesAndPlacesApart) {
-  this->run([this] {
-    const CertificateHandle a = this->owner.table.watch({{3, 12}}, 0xffffffffU);
-    const CertificateHandle b = this->owner.unused.watch({{3, 12}}, 0xffffffffU);
-    EXPECT_NE(this->owner.table.place(slot_of(a)), this->owner.unused.place(slot_of(b)));
-    EXPECT_EQ(this->owner.table.place(slot_of(a)) & 0xffffffffU, 0xffffffffU);
-    this->owner.unused.drop(b);
+TEST_P(CertificateTableTest, PlacesTellStructuresTablesAndPlacesApart) {
+  run([this] {
+    const CertificateHandle a = owner.table.watch({{3, 12}}, 0xffffffffU);
+    const CertificateHandle b = owner.unused.watch({{3, 12}}, 0xffffffffU);
+    EXPECT_NE(owner.table.place(slot_of(a)), owner.unused.place(slot_of(b)));
+    EXPECT_EQ(owner.table.place(slot_of(a)) & 0xffffffffU, 0xffffffffU);
+    owner.unused.drop(b);
   });
-  Simulator two;
-  Owner<TypeParam> first(two, this->motion);
-  Owner<TypeParam> second(two, this->motion);
+  Simulator two(AuditMode::none, GetParam());
+  Owner first(two, motion);
+  Owner second(two, motion);
   first.on_start = [&] { (void)first.table.watch({{3, 12}}, 4); };
   second.on_start = [&] {
     const CertificateHandle guard = second.table.watch({{3, 12}}, 4);
@@ -215,44 +224,44 @@ TYPED_TEST(CertificateTableTest, PlacesTellStructuresTablesAndPlacesApart) {
     EXPECT_EQ(second.table.structure(), 1U);
   };
   two.build();
-  two.run_step(true);
+  two.run_step();
   EXPECT_EQ(first.failed.size(), 1U);
   EXPECT_EQ(second.failed.size(), 1U);
 }
 
-TYPED_TEST(CertificateTableTest, TheNextStepStartsWithEmptyTables) {
+TEST_P(CertificateTableTest, TheNextStepStartsWithEmptyTables) {
   std::vector<std::uint32_t> slots;
-  this->owner.on_start = [&] {
-    EXPECT_EQ(this->counts().alive, 0U);
-    slots.push_back(slot_of(this->owner.table.watch({{3, 12}}, 0)));
-    (void)this->owner.table.watch({{0, 1}}, 0);
+  owner.on_start = [&] {
+    EXPECT_EQ(counts().alive, 0U);
+    slots.push_back(slot_of(owner.table.watch({{3, 12}}, 0)));
+    (void)owner.table.watch({{0, 1}}, 0);
   };
-  this->simulator.build();
-  this->simulator.run_step(false);
-  this->simulator.run_step(true);
+  simulator.build();
+  simulator.run_step();
+  simulator.run_step();
   EXPECT_THAT(slots, testing::ElementsAre(0, 0));
-  EXPECT_EQ(this->owner.failed.size(), 2U);
-  EXPECT_EQ(this->counts().peak, 2U);
-  this->expect_sum();
+  EXPECT_EQ(owner.failed.size(), 2U);
+  EXPECT_EQ(counts().peak, 2U);
+  expect_sum();
 }
 
-TYPED_TEST(CertificateTableTest, EveryStageIsCounted) {
-  this->run([this] {
-    for (BeadId i = 0; i + 1 < 10; ++i) (void)this->owner.table.watch({{i, i + 1}}, i);
-    for (BeadId i = 0; i < 10; ++i) (void)this->owner.table.watch({{i, 12}}, i);
+TEST_P(CertificateTableTest, EveryStageIsCounted) {
+  run([this] {
+    for (BeadId i = 0; i + 1 < 10; ++i) (void)owner.table.watch({{i, i + 1}}, i);
+    for (BeadId i = 0; i < 10; ++i) (void)owner.table.watch({{i, 12}}, i);
   });
-  const StageCounts& stages = this->owner.statistics.stages;
+  const StageCounts& stages = owner.statistics.stages;
   EXPECT_EQ(stages.coefficients + stages.isolation + stages.refined + stages.exact + stages.identically_zero,
             19U);
 }
 
 // A few at a time or all at once: the same guards in the same order.
-TYPED_TEST(CertificateTableTest, ManyAreAsOneByOne) {
+TEST_P(CertificateTableTest, ManyAreAsOneByOne) {
   std::vector<std::pair<std::uint32_t, CertificateHandle>> expected, many;
   for (const bool a_few_at_a_time : {false, true}) {
-    this->run([&] {
+    run([&] {
       std::mt19937 random(6);
-      auto& table = this->owner.table;
+      auto& table = owner.table;
       for (int round = 0; round < 3; ++round) {
         for (std::uint32_t place = 0; place < 1300; ++place) {
           const auto left = static_cast<BeadId>(random() % 20);
@@ -268,14 +277,14 @@ TYPED_TEST(CertificateTableTest, ManyAreAsOneByOne) {
         });
       }
     });
-    this->expect_sum();
+    expect_sum();
   }
   EXPECT_EQ(expected.size(), 3900U);
   EXPECT_EQ(many, expected);
 }
 
 // Anything at random; only the books are checked.
-TYPED_TEST(CertificateTableTest, TheBooksBalance) {
+TEST_P(CertificateTableTest, TheBooksBalance) {
   std::mt19937 random(5);
   std::uint64_t peak = 0;
   std::vector<CertificateHandle> live;
@@ -284,19 +293,19 @@ TYPED_TEST(CertificateTableTest, TheBooksBalance) {
       const auto left = static_cast<BeadId>(random() % 20);
       const auto right = static_cast<BeadId>((left + 1 + random() % 19) % 20);
       const CertificateHandle guard =
-          this->owner.table.watch({{left, right}}, static_cast<std::uint32_t>(random() % 1000));
+          owner.table.watch({{left, right}}, static_cast<std::uint32_t>(random() % 1000));
       if (guard != CertificateHandle::violated) live.push_back(guard);
     }
     peak = std::max<std::uint64_t>(peak, live.size());
     if (live.size() > 2 && random() % 3 != 0) {
       const std::size_t chosen = random() % live.size();
-      this->owner.table.drop(live[chosen]);
+      owner.table.drop(live[chosen]);
       live.erase(live.begin() + static_cast<std::ptrdiff_t>(chosen));
     }
-    EXPECT_EQ(this->counts().alive, live.size());
+    EXPECT_EQ(counts().alive, live.size());
   };
   int budget = 400;
-  this->run(
+  run(
       [&] {
         for (int i = 0; i < 50; ++i) act();
       },
@@ -306,17 +315,48 @@ TYPED_TEST(CertificateTableTest, TheBooksBalance) {
         live.erase(gone);
         if (budget-- > 0) act();
       });
-  EXPECT_GT(this->owner.failed.size(), 30U);
-  EXPECT_EQ(this->counts().peak, peak);
-  this->expect_sum();
+  EXPECT_GT(owner.failed.size(), 30U);
+  EXPECT_EQ(counts().peak, peak);
+  expect_sum();
+}
+
+// Another type of the number that Precedes has.
+struct Follows {
+  static constexpr CertificateType type{Precedes::type.number, "follows"};
+  std::array<BeadId, 2> beads{};
+  [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
+  [[nodiscard]] bool side() const { return true; }
+};
+
+}  // namespace
+
+template <>
+std::unique_ptr<CertificateSearch<Follows>> search_over(const MotionRef<1>&) {
+  return nullptr;  // nobody gets so far as to search
+}
+
+namespace {
+
+TEST(CertificateTables, OfTwoTypesOfOneNumberAreRefused) {
+  const Line motion = sweeping();
+  Simulator simulator;
+  Owner owner(simulator, motion);
+  EXPECT_NO_THROW(CertificateTable<Precedes>(simulator, owner, 0, 7, MotionRef<1>(motion)));  // the same type
+  Simulator other;
+  Owner another(other, motion);
+  try {
+    const CertificateTable<Follows> table(other, another, 0, 7, MotionRef<1>(motion));
+    FAIL() << "no exception";
+  } catch (const std::logic_error& refusal) {
+    EXPECT_STREQ(refusal.what(),
+                 "certificate types precedes and follows have the same number 0: give one of them another");
+  }
 }
 
 // Polynomial and radical certificates in one queue.
-template <class K>
 class BallOwner final : public KineticStructure {
  public:
-  using Plane = BezierMotion<2, 1>;
-  BallOwner(Simulator& simulator, const Plane& motion)
+  BallOwner(Simulator& simulator, const MotionRef<2>& motion)
       : contacts(simulator, *this, simulator.add(*this), 0, motion), inside(simulator, *this, 0, 1, motion) {}
 
   [[nodiscard]] std::string_view name() const override { return "balls"; }
@@ -345,12 +385,11 @@ class BallOwner final : public KineticStructure {
   [[nodiscard]] std::optional<std::string> audit(const Dyadic&) override { return std::nullopt; }
 
   std::vector<unsigned> failed;
-  CertificateTable<Contact, Plane, K> contacts;
-  CertificateTable<BallInSphere<2, 1>, Plane, K> inside;
+  CertificateTable<Contact> contacts;
+  CertificateTable<BallInSphere<2, 1>> inside;
 };
 
-template <class K>
-void expect_balls_in_order(std::vector<unsigned> expected) {
+void expect_balls_in_order(Kernel kernel, const std::vector<unsigned>& expected) {
   BezierMotion<2, 1> motion(4);
   const auto set = [&](BeadId bead, double from, double to, double y, double radius) {
     motion.set_coordinate(bead, 0, 0, from);
@@ -364,16 +403,16 @@ void expect_balls_in_order(std::vector<unsigned> expected) {
   set(1, 0, 1.5, 0, 0.5);
   set(2, 0, 0, 100, 1);
   set(3, 4, -2, 100, 1);  // meets 2 at x = 2
-  Simulator simulator;
-  BallOwner<K> owner(simulator, motion);
+  Simulator simulator(AuditMode::none, kernel);
+  BallOwner owner(simulator, motion);
   simulator.build();
-  simulator.run_step(true);
+  simulator.run_step();
   EXPECT_EQ(owner.failed, expected);
 }
 
 TEST(CertificateTables, OfRadicalsShareTheQueue) {
-  expect_balls_in_order<Filtered>({0, 1});
-  expect_balls_in_order<Exact>({0, 1});
+  expect_balls_in_order(Kernel::filtered, {0, 1});
+  expect_balls_in_order(Kernel::exact, {0, 1});
 }
 
 }  // namespace

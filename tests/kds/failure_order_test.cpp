@@ -88,7 +88,7 @@ TEST_F(FailureOrderTest, NarrowingKeepsTheTimeInTheBracket) {
 
 TEST_F(FailureOrderTest, ABracketOfSeveralRootsIsNotNarrowed) {
   // Roots 1/5, 2/5, 4/5; the failure at 4/5 is root number 2 of the whole step.
-  const auto a = source.add(times(times(falling(1, 5), falling(2, 5)), falling(4, 5)), named(1));
+  const auto a = source.add(product(product(falling(1, 5), falling(2, 5)), falling(4, 5)), named(1));
   const auto b = source.add(falling(5, 7), named(2));
   ScheduledFailure last{{0, 1, 2, false}, 0, a, &source};
   ScheduledFailure first{{0, 1, 0, false}, 0, a, &source};
@@ -108,8 +108,8 @@ TEST_F(FailureOrderTest, ABracketOfSeveralRootsIsNotNarrowed) {
 TEST_F(FailureOrderTest, TiesAreBrokenByTypeThenBeadsThenPlace) {
   const auto one = source.add(falling(1, 3), named(5, 1), 0);
   const auto two = source.add(falling(2, 6), named(1, 2), 0);
-  const auto three = source.add(times(falling(1, 3), falling(5, 4)), named(2, 2), 7);
-  const auto four = source.add(times(falling(1, 3), falling(5, 4)), named(2, 2), 8);
+  const auto three = source.add(product(falling(1, 3), falling(5, 4)), named(2, 2), 7);
+  const auto four = source.add(product(falling(1, 3), falling(5, 4)), named(2, 2), 8);
   const std::vector<std::uint32_t> slots{one, two, three, four};
   for (std::size_t i = 0; i < slots.size(); ++i) {
     for (std::size_t j = i + 1; j < slots.size(); ++j) {
@@ -129,8 +129,8 @@ TEST_F(FailureOrderTest, OneFunctionNeedsNoExactWork) {
 
 TEST_F(FailureOrderTest, EqualIrrationalRootsOfDifferentFunctionsAreATie) {
   const auto a = source.add(falling_at_root_of_one_over(2), named(3));
-  const auto b = source.add(times(falling_at_root_of_one_over(2), falling(7, 6)), named(2));
-  const auto c = source.add(times(falling_at_root_of_one_over(2), falling_at_root_of_one_over(-5)), named(1));
+  const auto b = source.add(product(falling_at_root_of_one_over(2), falling(7, 6)), named(2));
+  const auto c = source.add(product(falling_at_root_of_one_over(2), falling_at_root_of_one_over(-5)), named(1));
   expect_tie(exactly(a), exactly(b));
   expect_tie(exactly(b), exactly(c));
   expect_tie(at(0.5, 0.75, a), at(0.625, 0.875, c));
@@ -142,7 +142,7 @@ TEST_F(FailureOrderTest, EqualIrrationalRootsOfDifferentFunctionsAreATie) {
 TEST_F(FailureOrderTest, TieNumbersSpareTheSecondComparison) {
   std::vector<ScheduledFailure> tied;
   for (BeadId i = 0; i < 6; ++i)
-    tied.push_back(exactly(source.add(times(falling_at_root_of_one_over(2), falling(8 + i, 7)), named(i))));
+    tied.push_back(exactly(source.add(product(falling_at_root_of_one_over(2), falling(8 + i, 7)), named(i))));
   for (std::size_t i = 0; i < tied.size(); ++i) {
     for (std::size_t j = 0; j < tied.size(); ++j) {
       if (i == j) continue;
@@ -157,13 +157,13 @@ TEST_F(FailureOrderTest, TieNumbersSpareTheSecondComparison) {
 // A tie found in one place must not make equal what is tied elsewhere.
 TEST_F(FailureOrderTest, TieNumbersOfDifferentTimesDiffer) {
   // Brackets that are not narrowed, so that they overlap whatever is known.
-  const auto wide = [&](const Coefficients& function, BeadId bead) {
+  const auto wide = [&](const Scaled& function, BeadId bead) {
     return ScheduledFailure{{0.5, 0.9, 0, false}, 0, source.add(function, named(bead)), &source};
   };
   ScheduledFailure a = wide(falling_at_root_of_one_over(2), 1);
-  ScheduledFailure b = wide(times(falling_at_root_of_one_over(2), falling(8, 7)), 2);
+  ScheduledFailure b = wide(product(falling_at_root_of_one_over(2), falling(8, 7)), 2);
   ScheduledFailure c = wide(falling_at_root_of_one_over(3), 3);
-  ScheduledFailure d = wide(times(falling_at_root_of_one_over(3), falling(8, 7)), 4);
+  ScheduledFailure d = wide(product(falling_at_root_of_one_over(3), falling(8, 7)), 4);
   EXPECT_EQ(order.compare_times(a, b), 0);
   EXPECT_EQ(order.compare_times(c, d), 0);
   EXPECT_EQ(order.compare_times(c, a), -1);
@@ -174,7 +174,7 @@ TEST_F(FailureOrderTest, TieNumbersOfDifferentTimesDiffer) {
 
 TEST_F(FailureOrderTest, PointTimes) {
   const auto half = source.add(falling(1, 2), named(1));
-  const auto also_half = source.add(times(falling(1, 2), falling(9, 8)), named(2));
+  const auto also_half = source.add(product(falling(1, 2), falling(9, 8)), named(2));
   const auto quarter = source.add(falling(1, 4), named(3));
   const auto third = source.add(falling(1, 3), named(4));
   const auto near_half = source.add(falling(1001, 2001), named(5));
@@ -193,7 +193,7 @@ TEST_F(FailureOrderTest, PointTimes) {
 
 TEST_F(FailureOrderTest, ADoubleRootElsewhereDoesNotDisturb) {
   // (1 - 3u)^2 touches zero at 1/3, then the function falls at 1/2.
-  const auto a = source.add(times(times(falling(1, 3), falling(1, 3)), falling(1, 2)), named(1));
+  const auto a = source.add(product(product(falling(1, 3), falling(1, 3)), falling(1, 2)), named(1));
   const auto b = source.add(falling(3, 7), named(2));
   ScheduledFailure fa = exactly(a);
   EXPECT_LE(fa.time.lower, 0.5);
@@ -218,12 +218,12 @@ class RandomFailures : public testing::TestWithParam<unsigned> {
       const int p = 1 + below(q - 1);
       const Rational root(p, q);
       // All other factors are positive on [0, root].
-      Coefficients function = falling(p, q);
+      Scaled function = falling(p, q);
       std::vector<Rational> others;
       for (int extra = below(3); extra > 0; --extra) {
         const int r = q * (1 + below(3));
         const int numerator = r * p / q + 1 + below(3);
-        function = times(function, falling(numerator, r));
+        function = product(function, falling(numerator, r));
         others.emplace_back(numerator, r);
       }
       const Identity identity = named(static_cast<BeadId>(below(1000)), static_cast<std::uint32_t>(below(3)));

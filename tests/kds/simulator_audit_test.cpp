@@ -26,8 +26,9 @@ TEST_F(AuditedTest, LooksAtWhatWasDoneWhileTimeStoodStill) {
   log.clear();
   a.audits.clear();
   a.needs_after_batch = true;
-  simulator.leave_step(true);
-  EXPECT_THAT(log, ElementsAre("a settle", "a 1/2", "a finish last"));
+  simulator.leave_step();
+  simulator.finish();
+  EXPECT_THAT(log, ElementsAre("a settle", "a 1/2", "a finish", "a end"));
   ASSERT_EQ(a.audits.size(), 3U);  // before the event, after it, at the end
   EXPECT_GT(a.audits[0], Rational(1, 4));
   EXPECT_LT(a.audits[0], Rational(1, 2));
@@ -36,12 +37,13 @@ TEST_F(AuditedTest, LooksAtWhatWasDoneWhileTimeStoodStill) {
 TEST_F(AuditedTest, AuditsStrictlyBetweenAllEvents) {
   a.on_start = [&] {
     a.schedule("1/3", falling(1, 3), 1);
-    a.schedule("1/3 too", times(falling(1, 3), falling(8, 7)), 2);
+    a.schedule("1/3 too", product(falling(1, 3), falling(8, 7)), 2);
     a.schedule("1/2", falling(1, 2), 3);
     a.schedule("soon after", {Integer((1LL << 40) + 1), Integer((1LL << 40) + 1 - (1LL << 41))}, 4);
   };
   simulator.build();
-  simulator.run_step(true);
+  simulator.run_step();
+  simulator.finish();
   const Rational soon = Rational(1, 2) + Rational(1, 1LL << 41);
   ASSERT_EQ(a.audits.size(), 6U);  // the start, between 0, 1/3, 1/2, soon after and 1, the end
   const std::array<Rational, 5> ends{0, Rational(1, 3), Rational(1, 2), soon, 1};
@@ -67,9 +69,10 @@ TEST_F(AuditedTest, AuditsComeAfterSettlingAndBeforeWhatItSchedules) {
     return std::nullopt;
   };
   simulator.build();
-  simulator.run_step(true);
+  simulator.run_step();
+  simulator.finish();
   EXPECT_THAT(log, ElementsAre("a build", "a audit", "a start", "a audit", "a 1/3", "a settle", "a audit",
-                               "a soon", "a audit", "a 3/4", "a audit", "a finish last", "a audit"));
+                               "a soon", "a audit", "a 3/4", "a audit", "a finish", "a audit", "a end"));
   EXPECT_GT(a.audits[2], Rational(1, 3));
   EXPECT_LT(a.audits[2], Rational(1001, 3000));
 }
@@ -80,7 +83,8 @@ TEST_F(AuditedTest, AuditsComeBeforeWhatSettlingSchedulesIntoAnEmptyQueue) {
     for (BeadId b = 0; b < 100; ++b) a.schedule("soon", falling(1001 + b, 3000), b);
   };
   simulator.build();
-  simulator.run_step(true);
+  simulator.run_step();
+  simulator.finish();
   ASSERT_EQ(a.audits.size(), 104U);
   EXPECT_GT(a.audits[2], Rational(1, 3));
   EXPECT_LT(a.audits[2], Rational(1001, 3000));
@@ -89,8 +93,9 @@ TEST_F(AuditedTest, AuditsComeBeforeWhatSettlingSchedulesIntoAnEmptyQueue) {
 
 TEST_F(AuditedTest, AStepWithoutEventsIsAuditedInside) {
   simulator.build();
-  simulator.run_step(false);
-  simulator.run_step(true);
+  simulator.run_step();
+  simulator.run_step();
+  simulator.finish();
   ASSERT_EQ(a.audits.size(), 5U);
   EXPECT_EQ(a.audits[0], 0);
   EXPECT_GT(a.audits[1], 0);
@@ -104,7 +109,8 @@ TEST_F(AuditedTest, AStepWithoutEventsIsAuditedInside) {
 TEST_F(AuditedTest, EventsAtTheStartLeaveNoTimeBefore) {
   a.on_start = [&] { a.schedule("tiny", {1, Integer(1) - (Integer(1) << 100)}, 1); };
   simulator.build();
-  simulator.run_step(true);
+  simulator.run_step();
+  simulator.finish();
   ASSERT_EQ(a.audits.size(), 4U);
   EXPECT_GT(a.audits[1], 0);
   EXPECT_LT(a.audits[1], Rational(1, Integer(1) << 100));
@@ -116,8 +122,9 @@ TEST(SimulatorAudits, AtFramesOnly) {
   Script a{simulator, log, "a"};
   a.on_start = [&] { a.schedule("1/3", falling(1, 3), 1); };
   simulator.build();
-  simulator.run_step(false);
-  simulator.run_step(true);
+  simulator.run_step();
+  simulator.run_step();
+  simulator.finish();
   EXPECT_THAT(a.audits, ElementsAre(0, 1, 1));
 }
 
@@ -130,10 +137,10 @@ TEST_F(AuditedTest, AFailedAuditThrowsWithStepAndTime) {
     return std::nullopt;
   };
   simulator.build();
-  simulator.run_step(false);
+  simulator.run_step();
   std::string message;
   try {
-    simulator.run_step(true);
+    simulator.run_step();
     FAIL() << "no exception";
   } catch (const AuditError& error) {
     message = error.what();

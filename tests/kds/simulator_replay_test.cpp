@@ -19,7 +19,7 @@ std::uint64_t fingerprint_of(const std::vector<std::pair<double, BeadId>>& event
       a.schedule("", falling(static_cast<long long>(time * 1024), 1024), bead);
   };
   simulator.build();
-  simulator.run_step(true);
+  simulator.run_step();
   return simulator.fingerprint();
 }
 
@@ -40,8 +40,8 @@ TEST(SimulatorFingerprint, DependsOnTheStep) {
       if (simulator.step() == step) a.schedule("", falling(1, 2), 1);
     };
     simulator.build();
-    simulator.run_step(false);
-    simulator.run_step(true);
+    simulator.run_step();
+    simulator.run_step();
     prints.push_back(simulator.fingerprint());
   }
   EXPECT_NE(prints[0], prints[1]);
@@ -66,8 +66,9 @@ TEST(SimulatorReplay, EqualsTheRun) {
   Listener listener;
   run.listen(listener);
   run.build();
-  run.run_step(false);
-  run.run_step(true);
+  run.run_step();
+  run.run_step();
+  run.finish();
 
   Simulator replay;
   Log replay_log;
@@ -84,15 +85,16 @@ TEST(SimulatorReplay, EqualsTheRun) {
         events.push_back(
             {heard.event.structure, heard.event.lower, heard.event.upper, heard.event.change, ""});
     }
-    replay.replay_step(events, step == 1);
+    replay.replay_step(events);
   }
+  replay.finish();
   EXPECT_EQ(replay.fingerprint(), run.fingerprint());
   EXPECT_EQ(replayed_a.statistics.events_by_kind, a.statistics.events_by_kind);
   EXPECT_EQ(replayed_b.statistics.events_by_kind, b.statistics.events_by_kind);
   EXPECT_EQ(replayed_a.statistics.events_per_step, a.statistics.events_per_step);
   EXPECT_THAT(replay_log, ElementsAre("a build", "b build", "b apply 4", "a apply 30", "a apply 31",
                                       "a finish", "b finish", "b apply 4", "a apply 31", "a apply 31",
-                                      "a finish last", "b finish last"));
+                                      "a finish", "b finish", "a end", "b end"));
   ASSERT_EQ(replay_listener.heard.size(), listener.heard.size());
   for (std::size_t i = 0; i < listener.heard.size(); ++i) {
     EXPECT_EQ(replay_listener.heard[i].event.change, listener.heard[i].event.change);
@@ -110,7 +112,7 @@ TEST(SimulatorReplay, SaysWhereAChangeCannotBeMade) {
                                                 {0, 0.5, 0.5, {0, 1, {13}}, "log:8"}};
   std::string message;
   try {
-    simulator.replay_step(events, true);
+    simulator.replay_step(events);
     FAIL() << "no exception";
   } catch (const std::invalid_argument& error) {
     message = error.what();

@@ -17,7 +17,8 @@ class SimulatorTest : public testing::Test {
  protected:
   void run(bool last = true) {
     if (simulator.step() == 0) simulator.build();
-    simulator.run_step(last);
+    simulator.run_step();
+    if (last) simulator.finish();
   }
 
   Simulator simulator;
@@ -33,7 +34,7 @@ TEST_F(SimulatorTest, DispatchesInTheOrderOfTime) {
     a.schedule("2/5", falling(2, 5), 4);
   };
   run();
-  EXPECT_THAT(log, ElementsAre("a build", "a start", "a 1/3", "a 2/5", "a 1/2", "a 3/4", "a finish last"));
+  EXPECT_THAT(log, ElementsAre("a build", "a start", "a 1/3", "a 2/5", "a 1/2", "a 3/4", "a finish", "a end"));
   EXPECT_EQ(a.retired, 4);
   EXPECT_EQ(a.cleared, 1);
 }
@@ -45,14 +46,15 @@ TEST_F(SimulatorTest, AStepOfTooManyFailuresIsGivenUp) {
     a.schedule("1/2", falling(1, 2), 3);
   };
   simulator.build();
-  EXPECT_FALSE(simulator.try_step(2, false));
+  EXPECT_FALSE(simulator.try_step(2));
   EXPECT_THAT(log, ElementsAre("a build", "a start", "a 1/3", "a 1/2"));
   EXPECT_EQ(a.cleared, 1);
   EXPECT_EQ(simulator.step(), 1U);
   // The next step is as any other.
   log.clear();
-  EXPECT_TRUE(simulator.try_step(3, true));
-  EXPECT_THAT(log, ElementsAre("a start", "a 1/3", "a 1/2", "a 3/4", "a finish last"));
+  EXPECT_TRUE(simulator.try_step(3));
+  simulator.finish();
+  EXPECT_THAT(log, ElementsAre("a start", "a 1/3", "a 1/2", "a 3/4", "a finish", "a end"));
   EXPECT_EQ(simulator.step(), 2U);
 }
 
@@ -64,7 +66,7 @@ TEST_F(SimulatorTest, NowIsTheBracketOfTheEvent) {
       EXPECT_LT(simulator.now().lower(), 1.0 / 3);
       EXPECT_GT(simulator.now().upper(), std::nextafter(1.0 / 3, 0));
       EXPECT_LT(simulator.now().upper() - simulator.now().lower(), 1e-9);
-      ExactTime third(ExactPolynomial(Coefficients{1, -2}), {Dyadic(0.0), Dyadic(1.0)});
+      ExactTime third(ExactPolynomial(Scaled{1, -2}), {Dyadic(0.0), Dyadic(1.0)});
       EXPECT_EQ(ExactTime::compare(simulator.now().exact(), third), 0);
     });
   };
@@ -74,26 +76,26 @@ TEST_F(SimulatorTest, NowIsTheBracketOfTheEvent) {
 
 TEST_F(SimulatorTest, EqualTimesComeInTheOrderOfIdentities) {
   a.on_start = [&] {
-    a.schedule("c", times(falling(1, 3), falling(8, 7)), 30);
+    a.schedule("c", product(falling(1, 3), falling(8, 7)), 30);
     a.schedule("b", falling(2, 6), 20);
-    a.schedule("d", times(falling(1, 3), falling(9, 7)), 40);
+    a.schedule("d", product(falling(1, 3), falling(9, 7)), 40);
     a.schedule("a", falling(1, 3), 10);
   };
   run();
-  EXPECT_THAT(log, ElementsAre("a build", "a start", "a a", "a b", "a c", "a d", "a finish last"));
+  EXPECT_THAT(log, ElementsAre("a build", "a start", "a a", "a b", "a c", "a d", "a finish", "a end"));
 }
 
 TEST_F(SimulatorTest, SettlesOnceAfterAllEventsOfOneTime) {
   const auto unsettle = [&] { a.needs_after_batch = true; };
   a.on_start = [&] {
     a.schedule("first", falling(1, 3), 1, unsettle);
-    a.schedule("second", times(falling(1, 3), falling(8, 7)), 2);
-    a.schedule("third", times(falling(1, 3), falling(9, 7)), 3, unsettle);
+    a.schedule("second", product(falling(1, 3), falling(8, 7)), 2);
+    a.schedule("third", product(falling(1, 3), falling(9, 7)), 3, unsettle);
     a.schedule("later", falling(1, 2), 4);
   };
   run();
   EXPECT_THAT(log, ElementsAre("a build", "a start", "a first", "a second", "a third", "a settle", "a later",
-                               "a finish last"));
+                               "a finish", "a end"));
   EXPECT_FALSE(a.needs_after_batch);
 }
 
@@ -103,7 +105,7 @@ TEST_F(SimulatorTest, SettlesAfterTheStartAndAfterTheLastEvent) {
     a.schedule("1/2", falling(1, 2), 1, [&] { a.needs_after_batch = true; });
   };
   run();
-  EXPECT_THAT(log, ElementsAre("a build", "a start", "a settle", "a 1/2", "a settle", "a finish last"));
+  EXPECT_THAT(log, ElementsAre("a build", "a start", "a settle", "a 1/2", "a settle", "a finish", "a end"));
 }
 
 // The exact time of the present event is there for as long as structures settle.
@@ -125,21 +127,21 @@ TEST_F(SimulatorTest, OnlyTheUnsettledAreSettled) {
   a.on_start = [&] { a.schedule("1/2", falling(1, 2), 1, [&] { b.needs_after_batch = true; }); };
   run();
   EXPECT_THAT(log, ElementsAre("a build", "b build", "a start", "b start", "a 1/2", "b settle",
-                               "a finish last", "b finish last"));
+                               "a finish", "b finish", "a end", "b end"));
 }
 
 TEST_F(SimulatorTest, WhatIsScheduledForNowComesBeforeLaterEventsAndSettling) {
   a.on_start = [&] {
     a.schedule("first", falling(1, 3), 5, [&] {
       a.needs_after_batch = true;
-      a.schedule("at once", times(falling(1, 3), falling(8, 7)), 3,
-                 [&] { a.schedule("and again", times(falling(1, 3), falling(9, 7)), 1); });
+      a.schedule("at once", product(falling(1, 3), falling(8, 7)), 3,
+                 [&] { a.schedule("and again", product(falling(1, 3), falling(9, 7)), 1); });
     });
     a.schedule("later", falling(1, 2), 4);
   };
   run();
   EXPECT_THAT(log, ElementsAre("a build", "a start", "a first", "a at once", "a and again", "a settle",
-                               "a later", "a finish last"));
+                               "a later", "a finish", "a end"));
 }
 
 TEST_F(SimulatorTest, SettlingMayCancelAndSchedule) {
@@ -154,7 +156,7 @@ TEST_F(SimulatorTest, SettlingMayCancelAndSchedule) {
     a.schedule("1/2", falling(1, 2), 4);
   };
   run();
-  EXPECT_THAT(log, ElementsAre("a build", "a start", "a 1/3", "a settle", "a 1/2", "a 2/3", "a finish last"));
+  EXPECT_THAT(log, ElementsAre("a build", "a start", "a 1/3", "a settle", "a 1/2", "a 2/3", "a finish", "a end"));
 }
 
 TEST_F(SimulatorTest, OneClockForAllStructures) {
@@ -199,8 +201,9 @@ TEST_F(SimulatorTest, StandsStillWithinAStep) {
   log.clear();
   simulator.run_until(Dyadic(0.625));
   EXPECT_THAT(log, ElementsAre("a 1/3", "a 1/2"));
-  simulator.leave_step(true);
-  EXPECT_THAT(log, ElementsAre("a 1/3", "a 1/2", "a 3/4", "a finish last"));
+  simulator.leave_step();
+  simulator.finish();
+  EXPECT_THAT(log, ElementsAre("a 1/3", "a 1/2", "a 3/4", "a finish", "a end"));
   EXPECT_EQ(a.retired, 4);
   EXPECT_EQ(simulator.step(), 1U);
 }
@@ -217,7 +220,7 @@ TEST_F(SimulatorTest, StepsFollowEachOther) {
   EXPECT_EQ(simulator.step(), 1U);
   run(true);
   EXPECT_EQ(simulator.step(), 2U);
-  EXPECT_THAT(log, ElementsAre("a build", "a start", "a 0", "a finish", "a start", "a 1", "a finish last"));
+  EXPECT_THAT(log, ElementsAre("a build", "a start", "a 0", "a finish", "a start", "a 1", "a finish", "a end"));
   EXPECT_EQ(a.cleared, 2);
 }
 
@@ -269,6 +272,68 @@ TEST_F(SimulatorTest, ListenersHearEveryChange) {
     EXPECT_GE(event.upper, time);
     EXPECT_LT(event.upper - event.lower, 1e-9);
   }
+}
+
+// What is asked for at the wrong time is refused by one message that says what to do.
+template <class Exception, class Use>
+std::string refusal_of(Use use) {
+  try {
+    use();
+  } catch (const Exception& refusal) {
+    return refusal.what();
+  }
+  return "no exception";
+}
+
+TEST_F(SimulatorTest, NoStepWithoutBuilding) {
+  const auto expect_build_first = [](const std::string& message) {
+    EXPECT_THAT(message, testing::HasSubstr("call build() first"));
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+  };
+  expect_build_first(refusal_of<std::logic_error>([&] { simulator.run_step(); }));
+  expect_build_first(refusal_of<std::logic_error>([&] { simulator.enter_step(); }));
+  expect_build_first(refusal_of<std::logic_error>([&] { static_cast<void>(simulator.try_step(1)); }));
+  expect_build_first(refusal_of<std::logic_error>([&] { simulator.leave_step(); }));
+  expect_build_first(refusal_of<std::logic_error>([&] { simulator.replay_step({}); }));
+  expect_build_first(refusal_of<std::logic_error>([&] { simulator.finish(); }));
+  EXPECT_THAT(log, IsEmpty());
+  run();  // no harm was done
+  EXPECT_THAT(log, ElementsAre("a build", "a start", "a finish", "a end"));
+}
+
+TEST_F(SimulatorTest, NoStructureIsAddedAfterBuilding) {
+  simulator.build();
+  EXPECT_THAT(refusal_of<std::logic_error>([&] { Script late(simulator, log, "late"); }),
+              testing::AllOf(testing::HasSubstr("late"), testing::HasSubstr("before build()")));
+  simulator.run_step();
+  EXPECT_THAT(refusal_of<std::logic_error>([&] { Script late(simulator, log, "later"); }),
+              testing::HasSubstr("later"));
+  EXPECT_THAT(log, ElementsAre("a build", "a start", "a finish"));
+}
+
+TEST_F(SimulatorTest, NoTimeOutsideAStep) {
+  EXPECT_THAT(refusal_of<std::logic_error>([&] { simulator.run_until(Dyadic(0.5)); }),
+              testing::HasSubstr("call build() first"));
+  simulator.build();
+  EXPECT_THAT(refusal_of<std::logic_error>([&] { simulator.run_until(Dyadic(0.5)); }),
+              testing::HasSubstr("call enter_step() first"));
+  simulator.enter_step();
+  simulator.run_until(Dyadic(0.5));
+  EXPECT_THAT(refusal_of<std::logic_error>([&] { simulator.enter_step(); }),
+              testing::HasSubstr("call leave_step() first"));
+  EXPECT_THAT(refusal_of<std::logic_error>([&] { simulator.build(); }),
+              testing::HasSubstr("call leave_step() first"));
+  EXPECT_THAT(refusal_of<std::logic_error>([&] { simulator.finish(); }),
+              testing::HasSubstr("call leave_step() first"));
+  EXPECT_THAT(refusal_of<std::invalid_argument>([&] { simulator.run_until(Dyadic(0.25)); }),
+              testing::HasSubstr("expected a time from 0.5 on, before 1"));
+  EXPECT_THAT(refusal_of<std::invalid_argument>([&] { simulator.run_until(Dyadic(1.0)); }),
+              testing::HasSubstr("u = 1"));
+  simulator.leave_step();
+  EXPECT_THAT(refusal_of<std::logic_error>([&] { simulator.leave_step(); }),
+              testing::HasSubstr("call enter_step() first"));
+  simulator.finish();
+  EXPECT_THAT(log, ElementsAre("a build", "a start", "a finish", "a end"));
 }
 
 TEST_F(SimulatorTest, TimeIsChargedToStructures) {

@@ -7,7 +7,9 @@
 #include <memory>
 #include <string>
 
-#include "certificates/search/failure_search.h"
+#include "certificates/exact/exact_polynomial.h"
+#include "certificates/exact/exact_time.h"
+#include "certificates/exact/instant.h"
 #include "tests/support/polynomials.h"
 #include "tests/support/sturm.h"
 
@@ -89,13 +91,13 @@ inline void expect_confirmed(const std::string& kernel, const Failure& answer,
 class Functions final : public CertificateSource {
  public:
   std::uint32_t add(ExactPolynomial function) {
-    functions_.push_back(std::move(function));
+    functions_.push_back(std::make_shared<const ExactPolynomial>(std::move(function)));
     return static_cast<std::uint32_t>(functions_.size() - 1);
   }
-  [[nodiscard]] ExactPolynomial exact_function(std::uint32_t slot) const override { return functions_[slot]; }
+  [[nodiscard]] ExactFunction exact_function(std::uint32_t slot) const override { return functions_[slot]; }
 
  private:
-  std::vector<ExactPolynomial> functions_;
+  std::vector<ExactFunction> functions_;
 };
 
 }  // namespace kds::test

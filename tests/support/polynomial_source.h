@@ -4,43 +4,35 @@
 #include <algorithm>
 #include <vector>
 
-#include "certificates/search/failure_search.h"
+#include "certificates/exact/exact_polynomial.h"
+#include "certificates/search/exact_search.h"
 #include "kds/simulator.h"
+#include "tests/support/polynomials.h"
 
 namespace kds::test {
 
-using Coefficients = std::vector<Integer>;  // in scaled Bernstein form
-
 /// p - q u: falls through zero at p/q.
-inline Coefficients falling(long long p, long long q) { return {Integer(p), Integer(p - q)}; }
+inline Scaled falling(long long p, long long q) { return {Integer(p), Integer(p - q)}; }
 
 /// 1 - k u^2: falls through zero at sqrt(1/k).
-inline Coefficients falling_at_root_of_one_over(long long k) { return {1, 2, Integer(1 - k)}; }
-
-inline Coefficients times(const Coefficients& a, const Coefficients& b) {
-  Coefficients c(a.size() + b.size() - 1);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t j = 0; j < b.size(); ++j) c[i + j] += a[i] * b[j];
-  }
-  return c;
-}
+inline Scaled falling_at_root_of_one_over(long long k) { return {1, 2, Integer(1 - k)}; }
 
 inline Identity named(BeadId bead, std::uint32_t type = 0) {
-  return {type, {bead, no_bead, no_bead, no_bead, no_bead}};
+  return identity_of({type, {}}, std::array{bead});
 }
 
 /// Entries by slot; nothing happens when one fails.
 class PolynomialSource : public FailureSource {
  public:
   struct Entry {
-    Coefficients function;
+    Scaled function;
     Identity identity;
     std::uint64_t place = 0;
   };
 
   explicit PolynomialSource(std::size_t structure = 0) : structure_(structure) {}
 
-  std::uint32_t add(Coefficients function, const Identity& identity, std::uint64_t place = 0) {
+  std::uint32_t add(Scaled function, const Identity& identity, std::uint64_t place = 0) {
     entries_.push_back({std::move(function), identity, place});
     return static_cast<std::uint32_t>(entries_.size() - 1);
   }
@@ -48,11 +40,11 @@ class PolynomialSource : public FailureSource {
   /// The first failure of an entry after the start of the step, as the exact stage finds it.
   [[nodiscard]] FailureTime first_time(std::uint32_t slot) const {
     StageCounts stages;
-    return exact_first_failure(exact_function(slot), Instant(0), stages).time;
+    return exact_first_failure(*exact_function(slot), Instant(0), stages).time;
   }
 
-  [[nodiscard]] ExactPolynomial exact_function(std::uint32_t slot) const override {
-    return ExactPolynomial(entries_[slot].function);
+  [[nodiscard]] ExactFunction exact_function(std::uint32_t slot) const override {
+    return std::make_shared<const ExactPolynomial>(entries_[slot].function);
   }
   [[nodiscard]] Identity identity(std::uint32_t slot) const override { return entries_[slot].identity; }
   [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override { return entries_[slot].place; }

@@ -22,17 +22,17 @@ class Script final : public KineticStructure, public FailureSource {
  public:
   Script(Simulator& simulator, Log& log, std::string name)
       : simulator_(simulator), log_(log), name_(std::move(name)), index_(simulator.add(*this)) {
-    simulator.add_table(*this);
+    simulator.add_table(*this, {0, "a polynomial"});
   }
 
   /// From now on: `note` fails where `function` does first, with what it then does.
-  QueueHandle schedule(const std::string& note, Coefficients function, BeadId bead,
+  QueueHandle schedule(const std::string& note, Scaled function, BeadId bead,
                        std::function<void()> action = {}) {
     const auto slot = static_cast<std::uint32_t>(entries_.size());
     entries_.push_back({note, std::move(function), bead, std::move(action), false});
     StageCounts stages;
     // The first root at or after now: the script knows what it does.
-    const Failure failure = exact_first_failure(exact_function(slot), Instant(0), stages);
+    const Failure failure = exact_first_failure(*exact_function(slot), Instant(0), stages);
     return entries_[slot].handle = simulator_.schedule(failure.time, *this, slot);
   }
   void change(std::uint8_t kind, BeadId bead) { simulator_.record(index_, {kind, 1, {bead}}); }
@@ -61,7 +61,8 @@ class Script final : public KineticStructure, public FailureSource {
     note("settle");
     if (on_batch_end) on_batch_end();
   }
-  void finish_step(bool last) override { note(last ? "finish last" : "finish"); }
+  void finish_step() override { note("finish"); }
+  void finish() override { note("end"); }
   void apply(const Change& c) override {
     note("apply " + std::to_string(c.ids[0]));
     if (c.ids[0] == 13) throw std::invalid_argument("unlucky");
@@ -72,9 +73,9 @@ class Script final : public KineticStructure, public FailureSource {
   }
 
   // FailureSource
-  [[nodiscard]] ExactPolynomial exact_function(std::uint32_t slot) const override {
+  [[nodiscard]] ExactFunction exact_function(std::uint32_t slot) const override {
     EXPECT_FALSE(entries_.at(slot).retired) << entries_.at(slot).note << " is asked for after it was retired";
-    return ExactPolynomial(entries_.at(slot).function);
+    return std::make_shared<const ExactPolynomial>(entries_.at(slot).function);
   }
   [[nodiscard]] Identity identity(std::uint32_t slot) const override { return named(entries_.at(slot).bead); }
   [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override { return slot; }
@@ -104,7 +105,7 @@ class Script final : public KineticStructure, public FailureSource {
  private:
   struct Entry {
     std::string note;
-    Coefficients function;
+    Scaled function;
     BeadId bead;
     std::function<void()> action;
     bool retired;

@@ -29,9 +29,12 @@ template <class C, class M>
 void expect_same(const C& certificate, const M& motion) {
   constexpr Channels channels = channels_of<C>;
   const auto expected = function_of(certificate, IntegerView<M, channels>(motion, certificate.beads));
-  const ExactPolynomial function = exact_function(certificate, motion);
+  const CoefficientBits size = coefficient_bits(function_of(C{}, MagnitudeViewOf<M>()));
+  const ExactPolynomial function = exact_function_of(certificate, motion, size);
   EXPECT_EQ(function.scaled(), ExactPolynomial(expected).scaled());
-  const CoefficientBits& size = coefficient_bits<C, M>;
+  // The same of the motion as curves of a degree known at run time.
+  EXPECT_EQ(exact_function_of(certificate, Curves<M::dimension>(motion), size).scaled(), function.scaled());
+  EXPECT_EQ(coefficient_bits(function_of(C{}, MagnitudeView<M::dimension, any_degree>(M::degree))).bits, size.bits);
   const int length_bits = whole_scale<channels>(motion, certificate.beads).bits + 1;
   EXPECT_LE(static_cast<int>(function.largest_bit_length()), size.bits + size.power * length_bits);
 }
@@ -100,7 +103,7 @@ TYPED_TEST(ExactFunction, OfBeadsAtTheOriginIsZero) {
   const typename TypeParam::M motion(TypeParam::beads);
   const auto certificate = test::random_certificate<C>(random);
   expect_same(certificate, motion);
-  EXPECT_TRUE(exact_function(certificate, motion).is_zero());
+  EXPECT_TRUE(exact_function_of(certificate, motion, {}).is_zero());
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <iostream>
 #include <tuple>
 
-#include "certificates/search/failure_search.h"
+#include "tests/support/searches.h"
 #include "certificates/types/precedes.h"
 #include "tests/support/judged_failure.h"
 #include "tests/support/property_runs.h"
@@ -188,7 +188,7 @@ void expect_cascade(const Judged& p, const Dyadic& from, Random& random, Faults&
   Precedes certificate({0, 1});
   std::optional<Judged> rounded;
   if (!as_it_was) {
-    const ExactPolynomial function = exact_function(certificate, motion);
+    const ExactPolynomial function = test::exact_function(certificate, motion);
     if (function.is_zero()) return;
     rounded.emplace(function);
   }
@@ -203,13 +203,13 @@ void expect_cascade(const Judged& p, const Dyadic& from, Random& random, Faults&
   std::size_t index = judge.up_to(start_rational);
   KnownAtStart birth = KnownAtStart::unknown;
   for (StageCounts stages; start < 1;) {
-    faults.expect(sign_just_after<Filtered>(certificate, motion, now, stages) == sign, "filtered sign");
+    faults.expect(test::sign_just_after(Kernel::filtered, certificate, motion, now, stages) == sign, "filtered sign");
     if (sign < 0) {
-      const auto at_birth = first_failure<Filtered>(certificate, motion, now, KnownAtStart::unknown, stages);
+      const auto at_birth = test::first_failure(Kernel::filtered, certificate, motion, now, KnownAtStart::unknown, stages);
       faults.expect(at_birth.kind == Failure::Kind::at_birth, "filtered failure at birth");
       certificate.sign = -certificate.sign;
     }
-    const Failure failure = first_failure<Filtered>(certificate, motion, now, birth, stages, touches);
+    const Failure failure = test::first_failure(Kernel::filtered, certificate, motion, now, birth, stages, touches);
     // Whoever does not ask for touches may be told of none.
     while (touches == TouchPolicy::ignored && index < judge.roots.size() &&
            judge.multiplicities[index] % 2 == 0)
@@ -232,7 +232,7 @@ void expect_cascade(const Judged& p, const Dyadic& from, Random& random, Faults&
       faults.expect(judge.before(lower) + time.ordinal == index, "filtered ordinal");
       faults.expect(!time.isolating || judge.isolates(lower, upper, index), "filtered isolating bracket");
     }
-    now = Instant(time, functions, functions.add(exact_function(certificate, motion)));
+    now = Instant(time, functions, functions.add(test::exact_function(certificate, motion)));
     if (!even) certificate.sign = -certificate.sign;
     birth = !even && random() % 4 != 0 ? KnownAtStart::at_own_root : KnownAtStart::unknown;
     // From now on the certificate holds just after now.

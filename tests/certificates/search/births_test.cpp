@@ -2,7 +2,7 @@
 // stage says so.
 #include <gtest/gtest.h>
 
-#include "certificates/search/failure_search.h"
+#include "tests/support/searches.h"
 #include "certificates/types/bead_in_sphere.h"
 #include "certificates/types/orientation.h"
 #include "certificates/types/precedes.h"
@@ -24,17 +24,17 @@ BezierMotion<1, Degree> curve(const std::array<double, Degree + 1>& control_poin
 const Precedes ahead{{0, 1}};
 const Precedes behind{{1, 0}};
 
-template <Kernel K, class M>
-Failure first(const M& motion, double now, StageCounts& stages, const Precedes& certificate = ahead) {
-  return first_failure<K>(certificate, motion, Instant(now), KnownAtStart::unknown, stages);
+template <class M>
+Failure first(Kernel kernel, const M& motion, double now, StageCounts& stages, const Precedes& certificate = ahead) {
+  return test::first_failure(kernel, certificate, motion, Instant(now), KnownAtStart::unknown, stages);
 }
 
 // The kinds that both exact kernels agree on.
 template <class M>
 Failure agreed(const M& motion, double now = 0, const Precedes& certificate = ahead) {
   StageCounts stages;
-  const Failure filtered = first<Filtered>(motion, now, stages, certificate);
-  const Failure exact = first<Exact>(motion, now, stages, certificate);
+  const Failure filtered = first(Kernel::filtered, motion, now, stages, certificate);
+  const Failure exact = first(Kernel::exact, motion, now, stages, certificate);
   EXPECT_EQ(static_cast<int>(filtered.kind), static_cast<int>(exact.kind));
   return exact;
 }
@@ -77,8 +77,8 @@ TEST(Births, ZeroForeverNeverFails) {
     EXPECT_EQ(agreed(curve<3>({0, 0, 0, 0}), now, behind).kind, Kind::zero);
   }
   StageCounts stages;
-  EXPECT_EQ((sign_just_after<Filtered>(ahead, curve<1>({0, 0}), Instant(0), stages)), 0);
-  EXPECT_EQ((sign_just_after<Exact>(ahead, curve<1>({0, 0}), Instant(0), stages)), 0);
+  EXPECT_EQ((test::sign_just_after(Kernel::filtered, ahead, curve<1>({0, 0}), Instant(0), stages)), 0);
+  EXPECT_EQ((test::sign_just_after(Kernel::exact, ahead, curve<1>({0, 0}), Instant(0), stages)), 0);
 }
 
 TEST(Births, FailsAtADouble) {
@@ -89,8 +89,8 @@ TEST(Births, FailsAtADouble) {
 }
 
 // There and back: the opposite certificate born at the other's failure waits for the next root.
-template <Kernel K>
-void expect_alternation() {
+void expect_alternation(Kernel kernel) {
+  SCOPED_TRACE(name_of(kernel));
   const auto motion = curve<3>({2, -3, 3, -1});
   test::Functions functions;
   StageCounts stages;
@@ -98,51 +98,49 @@ void expect_alternation() {
   double last = 0;
   for (int event = 0; event < 3; ++event) {
     const Precedes certificate = event % 2 == 0 ? ahead : behind;
-    const Failure failure = first_failure<K>(
+    const Failure failure = test::first_failure(kernel, 
         certificate, motion, now, event == 0 ? KnownAtStart::unknown : KnownAtStart::at_own_root, stages);
     ASSERT_EQ(static_cast<int>(failure.kind), static_cast<int>(Kind::later));
     EXPECT_GT(failure.time.lower, last);
     last = failure.time.upper;
-    now = Instant(failure.time, functions, functions.add(exact_function(certificate, motion)));
+    now = Instant(failure.time, functions, functions.add(test::exact_function(certificate, motion)));
   }
-  const Failure end = first_failure<K>(behind, motion, now, KnownAtStart::at_own_root, stages);
+  const Failure end = test::first_failure(kernel, behind, motion, now, KnownAtStart::at_own_root, stages);
   EXPECT_EQ(end.kind, Kind::never);
 }
 
 TEST(Births, AtOwnRootsAlternate) {
-  expect_alternation<Fast>();
-  expect_alternation<Filtered>();
-  expect_alternation<Exact>();
+  for (const Kernel kernel : test::all_kernels) expect_alternation(kernel);
 }
 
 TEST(Stages, CoefficientsSettleWhatIsFarFromZero) {
   StageCounts stages;
-  EXPECT_EQ(first<Filtered>(curve<3>({3, 1, 2, 5}), 0, stages).kind, Kind::never);
+  EXPECT_EQ(first(Kernel::filtered, curve<3>({3, 1, 2, 5}), 0, stages).kind, Kind::never);
   EXPECT_EQ(stages.coefficients, 1U);
   EXPECT_EQ(stages.exact + stages.isolation + stages.refined, 0U);
 }
 
 TEST(Stages, IsolationFindsSimpleRoots) {
   StageCounts stages;
-  EXPECT_EQ(first<Filtered>(curve<1>({3, -1}), 0, stages).kind, Kind::later);
+  EXPECT_EQ(first(Kernel::filtered, curve<1>({3, -1}), 0, stages).kind, Kind::later);
   EXPECT_EQ(stages.isolation, 1U);
-  EXPECT_EQ(first<Filtered>(curve<3>({3, -1, -1, 5}), 0, stages).kind, Kind::never);
+  EXPECT_EQ(first(Kernel::filtered, curve<3>({3, -1, -1, 5}), 0, stages).kind, Kind::never);
   EXPECT_EQ(stages.isolation, 2U);
   EXPECT_EQ(stages.exact + stages.coefficients + stages.refined, 0U);
 }
 
 TEST(Stages, FollowedErrorsSettleNumbersOfUnlikeSize) {
   StageCounts stages;
-  EXPECT_EQ(first<Filtered>(curve<1>({1, 0x1p-60}), 0, stages).kind, Kind::never);
+  EXPECT_EQ(first(Kernel::filtered, curve<1>({1, 0x1p-60}), 0, stages).kind, Kind::never);
   EXPECT_EQ(stages.refined, 1U);
   EXPECT_EQ(stages.exact, 0U);
 }
 
 TEST(Stages, IntegersSettleTouches) {
   StageCounts stages;
-  EXPECT_EQ(first<Filtered>(curve<2>({1, -1, 1}), 0, stages).kind, Kind::never);
+  EXPECT_EQ(first(Kernel::filtered, curve<2>({1, -1, 1}), 0, stages).kind, Kind::never);
   EXPECT_EQ(stages.exact, 1U);
-  EXPECT_EQ(first<Filtered>(curve<1>({0, -1}), 0, stages).kind, Kind::at_birth);
+  EXPECT_EQ(first(Kernel::filtered, curve<1>({0, -1}), 0, stages).kind, Kind::at_birth);
   EXPECT_EQ(stages.exact, 2U);
   EXPECT_GT(stages.largest_bits, 0U);
   EXPECT_EQ(stages.coefficients + stages.isolation + stages.refined + stages.identically_zero, 0U);
@@ -157,7 +155,7 @@ TEST(Stages, NothingIsToldApartFromZero) {
       flat.set_coordinate(b, k, 1, 0.7 * (b % 2) - 0.3 * k * b);
     }
   }
-  EXPECT_EQ((first_failure<Filtered>(Orientation<3>({0, 1, 2, 3}, 1), flat, Instant(0), KnownAtStart::unknown,
+  EXPECT_EQ((test::first_failure(Kernel::filtered, Orientation<3>({0, 1, 2, 3}, 1), flat, Instant(0), KnownAtStart::unknown,
                                      stages)
                  .kind),
             Kind::zero);
@@ -167,19 +165,19 @@ TEST(Stages, NothingIsToldApartFromZero) {
 
 TEST(Stages, TheExactKernelUsesIntegersAlone) {
   StageCounts stages;
-  EXPECT_EQ(first<Exact>(curve<3>({3, 1, 2, 5}), 0, stages).kind, Kind::never);
+  EXPECT_EQ(first(Kernel::exact, curve<3>({3, 1, 2, 5}), 0, stages).kind, Kind::never);
   EXPECT_EQ(stages.exact, 1U);
-  EXPECT_EQ((sign_just_after<Exact>(ahead, curve<1>({3, 1}), Instant(0), stages)), 1);
+  EXPECT_EQ((test::sign_just_after(Kernel::exact, ahead, curve<1>({3, 1}), Instant(0), stages)), 1);
   EXPECT_EQ(stages.signs_exact, 1U);
   EXPECT_EQ(stages.signs_double, 0U);
 }
 
 TEST(Stages, SignsAreSettledInDoubleWhereTheyCanBe) {
   StageCounts stages;
-  EXPECT_EQ((sign_just_after<Filtered>(ahead, curve<1>({3, 1}), Instant(0.25), stages)), 1);
-  EXPECT_EQ((sign_just_after<Filtered>(behind, curve<1>({3, 1}), Instant(0.25), stages)), -1);
+  EXPECT_EQ((test::sign_just_after(Kernel::filtered, ahead, curve<1>({3, 1}), Instant(0.25), stages)), 1);
+  EXPECT_EQ((test::sign_just_after(Kernel::filtered, behind, curve<1>({3, 1}), Instant(0.25), stages)), -1);
   EXPECT_EQ(stages.signs_double, 2U);
-  EXPECT_EQ((sign_just_after<Filtered>(ahead, curve<1>({1, -1}), Instant(0.5), stages)), -1);
+  EXPECT_EQ((test::sign_just_after(Kernel::filtered, ahead, curve<1>({1, -1}), Instant(0.5), stages)), -1);
   EXPECT_EQ(stages.signs_exact, 1U);
 }
 
@@ -190,8 +188,8 @@ TEST(Births, NearATripleRoot) {
     const double u = 0.3 + i * 0x1p-27;
     const bool before = 10 * Dyadic(u).rational() < 3;
     StageCounts stages;
-    EXPECT_EQ((sign_just_after<Filtered>(ahead, motion, Instant(u), stages)), before ? 1 : -1);
-    EXPECT_EQ(static_cast<int>(first<Filtered>(motion, u, stages).kind),
+    EXPECT_EQ((test::sign_just_after(Kernel::filtered, ahead, motion, Instant(u), stages)), before ? 1 : -1);
+    EXPECT_EQ(static_cast<int>(first(Kernel::filtered, motion, u, stages).kind),
               static_cast<int>(before ? Kind::later : Kind::at_birth));
   }
 }
@@ -203,7 +201,7 @@ TEST(Births, InAWideBracket) {
   const Instant now({0.25, 0.75, 0, true}, functions, slot);
   const auto motion = curve<2>({24, -26, 24});  // roots 4/10 and 6/10
   StageCounts stages;
-  const Failure failure = first_failure<Filtered>(ahead, motion, now, KnownAtStart::unknown, stages);
+  const Failure failure = test::first_failure(Kernel::filtered, ahead, motion, now, KnownAtStart::unknown, stages);
   ASSERT_EQ(static_cast<int>(failure.kind), static_cast<int>(Kind::later));
   EXPECT_NEAR(failure.time.lower, 0.4, 1e-9);
 }
@@ -211,13 +209,13 @@ TEST(Births, InAWideBracket) {
 TEST(Births, AtAnOwnRootThatIsNotAlone) {
   const auto motion = curve<3>({315, -395, 395, -315});  // roots 3/10, 5/10, 7/10
   test::Functions functions;
-  const auto slot = functions.add(exact_function(ahead, motion));
+  const auto slot = functions.add(test::exact_function(ahead, motion));
   StageCounts stages;
   for (const std::uint16_t ordinal : {0, 1, 2}) {
     const Instant now({0.25, 0.75, ordinal, false}, functions, slot);
     const Precedes& certificate = ordinal == 1 ? ahead : behind;
     const Failure failure =
-        first_failure<Filtered>(certificate, motion, now, KnownAtStart::at_own_root, stages);
+        test::first_failure(Kernel::filtered, certificate, motion, now, KnownAtStart::at_own_root, stages);
     ASSERT_EQ(static_cast<int>(failure.kind), static_cast<int>(ordinal == 2 ? Kind::never : Kind::later));
     if (ordinal < 2) {
       EXPECT_NEAR(failure.time.lower, ordinal == 0 ? 0.5 : 0.7, 1e-9);

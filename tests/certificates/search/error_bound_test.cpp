@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "certificates/search/define_function_values.h"
 #include "motions/views/integer_view.h"
 #include "tests/support/any_certificate.h"
 #include "tests/support/random_motion.h"
@@ -11,6 +12,12 @@ namespace {
 
 using test::MotionKind;
 using test::Subject;
+
+/// As searches derive it: over curves of the motion's degree.
+template <class C, class M>
+const ErrorBound& bound_of() {
+  return FunctionValues<C, Curves<M::dimension>>::error_bound(M::degree);
+}
 
 template <class S>
 class ErrorBounds : public testing::Test {
@@ -23,7 +30,7 @@ class ErrorBounds : public testing::Test {
     const DoubleView<M> view(motion);
     const auto rounded = function_of(certificate, view);
     const auto exact = function_of(certificate, IntegerView<M>(motion, certificate.beads));
-    const auto& bound = error_bound<C, M>;
+    const ErrorBound& bound = bound_of<C, M>();
     const double scale = bound.scale(view.largest_length());
     if (std::isnan(scale)) return 0;
     const int shift = whole_scale(motion, certificate.beads).exponent * bound.power;
@@ -91,11 +98,11 @@ TYPED_TEST(ErrorBounds, AreNotAbsurd) {
     share = std::max(share, this->share_used(certificate, motion));
   }
   EXPECT_GT(share, 1e-3);
-  EXPECT_LT((error_bound<typename TypeParam::C, typename TypeParam::M>.uniform), 1e-9);
+  EXPECT_LT((bound_of<typename TypeParam::C, typename TypeParam::M>().uniform), 1e-9);
 }
 
 TYPED_TEST(ErrorBounds, SayNothingOutOfRange) {
-  const auto& bound = error_bound<typename TypeParam::C, typename TypeParam::M>;
+  const ErrorBound& bound = bound_of<typename TypeParam::C, typename TypeParam::M>();
   EXPECT_GE(bound.power, 1);
   EXPECT_EQ(bound.scale(2), std::ldexp(1.0, bound.power));
   EXPECT_TRUE(std::isnan(bound.scale(0)));
@@ -107,13 +114,13 @@ TYPED_TEST(ErrorBounds, SayNothingOutOfRange) {
 
 TEST(ErrorBound, KnowsTheDegreeInLengths) {
   using M = BezierMotion<3, 1>;
-  EXPECT_EQ((error_bound<Precedes, M>.power), 1);
-  EXPECT_EQ((error_bound<Orientation<3>, M>.power), 3);
-  EXPECT_EQ((error_bound<PowerTest<3>, M>.power), 5);
-  EXPECT_EQ((error_bound<Contact, M>.power), 2);
-  EXPECT_EQ((error_bound<BeadInSphere<1>, M>.power), 2);
-  EXPECT_EQ((error_bound<BeadInSphere<2>, M>.power), 2);
-  EXPECT_EQ((error_bound<BeadInSphere<3>, M>.power), 6);
+  EXPECT_EQ((bound_of<Precedes, M>().power), 1);
+  EXPECT_EQ((bound_of<Orientation<3>, M>().power), 3);
+  EXPECT_EQ((bound_of<PowerTest<3>, M>().power), 5);
+  EXPECT_EQ((bound_of<Contact, M>().power), 2);
+  EXPECT_EQ((bound_of<BeadInSphere<1>, M>().power), 2);
+  EXPECT_EQ((bound_of<BeadInSphere<2>, M>().power), 2);
+  EXPECT_EQ((bound_of<BeadInSphere<3>, M>().power), 6);
 }
 
 // The roundings claimed for evaluation and subdivision, against exact values.

@@ -1,4 +1,4 @@
-#include "certificates/search/failure_search.h"
+#include "tests/support/searches.h"
 
 #include <gtest/gtest.h>
 
@@ -25,12 +25,12 @@ class FailureSearch : public testing::Test {
   // Both exact kernels against the judge, from one instant on.
   Failure expect_agreement(const C& certificate, const M& motion, const Instant& now,
                            const JudgedTime& judged_now, KnownAtStart birth, JudgedTime& judged_then) {
-    const ExactPolynomial function = exact_function(certificate, motion);
+    const ExactPolynomial function = test::exact_function(certificate, motion);
     const test::JudgedFailure expected = test::judged_failure(function, judged_now);
     StageCounts filtered_stages;
     StageCounts exact_stages;
-    const Failure filtered = first_failure<Filtered>(certificate, motion, now, birth, filtered_stages);
-    const Failure exact = first_failure<Exact>(certificate, motion, now, birth, exact_stages);
+    const Failure filtered = test::first_failure(Kernel::filtered, certificate, motion, now, birth, filtered_stages);
+    const Failure exact = test::first_failure(Kernel::exact, certificate, motion, now, birth, exact_stages);
     test::expect_confirmed("filtered", filtered, function, expected);
     test::expect_confirmed("exact", exact, function, expected);
     EXPECT_EQ(stage_total(filtered_stages), 1U);
@@ -42,8 +42,8 @@ class FailureSearch : public testing::Test {
       EXPECT_EQ(ExactTime::compare(a, b), 0);
     }
     expect_signs(certificate, motion, now, judged_now, function);
-    (void)first_failure<Fast>(certificate, motion, now, birth, filtered_stages);
-    (void)sign_just_after<Fast>(certificate, motion, now, filtered_stages);
+    (void)test::first_failure(Kernel::fast, certificate, motion, now, birth, filtered_stages);
+    (void)test::sign_just_after(Kernel::fast, certificate, motion, now, filtered_stages);
     decided_in_double_ += 1 - filtered_stages.exact - filtered_stages.identically_zero;
     ++decided_;
     judged_then = expected.time;
@@ -62,7 +62,7 @@ class FailureSearch : public testing::Test {
       const Failure failure = expect_agreement(certificate, motion, now, judged_now, birth, judged_then);
       if (testing::Test::HasFailure() || failure.kind <= Failure::Kind::zero) return;  // or never
       if (failure.kind == Failure::Kind::later) {
-        now = Instant(failure.time, functions, functions.add(exact_function(certificate, motion)));
+        now = Instant(failure.time, functions, functions.add(test::exact_function(certificate, motion)));
         judged_now = judged_then;
         birth = event % 3 == 2 ? KnownAtStart::unknown : KnownAtStart::at_own_root;
       }
@@ -78,7 +78,7 @@ class FailureSearch : public testing::Test {
     const Failure failure =
         expect_agreement(first, motion, Instant(0), test::judged(0), KnownAtStart::unknown, then);
     if (testing::Test::HasFailure() || failure.kind != Failure::Kind::later) return;
-    const Instant now(failure.time, functions, functions.add(exact_function(first, motion)));
+    const Instant now(failure.time, functions, functions.add(test::exact_function(first, motion)));
     JudgedTime unused;
     expect_agreement(second, motion, now, then, KnownAtStart::unknown, unused);
   }
@@ -97,9 +97,9 @@ class FailureSearch : public testing::Test {
     sturm::Polynomial power = sturm::from_scaled(function.scaled());
     sturm::normalize(power);
     const int expected = sturm::sign_after(power, *judged_now.sequence, judged_now.root);
-    EXPECT_EQ((sign_just_after<Filtered>(certificate, motion, now, stages)), expected);
+    EXPECT_EQ((test::sign_just_after(Kernel::filtered, certificate, motion, now, stages)), expected);
     EXPECT_EQ(stages.signs_double + stages.signs_exact, 1U);
-    EXPECT_EQ((sign_just_after<Exact>(certificate, motion, now, stages)), expected);
+    EXPECT_EQ((test::sign_just_after(Kernel::exact, certificate, motion, now, stages)), expected);
   }
 };
 
@@ -167,14 +167,14 @@ TYPED_TEST(FailureSearch, ScaleChangesNothing) {
       const auto certificate = test::random_certificate<typename TypeParam::C>(random);
       StageCounts stages;
       const Failure plain =
-          first_failure<Exact>(certificate, motion, Instant(0), KnownAtStart::unknown, stages);
+          test::first_failure(Kernel::exact, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
       test::scale(motion, exponent);
       SCOPED_TRACE("seed 303, round " + std::to_string(i) + ", times 2^" + std::to_string(exponent));
       this->expect_agreement_all_along(certificate, motion, 0);
       if (testing::Test::HasFailure()) return;
       if (exponent > -900) {  // there low bits are lost
         const Failure scaled =
-            first_failure<Exact>(certificate, motion, Instant(0), KnownAtStart::unknown, stages);
+            test::first_failure(Kernel::exact, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
         EXPECT_EQ(scaled.kind, plain.kind);
         EXPECT_EQ(scaled.time.lower, plain.time.lower);
         EXPECT_EQ(scaled.time.upper, plain.time.upper);
@@ -194,16 +194,16 @@ TYPED_TEST(FailureSearch, NoScaleIsLeftToIntegers) {
     }
     const auto certificate = test::random_certificate<typename TypeParam::C>(random);
     const Failure::Kind kind =
-        first_failure<Filtered>(certificate, motion, Instant(0), KnownAtStart::unknown, plain).kind;
-    const int sign = sign_now<Filtered>(certificate, motion, Instant(0.5), plain);
+        test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown, plain).kind;
+    const int sign = test::sign_now(Kernel::filtered, certificate, motion, Instant(0.5), plain);
     int before = 0;
     for (const int exponent : {-1000, -600, -300, -150, 150, 300, 600, 1000}) {
       SCOPED_TRACE("seed 306, round " + std::to_string(i) + ", times 2^" + std::to_string(exponent));
       test::scale(motion, exponent - before);
       before = exponent;
-      EXPECT_EQ(first_failure<Filtered>(certificate, motion, Instant(0), KnownAtStart::unknown, scaled).kind,
+      EXPECT_EQ(test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown, scaled).kind,
                 kind);
-      EXPECT_EQ(sign_now<Filtered>(certificate, motion, Instant(0.5), scaled), sign);
+      EXPECT_EQ(test::sign_now(Kernel::filtered, certificate, motion, Instant(0.5), scaled), sign);
     }
   }
   EXPECT_LE(scaled.exact, 8 * plain.exact + 1);
@@ -221,8 +221,8 @@ TEST(FailureTimes, KeepThatTheyAreATouch) {
 // Sizes at which the function's own values, or the products on the way, are subnormal.
 TYPED_TEST(FailureSearch, UnderflowNeverMisleads) {
   test::Random random(304);
-  const typename TypeParam::M any(TypeParam::beads);
-  const auto power = error_bound<typename TypeParam::C, typename TypeParam::M>.power;
+  const int power =
+      function_of(typename TypeParam::C{}, MagnitudeViewOf<typename TypeParam::M>()).scaled[0].power;
   for (int i = 0; i < rounds<TypeParam>(90); ++i) {
     auto motion = test::random_motion<typename TypeParam::M>(
         random, TypeParam::beads, random() % 2 ? MotionKind::generic : MotionKind::grid);
@@ -242,7 +242,7 @@ TYPED_TEST(FailureSearch, GenericMotionIsSettledInDouble) {
     const auto certificate = test::random_certificate<typename TypeParam::C>(random);
     StageCounts stages;
     Instant now(0);
-    const auto positive = sign_just_after<Filtered>(certificate, motion, now, stages) > 0
+    const auto positive = test::sign_just_after(Kernel::filtered, certificate, motion, now, stages) > 0
                               ? certificate
                               : test::opposite(certificate);
     JudgedTime unused;
@@ -253,10 +253,9 @@ TYPED_TEST(FailureSearch, GenericMotionIsSettledInDouble) {
 
 TYPED_TEST(FailureSearch, FastSurvivesEverything) {
   test::Random random(306);
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  constexpr double specials[] = {
-      inf,       -inf,    std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::max(), -0.0,
-      0x1p-1074, 0x1p1000};
+  // What makes infinities and numbers that are none on the way; motions refuse them as control points.
+  constexpr double most = std::numeric_limits<double>::max();
+  constexpr double specials[] = {most, -most, 0x1p1023, -0x1p1023, -0.0, 0x1p-1074, 0x1p1000};
   for (int i = 0; i < 2000; ++i) {
     const auto kind = test::all_motion_kinds[random() % test::all_motion_kinds.size()];
     auto motion = test::random_motion<typename TypeParam::M>(random, TypeParam::beads, kind);
@@ -269,13 +268,13 @@ TYPED_TEST(FailureSearch, FastSurvivesEverything) {
     StageCounts stages;
     const double u = random() % 3 == 0 ? 0 : random() % 2 ? 1 : test::uniform(random, 0, 1);
     for (const KnownAtStart birth : {KnownAtStart::unknown, KnownAtStart::at_own_root}) {
-      const Failure failure = first_failure<Fast>(certificate, motion, Instant(u), birth, stages);
+      const Failure failure = test::first_failure(Kernel::fast, certificate, motion, Instant(u), birth, stages);
       if (failure.kind == Failure::Kind::later) {
         EXPECT_TRUE(failure.time.lower >= u && failure.time.lower <= 1);
         EXPECT_EQ(failure.time.lower, failure.time.upper);
       }
     }
-    const int sign = sign_just_after<Fast>(certificate, motion, Instant(u), stages);
+    const int sign = test::sign_just_after(Kernel::fast, certificate, motion, Instant(u), stages);
     EXPECT_TRUE(sign >= -1 && sign <= 1);
   }
 }
@@ -296,12 +295,12 @@ TEST(LastRoot, IsToldWhereNoOtherFollows) {
     after.sign = -after.sign;
     StageCounts stages;
     const Failure first =
-        first_failure<Filtered>(before, motion, Instant(0.0), KnownAtStart::unknown, stages);
+        test::first_failure(Kernel::filtered, before, motion, Instant(0.0), KnownAtStart::unknown, stages);
     ASSERT_EQ(first.kind, Failure::Kind::later);
     EXPECT_EQ(first.time.last, curve.last);
     test::Functions functions;
-    const Instant now(first.time, functions, functions.add(exact_function(before, motion)));
-    const Failure next = first_failure<Filtered>(after, motion, now, KnownAtStart::at_own_root, stages);
+    const Instant now(first.time, functions, functions.add(test::exact_function(before, motion)));
+    const Failure next = test::first_failure(Kernel::filtered, after, motion, now, KnownAtStart::at_own_root, stages);
     if (curve.last) {
       EXPECT_EQ(next.kind, Failure::Kind::never);
     }

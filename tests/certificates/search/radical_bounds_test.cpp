@@ -1,7 +1,8 @@
 // The derived error bounds of a radical's polynomials, against exact coefficients.
 #include <gtest/gtest.h>
 
-#include "certificates/search/radical_search.h"
+#include "certificates/search/define_function_values.h"
+#include "certificates/search/radical_in_double.h"
 #include "motions/views/integer_view.h"
 #include "tests/support/ball_motions.h"
 
@@ -19,7 +20,8 @@ double share_used(const M& motion) {
   const auto rounded = function_of(part, view);
   const auto tracked = function_of(part, TrackedView<M, Channels{.radii = true}>(motion, part.beads));
   const auto exact = function_of(part, IntegerView<M, Channels{.radii = true}>(motion, part.beads));
-  const auto& bound = error_bound<detail::SignedPart<Part>, M>;
+  const ErrorBound& bound =
+      FunctionValues<detail::SignedPart<Part>, Curves<M::dimension>>::error_bound(M::degree);
   const double scale = bound.scale(view.largest_length());
   const int shift = whole_scale<Channels{.radii = true}>(motion, part.beads).exponent * bound.power;
   const Rational power(Integer(1) << static_cast<unsigned>(std::abs(shift)));

@@ -1,4 +1,4 @@
-#include "certificates/search/radical_search.h"
+#include "tests/support/searches.h"
 
 #include <gtest/gtest.h>
 
@@ -110,18 +110,18 @@ void expect_course(const M& motion, const Course& course, bool inside, int& fail
   const bool at_once = (course.signs[0] > 0) != inside;
   if (at_once) {
     StageCounts stages;
-    EXPECT_EQ((first_failure<Exact>(certificate, motion, now, birth, stages).kind), Kind::at_birth);
-    EXPECT_EQ((first_failure<Filtered>(certificate, motion, now, birth, stages).kind), Kind::at_birth);
+    EXPECT_EQ((test::first_failure(Kernel::exact, certificate, motion, now, birth, stages).kind), Kind::at_birth);
+    EXPECT_EQ((test::first_failure(Kernel::filtered, certificate, motion, now, birth, stages).kind), Kind::at_birth);
     return;
   }
   for (int event = 0; event < 20; ++event) {
-    const ExactPolynomial function = exact_function(certificate, motion);
+    const ExactPolynomial function = test::exact_function(certificate, motion);
     const JudgedFailure expected = course.first(certificate.inside ? -1 : 1, passed);
     StageCounts stages;
-    const Failure filtered = first_failure<Filtered>(certificate, motion, now, birth, stages);
+    const Failure filtered = test::first_failure(Kernel::filtered, certificate, motion, now, birth, stages);
     EXPECT_EQ(
         stages.coefficients + stages.isolation + stages.refined + stages.exact + stages.identically_zero, 1U);
-    const Failure exact = first_failure<Exact>(certificate, motion, now, birth, stages);
+    const Failure exact = test::first_failure(Kernel::exact, certificate, motion, now, birth, stages);
     test::expect_confirmed("filtered", filtered, function, expected, test::AtFailure::changes);
     test::expect_confirmed("exact", exact, function, expected, test::AtFailure::changes);
     if (testing::Test::HasFailure() || filtered.kind != Kind::later) return;
@@ -130,10 +130,10 @@ void expect_course(const M& motion, const Course& course, bool inside, int& fail
     now = Instant(use_filtered ? filtered.time : exact.time, functions, functions.add(function));
     birth = event % 3 == 2 ? KnownAtStart::unknown : KnownAtStart::at_own_root;
     certificate.inside = !certificate.inside;
-    EXPECT_EQ((sign_just_after<Filtered>(certificate, motion, now, stages)), 1);
-    EXPECT_EQ((sign_just_after<Exact>(certificate, motion, now, stages)), 1);
-    EXPECT_EQ((sign_now<Exact>(certificate, motion, now, stages)), 0);
-    EXPECT_EQ((sign_now<Filtered>(certificate, motion, now, stages)), 0);
+    EXPECT_EQ((test::sign_just_after(Kernel::filtered, certificate, motion, now, stages)), 1);
+    EXPECT_EQ((test::sign_just_after(Kernel::exact, certificate, motion, now, stages)), 1);
+    EXPECT_EQ((test::sign_now(Kernel::exact, certificate, motion, now, stages)), 0);
+    EXPECT_EQ((test::sign_now(Kernel::filtered, certificate, motion, now, stages)), 0);
     while (passed + 1 < static_cast<int>(course.roots.size())) {
       ++passed;
       if (sturm::compare(*course.sequence, course.roots[static_cast<std::size_t>(passed)], *course.sequence,
@@ -151,7 +151,7 @@ class RadicalSearch : public testing::Test {
 
   void expect_right(const M& motion) {
     const C certificate = test::certificate_at<C>(motion, Dyadic(0.0));
-    const auto course = course_of(motion, exact_function(certificate, motion));
+    const auto course = course_of(motion, test::exact_function(certificate, motion));
     if (!course) return;
     ++judged_;
     for (const bool inside : {true, false}) expect_course<C>(motion, *course, inside, failures_);
@@ -195,10 +195,10 @@ TYPED_TEST(RadicalSearch, GenericMotionIsSettledInDouble) {
     if (!inside) continue;
     certificate.inside = *inside > 0;
     static_cast<void>(
-        first_failure<Filtered>(certificate, motion, Instant(0), KnownAtStart::unknown, stages));
-    const Failure fast = first_failure<Fast>(certificate, motion, Instant(0), KnownAtStart::unknown, stages);
+        test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown, stages));
+    const Failure fast = test::first_failure(Kernel::fast, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
     const Failure exact =
-        first_failure<Exact>(certificate, motion, Instant(0), KnownAtStart::unknown, stages);
+        test::first_failure(Kernel::exact, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
     --stages.exact;
     EXPECT_EQ(fast.kind, exact.kind);
     if (fast.kind == Kind::later && exact.kind == Kind::later) {
@@ -219,7 +219,7 @@ TYPED_TEST(RadicalSearch, ScaleDoesNotMatter) {
         test::certificate_at<typename TypeParam::C>(motion, Dyadic(0.0), random() % 2 == 0);
     StageCounts stages;
     const Failure plain =
-        first_failure<Exact>(certificate, motion, Instant(0), KnownAtStart::unknown, stages);
+        test::first_failure(Kernel::exact, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
     auto scaled = motion;
     test::scale(scaled, exponent);
     auto back = scaled;
@@ -234,10 +234,10 @@ TYPED_TEST(RadicalSearch, ScaleDoesNotMatter) {
     }
     if (!same) continue;
     const Failure exact =
-        first_failure<Exact>(certificate, scaled, Instant(0), KnownAtStart::unknown, stages);
+        test::first_failure(Kernel::exact, certificate, scaled, Instant(0), KnownAtStart::unknown, stages);
     StageCounts filtered_stages;
     const Failure filtered =
-        first_failure<Filtered>(certificate, scaled, Instant(0), KnownAtStart::unknown, filtered_stages);
+        test::first_failure(Kernel::filtered, certificate, scaled, Instant(0), KnownAtStart::unknown, filtered_stages);
     EXPECT_EQ(filtered_stages.exact, plain.kind == Kind::at_birth ? 1U : 0U);
     EXPECT_EQ(exact.kind, plain.kind);
     EXPECT_EQ(filtered.kind, plain.kind);
@@ -248,9 +248,9 @@ TYPED_TEST(RadicalSearch, ScaleDoesNotMatter) {
 
 TYPED_TEST(RadicalSearch, FastSurvivesEverything) {
   Random random(754);
-  constexpr double specials[] = {std::numeric_limits<double>::infinity(),
-                                 std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::max(),
-                                 0x1p-1074, -0.0};
+  // What makes infinities and numbers that are none on the way; motions refuse them as control points.
+  constexpr double most = std::numeric_limits<double>::max();
+  constexpr double specials[] = {most, -most, 0x1p1000, 0x1p-1074, -0.0};
   for (int i = 0; i < 300; ++i) {
     auto motion = test::motion_of<TypeParam>(random, {.whole = i % 2 == 0});
     motion.set_coordinate(static_cast<BeadId>(random() % motion.bead_count()), 0, 0, specials[random() % 5]);
@@ -259,7 +259,7 @@ TYPED_TEST(RadicalSearch, FastSurvivesEverything) {
     for (std::size_t b = 0; b < certificate.beads.size(); ++b) certificate.beads[b] = static_cast<BeadId>(b);
     StageCounts stages;
     for (const KnownAtStart birth : {KnownAtStart::unknown, KnownAtStart::at_own_root}) {
-      const Failure failure = first_failure<Fast>(certificate, motion, Instant(0.25), birth, stages);
+      const Failure failure = test::first_failure(Kernel::fast, certificate, motion, Instant(0.25), birth, stages);
       if (failure.kind == Kind::later) {
         EXPECT_TRUE(failure.time.lower >= 0.25 && failure.time.lower <= 1);
       }
@@ -295,9 +295,9 @@ Failure agreed(const M& motion, bool inside, TouchPolicy touches = TouchPolicy::
   const C certificate = test::certificate_at<C>(motion, Dyadic(0.0), inside);
   StageCounts stages;
   const Failure filtered =
-      first_failure<Filtered>(certificate, motion, Instant(0), KnownAtStart::unknown, stages, touches);
+      test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown, stages, touches);
   const Failure exact =
-      first_failure<Exact>(certificate, motion, Instant(0), KnownAtStart::unknown, stages, touches);
+      test::first_failure(Kernel::exact, certificate, motion, Instant(0), KnownAtStart::unknown, stages, touches);
   EXPECT_EQ(filtered.kind, exact.kind);
   EXPECT_EQ(filtered.time.touch, exact.time.touch);
   return exact;
@@ -355,7 +355,7 @@ TEST(RadicalSearch, TheOtherRootOfAVanishingNormIsNone) {
   // Equal radii around the origin: rho = 2 or -2. The ball satisfies the norm with -2 and is outside.
   const auto motion = moving<2>({still({-2, 0, 0}, 1), still({2, 0, 0}, 1), still({0, 3, 0}, 2)});
   using C = BallInSphere<2, 2>;
-  EXPECT_TRUE((exact_function(test::certificate_at<C>(motion, Dyadic(0.0)), motion).scaled().size() > 0));
+  EXPECT_TRUE((test::exact_function(test::certificate_at<C>(motion, Dyadic(0.0)), motion).scaled().size() > 0));
   EXPECT_EQ(agreed<C>(motion, true).kind, Kind::at_birth);
   EXPECT_EQ(agreed<C>(motion, false).kind, Kind::never);
 }
@@ -383,9 +383,9 @@ void expect_outside(const std::vector<Path>& basis) {
     EXPECT_EQ(agreed<C>(motion, false).kind, Kind::never);
     StageCounts stages;
     const C certificate = test::certificate_at<C>(motion, Dyadic(0.0));
-    EXPECT_EQ((sign_now<Fast>(certificate, motion, Instant(0.5), stages)), -1);
-    EXPECT_EQ((sign_now<Filtered>(certificate, motion, Instant(0.5), stages)), -1);
-    EXPECT_EQ((sign_now<Exact>(certificate, motion, Instant(0.5), stages)), -1);
+    EXPECT_EQ((test::sign_now(Kernel::fast, certificate, motion, Instant(0.5), stages)), -1);
+    EXPECT_EQ((test::sign_now(Kernel::filtered, certificate, motion, Instant(0.5), stages)), -1);
+    EXPECT_EQ((test::sign_now(Kernel::exact, certificate, motion, Instant(0.5), stages)), -1);
     EXPECT_EQ(stages.signs_double, 1U);
   }
 }
@@ -409,15 +409,15 @@ void expect_as_equal(const Equal& equal, const BezierMotion<Dimension, 1>& motio
   using C = BallInSphere<Dimension, Size>;
   const C certificate = test::certificate_at<C>(motion, Dyadic(0.0), inside);
   StageCounts stages;
-  const Failure expected = first_failure<Exact>(equal, motion, Instant(0), KnownAtStart::unknown, stages);
+  const Failure expected = test::first_failure(Kernel::exact, equal, motion, Instant(0), KnownAtStart::unknown, stages);
   for (const Failure& failure :
-       {first_failure<Exact>(certificate, motion, Instant(0), KnownAtStart::unknown, stages),
-        first_failure<Filtered>(certificate, motion, Instant(0), KnownAtStart::unknown, stages)}) {
+       {test::first_failure(Kernel::exact, certificate, motion, Instant(0), KnownAtStart::unknown, stages),
+        test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown, stages)}) {
     ASSERT_EQ(failure.kind, expected.kind);
     if (failure.kind != Kind::later) continue;
     ++later;
-    ExactTime a = exact_time(exact_function(certificate, motion), failure.time);
-    ExactTime b = exact_time(exact_function(equal, motion), expected.time);
+    ExactTime a = exact_time(test::exact_function(certificate, motion), failure.time);
+    ExactTime b = exact_time(test::exact_function(equal, motion), expected.time);
     EXPECT_EQ(ExactTime::compare(a, b), 0);
   }
 }
@@ -457,7 +457,7 @@ TEST(RadicalSearch, AgreesWithTheCertificatesOfEqualRadii) {
 template <class T>
 void expect_judged(const typename T::M& motion) {
   const auto certificate = test::certificate_at<typename T::C>(motion, Dyadic(0.0));
-  const auto course = course_of(motion, exact_function(certificate, motion));
+  const auto course = course_of(motion, test::exact_function(certificate, motion));
   ASSERT_TRUE(course);
   int failures = 0;
   for (const bool inside : {true, false}) expect_course<typename T::C>(motion, *course, inside, failures);

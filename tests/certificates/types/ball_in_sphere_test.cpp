@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "certificates/search/radical_search.h"
+#include "certificates/search/define_radical_search.h"
+#include "tests/support/searches.h"
 #include "tests/support/ball_motions.h"
 
 namespace kds {
@@ -42,11 +43,11 @@ TYPED_TEST(BallInSpheres, HoldWhatTheSphereThroughTheBasisHolds) {
       const C certificate = test::certificate_at<C>(motion, time, inside);
       StageCounts stages;
       const int sign = inside ? *expected : -*expected;
-      EXPECT_EQ((sign_now<Exact>(certificate, motion, Instant(u), stages)), sign);
-      EXPECT_EQ((sign_now<Filtered>(certificate, motion, Instant(u), stages)), sign);
+      EXPECT_EQ((test::sign_now(Kernel::exact, certificate, motion, Instant(u), stages)), sign);
+      EXPECT_EQ((test::sign_now(Kernel::filtered, certificate, motion, Instant(u), stages)), sign);
       if (sign != 0) {
-        EXPECT_EQ((sign_just_after<Exact>(certificate, motion, Instant(u), stages)), sign);
-        EXPECT_EQ((sign_just_after<Filtered>(certificate, motion, Instant(u), stages)), sign);
+        EXPECT_EQ((test::sign_just_after(Kernel::exact, certificate, motion, Instant(u), stages)), sign);
+        EXPECT_EQ((test::sign_just_after(Kernel::filtered, certificate, motion, Instant(u), stages)), sign);
       }
     }
   }
@@ -74,18 +75,19 @@ TEST(BallInSphere, FailsJustBeforeItGoesOutOfUse) {
   }
   const BallInSphere<3, 2> certificate{{0, 1, 2}, true, 1};
   StageCounts stages;
-  const Failure exact = first_failure<Exact>(certificate, motion, Instant(0), KnownAtStart::unknown, stages);
+  const Failure exact = test::first_failure(Kernel::exact, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
   const Failure filtered =
-      first_failure<Filtered>(certificate, motion, Instant(0), KnownAtStart::unknown, stages);
+      test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
   ASSERT_EQ(exact.kind, Failure::Kind::later);
   ASSERT_EQ(filtered.kind, Failure::Kind::later);
   EXPECT_LT(exact.time.lower, 0.49968902421347866);
   EXPECT_LE(filtered.time.lower, exact.time.upper);
   EXPECT_GE(filtered.time.upper, exact.time.lower);
   const double after = 0.49968902421425;  // where the other failure is doubtful, in double
+  const Curves<3> curves(motion);
   const auto usable = [&](double from, double to) {
-    return detail::CertificateInDouble<detail::OwnFilter, BallInSphere<3, 2>, BezierMotion<3, 1>>(certificate,
-                                                                                                  motion)
+    return detail::CertificateInDouble<BallInSphere<3, 2>, Curves<3>>(detail::Errors::own_filter, certificate,
+                                                                      curves)
         .is_usable_on(from, to);
   };
   EXPECT_TRUE(usable(0.3, 0.3001));

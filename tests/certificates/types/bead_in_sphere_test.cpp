@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "certificates/search/failure_search.h"
+#include "tests/support/searches.h"
 #include "certificates/types/orientation.h"
 #include "certificates/types/power_test.h"
 #include "tests/support/random_motion.h"
@@ -10,6 +10,8 @@
 
 namespace kds {
 namespace {
+
+using test::identity_with;
 
 using Points = std::vector<std::array<double, 3>>;
 using test::RationalPoint;
@@ -69,7 +71,7 @@ void expect_circumsphere(const M& motion, const Dyadic& time) {
   }
   const auto weights = test::circumcenter(basis);
   const int found = test::sign_at(certificate, motion, time);
-  EXPECT_EQ(found, exact_function(certificate, motion).sign_at(time));
+  EXPECT_EQ(found, test::exact_function(certificate, motion).sign_at(time));
   certificate.inside = false;
   EXPECT_EQ(test::sign_at(certificate, motion, time), -found);
   if (!weights) return;
@@ -101,11 +103,11 @@ TEST(BeadInSphere, DoesNotDependOnTheOrderOfTheBasis) {
   test::Random random(722);
   for (int i = 0; i < 50; ++i) {
     const auto motion = test::random_motion<BezierMotion<3, 1>>(random, 4, test::MotionKind::generic);
-    const auto function = exact_function(BeadInSphere<3>{{0, 1, 2, 3}, true}, motion);
-    EXPECT_EQ(exact_function(BeadInSphere<3>{{2, 0, 1, 3}, true}, motion).scaled(), function.scaled());
-    EXPECT_EQ(exact_function(BeadInSphere<3>{{1, 0, 2, 3}, true}, motion).scaled(), function.scaled());
-    EXPECT_EQ(exact_function(BeadInSphere<2>{{1, 0, 2}, true}, motion).scaled(),
-              exact_function(BeadInSphere<2>{{0, 1, 2}, true}, motion).scaled());
+    const auto function = test::exact_function(BeadInSphere<3>{{0, 1, 2, 3}, true}, motion);
+    EXPECT_EQ(test::exact_function(BeadInSphere<3>{{2, 0, 1, 3}, true}, motion).scaled(), function.scaled());
+    EXPECT_EQ(test::exact_function(BeadInSphere<3>{{1, 0, 2, 3}, true}, motion).scaled(), function.scaled());
+    EXPECT_EQ(test::exact_function(BeadInSphere<2>{{1, 0, 2}, true}, motion).scaled(),
+              test::exact_function(BeadInSphere<2>{{0, 1, 2}, true}, motion).scaled());
   }
 }
 
@@ -166,9 +168,9 @@ TEST(BeadInSphere, OfFourBeadsIsAPowerTest) {
 }
 
 TEST(BeadInSphere, HasAnIdentityByBeads) {
-  const auto type = static_cast<std::uint32_t>(CertificateType::bead_in_sphere);
-  EXPECT_EQ((BeadInSphere<1>{{3, 1}, true}.identity()), (Identity{type, {3, 1, no_bead, no_bead, no_bead}}));
-  EXPECT_EQ((BeadInSphere<3>{{1, 2, 3, 0}, true}.identity()), (Identity{type, {1, 2, 3, 0, no_bead}}));
+  constexpr std::uint32_t type = BeadInSphere<1>::type.number;
+  EXPECT_EQ((BeadInSphere<1>{{3, 1}, true}.identity()), identity_with(type, {3, 1}));
+  EXPECT_EQ((BeadInSphere<3>{{1, 2, 3, 0}, true}.identity()), identity_with(type, {1, 2, 3, 0}));
   EXPECT_EQ((BeadInSphere<2>{{1, 2, 3}, true}.identity()), (BeadInSphere<2>{{1, 2, 3}, false}.identity()));
   EXPECT_NE((BeadInSphere<2>{{1, 2, 3}, true}.identity()), (BeadInSphere<2>{{1, 3, 2}, true}.identity()));
 }

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "certificates/search/failure_search.h"
+#include "tests/support/searches.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/rational_geometry.h"
 
 namespace kds {
 namespace {
+
+using test::identity_with;
 
 using Kind = Failure::Kind;
 
@@ -22,27 +24,27 @@ BezierMotion<1, 1> approach(double x0, double x1, double r0, double r1) {
   return motion;
 }
 
-template <Kernel K, Motion M>
-Failure first(const M& motion, int sign, TouchPolicy touches = TouchPolicy::ignored) {
+template <Motion M>
+Failure first(Kernel kernel, const M& motion, int sign, TouchPolicy touches = TouchPolicy::ignored) {
   StageCounts stages;
-  return first_failure<K>(Contact({0, 1}, sign), motion, Instant(0), KnownAtStart::unknown, stages, touches);
+  return test::first_failure(kernel, Contact({0, 1}, sign), motion, Instant(0), KnownAtStart::unknown, stages, touches);
 }
 
 TEST(Contact, BeginsWhereTheBallsMeet) {
   for (const Failure& failure :
-       {first<Exact>(approach(4, 0, 1, 0.5), 1), first<Filtered>(approach(4, 0, 1, 0.5), 1),
-        first<Fast>(approach(4, 0, 1, 0.5), 1)}) {
+       {first(Kernel::exact, approach(4, 0, 1, 0.5), 1), first(Kernel::filtered, approach(4, 0, 1, 0.5), 1),
+        first(Kernel::fast, approach(4, 0, 1, 0.5), 1)}) {
     ASSERT_EQ(failure.kind, Kind::later);
     EXPECT_NEAR(failure.time.lower, 0.625, 1e-12);
   }
-  EXPECT_EQ(first<Filtered>(approach(4, 2, 1, 0.5), 1).kind, Kind::never);
-  EXPECT_EQ(first<Filtered>(approach(1, 0, 1, 0.5), 1).kind, Kind::at_birth);
+  EXPECT_EQ(first(Kernel::filtered, approach(4, 2, 1, 0.5), 1).kind, Kind::never);
+  EXPECT_EQ(first(Kernel::filtered, approach(1, 0, 1, 0.5), 1).kind, Kind::at_birth);
 }
 
 TEST(Contact, EndsWhereTheyPart) {
-  EXPECT_NEAR(first<Filtered>(approach(0, 4, 1, 0.5), -1).time.lower, 0.375, 1e-12);
-  EXPECT_EQ(first<Filtered>(approach(0, 1, 1, 0.5), -1).kind, Kind::never);
-  EXPECT_EQ(first<Filtered>(approach(4, 0, 1, 0.5), -1).kind, Kind::at_birth);
+  EXPECT_NEAR(first(Kernel::filtered, approach(0, 4, 1, 0.5), -1).time.lower, 0.375, 1e-12);
+  EXPECT_EQ(first(Kernel::filtered, approach(0, 1, 1, 0.5), -1).kind, Kind::never);
+  EXPECT_EQ(first(Kernel::filtered, approach(4, 0, 1, 0.5), -1).kind, Kind::at_birth);
 }
 
 TEST(Contact, TouchingIsNoFailure) {
@@ -53,26 +55,26 @@ TEST(Contact, TouchingIsNoFailure) {
     passing.set_radius(0, k, 1.5);
     passing.set_radius(1, k, 0.5);
   }
-  EXPECT_EQ(first<Exact>(passing, 1).kind, Kind::never);
-  EXPECT_EQ(first<Filtered>(passing, 1).kind, Kind::never);
-  const Failure touch = first<Filtered>(passing, 1, TouchPolicy::reported);
+  EXPECT_EQ(first(Kernel::exact, passing, 1).kind, Kind::never);
+  EXPECT_EQ(first(Kernel::filtered, passing, 1).kind, Kind::never);
+  const Failure touch = first(Kernel::filtered, passing, 1, TouchPolicy::reported);
   ASSERT_EQ(touch.kind, Kind::later);
   EXPECT_TRUE(touch.time.touch);
   EXPECT_LE(touch.time.lower, 0.75);
   EXPECT_GE(touch.time.upper, 0.75);
   EXPECT_LT(touch.time.upper - touch.time.lower, 1e-12);
   passing.set_radius(1, 1, std::nextafter(0.5, 1));
-  EXPECT_EQ(first<Filtered>(passing, 1).kind, Kind::later);
+  EXPECT_EQ(first(Kernel::filtered, passing, 1).kind, Kind::later);
 }
 
 TEST(Contact, RadiiMayChange) {
   auto growing = approach(2, 2, 1, 0.5);
   growing.set_radius(0, 1, 2);
-  EXPECT_NEAR(first<Filtered>(growing, 1).time.lower, 0.5, 1e-12);
-  EXPECT_EQ(first<Filtered>(growing, -1).kind, Kind::at_birth);
+  EXPECT_NEAR(first(Kernel::filtered, growing, 1).time.lower, 0.5, 1e-12);
+  EXPECT_EQ(first(Kernel::filtered, growing, -1).kind, Kind::at_birth);
   auto shrinking = approach(2, 2, 2, 0.5);
   shrinking.set_radius(0, 1, 1);
-  EXPECT_NEAR(first<Filtered>(shrinking, -1).time.lower, 0.5, 1e-12);
+  EXPECT_NEAR(first(Kernel::filtered, shrinking, -1).time.lower, 0.5, 1e-12);
 }
 
 template <Motion M>
@@ -84,7 +86,7 @@ void expect_distance(test::Random& random, test::MotionKind kind) {
   const int expected = test::sign(test::dot(d, d) - reach * reach);
   EXPECT_EQ(test::sign_at(Contact({1, 0}, 1), motion, time), expected);
   EXPECT_EQ(test::sign_at(Contact({1, 0}, -1), motion, time), -expected);
-  EXPECT_EQ(exact_function(Contact({0, 1}, 1), motion).sign_at(time), expected);
+  EXPECT_EQ(test::exact_function(Contact({0, 1}, 1), motion).sign_at(time), expected);
 }
 
 TEST(Contact, IsTheDistanceAgainstTheRadii) {
@@ -101,8 +103,8 @@ TEST(Contact, IsTheDistanceAgainstTheRadii) {
 }
 
 TEST(Contact, HasAnIdentityByBeads) {
-  const auto type = static_cast<std::uint32_t>(CertificateType::contact);
-  EXPECT_EQ(Contact({3, 1}, 1).identity(), (Identity{type, {1, 3, no_bead, no_bead, no_bead}}));
+  constexpr std::uint32_t type = Contact::type.number;
+  EXPECT_EQ(Contact({3, 1}, 1).identity(), identity_with(type, {1, 3}));
   EXPECT_EQ(Contact({3, 1}, 1).identity(), Contact({1, 3}, -1).identity());
 }
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "certificates/search/radical_search.h"
+#include "tests/support/searches.h"
 #include "tests/support/ball_motions.h"
 
 namespace kds {
@@ -17,11 +17,11 @@ template <Motion M>
 Answer ask(const M& motion, bool inside, int orientation) {
   std::vector<BeadId> basis;
   for (BeadId b = 0; b + 1 < motion.bead_count(); ++b) basis.push_back(b);
-  return visit_membership(motion, basis, static_cast<BeadId>(basis.size()), inside, orientation,
+  return visit_membership(Radii::any, motion, basis, static_cast<BeadId>(basis.size()), inside, orientation,
                           [&](const auto& certificate) {
                             StageCounts stages;
-                            const int sign = sign_now<Exact>(certificate, motion, Instant(0.5), stages);
-                            EXPECT_EQ((sign_now<Filtered>(certificate, motion, Instant(0.5), stages)), sign);
+                            const int sign = test::sign_now(Kernel::exact, certificate, motion, Instant(0.5), stages);
+                            EXPECT_EQ((test::sign_now(Kernel::filtered, certificate, motion, Instant(0.5), stages)), sign);
                             return Answer{certificate.identity().type, sign};
                           });
 }
@@ -58,11 +58,10 @@ TYPED_TEST(Memberships, AreJudgedByTheRightCertificate) {
     const auto expected = test::judged_inside(motion, time);
     for (const bool inside : {true, false}) {
       const Answer answer = ask(motion, inside, orientation);
-      const CertificateType type = !equal || (TypeParam::C::full && odd_weights)
-                                       ? CertificateType::ball_in_sphere
-                                   : TypeParam::C::full ? CertificateType::power_test
-                                                        : CertificateType::bead_in_sphere;
-      EXPECT_EQ(answer.type, static_cast<std::uint32_t>(type));
+      const CertificateType& type = !equal || (TypeParam::C::full && odd_weights) ? BallInSphere<3, 4>::type
+                                    : TypeParam::C::full                          ? PowerTest<3>::type
+                                                                                  : BeadInSphere<1>::type;
+      EXPECT_EQ(answer.type, type.number);
       if (expected) {
         EXPECT_EQ(answer.sign, inside ? *expected : -*expected);
         ++judged;

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 
-#include "certificates/search/failure_search.h"
+#include "tests/support/searches.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/rational_geometry.h"
 
 namespace kds {
 namespace {
+
+using test::identity_with;
 
 using Points = std::vector<std::array<double, 3>>;
 
@@ -48,8 +50,8 @@ TEST(Orientation, IsAntisymmetric) {
       EXPECT_EQ(test::sign_at(Orientation<3>(order, -1), motion, time), -sign * first);
       // one function for all of them, to the last bit
       EXPECT_EQ(Orientation<3>(order, 1).identity(), Orientation<3>({0, 1, 2, 3}, 1).identity());
-      const auto function = exact_function(Orientation<3>(order, sign), motion);
-      EXPECT_EQ(function.scaled(), exact_function(Orientation<3>({0, 1, 2, 3}, 1), motion).scaled());
+      const auto function = test::exact_function(Orientation<3>(order, sign), motion);
+      EXPECT_EQ(function.scaled(), test::exact_function(Orientation<3>({0, 1, 2, 3}, 1), motion).scaled());
     } while (std::next_permutation(order.begin(), order.end()));
   }
 }
@@ -68,15 +70,15 @@ TEST(Orientation, IsTheDeterminant) {
       const Orientation<3> certificate({0, 1, 2, 3}, 1);
       const int expected = test::sign(test::determinant_of(rows));
       EXPECT_EQ(test::sign_at(certificate, motion, time), expected) << "seed 702, round " << i;
-      EXPECT_EQ(exact_function(certificate, motion).sign_at(time), expected) << "seed 702, round " << i;
+      EXPECT_EQ(test::exact_function(certificate, motion).sign_at(time), expected) << "seed 702, round " << i;
     }
   }
 }
 
 TEST(Orientation, HasAnIdentityByType) {
   const Identity identity = Orientation<3>({7, 3, 9, 1}, -1).identity();
-  EXPECT_EQ(identity.type, static_cast<std::uint32_t>(CertificateType::orientation));
-  EXPECT_EQ(identity.beads, (std::array<BeadId, 5>{1, 3, 7, 9, no_bead}));
+  EXPECT_EQ(identity.type, Orientation<3>::type.number);
+  EXPECT_EQ(identity.beads, identity_with(0, {1, 3, 7, 9}).beads);
   EXPECT_NE(identity, Orientation<3>({7, 3, 8, 1}, -1).identity());
 }
 

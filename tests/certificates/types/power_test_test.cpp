@@ -4,12 +4,14 @@
 
 #include <algorithm>
 
-#include "certificates/search/failure_search.h"
+#include "tests/support/searches.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/rational_geometry.h"
 
 namespace kds {
 namespace {
+
+using test::identity_with;
 
 using Points = std::vector<std::array<double, 3>>;
 
@@ -71,8 +73,8 @@ TEST(PowerTest, IsAntisymmetric) {
       EXPECT_EQ(test::sign_at(PowerTest<3>(order, 1), motion, time), sign * first);
       EXPECT_EQ(test::sign_at(PowerTest<3>(order, -1), motion, time), -sign * first);
       EXPECT_EQ(PowerTest<3>(order, 1).identity(), PowerTest<3>({0, 1, 2, 3, 4}, 1).identity());
-      EXPECT_EQ(exact_function(PowerTest<3>(order, sign), motion).scaled(),
-                exact_function(PowerTest<3>({0, 1, 2, 3, 4}, 1), motion).scaled());
+      EXPECT_EQ(test::exact_function(PowerTest<3>(order, sign), motion).scaled(),
+                test::exact_function(PowerTest<3>({0, 1, 2, 3, 4}, 1), motion).scaled());
     } while (std::next_permutation(order.begin(), order.end()));
   }
 }
@@ -96,7 +98,7 @@ TEST(PowerTest, IsThePowerToTheOrthogonalSphere) {
       const PowerTest<3> certificate({0, 1, 2, 3, 4}, 1);
       const int found = test::sign_at(certificate, motion, time);
       EXPECT_EQ(found, test::sign(test::determinant_of(rows)));
-      EXPECT_EQ(found, exact_function(certificate, motion).sign_at(time));
+      EXPECT_EQ(found, test::exact_function(certificate, motion).sign_at(time));
 
       // |x|^2 - w = 2 c.x + k for the four; above it is outside.
       test::Matrix m;
@@ -120,8 +122,8 @@ TEST(PowerTest, IsThePowerToTheOrthogonalSphere) {
 
 TEST(PowerTest, HasAnIdentityByType) {
   const Identity identity = PowerTest<3>({7, 3, 9, 1, 4}, -1).identity();
-  EXPECT_EQ(identity.type, static_cast<std::uint32_t>(CertificateType::power_test));
-  EXPECT_EQ(identity.beads, (std::array<BeadId, 5>{1, 3, 4, 7, 9}));
+  EXPECT_EQ(identity.type, PowerTest<3>::type.number);
+  EXPECT_EQ(identity.beads, identity_with(0, {1, 3, 4, 7, 9}).beads);
   EXPECT_LT(PowerTest<3>({0, 1, 2, 3, 4}, 1).identity(), PowerTest<3>({0, 1, 2, 3, 5}, 1).identity());
 }
 

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "certificates/types/bead_in_sphere.h"
+#include "certificates/types/orientation.h"
+#include "certificates/types/power_test.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/rational_geometry.h"
+#include "tests/support/searches.h"
 
 namespace kds {
 namespace {
@@ -24,19 +28,19 @@ TEST(Precedes, IsTheOrderAlongTheFirstAxis) {
 
 TEST(Precedes, HasOneIdentityBothWays) {
   EXPECT_EQ((Precedes{{5, 2}}.identity()), (Precedes{{2, 5}}.identity()));
-  EXPECT_EQ((Precedes{{5, 2}}.identity().beads), (std::array<BeadId, 5>{2, 5, no_bead, no_bead, no_bead}));
-  EXPECT_EQ((Precedes{{5, 2}}.identity().type), static_cast<std::uint32_t>(CertificateType::precedes));
+  EXPECT_EQ((Precedes{{5, 2}}.identity().beads), test::identity_with(0, {2, 5}).beads);
+  EXPECT_EQ((Precedes{{5, 2}}.identity().type), Precedes::type.number);
 }
 
 // Simultaneous failures are handled in the order of types.
 TEST(Identity, OrdersTypesFirst) {
-  const auto of = [](CertificateType type, BeadId bead) {
-    return Identity{static_cast<std::uint32_t>(type), {bead, no_bead, no_bead, no_bead, no_bead}};
+  const auto of = [](const CertificateType& type, BeadId bead) {
+    return identity_of(type, std::array{bead});
   };
-  EXPECT_LT(of(CertificateType::precedes, 9), of(CertificateType::orientation, 1));
-  EXPECT_LT(of(CertificateType::orientation, 9), of(CertificateType::power_test, 1));
-  EXPECT_LT(of(CertificateType::power_test, 9), of(CertificateType::bead_in_sphere, 1));
-  EXPECT_LT(of(CertificateType::power_test, 1), of(CertificateType::power_test, 2));
+  EXPECT_LT(of(Precedes::type, 9), of(Orientation<3>::type, 1));
+  EXPECT_LT(of(Orientation<3>::type, 9), of(PowerTest<3>::type, 1));
+  EXPECT_LT(of(PowerTest<3>::type, 9), of(BeadInSphere<1>::type, 1));
+  EXPECT_LT(of(PowerTest<3>::type, 1), of(PowerTest<3>::type, 2));
 }
 
 }  // namespace

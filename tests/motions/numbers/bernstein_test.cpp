@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
+#include <type_traits>
 
 #include "motions/numbers/exact_number.h"
+#include "motions/numbers/modular.h"
+#include "motions/numbers/tracked_double.h"
 #include "tests/support/sturm.h"
 
 namespace kds {
@@ -83,6 +88,83 @@ TEST(Bernstein, IsUsableInConstants) {
   constexpr auto square = p * p;
   static_assert(square.scaled[0] == 1 && square.scaled[1] == -2 && square.scaled[2] == 1);
   static_assert(elevate<2>(p).scaled[1] == 0);
+}
+
+// The same polynomials with their degrees in the type and as numbers: coefficient for coefficient the same.
+template <class Number, class Draw>
+class SameAtRunTime {
+ public:
+  explicit SameAtRunTime(Draw draw) : draw_(draw) {}
+
+  template <int Degree>
+  void expect() const {
+    const auto a = drawn<Degree>(), b = drawn<Degree>();
+    const auto dynamic_a = at_run_time<1>(a), dynamic_b = at_run_time<1>(b);
+    expect_same(dynamic_a + dynamic_b, a + b);
+    expect_same(dynamic_a - dynamic_b, a - b);
+    expect_same(-dynamic_a, -a);
+    const auto square = dynamic_a * dynamic_a;
+    static_assert(decltype(square)::degree == 2 * any_degree);
+    expect_same(square, a * a);
+    expect_same(square * dynamic_b - dynamic_b * dynamic_a * dynamic_b, a * a * b - b * a * b);
+    expect_same(elevate<3 * any_degree>(dynamic_a), elevate<3 * Degree>(a));
+    const BernsteinVector<Number, Degree, 3> u{a, b, a + b}, v{b, b - a, a};
+    const BernsteinVector<Number, any_degree, 3> dynamic_u{dynamic_a, dynamic_b, dynamic_a + dynamic_b},
+        dynamic_v{dynamic_b, dynamic_b - dynamic_a, dynamic_a};
+    expect_same(dot(dynamic_u, dynamic_v), dot(u, v));
+  }
+
+ private:
+  template <int Degree>
+  [[nodiscard]] Bernstein<Number, Degree> drawn() const {
+    Bernstein<Number, Degree> p;
+    for (Number& c : p.scaled) c = draw_();
+    return p;
+  }
+  template <int Times, int Degree>
+  [[nodiscard]] static Bernstein<Number, Times * any_degree> at_run_time(const Bernstein<Number, Degree>& p) {
+    Bernstein<Number, Times * any_degree> same;
+    same.set_degree(Degree);
+    std::copy(p.scaled.begin(), p.scaled.end(), same.scaled.begin());
+    return same;
+  }
+  template <class A, class B>
+  static void expect_same(const A& dynamic, const B& constant) {
+    ASSERT_EQ(dynamic.scaled.size(), constant.scaled.size());
+    for (std::size_t k = 0; k < constant.scaled.size(); ++k) {
+      if constexpr (std::is_same_v<Number, TrackedDouble>) {
+        EXPECT_EQ(dynamic.scaled[k].value, constant.scaled[k].value);
+        EXPECT_EQ(dynamic.scaled[k].error, constant.scaled[k].error);
+      } else {
+        EXPECT_EQ(dynamic.scaled[k], constant.scaled[k]);
+      }
+    }
+  }
+
+  Draw draw_;
+};
+
+template <class Number, class Draw>
+void expect_same_at_run_time(Draw draw) {
+  const SameAtRunTime<Number, Draw> same(draw);
+  for (int i = 0; i < 20; ++i) {
+    same.template expect<1>();
+    same.template expect<3>();
+    same.template expect<18>();  // products lie beyond the room that coefficients have in the object
+  }
+}
+
+TEST(Bernstein, OfDegreesKnownAtRunTimeIsTheSame) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> real(-1, 1);
+  expect_same_at_run_time<double>([&] { return real(random); });
+  expect_same_at_run_time<TrackedDouble>([&] {
+    return TrackedDouble{real(random), std::abs(real(random)) * 0x1p-53};
+  });
+  expect_same_at_run_time<Residue>([&] {
+    return Residue::of(static_cast<long long>(random() >> 4U), residue_folds[3]);
+  });
+  expect_same_at_run_time<Integer>([&] { return Integer(static_cast<long long>(random())); });
 }
 
 TEST(Binomial, IsPascalsTriangle) {

@@ -29,9 +29,9 @@ TEST(Displacements, BoundsEveryDifferenceOfTwoBeads) {
         }
       }
     }
-    Displacements<M> wandering;
-    wandering.set_reference(first);
-    wandering.look_at(later);
+    Displacements<3> wandering;
+    wandering.set_reference(Curves<3>(first));
+    wandering.look_at(Curves<3>(later));
     for (const double u : {0.0, 0.25, 0.8125, 1.0}) {
       for (BeadId i = 0; i < 6; ++i) {
         for (BeadId j = 0; j < i; ++j) {
@@ -57,24 +57,24 @@ TEST(Displacements, DriftIsFree) {
       motion.set_coordinate(b, k, 1, b * b - 7.0 * k);
     }
   }
-  Displacements<BezierMotion<2, 1>> wandering;
+  Displacements<2> wandering;
   EXPECT_FALSE(wandering.has_reference());
-  wandering.set_reference(motion);
-  wandering.look_at(motion);
+  wandering.set_reference(Curves<2>(motion));
+  wandering.look_at(Curves<2>(motion));
   for (const double stray : wandering.strays()) EXPECT_LT(stray, 1e-11);
   motion.set_coordinate(1, 1, 0, 1001.5);  // half a unit further than the others
-  wandering.look_at(motion);
+  wandering.look_at(Curves<2>(motion));
   EXPECT_GT(wandering.strays()[1], 0.3);
   EXPECT_LT(wandering.strays()[1], 0.5);
 }
 
 TEST(Displacements, ChangedWeightsAndRadiiAreNeverTolerated) {
   BezierMotion<1, 1> motion(2);
-  Displacements<BezierMotion<1, 1>> wandering;
-  wandering.set_reference(motion);
+  Displacements<1> wandering;
+  wandering.set_reference(Curves<1>(motion));
   motion.set_weight(0, 1, 0.5);
   motion.set_radius(1, 0, 0.5);
-  wandering.look_at(motion);
+  wandering.look_at(Curves<1>(motion));
   EXPECT_TRUE(std::isinf(wandering.strays()[0]));
   EXPECT_TRUE(std::isinf(wandering.strays()[1]));
 }

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "motions/curves/elevated_motion.h"
+#include "motions/curves/any_degree_motion.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/curves/positions.h"
 #include "motions/views/lanes_view.h"
@@ -248,27 +248,31 @@ TEST(MotionViews, TrackedAtAUsefulScaleWhereverDifferencesAreFinite) {
   EXPECT_EQ(scale_to_unit(same, beads), 1);
 }
 
-// A motion of degree 2 or 3 in the place of one of degree 6: other Bernstein coefficients, the same values.
-TEST(ElevatedMotion, IsTheSameMotion) {
+// A degree that is known only at run time: exact views have the motion's values, and where the degree has been
+// compiled the very same coefficients.
+TEST(AnyDegreeMotion, IsSeenAsItIs) {
   test::Random random(5);
-  for (const int degree : {1, 2, 3}) {
-    ElevatedMotion<2, 6> high(3);
-    BezierMotion<2, 3> low(3);
-    high.set_own_degree(degree);
+  for (const int degree : {1, 2, 3, 6}) {
+    AnyDegreeMotion<2> any(3, degree);
+    BezierMotion<2, 3> cubic(3);
     for (BeadId b = 0; b < 3; ++b) {
       for (int k = 0; k <= degree; ++k) {
-        high.set_coordinate(b, k, 0, test::uniform(random));
-        high.set_coordinate(b, k, 1, test::pick(random, -9, 9));
-        high.set_weight(b, k, test::uniform(random));
-        high.set_radius(b, k, test::uniform(random));
+        any.set_coordinate(b, k, 0, test::uniform(random));
+        any.set_coordinate(b, k, 1, test::pick(random, -9, 9));
+        any.set_weight(b, k, test::uniform(random));
+        any.set_radius(b, k, test::uniform(random));
+        if (degree != 3) continue;
+        for (int axis = 0; axis < 2; ++axis) cubic.set_coordinate(b, k, axis, any.coordinate(b, k, axis));
+        cubic.set_weight(b, k, any.weight(b, k));
+        cubic.set_radius(b, k, any.radius(b, k));
       }
     }
     const std::array<BeadId, 3> beads{0, 1, 2};
-    const IntegerView<ElevatedMotion<2, 6>> view(high, beads);
-    const Rational scale = power_of_two(whole_scale(high, beads).exponent);
+    const IntegerView<AnyDegreeMotion<2>> view(any, beads);
+    const Rational scale = power_of_two(whole_scale(any, beads).exponent);
     for (const Dyadic& time : {Dyadic(0.0), Dyadic(0.3), Dyadic(0.75), Dyadic(1.0)}) {
-      const auto p = exact_position(high, 0, time);
-      const auto q = exact_position(high, 1, time);
+      const auto p = exact_position(any, 0, time);
+      const auto q = exact_position(any, 1, time);
       const auto at = [&](const auto& polynomial) {
         return sturm::value(sturm::from_scaled(polynomial.scaled), time.rational());
       };
@@ -277,18 +281,25 @@ TEST(ElevatedMotion, IsTheSameMotion) {
       EXPECT_EQ(at(d[1]), scale * (p[1] - q[1]));
       EXPECT_EQ(at(view.weight_difference(0, 1)), scale * scale * (p[2] - q[2]));
       EXPECT_EQ(at(view.radius_sum(0, 1)),
-                scale * (exact_radius(high, 0, time) + exact_radius(high, 1, time)));
+                scale * (exact_radius(any, 0, time) + exact_radius(any, 1, time)));
     }
     if (degree != 3) continue;
-    for (BeadId b = 0; b < 3; ++b) {
-      for (int k = 0; k <= 3; ++k) {
-        for (int axis = 0; axis < 2; ++axis) low.set_coordinate(b, k, axis, high.coordinate(b, k, axis));
-      }
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      EXPECT_EQ(exact_position(any, 2, Dyadic(0.3))[axis], exact_position(cubic, 2, Dyadic(0.3))[axis]);
+    const auto expect_same = [](const auto& a, const auto& b) {
+      ASSERT_EQ(a.scaled.size(), b.scaled.size());
+      for (std::size_t k = 0; k < b.scaled.size(); ++k) EXPECT_EQ(a.scaled[k], b.scaled[k]);
+    };
+    const IntegerView<BezierMotion<2, 3>> whole(cubic, beads);
+    const DoubleView<AnyDegreeMotion<2>> rounded_any(any);
+    const DoubleView<BezierMotion<2, 3>> rounded(cubic);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      expect_same(view.difference(0, 1)[axis], whole.difference(0, 1)[axis]);
+      expect_same(rounded_any.difference(0, 1)[axis], rounded.difference(0, 1)[axis]);
     }
-    for (int axis = 0; axis < 2; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
-      EXPECT_EQ(exact_position(high, 2, Dyadic(0.3))[a], exact_position(low, 2, Dyadic(0.3))[a]);
-    }
+    expect_same(view.weight_difference(2, 1), whole.weight_difference(2, 1));
+    expect_same(rounded_any.radius_sum(2, 1), rounded.radius_sum(2, 1));
+    EXPECT_EQ(rounded_any.largest_length(), rounded.largest_length());
   }
 }
 

@@ -15,8 +15,8 @@ namespace {
 using namespace test;
 
 using Line = BezierMotion<1, 1>;
-template <Motion M, class K>
-using SortedRig = Rig<SortedList<M, K>, M>;
+template <Motion M>
+using SortedRig = Rig<SortedList<M::dimension>, M>;
 
 Line moving_on_a_line(const std::vector<double>& from, const std::vector<double>& to) {
   Line motion(from.size());
@@ -41,9 +41,8 @@ std::map<std::pair<BeadId, BeadId>, Rational> crossings(const Line& motion) {
 }
 
 /// Each crossing must be there once, in the order of time.
-template <class K>
-void expect_all_crossings(const Line& motion) {
-  SortedRig<Line, K> rig(motion, AuditMode::events);
+void expect_all_crossings(const Line& motion, Kernel kernel = Kernel::filtered) {
+  SortedRig<Line> rig(motion, AuditMode::events, kernel);
   ASSERT_NO_THROW(rig.run());
   auto expected = crossings(motion);
   Rational before = 0;
@@ -65,15 +64,15 @@ void expect_all_crossings(const Line& motion) {
 }
 
 TEST(SortedList, SmallAndSimple) {
-  expect_all_crossings<Filtered>(moving_on_a_line({0, 1, 2}, {2, 1, 0}));  // all in one point
-  expect_all_crossings<Filtered>(moving_on_a_line({0, 1, 2, 3}, {3, 2, 1, 0}));
-  expect_all_crossings<Filtered>(moving_on_a_line({0, 1, 2, 3, 4, 5, 6}, {6, 5, 4, 3, 2, 1, 0}));
-  expect_all_crossings<Filtered>(moving_on_a_line({0, 1}, {1, 0}));
-  expect_all_crossings<Filtered>(moving_on_a_line({0, 1}, {1, 1}));  // meet at the end: not yet
-  expect_all_crossings<Filtered>(moving_on_a_line({1, 1}, {1, 0}));  // part at the start
-  expect_all_crossings<Filtered>(
+  expect_all_crossings(moving_on_a_line({0, 1, 2}, {2, 1, 0}));  // all in one point
+  expect_all_crossings(moving_on_a_line({0, 1, 2, 3}, {3, 2, 1, 0}));
+  expect_all_crossings(moving_on_a_line({0, 1, 2, 3, 4, 5, 6}, {6, 5, 4, 3, 2, 1, 0}));
+  expect_all_crossings(moving_on_a_line({0, 1}, {1, 0}));
+  expect_all_crossings(moving_on_a_line({0, 1}, {1, 1}));  // meet at the end: not yet
+  expect_all_crossings(moving_on_a_line({1, 1}, {1, 0}));  // part at the start
+  expect_all_crossings(
       moving_on_a_line({1, 1, 0}, {1, 1, 2}));  // one passes two that stay together
-  expect_all_crossings<Filtered>(moving_on_a_line({3}, {4}));
+  expect_all_crossings(moving_on_a_line({3}, {4}));
 }
 
 TEST(SortedList, FourBeadsThatMeetAtOnce) {
@@ -82,7 +81,7 @@ TEST(SortedList, FourBeadsThatMeetAtOnce) {
   do {
     std::vector<double> from;
     for (const double x : to) from.push_back(-x);
-    expect_all_crossings<Filtered>(moving_on_a_line(from, to));
+    expect_all_crossings(moving_on_a_line(from, to));
   } while (std::next_permutation(to.begin(), to.end()));
 }
 
@@ -99,8 +98,8 @@ TEST(SortedList, RandomMotionsFullOfTies) {
     SCOPED_TRACE(
         text_of("round ", round, ": ", testing::PrintToString(from), " to ", testing::PrintToString(to)));
     const Line motion = moving_on_a_line(from, to);
-    expect_all_crossings<Filtered>(motion);
-    if (round % 4 == 0) expect_all_crossings<Exact>(motion);
+    expect_all_crossings(motion);
+    if (round % 4 == 0) expect_all_crossings(motion, Kernel::exact);
     if (HasFailure()) return;
   }
 }
@@ -121,9 +120,9 @@ TEST(SortedList, RandomFramesFullOfTies) {
     std::vector<Line> steps;
     for (std::size_t k = 0; k + 1 < frames.size(); ++k)
       steps.push_back(moving_on_a_line(frames[k], frames[k + 1]));
-    SortedRig<Line, Filtered> filtered(steps.front(), AuditMode::events);
+    SortedRig<Line> filtered(steps.front(), AuditMode::events);
     EXPECT_NO_THROW(filtered.run(steps));
-    SortedRig<Line, Exact> exact(steps.front(), AuditMode::events);
+    SortedRig<Line> exact(steps.front(), AuditMode::events, Kernel::exact);
     EXPECT_NO_THROW(exact.run(steps));
     EXPECT_EQ(filtered.simulator.fingerprint(), exact.simulator.fingerprint());
     EXPECT_TRUE(books_balance(filtered.structure.statistics));
@@ -145,7 +144,7 @@ TEST(SortedList, CrossingsAtAFrameLeaveNoCertificateBehind) {
   std::vector<Line> steps;
   for (std::size_t k = 0; k + 1 < frames.size(); ++k)
     steps.push_back(moving_on_a_line(frames[k], frames[k + 1]));
-  SortedRig<Line, Filtered> rig(steps.front(), AuditMode::events);
+  SortedRig<Line> rig(steps.front(), AuditMode::events);
   ASSERT_NO_THROW(rig.run(steps));
   EXPECT_THAT(rig.structure.order(), testing::ElementsAre(1, 2, 0));
   EXPECT_EQ(rig.external_events(), 2U);
@@ -158,7 +157,7 @@ TEST(SortedList, DoesNothingForATranslation) {
     from.push_back(i * 37 % 50);
     to.push_back(from.back() + 1000);
   }
-  SortedRig<Line, Filtered> rig(moving_on_a_line(from, to));
+  SortedRig<Line> rig(moving_on_a_line(from, to));
   rig.run();
   EXPECT_EQ(rig.history.events.size(), 0U);
   EXPECT_EQ(rig.structure.statistics.certificates.created, 49U);
@@ -166,7 +165,7 @@ TEST(SortedList, DoesNothingForATranslation) {
 }
 
 TEST(SortedList, AuditsNoticeEveryWrongOrder) {
-  SortedRig<Line, Filtered> rig(moving_on_a_line({0, 1, 2, 3}, {0, 1, 2, 3}));
+  SortedRig<Line> rig(moving_on_a_line({0, 1, 2, 3}, {0, 1, 2, 3}));
   rig.run();
   for (BeadId b = 0; b < 3; ++b) {
     EXPECT_EQ(rig.structure.audit(Dyadic(0.5)), std::nullopt);
@@ -177,7 +176,7 @@ TEST(SortedList, AuditsNoticeEveryWrongOrder) {
 }
 
 TEST(SortedList, RefusesChangesThatCannotBe) {
-  SortedRig<Line, Filtered> rig(moving_on_a_line({0, 1, 2}, {0, 1, 2}));
+  SortedRig<Line> rig(moving_on_a_line({0, 1, 2}, {0, 1, 2}));
   rig.run();
   EXPECT_THROW(rig.structure.apply({0, 2, {0, 2}}), std::invalid_argument);
   EXPECT_THROW(rig.structure.apply({0, 2, {1, 0}}), std::invalid_argument);
@@ -201,21 +200,21 @@ class SortedInstance : public testing::TestWithParam<Instance1> {
   void check() {
     const M motion = instance_motion<M>(GetParam().name);
     const bool small = motion.bead_count() <= 50;
-    SortedRig<M, Filtered> filtered(motion, small ? AuditMode::events : AuditMode::frames);
+    SortedRig<M> filtered(motion, small ? AuditMode::events : AuditMode::frames);
     filtered.run();
     EXPECT_EQ(filtered.history.events.size(), GetParam().events);
     EXPECT_EQ(filtered.external_events(), GetParam().events);
     EXPECT_TRUE(books_balance(filtered.structure.statistics));
     EXPECT_EQ(filtered.structure.statistics.certificates.failed, GetParam().events);
-    SortedRig<M, Fast> fast(motion);
+    SortedRig<M> fast(motion, AuditMode::none, Kernel::fast);
     fast.run();
     EXPECT_EQ(fast.simulator.fingerprint(), filtered.simulator.fingerprint());
-    SortedRig<M, Filtered> replayed(motion, AuditMode::frames);
+    SortedRig<M> replayed(motion, AuditMode::frames);
     replayed.replay({motion}, filtered.history);
     EXPECT_EQ(replayed.simulator.fingerprint(), filtered.simulator.fingerprint());
     EXPECT_EQ(replayed.structure.order(), filtered.structure.order());
     if (!small) return;
-    SortedRig<M, Exact> exact(motion, AuditMode::events);
+    SortedRig<M> exact(motion, AuditMode::events, Kernel::exact);
     exact.run();
     EXPECT_EQ(exact.simulator.fingerprint(), filtered.simulator.fingerprint());
     EXPECT_EQ(exact.structure.statistics.stages.coefficients + exact.structure.statistics.stages.isolation,
@@ -246,7 +245,7 @@ INSTANTIATE_TEST_SUITE_P(Data, SortedInstance,
 // Certificates are born at their own root with every event; the double stages must settle them.
 TEST(SortedList, TheExactStageIsRareInGeneralPosition) {
   const auto check = [](const auto& motion) {
-    Rig<SortedList<std::decay_t<decltype(motion)>, Filtered>, std::decay_t<decltype(motion)>> rig(motion);
+    SortedRig<std::decay_t<decltype(motion)>> rig(motion);
     rig.run();
     EXPECT_LT(rig.structure.statistics.stages.exact, rig.structure.statistics.certificates.created / 100);
   };
@@ -257,10 +256,10 @@ TEST(SortedList, TheExactStageIsRareInGeneralPosition) {
 // A structure over one axis of a motion in space.
 TEST(SortedList, SortsAlongTheFirstAxis) {
   const auto motion = instance_motion<Space>("degenerate_d3_n64_gridint");
-  SortedRig<Space, Filtered> rig(motion, AuditMode::events);
+  SortedRig<Space> rig(motion, AuditMode::events);
   ASSERT_NO_THROW(rig.run());
   EXPECT_GT(rig.history.events.size(), 0U);
-  SortedRig<Space, Exact> exact(motion, AuditMode::events);
+  SortedRig<Space> exact(motion, AuditMode::events, Kernel::exact);
   ASSERT_NO_THROW(exact.run());
   EXPECT_EQ(exact.simulator.fingerprint(), rig.simulator.fingerprint());
 }

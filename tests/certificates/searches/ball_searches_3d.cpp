@@ -1,0 +1,20 @@
+// Searches of the radical certificates that the library does not compile: for all tests of this folder, in space.
+#include "certificates/search/define_radical_search.h"
+#include "certificates/types/ball_in_sphere.h"
+
+namespace kds {
+
+template <>
+std::unique_ptr<CertificateSearch<BallInSphere<3, 1>>> search_over(const MotionRef<3>& motion) {
+  return radical_search_over<BallInSphere<3, 1>>(motion);
+}
+template <>
+std::unique_ptr<CertificateSearch<BallInSphere<3, 2>>> search_over(const MotionRef<3>& motion) {
+  return radical_search_over<BallInSphere<3, 2>>(motion);
+}
+template <>
+std::unique_ptr<CertificateSearch<BallInSphere<3, 3>>> search_over(const MotionRef<3>& motion) {
+  return radical_search_over<BallInSphere<3, 3>>(motion);
+}
+
+}  // namespace kds
