@@ -2,9 +2,12 @@
 // A holder of failures whose functions are polynomials made by hand: what the engine sees of a certificate.
 
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <vector>
 
-#include "certificates/search/failure_search.h"
+#include "certificates/exact/exact_polynomial.h"
+#include "certificates/search/exact_search.h"
 #include "kds/simulator.h"
 
 namespace kds::test {
@@ -26,7 +29,7 @@ inline Coefficients times(const Coefficients& a, const Coefficients& b) {
 }
 
 inline Identity named(BeadId bead, std::uint32_t type = 0) {
-  return {type, {bead, no_bead, no_bead, no_bead, no_bead}};
+  return identity_of(CertificateType{type, {}}, std::array{bead});
 }
 
 /// Entries by slot; nothing happens when one fails.
@@ -48,11 +51,11 @@ class PolynomialSource : public FailureSource {
   /// The first failure of an entry after the start of the step, as the exact stage finds it.
   [[nodiscard]] FailureTime first_time(std::uint32_t slot) const {
     StageCounts stages;
-    return exact_first_failure(exact_function(slot), Instant(0), stages).time;
+    return exact_first_failure(*exact_function(slot), Instant(0), stages).time;
   }
 
-  [[nodiscard]] ExactPolynomial exact_function(std::uint32_t slot) const override {
-    return ExactPolynomial(entries_[slot].function);
+  [[nodiscard]] ExactFunction exact_function(std::uint32_t slot) const override {
+    return std::make_shared<const ExactPolynomial>(entries_[slot].function);
   }
   [[nodiscard]] Identity identity(std::uint32_t slot) const override { return entries_[slot].identity; }
   [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override { return entries_[slot].place; }
