@@ -72,9 +72,6 @@ class Curves {
   std::size_t beads_ = 0;
 };
 
-template <Motion M>
-Curves(const M&) -> Curves<M::dimension>;
-
 template <int DimensionValue, int DegreeValue>
 class FixedCurves : public Curves<DimensionValue> {
  public:

@@ -22,7 +22,9 @@ namespace kds {
 #define KDS_LONG_LANES_TARGETS gnu::noinline
 #endif
 
-class Lanes {
+// Aligned as AVX wants it, which code compiled for other targets would not know of: g++ loads and stores
+// lanes as aligned ones where it sees through a pointer.
+class alignas(32) Lanes {
  public:
   static constexpr std::size_t width = 4;
   using Vector = double __attribute__((vector_size(32)));

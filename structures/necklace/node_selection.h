@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "structures/necklace/necklace_tree.h"
-#include "structures/necklace/sphere.h"
 
 namespace kds {
+
+struct Sphere;
 
 /// All nodes, unless told otherwise.
 struct NodeSelection {

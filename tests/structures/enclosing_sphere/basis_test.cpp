@@ -31,7 +31,9 @@ struct AtStart {
     return 0;
   }
 };
-MembershipSigns<3, AtStart> signs_of(const Space& motion) { return {Curves(motion), Radii::equal, {motion}}; }
+MembershipSigns<3, AtStart> signs_of(const Space& motion) {
+  return {Curves<3>(motion), Radii::equal, {motion}};
+}
 static_assert(SphereSigns<MembershipSigns<3, AtStart>>);
 
 /// Does not know, or knows better.

@@ -7,6 +7,7 @@
 #include "motions/curves/any_degree_motion.h"
 #include "motions/curves/lifted_motion.h"
 #include "structures/hierarchy/wrapped_hierarchy.h"
+#include "structures/necklace/sphere.h"
 #include "tests/support/enclosing_ball.h"
 #include "tests/support/moving_beads.h"
 #include "tests/support/random_motion.h"

@@ -88,7 +88,7 @@ void look_at_random_nodes(unsigned seed, Tally& tally) {
     }
   }
   BeadPaths<M::dimension> paths;
-  paths.set(Curves(motion));
+  paths.set(Curves<M::dimension>(motion));
   std::vector<double> radii = approximate_radii(motion, 0);
   for (double& r : radii) r = std::max(r, 0.0);
   const Balls<M::dimension> balls(approximate_positions(motion, 0), radii);
@@ -142,8 +142,8 @@ TEST(SteadyNodes, RadiiCanBeLeftOut) {
   for (BeadId b = 0; b < 41; ++b)
     for (int k = 0; k <= 1; ++k) motion.set_radius(b, k, 0.375);
   BeadPaths<3> with, without;
-  with.set(Curves(motion));
-  without.set(Curves(motion), true);
+  with.set(Curves<3>(motion));
+  without.set(Curves<3>(motion), true);
   EXPECT_EQ(with.extent(), without.extent());
   EXPECT_TRUE(with.equal_radii() && without.equal_radii());
   for (int k = 0; k <= 1; ++k) {

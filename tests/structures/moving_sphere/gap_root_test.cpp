@@ -131,7 +131,7 @@ void judge_all(unsigned seed, MotionKind kind, int exponent, Tally& tally) {
   }
   scale(motion, exponent);
   BeadPaths<M::dimension> paths;
-  paths.set(Curves(motion));
+  paths.set(Curves<M::dimension>(motion));
   const double from = seed % 2 == 0 ? 0 : uniform(random, 0, 0.9);
   const Balls<M::dimension> balls(approximate_positions(motion, from), approximate_radii(motion, from));
   const Basis basis = smallest_sphere(balls, 0, count - 1).basis;
@@ -175,7 +175,7 @@ TEST(SphereCrossing, OfNearlyFlatBases) {
     const double pace = height * std::ldexp(1.0, -static_cast<int>(seed % 5));
     const auto motion = nearly_flat_basis<Space>(random, 6, height, pace);
     BeadPaths<3> paths;
-    paths.set(Curves(motion));
+    paths.set(Curves<3>(motion));
     SphereEnclosure<3> sphere;
     find_motion(paths, basis, {Period{0, 0x1p-20}, {0, 0.1}, {0, 0.5}, {0, 1}}, sphere);
     const double square =
@@ -224,7 +224,7 @@ TEST(SphereCrossing, TouchesAreLeftToIntegers) {
     motion.set_radius(2, k, 0.25 + 0x1p-50);
   }
   BeadPaths<3> paths;
-  paths.set(Curves(motion));
+  paths.set(Curves<3>(motion));
   GapRoots<3> crossings;
   const Basis pair(std::array<BeadId, 2>{0, 1});
   EXPECT_FALSE(crossings.first_failure(paths, pair, 2, true, 0, 0, false).has_value());
@@ -244,7 +244,7 @@ TEST(SphereCrossing, SignsOfAFastBall) {
       for (BeadId b = 0; b < 3; ++b)
         for (int k = 0; k <= 1; ++k) motion.set_radius(b, k, radii[b]);
       BeadPaths<3> paths;
-      paths.set(Curves(motion));
+      paths.set(Curves<3>(motion));
       // The pair's sphere rests: radius R around (0, y, 0).
       const Rational radius = (Rational(2) + Rational(0.25) + Rational(0.3)) / 2;
       const Rational y = radius - Rational(0.25) - 1, room = radius - Rational(0.125);

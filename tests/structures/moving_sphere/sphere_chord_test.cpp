@@ -79,7 +79,7 @@ void judge(const M& motion, double from, Tally& tally) {
   const auto count = static_cast<BeadId>(motion.bead_count());
   const Basis basis = basis_at(motion, {0, count - 1}, from);
   BeadPaths<M::dimension> paths;
-  paths.set(Curves(motion));
+  paths.set(Curves<M::dimension>(motion));
   const auto chord = sphere_chord(paths, basis, {from, 1});
   if (!chord.proved) return;
   ++tally.proved;
@@ -117,7 +117,7 @@ void judge_risen(const M& motion, double from, double sure, Tally& tally) {
   const auto count = static_cast<BeadId>(motion.bead_count());
   const Basis basis = basis_at(motion, {0, count - 1}, sure);
   BeadPaths<M::dimension> paths;
-  paths.set(Curves(motion));
+  paths.set(Curves<M::dimension>(motion));
   const Period period{from, 1, sure};
   const auto chord = sphere_chord(paths, basis, period);
   if (!chord.proved) return;
@@ -268,7 +268,7 @@ void judge_next_to_limit(Space motion, const Basis& basis, const SphereChord<3>&
     }
   }
   BeadPaths<3> paths;
-  paths.set(Curves(motion));
+  paths.set(Curves<3>(motion));
   std::vector<BeadId> found;
   find_beyond(paths, {4, 4}, basis, chord, 0, found);
   ++(found.empty() ? tally.inside : tally.beyond);
@@ -295,7 +295,7 @@ TEST(SpherePath, BeadsNextToTheLimit) {
     }
     const Basis basis = basis_at(motion, {0, 3}, 0);
     BeadPaths<3> paths;
-    paths.set(Curves(motion));
+    paths.set(Curves<3>(motion));
     const auto chord = sphere_chord(paths, basis, {});
     if (!chord.proved || (chord.stays + 1U) != 1U << basis.size) continue;
     const Eigen::Vector3d way(uniform(random), uniform(random), uniform(random));
@@ -317,7 +317,7 @@ TEST(SpherePath, BeadsNextToTheLimitOfNearlyFlatBases) {
     const double pace = height * std::ldexp(1.0, -static_cast<int>(seed % 9));
     const auto motion = nearly_flat_basis<Space>(random, 5, height, pace);
     BeadPaths<3> paths;
-    paths.set(Curves(motion));
+    paths.set(Curves<3>(motion));
     const auto chord = sphere_chord(paths, basis, {});
     if (!chord.proved || (chord.stays + 1U) != 1U << basis.size) continue;
     const Eigen::Vector3d across = slope_of(motion, basis, 0).normalized();
@@ -343,7 +343,7 @@ void judge_parts(unsigned seed, Tally& tally) {
     }
   }
   BeadPaths<M::dimension> paths;
-  paths.set(Curves(motion));
+  paths.set(Curves<M::dimension>(motion));
   const auto count = static_cast<BeadId>(motion.bead_count());
   const double from = seed % 4 == 0 ? 0 : std::uniform_real_distribution<double>(0, 0.9)(random);
   const Basis basis = basis_at(motion, {0, count - 1}, from);
@@ -403,7 +403,7 @@ void judge_pairs(unsigned seed, int& said, int& missed) {
       for (int k = 0; k <= M::degree; ++k) motion.set_radius(b, k, uniform(random, 0, 1));
   }
   BeadPaths<M::dimension> paths;
-  paths.set(Curves(motion));
+  paths.set(Curves<M::dimension>(motion));
   std::vector<std::uint8_t> apart_from_next;
   paths.find_apart_from_next(apart_from_next);
   for (BeadId b = 0; b < 7; ++b) {
@@ -434,7 +434,7 @@ template <class M>
 void judge_four(Random& random, std::size_t size) {
   const auto motion = random_motion<M>(random, 24, MotionKind::generic);
   BeadPaths<M::dimension> paths;
-  paths.set(Curves(motion));
+  paths.set(Curves<M::dimension>(motion));
   std::array<Basis, 4> bases;
   constexpr std::array<Period, 4> periods{{{0, 1}, {0.25, 1, 0.26}, {0, 0.25}, {0.3, 0.9, 0.5}}};
   for (std::size_t i = 0; i < bases.size(); ++i) {
@@ -484,7 +484,7 @@ TEST(SpherePath, SeesTheDipOfATurningBasis) {
     end.push_back(start.back());
     const Space motion = moving(start, end);
     BeadPaths<3> paths;
-    paths.set(Curves(motion));
+    paths.set(Curves<3>(motion));
     const Basis basis(std::array<BeadId, 3>{0, 1, 2});
     const auto chord = sphere_chord(paths, basis, {});
     ASSERT_TRUE(chord.proved && chord.stays == 7);
@@ -507,7 +507,7 @@ TEST(SpherePath, PrunesCertificatesInSlowMotion) {
   }
   BeadPaths<3> paths;
   const Space motion = moving(from, to);
-  paths.set(Curves(motion));
+  paths.set(Curves<3>(motion));
   std::size_t watched = 0, all = 0;
   for (BeadId first = 0; first < 200; first += 25) {
     const BeadRange range{first, first + 24};

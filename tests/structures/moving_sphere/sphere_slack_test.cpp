@@ -36,7 +36,7 @@ struct Cloud {
       }
     }
     BeadPaths<D> result;
-    result.set(Curves(motion));
+    result.set(Curves<D>(motion));
     return result;
   }
 };
@@ -161,7 +161,7 @@ TEST(NodeSlack, ABeadThatGoesAwayAndBackWithinAStep) {
       }
     }
     BeadPaths<3> paths;
-    paths.set(Curves(motion));
+    paths.set(Curves<3>(motion));
     NodeSlack<3> resting(tree);
     std::vector<NodeId> nodes{*tree.find(necklace[0])};
     const std::vector<Basis> bases(tree.node_count(), pair);
