@@ -22,6 +22,7 @@
 #include "kds/kinetic_structure.h"
 #include "motions/curves/motion_ref.h"
 #include "structures/power_diagram/diagram_events.h"
+#include "structures/triangulation/cells.h"
 
 namespace kds {
 
@@ -30,8 +31,6 @@ class Simulator;
 struct DiagramEdges;
 template <int Dimension>
 class RegularTriangulation;
-template <int Dimension>
-struct StaticTriangulation;
 
 template <int Dimension>
 class PowerDiagram final : public KineticStructure, public DiagramEvents<Dimension> {
@@ -59,7 +58,7 @@ class PowerDiagram final : public KineticStructure, public DiagramEvents<Dimensi
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
   /// Finite cells and hidden beads at the frame just reached, as a static build has them where cells are flat
-  /// there (structures/triangulation/regular_triangulation.h).
+  /// there.
   [[nodiscard]] StaticTriangulation<Dimension> at_frame(bool first) const;
   /// Its edges there, of all beads, none being absent: what closest_pair (closest_pair.h) asks for.
   [[nodiscard]] DiagramEdges edges_at_frame(bool first) const;
@@ -89,7 +88,7 @@ class PowerDiagram final : public KineticStructure, public DiagramEvents<Dimensi
   /// that is for reach_frame. Facets of beads that all rest need no certificate. Empty: all beads move.
   void move_only(std::vector<char> moving);
   /// Cells that flips made since then, some more than once, some gone again.
-  [[nodiscard]] std::span<const std::uint32_t> flipped() const;
+  [[nodiscard]] std::span<const CellId> flipped() const;
   /// Whether cells are neither missing nor flat, so that flips alone lead on.
   [[nodiscard]] bool is_solid() const;
   /// All beads are where the motion's step ends. Cells that are flat there stay: they open again on the way.
@@ -102,8 +101,8 @@ class PowerDiagram final : public KineticStructure, public DiagramEvents<Dimensi
   [[nodiscard]] RegularTriangulation<Dimension>& triangulation();
   [[nodiscard]] const HiddenBeads& hidden() const;
   /// A hidden bead's host, if it is a cell.
-  void house(BeadId hidden, std::uint32_t host);
-  [[nodiscard]] std::uint32_t some_finite_cell() const;
+  void house(BeadId hidden, CellId host);
+  [[nodiscard]] CellId some_finite_cell() const;
 
  private:
   struct Parts;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "motions/curves/bezier_motion.h"
+#include "motions/numbers/exact_number.h"
 #include "structures/power_diagram/diagram_checks.h"
 #include "structures/power_diagram/diagram_editor.h"
 #include "structures/power_diagram/diagram_flips.h"

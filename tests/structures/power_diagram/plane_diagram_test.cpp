@@ -5,7 +5,11 @@
 
 #include <algorithm>
 
+#include "motions/base/input_error.h"
+#include "motions/curves/positions.h"
+#include "motions/numbers/exact_number.h"
 #include "structures/power_diagram/power_diagram.h"
+#include "structures/triangulation/regular_triangulation.h"
 #include "tests/support/moving_beads.h"
 #include "tests/support/text_of.h"
 

@@ -7,8 +7,11 @@
 #include <cmath>
 #include <string>
 
+#include "motions/base/input_error.h"
 #include "motions/curves/lifted_motion.h"
+#include "motions/numbers/exact_number.h"
 #include "structures/power_diagram/power_diagram.h"
+#include "structures/triangulation/regular_triangulation.h"
 #include "tests/support/moving_beads.h"
 #include "tests/support/random_motion.h"
 

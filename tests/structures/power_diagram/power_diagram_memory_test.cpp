@@ -8,6 +8,8 @@
 #include <optional>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include "kds/simulator.h"
+#include "motions/numbers/exact_number.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "structures/triangulation/cgal_triangulations.h"
 #include "tests/support/random_motion.h"

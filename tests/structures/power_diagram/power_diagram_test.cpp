@@ -5,6 +5,9 @@
 
 #include <set>
 
+#include "motions/base/input_error.h"
+#include "motions/numbers/exact_number.h"
+#include "structures/triangulation/regular_triangulation.h"
 #include "tests/support/cgal_triangulation.h"
 #include "tests/support/exact_checks.h"
 #include "tests/support/moving_beads.h"

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "motions/base/input_error.h"
+#include "motions/numbers/exact_number.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "tests/support/moving_beads.h"
 #include "tests/support/random_motion.h"
