@@ -38,7 +38,8 @@ void NodeProofs<Dimension>::add_unsettled(std::span<const NodeId> pairs, std::sp
     std::size_t count = nodes.size();
     nodes.resize(count + pairs.size());
     for (const NodeId id : pairs) {  // no branch: no one foretells who is settled
-      const bool settled = (bases[id].size == 2) & are_apart(tree_.range(id).first);
+      const bool apart = are_apart(tree_.range(id).first);
+      const bool settled = (bases[id].size == 2) & apart;
       nodes[count] = id;
       count += settled ? 0 : 1;
     }

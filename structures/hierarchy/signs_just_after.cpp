@@ -13,12 +13,12 @@ struct SignsJustAfter<Dimension>::Sign {
   }
   template <class Certificate>
   int operator()(const Certificate& c) const {
-    const auto& present = self.present;
-    if (present && present->is_of(c)) return c.side() == present->side ? -1 : 1;
+    const auto& failed = self.present;
+    if (failed && failed->is_of(c)) return c.side() == failed->side ? -1 : 1;
     const CertificateSearch<Certificate>& search = self.tables_.template of<Certificate>().search();
     if constexpr (std::same_as<Certificate, typename PresentFailure<Dimension>::OfFull>) {
-      if (kernel() == Kernel::filtered && present && present->shares_root_with(c)) {
-        const int sign = search.sign_after_failure(c, *present->of_full, self.simulator_.now(), self.stages_);
+      if (kernel() == Kernel::filtered && failed && failed->shares_root_with(c)) {
+        const int sign = search.sign_after_failure(c, *failed->of_full, self.simulator_.now(), self.stages_);
         if (sign != 0) return sign;
       }
     }
