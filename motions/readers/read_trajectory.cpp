@@ -6,24 +6,17 @@
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
 #include "motions/readers/chain_breaks.h"
-#include "motions/readers/dcd_reader.h"
-#include "motions/readers/pdb_reader.h"
 #include "motions/readers/periodic.h"
-#include "motions/readers/xyz_reader.h"
+#include "motions/readers/reader_registry.h"
 
 namespace kds {
 
 namespace {
 
-FramesRead read_by_ending(const std::filesystem::path& path, const ReadOptions& options) {
-  const std::string ending = file_ending(path);
-  if (ending == ".dcd") return read_dcd(path, options);
-  if (ending == ".xyz") return read_xyz(path, options);
-  if (is_structure_file(path)) return read_structure(path, options);
-  throw InputError(
-      fmt::format("{}: the ending {} tells no format; expected .pdb, .ent, .cif, .mmcif (or these with "
-                  ".gz), .dcd or .xyz",
-                  path.string(), in_quotes(ending)));
+const ReaderSpec& reader_of(const std::filesystem::path& path) {
+  if (const ReaderSpec* reader = reader_registry().find(path)) return *reader;
+  throw InputError(fmt::format("{}: the ending {} tells no format; expected {}", path.string(),
+                               in_quotes(file_ending(path)), reader_registry().endings()));
 }
 
 void check_finite(const Trajectory& trajectory) {
@@ -96,9 +89,10 @@ FrameRange parse_frame_range(std::string_view text) {
 }
 
 std::vector<Trajectory> read_trajectories(const std::filesystem::path& path, const ReadOptions& options) {
-  FramesRead read = read_by_ending(path, options);
+  const ReaderSpec& reader = reader_of(path);
+  FramesRead read = reader.read(path, options);
   check_finite(read.trajectory);
-  if (options.topology && file_ending(path) != ".dcd")
+  if (options.topology && !reader.takes_topology)
     read.trajectory.warnings.push_back(
         fmt::format("{}: --topology is left unread, it serves DCD files", read.trajectory.file));
   std::vector<Trajectory> necklaces = split_chains(std::move(read.trajectory), read.chains);

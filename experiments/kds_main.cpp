@@ -1,0 +1,121 @@
+#include "experiments/kds_main.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string_view>
+
+#include "experiments/bench/bench_command.h"
+#include "experiments/program/command_line.h"
+#include "experiments/program/destinations.h"
+#include "experiments/program/provenance.h"
+#include "experiments/program/text.h"
+#include "experiments/run/replay_command.h"
+#include "experiments/run/run_command.h"
+#include "experiments/scenes/generate_command.h"
+#include "experiments/scenes/info_command.h"
+#include "experiments/stability/stability_command.h"
+#include "experiments/update/update_command.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+namespace {
+
+struct Command {
+  std::string_view name, summary;
+  int (*run)(const Arguments&);
+};
+
+constexpr std::array kCommands{
+    Command{"run", "run kinetic structures over trajectories and report their events", run_command},
+    Command{"info", "describe trajectories and the conditions of a necklace they violate", info_command},
+    Command{"generate", "write a model necklace", generate_command},
+    Command{"replay", "run a logged run again and compare", replay_command},
+    Command{"update", "compare techniques that bring the power diagram from frame to frame", update_command},
+    Command{"bench", "measure ours beside what users would pick today", bench_command},
+    Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},
+};
+
+std::string program_help() {
+  std::string text =
+      "kds: kinetic data structures for deforming necklaces\n\n"
+      "usage: kds COMMAND [ARGUMENT]...\n\n";
+  for (const Command& command : kCommands)
+    text += fmt::format("  {:<10} {}\n", command.name, command.summary);
+  return text +
+         "\n  help       print this, or the options of a command: kds help run\n"
+         "  --help     the same: kds --help, kds run --help\n"
+         "  --version  print the version\n\n"
+         "exit codes: 0 done, 1 failed inside (a failed audit too), 2 wrong usage or input\n";
+}
+
+const Command& command_of(const std::string& name) {
+  for (const Command& command : kCommands)
+    if (command.name == name) return command;
+  throw InputError(
+      fmt::format("unknown {} '{}' (see kds --help)", name.starts_with('-') ? "option" : "command", name));
+}
+
+// kds help, kds help COMMAND
+int help(const Arguments& of) {
+  if (of.empty()) throw HelpRequest{program_help()};
+  if (of.size() > 1)
+    throw InputError(fmt::format("kds help takes one command, not {} (see kds --help)", of.size()));
+  return command_of(of.front()).run({"--help"});
+}
+
+int run_program(const Arguments& arguments) {
+  if (arguments.empty()) throw InputError("no command given (see kds --help)");
+  const std::string& name = arguments.front();
+  if (name == "--help" || name == "-h") throw HelpRequest{program_help()};
+  if (name == "--version") throw HelpRequest{"kds " + program_version() + "\n"};
+  const Arguments rest(arguments.begin() + 1, arguments.end());
+  return name == "help" ? help(rest) : command_of(name).run(rest);
+}
+
+// Without a throw: standard error may be closed.
+void complain(const std::string& message) { std::fputs(fmt::format("kds: {}\n", message).c_str(), stderr); }
+
+int guarded(int argc, char** argv) {
+  try {
+    return run_program(Arguments(argv + (argc > 0 ? 1 : 0), argv + argc));
+  } catch (const HelpRequest& help) {
+    print_to_stdout(help.text);
+    return 0;
+  } catch (const InputError& error) {
+    complain(one_line(error.what()));
+    return 2;
+  }
+}
+
+// A standard stream that is closed would lend its number to the next file, and messages end up in there: let
+// it fail instead. A file that grows beyond a limit is an error, not the end.
+void prepare_process() {
+  for (const int stream : {0, 1, 2})
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) static_cast<void>(::open("/dev/null", O_RDONLY));
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+}  // namespace
+
+int kds_main(int argc, char** argv) {
+  prepare_process();
+  try {
+    return guarded(argc, argv);
+  } catch (const std::bad_alloc&) {
+    complain("out of memory");
+  } catch (const std::exception& error) {
+    complain(error.what());  // a failed audit tells in several lines how to repeat it
+  } catch (...) {
+    complain("unknown failure");
+  }
+  return 1;
+}
+
+}  // namespace kds

@@ -1,0 +1,11 @@
+// The kds program with a structure and a reader of someone else: nothing of the tree's libraries knows them.
+
+#include "experiments/kds_main.h"
+#include "tests/extension/nearest.h"
+#include "tests/extension/table_reader.h"
+
+int main(int argc, char** argv) {
+  kds::structure_registry().add(extension::nearest_structure());
+  kds::reader_registry().add(extension::table_reader());
+  return kds::kds_main(argc, argv);
+}
