@@ -10,13 +10,15 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "certificates/search/failure_search.h"
+#include "certificates/exact/exact_time.h"
+#include "certificates/search/certificate_search.h"
 #include "certificates/types/bead_in_sphere.h"
 #include "certificates/types/orientation.h"
 #include "experiments/bench/certificate_peers.h"
@@ -42,13 +44,14 @@ constexpr std::size_t enough = 1000;  // for what takes microseconds each
 // A motion and certificates on it, with what becomes of them in the step.
 template <class C, Motion M>
 struct Input final : CertificateSource {
-  explicit Input(M m) : motion(std::move(m)) {}
+  explicit Input(M m) : motion(std::make_shared<const M>(std::move(m))), search(search_over<C>(seen())) {}
 
+  [[nodiscard]] MotionRef<M::dimension> seen() const { return {*motion}; }
   void settle() {
     failures.assign(certificates.size(), {});
-    first_failures<Filtered>(std::span<const C>(certificates), motion, start,
-                             std::vector<KnownAtStart>(certificates.size(), KnownAtStart::unknown), stages,
-                             TouchPolicy::ignored, failures);
+    search->first_failures(Kernel::filtered, certificates, start,
+                           std::vector<KnownAtStart>(certificates.size(), KnownAtStart::unknown), stages,
+                           TouchPolicy::ignored, failures);
   }
   // Leaves those with this outcome, at most so many.
   void keep(Failure::Kind kind, std::size_t most = std::numeric_limits<std::size_t>::max()) {
@@ -61,12 +64,17 @@ struct Input final : CertificateSource {
     settle();
     births.assign(kept, KnownAtStart::unknown);
   }
-  [[nodiscard]] ExactPolynomial exact_function(std::uint32_t slot) const override {
-    return kds::exact_function(certificates[slot], motion);
+  [[nodiscard]] ExactFunction exact_function(std::uint32_t slot) const override {
+    return search->exact_function(certificates[slot]);
+  }
+  [[nodiscard]] std::vector<ExactFunction> functions() const {
+    std::vector<ExactFunction> all;
+    for (const C& c : certificates) all.push_back(search->exact_function(c));
+    return all;
   }
   [[nodiscard]] std::vector<ExactPolynomial> polynomials() const {
     std::vector<ExactPolynomial> all;
-    for (const C& c : certificates) all.push_back(kds::exact_function(c, motion));
+    for (const ExactFunction& f : functions()) all.push_back(*f);
     return all;
   }
   [[nodiscard]] auto beads() const {
@@ -75,10 +83,11 @@ struct Input final : CertificateSource {
     return all;
   }
   [[nodiscard]] StaticPredicates predicates() const {
-    return {control_points(motion, 0), control_weights(motion, 0)};
+    return {control_points(*motion, 0), control_weights(*motion, 0)};
   }
 
-  M motion;
+  std::shared_ptr<const M> motion;
+  std::shared_ptr<const CertificateSearch<C>> search;  // over that motion
   Instant start{0};
   std::vector<C> certificates;
   std::vector<KnownAtStart> births;
@@ -143,22 +152,23 @@ Input<C, M> spheres(const M& motion, std::size_t count, std::size_t within) {
         c = C(beads, side ? 1 : -1);
       else
         c = {beads, side};
-      if (sign_just_after<Filtered>(c, motion, input.start, stages) > 0) input.certificates.push_back(c);
+      if (input.search->sign_just_after(Kernel::filtered, c, input.start, stages) > 0)
+        input.certificates.push_back(c);
     }
   }
   return input;
 }
 
 // Handed over some at a time, as structures do; what comes of them stays in cache.
-template <Kernel K, class I>
-void search(I& input) {
+template <class I>
+void search(Kernel kernel, I& input) {
   constexpr std::size_t some = 64;
   const std::span certificates(std::as_const(input.certificates));
   for (std::size_t i = 0; i < certificates.size(); i += some) {
     const std::size_t count = std::min(some, certificates.size() - i);
-    first_failures<K>(certificates.subspan(i, count), input.motion, input.start,
-                      std::span(std::as_const(input.births)).first(count), input.stages, TouchPolicy::ignored,
-                      std::span(input.failures).first(count));
+    input.search->first_failures(kernel, certificates.subspan(i, count), input.start,
+                                 std::span(std::as_const(input.births)).first(count), input.stages,
+                                 TouchPolicy::ignored, std::span(input.failures).first(count));
   }
 }
 
@@ -169,7 +179,7 @@ void settle(Turns& turns, I input) {
   const StaticPredicates peer = input.predicates();
   input.stages = {};
   turns.take(
-      beads.size(), [&] { search<Filtered>(input); }, [&] { return peer.seconds_for(beads); });
+      beads.size(), [&] { search(Kernel::filtered, input); }, [&] { return peer.seconds_for(beads); });
   turns.note("by_coefficients", static_cast<double>(input.stages.coefficients) /
                                     static_cast<double>(input.stages.coefficients + input.stages.isolation +
                                                         input.stages.refined + input.stages.exact +
@@ -177,8 +187,8 @@ void settle(Turns& turns, I input) {
 }
 
 // All facets of a triangulation as they lie in its cells; those not found positive are left.
-template <Processor processor, Motion M>
-void classify_in_cells(Turns& turns, const M& motion) {
+template <Motion M>
+void classify_in_cells(Turns& turns, const M& motion, bool on_any_processor) {
   RegularTriangulation<3> triangulation;
   static_cast<void>(triangulation.build(control_points(motion, 0), control_weights(motion, 0)));
   const auto cells = triangulation.cells();
@@ -186,12 +196,15 @@ void classify_in_cells(Turns& turns, const M& motion) {
   const auto beads = input.beads();
   const StaticPredicates peer = input.predicates();
   std::uint64_t positive = 0;
+  const auto filter =
+      on_any_processor ? cell_filter_for_any_processor<3>(motion) : cell_filter_over<3>(motion);
   FacetCover cover;
   turns.take(
       beads.size(),
       [&] {
         cover.start(cells.size());
-        FacetFilter<M, processor> facets(motion, LengthUnit(exponent_of_length(motion, cells)));
+        FacetFilter<3> facets(*filter, LengthUnit(exponent_of_length(Curves<3>(motion), cells)),
+                              Rounding::charged);
         struct {
           void doubt(FacetId) const {}
           void at_end(CellId, bool) const {}
@@ -208,12 +221,12 @@ void classify_in_cells(Turns& turns, const M& motion) {
   turns.note("settled", static_cast<double>(positive) / static_cast<double>(beads.size()));
 }
 
-template <Kernel K, class I>
-void failure(Turns& turns, I input) {
+template <class I>
+void failure(Turns& turns, Kernel kernel, I input) {
   input.keep(Failure::Kind::later, enough);
   const AlgebraicKernel peer(input.polynomials());
   turns.take(
-      input.certificates.size(), [&] { search<K>(input); }, [&] { return peer.seconds_to_isolate(); });
+      input.certificates.size(), [&] { search(kernel, input); }, [&] { return peer.seconds_to_isolate(); });
 }
 
 // Beads to polynomials.
@@ -221,7 +234,7 @@ template <class I>
 void exact_function(Turns& turns, I input) {
   input.keep(Failure::Kind::later, enough);
   turns.take(
-      input.certificates.size(), [&] { keep(input.polynomials().data()); }, [] { return no_peer; });
+      input.certificates.size(), [&] { keep(input.functions().data()); }, [] { return no_peer; });
 }
 
 // The polynomials are given, the first failure wanted.
@@ -311,7 +324,7 @@ void sign(Turns& turns, I input) {
       [&] {
         int sum = 0;
         for (std::size_t i = 0; i < instants.size(); ++i)
-          sum += sign_just_after<Filtered>(others[i], input.motion, instants[i], input.stages);
+          sum += input.search->sign_just_after(Kernel::filtered, others[i], instants[i], input.stages);
         keep(sum);
       },
       [&] { return peer.seconds_for(beads); });
@@ -322,13 +335,14 @@ template <class I>
 void positive_cells(Turns& turns, I input) {
   input.keep(Failure::Kind::later, enough);
   const std::vector<Instant> instants = instants_of(input);
+  const auto orientations = search_over<Orientation<3>>(input.seen());
   std::vector<Orientation<3>> cells;
   StageCounts stages;
   for (std::size_t i = 0; i < instants.size(); ++i) {
     for (std::size_t at = i, found = 0; found < 4; ++at) {
       const auto& b = input.certificates[at % instants.size()].beads;
       Orientation<3> cell({b[0], b[1], b[2], b[3]}, 1);
-      const int s = sign_now<Filtered>(cell, input.motion, instants[i], stages);
+      const int s = orientations->sign_now(Kernel::filtered, cell, instants[i], stages);
       cell.sign *= s;
       if (s != 0 && ++found != 0) cells.push_back(cell);
     }
@@ -339,8 +353,8 @@ void positive_cells(Turns& turns, I input) {
       [&] {
         int sum = 0;
         for (std::size_t i = 0; i < instants.size(); ++i)
-          sum +=
-              int{all_positive_now<Filtered>(all.subspan(4 * i, 4), input.motion, instants[i], input.stages)};
+          sum += int{orientations->all_positive_now(Kernel::filtered, all.subspan(4 * i, 4), instants[i],
+                                                    input.stages)};
         keep(sum);
       },
       [] { return no_peer; });
@@ -372,9 +386,9 @@ std::vector<Subject> certificate_subjects(const std::filesystem::path& instances
   };
 
   on_chain("settle/facet/linear", none, [=](Turns& t) { settle(t, facets(near())); });
-  on_chain("settle/facet/cells/linear", 25, [=](Turns& t) { classify_in_cells<Processor::best>(t, near()); });
+  on_chain("settle/facet/cells/linear", 25, [=](Turns& t) { classify_in_cells(t, near(), false); });
   on_chain("settle/facet/cells/linear/any_processor", 60,
-           [=](Turns& t) { classify_in_cells<Processor::any>(t, near()); });
+           [=](Turns& t) { classify_in_cells(t, near(), true); });
   on_chain("settle/sphere2/linear", none,
            [=](Turns& t) { settle(t, spheres<BeadInSphere<2>>(near(), many, window)); });
   on_chain("settle/sphere3/linear", none,
@@ -389,25 +403,26 @@ std::vector<Subject> certificate_subjects(const std::filesystem::path& instances
            [=](Turns& t) { settle(t, spheres<Facet>(near_cubic(), many, window)); });
 
   on_linear("failure/facet/linear", algebraic, 200, none,
-            [=](Turns& t) { failure<Filtered>(t, facets(linear())); });
+            [=](Turns& t) { failure(t, Kernel::filtered, facets(linear())); });
   on_linear("failure/sphere2/linear", algebraic, none, none,
-            [=](Turns& t) { failure<Filtered>(t, spheres<BeadInSphere<2>>(linear(), many, 100)); });
+            [=](Turns& t) { failure(t, Kernel::filtered, spheres<BeadInSphere<2>>(linear(), many, 100)); });
   on_linear("failure/sphere3/linear", algebraic, none, none,
-            [=](Turns& t) { failure<Filtered>(t, spheres<BeadInSphere<3>>(linear(), many, 100)); });
+            [=](Turns& t) { failure(t, Kernel::filtered, spheres<BeadInSphere<3>>(linear(), many, 100)); });
   on_linear("failure/sphere4/linear", algebraic, none, none,
-            [=](Turns& t) { failure<Filtered>(t, spheres<Facet>(linear(), many, 100)); });
-  on_cubic("failure/facet/cubic", algebraic, none, [=](Turns& t) { failure<Filtered>(t, facets(cubic())); });
+            [=](Turns& t) { failure(t, Kernel::filtered, spheres<Facet>(linear(), many, 100)); });
+  on_cubic("failure/facet/cubic", algebraic, none,
+           [=](Turns& t) { failure(t, Kernel::filtered, facets(cubic())); });
   on_cubic("failure/sphere2/cubic", algebraic, none,
-           [=](Turns& t) { failure<Filtered>(t, spheres<BeadInSphere<2>>(cubic(), many, 50)); });
+           [=](Turns& t) { failure(t, Kernel::filtered, spheres<BeadInSphere<2>>(cubic(), many, 50)); });
   on_cubic("failure/sphere3/cubic", algebraic, none,
-           [=](Turns& t) { failure<Filtered>(t, spheres<BeadInSphere<3>>(cubic(), many, 50)); });
+           [=](Turns& t) { failure(t, Kernel::filtered, spheres<BeadInSphere<3>>(cubic(), many, 50)); });
   on_cubic("failure/sphere4/cubic", algebraic, none,
-           [=](Turns& t) { failure<Filtered>(t, spheres<Facet>(cubic(), many, 50)); });
+           [=](Turns& t) { failure(t, Kernel::filtered, spheres<Facet>(cubic(), many, 50)); });
 
   on_linear("exact/bracket/facet/linear", algebraic, none, none,
-            [=](Turns& t) { failure<Exact>(t, facets(linear())); });
+            [=](Turns& t) { failure(t, Kernel::exact, facets(linear())); });
   on_cubic("exact/bracket/facet/cubic", algebraic, none,
-           [=](Turns& t) { failure<Exact>(t, facets(cubic())); });
+           [=](Turns& t) { failure(t, Kernel::exact, facets(cubic())); });
   on_linear("exact/function/facet/linear", "", none, none,
             [=](Turns& t) { exact_function(t, facets(linear())); });
   on_cubic("exact/function/facet/cubic", "", none, [=](Turns& t) { exact_function(t, facets(cubic())); });

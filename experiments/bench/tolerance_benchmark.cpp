@@ -12,8 +12,8 @@
 #include "experiments/bench/random_chain.h"
 #include "experiments/bench/subject.h"
 #include "motions/curves/positions.h"
-#include "structures/power_diagram/facet_filter.h"
 #include "structures/power_diagram/facet_slack.h"
+#include "structures/triangulation/facet_certificate.h"
 
 namespace kds::bench {
 
@@ -43,10 +43,10 @@ void rest(Turns& turns, double distance) {
                              });
     }
   }
-  FacetSlack<M> tolerances;
+  FacetSlack<3> tolerances;
   std::size_t others = 0;
   const auto step = [&] {
-    tolerances.start_step(motion, triangulation);
+    tolerances.start_step(Curves<3>(motion), triangulation);
     others = 0;
     tolerances.for_the_others(triangulation, [&](CellId, unsigned left) { others += count_of<3>(left); });
   };

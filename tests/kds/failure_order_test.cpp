@@ -130,7 +130,8 @@ TEST_F(FailureOrderTest, OneFunctionNeedsNoExactWork) {
 TEST_F(FailureOrderTest, EqualIrrationalRootsOfDifferentFunctionsAreATie) {
   const auto a = source.add(falling_at_root_of_one_over(2), named(3));
   const auto b = source.add(product(falling_at_root_of_one_over(2), falling(7, 6)), named(2));
-  const auto c = source.add(product(falling_at_root_of_one_over(2), falling_at_root_of_one_over(-5)), named(1));
+  const auto c =
+      source.add(product(falling_at_root_of_one_over(2), falling_at_root_of_one_over(-5)), named(1));
   expect_tie(exactly(a), exactly(b));
   expect_tie(exactly(b), exactly(c));
   expect_tie(at(0.5, 0.75, a), at(0.625, 0.875, c));

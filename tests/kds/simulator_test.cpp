@@ -34,7 +34,8 @@ TEST_F(SimulatorTest, DispatchesInTheOrderOfTime) {
     a.schedule("2/5", falling(2, 5), 4);
   };
   run();
-  EXPECT_THAT(log, ElementsAre("a build", "a start", "a 1/3", "a 2/5", "a 1/2", "a 3/4", "a finish", "a end"));
+  EXPECT_THAT(log,
+              ElementsAre("a build", "a start", "a 1/3", "a 2/5", "a 1/2", "a 3/4", "a finish", "a end"));
   EXPECT_EQ(a.retired, 4);
   EXPECT_EQ(a.cleared, 1);
 }
@@ -126,8 +127,8 @@ TEST_F(SimulatorTest, OnlyTheUnsettledAreSettled) {
   Script b{simulator, log, "b"};
   a.on_start = [&] { a.schedule("1/2", falling(1, 2), 1, [&] { b.needs_after_batch = true; }); };
   run();
-  EXPECT_THAT(log, ElementsAre("a build", "b build", "a start", "b start", "a 1/2", "b settle",
-                               "a finish", "b finish", "a end", "b end"));
+  EXPECT_THAT(log, ElementsAre("a build", "b build", "a start", "b start", "a 1/2", "b settle", "a finish",
+                               "b finish", "a end", "b end"));
 }
 
 TEST_F(SimulatorTest, WhatIsScheduledForNowComesBeforeLaterEventsAndSettling) {
@@ -156,7 +157,8 @@ TEST_F(SimulatorTest, SettlingMayCancelAndSchedule) {
     a.schedule("1/2", falling(1, 2), 4);
   };
   run();
-  EXPECT_THAT(log, ElementsAre("a build", "a start", "a 1/3", "a settle", "a 1/2", "a 2/3", "a finish", "a end"));
+  EXPECT_THAT(log,
+              ElementsAre("a build", "a start", "a 1/3", "a settle", "a 1/2", "a 2/3", "a finish", "a end"));
 }
 
 TEST_F(SimulatorTest, OneClockForAllStructures) {
@@ -220,7 +222,8 @@ TEST_F(SimulatorTest, StepsFollowEachOther) {
   EXPECT_EQ(simulator.step(), 1U);
   run(true);
   EXPECT_EQ(simulator.step(), 2U);
-  EXPECT_THAT(log, ElementsAre("a build", "a start", "a 0", "a finish", "a start", "a 1", "a finish", "a end"));
+  EXPECT_THAT(log,
+              ElementsAre("a build", "a start", "a 0", "a finish", "a start", "a 1", "a finish", "a end"));
   EXPECT_EQ(a.cleared, 2);
 }
 

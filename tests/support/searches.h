@@ -34,7 +34,8 @@ template <class Certificate, Motion M>
 template <class Certificate, Motion M>
 [[nodiscard]] int sign_now(Kernel kernel, const Certificate& certificate, const M& motion, const Instant& now,
                            StageCounts& stages) {
-  return search_over<Certificate>(MotionRef<M::dimension>(motion))->sign_now(kernel, certificate, now, stages);
+  return search_over<Certificate>(MotionRef<M::dimension>(motion))
+      ->sign_now(kernel, certificate, now, stages);
 }
 
 template <class Certificate, Motion M>

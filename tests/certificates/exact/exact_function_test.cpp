@@ -34,7 +34,8 @@ void expect_same(const C& certificate, const M& motion) {
   EXPECT_EQ(function.scaled(), ExactPolynomial(expected).scaled());
   // The same of the motion as curves of a degree known at run time.
   EXPECT_EQ(exact_function_of(certificate, Curves<M::dimension>(motion), size).scaled(), function.scaled());
-  EXPECT_EQ(coefficient_bits(function_of(C{}, MagnitudeView<M::dimension, any_degree>(M::degree))).bits, size.bits);
+  EXPECT_EQ(coefficient_bits(function_of(C{}, MagnitudeView<M::dimension, any_degree>(M::degree))).bits,
+            size.bits);
   const int length_bits = whole_scale<channels>(motion, certificate.beads).bits + 1;
   EXPECT_LE(static_cast<int>(function.largest_bit_length()), size.bits + size.power * length_bits);
 }

@@ -8,10 +8,12 @@
 #include <iostream>
 #include <tuple>
 
-#include "tests/support/searches.h"
+#include "certificates/search/define_certificate_search.h"
 #include "certificates/types/precedes.h"
+#include "motions/curves/any_degree_motion.h"
 #include "tests/support/judged_failure.h"
 #include "tests/support/property_runs.h"
+#include "tests/support/searches.h"
 
 namespace kds {
 namespace {
@@ -169,23 +171,107 @@ void expect_order(const Judged& p, const Judged& q, const Dyadic& number, Random
   }
 }
 
-// The same polynomial as the way of one bead, with a certificate on it, through all stages.
+// Any polynomial of degree 6 or 15 as the function of a cubic motion: beads 1 and 2
+// move along (1-u)^i u^(3-i), the others along the polynomial's coefficients, four to a bead.
 template <int Degree>
-void expect_cascade(const Judged& p, const Dyadic& from, Random& random, Faults& faults) {
-  using M = BezierMotion<1, Degree>;
-  constexpr long long common = Degree == 3 ? 3 : Degree == 6 ? 60 : 45045;  // multiple of all binomials
-  Scaled scaled = p.ours.scaled();
-  while (scaled.size() <= Degree) scaled = test::product(scaled, {1, 1});
-  M motion(2);
-  bool as_it_was = true;
-  for (int k = 0; k <= Degree; ++k) {
-    const Integer x = scaled[static_cast<std::size_t>(k)] * (common / binomial(Degree, k));
-    const double control = x.convert_to<double>();
-    if (!std::isfinite(control)) return;
-    as_it_was &= Integer(control) == x;
-    motion.set_coordinate(1, k, 0, control);
+struct AnyCurve {
+  static_assert(Degree == 6 || Degree == 15);
+  static constexpr CertificateType type{2000 + Degree, "any_curve"};
+  static constexpr std::size_t pieces = Degree == 6 ? 2 : 4;
+
+  std::array<BeadId, 3 + pieces> beads{};
+  int sign = 1;
+
+  [[nodiscard]] Identity identity() const { return {type.number, {}}; }
+  [[nodiscard]] bool side() const { return sign > 0; }
+  template <MotionView View>
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 3 + pieces>& b) {
+    // Bead 1: (1-u)^3 and u^3; bead 2: (1-u)^2 u and (1-u) u^2; then one for each part.
+    const auto ends = view.difference(b[1], b[0]), middle = view.difference(b[2], b[0]);
+    const auto part = [&](std::size_t i) { return view.difference(b[3 + i], b[0])[0]; };
+    if constexpr (Degree == 6) {
+      return part(0) * ends[0] + part(1) * ends[1];
+    } else {
+      const auto left = ends[0] * ends[0], right = ends[1] * ends[1];
+      return (part(0) * left) * left + (part(1) * left) * (middle[0] * ends[1]) +
+             (part(2) * right) * (ends[0] * middle[1]) + (part(3) * right) * right;
+    }
   }
-  Precedes certificate({0, 1});
+};
+
+}  // namespace
+
+template <>
+std::unique_ptr<CertificateSearch<AnyCurve<6>>> search_over(const MotionRef<2>& motion) {
+  return std::make_unique<detail::SearchInLanes<AnyCurve<6>, FixedCurves<2, 3>>>(motion);
+}
+template <>
+std::unique_ptr<CertificateSearch<AnyCurve<15>>> search_over(const MotionRef<2>& motion) {
+  return std::make_unique<detail::SearchInLanes<AnyCurve<15>, FixedCurves<2, 3>>>(motion);
+}
+
+namespace {
+
+// A polynomial times a positive number as a certificate's function; none where control points would be no
+// doubles.
+template <class M, class C>
+struct OnAMotion {
+  M motion;
+  C certificate;
+  bool as_it_was = true;  // no coefficient was rounded
+
+  /// False where the number is too large.
+  [[nodiscard]] bool set(BeadId bead, int k, const Integer& x) {
+    const double control = x.convert_to<double>();
+    if (!std::isfinite(control)) return false;
+    as_it_was &= Integer(control) == x;
+    motion.set_coordinate(bead, k, 0, control);
+    return true;
+  }
+};
+
+template <Motion M>
+std::optional<OnAMotion<M, Precedes>> as_way_of_a_bead(const Scaled& scaled, M motion) {
+  const auto degree = static_cast<int>(scaled.size()) - 1;
+  const long long common = degree == 3 ? 3 : degree == 6 ? 60 : 45045;  // multiple of all binomials
+  OnAMotion<M, Precedes> result{std::move(motion), Precedes({0, 1})};
+  for (int k = 0; k <= degree; ++k) {
+    if (!result.set(1, k, scaled[static_cast<std::size_t>(k)] * (common / binomial(degree, k))))
+      return std::nullopt;
+  }
+  return result;
+}
+
+template <int Degree>
+std::optional<OnAMotion<BezierMotion<2, 3>, AnyCurve<Degree>>> as_any_curve(const Scaled& scaled) {
+  constexpr std::size_t pieces = AnyCurve<Degree>::pieces;
+  OnAMotion<BezierMotion<2, 3>, AnyCurve<Degree>> result{BezierMotion<2, 3>(3 + pieces), {}};
+  for (BeadId b = 0; b < 3 + pieces; ++b) result.certificate.beads[b] = b;
+  for (int axis = 0; axis < 2; ++axis) {
+    result.motion.set_coordinate(1, 3 * axis, axis, 1);
+    result.motion.set_coordinate(2, 1 + axis, axis, 1);  // a third of it, as the middle binomials are three
+  }
+  for (std::size_t part = 0; part < pieces; ++part) {
+    // Where two pieces share a coefficient, at degree 6, the first has it.
+    const std::size_t first = Degree == 6 ? 3 * part : 4 * part;
+    for (std::size_t k = Degree == 6 && part > 0 ? 1 : 0; k <= 3; ++k) {
+      // Products with bead 2 are thrice what they are to be.
+      const long long times = (k == 0 || k == 3 ? 3 : 1) * (part == 0 || part + 1 == pieces ? 3 : 1);
+      if (!result.set(static_cast<BeadId>(3 + part), static_cast<int>(k), scaled[first + k] * times))
+        return std::nullopt;
+    }
+  }
+  return result;
+}
+
+// The same polynomial as a certificate's function, through all stages.
+template <class M, class C>
+void expect_cascade(const Judged& p, std::optional<OnAMotion<M, C>> made, const Dyadic& from, Random& random,
+                    Faults& faults) {
+  if (!made) return;
+  const M& motion = made->motion;
+  C certificate = made->certificate;
+  const bool as_it_was = made->as_it_was;
   std::optional<Judged> rounded;
   if (!as_it_was) {
     const ExactPolynomial function = test::exact_function(certificate, motion);
@@ -203,13 +289,16 @@ void expect_cascade(const Judged& p, const Dyadic& from, Random& random, Faults&
   std::size_t index = judge.up_to(start_rational);
   KnownAtStart birth = KnownAtStart::unknown;
   for (StageCounts stages; start < 1;) {
-    faults.expect(test::sign_just_after(Kernel::filtered, certificate, motion, now, stages) == sign, "filtered sign");
+    faults.expect(test::sign_just_after(Kernel::filtered, certificate, motion, now, stages) == sign,
+                  "filtered sign");
     if (sign < 0) {
-      const auto at_birth = test::first_failure(Kernel::filtered, certificate, motion, now, KnownAtStart::unknown, stages);
+      const auto at_birth =
+          test::first_failure(Kernel::filtered, certificate, motion, now, KnownAtStart::unknown, stages);
       faults.expect(at_birth.kind == Failure::Kind::at_birth, "filtered failure at birth");
       certificate.sign = -certificate.sign;
     }
-    const Failure failure = test::first_failure(Kernel::filtered, certificate, motion, now, birth, stages, touches);
+    const Failure failure =
+        test::first_failure(Kernel::filtered, certificate, motion, now, birth, stages, touches);
     // Whoever does not ask for touches may be told of none.
     while (touches == TouchPolicy::ignored && index < judge.roots.size() &&
            judge.multiplicities[index] % 2 == 0)
@@ -270,12 +359,28 @@ std::string fault_of(const Case& c) {
       if (const ExactPolynomial q(c.q); !q.is_zero()) expect_order(p, Judged(q), c.to, random, faults);
       break;
     default:
+      // In lanes as the functions of cubic motions, and alone where the bead's way is of a higher degree.
+      const bool in_lanes = random() % 4 != 0;
+      const auto elevated = [&](std::size_t degree) {
+        Scaled scaled = p.ours.scaled();
+        while (scaled.size() <= degree) scaled = test::product(scaled, {1, 1});
+        return scaled;
+      };
       if (c.p.size() <= 4) {
-        expect_cascade<3>(p, c.from, random, faults);
+        expect_cascade(p, as_way_of_a_bead(elevated(3), BezierMotion<1, 3>(2)), c.from, random, faults);
       } else if (c.p.size() <= 7) {
-        expect_cascade<6>(p, c.from, random, faults);
+        if (in_lanes) {
+          expect_cascade(p, as_any_curve<6>(elevated(6)), c.from, random, faults);
+        } else {
+          expect_cascade(p, as_way_of_a_bead(elevated(6), AnyDegreeMotion<1>(2, 6)), c.from, random, faults);
+        }
       } else if (c.p.size() <= 16) {
-        expect_cascade<15>(p, c.from, random, faults);
+        if (in_lanes) {
+          expect_cascade(p, as_any_curve<15>(elevated(15)), c.from, random, faults);
+        } else {
+          expect_cascade(p, as_way_of_a_bead(elevated(15), AnyDegreeMotion<1>(2, 15)), c.from, random,
+                         faults);
+        }
       }
   }
   return faults.first;

@@ -2,11 +2,11 @@
 // stage says so.
 #include <gtest/gtest.h>
 
-#include "tests/support/searches.h"
-#include "certificates/types/bead_in_sphere.h"
+#include "certificates/search/exact_search.h"
 #include "certificates/types/orientation.h"
 #include "certificates/types/precedes.h"
 #include "tests/support/judged_failure.h"
+#include "tests/support/searches.h"
 
 namespace kds {
 namespace {
@@ -25,7 +25,8 @@ const Precedes ahead{{0, 1}};
 const Precedes behind{{1, 0}};
 
 template <class M>
-Failure first(Kernel kernel, const M& motion, double now, StageCounts& stages, const Precedes& certificate = ahead) {
+Failure first(Kernel kernel, const M& motion, double now, StageCounts& stages,
+              const Precedes& certificate = ahead) {
   return test::first_failure(kernel, certificate, motion, Instant(now), KnownAtStart::unknown, stages);
 }
 
@@ -98,8 +99,9 @@ void expect_alternation(Kernel kernel) {
   double last = 0;
   for (int event = 0; event < 3; ++event) {
     const Precedes certificate = event % 2 == 0 ? ahead : behind;
-    const Failure failure = test::first_failure(kernel, 
-        certificate, motion, now, event == 0 ? KnownAtStart::unknown : KnownAtStart::at_own_root, stages);
+    const Failure failure =
+        test::first_failure(kernel, certificate, motion, now,
+                            event == 0 ? KnownAtStart::unknown : KnownAtStart::at_own_root, stages);
     ASSERT_EQ(static_cast<int>(failure.kind), static_cast<int>(Kind::later));
     EXPECT_GT(failure.time.lower, last);
     last = failure.time.upper;
@@ -155,8 +157,8 @@ TEST(Stages, NothingIsToldApartFromZero) {
       flat.set_coordinate(b, k, 1, 0.7 * (b % 2) - 0.3 * k * b);
     }
   }
-  EXPECT_EQ((test::first_failure(Kernel::filtered, Orientation<3>({0, 1, 2, 3}, 1), flat, Instant(0), KnownAtStart::unknown,
-                                     stages)
+  EXPECT_EQ((test::first_failure(Kernel::filtered, Orientation<3>({0, 1, 2, 3}, 1), flat, Instant(0),
+                                 KnownAtStart::unknown, stages)
                  .kind),
             Kind::zero);
   EXPECT_EQ(stages.identically_zero, 1U);
@@ -201,7 +203,8 @@ TEST(Births, InAWideBracket) {
   const Instant now({0.25, 0.75, 0, true}, functions, slot);
   const auto motion = curve<2>({24, -26, 24});  // roots 4/10 and 6/10
   StageCounts stages;
-  const Failure failure = test::first_failure(Kernel::filtered, ahead, motion, now, KnownAtStart::unknown, stages);
+  const Failure failure =
+      test::first_failure(Kernel::filtered, ahead, motion, now, KnownAtStart::unknown, stages);
   ASSERT_EQ(static_cast<int>(failure.kind), static_cast<int>(Kind::later));
   EXPECT_NEAR(failure.time.lower, 0.4, 1e-9);
 }

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "certificates/search/exact_search.h"
 #include "tests/support/any_certificate.h"
 #include "tests/support/judged_failure.h"
 #include "tests/support/random_motion.h"
@@ -29,7 +30,8 @@ class FailureSearch : public testing::Test {
     const test::JudgedFailure expected = test::judged_failure(function, judged_now);
     StageCounts filtered_stages;
     StageCounts exact_stages;
-    const Failure filtered = test::first_failure(Kernel::filtered, certificate, motion, now, birth, filtered_stages);
+    const Failure filtered =
+        test::first_failure(Kernel::filtered, certificate, motion, now, birth, filtered_stages);
     const Failure exact = test::first_failure(Kernel::exact, certificate, motion, now, birth, exact_stages);
     test::expect_confirmed("filtered", filtered, function, expected);
     test::expect_confirmed("exact", exact, function, expected);
@@ -173,8 +175,8 @@ TYPED_TEST(FailureSearch, ScaleChangesNothing) {
       this->expect_agreement_all_along(certificate, motion, 0);
       if (testing::Test::HasFailure()) return;
       if (exponent > -900) {  // there low bits are lost
-        const Failure scaled =
-            test::first_failure(Kernel::exact, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
+        const Failure scaled = test::first_failure(Kernel::exact, certificate, motion, Instant(0),
+                                                   KnownAtStart::unknown, stages);
         EXPECT_EQ(scaled.kind, plain.kind);
         EXPECT_EQ(scaled.time.lower, plain.time.lower);
         EXPECT_EQ(scaled.time.upper, plain.time.upper);
@@ -194,14 +196,17 @@ TYPED_TEST(FailureSearch, NoScaleIsLeftToIntegers) {
     }
     const auto certificate = test::random_certificate<typename TypeParam::C>(random);
     const Failure::Kind kind =
-        test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown, plain).kind;
+        test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown, plain)
+            .kind;
     const int sign = test::sign_now(Kernel::filtered, certificate, motion, Instant(0.5), plain);
     int before = 0;
     for (const int exponent : {-1000, -600, -300, -150, 150, 300, 600, 1000}) {
       SCOPED_TRACE("seed 306, round " + std::to_string(i) + ", times 2^" + std::to_string(exponent));
       test::scale(motion, exponent - before);
       before = exponent;
-      EXPECT_EQ(test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown, scaled).kind,
+      EXPECT_EQ(test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown,
+                                    scaled)
+                    .kind,
                 kind);
       EXPECT_EQ(test::sign_now(Kernel::filtered, certificate, motion, Instant(0.5), scaled), sign);
     }
@@ -268,7 +273,8 @@ TYPED_TEST(FailureSearch, FastSurvivesEverything) {
     StageCounts stages;
     const double u = random() % 3 == 0 ? 0 : random() % 2 ? 1 : test::uniform(random, 0, 1);
     for (const KnownAtStart birth : {KnownAtStart::unknown, KnownAtStart::at_own_root}) {
-      const Failure failure = test::first_failure(Kernel::fast, certificate, motion, Instant(u), birth, stages);
+      const Failure failure =
+          test::first_failure(Kernel::fast, certificate, motion, Instant(u), birth, stages);
       if (failure.kind == Failure::Kind::later) {
         EXPECT_TRUE(failure.time.lower >= u && failure.time.lower <= 1);
         EXPECT_EQ(failure.time.lower, failure.time.upper);
@@ -300,7 +306,8 @@ TEST(LastRoot, IsToldWhereNoOtherFollows) {
     EXPECT_EQ(first.time.last, curve.last);
     test::Functions functions;
     const Instant now(first.time, functions, functions.add(test::exact_function(before, motion)));
-    const Failure next = test::first_failure(Kernel::filtered, after, motion, now, KnownAtStart::at_own_root, stages);
+    const Failure next =
+        test::first_failure(Kernel::filtered, after, motion, now, KnownAtStart::at_own_root, stages);
     if (curve.last) {
       EXPECT_EQ(next.kind, Failure::Kind::never);
     }

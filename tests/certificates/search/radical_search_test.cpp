@@ -110,8 +110,10 @@ void expect_course(const M& motion, const Course& course, bool inside, int& fail
   const bool at_once = (course.signs[0] > 0) != inside;
   if (at_once) {
     StageCounts stages;
-    EXPECT_EQ((test::first_failure(Kernel::exact, certificate, motion, now, birth, stages).kind), Kind::at_birth);
-    EXPECT_EQ((test::first_failure(Kernel::filtered, certificate, motion, now, birth, stages).kind), Kind::at_birth);
+    EXPECT_EQ((test::first_failure(Kernel::exact, certificate, motion, now, birth, stages).kind),
+              Kind::at_birth);
+    EXPECT_EQ((test::first_failure(Kernel::filtered, certificate, motion, now, birth, stages).kind),
+              Kind::at_birth);
     return;
   }
   for (int event = 0; event < 20; ++event) {
@@ -194,9 +196,10 @@ TYPED_TEST(RadicalSearch, GenericMotionIsSettledInDouble) {
     const auto inside = test::judged_inside(motion, Dyadic(0.0));
     if (!inside) continue;
     certificate.inside = *inside > 0;
-    static_cast<void>(
-        test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown, stages));
-    const Failure fast = test::first_failure(Kernel::fast, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
+    static_cast<void>(test::first_failure(Kernel::filtered, certificate, motion, Instant(0),
+                                          KnownAtStart::unknown, stages));
+    const Failure fast =
+        test::first_failure(Kernel::fast, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
     const Failure exact =
         test::first_failure(Kernel::exact, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
     --stages.exact;
@@ -236,8 +239,8 @@ TYPED_TEST(RadicalSearch, ScaleDoesNotMatter) {
     const Failure exact =
         test::first_failure(Kernel::exact, certificate, scaled, Instant(0), KnownAtStart::unknown, stages);
     StageCounts filtered_stages;
-    const Failure filtered =
-        test::first_failure(Kernel::filtered, certificate, scaled, Instant(0), KnownAtStart::unknown, filtered_stages);
+    const Failure filtered = test::first_failure(Kernel::filtered, certificate, scaled, Instant(0),
+                                                 KnownAtStart::unknown, filtered_stages);
     EXPECT_EQ(filtered_stages.exact, plain.kind == Kind::at_birth ? 1U : 0U);
     EXPECT_EQ(exact.kind, plain.kind);
     EXPECT_EQ(filtered.kind, plain.kind);
@@ -259,7 +262,8 @@ TYPED_TEST(RadicalSearch, FastSurvivesEverything) {
     for (std::size_t b = 0; b < certificate.beads.size(); ++b) certificate.beads[b] = static_cast<BeadId>(b);
     StageCounts stages;
     for (const KnownAtStart birth : {KnownAtStart::unknown, KnownAtStart::at_own_root}) {
-      const Failure failure = test::first_failure(Kernel::fast, certificate, motion, Instant(0.25), birth, stages);
+      const Failure failure =
+          test::first_failure(Kernel::fast, certificate, motion, Instant(0.25), birth, stages);
       if (failure.kind == Kind::later) {
         EXPECT_TRUE(failure.time.lower >= 0.25 && failure.time.lower <= 1);
       }
@@ -294,10 +298,10 @@ template <class C, Motion M>
 Failure agreed(const M& motion, bool inside, TouchPolicy touches = TouchPolicy::ignored) {
   const C certificate = test::certificate_at<C>(motion, Dyadic(0.0), inside);
   StageCounts stages;
-  const Failure filtered =
-      test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown, stages, touches);
-  const Failure exact =
-      test::first_failure(Kernel::exact, certificate, motion, Instant(0), KnownAtStart::unknown, stages, touches);
+  const Failure filtered = test::first_failure(Kernel::filtered, certificate, motion, Instant(0),
+                                               KnownAtStart::unknown, stages, touches);
+  const Failure exact = test::first_failure(Kernel::exact, certificate, motion, Instant(0),
+                                            KnownAtStart::unknown, stages, touches);
   EXPECT_EQ(filtered.kind, exact.kind);
   EXPECT_EQ(filtered.time.touch, exact.time.touch);
   return exact;
@@ -355,7 +359,8 @@ TEST(RadicalSearch, TheOtherRootOfAVanishingNormIsNone) {
   // Equal radii around the origin: rho = 2 or -2. The ball satisfies the norm with -2 and is outside.
   const auto motion = moving<2>({still({-2, 0, 0}, 1), still({2, 0, 0}, 1), still({0, 3, 0}, 2)});
   using C = BallInSphere<2, 2>;
-  EXPECT_TRUE((test::exact_function(test::certificate_at<C>(motion, Dyadic(0.0)), motion).scaled().size() > 0));
+  EXPECT_TRUE(
+      (test::exact_function(test::certificate_at<C>(motion, Dyadic(0.0)), motion).scaled().size() > 0));
   EXPECT_EQ(agreed<C>(motion, true).kind, Kind::at_birth);
   EXPECT_EQ(agreed<C>(motion, false).kind, Kind::never);
 }
@@ -409,10 +414,12 @@ void expect_as_equal(const Equal& equal, const BezierMotion<Dimension, 1>& motio
   using C = BallInSphere<Dimension, Size>;
   const C certificate = test::certificate_at<C>(motion, Dyadic(0.0), inside);
   StageCounts stages;
-  const Failure expected = test::first_failure(Kernel::exact, equal, motion, Instant(0), KnownAtStart::unknown, stages);
+  const Failure expected =
+      test::first_failure(Kernel::exact, equal, motion, Instant(0), KnownAtStart::unknown, stages);
   for (const Failure& failure :
        {test::first_failure(Kernel::exact, certificate, motion, Instant(0), KnownAtStart::unknown, stages),
-        test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown, stages)}) {
+        test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown,
+                            stages)}) {
     ASSERT_EQ(failure.kind, expected.kind);
     if (failure.kind != Kind::later) continue;
     ++later;

@@ -23,8 +23,8 @@ template <class Polynomial, class M>
 void judge(const M& motion, Random& random, Tally& tally) {
   Polynomial polynomial;
   for (std::size_t i = 0; i < polynomial.beads.size(); ++i) polynomial.beads[i] = static_cast<BeadId>(i);
-  const ExactPolynomial exact = exact_function_of(
-      polynomial, motion, coefficient_bits(function_of(polynomial, MagnitudeViewOf<M>())));
+  const ExactPolynomial exact =
+      exact_function_of(polynomial, motion, coefficient_bits(function_of(polynomial, MagnitudeViewOf<M>())));
   const double lower = uniform(random, 0, 1);
   const double length = std::ldexp(1.0, -static_cast<int>(random() % 60));
   const double upper = random() % 3 == 0 ? lower : std::min(1.0, lower + length);

@@ -1,4 +1,5 @@
-// Searches of the radical certificates that the library does not compile: for all tests of this folder, in the plane.
+// Searches of the radical certificates that the library does not compile: for all tests of this folder, in
+// the plane.
 #include "certificates/search/define_radical_search.h"
 #include "certificates/types/ball_in_sphere.h"
 

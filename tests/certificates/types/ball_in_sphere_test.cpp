@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "certificates/search/define_radical_search.h"
-#include "tests/support/searches.h"
 #include "tests/support/ball_motions.h"
+#include "tests/support/searches.h"
 
 namespace kds {
 namespace {
@@ -75,7 +75,8 @@ TEST(BallInSphere, FailsJustBeforeItGoesOutOfUse) {
   }
   const BallInSphere<3, 2> certificate{{0, 1, 2}, true, 1};
   StageCounts stages;
-  const Failure exact = test::first_failure(Kernel::exact, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
+  const Failure exact =
+      test::first_failure(Kernel::exact, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
   const Failure filtered =
       test::first_failure(Kernel::filtered, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
   ASSERT_EQ(exact.kind, Failure::Kind::later);

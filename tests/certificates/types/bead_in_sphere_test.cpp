@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/searches.h"
 #include "certificates/types/orientation.h"
 #include "certificates/types/power_test.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/rational_geometry.h"
+#include "tests/support/searches.h"
 
 namespace kds {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/searches.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/rational_geometry.h"
+#include "tests/support/searches.h"
 
 namespace kds {
 namespace {
@@ -27,7 +27,8 @@ BezierMotion<1, 1> approach(double x0, double x1, double r0, double r1) {
 template <Motion M>
 Failure first(Kernel kernel, const M& motion, int sign, TouchPolicy touches = TouchPolicy::ignored) {
   StageCounts stages;
-  return test::first_failure(kernel, Contact({0, 1}, sign), motion, Instant(0), KnownAtStart::unknown, stages, touches);
+  return test::first_failure(kernel, Contact({0, 1}, sign), motion, Instant(0), KnownAtStart::unknown, stages,
+                             touches);
 }
 
 TEST(Contact, BeginsWhereTheBallsMeet) {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/searches.h"
 #include "tests/support/ball_motions.h"
+#include "tests/support/searches.h"
 
 namespace kds {
 namespace {
@@ -17,13 +17,14 @@ template <Motion M>
 Answer ask(const M& motion, bool inside, int orientation) {
   std::vector<BeadId> basis;
   for (BeadId b = 0; b + 1 < motion.bead_count(); ++b) basis.push_back(b);
-  return visit_membership(Radii::any, motion, basis, static_cast<BeadId>(basis.size()), inside, orientation,
-                          [&](const auto& certificate) {
-                            StageCounts stages;
-                            const int sign = test::sign_now(Kernel::exact, certificate, motion, Instant(0.5), stages);
-                            EXPECT_EQ((test::sign_now(Kernel::filtered, certificate, motion, Instant(0.5), stages)), sign);
-                            return Answer{certificate.identity().type, sign};
-                          });
+  return visit_membership(
+      Radii::any, motion, basis, static_cast<BeadId>(basis.size()), inside, orientation,
+      [&](const auto& certificate) {
+        StageCounts stages;
+        const int sign = test::sign_now(Kernel::exact, certificate, motion, Instant(0.5), stages);
+        EXPECT_EQ((test::sign_now(Kernel::filtered, certificate, motion, Instant(0.5), stages)), sign);
+        return Answer{certificate.identity().type, sign};
+      });
 }
 
 template <class T>

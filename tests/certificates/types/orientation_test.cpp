@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "tests/support/searches.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/rational_geometry.h"
+#include "tests/support/searches.h"
 
 namespace kds {
 namespace {

@@ -161,9 +161,8 @@ TEST(Bernstein, OfDegreesKnownAtRunTimeIsTheSame) {
   expect_same_at_run_time<TrackedDouble>([&] {
     return TrackedDouble{real(random), std::abs(real(random)) * 0x1p-53};
   });
-  expect_same_at_run_time<Residue>([&] {
-    return Residue::of(static_cast<long long>(random() >> 4U), residue_folds[3]);
-  });
+  expect_same_at_run_time<Residue>(
+      [&] { return Residue::of(static_cast<long long>(random() >> 4U), residue_folds[3]); });
   expect_same_at_run_time<Integer>([&] { return Integer(static_cast<long long>(random())); });
 }
 

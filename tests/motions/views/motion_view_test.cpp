@@ -248,8 +248,8 @@ TEST(MotionViews, TrackedAtAUsefulScaleWhereverDifferencesAreFinite) {
   EXPECT_EQ(scale_to_unit(same, beads), 1);
 }
 
-// A degree that is known only at run time: exact views have the motion's values, and where the degree has been
-// compiled the very same coefficients.
+// A degree that is known only at run time: exact views have the motion's values, and where the degree has
+// been compiled the very same coefficients.
 TEST(AnyDegreeMotion, IsSeenAsItIs) {
   test::Random random(5);
   for (const int degree : {1, 2, 3, 6}) {
@@ -280,8 +280,7 @@ TEST(AnyDegreeMotion, IsSeenAsItIs) {
       EXPECT_EQ(at(d[0]), scale * (p[0] - q[0]));
       EXPECT_EQ(at(d[1]), scale * (p[1] - q[1]));
       EXPECT_EQ(at(view.weight_difference(0, 1)), scale * scale * (p[2] - q[2]));
-      EXPECT_EQ(at(view.radius_sum(0, 1)),
-                scale * (exact_radius(any, 0, time) + exact_radius(any, 1, time)));
+      EXPECT_EQ(at(view.radius_sum(0, 1)), scale * (exact_radius(any, 0, time) + exact_radius(any, 1, time)));
     }
     if (degree != 3) continue;
     for (std::size_t axis = 0; axis < 2; ++axis)

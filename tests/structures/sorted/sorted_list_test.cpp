@@ -68,10 +68,9 @@ TEST(SortedList, SmallAndSimple) {
   expect_all_crossings(moving_on_a_line({0, 1, 2, 3}, {3, 2, 1, 0}));
   expect_all_crossings(moving_on_a_line({0, 1, 2, 3, 4, 5, 6}, {6, 5, 4, 3, 2, 1, 0}));
   expect_all_crossings(moving_on_a_line({0, 1}, {1, 0}));
-  expect_all_crossings(moving_on_a_line({0, 1}, {1, 1}));  // meet at the end: not yet
-  expect_all_crossings(moving_on_a_line({1, 1}, {1, 0}));  // part at the start
-  expect_all_crossings(
-      moving_on_a_line({1, 1, 0}, {1, 1, 2}));  // one passes two that stay together
+  expect_all_crossings(moving_on_a_line({0, 1}, {1, 1}));        // meet at the end: not yet
+  expect_all_crossings(moving_on_a_line({1, 1}, {1, 0}));        // part at the start
+  expect_all_crossings(moving_on_a_line({1, 1, 0}, {1, 1, 2}));  // one passes two that stay together
   expect_all_crossings(moving_on_a_line({3}, {4}));
 }
 
