@@ -3,9 +3,16 @@
 
 namespace kds {
 
-template std::unique_ptr<CertificateSearch<BeadInSphere<1>>> search_over(const MotionRef<2>&);
+// Of one bead: beads that coincide, which is rare.
+template <>
+std::unique_ptr<CertificateSearch<BeadInSphere<1>>> search_over(const MotionRef<2>& motion) {
+  return detail::search_one_by_one<BeadInSphere<1>>(motion);
+}
+template <>
+std::unique_ptr<CertificateSearch<BeadInSphere<1>>> search_over(const MotionRef<3>& motion) {
+  return detail::search_one_by_one<BeadInSphere<1>>(motion);
+}
 template std::unique_ptr<CertificateSearch<BeadInSphere<2>>> search_over(const MotionRef<2>&);
-template std::unique_ptr<CertificateSearch<BeadInSphere<1>>> search_over(const MotionRef<3>&);
 template std::unique_ptr<CertificateSearch<BeadInSphere<2>>> search_over(const MotionRef<3>&);
 template std::unique_ptr<CertificateSearch<BeadInSphere<3>>> search_over(const MotionRef<3>&);
 
