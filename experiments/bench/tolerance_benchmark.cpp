@@ -12,6 +12,7 @@
 #include "experiments/bench/random_chain.h"
 #include "experiments/bench/subject.h"
 #include "motions/curves/positions.h"
+#include "structures/power_diagram/facet_filter.h"
 #include "structures/power_diagram/facet_slack.h"
 #include "structures/triangulation/facet_certificate.h"
 
