@@ -41,7 +41,8 @@ Json run_json(const RunReport& report) {
     json["input"]["first_frame"] = report.frame_numbers.front();
     json["input"]["last_frame"] = report.frame_numbers.back();
   }
-  if (!report.times.empty()) json["input"]["picoseconds"] = {report.times.front(), report.times.back()};
+  if (!report.times.empty())
+    json["input"]["picoseconds"] = std::vector<double>{report.times.front(), report.times.back()};
   json["settings"] = Json::object();
   for (const auto& [name, value] : report.settings) json["settings"][name] = value;
   json["structures"] = Json::object();

@@ -24,9 +24,7 @@ struct SessionOptions {
 class StructureRefusal : public InputError {
  public:
   StructureRefusal(const std::string& structure, const std::string& reason)
-      : InputError(structure + ": " + reason), structure(structure), reason(reason) {}
-
-  std::string structure, reason;
+      : InputError(structure + ": " + reason) {}
 };
 
 class Session {
