@@ -33,10 +33,6 @@ StructureSpec sorted_structure() {
   spec.name = "sorted";
   spec.order = 10;
   spec.by_default = [](const Scene& scene) { return scene.dimension() == 1; };
-  spec.refusal = [](const Scene& scene) -> std::optional<std::string> {
-    if (scene.is_lifted()) return fictitious_radii;
-    return std::nullopt;
-  };
   spec.make = [](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,
                  const StructureSettings&) {
     return std::visit(
