@@ -10,6 +10,7 @@
 #include <concepts>
 #include <span>
 
+#include "motions/curves/curves.h"
 #include "motions/views/motion_view.h"
 
 namespace kds {
@@ -32,28 +33,13 @@ class TrackedMoment {
 
   /// From `lower` to `upper`, within [0,1].
   TrackedMoment(const M& motion, std::span<const BeadId> beads, double lower, double upper) {
-    const double scale = scale_to_unit<channels>(motion, beads);
-    const int own = degree_of(motion);
-    const TrackedDouble later{upper, 0}, earlier = rounded(1 - upper);
-    const double length = own * (upper - lower) * TrackedDouble::inflation;
-    const auto during = [&](auto control) { return value(own, control, earlier, later, length); };
-    for (std::size_t place = 1; place < Places; ++place) {
-      const BeadId bead = beads[place], first = beads[0];
-      for (int axis = 0; axis < dimension; ++axis) {
-        seen_[place][static_cast<std::size_t>(axis)] = during([&](int k) {
-          return rounded((motion.coordinate(bead, k, axis) - motion.coordinate(first, k, axis)) * scale);
-        });
+    if constexpr (M::degree < 0) {  // most motion is linear, and few signs are worth loops for it
+      if (degree_of(motion) == 1) {
+        see(FixedCurves<dimension, 1>(Curves<dimension>(motion)), beads, lower, upper);
+        return;
       }
-      if constexpr (channels.radii)
-        seen_[place][of_radius] = during(
-            [&](int k) { return rounded((motion.radius(bead, k) - motion.radius(first, k)) * scale); });
-      if constexpr (channels.weights)
-        seen_[place][of_weight] = during([&](int k) {
-          return rounded((motion.weight(bead, k) - motion.weight(first, k)) * scale * scale);
-        });
     }
-    if constexpr (channels.radii)
-      first_radius_ = during([&](int k) { return rounded(motion.radius(beads[0], k) * scale); });
+    see(motion, beads, lower, upper);
   }
 
   [[nodiscard]] BernsteinVector<TrackedDouble, 0, dimension> difference(BeadId i, BeadId j) const {
@@ -77,15 +63,41 @@ class TrackedMoment {
   static constexpr std::size_t of_radius = dimension, of_weight = dimension + (channels.radii ? 1 : 0);
   static constexpr std::size_t columns = of_weight + (channels.weights ? 1 : 0);
 
+  template <Motion C>
+  void see(const C& motion, std::span<const BeadId> beads, double lower, double upper) {
+    const double scale = scale_to_unit<channels>(motion, beads);
+    const int own = degree_of(motion);
+    const TrackedDouble later{upper, 0}, earlier = rounded(1 - upper);
+    const double length = own * (upper - lower) * TrackedDouble::inflation;
+    const auto during = [&](auto control) { return value<C::degree>(own, control, earlier, later, length); };
+    for (std::size_t place = 1; place < Places; ++place) {
+      const BeadId bead = beads[place], first = beads[0];
+      for (int axis = 0; axis < dimension; ++axis) {
+        seen_[place][static_cast<std::size_t>(axis)] = during([&](int k) {
+          return rounded((motion.coordinate(bead, k, axis) - motion.coordinate(first, k, axis)) * scale);
+        });
+      }
+      if constexpr (channels.radii)
+        seen_[place][of_radius] = during(
+            [&](int k) { return rounded((motion.radius(bead, k) - motion.radius(first, k)) * scale); });
+      if constexpr (channels.weights)
+        seen_[place][of_weight] = during([&](int k) {
+          return rounded((motion.weight(bead, k) - motion.weight(first, k)) * scale * scale);
+        });
+    }
+    if constexpr (channels.radii)
+      first_radius_ = during([&](int k) { return rounded(motion.radius(beads[0], k) * scale); });
+  }
+
   static TrackedDouble rounded(double x) {
     return {x, TrackedDouble::unit_roundoff * std::abs(x) + TrackedDouble::lost_to_underflow};
   }
   /// The value at the end of the time, with how far it may be from that before as an error: |p'| <=
   /// degree * the steepest slope of the control polygon.
-  template <std::invocable<int> Control>
+  template <int curve_degree, std::invocable<int> Control>
   static TrackedDouble value(int own_degree, Control control, const TrackedDouble& earlier,
                              const TrackedDouble& later, double length) {
-    Bernstein<TrackedDouble, M::degree> curve;
+    Bernstein<TrackedDouble, curve_degree> curve;
     curve.set_degree(own_degree);
     auto& points = curve.scaled;
     double steepest = 0;
