@@ -43,6 +43,7 @@ class TrackedMoment {
     };
     for (std::size_t place = 1; place < Places; ++place) {
       const BeadId bead = beads[place], first = beads[0];
+      if (bead == first) continue;  // zero, without an error: that would be subnormal, and slow
       for (int axis = 0; axis < dimension; ++axis) {
         seen_[place][static_cast<std::size_t>(axis)] = during([&](int k) {
           return rounded((motion.coordinate(bead, k, axis) - motion.coordinate(first, k, axis)) * scale);
