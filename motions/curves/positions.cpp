@@ -45,7 +45,8 @@ Eigen::Matrix3Xd PositionsOf<D>::approximate_positions(const Curves<D>& curves, 
   Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(curves.bead_count()));
   for (BeadId b = 0; b < curves.bead_count(); ++b) {
     for (int axis = 0; axis < D; ++axis)
-      points(axis, b) = curve_at(curves.own_degree(), u, [&](int k) { return curves.coordinate(b, k, axis); });
+      points(axis, b) =
+          curve_at(curves.own_degree(), u, [&](int k) { return curves.coordinate(b, k, axis); });
   }
   return points;
 }
@@ -75,8 +76,8 @@ Rational PositionsOf<D>::exact_radius(const Curves<D>& curves, BeadId bead, cons
 }
 
 template <int D>
-Rational PositionsOf<D>::exact_dip(const LiftedCurves<D>& curves, BeadId bead, const Dyadic& time)
-    requires(D > 1) {
+Rational PositionsOf<D>::exact_dip(const LiftedCurves<D>& curves, BeadId bead,
+                                   const Dyadic& time) requires(D > 1) {
   const Rational u = time.rational();
   Rational sum = 0;
   for (int axis = 0; axis < D; ++axis) {

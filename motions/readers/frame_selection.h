@@ -16,8 +16,9 @@ struct FramesHeld {
 };
 
 /// The numbers of the frames asked for, ascending. Throws InputError if they are not all there; a file that
-/// ends inside a frame is an error unless the range names its last frame, and is warned of then. Frames behind the
-/// last one that a stride meets are told of likewise. The one frame of a file of one is taken whatever the range: such a necklace is at rest.
+/// ends inside a frame is an error unless the range names its last frame, and is warned of then. Frames
+/// behind the last one that a stride meets are told of likewise. The one frame of a file of one is taken
+/// whatever the range: such a necklace is at rest.
 [[nodiscard]] std::vector<std::size_t> select_frames(const std::string& file, const FrameRange& range,
                                                      const FramesHeld& held,
                                                      std::vector<std::string>& warnings);

@@ -21,8 +21,8 @@ void check_frame(const Trajectory& necklace, std::size_t frame) {
   for (Eigen::Index bead = 0; bead < centers.cols(); ++bead) {
     if (centers.col(bead).allFinite()) continue;
     throw InputError(fmt::format("{}: frame {}, bead {}: expected finite coordinates, found {}, {}, {}",
-                                 necklace.file, necklace.frame_number(frame), bead, centers(0, bead), centers(1, bead),
-                                 centers(2, bead)));
+                                 necklace.file, necklace.frame_number(frame), bead, centers(0, bead),
+                                 centers(1, bead), centers(2, bead)));
   }
 }
 
@@ -169,10 +169,10 @@ double Scene::coordinate(std::size_t step, BeadId bead, int k, int axis) const {
   const double point = k == 1 ? frames_[step](axis, bead) + third_of_velocity(step, bead, axis)
                               : frames_[step + 1](axis, bead) - third_of_velocity(step + 1, bead, axis);
   if (!std::isfinite(point)) {
-    throw InputError(
-        fmt::format("bead {}, between frames {} and {}: moves too far for a Hermite curve in doubles; expected "
-                    "finite control points",
-                    bead, frame_number(step), frame_number(step + 1)));
+    throw InputError(fmt::format(
+        "bead {}, between frames {} and {}: moves too far for a Hermite curve in doubles; expected "
+        "finite control points",
+        bead, frame_number(step), frame_number(step + 1)));
   }
   return point;
 }

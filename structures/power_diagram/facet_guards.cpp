@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "motions/base/grow_little.h"
+
 namespace kds {
 
 template <int Dimension>
@@ -134,6 +136,12 @@ void FacetGuards<Dimension>::note_resting() {
   }
   noted_.clear();
   notes_ = Notes::resting;
+}
+
+template <int Dimension>
+void FacetGuards<Dimension>::remember_noted(CellId cell) {
+  append_little(noted_, cell);
+  if (8 * noted_.size() > state_.triangulation.cells().size()) notes_ = Notes::any;  // then it does not pay
 }
 
 /// Guards the facets with a bead that moves.

@@ -11,7 +11,6 @@
 
 #include "certificates/search/cell_filter.h"
 #include "kds/certificate_table.h"
-#include "motions/base/grow_little.h"
 #include "motions/views/length_unit.h"
 #include "structures/power_diagram/diagram_state.h"
 #include "structures/power_diagram/facet_filter.h"
@@ -109,12 +108,11 @@ class FacetGuards {
     return FacetGuard::of(state_.triangulation.cells()[cell].note[static_cast<std::size_t>(i)]);
   }
   /// As this cell has it alone.
-  void set_own_guard(CellId cell, int i, FacetGuard value) {
+  [[gnu::always_inline]] void set_own_guard(CellId cell, int i, FacetGuard value) {
     state_.triangulation.note(cell, i) = value.packed();
-    if (notes_ == Notes::any || value.packed() == resting_note) return;
-    append_little(noted_, cell);
-    if (8 * noted_.size() > state_.triangulation.cells().size()) notes_ = Notes::any;  // then it does not pay
+    if (notes_ != Notes::any && value.packed() != resting_note) remember_noted(cell);
   }
+  void remember_noted(CellId cell);
   void set_guard(CellId cell, int i, FacetGuard value) {
     set_own_guard(cell, i, value);
     const auto [other, k] = state_.across(cell, i);
