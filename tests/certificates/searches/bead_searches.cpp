@@ -1,4 +1,5 @@
-// A search that the library does not compile: a sphere through three beads says nothing in the plane that two do not.
+// A search that the library does not compile: a sphere through three beads says nothing in the plane that two
+// do not.
 #include "certificates/search/define_certificate_search.h"
 #include "certificates/types/bead_in_sphere.h"
 
