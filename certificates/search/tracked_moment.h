@@ -33,29 +33,10 @@ class TrackedMoment {
 
   /// From `lower` to `upper`, within [0,1].
   TrackedMoment(const M& motion, std::span<const BeadId> beads, double lower, double upper) {
-<<<<<<< HEAD
     if constexpr (M::degree < 0) {  // most motion is linear, and few signs are worth loops for it
       if (degree_of(motion) == 1) {
         see(FixedCurves<dimension, 1>(Curves<dimension>(motion)), beads, lower, upper);
         return;
-=======
-    const double scale = scale_to_unit<channels>(motion, beads);
-    const int own = degree_of(motion);
-    const TrackedDouble later{upper, 0}, earlier = rounded(1 - upper);
-    const double length = own * (upper - lower) * TrackedDouble::inflation;
-    const auto during = [&](auto control) {
-      // Most are linear: what is known when it is compiled takes a third of the time.
-      if (own == 1) return value<1>(own, control, earlier, later, length);
-      return value<M::degree>(own, control, earlier, later, length);
-    };
-    for (std::size_t place = 1; place < Places; ++place) {
-      const BeadId bead = beads[place], first = beads[0];
-      if (bead == first) continue;  // zero, without an error: that would be subnormal, and slow
-      for (int axis = 0; axis < dimension; ++axis) {
-        seen_[place][static_cast<std::size_t>(axis)] = during([&](int k) {
-          return rounded((motion.coordinate(bead, k, axis) - motion.coordinate(first, k, axis)) * scale);
-        });
->>>>>>> power
       }
     }
     see(motion, beads, lower, upper);
@@ -91,6 +72,7 @@ class TrackedMoment {
     const auto during = [&](auto control) { return value<C::degree>(own, control, earlier, later, length); };
     for (std::size_t place = 1; place < Places; ++place) {
       const BeadId bead = beads[place], first = beads[0];
+      if (bead == first) continue;  // zero, without an error: that would be subnormal, and slow
       for (int axis = 0; axis < dimension; ++axis) {
         seen_[place][static_cast<std::size_t>(axis)] = during([&](int k) {
           return rounded((motion.coordinate(bead, k, axis) - motion.coordinate(first, k, axis)) * scale);
@@ -113,17 +95,10 @@ class TrackedMoment {
   }
   /// The value at the end of the time, with how far it may be from that before as an error: |p'| <=
   /// degree * the steepest slope of the control polygon.
-<<<<<<< HEAD
   template <int curve_degree, std::invocable<int> Control>
   static TrackedDouble value(int own_degree, Control control, const TrackedDouble& earlier,
                              const TrackedDouble& later, double length) {
     Bernstein<TrackedDouble, curve_degree> curve;
-=======
-  template <int Degree, std::invocable<int> Control>
-  static TrackedDouble value(int own_degree, Control control, const TrackedDouble& earlier,
-                             const TrackedDouble& later, double length) {
-    Bernstein<TrackedDouble, Degree> curve;
->>>>>>> power
     curve.set_degree(own_degree);
     auto& points = curve.scaled;
     double steepest = 0;
