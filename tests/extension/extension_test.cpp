@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "motions/readers/reader_registry.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"

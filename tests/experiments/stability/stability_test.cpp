@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -76,10 +77,11 @@ const Extreme& extreme(std::string_view name) {
 template <class C, Motion M>
 ExactPolynomial function_in(std::string_view name, std::size_t number) {
   SceneRandom random = scene_random(11, name, number);
-  const M motion = extreme(name).make({M::dimension, M::degree, bead_places<C>}, random).template motion<M>();
   C certificate;
-  for (std::size_t i = 0; i < bead_places<C>; ++i) certificate.beads[i] = static_cast<BeadId>(i);
-  return exact_function(certificate, motion);
+  const M motion =
+      extreme(name).make({M::dimension, M::degree, certificate.beads.size()}, random).template motion<M>();
+  for (std::size_t i = 0; i < certificate.beads.size(); ++i) certificate.beads[i] = static_cast<BeadId>(i);
+  return *search_over<C>(MotionRef<M::dimension>(motion))->exact_function(certificate);
 }
 
 TEST(StabilityScenes, AreWhatTheySay) {
@@ -111,28 +113,34 @@ TEST(StabilityScenes, AreWhatTheySay) {
 // What a wrong kernel would look like.
 
 struct Followed {
+  explicit Followed(BezierMotion<2, 3> beads) : motion(std::move(beads)) {
+    certificate.beads = {0, 1, 2, 3};
+    StageCounts stages;
+    filtered = follow(Kernel::filtered, certificate, *search, stages);
+    exact = follow(Kernel::exact, certificate, *search, stages);
+  }
+
   BezierMotion<2, 3> motion;
-  Sided<PowerTest<2>> certificate;
+  std::unique_ptr<CertificateSearch<PowerTest<2>>> search = search_over<PowerTest<2>>(MotionRef<2>(motion));
+  PowerTest<2> certificate;
   std::vector<Answer> filtered, exact;
 };
 
 // One with several failures.
-Followed followed() {
+std::unique_ptr<Followed> followed() {
   for (std::size_t number = 0;; ++number) {
     SceneRandom random = scene_random(13, "degree:18", number);
-    Followed f{extreme("degree:18").make({2, 3, 4}, random).motion<BezierMotion<2, 3>>(), {}, {}, {}};
-    f.certificate.beads = {0, 1, 2, 3};
-    StageCounts stages;
-    f.filtered = follow<Filtered>(f.certificate, f.motion, stages);
-    f.exact = follow<Exact>(f.certificate, f.motion, stages);
-    if (f.exact.size() > 3) return f;
+    auto f =
+        std::make_unique<Followed>(extreme("degree:18").make({2, 3, 4}, random).motion<BezierMotion<2, 3>>());
+    if (f->exact.size() > 3) return f;
   }
 }
 
 TEST(CompareAnswers, AWrongAnswerIsNoticed) {
-  const Followed f = followed();
-  const BothSides<PowerTest<2>, BezierMotion<2, 3>> functions(f.certificate, f.motion);
-  const FunctionOfSide function = [&](bool opposite) { return functions.exact_function(opposite ? 1 : 0); };
+  const auto kept = followed();
+  const Followed& f = *kept;
+  const BothSides<PowerTest<2>> functions(f.certificate, *f.search);
+  const FunctionOfSide function = [&](bool opposite) { return *functions.exact_function(opposite ? 1 : 0); };
   EXPECT_EQ(disagreement(f.filtered, f.exact, function), std::nullopt);
 
   const auto later = std::find_if(f.filtered.begin(), f.filtered.end(), [](const Answer& answer) {
@@ -154,11 +162,12 @@ TEST(CompareAnswers, AWrongAnswerIsNoticed) {
 }
 
 TEST(CompareAnswers, SharpFailuresLieInTheirBrackets) {
-  const Followed f = followed();
-  const BothSides<PowerTest<2>, BezierMotion<2, 3>> functions(f.certificate, f.motion);
+  const auto kept = followed();
+  const Followed& f = *kept;
+  const BothSides<PowerTest<2>> functions(f.certificate, *f.search);
   const auto rough = failures_of(f.exact);
   const auto sharp =
-      sharp_failures_of(f.exact, [&](bool opposite) { return functions.exact_function(opposite ? 1 : 0); });
+      sharp_failures_of(f.exact, [&](bool opposite) { return *functions.exact_function(opposite ? 1 : 0); });
   ASSERT_EQ(sharp.size(), rough.size());
   for (std::size_t i = 0; i < sharp.size(); ++i) {
     EXPECT_GE(sharp[i].lower, rough[i].lower);
