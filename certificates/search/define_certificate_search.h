@@ -72,7 +72,7 @@ class LanesFilter {
         failures[place] = {
             Failure::Kind::later,
             {fast ? middle : lower, fast ? middle : upper, 0, !fast, false, !fast && search.last[lane] != 0}};
-      } else if (outcome.violated[lane] != 0) {
+      } else if (outcome.violated[lane] != 0 && !fast) {  // a zero may seem to be below
         ++stages.isolation;
         failures[place] = failed_at_birth(now);
       } else {

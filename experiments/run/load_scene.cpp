@@ -76,6 +76,8 @@ std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& sc
   try {
     return std::make_unique<Session>(scene, session);
   } catch (const StructureRefusal& refusal) {
+    if (scene.is_lifted())
+      throw InputError(fmt::format("--motion lifted: {}; expected --structures power", refusal.what()));
     throw InputError(fmt::format("--structures {}", refusal.what()));
   }
 }

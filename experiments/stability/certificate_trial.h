@@ -115,7 +115,7 @@ class CertificateTrial {
 
   /// Certificates of full bases are told how these turn, at the start.
   static void orient(Case& made) {
-    if constexpr (requires { made.certificate.orientation; }) {
+    if constexpr (requires { requires C::full; }) {
       Orientation<M::dimension> basis;
       std::copy_n(made.certificate.beads.begin(), basis.beads.size(), basis.beads.begin());
       StageCounts uncounted;

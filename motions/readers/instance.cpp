@@ -10,6 +10,7 @@
 
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
+#include "motions/readers/reader_registry.h"
 
 namespace kds {
 
@@ -99,6 +100,7 @@ Instance read_instance(const std::filesystem::path& path) {
 }
 
 bool is_instance_file(const std::filesystem::path& path) {
+  if (reader_registry().find(path) != nullptr) return false;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
   std::ifstream stream(path, std::ios::binary);

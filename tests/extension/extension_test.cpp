@@ -23,7 +23,7 @@ TEST(Extension, AMotionDrivesStructuresOfOursAndOfOthers) {
   const double still[3] = {0, 0, 0}, back[3] = {-6.5, -6.5, -6.5};
   for (kds::BeadId b = 0; b < 6; ++b) motion.set(b, rest[b], still);
   motion.set(4, rest[4], back);  // passes close to bead 0, and leaves again
-  for (const kds::Kernel kernel : {kds::Kernel::fast, kds::Kernel::filtered, kds::Kernel::exact}) {
+  for (const kds::Kernel kernel : {kds::Kernel::filtered, kds::Kernel::exact}) {
     kds::Simulator simulator(kds::AuditMode::events, kernel);
     Nearest nearest(simulator, motion);
     kds::PowerDiagram<3> diagram(simulator, motion);

@@ -107,8 +107,9 @@ TEST(RunOptions, RefusesOptionsWithoutAValue) {
   EXPECT_THAT(refusal({"a", "--quiet=yes"}), HasSubstr("--quiet takes no value"));
 }
 
-TEST(RunOptions, RefusesWhatIsNotAvailableYet) {
-  EXPECT_THAT(refusal({"a", "--structures", "power,contacts"}), HasSubstr("contacts is not available yet"));
+TEST(RunOptions, RefusesStructuresThatAreNotRegistered) {
+  EXPECT_THAT(refusal({"a", "--structures", "power,contacts"}),
+              HasSubstr("'contacts' is not one of sorted, wrapped, power"));
   EXPECT_EQ(parse_run_options({"a", "--motion", "hermite"}).motion, FrameMotion::hermite);
   EXPECT_EQ(parse_run_options({"a", "--motion", "lifted"}).motion, FrameMotion::lifted);
 }
