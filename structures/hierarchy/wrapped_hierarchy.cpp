@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "motions/curves/positions.h"
@@ -16,9 +17,15 @@ namespace kds {
 
 namespace {
 
+/// Binomials of functions of a higher degree than 61 do not fit 64 bits: norms of unequal balls have twelve
+/// times the motion's, functions of equal ones six times.
 template <int Dimension>
-[[nodiscard]] const MotionRef<Dimension>& not_lifted(const MotionRef<Dimension>& motion) {
+[[nodiscard]] const MotionRef<Dimension>& accepted(const MotionRef<Dimension>& motion, Radii radii) {
   if (motion.is_lifted()) throw std::invalid_argument("radii mean nothing in lifted motion");
+  const int highest = radii == Radii::equal ? 10 : 5;
+  if (motion.degree() > highest)
+    throw std::invalid_argument("a wrapped hierarchy of motion of degree " + std::to_string(motion.degree()) +
+                                ": expected at most " + std::to_string(highest));
   return motion;
 }
 
@@ -36,7 +43,7 @@ WrappedHierarchy<Dimension>::WrappedHierarchy(Simulator& simulator, const Motion
                                               std::span<const BeadRange> necklaces, Radii radii,
                                               const NodeSelection& selection)
     : simulator_(simulator),
-      motion_(not_lifted(motion)),
+      motion_(accepted(motion, radii)),
       radii_(radii),
       tree_(necklaces),
       bases_(tree_.node_count()),
