@@ -12,10 +12,10 @@
 #include <string_view>
 
 #include "experiments/bench/bench_command.h"
+#include "experiments/output/destinations.h"
+#include "experiments/output/provenance.h"
+#include "experiments/output/text.h"
 #include "experiments/program/command_line.h"
-#include "experiments/program/destinations.h"
-#include "experiments/program/provenance.h"
-#include "experiments/program/text.h"
 #include "experiments/run/replay_command.h"
 #include "experiments/run/run_command.h"
 #include "experiments/scenes/generate_command.h"

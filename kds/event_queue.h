@@ -12,7 +12,7 @@
 // What an event needs lies anywhere in memory, and each piece tells where the next one is. An order that has
 // `fetch(key, bins_ahead)` is told which failures come near, bins_ahead = 2, 1, 0, so that each piece is on
 // its way while other events run. Not where entries are few: then all is at hand.
-// Slow obvious twin: tests/support/linear_queue.h.
+// Slow obvious twin: tests/support/judges/linear_queue.h.
 
 #include <array>
 #include <bit>

@@ -11,12 +11,12 @@
 #include <type_traits>
 #include <utility>
 
+#include "certificates/filters/classify_lanes.h"
+#include "certificates/filters/moment_lanes.h"
 #include "certificates/search/careful_search.h"
 #include "certificates/search/certificate_search.h"
-#include "certificates/search/classify_lanes.h"
 #include "certificates/search/define_function_values.h"
 #include "certificates/search/exact_search.h"
-#include "certificates/search/moment_lanes.h"
 
 namespace kds {
 

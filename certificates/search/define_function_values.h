@@ -9,8 +9,8 @@
 #include <mutex>
 
 #include "certificates/exact/exact_function.h"
+#include "certificates/filters/tracked_moment.h"
 #include "certificates/search/function_values.h"
-#include "certificates/search/tracked_moment.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/views/integer_view.h"
 

@@ -4,8 +4,8 @@
 // for the one file that instantiates them.
 
 #include "certificates/base/certificate.h"
-#include "certificates/search/bounded_polynomial.h"
-#include "certificates/search/error_bound.h"
+#include "certificates/filters/bounded_polynomial.h"
+#include "certificates/filters/error_bound.h"
 #include "motions/curves/curves.h"
 
 namespace kds {

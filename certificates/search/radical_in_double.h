@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "certificates/base/radical.h"
+#include "certificates/filters/tracked_moment.h"
 #include "certificates/search/function_values.h"
 #include "certificates/search/radical_walk.h"
-#include "certificates/search/tracked_moment.h"
 
 namespace kds::detail {
 

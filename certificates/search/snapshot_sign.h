@@ -2,7 +2,7 @@
 // Signs of functions of beads where the beads are put (motions/curves/snapshot.h). Exact: four at once in
 // double with proved bounds, then one by one with errors followed, then in whole numbers.
 
-#include "certificates/search/classify_lanes.h"
+#include "certificates/filters/classify_lanes.h"
 #include "certificates/search/function_values.h"
 #include "motions/curves/snapshot.h"
 

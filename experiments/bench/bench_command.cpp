@@ -14,9 +14,9 @@
 #include "experiments/bench/bench_hierarchies.h"
 #include "experiments/bench/bench_power.h"
 #include "experiments/bench/bench_subjects.h"
+#include "experiments/output/text.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/table_results.h"
-#include "experiments/program/text.h"
 #include "motions/base/input_error.h"
 
 namespace kds {

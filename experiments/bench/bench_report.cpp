@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-#include "experiments/program/result_json.h"
+#include "experiments/output/result_json.h"
 
 namespace kds {
 

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "experiments/program/text.h"
+#include "experiments/output/text.h"
 #include "motions/base/input_error.h"
 
 namespace kds {

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "experiments/output/text.h"
 #include "experiments/program/option_values.h"
-#include "experiments/program/text.h"
 
 namespace kds {
 

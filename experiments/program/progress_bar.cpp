@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "experiments/program/text.h"
+#include "experiments/output/text.h"
 
 namespace kds {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "experiments/program/made_directories.h"
-#include "experiments/program/output_files.h"
+#include "experiments/output/made_directories.h"
+#include "experiments/output/output_files.h"
 #include "experiments/program/taken_paths.h"
 
 namespace kds {

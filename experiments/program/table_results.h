@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "experiments/program/destinations.h"
+#include "experiments/output/destinations.h"
 #include "experiments/program/taken_paths.h"
 
 namespace kds {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/program/destinations.h"
+#include "experiments/output/destinations.h"
 #include "experiments/program/input_options.h"
 
 namespace kds {

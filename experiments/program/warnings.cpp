@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "experiments/program/text.h"
+#include "experiments/output/text.h"
 
 namespace kds {
 

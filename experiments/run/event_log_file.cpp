@@ -7,8 +7,8 @@
 #include <fstream>
 #include <string_view>
 
-#include "experiments/program/provenance.h"
-#include "experiments/program/result_json.h"
+#include "experiments/output/provenance.h"
+#include "experiments/output/result_json.h"
 #include "experiments/run/run_settings.h"
 #include "motions/base/input_error.h"
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/program/output_files.h"
+#include "experiments/output/output_files.h"
 #include "experiments/run/run_options.h"
 #include "kds/event_log.h"
 #include "motions/scene/scene.h"

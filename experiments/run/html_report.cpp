@@ -7,9 +7,9 @@
 #include <iterator>
 #include <vector>
 
-#include "experiments/program/html_page.h"
-#include "experiments/program/svg_plot.h"
-#include "experiments/program/text.h"
+#include "experiments/output/html_page.h"
+#include "experiments/output/svg_plot.h"
+#include "experiments/output/text.h"
 #include "experiments/run/event_bins.h"
 #include "experiments/run/summary_rows.h"
 

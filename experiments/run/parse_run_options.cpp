@@ -8,9 +8,9 @@
 #include <string_view>
 #include <utility>
 
+#include "experiments/output/text.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option_values.h"
-#include "experiments/program/text.h"
 #include "motions/base/input_error.h"
 #include "structures/session/structure_spec.h"
 

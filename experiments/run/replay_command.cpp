@@ -5,9 +5,9 @@
 #include <array>
 #include <filesystem>
 
+#include "experiments/output/text.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/taken_paths.h"
-#include "experiments/program/text.h"
 #include "experiments/program/warnings.h"
 #include "experiments/run/replay_log.h"
 #include "experiments/run/report_json.h"

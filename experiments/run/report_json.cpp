@@ -1,7 +1,7 @@
 #include "experiments/run/report_json.h"
 
-#include "experiments/program/result_json.h"
-#include "experiments/program/text.h"
+#include "experiments/output/result_json.h"
+#include "experiments/output/text.h"
 
 namespace kds {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
+#include "experiments/output/output_files.h"
 #include "experiments/program/input_options.h"
-#include "experiments/program/output_files.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/taken_paths.h"
 #include "experiments/program/warnings.h"

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "experiments/program/gnuplot.h"
-#include "experiments/program/made_directories.h"
-#include "experiments/program/output_error.h"
-#include "experiments/program/output_files.h"
+#include "experiments/output/gnuplot.h"
+#include "experiments/output/made_directories.h"
+#include "experiments/output/output_error.h"
+#include "experiments/output/output_files.h"
 #include "experiments/run/events_csv.h"
 #include "experiments/run/html_report.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "experiments/program/destinations.h"
+#include "experiments/output/destinations.h"
 #include "experiments/run/run_report.h"
 
 namespace kds {

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "experiments/program/staged_files.h"
-#include "experiments/program/text.h"
+#include "experiments/output/staged_files.h"
+#include "experiments/output/text.h"
 #include "experiments/program/warnings.h"
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/load_scene.h"

@@ -8,7 +8,7 @@
 #include <functional>
 #include <string_view>
 
-#include "experiments/program/text.h"
+#include "experiments/output/text.h"
 
 namespace kds {
 namespace {

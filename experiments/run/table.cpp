@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "experiments/program/text.h"
+#include "experiments/output/text.h"
 #include "experiments/run/summary_rows.h"
 
 namespace kds {

@@ -4,11 +4,11 @@
 
 #include <memory>
 
-#include "experiments/program/output_files.h"
+#include "experiments/output/output_files.h"
+#include "experiments/output/text.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/table_results.h"
 #include "experiments/program/taken_paths.h"
-#include "experiments/program/text.h"
 #include "experiments/scenes/generate_options.h"
 #include "experiments/scenes/info_report.h"
 #include "motions/models/shape.h"

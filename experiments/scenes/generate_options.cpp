@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "experiments/output/text.h"
 #include "experiments/program/option_values.h"
-#include "experiments/program/text.h"
 #include "motions/base/file_ending.h"
 #include "motions/base/text_input.h"
 

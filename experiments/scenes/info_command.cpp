@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "experiments/output/text.h"
 #include "experiments/program/option_names.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/table_results.h"
-#include "experiments/program/text.h"
 #include "experiments/program/warnings.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/scenes/info_options.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "experiments/program/text.h"
+#include "experiments/output/text.h"
 
 namespace kds {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "experiments/program/result_json.h"
+#include "experiments/output/result_json.h"
 #include "experiments/scenes/scene_info.h"
 
 namespace kds {

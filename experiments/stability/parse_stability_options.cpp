@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "experiments/output/text.h"
 #include "experiments/program/option_values.h"
-#include "experiments/program/text.h"
 #include "motions/base/input_error.h"
 
 namespace kds {

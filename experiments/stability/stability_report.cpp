@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "experiments/program/result_json.h"
+#include "experiments/output/result_json.h"
 
 namespace kds {
 namespace {

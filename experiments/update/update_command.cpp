@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
-#include "experiments/program/gnuplot.h"
+#include "experiments/output/gnuplot.h"
+#include "experiments/output/output_files.h"
+#include "experiments/output/text.h"
 #include "experiments/program/option_names.h"
-#include "experiments/program/output_files.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/table_results.h"
-#include "experiments/program/text.h"
 #include "experiments/program/warnings.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/update/update_report.h"

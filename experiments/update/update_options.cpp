@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "experiments/output/text.h"
 #include "experiments/program/option_values.h"
-#include "experiments/program/text.h"
 
 namespace kds {
 

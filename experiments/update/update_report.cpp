@@ -6,9 +6,9 @@
 #include <map>
 #include <optional>
 
-#include "experiments/program/html_page.h"
-#include "experiments/program/svg_plot.h"
-#include "experiments/program/text.h"
+#include "experiments/output/html_page.h"
+#include "experiments/output/svg_plot.h"
+#include "experiments/output/text.h"
 
 namespace kds {
 

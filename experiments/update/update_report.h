@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "experiments/program/result_json.h"
+#include "experiments/output/result_json.h"
 #include "experiments/update/compare_updates.h"
 
 namespace kds {

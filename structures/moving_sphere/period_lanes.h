@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 
-#include "certificates/search/lanes_polynomial.h"
+#include "certificates/filters/lanes_polynomial.h"
 #include "structures/moving_sphere/sphere_chord.h"
 
 namespace kds {

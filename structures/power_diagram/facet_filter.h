@@ -1,6 +1,6 @@
 #pragma once
 // Facets whose power test is positive all over a step, as in most steps most are: they are looked at as they
-// lie in the cells, in lanes (certificates/search/cell_filter.h), without a certificate made for each. What
+// lie in the cells, in lanes (certificates/filters/cell_filter.h), without a certificate made for each. What
 // is not found positive here is for the certificates. Cells that are found positive where the step ends are
 // told as well: they need not be looked at again there.
 
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "certificates/base/kernel.h"
-#include "certificates/search/cell_filter.h"
+#include "certificates/filters/cell_filter.h"
 #include "motions/curves/curves.h"
 #include "motions/views/length_unit.h"
 #include "structures/triangulation/regular_triangulation.h"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "certificates/search/cell_filter.h"
+#include "certificates/filters/cell_filter.h"
 #include "kds/certificate_table.h"
 #include "motions/views/length_unit.h"
 #include "structures/power_diagram/diagram_state.h"

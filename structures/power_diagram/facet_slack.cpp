@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "certificates/search/slack.h"
+#include "certificates/filters/slack.h"
 
 namespace kds {
 

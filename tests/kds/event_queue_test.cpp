@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "tests/support/linear_queue.h"
+#include "tests/support/judges/linear_queue.h"
 
 namespace kds {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "kds/event_queue.h"
-#include "tests/support/polynomial_source.h"
+#include "tests/support/inputs/polynomial_source.h"
 
 namespace kds {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/support/script.h"
+#include "tests/support/inputs/script.h"
 
 namespace kds {
 namespace {

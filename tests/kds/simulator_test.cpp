@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "tests/support/script.h"
+#include "tests/support/inputs/script.h"
 
 namespace kds {
 namespace {

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "tests/support/polynomials.h"
+#include "tests/support/inputs/polynomials.h"
 
 namespace kds::test {
 

@@ -5,7 +5,7 @@
 
 #include "certificates/conservative/cage_cage.h"
 #include "certificates/conservative/cage_in_cage.h"
-#include "tests/support/ball_motions.h"
+#include "tests/support/inputs/ball_motions.h"
 
 namespace kds {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "certificates/conservative/piece_view.h"
-#include "tests/support/random_motion.h"
-#include "tests/support/rational_geometry.h"
+#include "tests/support/inputs/random_motion.h"
+#include "tests/support/judges/rational_geometry.h"
 
 namespace kds {
 namespace {

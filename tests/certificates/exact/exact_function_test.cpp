@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "tests/support/any_certificate.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/any_certificate.h"
+#include "tests/support/inputs/random_motion.h"
 
 namespace kds {
 namespace {

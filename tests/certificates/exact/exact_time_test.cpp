@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "tests/support/polynomials.h"
-#include "tests/support/sturm.h"
+#include "tests/support/inputs/polynomials.h"
+#include "tests/support/judges/sturm.h"
 
 namespace kds {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/polynomials.h"
-#include "tests/support/sturm.h"
+#include "tests/support/inputs/polynomials.h"
+#include "tests/support/judges/sturm.h"
 
 namespace kds {
 namespace {

@@ -5,7 +5,7 @@
 #include "certificates/search/exact_search.h"
 #include "certificates/types/orientation.h"
 #include "certificates/types/precedes.h"
-#include "tests/support/judged_failure.h"
+#include "tests/support/judges/judged_failure.h"
 #include "tests/support/searches.h"
 
 namespace kds {

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "certificates/search/exact_search.h"
-#include "tests/support/any_certificate.h"
-#include "tests/support/judged_failure.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/any_certificate.h"
+#include "tests/support/inputs/random_motion.h"
+#include "tests/support/judges/judged_failure.h"
 
 namespace kds {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "tests/support/any_certificate.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/any_certificate.h"
+#include "tests/support/inputs/random_motion.h"
 #include "tests/support/searches.h"
 
 namespace kds {

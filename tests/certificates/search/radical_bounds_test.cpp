@@ -4,7 +4,7 @@
 #include "certificates/search/define_function_values.h"
 #include "certificates/search/radical_in_double.h"
 #include "motions/views/integer_view.h"
-#include "tests/support/ball_motions.h"
+#include "tests/support/inputs/ball_motions.h"
 
 namespace kds {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "certificates/types/bead_in_sphere.h"
 #include "certificates/types/power_test.h"
-#include "tests/support/ball_motions.h"
-#include "tests/support/judged_failure.h"
+#include "tests/support/inputs/ball_motions.h"
+#include "tests/support/judges/judged_failure.h"
 
 namespace kds {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "certificates/types/orientation.h"
 #include "certificates/types/power_test.h"
-#include "tests/support/random_motion.h"
-#include "tests/support/rational_geometry.h"
+#include "tests/support/inputs/random_motion.h"
+#include "tests/support/judges/rational_geometry.h"
 
 namespace kds {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "certificates/search/define_radical_search.h"
-#include "tests/support/ball_motions.h"
+#include "tests/support/inputs/ball_motions.h"
 #include "tests/support/searches.h"
 
 namespace kds {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/random_motion.h"
-#include "tests/support/rational_geometry.h"
+#include "tests/support/inputs/random_motion.h"
+#include "tests/support/judges/rational_geometry.h"
 #include "tests/support/searches.h"
 
 namespace kds {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/ball_motions.h"
+#include "tests/support/inputs/ball_motions.h"
 #include "tests/support/searches.h"
 
 namespace kds {

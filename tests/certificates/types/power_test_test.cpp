@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "tests/support/random_motion.h"
-#include "tests/support/rational_geometry.h"
+#include "tests/support/inputs/random_motion.h"
+#include "tests/support/judges/rational_geometry.h"
 #include "tests/support/searches.h"
 
 namespace kds {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/program/text.h"
+#include "experiments/output/text.h"
 #include "experiments/scenes/generate_options.h"
 #include "experiments/scenes/info_options.h"
 #include "experiments/update/update_options.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/program/svg_plot.h"
+#include "experiments/output/svg_plot.h"
 #include "tests/experiments/sample_report.h"
 
 namespace kds {

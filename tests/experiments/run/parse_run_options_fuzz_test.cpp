@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "experiments/program/text.h"
+#include "experiments/output/text.h"
 #include "experiments/run/parse_run_options.h"
 #include "motions/base/input_error.h"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/program/text.h"
+#include "experiments/output/text.h"
 #include "experiments/run/parse_run_options.h"
 #include "experiments/run/replay_log.h"
 #include "motions/base/input_error.h"

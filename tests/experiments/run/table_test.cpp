@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/program/text.h"
+#include "experiments/output/text.h"
 #include "tests/experiments/sample_report.h"
 
 namespace kds {

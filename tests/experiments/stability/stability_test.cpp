@@ -11,7 +11,7 @@
 #include "certificates/types/orientation.h"
 #include "certificates/types/power_test.h"
 #include "certificates/types/precedes.h"
-#include "experiments/program/text.h"
+#include "experiments/output/text.h"
 #include "experiments/stability/compare_answers.h"
 #include "experiments/stability/parse_stability_options.h"
 #include "experiments/stability/run_stability.h"

@@ -11,7 +11,7 @@
 #include "motions/curves/lifted_motion.h"
 #include "motions/curves/motion_ref.h"
 #include "motions/curves/snapshot.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/random_motion.h"
 
 namespace kds {
 namespace {

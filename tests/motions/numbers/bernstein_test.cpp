@@ -10,7 +10,7 @@
 #include "motions/numbers/exact_number.h"
 #include "motions/numbers/modular.h"
 #include "motions/numbers/tracked_double.h"
-#include "tests/support/sturm.h"
+#include "tests/support/judges/sturm.h"
 
 namespace kds {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "motions/curves/positions.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/random_motion.h"
 
 namespace kds {
 namespace {

@@ -9,8 +9,8 @@
 #include "motions/curves/lifted_motion.h"
 #include "motions/curves/positions.h"
 #include "motions/views/lanes_view.h"
-#include "tests/support/random_motion.h"
-#include "tests/support/sturm.h"
+#include "tests/support/inputs/random_motion.h"
+#include "tests/support/judges/sturm.h"
 
 namespace kds {
 namespace {

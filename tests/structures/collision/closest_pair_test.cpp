@@ -12,9 +12,9 @@
 #include "motions/scene/radii.h"
 #include "structures/necklace/ball_distance.h"
 #include "structures/necklace/necklace.h"
-#include "tests/support/ball_gaps.h"
-#include "tests/support/moving_beads.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/inputs/random_motion.h"
+#include "tests/support/judges/ball_gaps.h"
 
 namespace kds {
 namespace {

@@ -7,9 +7,9 @@
 #include "structures/enclosing_sphere/exact_sphere.h"
 #include "structures/enclosing_sphere/membership_signs.h"
 #include "structures/necklace/bead_names.h"
-#include "tests/support/ball_sets.h"
-#include "tests/support/exact_checks.h"
-#include "tests/support/moving_beads.h"
+#include "tests/support/inputs/ball_sets.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/judges/exact_checks.h"
 
 namespace kds {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/support/ball_sets.h"
+#include "tests/support/inputs/ball_sets.h"
 
 namespace kds {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/support/exact_checks.h"
-#include "tests/support/moving_beads.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/judges/exact_checks.h"
 
 namespace kds {
 namespace {

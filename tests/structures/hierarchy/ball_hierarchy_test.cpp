@@ -8,9 +8,9 @@
 #include "motions/curves/lifted_motion.h"
 #include "structures/hierarchy/wrapped_hierarchy.h"
 #include "structures/necklace/sphere.h"
-#include "tests/support/enclosing_ball.h"
-#include "tests/support/moving_beads.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/inputs/random_motion.h"
+#include "tests/support/judges/enclosing_ball.h"
 #include "tests/support/text_of.h"
 
 namespace kds {

@@ -14,8 +14,8 @@
 
 #include "motions/scene/radii.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
-#include "tests/support/ball_sets.h"
-#include "tests/support/moving_beads.h"
+#include "tests/support/inputs/ball_sets.h"
+#include "tests/support/inputs/moving_beads.h"
 #include "tests/support/property_runs.h"
 
 namespace kds {

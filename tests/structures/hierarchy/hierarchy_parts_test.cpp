@@ -9,8 +9,8 @@
 #include "structures/hierarchy/basis_repair.h"
 #include "structures/hierarchy/node_guards.h"
 #include "structures/hierarchy/node_proofs.h"
-#include "tests/support/moving_beads.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/inputs/random_motion.h"
 
 namespace kds {
 namespace {

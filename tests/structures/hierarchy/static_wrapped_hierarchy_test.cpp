@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "structures/hierarchy/layered_hierarchy.h"
-#include "tests/support/ball_sets.h"
-#include "tests/support/moving_beads.h"
+#include "tests/support/inputs/ball_sets.h"
+#include "tests/support/inputs/moving_beads.h"
 
 namespace kds {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "motions/models/tightness_points.h"
 #include "structures/hierarchy/tightness.h"
-#include "tests/support/ball_sets.h"
-#include "tests/support/moving_beads.h"
+#include "tests/support/inputs/ball_sets.h"
+#include "tests/support/inputs/moving_beads.h"
 
 namespace kds {
 namespace {

@@ -6,10 +6,10 @@
 #include <map>
 #include <numbers>
 
-#include "tests/support/cgal_sphere.h"
-#include "tests/support/exact_checks.h"
-#include "tests/support/moving_beads.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/inputs/random_motion.h"
+#include "tests/support/judges/cgal_sphere.h"
+#include "tests/support/judges/exact_checks.h"
 
 namespace kds {
 namespace {

@@ -9,8 +9,8 @@
 #include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/moving_sphere/beads_beyond.h"
-#include "tests/support/moving_beads.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/inputs/random_motion.h"
 
 namespace kds {
 namespace {

@@ -14,9 +14,9 @@
 #include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/moving_sphere/beads_beyond.h"
-#include "tests/support/integer_search.h"
-#include "tests/support/moving_beads.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/inputs/random_motion.h"
+#include "tests/support/judges/integer_search.h"
 
 namespace kds {
 namespace {

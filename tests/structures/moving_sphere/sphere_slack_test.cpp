@@ -10,8 +10,8 @@
 
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/hierarchy/node_slack.h"
-#include "tests/support/moving_beads.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/inputs/random_motion.h"
 
 namespace kds {
 namespace {

@@ -15,7 +15,7 @@
 #include "structures/power_diagram/diagram_checks.h"
 #include "structures/power_diagram/diagram_editor.h"
 #include "structures/power_diagram/diagram_flips.h"
-#include "tests/support/moving_beads.h"
+#include "tests/support/inputs/moving_beads.h"
 
 namespace kds::test {
 

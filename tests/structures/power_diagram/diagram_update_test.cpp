@@ -9,7 +9,7 @@
 
 #include "motions/base/input_error.h"
 #include "motions/curves/positions.h"
-#include "tests/support/moving_beads.h"
+#include "tests/support/inputs/moving_beads.h"
 
 namespace kds {
 namespace {

@@ -15,7 +15,7 @@
 #include "certificates/types/power_test.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/numbers/exact_number.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/random_motion.h"
 
 namespace kds {
 namespace {

@@ -10,7 +10,7 @@
 #include "certificates/search/certificate_search.h"
 #include "motions/curves/positions.h"
 #include "structures/triangulation/facet_certificate.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/random_motion.h"
 
 namespace kds {
 namespace {

@@ -10,7 +10,7 @@
 #include "motions/numbers/exact_number.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "structures/triangulation/regular_triangulation.h"
-#include "tests/support/moving_beads.h"
+#include "tests/support/inputs/moving_beads.h"
 #include "tests/support/text_of.h"
 
 namespace kds {

@@ -12,7 +12,7 @@
 #include "motions/numbers/exact_number.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "structures/triangulation/cgal_triangulations.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/random_motion.h"
 
 #if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
 #include <malloc.h>

@@ -8,9 +8,9 @@
 #include "motions/base/input_error.h"
 #include "motions/numbers/exact_number.h"
 #include "structures/triangulation/regular_triangulation.h"
-#include "tests/support/cgal_triangulation.h"
-#include "tests/support/exact_checks.h"
-#include "tests/support/moving_beads.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/judges/cgal_triangulation.h"
+#include "tests/support/judges/exact_checks.h"
 
 namespace kds {
 namespace {

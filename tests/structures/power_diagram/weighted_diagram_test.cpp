@@ -10,8 +10,8 @@
 #include "motions/numbers/exact_number.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "structures/triangulation/regular_triangulation.h"
-#include "tests/support/moving_beads.h"
-#include "tests/support/random_motion.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/inputs/random_motion.h"
 
 namespace kds {
 namespace {

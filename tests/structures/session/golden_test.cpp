@@ -7,7 +7,7 @@
 #include "structures/hierarchy/wrapped_hierarchy.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "structures/sorted/sorted_list.h"
-#include "tests/support/moving_beads.h"
+#include "tests/support/inputs/moving_beads.h"
 
 namespace kds {
 namespace {

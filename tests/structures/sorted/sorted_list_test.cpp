@@ -6,7 +6,7 @@
 #include <map>
 
 #include "motions/curves/positions.h"
-#include "tests/support/moving_beads.h"
+#include "tests/support/inputs/moving_beads.h"
 #include "tests/support/text_of.h"
 
 namespace kds {

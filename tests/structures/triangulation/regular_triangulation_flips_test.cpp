@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "tests/support/triangulation_checks.h"
+#include "tests/support/judges/triangulation_checks.h"
 
 namespace kds {
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "structures/triangulation/snapshot_faults.h"
-#include "tests/support/triangulation_checks.h"
+#include "tests/support/judges/triangulation_checks.h"
 
 namespace kds {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "structures/necklace/necklace_tree.h"
-#include "tests/support/triangulation_checks.h"
+#include "tests/support/judges/triangulation_checks.h"
 
 namespace kds {
 namespace {

@@ -1,0 +1,202 @@
+#pragma once
+// Which power tests of a cell's beads and the beads beyond its facets are positive all over a step, by their
+// Bernstein coefficients in float: eight cells at once (four where the processor has no AVX2), and what the
+// tests of a cell share is worked out once. Part of that is the cell's orientation: whether it is positive
+// where the step ends comes with it. What is not found positive is not known. No allocation.
+//
+// The bound of the errors. Let m be the largest difference in a row of the determinant, rounded to float, M
+// the largest of all rows, and weights differ by no more than m^2. Any number computed on the way has from
+// some rows one factor each, a difference, at most m, or, at most once, a lift, a small multiple of m^2 <= m
+// M. Its size is Q, the product of those m and, with a lift, of M; sums are of numbers of one size. So the
+// magnitudes (motions/numbers/magnitude.h, 24 digits), each times its Q, bound them all, and coefficient k
+// errs by at most coefficient[k] times M times the product of all m. Claimed where M <= 2^10 and that product
+// is at least 2^-60, in the unit of length that the caller chose: then nothing overflows, and Q >= 2^-60 /
+// M^4 >= 2^-100, so that what an operation that underflows errs more, 2^-150, is less than 2^-25 of the
+// roundoff 2^-24 Q it is charged with anyway. The constants are inflated by 2^-8, for that and for the
+// comparison. The orientation knows no lifts: the product of its own three (two) m is its Q, and claimed
+// likewise.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "certificates/filters/cell_filter.h"
+#include "certificates/filters/power_cofactors.h"
+#include "motions/views/float_lanes_view.h"
+#include "motions/views/motion_view.h"
+
+namespace kds {
+
+namespace detail {
+
+template <class View, class RowOf>
+[[gnu::always_inline]] inline PowerCofactors<View> power_cofactors(const RowOf& row_of) {
+  const PowerRow<View> a = row_of(1), b = row_of(2);
+  if constexpr (View::dimension == 2) {
+    return {a, b};
+  } else {
+    return {a, b, row_of(3)};
+  }
+}
+
+template <std::size_t Coefficients>
+struct FloatPowerBound {
+  std::array<float, Coefficients> coefficient;
+  float orientation_at_end;
+};
+
+/// `C`: Curves or LiftedCurves.
+template <class C>
+void derive_float_power_bound(int degree, std::span<float> coefficient, float& orientation_at_end) {
+  constexpr double inflation = 1 + 0x1p-8;
+  using View = MagnitudeView<C::dimension, C::degree, lifted<C>, MagnitudeIn<24>>;
+  const PowerRow<View> row(View(degree), 1, 0);
+  const auto cofactors = power_cofactors<View>([&](std::size_t) { return row; });
+  const auto magnitudes = cofactors.with(row);
+  for (std::size_t k = 0; k < coefficient.size(); ++k)
+    coefficient[k] = static_cast<float>(magnitudes.scaled[k].error * inflation);
+  const auto& scaled = cofactors.lift.scaled;
+  orientation_at_end = static_cast<float>(scaled[scaled.size() - 1].error * inflation);
+}
+
+template <Motion M>
+[[nodiscard]] auto float_power_bound() {
+  constexpr std::size_t lift_degree = lifted<M> ? 1 : 2 * M::degree;
+  FloatPowerBound<static_cast<std::size_t>(M::dimension * M::degree) + lift_degree + 1> bound{};
+  if constexpr (M::degree == 0) {  // where beads are: the orientation alone
+    derive_float_power_bound<Curves<M::dimension>>(0, {}, bound.orientation_at_end);
+  } else {
+    derive_float_power_bound<CurvesOf<M>>(M::degree, bound.coefficient, bound.orientation_at_end);
+  }
+  return bound;
+}
+template <Motion M>
+using FloatPowerBoundOf = decltype(float_power_bound<M>());
+
+/// What the filter knows of the rounding of a motion's power tests, and of orientations where beads are.
+template <Motion M>
+struct FloatFilterBounds {
+  FloatPowerBoundOf<M> of_step = float_power_bound<M>();
+  FloatPowerBoundOf<FixedCurves<M::dimension, 0>> at_end = float_power_bound<FixedCurves<M::dimension, 0>>();
+};
+
+template <class FloatLanes>
+class RowSizes {
+ public:
+  /// A row that was made of this view.
+  template <Motion M>
+  [[gnu::always_inline]] void take(const FloatLanesView<M, FloatLanes>& view) {
+    const FloatLanes& length = view.largest_length();
+    product_ = product_ * length;
+    largest_ = FloatLanes::max(largest_, length);
+    weights_small_ &= view.largest_weight() <= length * length;
+  }
+  /// M times the product of all rows' m, or a NaN that fails every comparison where the bound is not proved.
+  [[nodiscard, gnu::always_inline]] FloatLanes error_scale() const {
+    const FloatLanes scale = product_ * largest_;
+    const typename FloatLanes::Mask proved =
+        weights_small_ & (largest_ <= FloatLanes(0x1p10F)) & (scale >= FloatLanes(0x1p-60F));
+    return proved ? scale.v : FloatLanes(__builtin_nanf("")).v;
+  }
+  /// The same of what no lift enters: the product alone.
+  [[nodiscard, gnu::always_inline]] FloatLanes error_scale_without_lift() const {
+    const typename FloatLanes::Mask proved =
+        (largest_ <= FloatLanes(0x1p10F)) & (product_ >= FloatLanes(0x1p-60F));
+    return proved ? product_.v : FloatLanes(__builtin_nanf("")).v;
+  }
+
+ private:
+  FloatLanes product_{1.0F}, largest_{0.0F};
+  typename FloatLanes::Mask weights_small_ = product_ > largest_;  // so far
+};
+
+}  // namespace detail
+
+namespace detail {
+
+/// Of cells with no beads beyond them.
+template <class FloatLanes, Motion M>
+[[gnu::always_inline]] inline void find_positive_at_end(const M& motion,
+                                                        const CellsInLanes<M::dimension>& all_cells,
+                                                        std::size_t first, const LengthUnit& unit,
+                                                        const FloatFilterBounds<M>& bounds, float charge,
+                                                        PositiveBits& positive) {
+  using End = FixedCurves<M::dimension, 0>;
+  using View = FloatLanesView<End, FloatLanes>;
+  const End end(motion.at_end());
+  RowSizes<FloatLanes> sizes;
+  const auto cofactors = power_cofactors<View>([&](std::size_t place) __attribute__((always_inline)) {
+    const View view(end, &all_cells[first], place, unit);
+    const PowerRow<View> row(view, 1, 0);
+    sizes.take(view);
+    return row;
+  });
+  const typename FloatLanes::Mask bits =
+      cofactors.lift.scaled.back() >
+      FloatLanes(charge * bounds.at_end.orientation_at_end) * sizes.error_scale_without_lift();
+  for (std::size_t lane = 0; lane < FloatLanes::width; ++lane)
+    positive[first + lane] = bits[lane] != 0 ? positive_at_end<M::dimension> : 0;
+}
+
+/// As many cells from the first on as there are lanes; of each as many beads beyond it.
+template <class FloatLanes, Motion M>
+[[gnu::always_inline]] inline void find_positive_cells(
+    const M& motion, const CellsInLanes<M::dimension>& all_cells, std::size_t first, std::size_t beyond,
+    const LengthUnit& unit, const FloatFilterBounds<M>& bounds, float charge, PositiveBits& positive) {
+  if (beyond == 0)
+    return find_positive_at_end<FloatLanes>(motion, all_cells, first, unit, bounds, charge, positive);
+  using View = FloatLanesView<M, FloatLanes>;
+  constexpr std::size_t vertices = M::dimension + 1;
+  const auto& bound = bounds.of_step;
+  const auto* cells = &all_cells[first];
+  RowSizes<FloatLanes> cell_sizes;
+  const auto row_of = [&](std::size_t place) __attribute__((always_inline)) {
+    const View view(motion, cells, place, unit);
+    const PowerRow<View> row(view, 1, 0);
+    cell_sizes.take(view);
+    return row;
+  };
+  const auto cofactors = power_cofactors<View>(row_of);
+  typename FloatLanes::Mask bits =
+      (cofactors.lift.scaled.back() >
+       FloatLanes(charge * bound.orientation_at_end) * cell_sizes.error_scale_without_lift()) &
+      static_cast<int>(positive_at_end<M::dimension>);
+  int bit = 1;
+  for (std::size_t place = vertices; place < vertices + beyond; ++place, bit += bit) {
+    const View view(motion, cells, place, unit);
+    const PowerRow<View> row(view, 1, 0);
+    const auto function = cofactors.with(row);
+    RowSizes<FloatLanes> sizes = cell_sizes;
+    sizes.take(view);
+    const FloatLanes scale = FloatLanes(charge) * sizes.error_scale();
+    typename FloatLanes::Mask all = scale >= scale;
+    for (std::size_t k = 0; k < function.scaled.size(); ++k)
+      all &= function.scaled[k] > FloatLanes(bound.coefficient[k]) * scale;
+    bits |= all & bit;
+  }
+  for (std::size_t lane = 0; lane < FloatLanes::width; ++lane)
+    positive[first + lane] = static_cast<std::uint32_t>(bits[lane]);
+}
+
+}  // namespace detail
+
+/// Four cells from the first on.
+template <Motion M>
+[[KDS_FLOAT_LANES_TARGETS]] void find_in_four(const M& motion, const CellsInLanes<M::dimension>& cells,
+                                              std::size_t first, std::size_t beyond, const LengthUnit& unit,
+                                              const detail::FloatFilterBounds<M>& bounds, float charge,
+                                              PositiveBits& positive) {
+  detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, first, beyond, unit, bounds, charge, positive);
+}
+
+/// Eight at once: for processors with vectors as long as that, on others slower than twice four.
+template <Motion M>
+[[KDS_FLOAT_LANES_TARGETS]] void find_in_eight(const M& motion, const CellsInLanes<M::dimension>& cells,
+                                               std::size_t beyond, const LengthUnit& unit,
+                                               const detail::FloatFilterBounds<M>& bounds, float charge,
+                                               PositiveBits& positive) {
+  detail::find_positive_cells<FloatLanes>(motion, cells, 0, beyond, unit, bounds, charge, positive);
+}
+
+}  // namespace kds

@@ -1,0 +1,102 @@
+#pragma once
+// Signs of four functions of beads' centres (orientations, say) at one moment known as a bracket, at once.
+//
+// Values are taken at one end u of the bracket. There a difference of two beads' centres, of degree n in time
+// and at most M at all of its control points, is the mean of its control points with weights C(n,k)
+// (1-u)^(n-k) u^k. Computed it errs by less than (4n + 4) 2^-53 M; and within a bracket of length b it
+// changes by at most 2 n b M. Where both together are below 2^-25 M, they are what rounding to float makes at
+// most, and the function of those differences, with operations in double, errs by no more than one in floats
+// of exact differences: by what magnitudes of 24 digits (motions/numbers/magnitude.h) tell. Proved for 2^-900
+// <= M^h
+// <= 2^900 as in error_bound.h. No allocation.
+
+#include <array>
+#include <cstddef>
+#include <tuple>
+
+#include "certificates/base/certificate.h"
+#include "certificates/filters/error_bound.h"
+#include "motions/views/lanes_view.h"
+
+namespace kds {
+
+/// Four tuples of beads at time u.
+template <Motion M, std::size_t Places>
+class LanesMomentView {
+ public:
+  using Number = Lanes;
+  static constexpr int dimension = M::dimension;
+  static constexpr int degree = 0;
+  using Tuples = typename LanesView<M, Places, Channels{}>::Tuples;
+
+  [[gnu::always_inline]] LanesMomentView(const M& motion, const Tuples& tuples, double u)
+      : whole_(motion, tuples) {
+    for (std::size_t k = 0; k < weights_.size(); ++k) {
+      double weight = 1;
+      for (std::size_t i = 0; i + 1 < weights_.size(); ++i) weight *= i < k ? u : 1 - u;
+      weights_[k] = weight;
+    }
+  }
+
+  [[nodiscard, gnu::always_inline]] BernsteinVector<Lanes, 0, dimension> difference(BeadId i,
+                                                                                    BeadId j) const {
+    const auto curve = whole_.difference(i, j);
+    BernsteinVector<Lanes, 0, dimension> result;
+    for (std::size_t axis = 0; axis < dimension; ++axis) {
+      Lanes sum = Lanes(weights_[0]) * curve[axis].scaled[0];
+      for (std::size_t k = 1; k < weights_.size(); ++k) sum += Lanes(weights_[k]) * curve[axis].scaled[k];
+      result[axis].scaled[0] = sum;
+    }
+    return result;
+  }
+
+  [[nodiscard, gnu::always_inline]] Lanes largest_length() const { return whole_.largest_length(); }
+
+ private:
+  LanesView<M, Places, Channels{}> whole_;
+  std::array<double, static_cast<std::size_t>(M::degree) + 1> weights_;
+};
+
+namespace detail {
+
+/// Of a function's value: times M^power.
+struct MomentBound {
+  double error;
+  int power;
+};
+
+template <class Function, int Dimension>
+MomentBound derive_moment_bound() {
+  constexpr double inflation = 1 + 0x1p-20;
+  const auto value = function_of(Function{}, MagnitudeView<Dimension, 0, false, MagnitudeIn<24>>()).scaled[0];
+  return {value.error * inflation, value.power};
+}
+
+template <class Function, int Dimension>
+inline const MomentBound moment_bound = derive_moment_bound<Function, Dimension>();
+
+}  // namespace detail
+
+/// Whether all four, each times its side (1 or -1), are certainly positive all over [lower, upper].
+template <class Function, Motion M>
+requires(!channels_of<Function>.weights && !channels_of<Function>.radii)  //
+    [[KDS_LANES_TARGETS]] void positive_at_moment(
+        const M& motion,
+        const typename LanesMomentView<M, std::tuple_size_v<decltype(Function{}.beads)>>::Tuples& tuples,
+        const Lanes& sides, double lower, double upper, bool& all_positive) {
+  constexpr int degree = M::degree;
+  all_positive = false;
+  if (!((2 * degree) * (upper - lower) + (4 * degree + 4) * 0x1p-53 <= 0x1p-25)) return;
+  decltype(Function{}.beads) places{};
+  for (std::size_t p = 0; p < places.size(); ++p) places[p] = static_cast<BeadId>(p);
+  const LanesMomentView<M, std::tuple_size_v<decltype(places)>> view(motion, tuples, upper);
+  const Lanes value = sides * Function::formula(view, places).scaled[0];
+  const auto& bound = detail::moment_bound<Function, M::dimension>;
+  const Lanes length = view.largest_length();
+  Lanes scale(1.0);
+  for (int i = 0; i < bound.power; ++i) scale = scale * length;
+  all_positive = Lanes::all((scale >= Lanes(0x1p-900)) & (scale <= Lanes(0x1p900)) &
+                            (value > Lanes(bound.error) * scale));
+}
+
+}  // namespace kds

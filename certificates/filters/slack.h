@@ -1,0 +1,105 @@
+#pragma once
+// How far beads may wander before a certificate can fail: a bound kept from one position of the beads, for as
+// many steps as they stay near it. It needs no polynomial.
+//
+// The certificate's formula is evaluated at the position with every coordinate difference known up to a
+// `reach` only (Tracked numbers). The error E that comes out is a polynomial in the reach without negative
+// coefficients, hence convex: for a reach shorter by a factor s it is at most E(0) + s E(reach), and E(0),
+// rounding alone, is bounded by the magnitudes of the formula (motions/numbers/magnitude.h). So the sign
+// holds while no difference moves by more than s reach, s = (value - E(0)) / E(reach), at most 1. Weights and
+// radii must stay as they are. A lower bound, proved, rounding included; 0 where nothing can be said.
+
+#include <cmath>
+
+#include "certificates/filters/classify_lanes.h"
+#include "motions/numbers/tracked_double.h"
+
+namespace kds {
+
+/// Four tuples of beads at the start of a step, each coordinate difference with an error of `reach`.
+template <Motion M, std::size_t Places, Channels channels>
+class ReachView {
+ public:
+  using Number = Tracked<Lanes>;
+  static constexpr int dimension = M::dimension;
+  static constexpr int degree = 0;
+  using Tuples = typename LanesView<M, Places, channels>::Tuples;
+
+  [[gnu::always_inline]] ReachView(const M& motion, const Tuples& tuples) : view_(motion, tuples) {
+    for (std::size_t place = 1; place < Places; ++place) {
+      for (const auto& coordinate : view_.difference(static_cast<BeadId>(place), 0))
+        longest_ = Lanes::max(longest_, Lanes::abs(coordinate.scaled[0]));
+    }
+  }
+
+  [[gnu::always_inline]] void set_reach(const Lanes& reach) { reach_ = reach; }
+  /// Of the coordinate differences to the first bead.
+  [[nodiscard, gnu::always_inline]] const Lanes& longest() const { return longest_; }
+  /// M of the error bound (motions/numbers/magnitude.h), at the start or in the step, or a NaN.
+  [[nodiscard, gnu::always_inline]] Lanes largest_length() const { return view_.largest_length(); }
+
+  [[nodiscard, gnu::always_inline]] BernsteinVector<Number, 0, dimension> difference(BeadId i,
+                                                                                     BeadId j) const {
+    const auto moving = view_.difference(i, j);
+    BernsteinVector<Number, 0, dimension> result;
+    for (std::size_t axis = 0; axis < result.size(); ++axis)
+      result[axis].scaled[0] = rounded(moving[axis].scaled[0], reach_);
+    return result;
+  }
+  [[nodiscard, gnu::always_inline]] Bernstein<Number, 0> weight_difference(BeadId i, BeadId j) const
+      requires(channels.weights) {
+    return {{rounded(view_.weight_difference(i, j).scaled[0], Lanes(0.0))}};
+  }
+  [[nodiscard, gnu::always_inline]] Bernstein<Number, 0> radius_difference(BeadId i, BeadId j) const
+      requires(channels.radii) {
+    return {{rounded(view_.radius_difference(i, j).scaled[0], Lanes(0.0))}};
+  }
+  [[nodiscard, gnu::always_inline]] Bernstein<Number, 0> radius_sum(BeadId i, BeadId j) const
+      requires(channels.radii) {
+    return {{rounded(view_.radius_sum(i, j).scaled[0], Lanes(0.0))}};
+  }
+
+ private:
+  [[gnu::always_inline]] static Number rounded(const Lanes& value, const Lanes& error) {
+    return {value, error + Lanes(Number::unit_roundoff) * Lanes::abs(value)};
+  }
+
+  LanesView<M, Places, channels> view_;
+  Lanes reach_{0.0};
+  Lanes longest_{0.0};
+};
+
+/// What rounding alone may do to the formula at one position: at most error M^power.
+template <class Certificate, int Dimension>
+inline const Magnitude magnitude_at_rest =
+    function_of(Certificate{}, MagnitudeView<Dimension, 0>()).scaled[0];
+
+/// For four certificates, at the start of the motion's step: how far any of their beads' coordinate
+/// differences may move before it can fail.
+template <class Certificate, Motion M>
+[[KDS_LANES_TARGETS]] void slack_lanes(
+    const M& motion,
+    const typename LanesView<M, bead_places<Certificate>, channels_of<Certificate>>::Tuples& tuples,
+    const Lanes& sides, Lanes& tolerance) {
+  constexpr double share_of_length = 1.0 / 16;  // long enough for most, short enough to be nearly linear
+  constexpr double inflation = 1 + 0x1p-30;
+  decltype(Certificate{}.beads) places{};
+  for (std::size_t p = 0; p < places.size(); ++p) places[p] = static_cast<BeadId>(p);
+  ReachView<M, bead_places<Certificate>, channels_of<Certificate>> view(motion, tuples);
+  const Lanes reach = Lanes(share_of_length) * view.longest();
+  view.set_reach(reach);
+  const auto function = Certificate::formula(view, places).scaled[0];
+
+  const Magnitude& rest = magnitude_at_rest<Certificate, M::dimension>;
+  const Lanes length = view.largest_length();
+  Lanes scale(1.0);
+  for (int i = 0; i < rest.power; ++i) scale = scale * length;
+  const Lanes rounding = Lanes(rest.error * inflation) * scale;
+  const Lanes slack = sides * function.value - rounding;
+  const Lanes share = Lanes::min(slack / (function.error * Lanes(inflation)), Lanes(1.0));
+  const Lanes::Mask proved = (slack > Lanes(0.0)) & (share > Lanes(0.0)) & (scale >= Lanes(0x1p-900)) &
+                             (scale <= Lanes(0x1p900)) & (reach > Lanes(0x1p-200));
+  tolerance = Lanes::choose(proved, share * reach * Lanes(1 - 0x1p-30), Lanes(0.0));
+}
+
+}  // namespace kds

@@ -1,8 +1,0 @@
-#include "certificates/search/define_cell_filter.h"
-
-namespace kds {
-
-template std::unique_ptr<CellFilter<2>> cell_filter_over(const MotionRef<2>&);
-template std::unique_ptr<CellFilter<2>> cell_filter_for_any_processor(const MotionRef<2>&);
-
-}  // namespace kds

@@ -1,8 +1,0 @@
-#include "certificates/search/define_cell_filter.h"
-
-namespace kds {
-
-template std::unique_ptr<CellFilter<3>> cell_filter_over(const MotionRef<3>&);
-template std::unique_ptr<CellFilter<3>> cell_filter_for_any_processor(const MotionRef<3>&);
-
-}  // namespace kds

@@ -1,0 +1,114 @@
+#include "experiments/output/output_files.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <locale>
+#include <system_error>
+#include <utility>
+
+#include "experiments/output/output_error.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path directory_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+// Renaming onto /dev/null or a pipe would replace it by a file.
+bool is_device(const fs::path& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+// The deepest part of the path that exists.
+fs::path existing_part(const fs::path& path, const std::string& subject) {
+  fs::path part = path;
+  for (;;) {
+    std::error_code error;
+    const fs::file_status status = fs::status(part.empty() ? "." : part, error);
+    if (fs::exists(status)) return part.empty() ? "." : part;
+    if (status.type() != fs::file_type::not_found) fail_to_write(subject, error.value());
+    part = part.parent_path();
+  }
+}
+
+void probe(const fs::path& directory, const std::string& subject) {
+  const Part trial(directory, Part::Kind::file, subject);
+}
+
+}  // namespace
+
+void check_directory(const fs::path& path, std::string_view option,
+                     std::initializer_list<std::string_view> names) {
+  const std::string place = fmt::format("{} {}", option, path.string());
+  const fs::path there = existing_part(path, place + ": cannot make the directory");
+  std::error_code error;
+  if (!fs::is_directory(there, error))
+    throw InputError(fmt::format("{}: {}is a file, expected a directory", place,
+                                 there == path ? "" : there.string() + " "));
+  probe(there, fmt::format("{}: cannot write {}", place, there == path ? "there" : "in " + there.string()));
+  for (const std::string_view name : names)
+    if (fs::is_directory(path / name, error))
+      throw InputError(fmt::format("{} {}: is a directory, expected a file", option, (path / name).string()));
+}
+
+void ensure_writable_file(const fs::path& path, std::string_view option) {
+  std::error_code error;
+  const fs::path directory = directory_of(path);
+  if (fs::is_directory(path, error) || !path.has_filename())
+    throw InputError(fmt::format("{} {}: is a directory, expected a file", option, path.string()));
+  if (is_device(path)) return;
+  if (!fs::is_directory(directory, error))
+    throw InputError(
+        fmt::format("{} {}: there is no directory {}", option, path.string(), directory.string()));
+  probe(directory, fmt::format("{} {}: cannot write", option, path.string()));
+}
+
+AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)), stream_(nullptr) {
+  std::error_code ignored;
+  if (fs::is_directory(path_, ignored))
+    throw InputError(fmt::format("{}: is a directory, expected a file", path_.string()));
+  if (is_device(path_)) {
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail_to_write(subject(), errno);
+  } else {
+    clear_stale_parts(directory_of(path_));
+    part_.emplace(directory_of(path_), Part::Kind::file, subject());
+  }
+  buffer_.emplace(part_ ? part_->descriptor() : descriptor_);
+  stream_.rdbuf(&*buffer_);
+  stream_.imbue(std::locale::classic());
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void AtomicFile::check() const {
+  if (buffer_->error() != 0) fail_to_write(subject(), buffer_->error());
+}
+
+void AtomicFile::commit() {
+  buffer_->pubsync();
+  check();
+  // Some file systems tell only here that there is no room; the file itself stays open, and locked.
+  const int copy = ::dup(part_ ? part_->descriptor() : descriptor_);
+  if (copy >= 0 && ::close(copy) != 0) fail_to_write(subject(), errno);
+  if (part_) part_->become(path_, subject());
+}
+
+void write_file_atomically(const fs::path& path, std::string_view content) {
+  AtomicFile file(path);
+  file.stream().write(content.data(), static_cast<std::streamsize>(content.size()));
+  file.commit();
+}
+
+}  // namespace kds

@@ -1,0 +1,80 @@
+#include "experiments/output/part.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+
+#include "experiments/output/output_error.h"
+
+namespace kds {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr mode_t kForAll = 0777;  // less what the user's mask takes away
+
+// A new one, open; -1 and errno where there can be none.
+int make(const fs::path& path, Part::Kind kind) {
+  if (kind == Part::Kind::file)
+    return ::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, kForAll & ~0111U);
+  if (::mkdir(path.c_str(), kForAll) != 0) return -1;
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int error = errno;
+  if (descriptor < 0) ::rmdir(path.c_str());
+  errno = error;
+  return descriptor;
+}
+
+// Between making and locking another program may take it for a stale one.
+bool lock_unless_removed(int descriptor) {
+  ::flock(descriptor, LOCK_EX);  // where a file system knows no locks, nobody clears what is stale
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;
+}
+
+}  // namespace
+
+Part::Part(const fs::path& directory, Kind kind, const std::string& subject) {
+  static std::atomic<unsigned> counter{0};
+  for (int attempts = 0;; ++attempts) {
+    path_ = directory / fmt::format(".kds-{}-{}.part", ::getpid(), counter++);
+    descriptor_ = make(path_, kind);
+    constexpr int most_attempts = 1000;
+    if (descriptor_ < 0 && (errno != EEXIST || attempts == most_attempts)) fail_to_write(subject, errno);
+    if (descriptor_ < 0) continue;
+    if (lock_unless_removed(descriptor_)) break;
+    ::close(descriptor_);
+  }
+  unfinished_.emplace(path_.string());
+}
+
+Part::~Part() {
+  std::error_code ignored;
+  if (unfinished_) fs::remove_all(path_, ignored);
+  ::close(descriptor_);
+}
+
+void Part::become(const fs::path& place, const std::string& subject) {
+  if (::rename(path_.c_str(), place.c_str()) != 0) fail_to_write(subject, errno);
+  unfinished_.reset();
+}
+
+void clear_stale_parts(const fs::path& directory) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(".kds-") || !name.ends_with(".part")) continue;
+    const int descriptor = ::open(entry.path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) continue;
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry.path(), ignored);
+    ::close(descriptor);
+  }
+}
+
+}  // namespace kds

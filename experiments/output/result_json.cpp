@@ -1,0 +1,106 @@
+#include "experiments/output/result_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/output/provenance.h"
+
+namespace kds {
+
+/// To the library's values and back.
+struct JsonTree {
+  using Tree = nlohmann::ordered_json;
+
+  static Tree tree(const Json& json) {
+    return std::visit(
+        [](const auto& value) -> Tree {
+          using Value = std::decay_t<decltype(value)>;
+          if constexpr (std::same_as<Value, std::monostate>) {
+            return nullptr;
+          } else if constexpr (std::same_as<Value, Json::Items>) {
+            Tree items = Tree::array();
+            for (const Json& item : value) items.push_back(tree(item));
+            return items;
+          } else if constexpr (std::same_as<Value, Json::Members>) {
+            Tree members = Tree::object();
+            for (const auto& [name, member] : value) members[name] = tree(member);
+            return members;
+          } else {
+            return value;
+          }
+        },
+        json.value_);
+  }
+
+  // Values nested deeper than any of ours would use up the stack.
+  static Json json(const Tree& tree, int depth = 0) {
+    if (depth > 64) return nullptr;
+    switch (tree.type()) {
+      case Tree::value_t::boolean:
+        return tree.get<bool>();
+      case Tree::value_t::number_integer:
+        return tree.get<std::int64_t>();
+      case Tree::value_t::number_unsigned:
+        return tree.get<std::uint64_t>();
+      case Tree::value_t::number_float:
+        return tree.get<double>();
+      case Tree::value_t::string:
+        return tree.get_ref<const std::string&>();
+      case Tree::value_t::array: {
+        Json items = Json::array();
+        for (const Tree& item : tree) items.push_back(json(item, depth + 1));
+        return items;
+      }
+      case Tree::value_t::object: {
+        Json members = Json::object();
+        for (const auto& [name, member] : tree.items()) members[name] = json(member, depth + 1);
+        return members;
+      }
+      default:
+        return nullptr;
+    }
+  }
+};
+
+Json::Json(std::initializer_list<std::pair<std::string_view, Json>> members)
+    : value_(Members(members.begin(), members.end())) {}
+
+Json& Json::operator[](std::string_view name) {
+  if (is_null()) value_ = Members();
+  auto& members = std::get<Members>(value_);
+  for (auto& [own, value] : members)
+    if (own == name) return value;
+  return members.emplace_back(name, Json()).second;
+}
+
+const Json* Json::find(std::string_view name) const {
+  if (members() != nullptr)
+    for (const auto& [own, value] : *members())
+      if (own == name) return &value;
+  return nullptr;
+}
+
+void add_provenance(Json& json) {
+  json["version"] = program_version();
+  const Machine machine = this_machine();
+  json["machine"] = {
+      {"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}, {"compiler", machine.compiler}};
+}
+
+std::string text_of(const Json& json) {
+  return JsonTree::tree(json).dump(2, ' ', false, JsonTree::Tree::error_handler_t::replace) + "\n";
+}
+
+std::optional<std::string> line_of(const Json& json) {
+  try {
+    return JsonTree::tree(json).dump();
+  } catch (const JsonTree::Tree::type_error&) {
+    return std::nullopt;
+  }
+}
+
+Json parse_json(std::string_view text) {
+  const JsonTree::Tree tree = JsonTree::Tree::parse(text, nullptr, false);
+  return JsonTree::json(tree);
+}
+
+}  // namespace kds

@@ -1,0 +1,91 @@
+#include "experiments/output/svg_plot.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+
+#include "experiments/output/gnuplot.h"
+#include "experiments/output/text.h"
+
+namespace kds {
+namespace {
+
+// Told apart by the colour-blind too.
+constexpr std::array<std::string_view, 8> kColours{"#2563a8", "#d9791e", "#2f855a", "#8a3f8f",
+                                                   "#c0392b", "#5b6570", "#17a2b8", "#b7950b"};
+
+// gnuplot takes what stands between single quotes as it is; a quote is doubled.
+std::string gnuplot_text(std::string_view text) {
+  std::string result = "'";
+  for (const char c : one_line(text)) result += c == '\'' ? std::string("''") : std::string(1, c);
+  return result + "'";
+}
+
+std::string preamble(const std::string& y_label, double bottom) {
+  return fmt::format(
+      "set terminal svg size 860,330 dynamic noenhanced font 'sans-serif,13' background '#ffffff'\n"
+      "set border 3 linecolor '#8a929c' linewidth 0.8\n"
+      "set tics nomirror out scale 0.6 textcolor '#4a525c'\n"
+      "set grid ytics linetype 1 linecolor '#e3e7ec' linewidth 0.8\n"
+      "set format y '%.12g'\n"
+      "set yrange [0:*]\n"
+      "set ylabel {} textcolor '#4a525c'\n"
+      "set lmargin 11\nset bmargin {}\n",
+      gnuplot_text(y_label), bottom);
+}
+
+}  // namespace
+
+std::string embeddable_svg(const std::string& document, const std::string& id) {
+  const std::size_t start = document.find("<svg");
+  const std::size_t end = document.rfind("</svg>");
+  if (start == std::string::npos || end == std::string::npos)
+    throw std::runtime_error("gnuplot failed: it printed no SVG");
+  constexpr std::array<std::string_view, 5> marks{" id='", " id=\"", "href='#", "href=\"#", "url(#"};
+  const std::string prefix = id + "-";
+  std::string svg = document.substr(start, end + 6 - start);
+  for (const std::string_view mark : marks)
+    for (std::size_t place = 0; (place = svg.find(mark, place)) != std::string::npos; place += prefix.size())
+      svg.insert(place += mark.size(), prefix);
+  return svg + "\n";
+}
+
+std::string svg_plot(const LinePlot& plot) {
+  std::string script = preamble(plot.y_label, 3.6);
+  script += fmt::format("set xlabel {} textcolor '#4a525c'\n", gnuplot_text(plot.x_label));
+  script += "set format x '%.12g'\nset key outside top left horizontal textcolor '#1f2933' samplen 2\n";
+  std::string curves;
+  for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+    script += fmt::format("$curve{} << EOD\n", i);
+    for (const auto& [x, y] : plot.curves[i].points) script += fmt::format("{:.10g} {:.10g}\n", x, y);
+    script += "EOD\n";
+    curves += fmt::format("{}$curve{} using 1:2 with {} linewidth 1.6 linecolor '{}' title {}",
+                          i == 0 ? "" : ", ", i, plot.staircase ? "steps" : "lines",
+                          kColours[i % kColours.size()], gnuplot_text(plot.curves[i].name));
+  }
+  return embeddable_svg(run_gnuplot(script + "plot " + curves + "\n"), plot.id);
+}
+
+std::string svg_plot(const BarPlot& plot) {
+  std::string script =
+      preamble(plot.y_label, 2.2) + "unset key\nset boxwidth 0.6\nset style fill solid 0.9 noborder\n";
+  std::string tics;
+  for (std::size_t i = 0; i < plot.bars.size(); ++i)
+    tics += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_text(plot.bars[i].first), i);
+  script += fmt::format("set xtics ({})\nset xrange [-0.6:{}]\n$bars << EOD\n", tics,
+                        static_cast<double>(plot.bars.size()) - 0.4);
+  for (std::size_t i = 0; i < plot.bars.size(); ++i)
+    script += fmt::format("{} {:.10g} {}\n", i, plot.bars[i].second,
+                          with_thousands(static_cast<std::uint64_t>(plot.bars[i].second)));
+  script += fmt::format(
+      "EOD\nplot $bars using 1:2 with boxes linecolor '{}', $bars using 1:2:3 with labels offset 0,0.6 "
+      "textcolor "
+      "'#4a525c'\n",
+      kColours[0]);
+  return embeddable_svg(run_gnuplot(script), plot.id);
+}
+
+}  // namespace kds

@@ -1,0 +1,74 @@
+#include "experiments/output/text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace kds {
+
+std::string with_thousands(std::uint64_t value) {
+  std::string digits = fmt::format("{}", value);
+  for (std::size_t place = digits.size(); place > 3;) {
+    place -= 3;
+    digits.insert(place, 1, ',');
+  }
+  return digits;
+}
+
+std::string short_decimal(double value) {
+  if (!std::isfinite(value)) return "-";
+  const double size = std::abs(value);
+  if (size == 0) return "0";
+  if (size >= 1e15) return fmt::format("{:.3e}", value);  // nothing we measure, but a line must stay a line
+  if (size >= 1000) {
+    const std::string digits = with_thousands(static_cast<std::uint64_t>(std::llround(size)));
+    return fmt::format("{}{}", value < 0 ? "-" : "", digits);
+  }
+  if (size >= 100) return fmt::format("{:.1f}", value);
+  if (size >= 10) return fmt::format("{:.2f}", value);
+  if (size >= 0.01) return fmt::format("{:.3f}", value);
+  return fmt::format("{:.6f}", value);
+}
+
+std::string hex_digits(std::uint64_t value) { return fmt::format("{:016x}", value); }
+
+std::string one_line(std::string_view text) {
+  std::string line(text);
+  for (char& c : line) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) c = ' ';
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  return line;
+}
+
+std::string shell_words(const std::vector<std::string>& words) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@";
+  std::string text;
+  for (const std::string& word : words) {
+    if (!text.empty()) text += ' ';
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
+      text += word;
+      continue;
+    }
+    text += '\'';
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    text += '\'';
+  }
+  return text;
+}
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+}  // namespace kds

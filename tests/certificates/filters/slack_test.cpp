@@ -1,0 +1,106 @@
+#include "certificates/filters/slack.h"
+
+#include <gtest/gtest.h>
+
+#include "certificates/types/bead_in_sphere.h"
+#include "certificates/types/contact.h"
+#include "certificates/types/orientation.h"
+#include "certificates/types/power_test.h"
+#include "tests/support/inputs/random_motion.h"
+#include "tests/support/judges/rational_geometry.h"
+
+namespace kds {
+namespace {
+
+using test::Random;
+using test::uniform;
+
+template <class S>
+class Tolerances : public testing::Test {
+ protected:
+  static constexpr std::size_t beads = bead_places<S>;
+  using M = BezierMotion<3, 1>;
+
+  static S certificate() {
+    S c{};
+    for (std::size_t p = 0; p < beads; ++p) c.beads[p] = static_cast<BeadId>(p);
+    return c;
+  }
+  static double tolerance(const M& motion, double side) {
+    typename LanesView<M, beads, channels_of<S>>::Tuples tuples;
+    tuples.fill(certificate().beads);
+    Lanes result;
+    slack_lanes<S>(motion, tuples, Lanes(side), result);
+    for (std::size_t lane = 1; lane < Lanes::width; ++lane) EXPECT_EQ(result.v[lane], result.v[0]);
+    return result.v[0];
+  }
+  // The formula's exact sign with every bead moved by at most half of `wander` in each coordinate: no
+  // difference by more than all of it.
+  static int sign_after_wandering(M motion, double wander, bool to_the_corners, Random& random) {
+    for (BeadId b = 0; b < beads; ++b) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const double by = to_the_corners ? (random() % 2 ? 0.5 : -0.5) : uniform(random, -0.5, 0.5);
+        const double to = motion.coordinate(b, 0, axis) + by * wander;
+        motion.set_coordinate(b, 0, axis, to);
+      }
+    }
+    return test::sign_at(certificate(), motion, Dyadic(0.0));
+  }
+};
+
+using Subjects = testing::Types<PowerTest<3>, BeadInSphere<2>, BeadInSphere<3>, Orientation<3>, Contact>;
+TYPED_TEST_SUITE(Tolerances, Subjects);
+
+TYPED_TEST(Tolerances, NoSignChangesWithinIt) {
+  Random random(20);
+  int positive = 0, changed_soon_beyond = 0;
+  for (int round = 0; round < 400; ++round) {
+    const auto kind = test::all_motion_kinds[static_cast<std::size_t>(round) % test::all_motion_kinds.size()];
+    auto motion = test::random_motion<BezierMotion<3, 1>>(random, TestFixture::beads, kind);
+    if (round % 5 == 4) test::scale(motion, test::pick(random, -1, 1) * 100);
+    const int sign = test::sign_at(TestFixture::certificate(), motion, Dyadic(0.0));
+    if (sign == 0) {
+      EXPECT_EQ(TestFixture::tolerance(motion, 1), 0);
+      EXPECT_EQ(TestFixture::tolerance(motion, -1), 0);
+      continue;
+    }
+    EXPECT_EQ(TestFixture::tolerance(motion, -sign), 0);
+    const double tolerance = TestFixture::tolerance(motion, sign);
+    if (tolerance == 0) continue;  // say nothing, far from the range of doubles
+    ++positive;
+    // Rounding the moved coordinates must not carry them beyond it.
+    for (int i = 0; i < 40; ++i)
+      EXPECT_EQ(TestFixture::sign_after_wandering(motion, tolerance * (1 - 0x1p-20), i % 2 == 0, random),
+                sign);
+    bool changed = false;
+    for (int i = 0; i < 40; ++i)
+      changed |= TestFixture::sign_after_wandering(motion, 20 * tolerance, i % 2 == 0, random) != sign;
+    changed_soon_beyond += changed ? 1 : 0;
+  }
+  EXPECT_GT(positive, 100);
+  EXPECT_GT(changed_soon_beyond, positive / 20);  // it is no more modest than it need be
+}
+
+TEST(Tolerance, IsTheDistanceToContactNearly) {
+  // Two balls of radius 1, 4 apart along an axis: their difference may shrink by 2, and the look goes no
+  // further than a sixteenth of the distance; from 2.1 apart, 0.1 is nearly tolerated whole.
+  BezierMotion<3, 1> motion(2);
+  for (int k = 0; k <= 1; ++k) {
+    for (BeadId b = 0; b < 2; ++b) motion.set_radius(b, k, 1);
+    motion.set_coordinate(1, k, 0, 4);
+  }
+  const auto tolerance = [&] {
+    Lanes result;
+    LanesView<BezierMotion<3, 1>, 2, channels_of<Contact>>::Tuples tuples;
+    tuples.fill({0, 1});
+    slack_lanes<Contact>(motion, tuples, Lanes(1.0), result);
+    return result.v[0];
+  };
+  EXPECT_NEAR(tolerance(), 0.25, 1e-6);
+  for (int k = 0; k <= 1; ++k) motion.set_coordinate(1, k, 0, 2.1);
+  EXPECT_GT(tolerance(), 0.08);
+  EXPECT_LT(tolerance(), 0.1);
+}
+
+}  // namespace
+}  // namespace kds

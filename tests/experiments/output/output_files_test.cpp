@@ -1,0 +1,173 @@
+#include "experiments/output/output_files.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <stdexcept>
+
+#include "experiments/output/made_directories.h"
+#include "experiments/output/output_error.h"
+#include "experiments/output/staged_files.h"
+#include "motions/base/input_error.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds {
+namespace {
+
+namespace fs = std::filesystem;
+using test::content_of;
+using test::ScratchDirectory;
+
+TEST(OutputFiles, WritesAndReplacesWholeFiles) {
+  const ScratchDirectory directory;
+  const fs::path path = directory / "summary.json";
+  write_file_atomically(path, std::string("one\0two", 7));
+  EXPECT_EQ(content_of(path), std::string("one\0two", 7));
+  write_file_atomically(path, "short");
+  EXPECT_EQ(content_of(path), "short");
+  EXPECT_EQ(directory.entries(), 1U);
+}
+
+TEST(OutputFiles, WithoutCommitNothingChanges) {
+  const ScratchDirectory directory;
+  const fs::path path = directory / "events.csv";
+  write_file_atomically(path, "old");
+  try {
+    AtomicFile file(path);
+    file.stream() << "half of the new";
+    throw std::runtime_error("the run failed");
+  } catch (const std::runtime_error&) {
+  }
+  EXPECT_EQ(content_of(path), "old");
+  EXPECT_EQ(directory.entries(), 1U);
+}
+
+TEST(OutputFiles, NamesThePathItCannotWrite) {
+  const ScratchDirectory directory;
+  for (const fs::path& path : {directory / "missing/file", directory.path()}) {
+    try {
+      write_file_atomically(path, "x");
+      FAIL() << path;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos);
+    }
+  }
+  EXPECT_EQ(directory.entries(), 0U);
+}
+
+TEST(OutputFiles, AFullDiskIsNoSuccess) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  for (const std::size_t size : {std::size_t{1}, std::size_t{1} << 20U}) {
+    try {
+      write_file_atomically("/dev/full", std::string(size, 'x'));
+      FAIL();
+    } catch (const OutputError& error) {
+      EXPECT_STREQ(error.what(), "/dev/full: cannot write: No space left on device");
+    }
+  }
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST(OutputFiles, TellsOfAFullDiskBeforeTheEnd) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  AtomicFile file("/dev/full");
+  file.stream() << std::string(1 << 20, 'x');
+  EXPECT_THROW(file.check(), OutputError);
+}
+
+TEST(MadeDirectories, AreMadeWithTheirParentsAndGoIfEmpty) {
+  const ScratchDirectory directory;
+  fs::create_directory(directory / "there");
+  {
+    const MadeDirectories made(directory / "there/a/b/", "--out");
+    const MadeDirectories again(directory / "there/a/b", "--out");
+    EXPECT_TRUE(fs::is_directory(directory / "there/a/b"));
+  }
+  EXPECT_TRUE(fs::is_empty(directory / "there"));
+  {
+    const MadeDirectories made(directory / "there/a/b/c", "--out");
+    directory.file("there/a/kept", "x");
+  }
+  EXPECT_FALSE(fs::exists(directory / "there/a/b"));
+  EXPECT_TRUE(fs::exists(directory / "there/a/kept"));
+  EXPECT_THROW(MadeDirectories(directory / "there/a/kept/below", "--out"), InputError);
+}
+
+TEST(OutputFiles, ChecksDirectoriesBeforeTheyAreMade) {
+  const ScratchDirectory directory;
+  check_directory(directory / "a/b/c", "--out", {"x"});
+  check_directory(directory.path(), "--out", {"x"});
+  EXPECT_EQ(directory.entries(), 0U);
+  fs::create_directories(directory / "a/x");
+  EXPECT_THROW(check_directory(directory / "a", "--out", {"x"}), InputError);
+  EXPECT_THROW(check_directory(directory / std::string(300, 'x'), "--out"), InputError);
+}
+
+TEST(StagedFiles, AppearTogetherOrNotAtAll) {
+  const ScratchDirectory directory;
+  const auto entries_of = [&](const char* name) {
+    return std::distance(fs::directory_iterator(directory / name), {});
+  };
+  {
+    StagedFiles files(directory / "made/dump", "--dump");
+    files.write("frame-0", "zero");
+    EXPECT_EQ(entries_of("made/dump"), 1);  // hidden
+    EXPECT_FALSE(fs::exists(directory / "made/dump/frame-0"));
+  }
+  EXPECT_EQ(directory.entries(), 0U);
+  {
+    StagedFiles files(directory / "dump", "--dump");
+    files.write("frame-0", "zero");
+    files.write("frame-1", "one");
+    files.commit();
+  }
+  EXPECT_EQ(entries_of("dump"), 2);
+  EXPECT_EQ(content_of(directory / "dump/frame-1"), "one");
+}
+
+TEST(Parts, OfKilledProgramsAreCleared) {
+  const ScratchDirectory directory;
+  directory.file(".kds-1-0.part", "left behind");
+  fs::create_directory(directory / ".kds-1-1.part");
+  directory.file(".kds-1-1.part/frame-0", "left behind");
+  directory.file(".kds-notes", "not ours");
+  const Part file(directory.path(), Part::Kind::file, "x"), folder(directory.path(), Part::Kind::folder, "x");
+  clear_stale_parts(directory.path());
+  EXPECT_TRUE(fs::exists(file.path()) && fs::exists(folder.path()));  // whose program lives
+  EXPECT_EQ(directory.entries(), 3U);
+}
+
+TEST(OutputFiles, RefusesAFileWhereADirectoryIsExpected) {
+  const ScratchDirectory directory;
+  directory.file("taken", "x");
+  try {
+    check_directory(directory / "taken", "--out");
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("--out"), std::string::npos);
+    EXPECT_NE(message.find("taken"), std::string::npos);
+    EXPECT_NE(message.find("expected a directory"), std::string::npos);
+  }
+  EXPECT_THROW(check_directory(directory / "taken/below", "--out"), InputError);
+}
+
+TEST(OutputFiles, ChecksFilesBeforeTheyAreWritten) {
+  const ScratchDirectory directory;
+  ensure_writable_file(directory / "new.json", "--json");
+  EXPECT_EQ(directory.entries(), 0U);
+  EXPECT_THROW(ensure_writable_file(directory.path(), "--json"), InputError);
+  EXPECT_THROW(ensure_writable_file(directory / "missing/new.json", "--json"), InputError);
+}
+
+TEST(OutputFiles, RefusesADirectoryWithoutPermission) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const ScratchDirectory directory;
+  fs::permissions(directory.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_THROW(check_directory(directory.path(), "--out"), InputError);
+  EXPECT_THROW(ensure_writable_file(directory / "file", "--json"), InputError);
+  fs::permissions(directory.path(), fs::perms::owner_all);
+}
+
+}  // namespace
+}  // namespace kds

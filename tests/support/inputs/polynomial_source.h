@@ -1,0 +1,61 @@
+#pragma once
+// A holder of failures whose functions are polynomials made by hand: what the engine sees of a certificate.
+
+#include <algorithm>
+#include <vector>
+
+#include "certificates/exact/exact_polynomial.h"
+#include "certificates/search/exact_search.h"
+#include "kds/simulator.h"
+#include "tests/support/inputs/polynomials.h"
+
+namespace kds::test {
+
+/// p - q u: falls through zero at p/q.
+inline Scaled falling(long long p, long long q) { return {Integer(p), Integer(p - q)}; }
+
+/// 1 - k u^2: falls through zero at sqrt(1/k).
+inline Scaled falling_at_root_of_one_over(long long k) { return {1, 2, Integer(1 - k)}; }
+
+inline Identity named(BeadId bead, std::uint32_t type = 0) {
+  return identity_of({type, {}}, std::array{bead});
+}
+
+/// Entries by slot; nothing happens when one fails.
+class PolynomialSource : public FailureSource {
+ public:
+  struct Entry {
+    Scaled function;
+    Identity identity;
+    std::uint64_t place = 0;
+  };
+
+  explicit PolynomialSource(std::size_t structure = 0) : structure_(structure) {}
+
+  std::uint32_t add(Scaled function, const Identity& identity, std::uint64_t place = 0) {
+    entries_.push_back({std::move(function), identity, place});
+    return static_cast<std::uint32_t>(entries_.size() - 1);
+  }
+
+  /// The first failure of an entry after the start of the step, as the exact stage finds it.
+  [[nodiscard]] FailureTime first_time(std::uint32_t slot) const {
+    StageCounts stages;
+    return exact_first_failure(*exact_function(slot), Instant(0), stages).time;
+  }
+
+  [[nodiscard]] ExactFunction exact_function(std::uint32_t slot) const override {
+    return std::make_shared<const ExactPolynomial>(entries_[slot].function);
+  }
+  [[nodiscard]] Identity identity(std::uint32_t slot) const override { return entries_[slot].identity; }
+  [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override { return entries_[slot].place; }
+  [[nodiscard]] std::size_t structure() const override { return structure_; }
+  void fail(std::uint32_t) override {}
+  void retire(std::uint32_t) override {}
+  void clear() override { entries_.clear(); }
+
+ private:
+  std::size_t structure_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace kds::test

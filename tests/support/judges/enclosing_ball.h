@@ -1,0 +1,138 @@
+#pragma once
+// The sphere that touches some balls from outside, at one time, from its definition over rationals: the
+// centre solved for by elimination, the one square root enclosed as closely as asked for. Nothing of it comes
+// from certificates/.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tests/support/judges/rational_geometry.h"
+
+namespace kds::test {
+
+/// A number known to lie in [lower, upper].
+struct Enclosed {
+  Rational lower, upper;
+
+  Enclosed() = default;
+  Enclosed(const Rational& exact) : lower(exact), upper(exact) {}
+  Enclosed(Rational low, Rational high) : lower(std::move(low)), upper(std::move(high)) {}
+
+  /// 1, -1, or 0: zero or not known.
+  [[nodiscard]] int sign() const { return lower > 0 ? 1 : upper < 0 ? -1 : 0; }
+
+  friend Enclosed operator+(const Enclosed& a, const Enclosed& b) {
+    return {Rational(a.lower + b.lower), Rational(a.upper + b.upper)};
+  }
+  friend Enclosed operator-(const Enclosed& a, const Enclosed& b) {
+    return {Rational(a.lower - b.upper), Rational(a.upper - b.lower)};
+  }
+  friend Enclosed operator*(const Enclosed& a, const Enclosed& b) {
+    const Rational products[] = {a.lower * b.lower, a.lower * b.upper, a.upper * b.lower, a.upper * b.upper};
+    return {*std::min_element(products, products + 4), *std::max_element(products, products + 4)};
+  }
+};
+
+/// A square root to `bits` places relative to its size; exact where it is rational.
+inline Enclosed square_root(const Rational& x, unsigned bits) {
+  const Integer n = numerator(x);
+  const Integer d = denominator(x);
+  // sqrt(n/d) = sqrt(n d) / d
+  const Integer square = (n * d) << (2 * bits);
+  const Integer root = sqrt(square);
+  const Integer whole = d << bits;
+  if (root * root == square) return Rational(root, whole);
+  return {Rational(root, whole), Rational(root + 1, whole)};
+}
+
+struct Ball {
+  RationalPoint center{};
+  Rational radius;
+};
+
+template <Motion M>
+Ball ball_at(const M& motion, BeadId bead, const Dyadic& time) {
+  return {point_at(motion, bead, time), exact_radius(motion, bead, time)};
+}
+
+/// The smallest sphere that touches all balls of a basis from outside, seen from the first.
+struct TouchingSphere {
+  std::array<Enclosed, 3> center;  ///< minus the first ball's
+  Enclosed radius;                 ///< minus the first ball's
+  std::vector<Enclosed> shares;    ///< barycentric coordinates of the centre
+
+  /// The centre lies in the interior of the hull of centres: it is the smallest enclosing sphere, and no ball
+  /// is to spare.
+  [[nodiscard]] bool is_proper() const {
+    return std::all_of(shares.begin(), shares.end(), [](const Enclosed& x) { return x.sign() > 0; });
+  }
+  /// 1 inside, 0 inside and touching (or not known), -1 not inside.
+  [[nodiscard]] int holds(const Ball& first, const Ball& ball) const {
+    const Enclosed room = radius - Enclosed(ball.radius - first.radius);
+    if (room.sign() < 0) return -1;
+    const RationalPoint d = minus(ball.center, first.center);
+    Enclosed distance(0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Enclosed along = center[axis] - Enclosed(d[axis]);
+      distance = distance + along * along;
+    }
+    return (room * room - distance).sign();
+  }
+};
+
+/// None if there is no such sphere or the centres are dependent.
+inline std::optional<TouchingSphere> touching_sphere(std::span<const Ball> basis, unsigned bits = 300) {
+  const std::size_t m = basis.size() - 1;
+  std::vector<RationalPoint> d(m);
+  Matrix gram(m, std::vector<Rational>(m));
+  std::vector<Rational> e(m);
+  std::vector<Rational> s(m);
+  for (std::size_t i = 0; i < m; ++i) {
+    d[i] = minus(basis[i + 1].center, basis[0].center);
+    s[i] = basis[i + 1].radius - basis[0].radius;
+    e[i] = (dot(d[i], d[i]) - s[i] * s[i]) / 2;
+  }
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t j = 0; j < m; ++j) gram[i][j] = dot(d[i], d[j]);
+  }
+  // d_i . z = e_i + s_i rho: the centre is p + rho q, with barycentric coordinates y + rho w.
+  const auto y = solve(gram, e);
+  const auto w = solve(gram, s);
+  if (!y || !w) return std::nullopt;
+  const RationalPoint p = combination(d, *y);
+  const RationalPoint q = combination(d, *w);
+  const Rational a = dot(q, q) - 1;
+  const Rational b = dot(p, q);
+  const Rational c = dot(p, p);
+
+  std::vector<Enclosed> roots;  // of a rho^2 + 2 b rho + c
+  if (a == 0) {
+    if (b != 0) roots.emplace_back(Rational(-c / (2 * b)));
+  } else {
+    const Rational square = b * b - a * c;
+    if (square < 0) return std::nullopt;
+    const Enclosed root = square_root(square, bits);
+    const Enclosed over(Rational(1 / a));
+    roots.push_back((Enclosed(Rational(-b)) - root) * over);
+    roots.push_back((Enclosed(Rational(-b)) + root) * over);
+  }
+  std::optional<TouchingSphere> smallest;
+  for (const Enclosed& rho : roots) {
+    bool touches = rho.lower >= 0;
+    for (const Rational& x : s) touches &= rho.lower >= x;
+    if (!touches || (smallest && smallest->radius.lower <= rho.lower)) continue;
+    smallest.emplace();
+    smallest->radius = rho;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      smallest->center[axis] = Enclosed(p[axis]) + Enclosed(q[axis]) * rho;
+    smallest->shares.emplace_back(Rational(1));
+    for (std::size_t i = 0; i < m; ++i) {
+      smallest->shares.push_back(Enclosed((*y)[i]) + Enclosed((*w)[i]) * rho);
+      smallest->shares[0] = smallest->shares[0] - smallest->shares.back();
+    }
+  }
+  return smallest;
+}
+
+}  // namespace kds::test
