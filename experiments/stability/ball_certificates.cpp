@@ -6,26 +6,19 @@
 
 namespace kds {
 
-template <int degree>
-std::vector<StabilitySubject> ball_certificates() {
-  using Line = BezierMotion<1, degree>;
-  using Plane = BezierMotion<2, degree>;
-  using Space = BezierMotion<3, degree>;
+std::vector<StabilitySubject> ball_certificates(int degree) {
   return {
-      certificate_subject<Contact, Line>("contact"),
-      certificate_subject<Contact, Plane>("contact"),
-      certificate_subject<Contact, Space>("contact"),
-      certificate_subject<BallInSphere<2, 1>, Plane>("ball_in_sphere_1"),
-      certificate_subject<BallInSphere<3, 1>, Space>("ball_in_sphere_1"),
-      certificate_subject<BallInSphere<2, 2>, Plane>("ball_in_sphere_2"),
-      certificate_subject<BallInSphere<3, 2>, Space>("ball_in_sphere_2"),
-      certificate_subject<BallInSphere<2, 3>, Plane>("ball_in_sphere_3"),
-      certificate_subject<BallInSphere<3, 3>, Space>("ball_in_sphere_3"),
-      certificate_subject<BallInSphere<3, 4>, Space>("ball_in_sphere_4"),
+      certificate_subject<Contact, 1>("contact", degree),
+      certificate_subject<Contact, 2>("contact", degree),
+      certificate_subject<Contact, 3>("contact", degree),
+      certificate_subject<BallInSphere<2, 1>, 2>("ball_in_sphere_1", degree),
+      certificate_subject<BallInSphere<3, 1>, 3>("ball_in_sphere_1", degree),
+      certificate_subject<BallInSphere<2, 2>, 2>("ball_in_sphere_2", degree),
+      certificate_subject<BallInSphere<3, 2>, 3>("ball_in_sphere_2", degree),
+      certificate_subject<BallInSphere<2, 3>, 2>("ball_in_sphere_3", degree),
+      certificate_subject<BallInSphere<3, 3>, 3>("ball_in_sphere_3", degree),
+      certificate_subject<BallInSphere<3, 4>, 3>("ball_in_sphere_4", degree),
   };
 }
-
-template std::vector<StabilitySubject> ball_certificates<1>();
-template std::vector<StabilitySubject> ball_certificates<3>();
 
 }  // namespace kds

@@ -8,25 +8,18 @@
 
 namespace kds {
 
-template <int degree>
-std::vector<StabilitySubject> bead_certificates() {
-  using Line = BezierMotion<1, degree>;
-  using Plane = BezierMotion<2, degree>;
-  using Space = BezierMotion<3, degree>;
+std::vector<StabilitySubject> bead_certificates(int degree) {
   return {
-      certificate_subject<Precedes, Line>("precedes"),
-      certificate_subject<Orientation<2>, Plane>("orientation"),
-      certificate_subject<Orientation<3>, Space>("orientation"),
-      certificate_subject<PowerTest<2>, Plane>("power_test"),
-      certificate_subject<PowerTest<3>, Space>("power_test"),
-      certificate_subject<BeadInSphere<1>, Space>("bead_in_sphere_1"),
-      certificate_subject<BeadInSphere<2>, Plane>("bead_in_sphere_2"),
-      certificate_subject<BeadInSphere<2>, Space>("bead_in_sphere_2"),
-      certificate_subject<BeadInSphere<3>, Space>("bead_in_sphere_3"),
+      certificate_subject<Precedes, 1>("precedes", degree),
+      certificate_subject<Orientation<2>, 2>("orientation", degree),
+      certificate_subject<Orientation<3>, 3>("orientation", degree),
+      certificate_subject<PowerTest<2>, 2>("power_test", degree),
+      certificate_subject<PowerTest<3>, 3>("power_test", degree),
+      certificate_subject<BeadInSphere<1>, 3>("bead_in_sphere_1", degree),
+      certificate_subject<BeadInSphere<2>, 2>("bead_in_sphere_2", degree),
+      certificate_subject<BeadInSphere<2>, 3>("bead_in_sphere_2", degree),
+      certificate_subject<BeadInSphere<3>, 3>("bead_in_sphere_3", degree),
   };
 }
-
-template std::vector<StabilitySubject> bead_certificates<1>();
-template std::vector<StabilitySubject> bead_certificates<3>();
 
 }  // namespace kds

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/curves/bezier_motion.h"
+#include "motions/curves/any_degree_motion.h"
 #include "motions/readers/instance.h"
 
 namespace kds {
@@ -37,13 +37,13 @@ class BeadCurves {
   /// instance has none.
   [[nodiscard]] Instance instance(std::string name) const;
 
-  /// M has this dimension and degree.
-  template <Motion M>
-  [[nodiscard]] M motion() const {
-    M motion(beads_);
+  /// `Dimension` is this one's.
+  template <int Dimension>
+  [[nodiscard]] AnyDegreeMotion<Dimension> motion() const {
+    AnyDegreeMotion<Dimension> motion(beads_, degree_);
     for (BeadId b = 0; b < beads_; ++b) {
-      for (int k = 0; k <= M::degree; ++k) {
-        for (int axis = 0; axis < M::dimension; ++axis)
+      for (int k = 0; k <= degree_; ++k) {
+        for (int axis = 0; axis < Dimension; ++axis)
           motion.set_coordinate(b, k, axis, coordinate(b, k, axis));
         motion.set_weight(b, k, weight(b, k));
         motion.set_radius(b, k, radius(b, k));

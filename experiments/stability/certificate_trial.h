@@ -18,6 +18,7 @@
 #include "experiments/stability/stability_radii.h"
 #include "experiments/stability/stability_subjects.h"
 #include "motions/base/input_error.h"
+#include "motions/curves/any_degree_motion.h"
 #include "motions/scene/scene.h"
 
 namespace kds {
@@ -36,13 +37,13 @@ template <class C>
 inline constexpr std::size_t beads_named = std::tuple_size_v<decltype(C{}.beads)>;
 
 /// Of the polynomial whose roots are failures.
-template <class C, Motion M>
-[[nodiscard]] int function_degree() {
-  M motion(beads_named<C>);
+template <class C, int Dimension>
+[[nodiscard]] int function_degree(int motion_degree) {
+  AnyDegreeMotion<Dimension> motion(beads_named<C>, motion_degree);
   for (BeadId b = 0; b < beads_named<C>; ++b) motion.set_coordinate(b, 0, 0, b);
   C certificate;
   std::iota(certificate.beads.begin(), certificate.beads.end(), BeadId{0});
-  const auto search = search_over<C>(MotionRef<M::dimension>(motion));
+  const auto search = search_over<C>(MotionRef<Dimension>(motion));
   return static_cast<int>(search->exact_function(certificate)->scaled().size()) - 1;
 }
 
@@ -54,16 +55,17 @@ template <class C>
   return radical ? 4 * longer * longer * longer : longer * longer;
 }
 
-template <class C, Motion M>
+template <class C, int Dimension>
 class CertificateTrial {
  public:
-  CertificateTrial(const Extreme& extreme, const StabilityCases& cases, int function_degree)
+  CertificateTrial(const Extreme& extreme, const StabilityCases& cases, int motion_degree,
+                   int function_degree)
       : extreme_(extreme) {
     const auto count =
         static_cast<std::size_t>(std::ceil(static_cast<double>(cases.cases) / case_cost<C>(function_degree)));
     for (std::size_t number = 0; number < count; ++number) {
       SceneRandom random = scene_random(cases.seed, extreme.name, number);
-      BeadCurves curves = extreme.make({M::dimension, M::degree, beads}, random);
+      BeadCurves curves = extreme.make({Dimension, motion_degree, beads}, random);
       if constexpr (channels_asked<C>.radii) give_radii(curves, random);
       auto made = std::make_unique<Case>(curves.instance(std::string(extreme.name)));
       made->number = number;
@@ -76,8 +78,8 @@ class CertificateTrial {
         if (refused_++ == 0) reason_ = refusal.what();
         continue;
       }
-      made->motion = curves.motion<M>();
-      made->search = search_over<C>(MotionRef<M::dimension>(made->motion));
+      made->motion = curves.motion<Dimension>();
+      made->search = search_over<C>(MotionRef<Dimension>(made->motion));
       orient(*made);
       if (opposite) made->certificate = opposite_of(made->certificate);
       cases_.push_back(std::move(made));
@@ -107,7 +109,7 @@ class CertificateTrial {
 
     std::size_t number = 0;
     C certificate;
-    M motion{0};
+    AnyDegreeMotion<Dimension> motion{0, 0};
     std::unique_ptr<CertificateSearch<C>> search;
     std::array<double, 2> times{};  // at which signs are compared, besides 0 and the failures
     Instance instance;
@@ -116,11 +118,11 @@ class CertificateTrial {
   /// Certificates of full bases are told how these turn, at the start.
   static void orient(Case& made) {
     if constexpr (requires { requires C::full; }) {
-      Orientation<M::dimension> basis;
+      Orientation<Dimension> basis;
       std::copy_n(made.certificate.beads.begin(), basis.beads.size(), basis.beads.begin());
       StageCounts uncounted;
       made.certificate.orientation =
-          search_over<Orientation<M::dimension>>(MotionRef<M::dimension>(made.motion))
+          search_over<Orientation<Dimension>>(MotionRef<Dimension>(made.motion))
                       ->sign_just_after(Kernel::exact, basis, Instant(0), uncounted) < 0
               ? -1
               : 1;
@@ -169,10 +171,10 @@ class CertificateTrial {
   }
 
   /// What an instance file does not hold.
-  static std::string radii_text(const M& motion) {
+  static std::string radii_text(const AnyDegreeMotion<Dimension>& motion) {
     std::string text = "; radii";
     for (BeadId b = 0; b < beads; ++b)
-      for (int k = 0; k <= M::degree; ++k)
+      for (int k = 0; k <= motion.own_degree(); ++k)
         text += fmt::format("{}{}", k == 0 ? "; " : " ", motion.radius(b, k));
     return text;
   }
@@ -196,13 +198,13 @@ class CertificateTrial {
 };
 
 /// A certificate type as a subject.
-template <class C, Motion M>
-[[nodiscard]] StabilitySubject certificate_subject(std::string name) {
+template <class C, int Dimension>
+[[nodiscard]] StabilitySubject certificate_subject(std::string name, int motion_degree) {
   constexpr bool weighted = channels_asked<C>.weights || channels_asked<C>.radii;
-  const int degree = function_degree<C, M>();
-  StabilitySubject subject{std::move(name), false, M::dimension, M::degree, degree, weighted, {}};
-  subject.run = [degree](const Extreme& extreme, const StabilityCases& cases) {
-    return CertificateTrial<C, M>(extreme, cases, degree).run();
+  const int degree = function_degree<C, Dimension>(motion_degree);
+  StabilitySubject subject{std::move(name), false, Dimension, motion_degree, degree, weighted, {}};
+  subject.run = [motion_degree, degree](const Extreme& extreme, const StabilityCases& cases) {
+    return CertificateTrial<C, Dimension>(extreme, cases, motion_degree, degree).run();
   };
   return subject;
 }

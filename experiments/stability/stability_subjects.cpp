@@ -7,9 +7,12 @@ namespace kds {
 
 std::vector<StabilitySubject> all_subjects() {
   std::vector<StabilitySubject> subjects;
-  for (auto make : {bead_certificates<1>, bead_certificates<3>, ball_certificates<1>, ball_certificates<3>,
-                    kinetic_structures})
-    std::ranges::move(make(), std::back_inserter(subjects));
+  const auto add = [&subjects](std::vector<StabilitySubject> some) {
+    std::ranges::move(some, std::back_inserter(subjects));
+  };
+  for (const int degree : {1, 3}) add(bead_certificates(degree));
+  for (const int degree : {1, 3}) add(ball_certificates(degree));
+  add(kinetic_structures());
   // Those of one name together, in the order of first appearance; then by dimension and degree.
   std::vector<std::string> names;
   for (const StabilitySubject& subject : subjects)

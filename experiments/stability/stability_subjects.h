@@ -1,5 +1,6 @@
 #pragma once
-// What `kds stability` puts to the test: certificate types and structures, each for one type of motion.
+// What `kds stability` puts to the test: certificate types and structures, each for motions of one dimension
+// and degree.
 
 #include <cstddef>
 #include <cstdint>
@@ -33,11 +34,9 @@ struct StabilitySubject {
 /// Certificate types first, then structures; those of one name stand together.
 [[nodiscard]] std::vector<StabilitySubject> all_subjects();
 
-/// Parts of it: certificate types of beads and of balls under motions of degree 1 or 3, structures.
-template <int degree>
-[[nodiscard]] std::vector<StabilitySubject> bead_certificates();
-template <int degree>
-[[nodiscard]] std::vector<StabilitySubject> ball_certificates();
+/// Parts of it: certificate types of beads and of balls under motions of a degree, structures.
+[[nodiscard]] std::vector<StabilitySubject> bead_certificates(int degree);
+[[nodiscard]] std::vector<StabilitySubject> ball_certificates(int degree);
 [[nodiscard]] std::vector<StabilitySubject> kinetic_structures();
 
 }  // namespace kds
