@@ -71,7 +71,7 @@ class LanesFilter {
         const double middle = 0.5 * (lower + upper);
         failures[place] = {
             Failure::Kind::later,
-            {fast ? middle : lower, fast ? middle : upper, 0, !fast, false, !fast && search.last[lane] != 0}};
+            {fast ? middle : lower, fast ? middle : upper, 0, !fast, false, search.last[lane] != 0}};
       } else if (outcome.violated[lane] != 0 && !fast) {  // a zero may seem to be below
         ++stages.isolation;
         failures[place] = failed_at_birth(now);
@@ -162,7 +162,7 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
       if (known != KnownAtStart::at_own_root) return true;
       if (first_) return false;
       first_ = i;
-      if (kernel != Kernel::filtered || !now.last()) return true;
+      if (kernel == Kernel::exact || !now.last()) return true;
       failures[i] = {};  // it has no root after that
       ++stages.isolation;
       return false;

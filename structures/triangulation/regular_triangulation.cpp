@@ -181,20 +181,21 @@ template <int Dimension>
 bool RegularTriangulation<Dimension>::stand_together(BeadId bead, CellId cell,
                                                      std::span<const BeadId> beads) const {
   grow_little(seen_, cells_.size());
-  std::vector<CellId> around{cell};
+  around_.assign(1, cell);
   seen_[cell] = 1;
   bool found = false;
-  for (std::size_t k = 0; k < around.size() && !found; ++k) {
-    const Cell& c = cells_[around[k]];
+  for (std::size_t k = 0; k < around_.size() && !found; ++k) {
+    const Cell& c = cells_[around_[k]];
     found = std::all_of(beads.begin(), beads.end(), [&c](BeadId b) { return c.place_of(b) <= Dimension; });
     for (std::size_t i = 0; i <= Dimension; ++i) {
+      if (c.vertex[i] == bead) continue;
       const CellId next = cell_of(c.beyond[i]);
-      if (c.vertex[i] == bead || seen_[next] != 0) continue;
+      if (seen_[next] != 0) continue;
       seen_[next] = 1;
-      around.push_back(next);
+      around_.push_back(next);
     }
   }
-  for (const CellId c : around) seen_[c] = 0;
+  for (const CellId c : around_) seen_[c] = 0;
   return found;
 }
 

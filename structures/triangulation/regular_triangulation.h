@@ -195,7 +195,8 @@ class RegularTriangulation {
   bool mirrored_ = false;
   Snapshot<Dimension> points_;  // where CGAL's vertices are to be put
   mutable bool points_wait_ = false;
-  mutable std::vector<char> seen_;  // of each cell, on a walk; 0 afterwards
+  mutable std::vector<char> seen_;      // of each cell, on a walk; 0 afterwards
+  mutable std::vector<CellId> around_;  // a bead, on a walk
 };
 
 }  // namespace kds
