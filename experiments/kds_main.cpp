@@ -22,6 +22,7 @@
 #include "experiments/scenes/info_command.h"
 #include "experiments/stability/stability_command.h"
 #include "experiments/update/update_command.h"
+#include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -105,6 +106,7 @@ void prepare_process() {
 }  // namespace
 
 int kds_main(int argc, char** argv) {
+  const FloatingPointGuard to_nearest;
   prepare_process();
   try {
     return guarded(argc, argv);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "certificates/exact/exact_time.h"
+#include "motions/base/floating_point_guard.h"
 
 namespace kds {
 
@@ -40,6 +41,7 @@ void Simulator::require(Phase phase, const char* what) const {
 }
 
 void Simulator::build() {
+  const FloatingPointGuard to_nearest;
   if (phase_ == Phase::within_step) require(Phase::between_steps, "build()");
   phase_ = Phase::between_steps;
   for (std::size_t s = 0; s < structures_.size(); ++s) {
@@ -57,6 +59,7 @@ void Simulator::run_step() {
 }
 
 void Simulator::finish() {
+  const FloatingPointGuard to_nearest;
   require(Phase::between_steps, "finish()");
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     watch_.charge(s + 1);
@@ -66,6 +69,7 @@ void Simulator::finish() {
 }
 
 void Simulator::enter_step() {
+  const FloatingPointGuard to_nearest;
   require(Phase::between_steps, "a step");
   begin_step();
   for (std::size_t s = 0; s < structures_.size(); ++s) {
@@ -77,6 +81,7 @@ void Simulator::enter_step() {
 }
 
 void Simulator::run_until(const Dyadic& time) {
+  const FloatingPointGuard to_nearest;
   require(Phase::within_step, "run_until()");
   ExactTime stop(time);
   if (ExactTime::compare(stop, now_.exact()) < 0 || !(time < Dyadic(1.0)))
@@ -89,12 +94,14 @@ void Simulator::run_until(const Dyadic& time) {
 }
 
 void Simulator::leave_step() {
+  const FloatingPointGuard to_nearest;
   require(Phase::within_step, "leave_step()");
   run_events(nullptr);
   finish_step();
 }
 
 bool Simulator::try_step(std::uint64_t most) {
+  const FloatingPointGuard to_nearest;
   enter_step();
   if (run_events(nullptr, most)) {
     finish_step();
@@ -134,12 +141,14 @@ void Simulator::finish_step() {
 }
 
 void Simulator::build_for_replay() {
+  const FloatingPointGuard to_nearest;
   recording_ = false;
   build();
   recording_ = true;
 }
 
 void Simulator::replay_step(std::span<const Replayed> events) {
+  const FloatingPointGuard to_nearest;
   require(Phase::between_steps, "a step");
   begin_step();
   for (const Replayed& event : events) {

@@ -4,9 +4,10 @@
 // Let M be the largest difference that went into one evaluation in double (DoubleView::largest_length), and h
 // the function's degree in lengths. Then coefficient k, in scaled Bernstein form, errs by at most
 // coefficient[k] * M^h. Proved for 2^-900 <= M^h <= 2^900: there nothing overflows, and a product that
-// underflows errs by at most 2^-1075 times factors whose product is below M^(h-p) for a power p <= h that it
-// carried itself, at most 2^-122 of the least bound; the constants are inflated by more than that. Outside
-// this range the filter says nothing.
+// underflows errs by at most 2^-1022, flushed to zero or not, times factors whose product is below M^(h-p)
+// for a power p <= h that it carried itself, at most 2^-69 of the least bound; the constants are inflated by
+// more than that. Outside this range the filter says nothing. Rounding is to nearest
+// (motions/base/floating_point_guard.h).
 //
 // From these follow two bounds for the plain Bernstein coefficients c, whose division by binomials rounds
 // once more: any value at a double errs by at most uniform * M^h + value_rounding(n) * max|c|, and the

@@ -10,11 +10,11 @@
 // M. Its size is Q, the product of those m and, with a lift, of M; sums are of numbers of one size. So the
 // magnitudes (motions/numbers/magnitude.h, 24 digits), each times its Q, bound them all, and coefficient k
 // errs by at most coefficient[k] times M times the product of all m. Claimed where M <= 2^10 and that product
-// is at least 2^-60, in the unit of length that the caller chose: then nothing overflows, and Q >= 2^-60 /
-// M^4 >= 2^-100, so that what an operation that underflows errs more, 2^-150, is less than 2^-25 of the
-// roundoff 2^-24 Q it is charged with anyway. The constants are inflated by 2^-8, for that and for the
-// comparison. The orientation knows no lifts: the product of its own three (two) m is its Q, and claimed
-// likewise.
+// is at least 2^-40, in the unit of length that the caller chose: then nothing overflows, and Q >= 2^-40 /
+// M^4 >= 2^-80, so that what an operation that underflows errs more, 2^-126 even where that is flushed to
+// zero, is less than 2^-21 of the roundoff 2^-24 Q it is charged with anyway. The constants are inflated by
+// 2^-8, for that and for the comparison. The orientation knows no lifts: the product of its own three (two) m
+// is its Q, and it is claimed where that is at least 2^-60.
 
 #include <array>
 #include <cstddef>
@@ -96,7 +96,7 @@ class RowSizes {
   [[nodiscard, gnu::always_inline]] FloatLanes error_scale() const {
     const FloatLanes scale = product_ * largest_;
     const typename FloatLanes::Mask proved =
-        weights_small_ & (largest_ <= FloatLanes(0x1p10F)) & (scale >= FloatLanes(0x1p-60F));
+        weights_small_ & (largest_ <= FloatLanes(0x1p10F)) & (scale >= FloatLanes(0x1p-40F));
     return proved ? scale.v : FloatLanes(__builtin_nanf("")).v;
   }
   /// The same of what no lift enters: the product alone.

@@ -1,7 +1,9 @@
 #pragma once
 // A double, or four side by side, with a bound on its error, followed operation by operation: |value - exact|
 // <= error. Slower than a filter's fixed bound and much sharper where numbers are of unlike size. Needs no
-// assumption on range: overflow makes the bound infinite or a NaN, and what underflow loses is added.
+// assumption on range: overflow makes the bound infinite or a NaN, and what underflow loses is added, also where
+// operands and results that are not normal are flushed to zero. Rounding is to nearest
+// (motions/base/floating_point_guard.h).
 //
 // The bounds are rounded themselves, a relative 2^-53 an operation: whoever uses one inflates it once
 // (`inflation`).
@@ -15,7 +17,7 @@ namespace kds {
 template <class Real>
 struct Tracked {
   static constexpr double unit_roundoff = 0x1p-53;
-  static constexpr double lost_to_underflow = 0x1p-1073;
+  static constexpr double lost_to_underflow = 0x1p-1020;
   static constexpr double inflation = 1 + 0x1p-40;  // for up to 2^10 operations in a row
 
   Real value{0.0};

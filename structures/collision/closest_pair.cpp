@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "motions/base/floating_point_guard.h"
 #include "motions/scene/near_pairs.h"
 #include "structures/necklace/ball_distance.h"
 
@@ -191,6 +192,7 @@ class Search {
 template <int Dimension>
 ClosestPairReport closest_pair(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
                                const DiagramEdges& diagram, const BeadPairs& neighbors) {
+  const FloatingPointGuard to_nearest;
   const std::size_t beads = radii.size();
   if (static_cast<std::size_t>(centers.cols()) != beads || diagram.edges.bead_count() != beads ||
       neighbors.bead_count() != beads)
@@ -204,6 +206,7 @@ ClosestPairReport closest_pair(const Eigen::Matrix3Xd& centers, std::span<const 
 template <int Dimension>
 ClosestPairReport closest_pair(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
                                const BeadPairs& neighbors) {
+  const FloatingPointGuard to_nearest;
   return closest_pair<Dimension>(centers, radii, static_edges<Dimension>(centers, squares(radii)), neighbors);
 }
 

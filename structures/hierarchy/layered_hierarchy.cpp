@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "motions/base/floating_point_guard.h"
 #include "structures/hierarchy/parallel_passes.h"
 
 namespace kds {
@@ -34,6 +35,7 @@ LayeredHierarchy<Dimension>::LayeredHierarchy(std::span<const BeadRange> necklac
 
 template <int Dimension>
 void LayeredHierarchy<Dimension>::build(const Balls<Dimension>& balls, Threads threads) {
+  const FloatingPointGuard to_nearest;
   const auto bead = [&balls](BeadId b) {
     return Cage<Dimension>{detail::center_of(balls, b), balls.radii()[b]};
   };

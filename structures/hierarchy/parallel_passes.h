@@ -4,6 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "motions/base/floating_point_guard.h"
 #include "structures/hierarchy/bottom_up_order.h"
 #include "structures/hierarchy/threads.h"
 
@@ -20,6 +21,7 @@ Counts over_runs(const BottomUpOrder& order, Threads threads, const Pass& pass) 
   } else {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, runs.size() - 1, 1),
                       [&](const tbb::blocked_range<std::size_t>& some) {
+                        const FloatingPointGuard of_worker;
                         for (std::size_t i = some.begin(); i < some.end(); ++i) do_run(i);
                       });
   }

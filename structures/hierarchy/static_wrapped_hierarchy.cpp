@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "motions/base/floating_point_guard.h"
 #include "structures/hierarchy/hierarchy_kernels.h"
 #include "structures/hierarchy/parallel_passes.h"
 
@@ -106,6 +107,7 @@ WrapCounts StaticWrappedHierarchy<Dimension>::wrap(const Balls<Dimension>& balls
 
 template <int Dimension>
 WrapCounts StaticWrappedHierarchy<Dimension>::build(const Balls<Dimension>& balls, Threads threads) {
+  const FloatingPointGuard to_nearest;
   bases_.resize(tree_.node_count());
   cages_.resize(tree_.node_count());
   loose_.resize(tree_.node_count());
@@ -121,6 +123,7 @@ WrapCounts StaticWrappedHierarchy<Dimension>::build(const Balls<Dimension>& ball
 template <int Dimension>
 WrapCounts StaticWrappedHierarchy<Dimension>::update(const Balls<Dimension>& balls, Update how,
                                                      Threads threads) {
+  const FloatingPointGuard to_nearest;
   if (bases_.size() != tree_.node_count()) return build(balls, threads);
   const bool trusting = how == Update::trust || how == Update::lazy;
   if (trusting && !trusting_) {
@@ -137,6 +140,7 @@ WrapCounts StaticWrappedHierarchy<Dimension>::update(const Balls<Dimension>& bal
 
 template <int Dimension>
 Sphere StaticWrappedHierarchy<Dimension>::sphere(NodeId node) const {
+  const FloatingPointGuard to_nearest;
   if (lazy_ == nullptr) return sphere_of(cages_[node], wider_);
   return sphere_of(lazy_->equal_radii() ? trusted_cage<PointForm<Dimension>>(*lazy_, bases_[node])
                                         : trusted_cage<BallForm<Dimension>>(*lazy_, bases_[node]),
@@ -145,6 +149,7 @@ Sphere StaticWrappedHierarchy<Dimension>::sphere(NodeId node) const {
 
 template <int Dimension>
 double StaticWrappedHierarchy<Dimension>::stick_out(NodeId node, double moved) const {
+  const FloatingPointGuard to_nearest;
   if (!trusting_) return 0;
   const Sphere now = sphere(node), then = sphere_of(verified_[node], wider_);
   // Cages are rounded; loose ones, of degenerate beads far from the origin, to their size there.
@@ -154,6 +159,7 @@ double StaticWrappedHierarchy<Dimension>::stick_out(NodeId node, double moved) c
 
 template <int Dimension>
 double greatest_move(const Balls<Dimension>& from, const Balls<Dimension>& to) {
+  const FloatingPointGuard to_nearest;
   double most = 0;
   for (BeadId b = 0; b < from.size(); ++b) {
     const Point<Dimension> d = detail::minus(detail::center_of(to, b), detail::center_of(from, b));

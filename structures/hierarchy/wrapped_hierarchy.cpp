@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "motions/base/floating_point_guard.h"
 #include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/enclosing_sphere/integer_balls.h"
@@ -367,6 +368,7 @@ void WrappedHierarchy<Dimension>::apply(const Change& change) {
 
 template <int Dimension>
 std::vector<Basis> WrappedHierarchy<Dimension>::bases_at(const Dyadic& time) const {
+  const FloatingPointGuard to_nearest;
   const IntegerBalls<Dimension> whole = integer_balls_at(motion_.curves(), time);
   std::vector<Basis> bases(bases_.size());
   for (NodeId id = 0; id < bases_.size(); ++id) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "motions/base/floating_point_guard.h"
+
 namespace kds {
 
 namespace {
@@ -24,6 +26,7 @@ std::vector<std::string> default_structures(const Scene& scene) {
 
 Session::Session(const Scene& scene, const SessionOptions& options)
     : motion_(make_scene_motion(scene)), simulator_(options.audits, options.kernel) {
+  const FloatingPointGuard to_nearest;
   const std::vector<std::string> names =
       options.structures.empty() ? default_structures(scene) : options.structures;
   for (const std::string& name : names) {
@@ -40,7 +43,13 @@ Session::Session(const Scene& scene, const SessionOptions& options)
   }
 }
 
+void Session::load(std::size_t step) {
+  const FloatingPointGuard to_nearest;
+  motion_->load(step);
+}
+
 std::vector<DumpFile> Session::dump(std::size_t frame) const {
+  const FloatingPointGuard to_nearest;
   std::vector<DumpFile> files;
   for (const auto& structure : running_) {
     for (DumpFile& file : structure->dump(frame)) files.push_back(std::move(file));
@@ -49,6 +58,7 @@ std::vector<DumpFile> Session::dump(std::size_t frame) const {
 }
 
 void Session::time_static_builds(std::size_t frame, std::vector<double>& seconds) const {
+  const FloatingPointGuard to_nearest;
   seconds.resize(running_.size(), 0);
   for (std::size_t s = 0; s < running_.size(); ++s) seconds[s] += running_[s]->static_seconds(frame);
 }

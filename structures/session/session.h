@@ -33,7 +33,7 @@ class Session {
   Session(const Scene& scene, const SessionOptions& options);
 
   /// Sets the motion to that of the step.
-  void load(std::size_t step) { motion_->load(step); }
+  void load(std::size_t step);
   [[nodiscard]] Simulator& simulator() { return simulator_; }
   /// In the order in which they act.
   [[nodiscard]] const std::vector<KineticStructure*>& structures() const { return kinetic_; }

@@ -2,6 +2,7 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
+#include "motions/base/floating_point_guard.h"
 #include "structures/triangulation/cgal_triangulations.h"
 
 namespace kds {
@@ -19,6 +20,7 @@ Geometry::FT to_cgal(const Rational& x) {
 
 template <int Dimension>
 StaticTriangulation<Dimension> static_triangulation(std::span<const ExactBead> beads, bool oriented) {
+  const FloatingPointGuard to_nearest;
   using Cgal = CgalTriangulation<Geometry, Dimension>;
   using Triangulation = typename Cgal::Type;
   std::vector<std::pair<typename Triangulation::Weighted_point, BeadId>> points;

@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "motions/base/floating_point_guard.h"
 #include "structures/triangulation/regular_triangulation_cgal.h"
 #include "structures/triangulation/regular_triangulation_edits.h"
 #include "structures/triangulation/regular_triangulation_flips.h"
@@ -269,6 +270,7 @@ auto RegularTriangulation<Dimension>::finite_edges() const -> std::vector<std::p
 template <int Dimension>
 StaticTriangulation<Dimension> static_triangulation(const Eigen::Matrix3Xd& centers,
                                                     std::span<const double> weights) {
+  const FloatingPointGuard to_nearest;
   RegularTriangulation<Dimension> triangulation;
   auto built = triangulation.build_bare(centers, weights);
   built.cells = triangulation.finite_cells();
@@ -277,6 +279,7 @@ StaticTriangulation<Dimension> static_triangulation(const Eigen::Matrix3Xd& cent
 
 template <int Dimension>
 Seconds seconds_to_triangulate(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
+  const FloatingPointGuard to_nearest;
   std::vector<typename CgalOf<Dimension>::Type::Weighted_point> points;
   points.reserve(weights.size());
   for (std::size_t b = 0; b < weights.size(); ++b)

@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "motions/base/floating_point_guard.h"
+
 namespace kds {
 
 namespace {
@@ -52,6 +54,7 @@ void wrap(std::span<const BeadRange> nodes,
 template <int Dimension>
 Seconds seconds_to_wrap(std::span<const BeadRange> nodes, const Eigen::Matrix3Xd& centers,
                         std::span<const double> radii) {
+  const FloatingPointGuard to_nearest;
   const auto spheres = cgal_spheres<Dimension>(centers, radii);
   return seconds_of([&] { wrap<Dimension>(nodes, spheres); });
 }
@@ -62,6 +65,7 @@ template Seconds seconds_to_wrap<3>(std::span<const BeadRange>, const Eigen::Mat
                                     std::span<const double>);
 
 Seconds seconds_to_sort(const Eigen::Matrix3Xd& centers) {
+  const FloatingPointGuard to_nearest;
   std::vector<double> x(static_cast<std::size_t>(centers.cols()));
   for (std::size_t b = 0; b < x.size(); ++b) x[b] = centers(0, static_cast<Eigen::Index>(b));
   return seconds_of([&] { std::sort(x.begin(), x.end()); });

@@ -1,0 +1,33 @@
+#include "motions/base/floating_point_guard.h"
+
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
+namespace kds {
+namespace {
+
+// Setting it takes half a microsecond, and nearly always there is nothing to set.
+bool is_default() {
+#ifdef __SSE2__
+  constexpr unsigned raised = 0x3f, at_start = 0x1f80;
+  return (_mm_getcsr() & ~raised) == at_start;
+#else
+  return false;
+#endif
+}
+
+}  // namespace
+
+// The default environment is that of the start of a program: to nearest, nothing flushed, nothing trapped.
+FloatingPointGuard::FloatingPointGuard() : changed_(!is_default()) {
+  if (!changed_) return;
+  std::fegetenv(&of_host_);
+  std::fesetenv(FE_DFL_ENV);
+}
+
+FloatingPointGuard::~FloatingPointGuard() {
+  if (changed_) std::fesetenv(&of_host_);
+}
+
+}  // namespace kds
