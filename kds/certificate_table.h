@@ -29,7 +29,7 @@ enum class CertificateHandle : std::uint32_t {
 }
 
 template <NamedCertificate Certificate>
-class CertificateTable : public FailureSource {
+class CertificateTable final : public FailureSource {
  public:
   /// `number` tells the structure's tables apart in KineticStructure::fail. Throws std::logic_error where the
   /// run has certificates of another type with the same number.
@@ -132,9 +132,10 @@ class CertificateTable : public FailureSource {
   [[nodiscard]] bool touches(std::uint32_t slot) const { return entries_[slot].touch; }
   [[nodiscard]] std::uint32_t place_in_structure(std::uint32_t slot) const { return entries_[slot].place; }
 
-  // The engine's side.
   /// What tells of certificates that are not in the table.
   [[nodiscard]] const CertificateSearch<Certificate>& search() const { return *search_; }
+  /// What tells the structure's tables apart.
+  [[nodiscard]] unsigned number() const { return number_; }
 
   [[nodiscard]] ExactFunction exact_function(std::uint32_t slot) const override {
     return search_->exact_function(entries_[slot].certificate);
@@ -142,11 +143,16 @@ class CertificateTable : public FailureSource {
   [[nodiscard]] Identity identity(std::uint32_t slot) const override {
     return entries_[slot].certificate.identity();
   }
-  [[nodiscard]] bool side(std::uint32_t slot) const override { return entries_[slot].certificate.side(); }
   [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override {
     return (static_cast<std::uint64_t>(structure_) << 36U) | (static_cast<std::uint64_t>(number_) << 32U) |
            entries_[slot].place;
   }
+  [[nodiscard]] std::size_t structure() const override { return structure_; }
+
+ private:
+  // What the engine alone asks.
+
+  [[nodiscard]] bool side(std::uint32_t slot) const override { return entries_[slot].certificate.side(); }
   void fetch(std::uint32_t slot, unsigned bins_ahead) const override {
     if (bins_ahead == 2) {
       __builtin_prefetch(&entries_[slot]);
@@ -154,8 +160,6 @@ class CertificateTable : public FailureSource {
       owner_.fetch(number_, entries_[slot].place, bins_ahead == 0);
     }
   }
-  [[nodiscard]] unsigned number() const { return number_; }
-  [[nodiscard]] std::size_t structure() const override { return structure_; }
   void fail(std::uint32_t slot) override {
     ++(touches(slot) ? owner_.statistics.certificates.touched : owner_.statistics.certificates.failed);
     --owner_.statistics.certificates.alive;
@@ -169,7 +173,6 @@ class CertificateTable : public FailureSource {
     owner_.statistics.certificates.alive = 0;
   }
 
- private:
   struct Entry {
     Certificate certificate;
     std::uint32_t place = 0;

@@ -1,8 +1,10 @@
 #pragma once
 // The tables of a structure that holds certificates of several types: one table a type, numbered from 1 in
-// the order of the types. No virtual call and no search finds a type's table.
+// the order of the types. No virtual call and no search finds a type's table. Types that the structure will
+// hold none of, whatever comes, have no table.
 
 #include <cstddef>
+#include <optional>
 #include <tuple>
 #include <type_traits>
 
@@ -15,23 +17,29 @@ class CertificateTables {
  public:
   static constexpr std::size_t count = sizeof...(Certificates);
 
-  /// `touches(certificate type)` says what the table of this type does about touches: it is called with a
-  /// `std::type_identity`.
+  /// `touches(certificate type)` says what the table of this type does about touches, or, by an empty
+  /// optional, that there is none: it is called with a `std::type_identity`.
   template <int Dimension, class TouchesOf>
   CertificateTables(Simulator& simulator, KineticStructure& owner, std::size_t structure,
-                    const MotionRef<Dimension>& motion, TouchesOf touches)
-      : tables_(Made<Certificates, Dimension>{simulator, owner, structure, motion,
-                                              touches(std::type_identity<Certificates>{})}...) {}
+                    const MotionRef<Dimension>& motion, TouchesOf touches) {
+    const auto make = [&]<class Certificate>(std::optional<CertificateTable<Certificate>>& table) {
+      if (const std::optional<TouchPolicy> policy = touches(std::type_identity<Certificate>{}))
+        table.emplace(simulator, owner, structure, number_of<Certificate>, motion, *policy);
+    };
+    std::apply([&](auto&... tables) { (make(tables), ...); }, tables_);
+  }
 
   template <class Certificate>
   [[nodiscard]] auto& of() {
-    return std::get<Table<Certificate>>(tables_);
+    return *std::get<std::optional<CertificateTable<Certificate>>>(tables_);
   }
   /// Calls `visit` with the table of this number.
   template <class Visit>
   void visit(unsigned number, Visit&& visit) {
-    std::apply([&](auto&... tables) { ((tables.number() == number ? visit(tables) : void()), ...); },
-               tables_);
+    const auto visit_if = [&](auto& table) {
+      if (table && table->number() == number) visit(*table);
+    };
+    std::apply([&](auto&... tables) { (visit_if(tables), ...); }, tables_);
   }
 
   template <class Certificate>
@@ -42,24 +50,7 @@ class CertificateTables {
   }();
 
  private:
-  template <class Certificate, int Dimension>
-  struct Made {
-    Simulator& simulator;
-    KineticStructure& owner;
-    std::size_t structure;
-    const MotionRef<Dimension>& motion;
-    TouchPolicy touches;
-  };
-  /// A tuple can hold what can be neither copied nor moved, if one thing makes it.
-  template <class Certificate>
-  struct Table final : CertificateTable<Certificate> {
-    template <int Dimension>
-    explicit Table(const Made<Certificate, Dimension>& made)
-        : CertificateTable<Certificate>(made.simulator, made.owner, made.structure, number_of<Certificate>,
-                                        made.motion, made.touches) {}
-  };
-
-  std::tuple<Table<Certificates>...> tables_;
+  std::tuple<std::optional<CertificateTable<Certificates>>...> tables_;
 };
 
 }  // namespace kds

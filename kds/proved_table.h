@@ -27,13 +27,14 @@ class ProvedTable final : public FailureSource {
   }
 
   /// Proves `certificate` from now on: `never` if to the end of the step, `violated` if for no time at all,
-  /// or else told, by KineticStructure::fail, when its proof ends.
+  /// or else told, by KineticStructure::fail, when its proof ends. The present time may lie anywhere in its
+  /// bracket: the proof begins before it and must reach beyond.
   [[nodiscard]] CertificateHandle watch(const Certificate& certificate, std::uint32_t place) {
     CertificateCounts& counts = owner_.statistics.certificates;
     ++counts.created;
-    const double now = simulator_.now().upper();
-    const double until = certificate.proved_until(motion_.curves(), now);
-    if (!(until > now)) {
+    const Instant& now = simulator_.now();
+    const double until = certificate.proved_until(motion_.curves(), now.lower());
+    if (!(until > now.upper())) {
       ++counts.failed;
       return CertificateHandle::violated;
     }
@@ -70,7 +71,6 @@ class ProvedTable final : public FailureSource {
   }
   [[nodiscard]] std::uint32_t place_in_structure(std::uint32_t slot) const { return entries_[slot].place; }
 
-  // The engine's side.
   [[nodiscard]] ExactFunction exact_function(std::uint32_t slot) const override {
     return function_with_root(entries_[slot].until);
   }
@@ -82,6 +82,10 @@ class ProvedTable final : public FailureSource {
            entries_[slot].place;
   }
   [[nodiscard]] std::size_t structure() const override { return structure_; }
+
+ private:
+  // What the engine alone asks.
+
   void fail(std::uint32_t slot) override {
     ++owner_.statistics.certificates.failed;
     --owner_.statistics.certificates.alive;
@@ -94,7 +98,6 @@ class ProvedTable final : public FailureSource {
     owner_.statistics.certificates.alive = 0;
   }
 
- private:
   struct Entry {
     Certificate certificate;
     std::uint32_t place = 0;

@@ -211,14 +211,21 @@ ExactPolynomial ExactPolynomial::gcd(const ExactPolynomial& a, const ExactPolyno
 
 namespace {
 
+// Degree over k for all k. Products of functions have higher degrees than binomial() takes.
+Integers binomials(std::size_t degree) {
+  Integers row(degree + 1, Integer(1));
+  for (std::size_t k = 1; k < degree; ++k) row[k] = row[k - 1] * (degree - k + 1) / k;
+  return row;
+}
+
 // Bernstein coefficients proper, times a common multiple of the binomials: these are halved by additions,
 // both halves at once.
 Integers unscaled(const Integers& scaled) {
-  const int degree = static_cast<int>(scaled.size()) - 1;
+  const Integers choose = binomials(scaled.size() - 1);
   Integer multiple = 1;
-  for (int k = 1; k < degree; ++k) multiple = lcm(multiple, Integer(binomial(degree, k)));
+  for (const Integer& c : choose) multiple = lcm(multiple, c);
   Integers result = scaled;
-  for (int k = 0; k <= degree; ++k) result[static_cast<std::size_t>(k)] *= multiple / binomial(degree, k);
+  for (std::size_t k = 0; k < result.size(); ++k) result[k] *= multiple / choose[k];
   return result;
 }
 

@@ -29,6 +29,8 @@ void Instant::Delete::operator()(ExactTime* time) const { delete time; }
 
 ExactTime& Instant::exact() const {
   if (!exact_) {
+    if (source_ == nullptr && time_.lower != time_.upper)
+      throw std::logic_error("a replayed time is known by its bracket alone: nothing can be decided at it");
     exact_.reset(new ExactTime(source_ == nullptr ? ExactTime(Dyadic(time_.lower))
                                                   : exact_time(*source_->exact_function(slot_), time_)));
   }

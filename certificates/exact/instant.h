@@ -48,6 +48,7 @@ class Instant {
   [[nodiscard]] bool last() const { return time_.last; }
   /// Narrows the bracket as far as doubles go, once: true if that was still to be done.
   bool narrow() const;
+  /// Throws std::logic_error where there is a bracket and nothing behind it.
   [[nodiscard]] ExactTime& exact() const;
 
  private:

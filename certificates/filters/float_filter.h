@@ -50,7 +50,7 @@ struct FloatPowerBound {
 template <class C>
 void derive_float_power_bound(int degree, std::span<float> coefficient, float& orientation_at_end) {
   constexpr double inflation = 1 + 0x1p-8;
-  using View = MagnitudeView<C::dimension, C::degree, lifted<C>, MagnitudeIn<24>>;
+  using View = MagnitudeViewOf<C, MagnitudeIn<24>>;
   const PowerRow<View> row(View(degree), 1, 0);
   const auto cofactors = power_cofactors<View>([&](std::size_t) { return row; });
   const auto magnitudes = cofactors.with(row);

@@ -64,7 +64,8 @@ class CertificateSearch {
 };
 
 /// Of a certificate type over any motion of the dimension. Throws std::invalid_argument where the motion is
-/// lifted and the certificate asks for radii.
+/// lifted and the certificate asks for radii, and where its function has too high a degree over it. The
+/// search throws std::logic_error where the motion's degree changes later.
 template <class Certificate, int Dimension>
 [[nodiscard]] std::unique_ptr<CertificateSearch<Certificate>> search_over(const MotionRef<Dimension>& motion);
 

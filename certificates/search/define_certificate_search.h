@@ -16,6 +16,7 @@
 #include "certificates/search/careful_search.h"
 #include "certificates/search/certificate_search.h"
 #include "certificates/search/define_function_values.h"
+#include "certificates/search/degree_limit.h"
 #include "certificates/search/exact_search.h"
 
 namespace kds {
@@ -118,7 +119,10 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
   static constexpr int dimension = C::dimension;
 
  public:
-  explicit SearchOneByOne(const MotionRef<dimension>& motion) : motion_(motion) {}
+  explicit SearchOneByOne(const MotionRef<dimension>& motion) : motion_(motion) {
+    require_searchable(name_of_function<Certificate>(), degree_of_function<Certificate, C>(motion.degree()),
+                       motion.degree());
+  }
 
   void first_failures(Kernel kernel, std::span<const Certificate> certificates, const Instant& now,
                       std::span<const KnownAtStart> known, StageCounts& stages, TouchPolicy touches,

@@ -19,11 +19,8 @@ namespace kds {
 namespace detail {
 
 template <class F, class C>
-using MagnitudesOf = MagnitudeView<C::dimension, C::degree, lifted<C>>;
-
-template <class F, class C>
 [[nodiscard]] ErrorBound derive_error_bound(int degree) {
-  const auto magnitudes = function_of(F{}, MagnitudesOf<F, C>(degree));
+  const auto magnitudes = function_of(F{}, MagnitudeViewOf<C>(degree));
   const auto of_function = static_cast<int>(magnitudes.scaled.size()) - 1;
   constexpr double inflation = 1 + 0x1p-30;
   constexpr double u = Magnitude::unit_roundoff;
@@ -135,7 +132,7 @@ template <class F, class C>
 [[gnu::noinline]] ExactPolynomial FunctionValues<F, C>::exact(const F& function, const C& curves) {
   static detail::OncePerDegree<CoefficientBits> sizes;
   const CoefficientBits& size = sizes.of(degree_of(curves), [](int degree) {
-    return coefficient_bits(function_of(F{}, detail::MagnitudesOf<F, C>(degree)));
+    return coefficient_bits(function_of(F{}, MagnitudeViewOf<C>(degree)));
   });
   return exact_function_of(function, curves, size);
 }

@@ -7,6 +7,7 @@
 
 #include "certificates/search/certificate_search.h"
 #include "certificates/search/define_function_values.h"
+#include "certificates/search/degree_limit.h"
 #include "certificates/search/exact_radical.h"
 #include "certificates/search/radical_in_double.h"
 
@@ -20,7 +21,12 @@ class RadicalSearch final : public CertificateSearch<Certificate> {
   using InDouble = CertificateInDouble<Certificate, C>;
 
  public:
-  explicit RadicalSearch(const MotionRef<Dimension>& motion) : motion_(motion) {}
+  explicit RadicalSearch(const MotionRef<Dimension>& motion) : motion_(motion) {
+    int degree = degree_of_radical<typename Certificate::Radical, C>(motion.degree());
+    if constexpr (ConditionalFor<Certificate, C>)
+      degree = std::max(degree, degree_of_radical<typename Certificate::Condition, C>(motion.degree()));
+    require_searchable(name_of_function<Certificate>(), degree, motion.degree());
+  }
 
   void first_failures(Kernel kernel, std::span<const Certificate> certificates, const Instant& now,
                       std::span<const KnownAtStart> known, StageCounts& stages, TouchPolicy touches,

@@ -18,13 +18,6 @@ template std::unique_ptr<CertificateSearch<SameTurn<2>>> same_turn_search(const 
 template std::unique_ptr<CertificateSearch<SameTurn<3>>> same_turn_search(const MotionRef<3>&);
 template std::unique_ptr<CertificateSearch<CentroidInside<2>>> centroid_search(const MotionRef<2>&);
 template std::unique_ptr<CertificateSearch<CentroidInside<3>>> centroid_search(const MotionRef<3>&);
-// For snapshot_sign.h.
-template int FunctionValues<SameTurn<2>, Curves<2>>::sign_at_rest(const SameTurn<2>&, const Curves<2>&);
-template int FunctionValues<SameTurn<3>, Curves<3>>::sign_at_rest(const SameTurn<3>&, const Curves<3>&);
-template int FunctionValues<CentroidInside<2>, Curves<2>>::sign_at_rest(const CentroidInside<2>&,
-                                                                        const Curves<2>&);
-template int FunctionValues<CentroidInside<3>, Curves<3>>::sign_at_rest(const CentroidInside<3>&,
-                                                                        const Curves<3>&);
 
 // For signs where beads are (snapshot_sign.h).
 template struct FunctionValues<SameTurn<2>, Curves<2>>;

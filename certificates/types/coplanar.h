@@ -3,6 +3,7 @@
 // plane. Exact; degree 4k in space and 2k in the plane for centres of degree k.
 
 #include <array>
+#include <string_view>
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/determinant.h"
@@ -19,6 +20,7 @@ template <MotionView View>
 /// point). A face with itself: zero iff it is flat, wherever.
 template <int Dimension>
 struct SameTurn {
+  static constexpr std::string_view name = "same_turn";
   static constexpr std::size_t face = Dimension;
   std::array<BeadId, 2 * face> beads{};  ///< of the one face in their order, then of the other
 
@@ -37,6 +39,7 @@ struct SameTurn {
 /// edge lies beyond a bead on its line, in the edge's direction.
 template <int Dimension>
 struct CentroidInside {
+  static constexpr std::string_view name = "centroid_inside";
   static constexpr std::size_t face = Dimension;
   std::array<BeadId, 2 * face - 1> beads{};  ///< of the face in their order, then the line's (the bead)
 

@@ -3,6 +3,8 @@
 // whose filters are compiled. Control points are kept as given.
 
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "motions/base/finite.h"
@@ -19,8 +21,9 @@ class AnyDegreeMotion {
   static constexpr int dimension = DimensionValue;
   static constexpr int degree = any_degree;
 
+  /// Throws std::invalid_argument where the degree is negative.
   AnyDegreeMotion(std::size_t beads, int own_degree)
-      : own_degree_(own_degree),
+      : own_degree_(accepted(own_degree)),
         beads_(beads),
         control_(beads * row() * (dimension + 1)),
         radii_(beads * row()) {}
@@ -41,6 +44,11 @@ class AnyDegreeMotion {
   }
 
  private:
+  [[nodiscard]] static int accepted(int degree) {
+    if (degree < 0)
+      throw std::invalid_argument("a motion of degree " + std::to_string(degree) + ": expected 0 or more");
+    return degree;
+  }
   [[nodiscard]] std::size_t row() const { return static_cast<std::size_t>(own_degree_) + 1; }
   [[nodiscard]] double& number(BeadId bead, int k, int place) {
     return control_[(bead * row() + static_cast<std::size_t>(k)) * (dimension + 1) +

@@ -35,8 +35,15 @@ class Curves {
       stride_ = motion.control_point(1, 0) - points_;
       radii_stride_ = motion.radii(1) - radii_;
     }
-    if (degree_ > 0 && motion.control_point(0, 1) != points_ + (dimension + 1))
-      throw std::invalid_argument("control points of a bead do not lie in a row");
+    const auto last = static_cast<BeadId>(beads_ - 1);
+    for (const BeadId bead : {BeadId{0}, last}) {
+      if (motion.control_point(bead, degree_) != motion.control_point(bead, 0) + (dimension + 1) * degree_)
+        throw std::invalid_argument("control points of a bead do not lie in a row");
+    }
+    if (motion.control_point(last, 0) != control_point(last, 0))
+      throw std::invalid_argument("control points do not lie equally spaced from bead to bead");
+    if (motion.radii(last) != radii(last))
+      throw std::invalid_argument("radii do not lie equally spaced from bead to bead");
   }
 
   /// Where the beads are at the end of the step, as curves of degree 0.

@@ -1,6 +1,6 @@
 #pragma once
 // A motion as structures hold it: any motion of the dimension, whatever its type and degree. The motion
-// behind it may be set to another step at any time, and must outlive the structures.
+// behind it may be set to another step at any time, and must outlive the structures; its degree stays.
 
 #include <array>
 #include <cstddef>
@@ -8,6 +8,12 @@
 #include "motions/curves/curves.h"
 
 namespace kds {
+
+namespace detail {
+
+[[noreturn]] void refuse_changed_degree(int before, int now);
+
+}  // namespace detail
 
 template <int DimensionValue>
 class MotionRef {
@@ -18,6 +24,7 @@ class MotionRef {
   template <Motion M>
   requires(M::dimension == DimensionValue) MotionRef(const M& motion)  // NOLINT: every motion is one
       : motion_(&motion),
+        degree_(degree_of(motion)),
         curves_([](const void* of) { return Curves<DimensionValue>(*static_cast<const M*>(of)); }) {
     if constexpr (lifted<M>) {
       drift_ = [](const void* of) {
@@ -29,8 +36,20 @@ class MotionRef {
     }
   }
 
-  [[nodiscard]] Curves<DimensionValue> curves() const { return curves_(motion_); }
-  [[nodiscard]] int degree() const { return curves().own_degree(); }
+  /// A motion that ends with the expression is none to refer to.
+  template <Motion M>
+  requires(M::dimension == DimensionValue) MotionRef(const M&& motion)
+  = delete;
+
+  /// Throws std::logic_error where the motion's degree is another than when this was made: what was made for
+  /// it with this, a search or a filter, would be wrong.
+  [[nodiscard]] Curves<DimensionValue> curves() const {
+    const Curves<DimensionValue> now = curves_(motion_);
+    if (now.own_degree() != degree_) [[unlikely]]
+      detail::refuse_changed_degree(degree_, now.own_degree());
+    return now;
+  }
+  [[nodiscard]] int degree() const { return degree_; }
   [[nodiscard]] std::size_t bead_count() const { return curves().bead_count(); }
   [[nodiscard]] bool is_lifted() const { return drift_ != nullptr; }
   /// The curves with their drift; the motion must be lifted.
@@ -47,6 +66,7 @@ class MotionRef {
 
  private:
   const void* motion_;
+  int degree_;
   Curves<DimensionValue> (*curves_)(const void*);
   Vector (*drift_)(const void*) = nullptr;
 };

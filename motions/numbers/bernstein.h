@@ -19,7 +19,10 @@
 
 namespace kds {
 
-/// n over k, for the small degrees of certificates.
+/// Of the functions that can be searched: on the way to a binomial of a higher degree numbers exceed 64 bits.
+inline constexpr int most_degree_of_function = 61;
+
+/// n over k, n at most that.
 [[nodiscard]] constexpr long long binomial(int n, int k) {
   long long result = 1;
   for (int i = 1; i <= k; ++i) result = result * (n - k + i) / i;
@@ -33,12 +36,23 @@ namespace detail {
 
 // Polynomials whose degrees are known at run time share the code below, whatever degrees their types name.
 
+[[noreturn]] void refuse_unlike_degrees(std::size_t a, std::size_t b);
+
+template <class Number>
+void require_like_degrees(const Coefficients<Number>& a, const Coefficients<Number>& b) {
+  if (a.size() != b.size()) [[unlikely]]
+    refuse_unlike_degrees(a.size(), b.size());
+}
+
+/// Throws std::logic_error, as does the next, where the two have not the same number of coefficients.
 template <class Number>
 [[gnu::noinline]] void add_to(Coefficients<Number>& a, const Coefficients<Number>& b) {
+  require_like_degrees<Number>(a, b);
   for (std::size_t k = 0; k < a.size(); ++k) a[k] += b[k];
 }
 template <class Number>
 [[gnu::noinline]] void subtract_from(Coefficients<Number>& a, const Coefficients<Number>& b) {
+  require_like_degrees<Number>(a, b);
   for (std::size_t k = 0; k < a.size(); ++k) a[k] -= b[k];
 }
 template <class Number>

@@ -237,8 +237,9 @@ class MagnitudeView {
   static constexpr int dimension = DimensionValue;
   static constexpr int degree = DegreeValue;
 
-  /// For motions of this degree; where the view's degree is a constant, it is that.
-  explicit MagnitudeView(int own_degree = DegreeValue) : own_degree_(own_degree) {}
+  MagnitudeView() requires(DegreeValue >= 0) : own_degree_(DegreeValue) {}
+  /// For motions of this degree; where the view's degree is a constant, it must be that.
+  explicit MagnitudeView(int own_degree) : own_degree_(own_degree) {}
 
   [[nodiscard]] BernsteinVector<Number, degree, dimension> difference(BeadId, BeadId) const {
     BernsteinVector<Number, degree, dimension> result;

@@ -29,7 +29,7 @@ struct TablesOfMembership<3> {
 
 }  // namespace detail
 
-/// Where radii are promised to be equal those of unequal radii stay empty.
+/// Where radii are promised to be equal there are none of unequal radii.
 template <int Dimension>
 using MembershipTables = typename detail::TablesOfMembership<Dimension>::Type;
 

@@ -16,7 +16,8 @@ inline constexpr bool radical_of_two_or_more = RadicalCertificateFor<Certificate
 
 }  // namespace
 
-// A full basis may turn over where one of its certificates touches zero.
+// A full basis may turn over where one of its certificates touches zero. Where radii are equal no radical is
+// asked for.
 template <int Dimension>
 NodeGuards<Dimension>::NodeGuards(Simulator& simulator, KineticStructure& owner, std::size_t index,
                                   const MotionRef<Dimension>& motion, const Curves<Dimension>& curves,
@@ -27,7 +28,8 @@ NodeGuards<Dimension>::NodeGuards(Simulator& simulator, KineticStructure& owner,
       radii_(radii),
       proofs_(proofs),
       tables_(simulator, owner, index, motion,
-              []<class C>(std::type_identity<C>) {
+              [radii]<class C>(std::type_identity<C>) -> std::optional<TouchPolicy> {
+                if (radii == Radii::equal && RadicalCertificateFor<C, Curves<Dimension>>) return std::nullopt;
                 return C{}.beads.size() == full ? TouchPolicy::reported : TouchPolicy::ignored;
               }),
       signs_(simulator, motion, curves, radii, tables_, owner.statistics.stages),

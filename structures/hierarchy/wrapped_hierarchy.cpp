@@ -18,15 +18,9 @@ namespace kds {
 
 namespace {
 
-/// Binomials of functions of a higher degree than 61 do not fit 64 bits: norms of unequal balls have twelve
-/// times the motion's, functions of equal ones six times.
 template <int Dimension>
-[[nodiscard]] const MotionRef<Dimension>& accepted(const MotionRef<Dimension>& motion, Radii radii) {
+[[nodiscard]] const MotionRef<Dimension>& accepted(const MotionRef<Dimension>& motion) {
   if (motion.is_lifted()) throw std::invalid_argument("radii mean nothing in lifted motion");
-  const int highest = radii == Radii::equal ? 10 : 5;
-  if (motion.degree() > highest)
-    throw std::invalid_argument("a wrapped hierarchy of motion of degree " + std::to_string(motion.degree()) +
-                                ": expected at most " + std::to_string(highest));
   return motion;
 }
 
@@ -44,7 +38,7 @@ WrappedHierarchy<Dimension>::WrappedHierarchy(Simulator& simulator, const Motion
                                               std::span<const BeadRange> necklaces, Radii radii,
                                               const NodeSelection& selection)
     : simulator_(simulator),
-      motion_(accepted(motion, radii)),
+      motion_(accepted(motion)),
       radii_(radii),
       tree_(necklaces),
       bases_(tree_.node_count()),

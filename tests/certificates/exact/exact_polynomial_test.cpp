@@ -108,6 +108,20 @@ TEST(ExactPolynomial, IsolatesTheRootsOfKnownPolynomials) {
       2U);
 }
 
+// Their binomials exceed 64 bits.
+TEST(ExactPolynomial, IsolatesRootsOfHighDegrees) {
+  Scaled scaled{1};
+  for (int i = 1; i <= 80; ++i) scaled = test::product(scaled, test::linear(i, 97));
+  const ExactPolynomial p(scaled);
+  const auto roots = isolate_roots(p, Dyadic(0.0), Dyadic(1.0));
+  ASSERT_EQ(roots.size(), 80U);
+  for (int i = 1; i <= 80; ++i) {
+    const auto& [low, high] = roots[static_cast<std::size_t>(i) - 1];
+    EXPECT_LT(low.rational(), Rational(i, 97));
+    EXPECT_GT(high.rational(), Rational(i, 97));
+  }
+}
+
 TEST(ExactPolynomial, SquareFreePartHasTheSameRootsOnce) {
   test::Random random(102);
   for (int i = 0; i < 1500 && !testing::Test::HasFailure(); ++i) {

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "motions/curves/any_degree_motion.h"
 #include "motions/curves/bezier_motion.h"
@@ -91,6 +93,57 @@ TEST(Curves, OfControlPointsThatDoNotLieInARowAreRefused) {
   EXPECT_THROW((void)Curves<2>(InColumns{}), std::invalid_argument);
 }
 
+// Three beads, their first control points and radii where it says.
+struct AtPlaces {
+  static constexpr int dimension = 1, degree = 2;
+  std::array<std::size_t, 3> point_places{0, 6, 12}, radius_places{20, 23, 26};
+  std::size_t last_stride = 2;  // from one control point of the last bead to the next
+  std::array<double, 40> numbers{};
+  [[nodiscard]] std::size_t bead_count() const { return 3; }
+  [[nodiscard]] const double* control_point(BeadId bead, int k) const {
+    return &numbers[point_places[bead] + (bead == 2 ? last_stride : 2) * static_cast<std::size_t>(k)];
+  }
+  [[nodiscard]] double coordinate(BeadId bead, int k, int axis) const { return control_point(bead, k)[axis]; }
+  [[nodiscard]] double weight(BeadId bead, int k) const { return control_point(bead, k)[dimension]; }
+  [[nodiscard]] const double* radii(BeadId bead) const { return &numbers[radius_places[bead]]; }
+  [[nodiscard]] double radius(BeadId bead, int k) const { return radii(bead)[k]; }
+};
+static_assert(Motion<AtPlaces>);
+
+TEST(Curves, AreRefusedWhereTheLastBeadLiesElsewhere) {
+  AtPlaces motion;
+  expect_same(Curves<1>(motion), motion);
+  motion.point_places[2] = 13;
+  EXPECT_THROW((void)Curves<1>(motion), std::invalid_argument);
+  motion.point_places[2] = 12;
+  motion.radius_places[2] = 27;
+  EXPECT_THROW((void)Curves<1>(motion), std::invalid_argument);
+  motion.radius_places[2] = 26;
+  motion.last_stride = 3;
+  EXPECT_THROW((void)Curves<1>(motion), std::invalid_argument);
+}
+
+// It would see a motion that is gone.
+static_assert(std::is_constructible_v<MotionRef<2>, const BezierMotion<2, 1>&>);
+static_assert(!std::is_constructible_v<MotionRef<2>, BezierMotion<2, 1>>);
+static_assert(!std::is_constructible_v<MotionRef<2>, const BezierMotion<2, 1>>);
+
+TEST(MotionRef, RefusesAMotionWhoseDegreeHasChanged) {
+  AnyDegreeMotion<2> motion(3, 2);
+  const MotionRef<2> ref(motion);
+  motion = AnyDegreeMotion<2>(5, 2);
+  EXPECT_EQ(ref.bead_count(), 5U);
+  motion = AnyDegreeMotion<2>(3, 4);
+  try {
+    (void)ref.curves();
+    FAIL();
+  } catch (const std::logic_error& refusal) {
+    EXPECT_STREQ(refusal.what(),
+                 "a motion of degree 2 has become one of degree 4: structures and searches over it must be "
+                 "made anew");
+  }
+}
+
 TEST(MotionRef, SeesWhateverTheMotionIsSetTo) {
   BezierMotion<2, 3> motion(3);
   const MotionRef<2> ref(motion);
@@ -146,6 +199,16 @@ TEST(ControlPoints, AreFiniteNumbers) {
   } catch (const std::invalid_argument& refusal) {
     EXPECT_NE(std::string(refusal.what()).find("finite"), std::string::npos);
   }
+}
+
+TEST(AnyDegreeMotion, HasNoNegativeDegree) {
+  try {
+    const AnyDegreeMotion<2> motion(4, -1);
+    FAIL();
+  } catch (const std::invalid_argument& refusal) {
+    EXPECT_STREQ(refusal.what(), "a motion of degree -1: expected 0 or more");
+  }
+  EXPECT_EQ(AnyDegreeMotion<2>(4, 0).own_degree(), 0);
 }
 
 TEST(AnyDegreeMotion, KeepsItsControlPoints) {

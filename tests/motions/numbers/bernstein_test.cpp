@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 #include <type_traits>
 
 #include "motions/numbers/exact_number.h"
@@ -168,8 +169,18 @@ TEST(Bernstein, OfDegreesKnownAtRunTimeIsTheSame) {
   expect_same_at_run_time<Integer>([&] { return Integer(static_cast<long long>(random())); });
 }
 
+TEST(Bernstein, OfUnlikeDegreesAtRunTimeAreNotAdded) {
+  Bernstein<double, any_degree> linear, cubic;
+  linear.set_degree(1);
+  cubic.set_degree(3);
+  EXPECT_THROW(linear += cubic, std::logic_error);
+  EXPECT_THROW(linear -= cubic, std::logic_error);
+  EXPECT_THROW(cubic += linear, std::logic_error);
+  EXPECT_THROW(cubic -= linear, std::logic_error);
+}
+
 TEST(Binomial, IsPascalsTriangle) {
-  for (int n = 0; n <= 40; ++n) {
+  for (int n = 0; n <= most_degree_of_function; ++n) {
     EXPECT_EQ(binomial(n, 0), 1);
     EXPECT_EQ(binomial(n, n), 1);
     for (int k = 1; k < n; ++k) EXPECT_EQ(binomial(n, k), binomial(n - 1, k - 1) + binomial(n - 1, k));

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "motions/curves/any_degree_motion.h"
 #include "motions/curves/lifted_motion.h"
@@ -250,6 +251,11 @@ TEST(MotionViews, TrackedAtAUsefulScaleWhereverDifferencesAreFinite) {
 
 // A degree that is known only at run time: exact views have the motion's values, and where the degree has
 // been compiled the very same coefficients.
+// Of motions of any degree it must be told one.
+static_assert(std::is_default_constructible_v<MagnitudeView<3, 1>>);
+static_assert(!std::is_default_constructible_v<MagnitudeView<3, any_degree>>);
+static_assert(std::is_constructible_v<MagnitudeView<3, any_degree>, int>);
+
 TEST(AnyDegreeMotion, IsSeenAsItIs) {
   test::Random random(5);
   for (const int degree : {1, 2, 3, 6}) {

@@ -249,6 +249,20 @@ TEST(BallHierarchy, MotionOfAHigherDegree) {
   }
 }
 
+// Norms of unequal radii have twelve times the motion's degree, functions of equal ones half as much.
+TEST(BallHierarchy, RefusesMotionWhoseFunctionsHaveTooHighADegree) {
+  const std::vector<BeadRange> necklace{{0, 5}};
+  const auto make = [&](Radii radii, int degree) {
+    const AnyDegreeMotion<3> motion(6, degree);
+    Simulator simulator;
+    const WrappedHierarchy<3> hierarchy(simulator, motion, necklace, radii);
+  };
+  EXPECT_NO_THROW(make(Radii::any, 5));
+  EXPECT_THROW(make(Radii::any, 6), std::invalid_argument);
+  EXPECT_NO_THROW(make(Radii::equal, 10));
+  EXPECT_THROW(make(Radii::equal, 11), std::invalid_argument);
+}
+
 // Only what a scene requires.
 
 TEST(NodeSelection, LevelsAndBeads) {
