@@ -1,22 +1,62 @@
 #pragma once
-// How often each stage of the failure-time cascade had the last word.
+// How often each stage of the failure-time cascade had the last word, and what the stages are called.
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace kds {
 
 struct StageCounts {
-  std::uint64_t tolerance = 0;     ///< beads moved less than what was proved tolerable at an earlier frame
+  // Failure times.
   std::uint64_t coefficients = 0;  ///< all Bernstein coefficients certainly positive: never fails
-  std::uint64_t isolation =
-      0;                      ///< signs in double: never fails, does not hold now, or a bracket with one root
-  std::uint64_t refined = 0;  ///< the same with errors followed operation by operation
-  std::uint64_t exact = 0;    ///< integers
-  std::uint64_t shared = 0;   ///< settled with another one that has the same function
+  std::uint64_t isolation = 0;     ///< signs in double: never fails, does not hold now, or one root bracketed
+  std::uint64_t refined = 0;       ///< the same with errors followed operation by operation
+  std::uint64_t exact = 0;         ///< integers
   std::uint64_t identically_zero = 0;  ///< integers, and the function is the zero polynomial: never fails
-  std::uint64_t signs_double = 0;      ///< signs just after a time, settled in double
+  std::uint64_t shared = 0;            ///< with another one that has the same function
+  std::uint64_t slack = 0;             ///< beads strayed less than the slack found at an earlier frame
+  // Signs just after a time.
+  std::uint64_t signs_double = 0;
   std::uint64_t signs_exact = 0;
   std::uint64_t largest_bits = 0;  ///< longest coefficient an exact stage met
 };
+
+/// One of these counts as results have it: the only list of them.
+struct Stage {
+  enum class Of : std::uint8_t { failure_time, sign, size };
+
+  std::string_view name;  ///< in JSON and CSV
+  std::uint64_t StageCounts::*count;
+  Of of;
+  std::string_view label;  ///< in print
+};
+
+/// In the order in which they are listed.
+inline constexpr std::array<Stage, 10> stage_table{{
+    {"coefficients", &StageCounts::coefficients, Stage::Of::failure_time,
+     "double, all coefficients positive"},
+    {"isolation", &StageCounts::isolation, Stage::Of::failure_time, "double, isolated"},
+    {"refined", &StageCounts::refined, Stage::Of::failure_time, "double, errors followed"},
+    {"exact", &StageCounts::exact, Stage::Of::failure_time, "integers"},
+    {"identically_zero", &StageCounts::identically_zero, Stage::Of::failure_time,
+     "integers, identically zero"},
+    {"shared", &StageCounts::shared, Stage::Of::failure_time, "with another of the same function"},
+    {"tolerance", &StageCounts::slack, Stage::Of::failure_time, "beads moved too little to matter"},
+    {"signs_double", &StageCounts::signs_double, Stage::Of::sign, "double"},
+    {"signs_exact", &StageCounts::signs_exact, Stage::Of::sign, "integers"},
+    {"largest_bits", &StageCounts::largest_bits, Stage::Of::size, "bits of the longest integer"},
+}};
+static_assert(sizeof(StageCounts) == stage_table.size() * sizeof(std::uint64_t));
+
+/// Adds counts up; of sizes the largest is kept.
+constexpr StageCounts& operator+=(StageCounts& sum, const StageCounts& more) {
+  for (const Stage& stage : stage_table) {
+    std::uint64_t& count = sum.*stage.count;
+    count = stage.of == Stage::Of::size ? std::max(count, more.*stage.count) : count + more.*stage.count;
+  }
+  return sum;
+}
 
 }  // namespace kds

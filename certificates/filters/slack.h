@@ -1,13 +1,16 @@
 #pragma once
-// How far beads may wander before a certificate can fail: a bound kept from one position of the beads, for as
-// many steps as they stay near it. It needs no polynomial.
+// The slack of a certificate: how far any coordinate difference of two of its beads may move from what it is
+// at one position before the certificate can fail. A difference moves by no more than both beads stray, so
+// beads may stray half as far. A bound kept for as many steps as they stay near; it needs no polynomial.
 //
-// The certificate's formula is evaluated at the position with every coordinate difference known up to a
-// `reach` only (Tracked numbers). The error E that comes out is a polynomial in the reach without negative
-// coefficients, hence convex: for a reach shorter by a factor s it is at most E(0) + s E(reach), and E(0),
-// rounding alone, is bounded by the magnitudes of the formula (motions/numbers/magnitude.h). So the sign
-// holds while no difference moves by more than s reach, s = (value - E(0)) / E(reach), at most 1. Weights and
-// radii must stay as they are. A lower bound, proved, rounding included; 0 where nothing can be said.
+// The formula is evaluated at the position over numbers with errors (tracked_double.h), each coordinate
+// difference with an error of `reach`. What comes out is a value and a bound E(reach): where no difference
+// moves by more than that, the formula is within E(reach) of the value, rounding included. As the values on
+// the way do not depend on the reach, E is a polynomial in it without negative coefficients, hence convex:
+// E(s reach) <= E(0) + s E(reach) for s from 0 to 1. E(0) is rounding alone: operation by operation it is no
+// more than the magnitudes of the formula say (motions/numbers/magnitude.h), which are used in its place. So
+// the sign holds while no difference moves by more than s reach, s = (value - E(0)) / E(reach), at most 1.
+// Weights and radii must stay as they are. Proved; 0 where nothing can be said.
 
 #include <cmath>
 
@@ -74,13 +77,12 @@ template <class Certificate, int Dimension>
 inline const Magnitude magnitude_at_rest =
     function_of(Certificate{}, MagnitudeView<Dimension, 0>()).scaled[0];
 
-/// For four certificates, at the start of the motion's step: how far any of their beads' coordinate
-/// differences may move before it can fail.
+/// Of four certificates, at the start of the motion's step.
 template <class Certificate, Motion M>
 [[KDS_LANES_TARGETS]] void slack_lanes(
     const M& motion,
     const typename LanesView<M, bead_places<Certificate>, channels_of<Certificate>>::Tuples& tuples,
-    const Lanes& sides, Lanes& tolerance) {
+    const Lanes& sides, Lanes& slack) {
   constexpr double share_of_length = 1.0 / 16;  // long enough for most, short enough to be nearly linear
   constexpr double inflation = 1 + 0x1p-30;
   decltype(Certificate{}.beads) places{};
@@ -95,11 +97,11 @@ template <class Certificate, Motion M>
   Lanes scale(1.0);
   for (int i = 0; i < rest.power; ++i) scale = scale * length;
   const Lanes rounding = Lanes(rest.error * inflation) * scale;
-  const Lanes slack = sides * function.value - rounding;
-  const Lanes share = Lanes::min(slack / (function.error * Lanes(inflation)), Lanes(1.0));
-  const Lanes::Mask proved = (slack > Lanes(0.0)) & (share > Lanes(0.0)) & (scale >= Lanes(0x1p-900)) &
+  const Lanes above = sides * function.value - rounding;
+  const Lanes share = Lanes::min(above / (function.error * Lanes(inflation)), Lanes(1.0));
+  const Lanes::Mask proved = (above > Lanes(0.0)) & (share > Lanes(0.0)) & (scale >= Lanes(0x1p-900)) &
                              (scale <= Lanes(0x1p900)) & (reach > Lanes(0x1p-200));
-  tolerance = Lanes::choose(proved, share * reach * Lanes(1 - 0x1p-30), Lanes(0.0));
+  slack = Lanes::choose(proved, share * reach * Lanes(1 - 0x1p-30), Lanes(0.0));
 }
 
 }  // namespace kds

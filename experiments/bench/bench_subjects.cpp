@@ -53,7 +53,7 @@ std::vector<BenchRow> bench_certificates(const SubjectBenchOptions& options,
                                          const std::function<void(std::size_t, std::size_t)>& progress) {
   check_folder(options.instances);
   std::vector<bench::Subject> subjects = bench::certificate_subjects(options.instances);
-  for (bench::Subject& subject : bench::tolerance_subjects()) subjects.push_back(std::move(subject));
+  for (bench::Subject& subject : bench::slack_subjects()) subjects.push_back(std::move(subject));
   return rows_of(
       subjects, options.rounds, progress,
       [](const bench::Subject& subject, const CountedTurns& turns, auto& rows) {

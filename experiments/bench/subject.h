@@ -24,7 +24,7 @@ struct Subject {
 
 /// `instances`: the folder of the moving-point files. Throws InputError where one is missing.
 [[nodiscard]] std::vector<Subject> certificate_subjects(const std::filesystem::path& instances);
-[[nodiscard]] std::vector<Subject> tolerance_subjects();
+[[nodiscard]] std::vector<Subject> slack_subjects();
 /// An item is an event; the peer builds once.
 [[nodiscard]] std::vector<Subject> engine_subjects(const std::filesystem::path& instances);
 

@@ -31,16 +31,7 @@ StructureReport report_of(const KineticStructure& structure, double seconds) {
   report.touched = s.certificates.touched;
   report.peak = s.certificates.peak;
   report.per_bead_max = s.certificates.per_bead_max;
-  report.stages = {{"coefficients", s.stages.coefficients},
-                   {"isolation", s.stages.isolation},
-                   {"refined", s.stages.refined},
-                   {"exact", s.stages.exact},
-                   {"identically_zero", s.stages.identically_zero},
-                   {"shared", s.stages.shared},
-                   {"tolerance", s.stages.tolerance},
-                   {"signs_double", s.stages.signs_double},
-                   {"signs_exact", s.stages.signs_exact},
-                   {"largest_bits", s.stages.largest_bits}};
+  for (const Stage& stage : stage_table) report.stages.emplace_back(stage.name, s.stages.*stage.count);
   report.seconds = seconds;
   report.build_seconds = s.build_seconds;
   report.rebuilds = s.rebuilds;

@@ -4,10 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <string_view>
 
+#include "certificates/base/stage_counts.h"
 #include "experiments/output/text.h"
 
 namespace kds {
@@ -52,35 +52,30 @@ void add_kinds(std::vector<SummaryRow>& rows, const RunReport& report) {
     rows.push_back(row(report, kind_label(name), true, count_named(member, name)));
 }
 
-// What the stages of the summary are called in print, and the heading that they stand under.
-struct StageLabel {
-  std::string_view stage, heading, label;
-};
-constexpr std::string_view kFailureTimes = "failure times settled by", kSigns = "signs just after settled by";
-constexpr std::array kStageLabels{
-    StageLabel{"coefficients", kFailureTimes, "double, all coefficients positive"},
-    StageLabel{"isolation", kFailureTimes, "double, isolated"},
-    StageLabel{"refined", kFailureTimes, "double, errors followed"},
-    StageLabel{"exact", kFailureTimes, "integers"},
-    StageLabel{"identically_zero", kFailureTimes, "integers, identically zero"},
-    StageLabel{"shared", kFailureTimes, "with another of the same function"},
-    StageLabel{"tolerance", kFailureTimes, "beads moved too little to matter"},
-    StageLabel{"signs_double", kSigns, "double"},
-    StageLabel{"signs_exact", kSigns, "integers"},
-    StageLabel{"largest_bits", "", "bits of the longest integer"},
-};
+// The heading that a stage of the summary stands under; a size has none.
+std::string_view heading_of(Stage::Of of) {
+  switch (of) {
+    case Stage::Of::failure_time:
+      return "failure times settled by";
+    case Stage::Of::sign:
+      return "signs just after settled by";
+    case Stage::Of::size:
+      break;
+  }
+  return "";
+}
 
 void add_stages(std::vector<SummaryRow>& rows, const RunReport& report) {
   constexpr auto member = &StructureReport::stages;
   std::string_view heading;
   for (const std::string& name : names_of_any(report, member)) {
-    const auto* known = std::find_if(kStageLabels.begin(), kStageLabels.end(),
-                                     [&](const StageLabel& label) { return label.stage == name; });
-    const StageLabel label = known == kStageLabels.end() ? StageLabel{name, kFailureTimes, name} : *known;
-    if (label.heading != heading && !label.heading.empty())
-      rows.push_back({std::string(label.heading), false, {}});
-    heading = label.heading;
-    rows.push_back(row(report, std::string(label.label), !heading.empty(), count_named(member, name)));
+    const auto* const stage = std::ranges::find(stage_table, name, &Stage::name);
+    const bool known = stage != stage_table.end();
+    const std::string_view above = heading_of(known ? stage->of : Stage::Of::failure_time);
+    if (above != heading && !above.empty()) rows.push_back({std::string(above), false, {}});
+    heading = above;
+    rows.push_back(
+        row(report, known ? std::string(stage->label) : name, !heading.empty(), count_named(member, name)));
   }
 }
 

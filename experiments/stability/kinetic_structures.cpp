@@ -117,7 +117,7 @@ void add_case(StabilityRow& row, Times& times, const std::string& structure, con
   }
   row.events += exact.events.size();
   row.rebuilds += filtered.statistics.rebuilds;
-  add(row.stages, filtered.statistics.stages);
+  row.stages += filtered.statistics.stages;
   times.filtered.push_back(filtered.seconds);
   times.exact.push_back(exact.seconds);
   if (fast.ran()) {

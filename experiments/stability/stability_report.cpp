@@ -13,7 +13,6 @@ namespace {
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json row_json(const StabilityRow& row) {
-  const StageCounts& stages = row.stages;
   Json json{{"subject", row.subject},
             {"kind", row.structure ? "structure" : "certificate"},
             {"dimension", row.dimension},
@@ -32,14 +31,8 @@ Json row_json(const StabilityRow& row) {
   json["fast"] = {{"wrong_signs", row.wrong_signs}, {"missed", row.fast.missed},
                   {"extra", row.fast.extra},        {"worst_time_error", row.fast.worst_time_error},
                   {"gave_up", row.fast_gave_up},    {"reason", text_or_null(row.fast_reason)}};
-  json["stages"] = {{"coefficients", stages.coefficients},
-                    {"isolation", stages.isolation},
-                    {"refined", stages.refined},
-                    {"exact", stages.exact},
-                    {"identically_zero", stages.identically_zero},
-                    {"signs_double", stages.signs_double},
-                    {"signs_exact", stages.signs_exact},
-                    {"largest_bits", stages.largest_bits}};
+  json["stages"] = Json::object();
+  for (const Stage& stage : stage_table) json["stages"][stage.name] = row.stages.*stage.count;
   json["seconds"] = {
       {"fast", row.seconds.fast}, {"filtered", row.seconds.filtered}, {"exact", row.seconds.exact}};
   json["rebuilds"] = row.rebuilds;

@@ -13,17 +13,6 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-void add(StageCounts& sum, const StageCounts& stages) {
-  sum.coefficients += stages.coefficients;
-  sum.isolation += stages.isolation;
-  sum.refined += stages.refined;
-  sum.exact += stages.exact;
-  sum.identically_zero += stages.identically_zero;
-  sum.signs_double += stages.signs_double;
-  sum.signs_exact += stages.signs_exact;
-  sum.largest_bits = std::max(sum.largest_bits, stages.largest_bits);
-}
-
 void add(EventDifference& sum, const EventDifference& difference) {
   sum.missed += difference.missed;
   sum.extra += difference.extra;

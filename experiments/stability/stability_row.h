@@ -49,7 +49,6 @@ struct StabilityRow {
 /// 0 of none.
 [[nodiscard]] double median(std::vector<double> values);
 
-void add(StageCounts& sum, const StageCounts& stages);
 void add(EventDifference& sum, const EventDifference& difference);
 
 /// The first trouble of a row is kept in words, and how to see it again.

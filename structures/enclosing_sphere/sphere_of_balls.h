@@ -2,19 +2,19 @@
 // Minimum enclosing spheres of balls of any radii in double, with proved errors: the sphere of a basis, and
 // the basis after a ball has escaped. No allocation; what is not proved says so.
 //
-// The sphere that touches the balls from outside is put together as certificates/types/ball_in_sphere.h says;
-// then centre z~ and weights w_i are judged by what they do. F(x) = max_i |c_i - x| + r_i is convex, and its
-// minimum, R at z, is the sphere sought. With k_i = |c_i - z~| + r_i, K their maximum, S their spread with
-// its rounding, u_i = (c_i - z~) / |c_i - z~| and e = z - z~, convexity gives K >= R >= k_i - u_i.e, that is
-// u_i.e >= -S for all i. The multipliers m_i ~ w_i |c_i - z~|, with sum 1, nearly balance: v = sum m_i u_i is
-// small. So u_i.e <= (S + |v||e|) / m_i, and for the matrix of all u_i but the one of greatest m_i, least
-// singular value sigma, |e| <= sqrt(m) (S + |v||e|) / (min m_i sigma) =: E', plus O where z~ may have left
-// the span of the centres (sphere_of_points.h). From here on as there: |p - z~| + r <= K - 2E proves that a
-// ball is inside. The basis has no ball to spare: without ball j the minimum could stay only if the other u_i
-// at z, each within 2E / |c_i - z~| of what it is at z~, were dependent, and they are not if sigma_j > 2
-// sqrt(m) E / min |c_i - z~|, where sigma_j follows from m_j by Cramer's rule.
+// The sphere that touches the balls from outside is put together (tangent_sphere.h); then centre z~ and
+// weights w_i are judged by what they do. F(x) = max_i |c_i - x| + r_i is convex, and its minimum, R at z, is
+// the sphere sought. With k_i = |c_i - z~| + r_i, K their maximum, S their spread with its rounding, u_i =
+// (c_i - z~) / |c_i - z~| and e = z - z~, convexity gives K >= R >= k_i - u_i.e, that is u_i.e >= -S for all
+// i. The multipliers m_i ~ w_i |c_i - z~|, with sum 1, nearly balance: v = sum m_i u_i is small. So u_i.e <=
+// (S + |v||e|) / m_i, and for the matrix of all u_i but the one of greatest m_i, least singular value sigma,
+// |e| <= sqrt(m) (S + |v||e|) / (min m_i sigma) =: E', plus O where z~ may have left the span of the centres
+// (sphere_of_points.h). From here on as there: |p - z~| + r <= K - 2E proves that a ball is inside. The basis
+// has no ball to spare: without ball j the minimum could stay only if the other u_i at z, each within 2E /
+// |c_i - z~| of what it is at z~, were dependent, and they are not if sigma_j > 2 sqrt(m) E / min |c_i - z~|,
+// where sigma_j follows from m_j by Cramer's rule.
 
-#include "structures/enclosing_sphere/sphere_of_points.h"
+#include "structures/enclosing_sphere/tangent_sphere.h"
 
 namespace kds {
 
@@ -28,29 +28,14 @@ template <bool bounds = true, class N, int Dimension, std::size_t M>
   constexpr double u = unit_roundoff;
   const auto balls = from_widest(members);
   const Span<N, Dimension, M> span(balls);
-  std::array<N, M> s, e;
-  for (std::size_t i = 0; i < M; ++i) {
-    s[i] = balls.radius[i + 1] - balls.radius[0];
-    e[i] = N(0.5) * (span.square[i] - s[i] * s[i]);
-  }
-  // The centre is p + rho q, seen from the base.
-  typename Span<N, Dimension, M>::Weights yp, yq;
-  const auto p = span.point_of(e, yp);
-  const auto q = span.point_of(s, yq);
-  const N a = dot(q, q) - N(1.0);
-  const N b = dot(p, q);
-  const N c = dot(p, p);
-  const N rho = c / (Is::sqrt(Is::max(b * b - a * c, N(0.0))) - b);
+  std::array<N, M> s;
+  for (std::size_t i = 0; i < M; ++i) s[i] = balls.radius[i + 1] - balls.radius[0];
+  const TangentSphere<N, Dimension, M> tangent = tangent_sphere(span, s);
+  const auto& [rho, center, weight, slope] = tangent;
   BasisSphere<N, Dimension> sphere;
-  std::array<N, M + 1> weight;
-  weight[0] = N(1.0);
-  for (std::size_t i = 0; i < M; ++i) {
-    weight[i + 1] = yp[i] + rho * yq[i];
-    weight[0] = weight[0] - weight[i + 1];
-  }
   N size(0.0);
   for (std::size_t axis = 0; axis < Dimension; ++axis) {
-    sphere.center[axis] = balls.center[0][axis] + (p[axis] + rho * q[axis]);
+    sphere.center[axis] = balls.center[0][axis] + center[axis];
     size = Is::max(size, Is::abs(sphere.center[axis]));
   }
   std::array<N, static_cast<std::size_t>(Dimension)> balance;  // sum of weights times c_i - z~

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "motions/numbers/lanes.h"
 
@@ -55,7 +54,7 @@ template <int D>
 
 template <int Dimension>
 NodeSlack<Dimension>::NodeSlack(const NecklaceTree& tree)
-    : tree_(tree), halves_(tree.node_count()), tolerance_(tree.node_count(), none) {
+    : tree_(tree), halves_(tree.node_count()), slack_(tree.node_count(), none) {
   const auto nodes = static_cast<std::uint32_t>(tree.node_count());
   for (NodeId id = 0; id < nodes; ++id) {
     const NodeId l = tree.left(id), r = tree.right(id);
@@ -70,13 +69,12 @@ void NodeSlack<Dimension>::take_out_resting(const BeadPaths<Dimension>& paths, s
   if (has_reference_) {
     look_at(paths);
     if (resting(nodes) >= worth_keeping_) {
-      next_skip_ = 0;
+      samples_.reset();
       lasted_ = true;
       return take_out(nodes);
     }
     if (!lasted_) return give_up();
-  } else if (skip_ > 0) {
-    --skip_;
+  } else if (samples_.skips()) {
     return;
   }
   set_reference(paths);
@@ -85,19 +83,19 @@ void NodeSlack<Dimension>::take_out_resting(const BeadPaths<Dimension>& paths, s
   std::vector<NodeId> some;
   const std::size_t stride = nodes.size() / sample_size + 1;
   for (std::size_t i = 0; i < nodes.size(); i += stride) some.push_back(nodes[i]);
-  take_tolerances(paths, bases, some);
+  take_slack(paths, bases, some);
   const double share = resting(some);
   has_reference_ = share >= least_share;
   if (!has_reference_) return give_up();
   lasted_ = false;
   worth_keeping_ = still_worth * share;
-  take_tolerances(paths, bases, nodes);
+  take_slack(paths, bases, nodes);
   take_out(nodes);
 }
 
 template <int Dimension>
-void NodeSlack<Dimension>::take_tolerances(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
-                                           std::span<const NodeId> nodes) {
+void NodeSlack<Dimension>::take_slack(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
+                                      std::span<const NodeId> nodes) {
   for (const NodeId id : nodes) add(paths, id, bases[id]);
   for (Waiting& some : waiting_) find(paths, some);
 }
@@ -112,7 +110,7 @@ void NodeSlack<Dimension>::set_reference(const BeadPaths<Dimension>& paths) {
 }
 
 // A difference of two positions, and that less the drift, are rounded by 2^-53 of them. Where squares are
-// subnormal lengths are below 2^-500; no tolerance is so small.
+// subnormal lengths are below 2^-500; no slack is so small.
 template <int Dimension>
 void NodeSlack<Dimension>::look_at(const BeadPaths<Dimension>& paths) {
   const std::size_t nodes = halves_.size(), beads = paths.bead_count();
@@ -173,25 +171,24 @@ void NodeSlack<Dimension>::add(const BeadPaths<Dimension>& paths, NodeId node, c
 template <int Dimension>
 void NodeSlack<Dimension>::find(const BeadPaths<Dimension>& paths, Waiting& some) {
   if (some.count == 0) return;
-  std::array<double, Waiting::at_once> tolerances;
-  sphere_tolerances<Dimension>(paths, std::span(some.ranges).first(some.count),
-                               std::span(some.bases).first(some.count),
-                               std::span(some.wanted).first(some.count), tolerances);
-  for (std::size_t i = 0; i < some.count; ++i)
-    tolerance_[some.nodes[i]] = tolerances[i] > 0 ? tolerances[i] : none;
+  std::array<double, Waiting::at_once> slack;
+  sphere_slack<Dimension>(paths, std::span(some.ranges).first(some.count),
+                          std::span(some.bases).first(some.count), std::span(some.wanted).first(some.count),
+                          slack);
+  for (std::size_t i = 0; i < some.count; ++i) slack_[some.nodes[i]] = slack[i] > 0 ? slack[i] : none;
   some.count = 0;
 }
 
 template <int Dimension>
 void NodeSlack<Dimension>::forget_all() {
-  std::fill(tolerance_.begin(), tolerance_.end(), none);
+  std::fill(slack_.begin(), slack_.end(), none);
 }
 
 template <int Dimension>
 void NodeSlack<Dimension>::give_up() {
   has_reference_ = false;
   forget_all();
-  skip_ = std::exchange(next_skip_, std::min(2 * next_skip_ + 1, most_skipped));
+  samples_.lengthen();
 }
 
 template class NodeSlack<2>;

@@ -18,7 +18,7 @@
 #include <array>
 
 #include "structures/moving_sphere/chord_lanes.h"
-#include "structures/moving_sphere/tangent_sphere.h"
+#include "structures/moving_sphere/tangent_lanes.h"
 
 namespace kds::detail {
 
@@ -37,7 +37,7 @@ struct Stray {
   [[gnu::always_inline]] Lanes most() const { return rounded + between; }
 };
 
-/// What all spheres of one size need of their balls, in the notation of tangent_sphere.h; `off_hull` for b.
+/// What all spheres of one size need of their balls, in the notation of tangent_lanes.h; `off_hull` for b.
 template <std::size_t M>
 struct LinearSimplex {
   std::array<Lanes, M> gain;

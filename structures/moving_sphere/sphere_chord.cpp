@@ -5,7 +5,7 @@
 
 #include "certificates/base/determinant.h"
 #include "structures/moving_sphere/linear_chords.h"
-#include "structures/moving_sphere/tangent_sphere.h"
+#include "structures/moving_sphere/tangent_lanes.h"
 
 namespace kds {
 

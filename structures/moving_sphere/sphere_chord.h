@@ -14,7 +14,7 @@
 //   |rho - rho'| <= (B + max ||z'| - rho'|) / L,   |x - z'| <= B + |q| |rho - rho'| =: E,
 // then these hold, where |z'| sags below its chord by at most |z'(1) - z'(0)|^2 / (8 min |z'|). L is 1 - |q|,
 // or, where balls of unequal radii are nearly flat and q is long, what the angle between it and z' leaves
-// (least_lead in tangent_sphere.h). A bead with |c_b - z'| + s_b <= rho' - E - |rho - rho'| at all control
+// (least_lead in tangent_lanes.h). A bead with |c_b - z'| + s_b <= rho' - E - |rho - rho'| at all control
 // points is inside all the time. Basis ball i stays one while its barycentric coordinate is positive: with
 // w_i linear between those at both ends it is w_i to within the distance of x from sum w_i c_i by the height
 // of ball i. Where all are, and rho >= s_i, the sphere is the smallest, whatever was known before.

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "structures/moving_sphere/period_lanes.h"
-#include "structures/moving_sphere/tangent_sphere.h"
+#include "structures/moving_sphere/tangent_lanes.h"
 
 namespace kds {
 

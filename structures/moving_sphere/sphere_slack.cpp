@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "structures/moving_sphere/tangent_sphere.h"
+#include "structures/moving_sphere/tangent_lanes.h"
 
 namespace kds {
 
@@ -18,10 +18,10 @@ using detail::margin;
 using detail::up;
 using detail::Vec;
 
-/// Four spheres, and what there is room for: a tolerance is at most `most` and (reach - farthest) / pace,
+/// Four spheres, and what there is room for: slack is at most `most` and (reach - farthest) / pace,
 /// where no ball but those of the basis reaches farther than `farthest` from the centre.
 template <int D>
-struct Tolerant {
+struct Room {
   Vec<D> center;
   Lanes reach, pace, most;
 };
@@ -83,8 +83,8 @@ template <int D, std::size_t M>
 }
 
 template <int D, std::size_t M, bool equal>
-[[KDS_LANES_TARGETS]] void find_tolerant(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads,
-                                         const Lanes& wanted, Tolerant<D>& tolerant) {
+[[KDS_LANES_TARGETS]] void find_room(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads,
+                                     const Lanes& wanted, Room<D>& room) {
   constexpr double root_of_m = detail::root_of[M];
   std::array<Vec<D>, M> d;
   std::array<Lanes, M> s;
@@ -149,11 +149,11 @@ template <int D, std::size_t M, bool equal>
   const Lanes::Mask proved = (size > Lanes(0x1p-150)) & (Lanes(paths.extent()) < Lanes(0x1p150)) &
                              (slope < Lanes(0.9)) & (lightest > steepest * drift_at_rest) &
                              (error < l);  // nor where a bound is no number
-  tolerant.center = end.z;
-  tolerant.reach = end.rho - (off + drift_at_rest + radius_error) * Lanes(up) -
-                   Lanes(margin) * (Lanes(paths.extent()) + l);
-  tolerant.pace = (Lanes(3.0) + drift) * Lanes(up);
-  tolerant.most = Lanes::choose(proved, Lanes::min(most, Lanes::min(by_weight, by_radius)), Lanes(0.0));
+  room.center = end.z;
+  room.reach = end.rho - (off + drift_at_rest + radius_error) * Lanes(up) -
+               Lanes(margin) * (Lanes(paths.extent()) + l);
+  room.pace = (Lanes(3.0) + drift) * Lanes(up);
+  room.most = Lanes::choose(proved, Lanes::min(most, Lanes::min(by_weight, by_radius)), Lanes(0.0));
 }
 
 /// How far from `center`, seen from the basis' first ball, any ball of the node reaches but those of the
@@ -194,53 +194,51 @@ template <int D, bool equal>
 }
 
 template <int D, bool equal>
-void find_tolerances(const BeadPaths<D>& paths, std::span<const BeadRange> nodes,
-                     std::span<const Basis> bases, std::span<const double> wanted,
-                     std::span<double> tolerances) {
+void find_slack(const BeadPaths<D>& paths, std::span<const BeadRange> nodes, std::span<const Basis> bases,
+                std::span<const double> wanted, std::span<double> slack) {
   Lanes most;
   for (std::size_t lane = 0; lane < Lanes::width; ++lane)
     most.v[lane] = wanted[std::min(lane, wanted.size() - 1)];
-  Tolerant<D> tolerant;
+  Room<D> room;
   const std::size_t size = bases.front().size;
   if (size == 1) {  // a ball that holds the others
-    tolerant.center.fill(Lanes(0.0));
-    tolerant.reach = Lanes(-margin * paths.extent());
-    tolerant.pace = Lanes(3.0);
-    tolerant.most = paths.extent() > 0x1p-150 && paths.extent() < 0x1p150 ? most : Lanes(0.0);
+    room.center.fill(Lanes(0.0));
+    room.reach = Lanes(-margin * paths.extent());
+    room.pace = Lanes(3.0);
+    room.most = paths.extent() > 0x1p-150 && paths.extent() < 0x1p150 ? most : Lanes(0.0);
   } else if (size == 2) {
-    find_tolerant<D, 1, equal>(paths, beads_of<2>(bases), most, tolerant);
+    find_room<D, 1, equal>(paths, beads_of<2>(bases), most, room);
   } else if (D == 2 || size == 3) {
-    find_tolerant<D, 2, equal>(paths, beads_of<3>(bases), most, tolerant);
+    find_room<D, 2, equal>(paths, beads_of<3>(bases), most, room);
   } else if constexpr (D == 3) {
-    find_tolerant<D, 3, equal>(paths, beads_of<4>(bases), most, tolerant);
+    find_room<D, 3, equal>(paths, beads_of<4>(bases), most, room);
   }
   for (std::size_t lane = 0; lane < bases.size(); ++lane) {
-    tolerances[lane] = 0;
-    if (!(tolerant.most.v[lane] > 0)) continue;
+    slack[lane] = 0;
+    if (!(room.most.v[lane] > 0)) continue;
     std::array<double, D> center;
-    for (std::size_t axis = 0; axis < D; ++axis) center[axis] = tolerant.center[axis].v[lane];
+    for (std::size_t axis = 0; axis < D; ++axis) center[axis] = room.center[axis].v[lane];
     double farthest = 0;
     find_farthest<D, equal>(paths, nodes[lane], bases[lane], center, farthest);
     // Shorter than it is by what is rounded here and where it is used up step by step.
     constexpr double down = 1 - 0x1p-20;
-    const double by_others = (tolerant.reach.v[lane] - farthest) / tolerant.pace.v[lane];
-    tolerances[lane] = std::min(tolerant.most.v[lane], by_others) * down;
+    const double by_others = (room.reach.v[lane] - farthest) / room.pace.v[lane];
+    slack[lane] = std::min(room.most.v[lane], by_others) * down;
   }
 }
 
 }  // namespace
 
 template <int Dimension>
-void sphere_tolerances(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
-                       std::span<const Basis> bases, std::span<const double> wanted,
-                       std::span<double> tolerances) {
-  return paths.equal_radii() ? find_tolerances<Dimension, true>(paths, nodes, bases, wanted, tolerances)
-                             : find_tolerances<Dimension, false>(paths, nodes, bases, wanted, tolerances);
+void sphere_slack(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
+                  std::span<const Basis> bases, std::span<const double> wanted, std::span<double> slack) {
+  return paths.equal_radii() ? find_slack<Dimension, true>(paths, nodes, bases, wanted, slack)
+                             : find_slack<Dimension, false>(paths, nodes, bases, wanted, slack);
 }
 
-template void sphere_tolerances(const BeadPaths<2>&, std::span<const BeadRange>, std::span<const Basis>,
-                                std::span<const double>, std::span<double>);
-template void sphere_tolerances(const BeadPaths<3>&, std::span<const BeadRange>, std::span<const Basis>,
-                                std::span<const double>, std::span<double>);
+template void sphere_slack(const BeadPaths<2>&, std::span<const BeadRange>, std::span<const Basis>,
+                           std::span<const double>, std::span<double>);
+template void sphere_slack(const BeadPaths<3>&, std::span<const BeadRange>, std::span<const Basis>,
+                           std::span<const double>, std::span<double>);
 
 }  // namespace kds

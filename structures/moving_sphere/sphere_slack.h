@@ -32,8 +32,7 @@ namespace kds {
 /// How far the balls of up to four nodes with bases of one size may move from the start of the step: lower
 /// bounds, 0 or below where nothing is proved, and none above what is `wanted` of it.
 template <int Dimension>
-void sphere_tolerances(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
-                       std::span<const Basis> bases, std::span<const double> wanted,
-                       std::span<double> tolerances);
+void sphere_slack(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
+                  std::span<const Basis> bases, std::span<const double> wanted, std::span<double> slack);
 
 }  // namespace kds

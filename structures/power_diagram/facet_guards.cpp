@@ -122,7 +122,7 @@ void FacetGuards<Dimension>::watch_all_moving() {
   if constexpr (in_lanes) positive.finish(finding);
   power_tests_.hold_never(at_rest + positive.count());
   state_.owner.statistics.stages.coefficients += positive.count();
-  state_.owner.statistics.stages.tolerance += at_rest;
+  state_.owner.statistics.stages.slack += at_rest;
 }
 
 /// Notes of all facets that they rest: cells whose notes say so already are not touched.

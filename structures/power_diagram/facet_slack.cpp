@@ -9,21 +9,19 @@ namespace kds {
 
 namespace {
 
-/// Taking tolerances costs about as much as a search in double, so a reference must let this share of all
+/// Finding slack costs about as much as a search in double, so a reference must let this share of all
 /// facets rest that do not yet.
 constexpr double worth_a_reference = 0.25;
-/// And this share of all: looking at a tolerance and keeping it up to date is not free either.
+/// And this share of all: looking at slack and keeping it up to date is not free either.
 constexpr double least_share = 0.4;
 /// Below this share a reference is given up.
 constexpr double least_worth = 0.05;
 /// Looking at what its own beads stray costs a facet most of what a certificate does: so it must spare many
 /// facets one, a share of all.
 constexpr double worth_a_look = 1.0 / 32;
-/// Motion that is fast is so for a while: after each sample in vain so many steps more go by without one.
-constexpr unsigned most_skipped = 15;
 constexpr std::size_t sample_size = 128;
 
-// Floats are half as long to read. A stray is no smaller than it was, a tolerance no larger.
+// Floats are half as long to read. A stray is no smaller than it was, slack no larger.
 
 /// Returns the largest.
 float round_up(std::span<const double> strays, std::vector<float>& floats) {
@@ -36,10 +34,10 @@ float round_up(std::span<const double> strays, std::vector<float>& floats) {
   }
   return *std::max_element(most.begin(), most.end());
 }
-[[nodiscard]] float rounded_down(double tolerance) {
-  if (tolerance < std::numeric_limits<float>::min()) return 0;
+[[nodiscard]] float rounded_down(double slack) {
+  if (slack < std::numeric_limits<float>::min()) return 0;
   constexpr double most = std::numeric_limits<float>::max();
-  return static_cast<float>(std::min(tolerance, most) * (1 - 0x1p-23));
+  return static_cast<float>(std::min(slack, most) * (1 - 0x1p-23));
 }
 
 /// Some facets of live cells.
@@ -55,7 +53,7 @@ void for_sample(const RegularTriangulation<Dimension>& triangulation, Visit visi
   return all == 0 ? 0 : static_cast<double>(some) / static_cast<double>(all);
 }
 
-/// Facets of finite beads, four at a time: `use(cell, i, tolerance of one bead)`.
+/// Facets of finite beads, four at a time: `use(cell, i, slack of one bead)`.
 template <int Dimension, class Use>
 class FourAtOnce {
  public:
@@ -74,11 +72,11 @@ class FourAtOnce {
   void flush() {
     if (count_ == 0) return;
     for (std::size_t lane = count_; lane < Lanes::width; ++lane) tuples_[lane] = tuples_[0];
-    Lanes tolerance;
-    slack_lanes<PowerTest<Dimension>>(at_start_, tuples_, Lanes(1.0), tolerance);
+    Lanes slack;
+    slack_lanes<PowerTest<Dimension>>(at_start_, tuples_, Lanes(1.0), slack);
     // A difference moves by what both of its beads stray.
     for (std::size_t lane = 0; lane < count_; ++lane)
-      use_(facets_[lane].first, facets_[lane].second, rounded_down(0.5 * tolerance.v[lane]));
+      use_(facets_[lane].first, facets_[lane].second, rounded_down(0.5 * slack.v[lane]));
     count_ = 0;
   }
 
@@ -100,18 +98,12 @@ void FacetSlack<Dimension>::start_step(const Curves<Dimension>& curves, const Tr
   if (displacements_.has_reference() && rest < least_worth) forget_all();  // too far away to be of use
   const double wanted = std::max(rest + worth_a_reference, least_share);
   if (wanted > 1) return;
-  if (skip_ > 0) {
-    --skip_;
-    return;
-  }
+  if (samples_.skips()) return;
   fresh_.set_reference(curves);
   fresh_.look_at(curves);
   round_up(fresh_.strays(), fresh_strays_);
-  if (sampled(curves, triangulation, fresh_strays_) < wanted) {
-    skip_ = std::exchange(next_skip_, std::min(2 * next_skip_ + 1, most_skipped));
-    return;
-  }
-  next_skip_ = 0;
+  if (sampled(curves, triangulation, fresh_strays_) < wanted) return samples_.lengthen();
+  samples_.reset();
   std::swap(displacements_, fresh_);
   take_all(curves, triangulation);
   static_cast<void>(measure(curves, triangulation));
@@ -129,7 +121,7 @@ double FacetSlack<Dimension>::measure(const Curves<Dimension>& curves, const Tri
     const FacetId here = cell < cell_of(beyond) ? facet_id(cell, i) : beyond;
     const bool among_others =
         (others_by_beads(triangulation.cells()[cell_of(here)], cell_of(here)) >> index_of(here) & 1U) != 0;
-    const bool coarsely = farthest_ < tolerances_[cell_of(here)][static_cast<std::size_t>(index_of(here))];
+    const bool coarsely = farthest_ < slack_[cell_of(here)][static_cast<std::size_t>(index_of(here))];
     ++looked_at;
     rest += among_others ? 0 : 1;
     by_beads += !among_others && !coarsely ? 1 : 0;
@@ -144,9 +136,9 @@ template <int Dimension>
 void FacetSlack<Dimension>::take_all(const Curves<Dimension>& curves, const Triangulation& triangulation) {
   std::array<float, Dimension + 1> most;
   most.fill(std::numeric_limits<float>::infinity());
-  tolerances_.assign(triangulation.cells().size(), most);
-  FourAtOnce four(curves, triangulation, [&](CellId cell, int i, float tolerance) {
-    tolerances_[cell][static_cast<std::size_t>(i)] = tolerance;
+  slack_.assign(triangulation.cells().size(), most);
+  FourAtOnce four(curves, triangulation, [&](CellId cell, int i, float slack) {
+    slack_[cell][static_cast<std::size_t>(i)] = slack;
   });
   for (CellId cell = 0; cell < triangulation.cells().size(); ++cell) {
     if (!triangulation.is_live(cell)) continue;
@@ -155,9 +147,9 @@ void FacetSlack<Dimension>::take_all(const Curves<Dimension>& curves, const Tria
     }
   }
   four.flush();
-  least_.resize(tolerances_.size());
+  least_.resize(slack_.size());
   for (std::size_t cell = 0; cell < least_.size(); ++cell)
-    least_[cell] = *std::min_element(tolerances_[cell].begin(), tolerances_[cell].end());
+    least_[cell] = *std::min_element(slack_[cell].begin(), slack_[cell].end());
 }
 
 template <int Dimension>
@@ -165,11 +157,11 @@ double FacetSlack<Dimension>::sampled(const Curves<Dimension>& curves, const Tri
                                       std::span<const float> strays) const {
   const auto cells = triangulation.cells();
   std::size_t looked_at = 0, rest = 0;
-  FourAtOnce four(curves, triangulation, [&](CellId cell, int i, float tolerance) {
+  FourAtOnce four(curves, triangulation, [&](CellId cell, int i, float slack) {
     const BeadId apex = triangulation.apex_beyond(cell, i);
     const float most = std::max(stray_of(cells[cell].vertex, strays), stray_of(std::span(&apex, 1), strays));
     ++looked_at;
-    rest += most < tolerance ? 1 : 0;
+    rest += most < slack ? 1 : 0;
   });
   for_sample(triangulation, [&](CellId cell, int i) { four.add(cell, i); });
   four.flush();

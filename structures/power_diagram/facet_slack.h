@@ -1,10 +1,10 @@
 #pragma once
-// Tolerances of a triangulation's facets, kept across steps: a facet whose beads stray less from where they
-// were than its certificate tolerates is not looked at in the step. All are taken at one reference frame,
-// which is moved up when a fresh one would let many more facets rest; a sample of facets tells. Where motion
-// is fast, none is taken.
+// The slack of a triangulation's facets (certificates/filters/slack.h), kept across steps: a facet whose
+// beads stray less from where they were than it has slack is not looked at in the step. All slack is found at
+// one reference frame, which is moved up when a fresh one would let many more facets rest; a sample of facets
+// tells. Where motion is fast, none is.
 //
-// Of each cell the least tolerance is compared with what any bead strays, an array against one number: where
+// Of each cell the least slack is compared with what any bead strays, an array against one number: where
 // motion is slow that is all that most cells cost. What is left is compared facet by facet, and with what its
 // own beads stray if, by the sample, that tells more.
 
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "certificates/types/power_test.h"
+#include "motions/base/back_off.h"
 #include "motions/base/grow_little.h"
 #include "motions/curves/curves.h"
 #include "motions/views/displacement.h"
@@ -54,12 +55,12 @@ class FacetSlack {
   void forget(CellId cell, int i) {
     if (!displacements_.has_reference()) return;
     grow(cell + 1);
-    tolerances_[cell][static_cast<std::size_t>(i)] = forgotten;
+    slack_[cell][static_cast<std::size_t>(i)] = forgotten;
     least_[cell] = forgotten;
   }
   void forget_all() {
     displacements_.forget_reference();
-    tolerances_.clear();
+    slack_.clear();
     least_.clear();
   }
 
@@ -68,22 +69,22 @@ class FacetSlack {
   static constexpr float forgotten = -1;
 
   [[nodiscard]] unsigned others(const TriangulationCell<Dimension>& cell, CellId id) const {
-    const auto& tolerance = tolerances_[id];
+    const auto& slack = slack_[id];
     unsigned facets = 0;
-    for (std::size_t i = 0; i <= Dimension; ++i) facets |= (farthest_ < tolerance[i] ? 0U : 1U) << i;
+    for (std::size_t i = 0; i <= Dimension; ++i) facets |= (farthest_ < slack[i] ? 0U : 1U) << i;
     if (least_[id] >= 0) return facets;
     for (std::size_t i = 0; i <= Dimension; ++i) {
-      if (tolerance[i] < 0 && cell_of(cell.beyond[i]) < id) facets &= ~(1U << i);
+      if (slack[i] < 0 && cell_of(cell.beyond[i]) < id) facets &= ~(1U << i);
     }
     return facets;
   }
   [[nodiscard]] unsigned others_by_beads(const TriangulationCell<Dimension>& cell, CellId id) const {
-    const auto& tolerance = tolerances_[id];
+    const auto& slack = slack_[id];
     const float stray = stray_of(cell.vertex, strays_);
     unsigned facets = 0;
     for (std::size_t i = 0; i <= Dimension; ++i) {
       const float most = std::max(stray, stray_of(std::span(&cell.apex[i], 1), strays_));
-      const bool other = !(most < tolerance[i]) && id < cell_of(cell.beyond[i]);
+      const bool other = !(most < slack[i]) && id < cell_of(cell.beyond[i]);
       facets |= (other ? 1U : 0U) << i;
     }
     return facets;
@@ -93,7 +94,7 @@ class FacetSlack {
   double measure(const Curves<Dimension>& curves, const Triangulation& triangulation);
   /// New ones are forgotten before they are asked for.
   void grow(std::size_t cells) {
-    grow_little(tolerances_, cells);
+    grow_little(slack_, cells);
     grow_little(least_, cells);
   }
   [[nodiscard]] static float stray_of(std::span<const BeadId> beads, std::span<const float> strays) {
@@ -106,10 +107,10 @@ class FacetSlack {
   [[nodiscard]] double sampled(const Curves<Dimension>& curves, const Triangulation& triangulation,
                                std::span<const float> strays) const;
 
-  unsigned skip_ = 0, next_skip_ = 0;
+  BackOff samples_{0, 15};
   Displacements<Dimension, channels_of<PowerTest<Dimension>>> displacements_, fresh_;
   /// Of each facet, at the cell with the smaller id; at the other infinite. Or forgotten.
-  std::vector<std::array<float, Dimension + 1>> tolerances_;
+  std::vector<std::array<float, Dimension + 1>> slack_;
   std::vector<float> least_;                  ///< of each cell's
   std::vector<float> strays_, fresh_strays_;  ///< of each bead
   float farthest_ = 0;                        ///< any bead strays no more

@@ -309,18 +309,15 @@ UpdateCounts AutomaticUpdate<Dimension>::advance(const Eigen::Matrix3Xd& centers
   // the next samples are further and further apart.
   constexpr std::size_t every = 8, every_at_first = 2, most_sampled = 64;
   constexpr double remembered = 0.9, clearly = 0.2, very_clearly = 0.5;
-  constexpr unsigned most_skipped = 7;
   UpdateCounts counts;
   if (!this->is_solid()) {
     this->rebuild(centers, weights, counts);
     return counts;
   }
-  if (skip_ > 0) {
-    --skip_;
-  } else {
+  if (!samples_.skips() && !given_up_moves_.skips()) {
     const auto sample = this->triangulation().sample(
         centers, weights, std::max(tested_ == 0 ? every_at_first : every, this->bead_count() / most_sampled),
-        samples_++);
+        turn_++);
     counts.tested = sample.tested;
     counts.failed = sample.failed;
     const auto tested = static_cast<double>(sample.tested), failed = static_cast<double>(sample.failed);
@@ -332,19 +329,23 @@ UpdateCounts AutomaticUpdate<Dimension>::advance(const Eigen::Matrix3Xd& centers
       tested_ = failed_ = 0;
     tested_ = remembered * tested_ + tested;
     failed_ = remembered * failed_ + failed;
-    skip_ = next_skip_ = is_clear(failed_, tested_, clearly) ? std::min(2 * next_skip_ + 1, most_skipped) : 0;
+    if (is_clear(failed_, tested_, clearly)) {
+      samples_.lengthen();
+    } else {
+      samples_.reset();
+    }
   }
   if (failed_ > limit * tested_) {
     this->rebuild(centers, weights, counts);
   } else if (this->try_to_move_all(centers, weights, counts)) {
-    skip_after_giving_up_ = 0;
+    given_up_moves_.reset();
   } else {
     // Another motion, or much happens on the way that is undone again, which no sample tells: the less often
     // it is tried.
     this->rebuild(centers, weights, counts);
     failed_ = tested_;
-    next_skip_ = 0;
-    skip_ = skip_after_giving_up_ = std::clamp(2 * skip_after_giving_up_ + 1, most_skipped, 8 * most_skipped);
+    samples_.reset();
+    given_up_moves_.lengthen();
   }
   return counts;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "motions/base/back_off.h"
 #include "motions/curves/snapshot.h"
 #include "structures/power_diagram/diagram_update.h"
 #include "structures/triangulation/regular_triangulation.h"
@@ -82,8 +83,9 @@ class AutomaticUpdate final : public MovingDiagram<Dimension> {
 
  private:
   double tested_ = 0, failed_ = 0;
-  unsigned skip_ = 0, next_skip_ = 0, skip_after_giving_up_ = 0;  // updates without a sample
-  std::uint64_t samples_ = 0;
+  BackOff samples_{1, 7};          ///< whose answer is clear
+  BackOff given_up_moves_{7, 56};  ///< after which no sample is taken for a while
+  std::uint64_t turn_ = 0;         ///< of samples
 };
 
 extern template class MovingDiagram<2>;

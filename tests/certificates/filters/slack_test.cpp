@@ -26,7 +26,7 @@ class Tolerances : public testing::Test {
     for (std::size_t p = 0; p < beads; ++p) c.beads[p] = static_cast<BeadId>(p);
     return c;
   }
-  static double tolerance(const M& motion, double side) {
+  static double slack(const M& motion, double side) {
     typename LanesView<M, beads, channels_of<S>>::Tuples tuples;
     tuples.fill(certificate().beads);
     Lanes result;
@@ -60,21 +60,20 @@ TYPED_TEST(Tolerances, NoSignChangesWithinIt) {
     if (round % 5 == 4) test::scale(motion, test::pick(random, -1, 1) * 100);
     const int sign = test::sign_at(TestFixture::certificate(), motion, Dyadic(0.0));
     if (sign == 0) {
-      EXPECT_EQ(TestFixture::tolerance(motion, 1), 0);
-      EXPECT_EQ(TestFixture::tolerance(motion, -1), 0);
+      EXPECT_EQ(TestFixture::slack(motion, 1), 0);
+      EXPECT_EQ(TestFixture::slack(motion, -1), 0);
       continue;
     }
-    EXPECT_EQ(TestFixture::tolerance(motion, -sign), 0);
-    const double tolerance = TestFixture::tolerance(motion, sign);
-    if (tolerance == 0) continue;  // say nothing, far from the range of doubles
+    EXPECT_EQ(TestFixture::slack(motion, -sign), 0);
+    const double slack = TestFixture::slack(motion, sign);
+    if (slack == 0) continue;  // say nothing, far from the range of doubles
     ++positive;
     // Rounding the moved coordinates must not carry them beyond it.
     for (int i = 0; i < 40; ++i)
-      EXPECT_EQ(TestFixture::sign_after_wandering(motion, tolerance * (1 - 0x1p-20), i % 2 == 0, random),
-                sign);
+      EXPECT_EQ(TestFixture::sign_after_wandering(motion, slack * (1 - 0x1p-20), i % 2 == 0, random), sign);
     bool changed = false;
     for (int i = 0; i < 40; ++i)
-      changed |= TestFixture::sign_after_wandering(motion, 20 * tolerance, i % 2 == 0, random) != sign;
+      changed |= TestFixture::sign_after_wandering(motion, 20 * slack, i % 2 == 0, random) != sign;
     changed_soon_beyond += changed ? 1 : 0;
   }
   EXPECT_GT(positive, 100);
@@ -89,17 +88,17 @@ TEST(Tolerance, IsTheDistanceToContactNearly) {
     for (BeadId b = 0; b < 2; ++b) motion.set_radius(b, k, 1);
     motion.set_coordinate(1, k, 0, 4);
   }
-  const auto tolerance = [&] {
+  const auto slack = [&] {
     Lanes result;
     LanesView<BezierMotion<3, 1>, 2, channels_of<Contact>>::Tuples tuples;
     tuples.fill({0, 1});
     slack_lanes<Contact>(motion, tuples, Lanes(1.0), result);
     return result.v[0];
   };
-  EXPECT_NEAR(tolerance(), 0.25, 1e-6);
+  EXPECT_NEAR(slack(), 0.25, 1e-6);
   for (int k = 0; k <= 1; ++k) motion.set_coordinate(1, k, 0, 2.1);
-  EXPECT_GT(tolerance(), 0.08);
-  EXPECT_LT(tolerance(), 0.1);
+  EXPECT_GT(slack(), 0.08);
+  EXPECT_LT(slack(), 0.1);
 }
 
 }  // namespace

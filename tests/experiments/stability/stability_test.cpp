@@ -286,7 +286,7 @@ TEST(Stability, NoScaleIsLeftToIntegersWhereDifferencesAreFinite) {
   StageCounts sum;
   for (const StabilityRow& row :
        rows_of({"--subjects", "power_test", "--extremes", "scale:2^300,scale:2^-300", "--cases", "40"}))
-    add(sum, row.stages);
+    sum += row.stages;
   EXPECT_GT(sum.refined, sum.exact);
 }
 

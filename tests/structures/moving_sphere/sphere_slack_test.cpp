@@ -86,18 +86,17 @@ void judge(unsigned seed, bool equal, int exponent, Tally& tally) {
   const SmallestSphere smallest = cloud.smallest();
   const BeadRange all{0, static_cast<BeadId>(cloud.radii.size() - 1)};
   const double wanted = std::ldexp(1.0, exponent);
-  double tolerance = 0;
-  sphere_tolerances<D>(cloud.paths(), {&all, 1}, {&smallest.basis, 1}, {&wanted, 1}, {&tolerance, 1});
+  double slack = 0;
+  sphere_slack<D>(cloud.paths(), {&all, 1}, {&smallest.basis, 1}, {&wanted, 1}, {&slack, 1});
   ++tally.asked;
-  if (!(tolerance > 0)) return;
+  if (!(slack > 0)) return;
   ++tally.proved;
-  EXPECT_LE(tolerance, wanted);
+  EXPECT_LE(slack, wanted);
   for (int round = 0; round < 12; ++round) {
-    EXPECT_EQ(wandered(cloud, smallest, tolerance, round % 4, random).smallest().basis, smallest.basis)
+    EXPECT_EQ(wandered(cloud, smallest, slack, round % 4, random).smallest().basis, smallest.basis)
         << "seed " << seed << ", round " << round;
     tally.changed_beyond +=
-        wandered(cloud, smallest, 8 * tolerance, round % 4, random).smallest().basis == smallest.basis ? 0
-                                                                                                       : 1;
+        wandered(cloud, smallest, 8 * slack, round % 4, random).smallest().basis == smallest.basis ? 0 : 1;
   }
 }
 
@@ -137,9 +136,9 @@ TEST(SphereTolerance, NoneWhereTheBasisIsAboutToChange) {
                                      {line, {0, 1, 2}},
                                      {square, {0, 1, 2, 3}}}) {
     const Basis basis(beads);
-    double tolerance = 1;
-    sphere_tolerances<3>(cloud.paths(), {&all, 1}, {&basis, 1}, {&wanted, 1}, {&tolerance, 1});
-    EXPECT_LE(tolerance, 0);
+    double slack = 1;
+    sphere_slack<3>(cloud.paths(), {&all, 1}, {&basis, 1}, {&wanted, 1}, {&slack, 1});
+    EXPECT_LE(slack, 0);
   }
 }
 

@@ -16,12 +16,12 @@ void expect_one_a_facet(Kernel kernel, double step) {
   BareRig<dimension> rig(random_beads<dimension>(1, 60, step), AuditMode::none, kernel);
   BareDiagram<dimension>& diagram = rig.structure;
   rig.simulator.build();
-  for (int k = 0; k < 2; ++k) {  // where motion is slow the second has tolerances
+  for (int k = 0; k < 2; ++k) {  // where motion is slow the second has slack
     rig.simulator.enter_step();
     diagram.facets.watch_all();
     EXPECT_EQ(diagram.statistics.certificates.alive, diagram.expected_alive());
     EXPECT_EQ(diagram.state.doubt, Doubt::none);
-    EXPECT_EQ(diagram.statistics.stages.tolerance > 0, kernel != Kernel::exact && step < 1e-6);
+    EXPECT_EQ(diagram.statistics.stages.slack > 0, kernel != Kernel::exact && step < 1e-6);
     diagram.facets.drop_all();
     EXPECT_EQ(diagram.statistics.certificates.alive, 0U);
     rig.simulator.leave_step();

@@ -27,7 +27,7 @@ void expect_resting_to_hold(double distance, double least_share) {
   }
   RegularTriangulation<dimension> triangulation;
   static_cast<void>(triangulation.build(control_points(motion, 1), control_weights(motion, 1)));
-  FacetSlack<dimension> tolerances;
+  FacetSlack<dimension> slack;
   const MotionRef<dimension> any(motion);
   const auto power_tests = search_over<PowerTest<dimension>>(any);
   const auto orientations = search_over<Orientation<dimension>>(any);
@@ -41,10 +41,10 @@ void expect_resting_to_hold(double distance, double least_share) {
         motion.set_coordinate(b, 1, axis, x + distance * (1 + test::uniform(random)));  // and a drift
       }
     }
-    tolerances.start_step(any.curves(), triangulation);
-    if (!tolerances.any()) continue;
+    slack.start_step(any.curves(), triangulation);
+    if (!slack.any()) continue;
     std::vector<unsigned> others(triangulation.cells().size(), 0);
-    tolerances.for_the_others(triangulation, [&](CellId cell, unsigned facets) {
+    slack.for_the_others(triangulation, [&](CellId cell, unsigned facets) {
       EXPECT_EQ(others[cell], 0U);
       EXPECT_NE(facets, 0U);
       others[cell] = facets;
@@ -80,10 +80,10 @@ void expect_resting_to_hold(double distance, double least_share) {
     // What is forgotten, at both cells, is looked at, once.
     const auto [other, k] =
         std::pair(cell_of(triangulation.beyond(0, 0)), index_of(triangulation.beyond(0, 0)));
-    tolerances.forget(0, 0);
-    tolerances.forget(other, k);
+    slack.forget(0, 0);
+    slack.forget(other, k);
     unsigned times = 0;
-    tolerances.for_the_others(triangulation, [&](CellId cell, unsigned facets) {
+    slack.for_the_others(triangulation, [&](CellId cell, unsigned facets) {
       times += cell == 0 ? facets & 1U : 0;
       if (cell == other) {
         EXPECT_EQ(facets >> k & 1U, 0U);

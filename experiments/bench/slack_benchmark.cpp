@@ -1,6 +1,6 @@
-// Slow motion: facets that tolerances of an earlier frame let rest, against EPICK's power test of the same
-// facets at one moment. One step is looking at all beads and all facets; the tolerances stand already. `ns` a
-// facet of the step; `resting` is the share of facets that need no certificate.
+// Slow motion: facets that the slack found at an earlier frame lets rest, against EPICK's power test of the
+// same facets at one moment. One step is looking at all beads and all facets; the slack is known already.
+// `ns` a facet of the step; `resting` is the share of facets that need no certificate.
 //
 //   kds_benchmarks --benchmark_filter=tolerance
 
@@ -44,12 +44,12 @@ void rest(Turns& turns, double distance) {
                              });
     }
   }
-  FacetSlack<3> tolerances;
+  FacetSlack<3> slack;
   std::size_t others = 0;
   const auto step = [&] {
-    tolerances.start_step(Curves<3>(motion), triangulation);
+    slack.start_step(Curves<3>(motion), triangulation);
     others = 0;
-    tolerances.for_the_others(triangulation, [&](CellId, unsigned left) { others += count_of<3>(left); });
+    slack.for_the_others(triangulation, [&](CellId, unsigned left) { others += count_of<3>(left); });
   };
   step();  // takes the reference
   const StaticPredicates peer(control_points(motion, 0), control_weights(motion, 0));
@@ -60,7 +60,7 @@ void rest(Turns& turns, double distance) {
 
 }  // namespace
 
-std::vector<Subject> tolerance_subjects() {
+std::vector<Subject> slack_subjects() {
   std::vector<Subject> all;
   const auto add = [&](const char* name, const char* input, std::optional<double> most_ns, auto run) {
     all.push_back({name, input, 10240, "CGAL predicate at one moment", most_ns, std::nullopt, run});

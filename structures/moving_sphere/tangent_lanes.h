@@ -1,5 +1,5 @@
 #pragma once
-// The touching spheres of four bases side by side, in double, and what bounds of their errors are built from.
+// The tangent spheres of four bases side by side, in double, and what bounds of their errors are built from.
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "certificates/base/determinant.h"
 #include "structures/enclosing_sphere/basis.h"
-#include "structures/enclosing_sphere/sphere_of_points.h"
+#include "structures/enclosing_sphere/tangent_sphere.h"
 #include "structures/moving_sphere/bead_paths.h"
 #include "structures/moving_sphere/lane_bounds.h"
 
@@ -39,7 +39,7 @@ BeadLanes<Size> beads_of(std::span<const Basis> bases) {
   return Lanes::Vector{column[at[0]], column[at[1]], column[at[2]], column[at[3]]};
 }
 
-/// At one time: the touching sphere, seen from the first ball.
+/// At one time: the tangent sphere, seen from the first ball.
 template <int D, std::size_t M>
 struct End {
   Vec<D> z;
@@ -55,27 +55,21 @@ template <bool equal, int D, std::size_t M>
   balls.center[0].fill(Lanes(0.0));
   for (std::size_t i = 0; i < M; ++i) balls.center[i + 1] = d[i];
   const Span<Lanes, D, M> span(balls);
-  End<D, M> end;
-  std::array<Lanes, M> weight;
   if constexpr (equal) {
+    End<D, M> end;
+    std::array<Lanes, M> weight;
     end.z = span.circumcenter(weight);
     end.rho = root(dot(end.z, end.z));
+    end.weight[0] = Lanes(1.0);
+    for (std::size_t i = 0; i < M; ++i) {
+      end.weight[i + 1] = weight[i];
+      end.weight[0] -= weight[i];
+    }
+    return end;
   } else {
-    std::array<Lanes, M> e, yq;
-    for (std::size_t i = 0; i < M; ++i) e[i] = Lanes(0.5) * (span.square[i] - s[i] * s[i]);
-    const Vec<D> p = span.point_of(e, weight);
-    const Vec<D>& q = end.q = span.point_of(s, yq);
-    const Lanes a = dot(q, q) - Lanes(1.0), b = dot(p, q), c = dot(p, p);
-    end.rho = c / (root(Lanes::max(b * b - a * c, Lanes(0.0))) - b);
-    for (std::size_t i = 0; i < M; ++i) weight[i] += end.rho * yq[i];
-    for (std::size_t axis = 0; axis < D; ++axis) end.z[axis] = p[axis] + end.rho * q[axis];
+    const TangentSphere<Lanes, D, M> sphere = tangent_sphere(span, s);
+    return {sphere.center, sphere.rho, sphere.weight, sphere.q};
   }
-  end.weight[0] = Lanes(1.0);
-  for (std::size_t i = 0; i < M; ++i) {
-    end.weight[i + 1] = weight[i];
-    end.weight[0] -= weight[i];
-  }
-  return end;
 }
 
 /// What solving for a point by its products with the c_i costs: from residuals r_i the point errs by sum
