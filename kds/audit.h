@@ -2,8 +2,10 @@
 // A kinetic structure that disagrees with its static rebuild: an internal failure, with what it takes to see
 // it again.
 
+#include <array>
 #include <cstdint>
 #include <stdexcept>
+#include <string_view>
 
 namespace kds {
 
@@ -12,6 +14,11 @@ enum class AuditMode : std::uint8_t {
   frames,  ///< at the start and end of every step
   events,  ///< also strictly between all events
 };
+/// In the order of the enumerators.
+inline constexpr std::array<std::string_view, 3> audit_mode_names{"none", "frames", "events"};
+[[nodiscard]] constexpr std::string_view name_of(AuditMode mode) {
+  return audit_mode_names[static_cast<std::size_t>(mode)];
+}
 
 class AuditError : public std::runtime_error {
  public:

@@ -39,14 +39,10 @@ struct Input {
   }
 };
 
-struct Technique {
-  std::string_view name;
-  UpdateTechnique technique;
-};
-constexpr std::array techniques{
-    Technique{"reinsert", UpdateTechnique::reinsert}, Technique{"greedy", UpdateTechnique::greedy},
-    Technique{"kinetic", UpdateTechnique::kinetic},   Technique{"lifted", UpdateTechnique::lifted},
-    Technique{"activate", UpdateTechnique::activate}, Technique{"auto", UpdateTechnique::automatic}};
+/// All but rebuilding, which they are compared with; the automatic one last, which is compared with the best.
+constexpr std::array techniques{UpdateTechnique::reinsert, UpdateTechnique::greedy,
+                                UpdateTechnique::kinetic,  UpdateTechnique::lifted,
+                                UpdateTechnique::activate, UpdateTechnique::automatic};
 
 template <int Dimension>
 double seconds_in(UpdateTechnique technique, const Input& input) {
@@ -65,10 +61,10 @@ double seconds_by(UpdateTechnique technique, const Input& input) {
 // A round is once over all frames with each technique, the peer first.
 void measure(const Input& input, std::size_t rounds, std::vector<BenchRow>& rows) {
   std::vector<double> peer;
-  std::map<std::string_view, std::vector<double>> ours;
+  std::map<UpdateTechnique, std::vector<double>> ours;
   for (std::size_t round = 0; round < rounds; ++round) {
     peer.push_back(seconds_by(UpdateTechnique::rebuild, input));
-    for (const Technique& t : techniques) ours[t.name].push_back(seconds_by(t.technique, input));
+    for (const UpdateTechnique t : techniques) ours[t].push_back(seconds_by(t, input));
   }
   const double microseconds = 1e6 / static_cast<double>(input.frames.size() - 1);
   const double cgal = median_of(peer) * microseconds;
@@ -78,19 +74,19 @@ void measure(const Input& input, std::size_t rounds, std::vector<BenchRow>& rows
                     other_value, goal});
   };
   double best = cgal;
-  std::string_view best_name = "rebuild";
-  for (const Technique& t : techniques) {
-    const double value = median_of(ours[t.name]) * microseconds;
-    if (t.technique == UpdateTechnique::automatic) {
+  UpdateTechnique best_technique = UpdateTechnique::rebuild;
+  for (const UpdateTechnique t : techniques) {
+    const double value = median_of(ours[t]) * microseconds;
+    if (t == UpdateTechnique::automatic) {
       row("auto to rebuild", value, peer_name(input.dimension), cgal, 1.05);
-      row("auto to best", value, best_name, best, 1.1);
+      row("auto to best", value, name_of(best_technique), best, 1.1);
       continue;
     }
-    row(std::string(t.name), value, peer_name(input.dimension), cgal,
-        t.technique == UpdateTechnique::kinetic ? input.goal : std::nullopt);
+    row(std::string(name_of(t)), value, peer_name(input.dimension), cgal,
+        t == UpdateTechnique::kinetic ? input.goal : std::nullopt);
     if (value < best) {
       best = value;
-      best_name = t.name;
+      best_technique = t;
     }
   }
 }

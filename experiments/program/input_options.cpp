@@ -11,10 +11,6 @@ namespace kds {
 
 namespace {
 
-constexpr std::array kSelections{Choice<Selection>{"backbone", Selection::backbone},
-                                 Choice<Selection>{"ca", Selection::ca},
-                                 Choice<Selection>{"all", Selection::all}};
-
 std::string parse_radius(const std::string& rule) {
   if (rule == "auto" || rule == "element" || rule == "element:fit") return rule;
   if (constexpr std::string_view prefix = "file:"; rule.starts_with(prefix)) {
@@ -65,7 +61,9 @@ InputOptions parse_input_options(const ParsedArguments& parsed, std::string_view
     options.inputs.emplace_back(input);
   }
   options.reading.topology = path_of(parsed, "--topology");
-  options.reading.selection = chosen(parsed, "--select", kSelections).value_or(Selection::automatic);
+  options.reading.selection =  // all but automatic, which is what it is when nobody asks
+      chosen(parsed, "--select", std::span(selection_names).subspan(1), Selection::backbone)
+          .value_or(Selection::automatic);
   options.reading.chain = parsed.value("--chain");
   if (options.reading.chain) check_chains(*options.reading.chain, options.inputs.size());
   if (const auto range = parsed.value("--frames")) options.reading.frames = parse_frame_range(*range);

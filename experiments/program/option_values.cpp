@@ -1,5 +1,6 @@
 #include "experiments/program/option_values.h"
 
+#include <algorithm>
 #include <charconv>
 
 namespace kds {
@@ -15,6 +16,14 @@ std::optional<Number> number_in(std::string_view text) {
 }
 
 }  // namespace
+
+std::size_t place_among(std::string_view option, std::string_view word,
+                        std::span<const std::string_view> names) {
+  const auto found = std::ranges::find(names, word);
+  if (found == names.end())
+    throw InputError(fmt::format("{}: '{}' is not one of {}", option, word, fmt::join(names, ", ")));
+  return static_cast<std::size_t>(found - names.begin());
+}
 
 std::optional<std::filesystem::path> path_of(const ParsedArguments& parsed, std::string_view option) {
   const std::optional<std::string> text = parsed.value(option);

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,21 +19,22 @@
 
 namespace kds {
 
-template <class Value>
-using Choice = std::pair<std::string_view, Value>;
+/// The place of a word among several names.
+[[nodiscard]] std::size_t place_among(std::string_view option, std::string_view word,
+                                      std::span<const std::string_view> names);
 
-/// One of several names; none where the option is not given.
-template <class Value, std::size_t count>
-[[nodiscard]] std::optional<Value> chosen(const ParsedArguments& parsed, std::string_view option,
-                                          const std::array<Choice<Value>, count>& choices) {
+/// An enumerator by its name. `names` are those of the enumerators from `first` on.
+template <class Enum>
+[[nodiscard]] Enum choice_of(std::string_view option, std::string_view word,
+                             std::span<const std::string_view> names, Enum first = Enum{}) {
+  return static_cast<Enum>(static_cast<std::size_t>(first) + place_among(option, word, names));
+}
+/// The same; none where the option is not given.
+template <class Enum>
+[[nodiscard]] std::optional<Enum> chosen(const ParsedArguments& parsed, std::string_view option,
+                                         std::span<const std::string_view> names, Enum first = Enum{}) {
   const std::optional<std::string> word = parsed.value(option);
-  if (!word) return std::nullopt;
-  std::vector<std::string_view> names;
-  for (const auto& [name, value] : choices) {
-    if (name == *word) return value;
-    names.push_back(name);
-  }
-  throw InputError(fmt::format("{}: '{}' is not one of {}", option, *word, fmt::join(names, ", ")));
+  return word ? std::optional(choice_of(option, *word, names, first)) : std::nullopt;
 }
 
 /// The path of a file or directory; none where the option is not given, - is refused.

@@ -48,16 +48,6 @@ constexpr CommandSpec kCommand{
     "kds run models.pdb --kernel exact --audit events --json -",
 };
 
-constexpr std::array kKernels{Choice<Kernel>{"fast", Kernel::fast},
-                              Choice<Kernel>{"filtered", Kernel::filtered},
-                              Choice<Kernel>{"exact", Kernel::exact}};
-constexpr std::array kAudits{Choice<AuditMode>{"none", AuditMode::none},
-                             Choice<AuditMode>{"frames", AuditMode::frames},
-                             Choice<AuditMode>{"events", AuditMode::events}};
-constexpr std::array kMotions{Choice<FrameMotion>{"linear", FrameMotion::linear},
-                              Choice<FrameMotion>{"hermite", FrameMotion::hermite},
-                              Choice<FrameMotion>{"lifted", FrameMotion::lifted}};
-
 // In the order of the registry whatever the order given, so that the same set gives the same run.
 std::vector<std::string> parse_structures(const std::string& list) {
   const std::vector<std::string> names = split(list, ',');
@@ -100,10 +90,10 @@ RunOptions parse_run_options(const Arguments& arguments) {
   options.reading = std::move(input.reading);
   options.radius = std::move(input.radius);
   if (const auto list = parsed.value("--structures")) options.structures = parse_structures(*list);
-  options.motion = chosen(parsed, "--motion", kMotions).value_or(options.motion);
-  options.kernel = chosen(parsed, "--kernel", kKernels).value_or(options.kernel);
+  options.motion = chosen<FrameMotion>(parsed, "--motion", frame_motion_names).value_or(options.motion);
+  options.kernel = chosen<Kernel>(parsed, "--kernel", kernel_names).value_or(options.kernel);
   options.nodes = parse_nodes(parsed);
-  options.audit = chosen(parsed, "--audit", kAudits).value_or(options.audit);
+  options.audit = chosen<AuditMode>(parsed, "--audit", audit_mode_names).value_or(options.audit);
   options.dump = path_of(parsed, "--dump");
   options.log = path_of(parsed, "--log");
   options.out = path_of(parsed, "--out");

@@ -12,30 +12,6 @@ namespace kds {
 
 namespace {
 
-std::string_view name_of(FrameMotion motion) {
-  switch (motion) {
-    case FrameMotion::hermite:
-      return "hermite";
-    case FrameMotion::lifted:
-      return "lifted";
-    case FrameMotion::linear:
-      break;
-  }
-  return "linear";
-}
-
-std::string_view name_of(AuditMode audit) {
-  switch (audit) {
-    case AuditMode::frames:
-      return "frames";
-    case AuditMode::events:
-      return "events";
-    case AuditMode::none:
-      break;
-  }
-  return "none";
-}
-
 // As the options take them; empty for all.
 std::string levels_of(const NodeSelection& nodes) {
   NodeSelection levels = nodes;

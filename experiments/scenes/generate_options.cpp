@@ -15,10 +15,6 @@ using models::Setting;
 using models::Settings;
 using models::ShapeMotion;
 
-constexpr std::array kMotions{Choice<ShapeMotion>{"rest", ShapeMotion::rest},
-                              Choice<ShapeMotion>{"rotate", ShapeMotion::rotate},
-                              Choice<ShapeMotion>{"wander", ShapeMotion::wander}};
-
 constexpr std::uint64_t kMostBeads = 10'000'000, kMostFrames = 1'000'000, kMostPositions = 100'000'000;
 
 // An option of some models: what help says, and how the value goes into the settings and out again.
@@ -41,16 +37,10 @@ std::string text_of(const models::Span& span) {
 }
 
 void read_motion(std::string_view option, const std::string& text, Settings& s) {
-  for (const auto& [name, motion] : kMotions)
-    if (name == text) s.motion = motion;
-  if (!s.motion) throw InputError(fmt::format("{}: '{}' is not one of rest, rotate, wander", option, text));
+  s.motion = choice_of<ShapeMotion>(option, text, models::shape_motion_names);
 }
 
-std::string motion_name(const Settings& s) {
-  for (const auto& [name, motion] : kMotions)
-    if (motion == *s.motion) return std::string(name);
-  return {};
-}
+std::string motion_name(const Settings& s) { return std::string(name_of(*s.motion)); }
 
 template <std::optional<double> Settings::*member>
 std::string write_real(const Settings& s) {

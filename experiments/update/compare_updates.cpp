@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <stdexcept>
 
 #include "experiments/program/timing.h"
 #include "motions/base/input_error.h"
@@ -80,13 +81,9 @@ std::vector<Trajectory> strided(const std::vector<Trajectory>& necklaces, std::s
 }
 
 UpdateTechnique technique_of(std::string_view name) {
-  if (name == "rebuild") return UpdateTechnique::rebuild;
-  if (name == "reinsert") return UpdateTechnique::reinsert;
-  if (name == "greedy") return UpdateTechnique::greedy;
-  if (name == "kinetic") return UpdateTechnique::kinetic;
-  if (name == "lifted") return UpdateTechnique::lifted;
-  if (name == "activate") return UpdateTechnique::activate;
-  return UpdateTechnique::automatic;
+  const auto* const found = std::ranges::find(update_technique_names, name);
+  if (found == update_technique_names.end()) throw std::logic_error(fmt::format("no technique {}", name));
+  return static_cast<UpdateTechnique>(found - update_technique_names.begin());
 }
 
 template <int Dimension>

@@ -51,7 +51,7 @@ Json settings_json(const UpdateOptions& options) {
           {"techniques", options.techniques},
           {"strides", options.strides},
           {"rounds", options.rounds},
-          {"audit", options.audit == AuditMode::frames ? "frames" : "none"}};
+          {"audit", name_of(options.audit)}};
 }
 
 }  // namespace

@@ -37,9 +37,6 @@ constexpr CommandSpec kCommand{
     "kds update 1l2y.pdb --select all --radius element --techniques kinetic,lifted --audit frames --json -",
 };
 
-constexpr std::array kAudits{Choice<AuditMode>{"none", AuditMode::none},
-                             Choice<AuditMode>{"frames", AuditMode::frames}};
-
 std::vector<std::string> parse_techniques(const std::string& list) {
   const std::vector<std::string> names = split(list, ',');
   for (const std::string& name : names) {
@@ -77,7 +74,8 @@ UpdateOptions parse_update_options(const Arguments& arguments) {
   if (const auto list = parsed.value("--strides")) options.strides = parse_strides(*list);
   if (const auto text = parsed.value("--rounds"))
     options.rounds = parse_whole_number("--rounds", *text, 1, 1000);
-  options.audit = chosen(parsed, "--audit", kAudits).value_or(options.audit);
+  options.audit =
+      chosen<AuditMode>(parsed, "--audit", std::span(audit_mode_names).first(2)).value_or(options.audit);
   options.out = path_of(parsed, "--out");
   options.json = parsed.value("--json");
   options.quiet = parsed.has("--quiet");

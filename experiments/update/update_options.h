@@ -11,14 +11,22 @@
 #include "experiments/program/command_line.h"
 #include "experiments/program/input_options.h"
 #include "kds/audit.h"
+#include "structures/power_diagram/update_technique.h"
 
 namespace kds {
 
 /// All techniques by name, in the order in which they are listed: those of
 /// structures/power_diagram/diagram_update.h, and the kinetic one under Hermite motion. The first is what all
 /// are compared with.
-inline constexpr std::array<std::string_view, 8> kTechniques{"rebuild", "reinsert", "greedy",   "kinetic",
-                                                             "hermite", "lifted",   "activate", "auto"};
+inline constexpr auto kTechniques = [] {
+  std::array<std::string_view, update_technique_names.size() + 1> names;
+  std::size_t count = 0;
+  for (const std::string_view name : update_technique_names) {
+    names[count++] = name;
+    if (name == name_of(UpdateTechnique::kinetic)) names[count++] = "hermite";
+  }
+  return names;
+}();
 
 struct UpdateOptions {
   InputOptions input;

@@ -1,6 +1,7 @@
 #pragma once
 // The models by name: what `kds generate` offers.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -14,6 +15,11 @@ namespace kds::models {
 
 /// How a shape moves.
 enum class ShapeMotion { rest, rotate, wander };
+/// In the order of the enumerators.
+inline constexpr std::array<std::string_view, 3> shape_motion_names{"rest", "rotate", "wander"};
+[[nodiscard]] constexpr std::string_view name_of(ShapeMotion motion) {
+  return shape_motion_names[static_cast<std::size_t>(motion)];
+}
 
 /// From the first frame to the last, linearly.
 struct Span {

@@ -77,12 +77,6 @@ std::optional<std::string> unread_chains(const std::string& file, const gemmi::M
 
 }  // namespace
 
-bool is_structure_file(const std::filesystem::path& path) {
-  std::string ending = file_ending(path);
-  if (ending == ".gz") ending = file_ending(path.stem());
-  return ending == ".pdb" || ending == ".ent" || ending == ".cif" || ending == ".mmcif";
-}
-
 FramesRead read_structure(const std::filesystem::path& path, const ReadOptions& options) {
   const std::unique_ptr<StructureModels> models = open_structure(path);
   const FramesHeld held = models->held();

@@ -12,8 +12,6 @@
 
 namespace kds {
 
-[[nodiscard]] bool is_structure_file(const std::filesystem::path& path);
-
 [[nodiscard]] FramesRead read_structure(const std::filesystem::path& path, const ReadOptions& options);
 
 /// The atoms of a structure's first model, by their place in the file.

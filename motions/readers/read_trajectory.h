@@ -2,6 +2,7 @@
 // Reads necklaces, one unless several chains are asked for: the format is told by the file's ending (.pdb
 // .ent .cif .mmcif [.gz], .dcd, .xyz).
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -26,6 +27,11 @@ enum class Selection {
   ca,
   all,
 };
+/// In the order of the enumerators.
+inline constexpr std::array<std::string_view, 4> selection_names{"automatic", "backbone", "ca", "all"};
+[[nodiscard]] constexpr std::string_view name_of(Selection selection) {
+  return selection_names[static_cast<std::size_t>(selection)];
+}
 
 struct ReadOptions {
   std::optional<std::filesystem::path> topology = {};  ///< PDB or mmCIF that names the atoms of a DCD

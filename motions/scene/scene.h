@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "motions/base/bead_range.h"
@@ -27,6 +28,11 @@ enum class FrameMotion {
   /// Linear, with weights such that each sphere moves on a straight line in lifted space (lifted_motion.h).
   lifted,
 };
+/// In the order of the enumerators.
+inline constexpr std::array<std::string_view, 3> frame_motion_names{"linear", "hermite", "lifted"};
+[[nodiscard]] constexpr std::string_view name_of(FrameMotion motion) {
+  return frame_motion_names[static_cast<std::size_t>(motion)];
+}
 
 class Scene {
  public:

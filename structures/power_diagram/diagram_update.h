@@ -25,11 +25,10 @@
 #include <span>
 #include <string>
 
+#include "structures/power_diagram/update_technique.h"
 #include "structures/triangulation/regular_triangulation.h"
 
 namespace kds {
-
-enum class UpdateTechnique : std::uint8_t { rebuild, reinsert, greedy, kinetic, lifted, activate, automatic };
 
 /// What an update did.
 struct UpdateCounts {

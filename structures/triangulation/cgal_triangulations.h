@@ -69,10 +69,6 @@ struct CgalTriangulation<Geometry, 2> {
   static void set_cell(VertexHandle v, Cell c) {
     v->set_face(c);
   }
-  static int orientation(Cell c) {
-    return CGAL::orientation(c->vertex(0)->point().point(), c->vertex(1)->point().point(),
-                             c->vertex(2)->point().point());
-  }
   template <class VertexHandle>
   static Cell cell_beside(VertexHandle v) {
     return v->face();
@@ -117,10 +113,6 @@ struct CgalTriangulation<Geometry, 3> {
   template <class VertexHandle>
   static void set_cell(VertexHandle v, Cell c) {
     v->set_cell(c);
-  }
-  static int orientation(Cell c) {
-    return CGAL::orientation(c->vertex(0)->point().point(), c->vertex(1)->point().point(),
-                             c->vertex(2)->point().point(), c->vertex(3)->point().point());
   }
   template <class VertexHandle>
   static Cell cell_beside(VertexHandle v) {

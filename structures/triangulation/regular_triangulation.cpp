@@ -243,14 +243,6 @@ bool RegularTriangulation<Dimension>::is_valid() const {
 }
 
 template <int Dimension>
-int RegularTriangulation<Dimension>::least_orientation() const {
-  int least = 1;
-  for (const auto c : Cgal::Types::finite_cells(up_to_date().triangulation))
-    least = std::min(least, Cgal::Types::orientation(c));
-  return least;
-}
-
-template <int Dimension>
 auto RegularTriangulation<Dimension>::finite_cells() const -> std::vector<Beads> {
   return sorted_finite_cells<Dimension>(up_to_date().triangulation);
 }

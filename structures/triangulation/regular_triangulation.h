@@ -151,8 +151,6 @@ class RegularTriangulation {
 
   /// CGAL's own check of combinatorics, orientation and power tests at the points set.
   [[nodiscard]] bool is_valid() const;
-  /// The least orientation of a finite cell at the points set: 1, or 0 for a flat, -1 for an inverted one.
-  [[nodiscard]] int least_orientation() const;
   /// Finite cells, beads ascending, sorted.
   [[nodiscard]] std::vector<Beads> finite_cells() const;
   /// The two beads of each finite edge; also where the beads span less than the space.

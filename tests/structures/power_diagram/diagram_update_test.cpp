@@ -25,11 +25,6 @@ constexpr std::array all_techniques{
     UpdateTechnique::rebuild, UpdateTechnique::reinsert, UpdateTechnique::greedy,   UpdateTechnique::kinetic,
     UpdateTechnique::lifted,  UpdateTechnique::activate, UpdateTechnique::automatic};
 
-std::string name_of(UpdateTechnique technique) {
-  constexpr std::array names{"rebuild", "reinsert", "greedy", "kinetic", "lifted", "activate", "automatic"};
-  return names[static_cast<std::size_t>(technique)];
-}
-
 /// Runs over all frames and checks at each; the sum of what was done.
 template <int Dimension>
 UpdateCounts run_in(UpdateTechnique technique, const std::vector<Frame>& frames) {
