@@ -19,14 +19,15 @@ add_library(kds_requirements INTERFACE)
 target_compile_features(kds_requirements INTERFACE cxx_std_20)
 target_include_directories(kds_requirements INTERFACE "${PROJECT_SOURCE_DIR}")
 target_compile_options(kds_requirements INTERFACE -ffp-contract=off)
+# Vectors of four doubles are passed between inlined functions only (motions/numbers/lanes.h): that other compilers pass them
+# in other ways concerns nobody.
+target_compile_options(kds_requirements INTERFACE -Wno-psabi)
 
 # What is ours alone.
 add_library(kds_options INTERFACE)
 target_link_libraries(kds_options INTERFACE kds_requirements)
 target_compile_options(kds_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wextra-semi)
-# Vectors of four doubles are passed between inlined functions only (motions/numbers/lanes.h).
-target_compile_options(kds_options INTERFACE -Wno-psabi)
 if(KDS_WERROR)
   target_compile_options(kds_options INTERFACE -Werror)
 endif()
@@ -57,6 +58,7 @@ function(kds_add_library name)
   endif()
   add_library(kds_${name} STATIC ${sources})
   add_library(kds::${name} ALIAS kds_${name})
+  set_target_properties(kds_${name} PROPERTIES EXPORT_NAME ${name})
   # A header whose own source file includes it first has been compiled alone already, unless precompiled headers came before.
   set(compiled_with_source)
   if(NOT ARG_PRECOMPILED)
