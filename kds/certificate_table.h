@@ -95,7 +95,7 @@ class CertificateTable final : public FailureSource {
   /// Gives up a certificate that has not failed.
   void drop(CertificateHandle guard) {
     if (guard == CertificateHandle::violated) return;
-    drop_never(1);
+    --owner_.statistics.certificates.alive;
     if (!has_slot(guard)) return;
     ++owner_.statistics.certificates.cancelled;
     simulator_.cancel(entries_[slot_of(guard)].handle);
@@ -110,8 +110,6 @@ class CertificateTable final : public FailureSource {
     counts.alive += count;
     counts.peak = std::max(counts.peak, counts.alive);
   }
-  /// Gives up `count` certificates that never fail.
-  void drop_never(std::uint64_t count) { owner_.statistics.certificates.alive -= count; }
 
   /// It will soon be asked for.
   void fetch(CertificateHandle guard) const {

@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "certificates/base/gram_matrix.h"
+
 namespace kds {
 
 namespace {
@@ -37,29 +39,6 @@ Integer dot(const std::array<Integer, N>& a, const std::array<Integer, N>& b) {
   Integer sum = a[0] * b[0];
   for (std::size_t i = 1; i < N; ++i) sum += a[i] * b[i];
   return sum;
-}
-
-// The adjugate of the leading m x m block, and its determinant.
-using Symmetric = std::array<std::array<Integer, 3>, 3>;
-Integer adjoin(const Symmetric& g, std::size_t m, Symmetric& adjugate) {
-  if (m == 0) return 1;
-  if (m == 1) {
-    adjugate[0][0] = 1;
-    return g[0][0];
-  }
-  if (m == 2) {
-    adjugate[0][0] = g[1][1];
-    adjugate[1][1] = g[0][0];
-    adjugate[0][1] = adjugate[1][0] = -g[0][1];
-    return g[0][0] * g[1][1] - g[0][1] * g[0][1];
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      adjugate[i][j] = g[i1][j1] * g[i2][j2] - g[i1][j2] * g[i2][j1];
-    }
-  }
-  return dot(g[0], adjugate[0]);
 }
 
 }  // namespace
@@ -98,29 +77,25 @@ std::optional<ExactSphere<Dimension>> ExactSphere<Dimension>::touching(std::span
   sphere.m_ = basis.size() - 1;
   const std::size_t m = sphere.m_;
   if (m == 0) return sphere;
-  std::array<Integer, 3> s, e;
-  Symmetric gram, adjugate;
   for (std::size_t i = 0; i < m; ++i) {
     for (std::size_t axis = 0; axis < Dimension; ++axis)
       sphere.d_[i][axis] = basis[i + 1].center[axis] - basis[0].center[axis];
+  }
+  const GramMatrix<Integer> gram(sphere.d_, m);
+  std::array<Integer, 3> s, e;
+  for (std::size_t i = 0; i < m; ++i) {
     s[i] = basis[i + 1].radius - basis[0].radius;
-    for (std::size_t j = 0; j <= i; ++j) gram[i][j] = gram[j][i] = dot(sphere.d_[i], sphere.d_[j]);
-    e[i] = gram[i][i] - s[i] * s[i];
+    e[i] = gram(i, i) - s[i] * s[i];
     if (e[i].sign() <= 0) return std::nullopt;  // one holds the other
   }
-  sphere.g_ = adjoin(gram, m, adjugate);
+  sphere.g_ = gram.determinant();
   if (sphere.g_.sign() <= 0) return std::nullopt;
+  sphere.ae_ = gram.times_adjugate(e);
+  sphere.as_ = gram.times_adjugate(s);
+  sphere.a_ = gram.dot(s, sphere.as_) - sphere.g_;
+  sphere.b_ = gram.dot(e, sphere.as_);
+  sphere.c_ = gram.dot(e, sphere.ae_);
   for (std::size_t i = 0; i < m; ++i) {
-    for (std::size_t j = 0; j < m; ++j) {
-      sphere.ae_[i] += adjugate[i][j] * e[j];
-      sphere.as_[i] += adjugate[i][j] * s[j];
-    }
-  }
-  sphere.a_ = -sphere.g_;
-  for (std::size_t i = 0; i < m; ++i) {
-    sphere.a_ += s[i] * sphere.as_[i];
-    sphere.b_ += e[i] * sphere.as_[i];
-    sphere.c_ += e[i] * sphere.ae_[i];
     for (std::size_t axis = 0; axis < Dimension; ++axis) {
       sphere.qae_[axis] += sphere.d_[i][axis] * sphere.ae_[i];
       sphere.qas_[axis] += sphere.d_[i][axis] * sphere.as_[i];

@@ -1,0 +1,94 @@
+#pragma once
+// The Gram matrix G of up to three vectors, its determinant g and its adjugate A: what the sphere that
+// touches balls is made of without a division (certificates/types/ball_in_sphere.h), in whole numbers and in
+// enclosures.
+
+#include <array>
+#include <cstddef>
+
+namespace kds {
+
+template <class Number>
+class GramMatrix {
+ public:
+  using Row = std::array<Number, 3>;  // places beyond the size are not used
+
+  /// Of the first `size` vectors, 1 to 3.
+  template <std::size_t Dimension>
+  GramMatrix(const std::array<std::array<Number, Dimension>, 3>& vectors, std::size_t size) : size_(size) {
+    for (std::size_t i = 0; i < size; ++i) {
+      entry_[i][i] = squared(vectors[i][0]);
+      for (std::size_t axis = 1; axis < Dimension; ++axis)
+        entry_[i][i] = entry_[i][i] + squared(vectors[i][axis]);
+      for (std::size_t j = 0; j < i; ++j)
+        entry_[i][j] = entry_[j][i] = product(vectors[i], vectors[j], Dimension);
+    }
+    adjoin();
+  }
+
+  [[nodiscard]] const Number& operator()(std::size_t i, std::size_t j) const { return entry_[i][j]; }
+  [[nodiscard]] const Number& determinant() const { return determinant_; }
+
+  /// v.w
+  [[nodiscard]] Number dot(const Row& v, const Row& w) const { return product(v, w, size_); }
+  /// Av
+  [[nodiscard]] Row times_adjugate(const Row& v) const {
+    Row result;
+    for (std::size_t i = 0; i < size_; ++i) result[i] = product(adjugate_[i], v, size_);
+    return result;
+  }
+  /// (e.Ae s.As - (e.As)^2) / g, by Lagrange's identity.
+  [[nodiscard]] Number skew(const Row& e, const Row& s) const {
+    const auto x = [&](std::size_t i, std::size_t j) { return e[i] * s[j] - e[j] * s[i]; };
+    if (size_ == 1) return Number(0);
+    if (size_ == 2) return squared(x(0, 1));
+    const Row cross{x(1, 2), x(2, 0), x(0, 1)};
+    Row g;
+    for (std::size_t i = 0; i < 3; ++i) g[i] = product(entry_[i], cross, 3);
+    return product(g, cross, 3);
+  }
+
+ private:
+  /// Of an enclosure its square is sharper than its product with itself.
+  [[nodiscard]] static Number squared(const Number& x) {
+    if constexpr (requires { square(x); }) {
+      return square(x);
+    } else {
+      return x * x;
+    }
+  }
+  template <std::size_t N>
+  [[nodiscard]] static Number product(const std::array<Number, N>& a, const std::array<Number, N>& b,
+                                      std::size_t count) {
+    Number sum = a[0] * b[0];
+    for (std::size_t i = 1; i < count; ++i) sum = sum + a[i] * b[i];
+    return sum;
+  }
+
+  void adjoin() {
+    const auto& g = entry_;
+    if (size_ == 1) {
+      adjugate_[0][0] = Number(1);
+      determinant_ = g[0][0];
+    } else if (size_ == 2) {
+      adjugate_[0][0] = g[1][1];
+      adjugate_[0][1] = adjugate_[1][0] = Number(0) - g[0][1];
+      adjugate_[1][1] = g[0][0];
+      determinant_ = g[0][0] * g[1][1] - squared(g[0][1]);
+    } else {
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = i; j < 3; ++j) {
+          const std::size_t a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
+          adjugate_[i][j] = adjugate_[j][i] = g[a][c] * g[b][d] - g[a][d] * g[b][c];
+        }
+      }
+      determinant_ = product(g[0], adjugate_[0], 3);
+    }
+  }
+
+  std::array<Row, 3> entry_{}, adjugate_{};
+  Number determinant_{};
+  std::size_t size_;
+};
+
+}  // namespace kds
