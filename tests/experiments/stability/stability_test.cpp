@@ -74,34 +74,33 @@ const Extreme& extreme(std::string_view name) {
 }
 
 // The function of a certificate over the first beads of a scene.
-template <class C, Motion M>
-ExactPolynomial function_in(std::string_view name, std::size_t number) {
+template <class C, int Dimension>
+ExactPolynomial function_in(int motion_degree, std::string_view name, std::size_t number) {
   SceneRandom random = scene_random(11, name, number);
   C certificate;
-  const M motion =
-      extreme(name).make({M::dimension, M::degree, certificate.beads.size()}, random).template motion<M>();
+  const auto motion = extreme(name)
+                          .make({Dimension, motion_degree, certificate.beads.size()}, random)
+                          .template motion<Dimension>();
   for (std::size_t i = 0; i < certificate.beads.size(); ++i) certificate.beads[i] = static_cast<BeadId>(i);
-  return *search_over<C>(MotionRef<M::dimension>(motion))->exact_function(certificate);
+  return *search_over<C>(MotionRef<Dimension>(motion))->exact_function(certificate);
 }
 
 TEST(StabilityScenes, AreWhatTheySay) {
-  using Line = BezierMotion<1, 3>;
-  using Space = BezierMotion<3, 1>;
   const Dyadic start(0.0), middle(0.5), end(1.0);
   for (std::size_t number = 0; number < 20; ++number) {
-    EXPECT_TRUE((function_in<Precedes, Line>("beads:coincident", number).is_zero()));
-    EXPECT_EQ((function_in<Precedes, Line>("beads:coincident-mid", number).sign_at(middle)), 0);
-    EXPECT_TRUE((function_in<Orientation<3>, Space>("beads:collinear", number).is_zero()));
-    EXPECT_TRUE((function_in<Orientation<3>, Space>("beads:coplanar", number).is_zero()));
-    EXPECT_EQ((function_in<Orientation<3>, Space>("beads:coplanar-mid", number).sign_at(middle)), 0);
-    EXPECT_TRUE((function_in<PowerTest<3>, Space>("beads:cospherical", number).is_zero()));
-    EXPECT_EQ((function_in<PowerTest<3>, Space>("beads:cospherical-mid", number).sign_at(middle)), 0);
+    EXPECT_TRUE((function_in<Precedes, 1>(3, "beads:coincident", number).is_zero()));
+    EXPECT_EQ((function_in<Precedes, 1>(3, "beads:coincident-mid", number).sign_at(middle)), 0);
+    EXPECT_TRUE((function_in<Orientation<3>, 3>(1, "beads:collinear", number).is_zero()));
+    EXPECT_TRUE((function_in<Orientation<3>, 3>(1, "beads:coplanar", number).is_zero()));
+    EXPECT_EQ((function_in<Orientation<3>, 3>(1, "beads:coplanar-mid", number).sign_at(middle)), 0);
+    EXPECT_TRUE((function_in<PowerTest<3>, 3>(1, "beads:cospherical", number).is_zero()));
+    EXPECT_EQ((function_in<PowerTest<3>, 3>(1, "beads:cospherical-mid", number).sign_at(middle)), 0);
   }
   int zero_at_start = 0, zero_at_end = 0, touching = 0;
   for (std::size_t number = 0; number < 20; ++number) {
-    zero_at_start += function_in<PowerTest<3>, Space>("ties:start", number).sign_at(start) == 0;
-    zero_at_end += function_in<PowerTest<3>, Space>("ties:end", number).sign_at(end) == 0;
-    const auto touch = function_in<PowerTest<3>, Space>("contact:tangent", number);
+    zero_at_start += function_in<PowerTest<3>, 3>(1, "ties:start", number).sign_at(start) == 0;
+    zero_at_end += function_in<PowerTest<3>, 3>(1, "ties:end", number).sign_at(end) == 0;
+    const auto touch = function_in<PowerTest<3>, 3>(1, "contact:tangent", number);
     touching += !touch.is_zero() && touch.sign_at(middle) == 0 &&
                 touch.sign_at(Dyadic(0.25)) == touch.sign_at(Dyadic(0.75));
   }
@@ -113,14 +112,14 @@ TEST(StabilityScenes, AreWhatTheySay) {
 // What a wrong kernel would look like.
 
 struct Followed {
-  explicit Followed(BezierMotion<2, 3> beads) : motion(std::move(beads)) {
+  explicit Followed(AnyDegreeMotion<2> beads) : motion(std::move(beads)) {
     certificate.beads = {0, 1, 2, 3};
     StageCounts stages;
     filtered = follow(Kernel::filtered, certificate, *search, stages);
     exact = follow(Kernel::exact, certificate, *search, stages);
   }
 
-  BezierMotion<2, 3> motion;
+  AnyDegreeMotion<2> motion;
   std::unique_ptr<CertificateSearch<PowerTest<2>>> search = search_over<PowerTest<2>>(MotionRef<2>(motion));
   PowerTest<2> certificate;
   std::vector<Answer> filtered, exact;
@@ -130,8 +129,7 @@ struct Followed {
 std::unique_ptr<Followed> followed() {
   for (std::size_t number = 0;; ++number) {
     SceneRandom random = scene_random(13, "degree:18", number);
-    auto f =
-        std::make_unique<Followed>(extreme("degree:18").make({2, 3, 4}, random).motion<BezierMotion<2, 3>>());
+    auto f = std::make_unique<Followed>(extreme("degree:18").make({2, 3, 4}, random).motion<2>());
     if (f->exact.size() > 3) return f;
   }
 }

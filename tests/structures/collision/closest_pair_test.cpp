@@ -15,6 +15,7 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/ball_gaps.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -293,7 +294,7 @@ TEST(ClosestPair, OfThinBeads) {
 
 TEST(ClosestPair, InFewBeadsAndFlatScenes) {
   for (const int dimension : {0, 1, 2}) {
-    for (unsigned seed = 0; seed < 200; ++seed) {
+    for (unsigned seed = 0; seed < test::rounds(200U); ++seed) {
       Random random(seed);
       Balls balls;
       for (unsigned b = 0; b < 1 + seed % 8; ++b) {
@@ -313,7 +314,7 @@ TEST(ClosestPair, InFewBeadsAndFlatScenes) {
 /// Rounded squares of radii may change the diagram where balls all but touch: a grid answers then.
 TEST(ClosestPair, WhereRoundedSquaresOfRadiiMightMatter) {
   Seen seen;
-  for (unsigned seed = 0; seed < 500; ++seed) {
+  for (unsigned seed = 0; seed < test::rounds(500U); ++seed) {
     Random random(seed);
     Balls balls;
     grow(balls, random, 8, 3, Sizes::unequal, 0);
@@ -381,7 +382,7 @@ TEST(ClosestPair, OfProteins) {
 TEST(BallDistance, ComparesGapsAndPowers) {
   Random random(3);
   unsigned equal = 0, close = 0;
-  for (int round = 0; round < 20000; ++round) {
+  for (int round = 0; round < test::rounds(20000); ++round) {
     const auto whole = [&] {
       const double x = pick(random, -3, 3), y = pick(random, -3, 3), z = pick(random, -3, 3);
       return Eigen::Vector3d(x, y, z);

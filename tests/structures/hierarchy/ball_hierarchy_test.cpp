@@ -11,6 +11,7 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/enclosing_ball.h"
+#include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
 
 namespace kds {
@@ -144,13 +145,13 @@ std::uint64_t run_random(unsigned rounds, std::size_t most_beads) {
 }
 
 TEST(BallHierarchy, RandomBallsInSpace) {
-  EXPECT_GT((run_random<BezierMotion<3, 1>, Radii::any>(8, 7)), 200U);
+  EXPECT_GT((run_random<BezierMotion<3, 1>, Radii::any>(test::rounds(8U), 7)), test::rounds(200U));
 }
 TEST(BallHierarchy, RandomBallsInThePlane) {
-  EXPECT_GT((run_random<BezierMotion<2, 1>, Radii::any>(8, 7)), 200U);
+  EXPECT_GT((run_random<BezierMotion<2, 1>, Radii::any>(test::rounds(8U), 7)), test::rounds(200U));
 }
 TEST(BallHierarchy, EqualBallsInThePlane) {
-  EXPECT_GT((run_random<BezierMotion<2, 1>, Radii::equal>(20, 9)), 400U);
+  EXPECT_GT((run_random<BezierMotion<2, 1>, Radii::equal>(test::rounds(20U), 9)), test::rounds(400U));
 }
 
 // Equal radii are no special case for what takes any.

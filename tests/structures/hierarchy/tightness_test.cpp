@@ -9,6 +9,7 @@
 #include "structures/hierarchy/tightness.h"
 #include "tests/support/inputs/ball_sets.h"
 #include "tests/support/inputs/moving_beads.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -64,7 +65,7 @@ void check_bounds(const Eigen::Matrix3Xd& centers, const std::vector<double>& ra
 
 TEST(Tightness, BoundsHoldLevelByLevelOnRandomBalls) {
   std::mt19937 random(61);
-  for (int round = 0; round < 40; ++round) {
+  for (int round = 0; round < test::rounds(40); ++round) {
     for (const std::size_t which : {0, 1, 3, 4}) {
       const BallSet set = hard_ball_set(random, which, 2 + round * 4, round % 2 == 0, round % 3 == 0);
       check_bounds<3>(set.centers, set.radii);

@@ -10,6 +10,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/cgal_sphere.h"
 #include "tests/support/judges/exact_checks.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -265,7 +266,7 @@ TEST(WrappedHierarchy, RotatingPolygonsAndHelix) {
 
 TEST(WrappedHierarchy, RandomMotionsFullOfTies) {
   std::mt19937 random(21);
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < test::rounds(300); ++round) {
     const std::size_t beads = 2 + random() % 9;
     const int range = 2 + static_cast<int>(random() % 4);
     Points from = random_grid_points(random, beads, range);
@@ -282,7 +283,7 @@ TEST(WrappedHierarchy, RandomMotionsFullOfTies) {
 
 TEST(WrappedHierarchy, RandomFramesFullOfTies) {
   std::mt19937 random(22);
-  for (int round = 0; round < 80; ++round) {
+  for (int round = 0; round < test::rounds(80); ++round) {
     const std::size_t beads = 3 + random() % 7;
     std::vector<Points> frames;
     for (int k = 0; k < 4; ++k)
@@ -296,7 +297,7 @@ TEST(WrappedHierarchy, RandomFramesFullOfTies) {
 // Symmetric motions p -> -p, mirrored and turned ones: everything happens at u = 1/2.
 TEST(WrappedHierarchy, SymmetricMotions) {
   std::mt19937 random(23);
-  for (int round = 0; round < 150; ++round) {
+  for (int round = 0; round < test::rounds(150); ++round) {
     const Points from = random_grid_points(random, 4 + random() % 4, 5);
     Points to = from;
     for (auto& p : to) {
@@ -359,7 +360,7 @@ TEST(WrappedHierarchy, KernelsAgree) {
 
 TEST(WrappedHierarchy, ExactAgreesOnMotionsFullOfTies) {
   std::mt19937 random(24);
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < test::rounds(60); ++round) {
     const Points from = random_grid_points(random, 7, 4);
     const Points to = random_grid_points(random, 7, 4);
     SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));

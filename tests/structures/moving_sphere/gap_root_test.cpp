@@ -19,6 +19,7 @@
 #include "tests/support/inputs/polynomial_source.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/integer_search.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -149,7 +150,7 @@ void judge_all(unsigned seed, MotionKind kind, int exponent, Tally& tally) {
 
 TEST(SphereCrossing, IsWhenRadicalCertificatesFail) {
   Tally space, plane;
-  for (unsigned seed = 0; seed < 150; ++seed) {
+  for (unsigned seed = 0; seed < test::rounds(150U); ++seed) {
     judge_all<Space>(seed, MotionKind::generic, 0, space);
     judge_all<BezierMotion<2, 1>>(seed, MotionKind::generic, 0, plane);
   }
@@ -168,7 +169,7 @@ TEST(SphereCrossing, OfNearlyFlatBases) {
   Tally tally;
   int steep = 0;
   const Basis basis(std::array<BeadId, 4>{0, 1, 2, 3});
-  for (unsigned seed = 0; seed < 200; ++seed) {
+  for (unsigned seed = 0; seed < test::rounds(200U); ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Random random(seed);
     const double height = std::ldexp(1.0, -static_cast<int>(1 + seed % 6));
@@ -236,7 +237,7 @@ TEST(SphereCrossing, SignsOfAFastBall) {
   const auto uniform = [&] { return 0.3 + 0.7 * static_cast<double>(random() >> 11U) * 0x1p-53; };
   for (const int exponent : {4, 12, 16, 24, 30}) {
     int claimed = 0;
-    for (int trial = 0; trial < 3000; ++trial) {
+    for (int trial = 0; trial < test::rounds(3000); ++trial) {
       const double from_x = -std::ldexp(uniform(), exponent), to_x = std::ldexp(uniform(), exponent);
       const Points start{{0, -1, 0}, {0, 1, 0}, {from_x, 0, 0}}, end{{0, -1, 0}, {0, 1, 0}, {to_x, 0, 0}};
       Space motion = moving(start, end);

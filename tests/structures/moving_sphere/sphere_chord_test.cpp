@@ -17,6 +17,7 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/integer_search.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -172,25 +173,25 @@ Tally judge_random(unsigned seeds) {
 }
 
 TEST(SpherePath, ProvesOnlyWhatHolds) {
-  const Tally tally = judge_random<Space, Radii::equal>(150);
-  EXPECT_GT(tally.proved, 1000);
-  EXPECT_GT(tally.inside, 2000);
-  EXPECT_GT(tally.beyond, 2000);
-  EXPECT_GT(tally.kept, 200);
-  EXPECT_GT(tally.dipping, 100);
-  EXPECT_GT(tally.risen, 50);
+  const Tally tally = judge_random<Space, Radii::equal>(test::rounds(150U));
+  EXPECT_GT(tally.proved, test::rounds(1000));
+  EXPECT_GT(tally.inside, test::rounds(2000));
+  EXPECT_GT(tally.beyond, test::rounds(2000));
+  EXPECT_GT(tally.kept, test::rounds(200));
+  EXPECT_GT(tally.dipping, test::rounds(100));
+  EXPECT_GT(tally.risen, test::rounds(50));
 }
 
 TEST(SpherePath, OfBallsInThePlaneAndOfCurvedMotion) {
-  for (const Tally& tally :
-       {judge_random<Space, Radii::any>(24), judge_random<BezierMotion<2, 1>, Radii::any>(24),
-        judge_random<BezierMotion<2, 3>, Radii::equal>(24),
-        judge_random<BezierMotion<3, 2>, Radii::equal>(24),
-        judge_random<BezierMotion<3, 3>, Radii::equal>(24)}) {
-    EXPECT_GT(tally.proved, 50);
-    EXPECT_GT(tally.inside, 100);
-    EXPECT_GT(tally.beyond, 100);
-    EXPECT_GT(tally.kept, 50);
+  for (const Tally& tally : {judge_random<Space, Radii::any>(test::rounds(24U)),
+                             judge_random<BezierMotion<2, 1>, Radii::any>(test::rounds(24U)),
+                             judge_random<BezierMotion<2, 3>, Radii::equal>(test::rounds(24U)),
+                             judge_random<BezierMotion<3, 2>, Radii::equal>(test::rounds(24U)),
+                             judge_random<BezierMotion<3, 3>, Radii::equal>(test::rounds(24U))}) {
+    EXPECT_GT(tally.proved, test::rounds(50));
+    EXPECT_GT(tally.inside, test::rounds(100));
+    EXPECT_GT(tally.beyond, test::rounds(100));
+    EXPECT_GT(tally.kept, test::rounds(50));
   }
 }
 
@@ -198,7 +199,7 @@ TEST(SpherePath, OfBallsInThePlaneAndOfCurvedMotion) {
 // apart.
 template <class M>
 void judge_nearly_flat(Tally& tally) {
-  for (unsigned seed = 0; seed < 150; ++seed) {
+  for (unsigned seed = 0; seed < test::rounds(150U); ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Random random(seed);
     const double height = std::ldexp(1.0, -static_cast<int>(1 + seed % 6));
@@ -279,7 +280,7 @@ void judge_next_to_limit(Space motion, const Basis& basis, const SphereChord<3>&
 
 TEST(SpherePath, BeadsNextToTheLimit) {
   Tally tally;
-  for (unsigned seed = 0; seed < 60; ++seed) {
+  for (unsigned seed = 0; seed < test::rounds(60U); ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Random random(seed);
     auto motion = random_motion<Space>(random, 5, MotionKind::generic);
@@ -310,7 +311,7 @@ TEST(SpherePath, BeadsNextToTheLimit) {
 TEST(SpherePath, BeadsNextToTheLimitOfNearlyFlatBases) {
   Tally tally;
   const Basis basis(std::array<BeadId, 4>{0, 1, 2, 3});
-  for (unsigned seed = 0; seed < 400; ++seed) {
+  for (unsigned seed = 0; seed < test::rounds(400U); ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Random random(seed);
     const double height = std::ldexp(1.0, -static_cast<int>(1 + seed % 6));
@@ -381,8 +382,8 @@ void judge_parts(unsigned seed, Tally& tally) {
 
 TEST(SpherePath, ProvesPartsOfAStep) {
   Tally equal, any;
-  for (unsigned seed = 0; seed < 400; ++seed) judge_parts<Space, Radii::equal>(seed, equal);
-  for (unsigned seed = 0; seed < 100; ++seed) {
+  for (unsigned seed = 0; seed < test::rounds(400U); ++seed) judge_parts<Space, Radii::equal>(seed, equal);
+  for (unsigned seed = 0; seed < test::rounds(100U); ++seed) {
     judge_parts<Space, Radii::any>(seed, any);
     judge_parts<BezierMotion<2, 3>, Radii::any>(seed, any);
   }
@@ -421,7 +422,7 @@ void judge_pairs(unsigned seed, int& said, int& missed) {
 
 TEST(SpherePath, KnowsBallsThatStayApart) {
   int said = 0, missed = 0;
-  for (unsigned seed = 0; seed < 200; ++seed) {
+  for (unsigned seed = 0; seed < test::rounds(200U); ++seed) {
     judge_pairs<Space>(seed, said, missed);
     judge_pairs<BezierMotion<2, 3>>(seed, said, missed);
   }
@@ -460,7 +461,7 @@ void judge_four(Random& random, std::size_t size) {
 
 TEST(SpherePath, OfFourBasesAtOnce) {
   Random random(3);
-  for (int round = 0; round < 50; ++round) {
+  for (int round = 0; round < test::rounds(50); ++round) {
     for (std::size_t size = 1; size <= 4; ++size) {
       judge_four<Space>(random, size);
       if (size < 4) judge_four<BezierMotion<2, 3>>(random, size);

@@ -12,6 +12,7 @@
 #include "structures/hierarchy/node_slack.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -102,7 +103,7 @@ void judge(unsigned seed, bool equal, int exponent, Tally& tally) {
 
 TEST(SphereTolerance, BasesStayWhileBallsWanderNoFarther) {
   Tally space, plane;
-  for (unsigned seed = 0; seed < 160; ++seed) {
+  for (unsigned seed = 0; seed < test::rounds(160U); ++seed) {
     judge<3>(seed, seed % 2 == 0, 0, space);
     judge<2>(seed, seed % 2 == 0, 0, plane);
   }

@@ -13,6 +13,7 @@
 #include "motions/numbers/exact_number.h"
 #include "motions/readers/read_trajectory.h"
 #include "motions/scene/radii.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -186,7 +187,7 @@ TEST(Necklace, AgainstAllPairsOnRandomScenes) {
   std::mt19937 random(7);
   const auto number = [&](int low, int high) { return std::uniform_int_distribution(low, high)(random); };
   std::array<std::size_t, 5> total{};
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < test::rounds(300); ++round) {
     std::vector<Eigen::Vector4d> balls;
     const int beads = number(1, 40);
     for (int i = 0; i < beads; ++i)  // whole numbers: many ties

@@ -16,6 +16,7 @@
 #include "motions/curves/lifted_motion.h"
 #include "motions/numbers/exact_number.h"
 #include "tests/support/inputs/random_motion.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -164,7 +165,7 @@ TEST(FacetFilter, HoldNextToZero) {
   test::Random random(5);
   std::uint64_t found = 0;
   for (int places = 4; places < 45; ++places) {
-    for (int round = 0; round < 100; ++round) {
+    for (int round = 0; round < test::rounds(100); ++round) {
       M motion(8);
       for (BeadId b = 0; b < 8; ++b) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -252,7 +253,7 @@ TEST(FacetFilter, HoldWhereRowsAreUnlike) {
   using M = BezierMotion<3, 1>;
   test::Random random(8);
   std::uint64_t found = 0;
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < test::rounds(300); ++round) {
     M motion = slow_motion<M>(random);
     for (BeadId b = 1; b < 8; ++b) {
       const int exponent = static_cast<int>(random() % 13) - 6;
@@ -275,7 +276,7 @@ TEST(FacetFilter, HoldWhereWeightsAreAsLargeAsTheyMayBe) {
   using M = BezierMotion<3, 1>;
   test::Random random(9);
   std::uint64_t found = 0;
-  for (int round = 0; round < 600; ++round) {
+  for (int round = 0; round < test::rounds(600); ++round) {
     M motion = slow_motion<M>(random);
     for (BeadId b = 1; b < 8; ++b) {
       float m = 0;
@@ -299,7 +300,7 @@ TEST(FacetFilter, HoldWithDrift) {
   using M = LiftedMotion<3>;
   test::Random random(10);
   std::uint64_t found = 0;
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < test::rounds(300); ++round) {
     M motion = slow_motion<M>(random);
     const double size = std::ldexp(1.0, static_cast<int>(random() % 12) - 10);
     M::Vector drift;
@@ -314,7 +315,7 @@ TEST(FacetFilter, HoldWithDrift) {
 TEST(FacetFilter, AreTheSameOnAnyProcessor) {
   using M = BezierMotion<3, 1>;
   test::Random random(11);
-  for (int round = 0; round < 100; ++round) {
+  for (int round = 0; round < test::rounds(100); ++round) {
     M motion = slow_motion<M>(random);
     const auto filter = cell_filter_over(MotionRef<3>(motion));
     const auto filter_for_any = cell_filter_for_any_processor(MotionRef<3>(motion));
@@ -371,7 +372,7 @@ TEST(FacetFilter, OfAFewAreFinite) {
   using M = BezierMotion<3, 1>;
   test::Random random(8);
   std::uint64_t found = 0;
-  for (int round = 0; round < 50; ++round) {
+  for (int round = 0; round < test::rounds(50); ++round) {
     M motion = slow_motion<M>(random);
     const auto [cell, turned] = cell_both_ways<3>();
     auto infinite = cell, beside_infinite = turned;

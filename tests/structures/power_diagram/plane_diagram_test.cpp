@@ -11,6 +11,7 @@
 #include "structures/power_diagram/power_diagram.h"
 #include "structures/triangulation/regular_triangulation.h"
 #include "tests/support/inputs/moving_beads.h"
+#include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
 
 namespace kds {
@@ -179,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(Data, DegeneratePlane,
 TEST(PlaneDiagram, RandomMotionsFullOfTies) {
   std::mt19937 random(21);
   int ran = 0;
-  for (int round = 0; round < 600; ++round) {
+  for (int round = 0; round < test::rounds(600); ++round) {
     const std::size_t beads = 3 + random() % 8;
     const int range = 2 + static_cast<int>(random() % 4);
     const Points from = random_grid_points(random, beads, range);

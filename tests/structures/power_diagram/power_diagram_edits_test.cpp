@@ -14,6 +14,7 @@
 #include "structures/triangulation/regular_triangulation.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -159,9 +160,9 @@ void run_all(unsigned seeds) {
   }
 }
 
-TEST(PowerDiagramEdits, InSpace) { run_all<Space>(12); }
-TEST(PowerDiagramEdits, InThePlane) { run_all<BezierMotion<2, 1>>(12); }
-TEST(PowerDiagramEdits, UnderLiftedMotion) { run_all<LiftedMotion<3>>(3); }
+TEST(PowerDiagramEdits, InSpace) { run_all<Space>(test::rounds(12U)); }
+TEST(PowerDiagramEdits, InThePlane) { run_all<BezierMotion<2, 1>>(test::rounds(12U)); }
+TEST(PowerDiagramEdits, UnderLiftedMotion) { run_all<LiftedMotion<3>>(test::rounds(3U)); }
 
 Space random_space(std::size_t beads, unsigned seed, double weight) {
   Random random(seed);

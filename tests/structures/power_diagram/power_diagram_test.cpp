@@ -11,6 +11,7 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/judges/cgal_triangulation.h"
 #include "tests/support/judges/exact_checks.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -493,7 +494,7 @@ INSTANTIATE_TEST_SUITE_P(Data, DegeneratePower,
 TEST(PowerDiagram, RandomMotionsFullOfTies) {
   std::mt19937 random(2);
   int refused = 0, ran = 0;
-  for (int round = 0; round < 400; ++round) {
+  for (int round = 0; round < test::rounds(400); ++round) {
     const std::size_t beads = 4 + random() % 7;
     const int range = 2 + static_cast<int>(random() % 4);
     const Points from = random_grid_points(random, beads, range);
@@ -507,7 +508,7 @@ TEST(PowerDiagram, RandomMotionsFullOfTies) {
 
 TEST(PowerDiagram, RandomFramesFullOfTies) {
   std::mt19937 random(12);
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < test::rounds(60); ++round) {
     const std::size_t beads = 5 + random() % 6;
     std::vector<Points> frames;
     for (int k = 0; k < 4; ++k)
@@ -540,7 +541,7 @@ TEST(PowerDiagram, ExactAgreesOnMotionsFullOfTies) {
 // Beads that stay together hide each other by turns; which facet of an event comes first must not tell.
 TEST(PowerDiagram, ExactAgreesOnTwinsThatStayTogether) {
   std::mt19937 random(13);
-  for (int round = 0; round < 500; ++round) {
+  for (int round = 0; round < test::rounds(500); ++round) {
     const std::size_t beads = 6 + 2 * (random() % 4);
     const int range = 3 + static_cast<int>(random() % 4);
     Points from = random_grid_points(random, beads, range), to = random_grid_points(random, beads, range);
@@ -568,7 +569,7 @@ TEST(PowerDiagram, ExactAgreesOnTwinsThatStayTogether) {
 
 TEST(PowerDiagram, FastAlwaysEnds) {
   std::mt19937 random(14);
-  for (int round = 0; round < 200; ++round) {
+  for (int round = 0; round < test::rounds(200); ++round) {
     const Points from = random_grid_points(random, 8, 3);
     const Points to = random_grid_points(random, 8, 3);
     SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));

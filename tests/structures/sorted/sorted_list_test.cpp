@@ -7,6 +7,7 @@
 
 #include "motions/curves/positions.h"
 #include "tests/support/inputs/moving_beads.h"
+#include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
 
 namespace kds {
@@ -86,7 +87,7 @@ TEST(SortedList, FourBeadsThatMeetAtOnce) {
 
 TEST(SortedList, RandomMotionsFullOfTies) {
   std::mt19937 random(7);
-  for (int round = 0; round < 400; ++round) {
+  for (int round = 0; round < test::rounds(400); ++round) {
     const std::size_t beads = 2 + random() % 12;
     const unsigned range = 2 + static_cast<unsigned>(random() % 7);
     std::vector<double> from, to;
@@ -106,7 +107,7 @@ TEST(SortedList, RandomMotionsFullOfTies) {
 // What happens exactly at a frame is judged by the next step's motion.
 TEST(SortedList, RandomFramesFullOfTies) {
   std::mt19937 random(8);
-  for (int round = 0; round < 200; ++round) {
+  for (int round = 0; round < test::rounds(200); ++round) {
     const std::size_t beads = 2 + random() % 9;
     const unsigned range = 2 + static_cast<unsigned>(random() % 6);
     std::vector<std::vector<double>> frames(5);

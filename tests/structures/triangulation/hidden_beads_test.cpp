@@ -12,6 +12,7 @@
 #include "structures/power_diagram/power_diagram.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -35,7 +36,7 @@ TEST(HiddenBeads, ListsAreThoseOfASlowTwin) {
   std::array<int, beads> host{};  // -2 visible, -1 nowhere
   host.fill(-2);
   host[3] = host[7] = -1;
-  for (int round = 0; round < 5000; ++round) {
+  for (int round = 0; round < test::rounds(5000); ++round) {
     const auto bead = static_cast<BeadId>(random() % beads);
     const CellId cell = random() % 6;
     if (random() % 6 == 0) {

@@ -1,0 +1,17 @@
+#pragma once
+// How many rounds tests of random cases go.
+
+namespace kds::test {
+
+/// All of them; a fifth under the sanitizers, which are many times slower and look for faults of memory, not
+/// of geometry.
+template <class Count>
+[[nodiscard]] constexpr Count rounds(Count all) {
+#ifdef __SANITIZE_ADDRESS__
+  return all < 5 ? 1 : all / 5;
+#else
+  return all;
+#endif
+}
+
+}  // namespace kds::test
