@@ -1,8 +1,8 @@
 #pragma once
 // A double, or four side by side, with a bound on its error, followed operation by operation: |value - exact|
 // <= error. Slower than a filter's fixed bound and much sharper where numbers are of unlike size. Needs no
-// assumption on range: overflow makes the bound infinite or a NaN, and what underflow loses is added, also where
-// operands and results that are not normal are flushed to zero. Rounding is to nearest
+// assumption on range: overflow makes the bound infinite or a NaN, and what underflow loses is added, also
+// where operands and results that are not normal are flushed to zero. Rounding is to nearest
 // (motions/base/floating_point_guard.h).
 //
 // The bounds are rounded themselves, a relative 2^-53 an operation: whoever uses one inflates it once

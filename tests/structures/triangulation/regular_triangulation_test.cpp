@@ -201,15 +201,15 @@ TEST(RegularTriangulation, ValidityFollowsThePoints) {
 
 // Points that a motion has reached are set when CGAL's side is looked at, after what flips did there.
 TEST(RegularTriangulation, PointsFollowAMotion) {
-  // Bead 4 goes from one side of the others to the other.
+  // Bead 4 comes into the sphere of the others.
   const Points before{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}, {20, 20, 20}};
   Points after = before;
-  after[4] = {-20, -20, -20};
+  after[4] = {3.5, 3.5, 3.5};
   const auto motion = moving(before, after);
   RegularTriangulation<3> t;
   (void)t.build(control_points(motion, 0), control_weights(motion, 0));
   EXPECT_TRUE(t.is_valid());
-  EXPECT_EQ(t.set_points(motion, 1).coordinate(4, 0, 2), -20);
+  EXPECT_EQ(t.set_points(motion, 1).coordinate(4, 0, 2), 3.5);
   EXPECT_FALSE(t.is_valid());
   (void)t.set_points(motion, 0);
   EXPECT_TRUE(t.is_valid());
