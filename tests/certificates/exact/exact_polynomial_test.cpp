@@ -1,4 +1,5 @@
 #include "certificates/exact/exact_polynomial.h"
+#include "certificates/exact/isolate_roots.h"
 
 #include <gtest/gtest.h>
 
