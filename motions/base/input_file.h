@@ -27,8 +27,8 @@ class InputFile {
   void rewind();
   [[nodiscard]] const std::string& name() const { return name_; }
 
-  static constexpr std::uint64_t most_unpacked = std::uint64_t{1} << 28U;
-  static constexpr std::uint64_t most_ratio = 200;
+  static constexpr std::uint64_t most_unpacked = std::uint64_t{1} << 26U;
+  static constexpr std::uint64_t most_ratio = 100;
 
  private:
   std::string name_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "motions/base/input_error.h"
 
@@ -11,22 +10,21 @@ namespace kds {
 
 bool LineReader::next(std::string_view& line) {
   for (std::size_t searched = 0;;) {
-    const char* const begin = buffer_.data() + begin_;
-    const void* const found =
-        end_ - begin_ > searched ? std::memchr(begin + searched, '\n', end_ - begin_ - searched) : nullptr;
-    if (found != nullptr) {
-      line = {begin, static_cast<std::size_t>(static_cast<const char*>(found) - begin)};
-      begin_ += line.size() + 1;
-      cut_ = false;
-      break;
-    }
-    searched = end_ - begin_;
-    if (searched > longest)
+    const std::string_view left(buffer_.data() + begin_, end_ - begin_);
+    const std::size_t length = left.find('\n', searched);
+    if (std::min(length, left.size()) > longest)
       throw InputError(
           fmt::format("{}:{}: this line is longer than {} characters, which none of this format is", name(),
                       number_ + 1, longest));
+    if (length != std::string_view::npos) {
+      line = left.substr(0, length);
+      begin_ += length + 1;
+      cut_ = false;
+      break;
+    }
+    searched = left.size();
     if (fill()) continue;
-    if (begin_ == end_) return false;
+    if (left.empty()) return false;
     line = {buffer_.data() + begin_, end_ - begin_};
     begin_ = end_;
     cut_ = true;

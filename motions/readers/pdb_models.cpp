@@ -115,7 +115,7 @@ bool PdbModelReader::read(PdbModel* model) {
       add_line(line, atoms, model->atom_lines);
     }
   }
-  ended_ = inside;
+  if (inside) ended_ = true;
   return inside;
 }
 
