@@ -29,7 +29,7 @@ constexpr std::array kRunOptions{
     OptionSpec{"--nodes", "RANGE",
                "nodes of wrapped to keep, those over beads FIRST:LAST, LAST excluded (default: all)"},
     OptionSpec{"--audit", "WHEN", "compare with static builds: none, frames or events (default: none)"},
-    OptionSpec{"--dump", "DIR", "write the structures at every frame there (default: none)"},
+    OptionSpec{"--dump", "DIR", "write the structures at every frame there, in place of an earlier dump (default: none)"},
     OptionSpec{"--log", "FILE", "write the event log there, for kds replay (default: none)"},
     OptionSpec{"--out", "DIR", "write summary.json, events.csv and report.html there (default: none)"},
     OptionSpec{"--json", "FILE", "write the summary there; - is standard output (default: none)"},

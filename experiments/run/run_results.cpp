@@ -8,6 +8,7 @@
 #include "experiments/output/gnuplot.h"
 #include "experiments/output/output_error.h"
 #include "experiments/output/output_files.h"
+#include "experiments/output/result_page.h"
 #include "experiments/run/html_report.h"
 
 namespace kds {
@@ -23,6 +24,7 @@ void check_destinations(const Destinations& destinations) {
   if (!destinations.out) return;
   require_gnuplot("--out");
   check_directory(*destinations.out, "--out", {kFiles[0], kFiles[1], kFiles[2]});
+  refuse_page_beside(*destinations.out, "update.json", "kds update");
 }
 
 void RunResults::begin(const Scene& scene) {
@@ -43,12 +45,7 @@ void RunResults::deliver(const RunReport& report, const std::string& json, const
   std::exception_ptr no_page;
   if (files_) {
     files_->write("summary.json", json);
-    try {
-      files_->write("report.html", html_report(report));
-    } catch (const std::exception&) {
-      no_page = std::current_exception();
-    }
-    files_->commit([&](std::string_view name) { return no_page && name == "report.html"; });
+    no_page = commit_with_page(*files_, [&] { return html_report(report); });
   }
   if (json_on_stdout) print_to_stdout(json);
   if (destinations_.json && !json_on_stdout) write_file_atomically(*destinations_.json, json);

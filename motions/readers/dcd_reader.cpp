@@ -40,6 +40,19 @@ class DcdFile {
     }
   }
 
+  // Before memory is asked for as the header says: whether the frame is laid out as it says.
+  void check_markers(std::size_t k) {
+    std::uint64_t place = layout_.frame_begin(k);
+    for (const std::uint64_t size : record_sizes(k)) {
+      std::array<char, 8> marker{};
+      stream_.seekg(static_cast<std::streamoff>(place));
+      if (!stream_.read(marker.data(), static_cast<std::streamsize>(layout_.marker_size)))
+        throw InputError(fmt::format("{}: frame {}: cannot read it", file_, k));
+      check_marker(k, layout_.marker(marker.data()), size);
+      place += layout_.record_size(size);
+    }
+  }
+
   void load(std::size_t k) {
     bytes_.resize(layout_.frame_size(k));
     stream_.seekg(static_cast<std::streamoff>(layout_.frame_begin(k)));
@@ -230,6 +243,7 @@ FramesOpened open_dcd(const std::filesystem::path& path, const ReadOptions& opti
     dcd->check_all_markers();
   const FramesAsked asked = select_frames(opened.file, options.frames, held, opened.warnings);
   warn_of_false_count(layout, held, opened);
+  dcd->check_markers(asked[0]);
 
   Beads beads = choose_beads(opened.file, options, layout.atom_count);
   opened.element_radii = std::move(beads.element_radii);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "motions/base/file_ending.h"
+#include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
 #include "motions/readers/chain_breaks.h"
@@ -17,6 +18,7 @@ namespace kds {
 namespace {
 
 FramesOpened open_frames(const std::filesystem::path& path, const ReadOptions& options) {
+  const FloatingPointGuard to_nearest;
   const ReaderSpec* const reader = reader_registry().find(path);
   if (reader == nullptr)
     throw InputError(fmt::format("{}: the ending {} tells no format; expected {}", path.string(),
@@ -65,6 +67,7 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
       heads_(heads_of(opened_)),
       whole_(heads_.size()),
       frames_moved_(heads_.size(), 0) {
+  const FloatingPointGuard to_nearest;
   FrameRead first;
   if (!opened_.frames->next(first))
     throw InputError(fmt::format("{}: the file holds no frame", opened_.file));
@@ -83,6 +86,7 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
 }
 
 bool NecklaceStream::next(FrameRead& frame) {
+  const FloatingPointGuard to_nearest;
   if (!opened_.frames->next(frame)) return false;
   check_finite(opened_.file, frame);
   std::size_t expected = 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -23,6 +24,7 @@ std::optional<AxisPlane> PlaneSearch::plane() const {
 }
 
 SceneSurvey SceneStream::survey(bool with_bonds, const std::function<void(const std::string&)>& warn) {
+  const FloatingPointGuard to_nearest;
   SceneSurvey survey;
   std::vector<std::size_t> file_of;
   for (std::size_t f = 0; f < files_.size(); ++f)
