@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "experiments/output/output_error.h"
 #include "experiments/output/text.h"
 #include "motions/base/input_error.h"
 
@@ -23,10 +25,11 @@ struct Close {
 };
 using Stream = std::unique_ptr<std::FILE, Close>;
 
-// Nameless files instead of pipes: no deadlock, no SIGPIPE, and nothing stays behind.
+// Files in memory instead of pipes: no deadlock, no SIGPIPE, and no disk that may be full.
 Stream nameless_file() {
-  Stream file(std::tmpfile());
-  if (!file) throw std::runtime_error("gnuplot: cannot make a temporary file");
+  const int descriptor = ::memfd_create("kds", MFD_CLOEXEC);
+  Stream file(descriptor < 0 ? nullptr : ::fdopen(descriptor, "w+"));
+  if (!file) fail_to_write("gnuplot: cannot make a file in memory", errno);
   return file;
 }
 
@@ -48,7 +51,7 @@ Outcome spawn_gnuplot(const std::string& script) {
   const Stream input = nameless_file(), output = nameless_file(), errors = nameless_file();
   if (std::fwrite(script.data(), 1, script.size(), input.get()) != script.size() ||
       std::fflush(input.get()) != 0)
-    throw std::runtime_error("gnuplot: cannot write its script");
+    fail_to_write("gnuplot: cannot write its script", errno);
   std::rewind(input.get());
 
   posix_spawn_file_actions_t actions;
@@ -85,6 +88,8 @@ void require_gnuplot(std::string_view option) {
   try {
     static_cast<void>(run_gnuplot("set terminal svg\nset print '-'\nprint 'ready'\n"));
     return;
+  } catch (const OutputError&) {
+    throw;
   } catch (const std::runtime_error& error) {
     why = error.what();
   }

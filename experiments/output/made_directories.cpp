@@ -19,11 +19,10 @@ MadeDirectories::MadeDirectories(const fs::path& path, std::string_view option) 
   for (const fs::path& name : path) {
     current /= name;
     if (name.empty() || fs::is_directory(current, ignored)) continue;
-    if (::mkdir(current.c_str(), 0777) == 0) {
-      made_.emplace_back(current);
-      continue;
-    }
+    made_.emplace_back(current);
+    if (::mkdir(current.c_str(), 0777) == 0) continue;
     const int error = errno;
+    made_.pop_back();
     if (error == EEXIST && fs::is_directory(current, ignored)) continue;  // another program was faster
     remove_empty();
     fail_to_write(fmt::format("{} {}: cannot make the directory", option, path.string()), error);

@@ -7,9 +7,9 @@
 #include <cerrno>
 #include <locale>
 #include <system_error>
-#include <utility>
 
 #include "experiments/output/output_error.h"
+#include "experiments/output/replace_file.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -62,17 +62,18 @@ void check_directory(const fs::path& path, std::string_view option,
 
 void ensure_writable_file(const fs::path& path, std::string_view option) {
   std::error_code error;
-  const fs::path directory = directory_of(path);
+  const fs::path directory = directory_of(link_target(path));
   if (fs::is_directory(path, error) || !path.has_filename())
     throw InputError(fmt::format("{} {}: is a directory, expected a file", option, path.string()));
   if (is_device(path)) return;
   if (!fs::is_directory(directory, error))
     throw InputError(
         fmt::format("{} {}: there is no directory {}", option, path.string(), directory.string()));
+  check_replaceable(path);
   probe(directory, fmt::format("{} {}: cannot write", option, path.string()));
 }
 
-AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)), stream_(nullptr) {
+AtomicFile::AtomicFile(fs::path path) : path_(link_target(path)), stream_(nullptr) {
   std::error_code ignored;
   if (fs::is_directory(path_, ignored))
     throw InputError(fmt::format("{}: is a directory, expected a file", path_.string()));

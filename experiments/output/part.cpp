@@ -10,6 +10,7 @@
 #include <cerrno>
 
 #include "experiments/output/output_error.h"
+#include "experiments/output/replace_file.h"
 
 namespace kds {
 
@@ -44,14 +45,23 @@ Part::Part(const fs::path& directory, Kind kind, const std::string& subject) {
   static std::atomic<unsigned> counter{0};
   for (int attempts = 0;; ++attempts) {
     path_ = directory / fmt::format(".kds-{}-{}.part", ::getpid(), counter++);
+    unfinished_.emplace(path_.string());
     descriptor_ = make(path_, kind);
     constexpr int most_attempts = 1000;
-    if (descriptor_ < 0 && (errno != EEXIST || attempts == most_attempts)) fail_to_write(subject, errno);
+    if (descriptor_ < 0) {
+      const int error = errno;
+      unfinished_.reset();  // another's, if it is there
+      if (error != EEXIST || attempts == most_attempts) fail_to_write(subject, error);
+    }
     if (descriptor_ < 0) continue;
     if (lock_unless_removed(descriptor_)) break;
     ::close(descriptor_);
   }
-  unfinished_.emplace(path_.string());
+}
+
+fs::path Part::add_file() {
+  unfinished_->hold_files(++files_);
+  return file(files_ - 1);
 }
 
 Part::~Part() {
@@ -61,7 +71,8 @@ Part::~Part() {
 }
 
 void Part::become(const fs::path& place, const std::string& subject) {
-  if (::rename(path_.c_str(), place.c_str()) != 0) fail_to_write(subject, errno);
+  const SignalsWait wait;
+  replace_file(path_, place, subject);
   unfinished_.reset();
 }
 

@@ -1,15 +1,14 @@
 #include "experiments/output/staged_files.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstdio>
+#include <cstdint>
+#include <fstream>
+#include <stdexcept>
 #include <utility>
+#include <vector>
 
-#include "experiments/output/descriptor_buffer.h"
-#include "experiments/output/output_error.h"
+#include "experiments/output/replace_file.h"
 
 namespace kds {
 
@@ -19,26 +18,56 @@ StagedFiles::StagedFiles(fs::path directory, std::string_view option)
     : subject_(fmt::format("{} {}: cannot write", option, directory.string())),
       directory_(std::move(directory)),
       made_(directory_, option),
-      folder_(directory_, Part::Kind::folder, subject_) {}
-
-void StagedFiles::write(const std::string& name, std::string_view text) {
-  files_.emplace_back(name, folder_.path());
-  const int file = ::open((folder_.path() / name).c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0666);
-  if (file < 0) fail_to_write(subject_, errno);
-  DescriptorBuffer buffer(file);
-  buffer.sputn(text.data(), static_cast<std::streamsize>(text.size()));
-  buffer.pubsync();
-  const int closed = ::close(file);
-  if (buffer.error() != 0 || closed != 0)
-    fail_to_write(subject_, buffer.error() != 0 ? buffer.error() : errno);
+      folder_(directory_, Part::Kind::folder, subject_) {
+  names_.emplace(folder_.add_file(), subject_);
 }
 
-void StagedFiles::commit() {
-  for (; !files_.empty(); files_.pop_front()) {
-    const std::string& name = files_.front().name;
-    if (::rename((folder_.path() / name).c_str(), (directory_ / name).c_str()) != 0)
-      fail_to_write(fmt::format("{}: cannot write", (directory_ / name).string()), errno);
-  }
+fs::path StagedFiles::place_for(const std::string& name) {
+  if (name.empty() || name.find_first_of("/\n") != std::string::npos)
+    throw std::logic_error("'" + name + "' is no name for a file of a result");
+  names_->stream() << name << '\n';
+  names_->check();
+  return folder_.add_file();
+}
+
+void StagedFiles::write(const std::string& name, std::string_view text) {
+  WrittenFile file(place_for(name), subject_);
+  file.stream().write(text.data(), static_cast<std::streamsize>(text.size()));
+  file.close();
+}
+
+std::ostream& StagedFiles::open(const std::string& name) {
+  open_.emplace(place_for(name), subject_);
+  return open_->stream();
+}
+
+void StagedFiles::check() const {
+  if (open_) open_->check();
+}
+
+// Calls visit(where a file waits, where its place is) for all.
+template <class Visit>
+void StagedFiles::for_each(const Visit& visit) const {
+  std::ifstream names(folder_.file(0), std::ios::binary);
+  std::uint64_t number = 1;
+  for (std::string name; std::getline(names, name); ++number) visit(folder_.file(number), directory_ / name);
+}
+
+void StagedFiles::commit(const std::function<bool(std::string_view)>& is_stale) {
+  if (open_) open_->close();
+  names_->close();
+  for_each([&](const fs::path&, const fs::path& place) { check_replaceable(place); });
+  const SignalsWait wait;
+  for_each([&](const fs::path& waiting, const fs::path& place) {
+    replace_file(waiting, place, place.string() + ": cannot write");
+  });
+  if (!is_stale) return;
+  std::vector<fs::path> stale;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory_, ignored))
+    if (!entry.is_directory(ignored) && is_stale(entry.path().filename().string()))
+      stale.push_back(entry.path());
+  for (const fs::path& path : stale) fs::remove(path, ignored);
 }
 
 }  // namespace kds

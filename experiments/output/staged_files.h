@@ -1,13 +1,17 @@
 #pragma once
-// Files of a directory that appear together or not at all: they wait in a hidden folder of it.
+// Files of a directory that appear together or not at all: they wait in a hidden folder of it, under numbers.
+// What they will be called is kept there too, so that memory does not grow with them.
 
-#include <deque>
 #include <filesystem>
+#include <functional>
+#include <optional>
+#include <ostream>
 #include <string>
 #include <string_view>
 
 #include "experiments/output/made_directories.h"
 #include "experiments/output/part.h"
+#include "experiments/output/written_file.h"
 
 namespace kds {
 
@@ -15,25 +19,31 @@ class StagedFiles {
  public:
   /// Makes the directory if it is not there. Throws InputError or OutputError naming option and path.
   StagedFiles(std::filesystem::path directory, std::string_view option);
+  StagedFiles(const StagedFiles&) = delete;
+  StagedFiles& operator=(const StagedFiles&) = delete;
 
   /// Throws likewise.
   void write(const std::string& name, std::string_view text);
-  /// All files take their places. Without it nothing is left, and a directory made goes too.
-  void commit();
+  /// A file that is written piece by piece until commit(); one only.
+  [[nodiscard]] std::ostream& open(const std::string& name);
+  /// Throws where the open file could not be written.
+  void check() const;
+
+  /// All files take their places, and those of the directory that `is_stale` go: these belong to an earlier
+  /// result. Signals wait meanwhile. Without it nothing is left, and a directory made goes too.
+  void commit(const std::function<bool(std::string_view name)>& is_stale = {});
 
  private:
-  struct File {
-    File(std::string file, const std::filesystem::path& folder)
-        : name(std::move(file)), unfinished((folder / name).string()) {}
-    std::string name;
-    UnfinishedFile unfinished;
-  };
+  [[nodiscard]] std::filesystem::path place_for(const std::string& name);
+  template <class Visit>
+  void for_each(const Visit& visit) const;
 
   std::string subject_;
   std::filesystem::path directory_;
   MadeDirectories made_;
   Part folder_;
-  std::deque<File> files_;
+  std::optional<WrittenFile> names_;  ///< a line a file
+  std::optional<WrittenFile> open_;
 };
 
 }  // namespace kds

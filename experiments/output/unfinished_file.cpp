@@ -2,7 +2,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
+#include <cstring>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -12,6 +15,7 @@ namespace kds {
 // Entries are never freed, so that the handler may walk the list at any moment; a null path is nobody's.
 struct UnfinishedFile::Entry {
   std::atomic<const char*> path{nullptr};
+  std::atomic<std::uint64_t> files{0};  ///< of a folder
   Entry* next = nullptr;
 };
 
@@ -22,9 +26,31 @@ using Entry = UnfinishedFile::Entry;
 std::atomic<Entry*> all_entries{nullptr};
 static_assert(std::atomic<Entry*>::is_always_lock_free && std::atomic<const char*>::is_always_lock_free);
 
+// The folder's file of that number, with nothing but what a signal handler may use.
+void remove_numbered(const char* folder, std::uint64_t number) {
+  constexpr std::size_t longest = 4096, digits = 20;
+  const std::size_t length = std::strlen(folder);
+  if (length + digits + 2 > longest) return;
+  std::array<char, longest> path;
+  std::memcpy(path.data(), folder, length);
+  char* end = path.data() + longest - 1;
+  *end = 0;
+  char* begin = end;
+  do {
+    *--begin = static_cast<char>('0' + number % 10);
+    number /= 10;
+  } while (number > 0);
+  path[length] = '/';
+  std::memmove(path.data() + length + 1, begin, static_cast<std::size_t>(end - begin) + 1);
+  ::unlink(path.data());
+}
+
 extern "C" void remove_unfinished_and_end(int signal) {
   for (const Entry* entry = all_entries.load(); entry != nullptr; entry = entry->next)
-    if (const char* path = entry->path.load()) ::unlink(path);
+    if (const char* path = entry->path.load()) {
+      for (std::uint64_t number = entry->files.load(); number-- > 0;) remove_numbered(path, number);
+      ::unlink(path);
+    }
   for (bool removed = true; removed;) {  // a folder is empty once the folders in it are gone
     removed = false;
     for (const Entry* entry = all_entries.load(); entry != nullptr; entry = entry->next) {
@@ -35,12 +61,26 @@ extern "C" void remove_unfinished_and_end(int signal) {
   ::raise(signal);  // its default action, restored by SA_RESETHAND
 }
 
+// Those that no handler is for, that stop the program, and that do nothing unless it asks.
+bool spares_the_program(int signal) {
+  constexpr std::array others{SIGKILL, SIGSTOP, SIGTSTP, SIGTTIN, SIGTTOU,
+                              SIGCONT, SIGCHLD, SIGURG,  SIGWINCH};
+  return std::find(others.begin(), others.end(), signal) != others.end();
+}
+
 void handle_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  // A stack that has no room left has none for a handler.
+  static std::array<char, std::size_t{1} << 16U> stack;
+  stack_t other{};
+  other.ss_sp = stack.data();
+  other.ss_size = stack.size();
+  ::sigaltstack(&other, nullptr);
+  for (int signal = 1; signal <= SIGRTMAX; ++signal) {
+    if (spares_the_program(signal)) continue;
     struct sigaction action {};
     if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;  // as of nohup
     action.sa_handler = remove_unfinished_and_end;
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
+    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER | SA_ONSTACK);
     ::sigaction(signal, &action, nullptr);
   }
 }
@@ -58,6 +98,7 @@ Entry* take_entry(const char* path) {
   }
   Entry* const entry = free_entries.back();
   free_entries.pop_back();
+  entry->files.store(0);
   entry->path.store(path);
   return entry;
 }
@@ -68,6 +109,8 @@ UnfinishedFile::UnfinishedFile(std::string path) : path_(std::move(path)), entry
   static std::once_flag once;
   std::call_once(once, handle_signals);
 }
+
+void UnfinishedFile::hold_files(std::uint64_t count) { entry_->files.store(count); }
 
 UnfinishedFile::~UnfinishedFile() {
   const std::lock_guard lock(free_entries_mutex);

@@ -6,6 +6,7 @@
 
 #include "experiments/output/text.h"
 #include "experiments/program/option_values.h"
+#include "motions/base/input_file.h"
 
 namespace kds {
 
@@ -43,14 +44,15 @@ void check_chains(const std::string& chains, std::size_t inputs) {
   }
 }
 
+}  // namespace
+
 void check_exists(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError(fmt::format("{}: no such file", path.string()));
   if (std::filesystem::is_directory(path, error))
     throw InputError(fmt::format("{}: is a directory, expected a file", path.string()));
+  require_regular_file(path);
 }
-
-}  // namespace
 
 InputOptions parse_input_options(const ParsedArguments& parsed, std::string_view command) {
   InputOptions options;

@@ -39,7 +39,10 @@ inline constexpr std::string_view kInputHelp =
 /// How the input of this number is to be read: with its own chains.
 [[nodiscard]] ReadOptions reading_of(const InputOptions& options, std::size_t input);
 
-/// Throws InputError where an input or the topology is no file.
+/// Throws InputError where there is no regular file: pipes and devices need not end.
+void check_exists(const std::filesystem::path& path);
+
+/// The same of the inputs and the topology.
 void check_inputs_exist(const InputOptions& options);
 
 }  // namespace kds

@@ -1,11 +1,11 @@
 #include "experiments/program/table_results.h"
 
 #include <array>
+#include <exception>
 #include <filesystem>
-#include <optional>
 
-#include "experiments/output/made_directories.h"
 #include "experiments/output/output_files.h"
+#include "experiments/output/result_page.h"
 #include "experiments/program/taken_paths.h"
 
 namespace kds {
@@ -24,15 +24,17 @@ void check_table_destinations(const Destinations& destinations, const std::strin
 
 void deliver_table(const Destinations& destinations, const std::string& name, const TableResults& results) {
   const bool json_on_stdout = destinations.json == "-";
-  std::optional<MadeDirectories> made;
+  std::exception_ptr no_page;
   if (destinations.out) {
-    made.emplace(*destinations.out, "--out");
-    write_file_atomically(*destinations.out / (name + ".json"), results.json);
-    write_file_atomically(*destinations.out / (name + ".csv"), results.csv);
+    StagedFiles files(*destinations.out, "--out");
+    files.write(name + ".json", results.json);
+    files.write(name + ".csv", results.csv);
+    no_page = commit_with_page(files, results.page);
   }
   if (json_on_stdout) print_to_stdout(results.json);
   if (destinations.json && !json_on_stdout) write_file_atomically(*destinations.json, results.json);
   if (!destinations.quiet && !json_on_stdout) print_to_stdout(results.table);
+  if (no_page) std::rethrow_exception(no_page);
 }
 
 }  // namespace kds

@@ -2,6 +2,7 @@
 // Where the results of a command that prints a table go: NAME.json and NAME.csv in --out, --json, standard
 // output.
 
+#include <functional>
 #include <string>
 
 #include "experiments/output/destinations.h"
@@ -11,6 +12,7 @@ namespace kds {
 
 struct TableResults {
   std::string json, csv, table;
+  std::function<std::string()> page = {};  ///< makes report.html for --out; none: there is no page
 };
 
 /// Throws InputError where something could not be written later, or would replace another result or one of
@@ -18,7 +20,8 @@ struct TableResults {
 void check_table_destinations(const Destinations& destinations, const std::string& name,
                               TakenPaths taken = {});
 
-/// The table is printed unless quiet, or where standard output is the JSON's.
+/// The table is printed unless quiet, or where standard output is the JSON's. The files of --out appear
+/// together, as those of a run do.
 void deliver_table(const Destinations& destinations, const std::string& name, const TableResults& results);
 
 }  // namespace kds

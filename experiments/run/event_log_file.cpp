@@ -4,7 +4,7 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <optional>
 #include <string_view>
 
 #include "experiments/output/provenance.h"
@@ -16,19 +16,20 @@ namespace kds {
 
 namespace {
 
-constexpr std::string_view first_line = "kds event log 1";
+constexpr std::string_view first_line = "kds event log 2", first_line_before = "kds event log 1";
 
 // Reads a line's fields one by one; a field that does not fit is an InputError.
 class Fields {
  public:
-  Fields(std::string_view line, std::string where) : rest_(line), where_(std::move(where)) {}
+  Fields(std::string_view line, const LineReader& lines) : rest_(line), lines_(lines) {}
 
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
   std::string_view word(std::string_view expected) {
     const std::size_t space = rest_.find(' ');
     const std::string_view word = rest_.substr(0, space);
     rest_ = space == std::string_view::npos ? std::string_view() : rest_.substr(space + 1);
-    if (word.empty()) throw InputError(fmt::format("{}: expected {}", where_, expected));
+    if (word.empty())
+      throw InputError(fmt::format("{}:{}: expected {}", lines_.name(), lines_.number(), expected));
     return word;
   }
   template <class Number>
@@ -42,31 +43,48 @@ class Fields {
       result = std::from_chars(text.data(), text.data() + text.size(), value, base);
     }
     if (result.ec != std::errc() || result.ptr != text.data() + text.size()) {
-      throw InputError(fmt::format("{}: expected {}, found '{}'", where_, expected, text));
+      throw InputError(
+          fmt::format("{}:{}: expected {}, found '{}'", lines_.name(), lines_.number(), expected, text));
     }
     return value;
   }
 
  private:
   std::string_view rest_;
-  std::string where_;
+  const LineReader& lines_;
 };
 
 // The second line: what the run was asked to do, and what it ran on.
-bool read_header(const Json& header, EventLog& log) {
-  const Json* arguments = header.find("arguments");
-  const Json* beads = header.find("beads");
-  const Json* steps = header.find("steps");
+bool read_header(const Json& json, EventLogHeader& header) {
+  const Json* version = json.find("version");
+  const Json* arguments = json.find("arguments");
+  const Json* beads = json.find("beads");
+  const Json* steps = json.find("steps");
   if (!arguments || !arguments->items() || !beads || !beads->whole_number() || !steps ||
       !steps->whole_number())
     return false;
   for (const Json& argument : *arguments->items()) {
     if (!argument.text()) return false;
-    log.arguments.push_back(*argument.text());
+    header.arguments.push_back(*argument.text());
   }
-  log.beads = *beads->whole_number();
-  log.steps = *steps->whole_number();
+  if (version && version->text()) header.version = *version->text();
+  header.beads = *beads->whole_number();
+  header.steps = *steps->whole_number();
   return true;
+}
+
+void add_line(Fingerprint& hash, std::string_view line) {
+  for (const char c : line) hash.add(static_cast<std::uint32_t>(static_cast<unsigned char>(c)));
+  hash.add('\n');
+}
+
+constexpr std::size_t hash_digits = 16;
+
+std::uint64_t read_hash(Fields& fields, std::string_view line, std::string_view what,
+                        const std::string& where) {
+  if (line.size() - line.rfind(' ') != hash_digits + 1)
+    throw InputError(fmt::format("{}: expected {} digits of {} at the line's end", where, hash_digits, what));
+  return fields.number<std::uint64_t>(what, 16);
 }
 
 }  // namespace
@@ -84,64 +102,113 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const RunOptio
 }
 
 void EventLogWriter::on_event(const KineticStructure& structure, const LoggedEvent& event) {
+  if (event.step != step_) end_step();
+  step_ = event.step;
   const Change& change = event.change;
-  file_.stream() << fmt::format("{} {} {} {} {} {}\n", event.step, structure.name(),
-                                structure.kinds()[change.kind].name, event.lower, event.upper,
-                                fmt::join(change.ids.begin(), change.ids.begin() + change.size, " "));
+  const std::string line = fmt::format("{} {} {} {} {} {}", event.step, structure.name(),
+                                       structure.kinds()[change.kind].name, event.lower, event.upper,
+                                       fmt::join(change.ids.begin(), change.ids.begin() + change.size, " "));
+  add_line(step_hash_, line);
+  file_.stream() << line << '\n';
   file_.check();
   ++events_;
+  ++step_events_;
+}
+
+void EventLogWriter::end_step() {
+  if (step_events_ > 0)
+    file_.stream() << fmt::format("step {} {} {:016x}\n", step_, step_events_, step_hash_.value());
+  step_events_ = 0;
+  step_hash_ = {};
 }
 
 void EventLogWriter::commit(std::uint64_t fingerprint) {
+  end_step();
   file_.stream() << fmt::format("end {} {:016x}\n", events_, fingerprint);
   file_.commit();
 }
 
-EventLog read_event_log(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(fmt::format("{}: cannot be read", path.string()));
-  std::string line;
-  if (!std::getline(in, line) || line != first_line) {
-    throw InputError(fmt::format("{}:1: expected '{}': this is no event log", path.string(), first_line));
-  }
-  EventLog log;
-  std::getline(in, line);
-  if (!read_header(parse_json(line), log))
+EventLogReader::EventLogReader(const std::filesystem::path& path) : lines_(path) {
+  std::string_view line;
+  const bool there = lines_.next(line);
+  if (there && line == first_line_before)
+    throw InputError(fmt::format(
+        "{}:1: this log is of version 1, in which nothing tells whether its times are those of the run; "
+        "run again with --log for one of version 2",
+        lines_.name()));
+  if (!there || line != first_line)
+    throw InputError(fmt::format("{}:1: expected '{}': this is no event log", lines_.name(), first_line));
+  if (!lines_.next(line) || !read_header(parse_json(line), header_))
     throw InputError(
-        fmt::format("{}:2: expected the run's arguments, beads and steps as JSON", path.string()));
-  for (std::size_t number = 3; std::getline(in, line); ++number) {
-    const std::string where = fmt::format("{}:{}", path.string(), number);
-    Fields fields(line, where);
+        fmt::format("{}:2: expected the run's arguments, beads and steps as JSON", lines_.name()));
+}
+
+std::string EventLogReader::where() const { return fmt::format("{}:{}", lines_.name(), lines_.number()); }
+
+const EventLogReader::Entry* EventLogReader::next() {
+  if (ended_) return nullptr;
+  for (std::string_view line; lines_.next(line);) {
+    if (lines_.cut()) break;  // the last line has its end, too
     if (line.starts_with("end ")) {
-      fields.word("end");
-      const auto events = fields.number<std::size_t>("the number of events");
-      if (line.size() - line.rfind(' ') != 17) {
-        throw InputError(fmt::format("{}: expected 16 digits of the fingerprint at the line's end", where));
-      }
-      log.fingerprint = fields.number<std::uint64_t>("the fingerprint", 16);
-      if (events != log.entries.size()) {
-        throw InputError(
-            fmt::format("{}: the log ends after {} events, but holds {}", where, events, log.entries.size()));
-      }
-      if (std::getline(in, line))
-        throw InputError(fmt::format("{}:{}: expected the file's end", path.string(), number + 1));
-      return log;
+      read_end(line);
+      return nullptr;
     }
-    EventLog::Entry entry;
-    entry.line = number;
-    entry.step = fields.number<std::size_t>("a step");
-    entry.structure = fields.word("a structure");
-    entry.kind = fields.word("a kind of event");
-    entry.lower = fields.number<double>("a time");
-    entry.upper = fields.number<double>("a time");
-    while (!fields.at_end()) entry.ids.push_back(fields.number<BeadId>("a bead"));
-    if (!(0 <= entry.lower && entry.lower <= entry.upper && entry.upper <= 1)) {
-      throw InputError(fmt::format("{}: expected times in order between 0 and 1", where));
+    if (!line.starts_with("step ")) {
+      read_event(line);
+      return &entry_;
     }
-    log.entries.push_back(std::move(entry));
+    read_step_end(line);
   }
   throw InputError(
-      fmt::format("{}: ends without its last line: the run that wrote it was cut off", path.string()));
+      fmt::format("{}: ends without its last line: the run that wrote it was cut off", lines_.name()));
+}
+
+void EventLogReader::read_event(std::string_view line) {
+  Fields fields(line, lines_);
+  entry_.line = lines_.number();
+  const auto step = fields.number<std::size_t>("a step");
+  if (step_events_ > 0 ? step != entry_.step : step < first_free_step_)
+    throw InputError(fmt::format("{}: an event of step {} among or behind those of another", where(), step));
+  entry_.step = step;
+  if (step >= header_.steps) throw InputError(fmt::format("{}: step {} of {}", where(), step, header_.steps));
+  entry_.structure = fields.word("a structure");
+  entry_.kind = fields.word("a kind of event");
+  entry_.lower = fields.number<double>("a time");
+  entry_.upper = fields.number<double>("a time");
+  entry_.ids.clear();
+  while (!fields.at_end()) entry_.ids.push_back(fields.number<BeadId>("a bead"));
+  if (!(0 <= entry_.lower && entry_.lower <= entry_.upper && entry_.upper <= 1))
+    throw InputError(fmt::format("{}: expected times in order between 0 and 1", where()));
+  add_line(step_hash_, line);
+  ++events_;
+  ++step_events_;
+}
+
+void EventLogReader::read_step_end(std::string_view line) {
+  Fields fields(line, lines_);
+  fields.word("step");
+  const auto step = fields.number<std::size_t>("a step");
+  const auto events = fields.number<std::uint64_t>("the number of events");
+  const std::uint64_t hash = read_hash(fields, line, "the hash", where());
+  if (step_events_ == 0 || step != entry_.step || events != step_events_ || hash != step_hash_.value())
+    throw InputError(fmt::format("{}: the lines of step {} are not those that the run wrote", where(), step));
+  first_free_step_ = step + 1;
+  step_events_ = 0;
+  step_hash_ = {};
+}
+
+void EventLogReader::read_end(std::string_view line) {
+  Fields fields(line, lines_);
+  fields.word("end");
+  const auto events = fields.number<std::uint64_t>("the number of events");
+  fingerprint_ = read_hash(fields, line, "the fingerprint", where());
+  if (events != events_)
+    throw InputError(fmt::format("{}: the log ends after {} events, but holds {}", where(), events, events_));
+  if (step_events_ > 0)
+    throw InputError(fmt::format("{}: the events of step {} end without their hash", where(), entry_.step));
+  if (std::string_view rest; lines_.next(rest))
+    throw InputError(fmt::format("{}: expected the file's end", where()));
+  ended_ = true;
 }
 
 }  // namespace kds

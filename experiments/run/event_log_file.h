@@ -1,13 +1,15 @@
 #pragma once
-// The event log as a file: text, one event a line, written whole or not at all.
+// The event log as a file: text, one event a line, written whole or not at all, and read line by line.
 //
-//   kds event log 1
+//   kds event log 2
 //   {"version": ..., "arguments": [...], "beads": ..., "steps": ...}
 //   STEP STRUCTURE KIND LOWER UPPER ID...
+//   step STEP EVENTS HASH                          (behind the events of each step that has some)
 //   end EVENTS FINGERPRINT
 //
-// The time of an event lies strictly between LOWER and UPPER, or equals both. The arguments are those of kds
-// run.
+// The time of an event lies strictly between LOWER and UPPER, or equals both. HASH is of the step's lines, so
+// that a line that the run did not write is noticed. The arguments are those of kds run. Version 1 had no
+// hashes: nothing told its times from others, and it is refused.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,6 +19,8 @@
 #include "experiments/output/output_files.h"
 #include "experiments/run/run_options.h"
 #include "kds/event_log.h"
+#include "kds/fingerprint.h"
+#include "motions/base/line_reader.h"
 #include "motions/scene/scene.h"
 
 namespace kds {
@@ -29,27 +33,58 @@ class EventLogWriter final : public EventListener {
   void commit(std::uint64_t fingerprint);
 
  private:
+  void end_step();
+
   AtomicFile file_;
   std::uint64_t events_ = 0;
+  std::size_t step_ = 0;           ///< of the events below
+  std::uint64_t step_events_ = 0;  ///< none yet: 0
+  Fingerprint step_hash_;
 };
 
-struct EventLog {
-  struct Entry {
-    std::size_t line;  ///< from 1
-    std::size_t step;
-    std::string structure, kind;
-    double lower, upper;
-    std::vector<BeadId> ids;
-  };
-
+/// What a log says of its run before any event.
+struct EventLogHeader {
+  std::string version;  ///< of the program that wrote it; empty: unknown
   std::vector<std::string> arguments;
   std::size_t beads = 0;
   std::size_t steps = 0;
-  std::vector<Entry> entries;
-  std::uint64_t fingerprint = 0;
 };
 
-/// Throws InputError naming the file and line.
-[[nodiscard]] EventLog read_event_log(const std::filesystem::path& path);
+/// Reads a log event by event. Throws InputError naming the file and line.
+class EventLogReader {
+ public:
+  explicit EventLogReader(const std::filesystem::path& path);
+
+  struct Entry {
+    std::size_t line = 0;  ///< from 1
+    std::size_t step = 0;
+    std::string structure, kind;
+    double lower = 0, upper = 0;
+    std::vector<BeadId> ids;
+  };
+
+  [[nodiscard]] const EventLogHeader& header() const { return header_; }
+  /// The next event; null behind the last one. It lasts until the next call.
+  [[nodiscard]] const Entry* next();
+  /// At the end: what the last line says.
+  [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_; }
+  /// Read so far.
+  [[nodiscard]] std::uint64_t events() const { return events_; }
+
+ private:
+  void read_event(std::string_view line);
+  void read_step_end(std::string_view line);
+  void read_end(std::string_view line);
+  [[nodiscard]] std::string where() const;
+
+  LineReader lines_;
+  EventLogHeader header_;
+  Entry entry_;
+  std::uint64_t events_ = 0, step_events_ = 0;
+  std::size_t first_free_step_ = 0;  ///< whose events have not ended
+  Fingerprint step_hash_;
+  bool ended_ = false;
+  std::uint64_t fingerprint_ = 0;
+};
 
 }  // namespace kds

@@ -2,30 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-#include <vector>
-
-#include "experiments/run/summary_rows.h"
-
 namespace kds {
 
-std::string events_csv(const RunReport& report) {
-  const bool timed = !report.times.empty();
-  std::string text =
-      timed ? "frame,structure,events,cumulative,picoseconds\n" : "frame,structure,events,cumulative\n";
-  std::vector<std::uint64_t> cumulative(report.structures.size(), 0);
-  for (std::size_t step = 0; step < step_count(report); ++step) {
-    for (std::size_t i = 0; i < report.structures.size(); ++i) {
-      const StructureReport& structure = report.structures[i];
-      if (step >= structure.events_per_step.size()) continue;
-      cumulative[i] += structure.events_per_step[step];
-      text += fmt::format("{},{},{},{}", frame_number(report, step), structure.name,
-                          structure.events_per_step[step], cumulative[i]);
-      if (timed) text += fmt::format(",{:.10g}", report.times[step]);
-      text += '\n';
-    }
-  }
-  return text;
+EventsCsv::EventsCsv(std::ostream& stream, bool timed) : stream_(stream), timed_(timed) {
+  stream_ << "frame,structure,events,cumulative" << (timed_ ? ",picoseconds\n" : "\n");
+}
+
+void EventsCsv::add(const FrameStamp& frame, std::string_view structure, std::uint64_t events) {
+  auto so_far = cumulative_.find(structure);
+  if (so_far == cumulative_.end()) so_far = cumulative_.emplace(structure, 0).first;
+  so_far->second += events;
+  stream_ << fmt::format("{},{},{},{}", frame.number, structure, events, so_far->second);
+  if (timed_) stream_ << fmt::format(",{:.10g}", frame.picoseconds.value_or(0));
+  stream_ << '\n';
 }
 
 }  // namespace kds

@@ -16,8 +16,6 @@
 namespace kds {
 namespace {
 
-constexpr std::size_t kMostBins = 600;  // more would only blur: a plot is about as many pixels wide
-
 constexpr std::string_view kWords =
     "An <em>event</em> is a change of the structure itself, found at the exact time at which one of its "
     "<em>certificates</em> fails: sign conditions on a few beads that, while they hold, prove the structure "
@@ -74,14 +72,20 @@ std::string table(const RunReport& report) {
 }
 
 std::string plots_over_time(const RunReport& report) {
-  const std::size_t width = bin_width(step_count(report), kMostBins);
+  std::size_t width = 1;
   LinePlot rate{"rate", "frame", "events per step", true, {}};
   LinePlot sum{"sum", "frame", "events so far", false, {}};
   for (const StructureReport& structure : report.structures) {
-    const auto place = [&](std::size_t frame) { return static_cast<double>(frame_number(report, frame)); };
-    Curve per_step{structure.name, {}}, so_far{structure.name, {{place(0), 0.0}}};
-    for (const EventBin& bin : bin_events(structure.events_per_step, width)) {
-      const double first = place(bin.first_step), end = place(bin.first_step + bin.steps);
+    const std::vector<EventBin>& bins = structure.course.bins();
+    width = std::max(width, structure.course.width());
+    Curve per_step{structure.name, {}}, so_far{structure.name, {}};
+    so_far.points.emplace_back(bins.empty() ? 0.0 : static_cast<double>(bins.front().first_frame), 0.0);
+    for (std::size_t b = 0; b < bins.size(); ++b) {
+      const EventBin& bin = bins[b];
+      const double first = static_cast<double>(bin.first_frame);
+      const double end = static_cast<double>(b + 1 < bins.size() ? bins[b + 1].first_frame
+                                             : report.last_frame ? report.last_frame->number
+                                                                 : bin.first_frame + bin.steps);
       const double mean = static_cast<double>(bin.events) / static_cast<double>(bin.steps);
       if (!per_step.points.empty()) per_step.points.pop_back();
       per_step.points.insert(per_step.points.end(), {{first, mean}, {end, mean}});
@@ -97,9 +101,10 @@ std::string plots_over_time(const RunReport& report) {
         fmt::format("Events between a frame and the next, each point the mean over {} steps.", width);
     sum_caption += fmt::format(" One point for {} steps.", width);
   }
-  if (report.times.size() > 1)
-    sum_caption += fmt::format(" The frames are those from {:.6g} to {:.6g} ps.", report.times.front(),
-                               report.times.back());
+  if (report.first_frame && report.first_frame->picoseconds && report.last_frame &&
+      report.last_frame->picoseconds)
+    sum_caption += fmt::format(" The frames are those from {:.6g} to {:.6g} ps.",
+                               *report.first_frame->picoseconds, *report.last_frame->picoseconds);
   return html_figure(svg_plot(rate), rate_caption) + html_figure(svg_plot(sum), sum_caption);
 }
 

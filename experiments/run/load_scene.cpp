@@ -48,9 +48,13 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
           fmt::format("--motion: has no meaning for an instance file ({})", options.inputs.front().string()));
     return Scene(std::move(*instance));
   }
-  const std::vector<Trajectory> necklaces = read_necklaces(input, warn);
-  std::vector<double> radii = bead_radii(options.radius, necklaces);
-  return Scene(necklaces, std::move(radii), options.motion);
+  std::vector<NecklaceStream> files;
+  for (std::size_t i = 0; i < options.inputs.size(); ++i)
+    files.emplace_back(options.inputs[i], reading_of(input, i));
+  auto frames = std::make_unique<SceneStream>(std::move(files));
+  const SceneSurvey survey = frames->survey(options.radius == "auto", warn);
+  std::vector<double> radii = bead_radii(options.radius, survey.necklaces, survey.bonds);
+  return {std::move(frames), survey, std::move(radii), options.motion};
 }
 
 std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& scene, AuditMode audits) {

@@ -22,7 +22,8 @@ namespace kds {
 [[nodiscard]] std::vector<Trajectory> read_necklaces(const InputOptions& options,
                                                      const std::function<void(const std::string&)>& warn);
 
-/// Reads all inputs; warnings, one line each, go to `warn`. Throws InputError.
+/// Reads all inputs once, and opens them for the run: frames are read as it goes on. Warnings, one line each,
+/// go to `warn`. Throws InputError for whatever is wrong with an input.
 [[nodiscard]] Scene load_scene(const RunOptions& options,
                                const std::function<void(const std::string&)>& warn);
 

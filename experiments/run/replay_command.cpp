@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "experiments/output/text.h"
+#include "experiments/program/input_options.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/taken_paths.h"
 #include "experiments/program/warnings.h"
@@ -33,6 +34,7 @@ constexpr CommandSpec kCommand{
 std::string verdict(const ReplayReport& replay) {
   const std::string logged = hex_digits(replay.logged_fingerprint);
   std::string text = fmt::format("{} events in the log\n", with_thousands(replay.events));
+  if (replay.difference) return text + "different: " + *replay.difference + "\n";
   return text + (replay.same() ? fmt::format("fingerprint same: {}\n", logged)
                                : fmt::format("fingerprint different: {} now, {} in the log\n",
                                              hex_digits(replay.run.fingerprint), logged));
@@ -46,8 +48,7 @@ int replay_command(const Arguments& arguments) {
     throw InputError(
         fmt::format("kds replay takes one LOG, not {} (see kds replay --help)", parsed.operands().size()));
   const std::filesystem::path log = parsed.operands().front();
-  std::error_code error;
-  if (!std::filesystem::exists(log, error)) throw InputError(fmt::format("{}: no such file", log.string()));
+  check_exists(log);
 
   Destinations destinations{std::nullopt, parsed.value("--json"), parsed.has("--quiet")};
   if (const auto out = parsed.value("--out")) destinations.out = *out;
@@ -56,12 +57,13 @@ int replay_command(const Arguments& arguments) {
   paths.write(destinations);
   check_destinations(destinations);
 
+  RunResults results(destinations);
   ProgressBar bar(!destinations.quiet);
   const ReplayReport replay = replay_log(
       log, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },
-      [&bar](const std::string& warning) { print_warning(bar, warning); });
+      [&bar](const std::string& warning) { print_warning(bar, warning); }, &results);
   bar.erase();
-  deliver(destinations, replay.run, replay_json(replay, log), comparison_table(replay.run) + verdict(replay));
+  results.deliver(replay.run, replay_json(replay, log), comparison_table(replay.run) + verdict(replay));
   return replay.same() ? 0 : 1;
 }
 

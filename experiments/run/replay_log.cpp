@@ -1,16 +1,17 @@
 #include "experiments/run/replay_log.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "certificates/exact/exact_time.h"
+#include "experiments/output/provenance.h"
 #include "experiments/program/warnings.h"
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/parse_run_options.h"
 #include "experiments/run/report_of_session.h"
-#include "kds/audit.h"
 #include "motions/base/input_error.h"
 #include "structures/session/session.h"
 
@@ -18,23 +19,10 @@ namespace kds {
 
 namespace {
 
-Change change_of(const EventLog::Entry& entry, const KineticStructure& structure, const std::string& where) {
-  const auto kinds = structure.kinds();
-  const auto kind =
-      std::find_if(kinds.begin(), kinds.end(), [&](const EventKind& k) { return k.name == entry.kind; });
-  if (kind == kinds.end())
-    throw InputError(fmt::format("{}: {} has no events of kind '{}'", where, entry.structure, entry.kind));
-  Change change{
-      static_cast<std::uint8_t>(kind - kinds.begin()), static_cast<std::uint8_t>(entry.ids.size()), {}};
-  if (entry.ids.size() > change.ids.size()) throw InputError(fmt::format("{}: too many beads", where));
-  std::copy(entry.ids.begin(), entry.ids.end(), change.ids.begin());
-  return change;
-}
-
-RunOptions options_of(const EventLog& log, const std::filesystem::path& path) {
+RunOptions options_of(const EventLogHeader& header, const std::filesystem::path& path) {
   const std::string where = path.string() + ":2: the run's arguments: ";
   try {
-    return parse_run_options(log.arguments);
+    return parse_run_options(header.arguments);
   } catch (const InputError& error) {
     throw InputError(where + error.what());
   } catch (const HelpRequest&) {
@@ -42,58 +30,105 @@ RunOptions options_of(const EventLog& log, const std::filesystem::path& path) {
   }
 }
 
+// Hears the events of the run and reads those of the log beside them.
+class LogComparison final : public EventListener {
+ public:
+  LogComparison(EventLogReader& log, const std::string& name, const Simulator& simulator)
+      : log_(log),
+        name_(name),
+        simulator_(simulator),
+        own_version_(log.header().version == program_version()) {}
+
+  void on_event(const KineticStructure& structure, const LoggedEvent& event) override {
+    if (difference_) return;
+    const EventLogReader::Entry* const entry = log_.next();
+    if (entry == nullptr) {
+      part(fmt::format("{}: ends before an event of {} in step {}", name_, structure.name(), event.step));
+    } else if (!is_event(*entry, structure, event)) {
+      part(fmt::format("{}:{}: an event of {} in step {}, but what happens is {} {} {} in step {}", name_,
+                       entry->line, entry->structure, entry->step, structure.name(),
+                       structure.kinds()[event.change.kind].name,
+                       fmt::join(event.change.ids.begin(), event.change.ids.begin() + event.change.size, " "),
+                       event.step));
+    } else if (!is_time(*entry, event)) {
+      part(fmt::format("{}:{}: a time between {} and {}, but it happens between {} and {}", name_,
+                       entry->line, entry->lower, entry->upper, event.lower, event.upper));
+    }
+  }
+
+  // Nothing more happens: nor may anything in the log.
+  std::optional<std::string> finish() {
+    if (!difference_)
+      if (const EventLogReader::Entry* const entry = log_.next())
+        part(fmt::format("{}:{}: an event of {} in step {} that does not happen", name_, entry->line,
+                         entry->structure, entry->step));
+    return std::move(difference_);
+  }
+
+ private:
+  static bool is_event(const EventLogReader::Entry& entry, const KineticStructure& structure,
+                       const LoggedEvent& event) {
+    const Change& change = event.change;
+    return entry.step == event.step && entry.structure == structure.name() &&
+           entry.kind == structure.kinds()[change.kind].name &&
+           std::equal(entry.ids.begin(), entry.ids.end(), change.ids.begin(),
+                      change.ids.begin() + change.size);
+  }
+
+  bool is_time(const EventLogReader::Entry& entry, const LoggedEvent& event) const {
+    if (entry.lower == event.lower && entry.upper == event.upper) return true;
+    if (own_version_ || simulator_.kernel() == Kernel::fast) return false;
+    ExactTime& now = simulator_.now().exact();
+    ExactTime lower{Dyadic(entry.lower)}, upper{Dyadic(entry.upper)};
+    const int after_lower = ExactTime::compare(lower, now), before_upper = ExactTime::compare(now, upper);
+    return entry.lower == entry.upper ? after_lower == 0 : after_lower < 0 && before_upper < 0;
+  }
+
+  // The rest of the log is still to be one that a run wrote: else it is refused.
+  void part(std::string difference) {
+    difference_ = std::move(difference);
+    while (log_.next() != nullptr) {
+    }
+  }
+
+  EventLogReader& log_;
+  const std::string& name_;
+  const Simulator& simulator_;
+  bool own_version_;
+  std::optional<std::string> difference_;
+};
+
 }  // namespace
 
 ReplayReport replay_log(const std::filesystem::path& path, const Progress& progress,
-                        const std::function<void(const std::string&)>& warn) {
-  const EventLog log = read_event_log(path);
-  const RunOptions options = options_of(log, path);
+                        const std::function<void(const std::string&)>& warn, RunResults* results) {
+  const std::string name = path.string();
+  EventLogReader log(path);
+  const RunOptions options = options_of(log.header(), path);
   HeldWarnings warnings;
   const Scene scene = load_scene(options, warnings.hold());
-  if (scene.bead_count() != log.beads || scene.step_count() != log.steps) {
+  if (scene.bead_count() != log.header().beads || scene.step_count() != log.header().steps) {
     throw InputError(fmt::format("{}: the inputs have {} beads and {} steps, the log tells of {} and {}",
-                                 path.string(), scene.bead_count(), scene.step_count(), log.beads,
-                                 log.steps));
+                                 name, scene.bead_count(), scene.step_count(), log.header().beads,
+                                 log.header().steps));
   }
-  // Only the changes are made again: no certificate, no failure time. Frames are audited, unless the run
-  // itself promised nothing.
-  const AuditMode audits = options.kernel == Kernel::fast ? AuditMode::none : AuditMode::frames;
-  const auto session = open_session(options, scene, audits);
-  session->load(0);
-  Simulator& simulator = session->simulator();
-  const auto& structures = session->structures();
+  const auto session = open_session(options, scene, options.audit);
+  LogComparison comparison(log, name, session->simulator());
+  session->simulator().listen(comparison);
+  StepCounts counts(*session, scene);
+  if (results != nullptr) results->begin(scene);
+  run_steps(*session, scene, options, [&](std::size_t frame) {
+    if (frame == 0) return warnings.release(warn);
+    counts.end_step(frame - 1, results);
+    progress(frame, scene.step_count());
+  });
 
-  std::vector<std::vector<Simulator::Replayed>> steps(scene.step_count());
-  for (const EventLog::Entry& entry : log.entries) {
-    const std::string where = fmt::format("{}:{}", path.string(), entry.line);
-    const auto structure = std::find_if(structures.begin(), structures.end(),
-                                        [&](auto* s) { return s->name() == entry.structure; });
-    if (structure == structures.end())
-      throw InputError(fmt::format("{}: the run had no structure '{}'", where, entry.structure));
-    if (entry.step >= steps.size())
-      throw InputError(fmt::format("{}: step {} of {}", where, entry.step, steps.size()));
-    auto& step = steps[entry.step];
-    if (!step.empty() && entry.upper < step.back().lower)
-      throw InputError(fmt::format("{}: before the event above it", where));
-    step.push_back({static_cast<std::size_t>(structure - structures.begin()), entry.lower, entry.upper,
-                    change_of(entry, **structure, where), where});
-  }
-
-  simulator.build_for_replay();
-  warnings.release(warn);
-  for (std::size_t step = 0; step < steps.size(); ++step) {
-    session->load(step);
-    try {
-      simulator.replay_step(steps[step]);
-    } catch (const std::logic_error& reason) {  // changes that do not fit
-      throw InputError(reason.what());
-    } catch (const AuditError& error) {
-      throw InputError(
-          fmt::format("{}: its events do not lead to the right structures: {}", path.string(), error.what()));
-    }
-    progress(step + 1, steps.size());
-  }
-  return {report_of(*session, scene, options), log.fingerprint, log.entries.size()};
+  ReplayReport replay;
+  replay.difference = comparison.finish();
+  replay.run = report_of(*session, scene, options, counts);
+  replay.logged_fingerprint = log.fingerprint();
+  replay.events = log.events();
+  return replay;
 }
 
 }  // namespace kds

@@ -37,12 +37,13 @@ Json run_json(const RunReport& report) {
   json["input"] = {{"files", report.files},           {"beads", report.beads},
                    {"frames", report.frames},         {"dimension", report.dimension},
                    {"radius_min", report.radius_min}, {"radius_max", report.radius_max}};
-  if (!report.frame_numbers.empty()) {
-    json["input"]["first_frame"] = report.frame_numbers.front();
-    json["input"]["last_frame"] = report.frame_numbers.back();
+  if (report.first_frame && report.last_frame) {
+    const auto& [first, first_time] = *report.first_frame;
+    const auto& [last, last_time] = *report.last_frame;
+    json["input"]["first_frame"] = first;
+    json["input"]["last_frame"] = last;
+    if (first_time && last_time) json["input"]["picoseconds"] = std::vector<double>{*first_time, *last_time};
   }
-  if (!report.times.empty())
-    json["input"]["picoseconds"] = std::vector<double>{report.times.front(), report.times.back()};
   json["settings"] = Json::object();
   for (const auto& [name, value] : report.settings) json["settings"][name] = value;
   json["structures"] = Json::object();
@@ -65,7 +66,8 @@ std::string replay_json(const ReplayReport& replay, const std::filesystem::path&
   json["replay"] = {{"log", log.string()},
                     {"events", replay.events},
                     {"logged_fingerprint", hex_digits(replay.logged_fingerprint)},
-                    {"same", replay.same()}};
+                    {"same", replay.same()},
+                    {"difference", replay.difference ? Json(*replay.difference) : Json()}};
   return text_of(json);
 }
 

@@ -12,7 +12,8 @@ namespace kds {
 /// Ends with a newline.
 [[nodiscard]] std::string report_json(const RunReport& report);
 
-/// The same with an object `replay`: log, events, logged_fingerprint, same.
+/// The same with an object `replay`: log, events, logged_fingerprint, same, difference (null where there is
+/// none).
 [[nodiscard]] std::string replay_json(const ReplayReport& replay, const std::filesystem::path& log);
 
 }  // namespace kds

@@ -11,7 +11,7 @@ namespace kds {
 
 namespace {
 
-StructureReport report_of(const KineticStructure& structure, double seconds) {
+StructureReport report_of(const KineticStructure& structure, double seconds, const EventCourse& course) {
   const StructureStatistics& s = structure.statistics;
   StructureReport report;
   report.name = structure.name();
@@ -23,7 +23,7 @@ StructureReport report_of(const KineticStructure& structure, double seconds) {
       if (external) report.events_total += s.events_by_kind[k];
     }
   }
-  report.events_per_step = s.events_per_step;
+  report.course = course;
   report.created = s.certificates.created;
   report.never_failing = s.certificates.never_failing;
   report.cancelled = s.certificates.cancelled;
@@ -42,20 +42,22 @@ StructureReport report_of(const KineticStructure& structure, double seconds) {
 
 }  // namespace
 
-RunReport report_of(Session& session, const Scene& scene, const RunOptions& options) {
+RunReport report_of(Session& session, const Scene& scene, const RunOptions& options,
+                    const StepCounts& counts) {
   RunReport report;
   for (const auto& input : options.inputs) report.files.push_back(input.string());
   report.beads = scene.bead_count();
   report.frames = scene.frame_count();
-  for (std::size_t k = 0; k < scene.frame_count(); ++k) report.frame_numbers.push_back(scene.frame_number(k));
-  report.times = scene.times();
+  report.first_frame = scene.stamp(0);
+  report.last_frame = scene.stamp(scene.frame_count() - 1);
   report.dimension = scene.dimension();
   const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
   report.radius_min = *least;
   report.radius_max = *most;
   report.settings = option_settings(options);
   for (std::size_t s = 0; s < session.structures().size(); ++s) {
-    report.structures.push_back(report_of(*session.structures()[s], session.simulator().seconds_of(s)));
+    report.structures.push_back(
+        report_of(*session.structures()[s], session.simulator().seconds_of(s), counts.courses()[s]));
   }
   report.engine_seconds = session.simulator().seconds();
   const ComparisonCounts& comparisons = session.simulator().comparisons();

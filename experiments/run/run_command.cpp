@@ -43,12 +43,13 @@ int run_command(const Arguments& arguments) {
   const Destinations destinations{options.out, options.json, options.quiet};
   check_before_run(options, destinations);
 
+  RunResults results(destinations);
   ProgressBar bar(!options.quiet);
   const RunReport report = run_scene(
       options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },
-      [&bar](const std::string& warning) { print_warning(bar, warning); });
+      [&bar](const std::string& warning) { print_warning(bar, warning); }, &results);
   bar.erase();
-  deliver(destinations, report, report_json(report), comparison_table(report));
+  results.deliver(report, report_json(report), comparison_table(report));
   return 0;
 }
 

@@ -2,9 +2,13 @@
 // What one run found out: the numbers behind the table, summary.json, events.csv and the plots.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "experiments/run/event_bins.h"
+#include "motions/readers/frame_reader.h"
 
 namespace kds {
 
@@ -14,7 +18,7 @@ struct StructureReport {
   std::string name;                ///< sorted, wrapped, power
   std::uint64_t events_total = 0;  ///< external events
   NamedCounts events_by_kind;      ///< external kinds first, then internal ones, which the total leaves out
-  std::vector<std::uint64_t> events_per_step;  ///< external; one entry a motion step
+  EventCourse course;              ///< external events, step by step
   std::uint64_t created = 0, never_failing = 0, cancelled = 0, failed = 0, touched = 0, peak = 0,
                 per_bead_max = 0;
   NamedCounts stages;  ///< how many certificates each stage of the cascade settled
@@ -28,8 +32,7 @@ struct StructureReport {
 struct RunReport {
   std::vector<std::string> files;
   std::uint64_t beads = 0, frames = 0;
-  std::vector<std::size_t> frame_numbers;  ///< of the file, one a frame
-  std::vector<double> times;               ///< of the frames, in picoseconds; empty where the file has none
+  std::optional<FrameStamp> first_frame, last_frame;  ///< where they are in the file, and times
   int dimension = 3;
   double radius_min = 0, radius_max = 0;
   std::vector<std::pair<std::string, std::string>>

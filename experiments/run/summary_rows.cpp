@@ -80,7 +80,7 @@ void add_stages(std::vector<SummaryRow>& rows, const RunReport& report) {
 }
 
 std::string per_step(const StructureReport& structure) {
-  const std::size_t steps = structure.events_per_step.size();
+  const std::size_t steps = structure.course.steps();
   return steps == 0 ? "-"
                     : short_decimal(static_cast<double>(structure.events_total) / static_cast<double>(steps));
 }
@@ -91,13 +91,13 @@ std::string ratio(const StructureReport& structure) {
 
 // Where they are not simply the first of a file, or their times are known.
 std::string which_frames(const RunReport& report) {
-  if (report.frame_numbers.empty()) return "";
-  const std::size_t first = report.frame_numbers.front(), last = report.frame_numbers.back();
+  if (!report.first_frame || !report.last_frame) return "";
+  const auto& [first, first_time] = *report.first_frame;
+  const auto& [last, last_time] = *report.last_frame;
   std::string text;
   if (last + 1 != report.frames) text = fmt::format("{} to {}", first, last);
-  if (!report.times.empty())
-    text += fmt::format("{}{:.6g} to {:.6g} ps", text.empty() ? "" : ", ", report.times.front(),
-                        report.times.back());
+  if (first_time && last_time)
+    text += fmt::format("{}{:.6g} to {:.6g} ps", text.empty() ? "" : ", ", *first_time, *last_time);
   return text.empty() ? text : fmt::format(" ({})", text);
 }
 
@@ -141,14 +141,10 @@ std::vector<std::pair<std::string, std::string>> input_lines(const RunReport& re
           {"settings", fmt::format("{}", fmt::join(settings, ", "))}};
 }
 
-std::size_t frame_number(const RunReport& report, std::size_t frame) {
-  return frame < report.frame_numbers.size() ? report.frame_numbers[frame] : frame;
-}
-
 std::size_t step_count(const RunReport& report) {
   std::size_t steps = 0;
   for (const StructureReport& structure : report.structures)
-    steps = std::max(steps, structure.events_per_step.size());
+    steps = std::max(steps, structure.course.steps());
   return steps;
 }
 

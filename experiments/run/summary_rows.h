@@ -23,9 +23,6 @@ struct SummaryRow {
 /// What was run on: label and value.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> input_lines(const RunReport& report);
 
-/// The number in the file of a frame of the run.
-[[nodiscard]] std::size_t frame_number(const RunReport& report, std::size_t frame);
-
 /// The motion steps of the run, one less than its frames.
 [[nodiscard]] std::size_t step_count(const RunReport& report);
 

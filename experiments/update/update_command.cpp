@@ -7,6 +7,7 @@
 
 #include "experiments/output/gnuplot.h"
 #include "experiments/output/output_files.h"
+#include "experiments/output/result_page.h"
 #include "experiments/output/text.h"
 #include "experiments/program/option_names.h"
 #include "experiments/program/progress_bar.h"
@@ -65,7 +66,10 @@ int update_command(const Arguments& arguments) {
   taken.read(options.input);
   if (options.out) taken.write("--out", *options.out / "report.html");
   check_table_destinations(destinations, kName, taken);
-  if (options.out) check_directory(*options.out, "--out", {"report.html"});
+  if (options.out) {
+    check_directory(*options.out, "--out", {"report.html"});
+    refuse_page_beside(*options.out, "summary.json", "kds run");
+  }
 
   ProgressBar bar(!options.quiet);
   if (const auto instance = read_lone_instance(options.input))
@@ -88,9 +92,9 @@ int update_command(const Arguments& arguments) {
   json["rows"] = update_rows_json(rows);
   json["warnings"] = warnings;
   add_provenance(json);
-  deliver_table(destinations, kName, {text_of(json), update_csv(rows), update_table(rows)});
-  if (options.out)
-    write_file_atomically(*options.out / "report.html", update_page(rows, file_names(options)));
+  deliver_table(destinations, kName, {text_of(json), update_csv(rows), update_table(rows), [&] {
+                                        return update_page(rows, file_names(options));
+                                      }});
   return 0;
 }
 

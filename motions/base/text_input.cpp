@@ -1,37 +1,36 @@
 #include "motions/base/text_input.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <memory>
 
 #include "motions/base/input_error.h"
+#include "motions/base/input_file.h"
+#include "motions/base/line_reader.h"
 
 namespace kds {
 
 std::string read_whole_file(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw InputError(fmt::format("{}: this is a folder, expected a file", path.string()));
-  // zlib hands through what is not compressed.
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
-  if (!file) throw InputError(fmt::format("{}: cannot open this file", path.string()));
+  InputFile file(path);
   std::string text;
   std::array<char, 1 << 16> piece;
-  for (;;) {
-    const int got = gzread(file.get(), piece.data(), static_cast<unsigned>(piece.size()));
-    if (got > 0) text.append(piece.data(), static_cast<std::size_t>(got));
-    if (got == static_cast<int>(piece.size())) continue;
-    int code = Z_OK;
-    const char* why = gzerror(file.get(), &code);
-    if (got < 0 || (code != Z_OK && code != Z_STREAM_END))
-      throw InputError(fmt::format("{}: cannot read this file ({})", path.string(), why));
-    if (got == 0) return text;
+  std::size_t line = 0;  // characters since the last line end
+  while (const std::size_t got = file.read(piece.data(), piece.size())) {
+    const std::string_view now(piece.data(), got);
+    const std::size_t last = now.rfind('\n');
+    line = last == std::string_view::npos ? line + got : got - last - 1;
+    if (line > LineReader::longest)
+      throw InputError(fmt::format("{}: a line is longer than {} characters, which none of this format is",
+                                   path.string(), LineReader::longest));
+    text.append(now);
+    if (text.size() > most_whole)
+      throw InputError(fmt::format("{}: holds more than the {} bytes that are read of such a file",
+                                   path.string(), most_whole));
   }
+  return text;
 }
 
 std::string_view next_line(std::string_view& rest) {

@@ -39,13 +39,16 @@ class HeaderReader {
   }
 
   // One record, its markers checked.
-  std::vector<char> record(const char* what) {
+  std::vector<char> record(const char* what, std::uint64_t most) {
     std::vector<char> marker(layout.marker_size);
     read(marker, what);
     const std::uint64_t size = layout.marker(marker.data());
     if (size > layout.file_size - position())
       throw InputError(fmt::format(
           "{}: the file ends inside its {} (a record of {} bytes) and holds no frame", file_, what, size));
+    if (size > most)
+      throw InputError(fmt::format("{}: the record of the {} holds {} bytes, expected at most {}", file_,
+                                   what, size, most));
     std::vector<char> bytes(size);
     read(bytes, what);
     read(marker, what);
@@ -56,7 +59,7 @@ class HeaderReader {
   }
 
   std::vector<char> record_of(const char* what, std::uint64_t size) {
-    std::vector<char> bytes = record(what);
+    std::vector<char> bytes = record(what, std::max(size, most_title));
     if (bytes.size() != size)
       throw InputError(fmt::format("{}: the record of the {} holds {} bytes, expected {}", file_, what,
                                    bytes.size(), size));
@@ -71,6 +74,7 @@ class HeaderReader {
 
   DcdLayout layout;
   static constexpr std::uint64_t header_bytes = 84;
+  static constexpr std::uint64_t most_title = std::uint64_t{1} << 20U;  // lines of 80 characters
 
  private:
   void read(std::vector<char>& bytes, const char* what) {
@@ -141,7 +145,7 @@ DcdLayout read_dcd_layout(const std::string& file, std::ifstream& stream) {
     layout.has_fourth = reader.integer(header, 12) != 0;
   }
   layout.times = frame_times(reader, header);
-  (void)reader.record("title");
+  (void)reader.record("title", HeaderReader::most_title);
 
   const std::int64_t atoms = reader.integer(reader.record_of("number of atoms", 4), 0);
   if (atoms <= 0)

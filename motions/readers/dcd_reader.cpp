@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <numeric>
+#include <utility>
 
 #include "motions/base/input_error.h"
+#include "motions/base/input_file.h"
 #include "motions/base/text_input.h"
 #include "motions/readers/dcd_layout.h"
 #include "motions/readers/pdb_reader.h"
@@ -35,6 +37,19 @@ class DcdFile {
         check_marker(k, layout_.marker(marker.data()), size);
         place += layout_.record_size(size);
       }
+    }
+  }
+
+  // Before memory is asked for as the header says: whether the frame is laid out as it says.
+  void check_markers(std::size_t k) {
+    std::uint64_t place = layout_.frame_begin(k);
+    for (const std::uint64_t size : record_sizes(k)) {
+      std::array<char, 8> marker{};
+      stream_.seekg(static_cast<std::streamoff>(place));
+      if (!stream_.read(marker.data(), static_cast<std::streamsize>(layout_.marker_size)))
+        throw InputError(fmt::format("{}: frame {}: cannot read it", file_, k));
+      check_marker(k, layout_.marker(marker.data()), size);
+      place += layout_.record_size(size);
     }
   }
 
@@ -71,10 +86,9 @@ class DcdFile {
 
  private:
   static std::ifstream open(const std::filesystem::path& path) {
-    std::error_code ignored;
+    require_regular_file(path);
     std::ifstream stream(path, std::ios::binary);
-    if (!stream || !std::filesystem::is_regular_file(path, ignored))
-      throw InputError(fmt::format("{}: cannot open this file", path.string()));
+    if (!stream) throw InputError(fmt::format("{}: cannot open this file", path.string()));
     return stream;
   }
 
@@ -162,14 +176,13 @@ class Atoms {
       place_of_[dcd_.layout().free_atoms[i]] = i;
   }
 
-  Eigen::Matrix3Xd beads(std::size_t k, const std::vector<std::size_t>& atoms) {
+  void read_beads(std::size_t k, const std::vector<std::size_t>& atoms, Eigen::Matrix3Xd& frame) {
     dcd_.load(k);
-    Eigen::Matrix3Xd frame(3, static_cast<Eigen::Index>(atoms.size()));
+    frame.resize(3, static_cast<Eigen::Index>(atoms.size()));
     for (std::size_t bead = 0; bead < atoms.size(); ++bead)
       for (std::size_t axis = 0; axis < 3; ++axis)
         frame(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(bead)) =
             coordinate(k, axis, atoms[bead]);
-    return frame;
   }
 
  private:
@@ -186,40 +199,59 @@ class Atoms {
   std::vector<std::size_t> place_of_;
 };
 
-void warn_of_false_count(const DcdLayout& layout, const FramesHeld& held, Trajectory& trajectory) {
+class DcdFrames final : public FrameReader {
+ public:
+  DcdFrames(std::unique_ptr<DcdFile> dcd, std::vector<std::size_t> beads, const FramesAsked& asked)
+      : dcd_(std::move(dcd)), atoms_(*dcd_), beads_(std::move(beads)), asked_(asked) {}
+
+  bool next(FrameRead& frame) override {
+    if (next_ == asked_.count) return false;
+    const std::size_t k = asked_[next_++];
+    frame.stamp = {k, std::nullopt};
+    if (const auto& times = dcd_->layout().times)
+      frame.stamp.picoseconds = times->first + static_cast<double>(k) * times->step;
+    atoms_.read_beads(k, beads_, frame.positions);
+    frame.cell = dcd_->cell();
+    return true;
+  }
+
+  void rewind() override { next_ = 0; }
+
+ private:
+  std::unique_ptr<DcdFile> dcd_;
+  Atoms atoms_;
+  std::vector<std::size_t> beads_;
+  FramesAsked asked_;
+  std::size_t next_ = 0;
+};
+
+void warn_of_false_count(const DcdLayout& layout, const FramesHeld& held, FramesOpened& opened) {
   if (held.ends_inside || layout.frames_claimed == static_cast<std::int64_t>(held.whole)) return;
-  trajectory.warnings.push_back(fmt::format("{}: the header claims {} frames, the file holds {}",
-                                            trajectory.file, layout.frames_claimed, held.whole));
+  opened.warnings.push_back(fmt::format("{}: the header claims {} frames, the file holds {}", opened.file,
+                                        layout.frames_claimed, held.whole));
 }
 
 }  // namespace
 
-FramesRead read_dcd(const std::filesystem::path& path, const ReadOptions& options) {
-  FramesRead read;
-  Trajectory& trajectory = read.trajectory;
-  trajectory.file = path.string();
-  DcdFile dcd(path);
-  const FramesHeld held = dcd.layout().frames_held();
+FramesOpened open_dcd(const std::filesystem::path& path, const ReadOptions& options) {
+  FramesOpened opened;
+  opened.file = path.string();
+  auto dcd = std::make_unique<DcdFile>(path);
+  const DcdLayout& layout = dcd->layout();
+  const FramesHeld held = layout.frames_held();
   if (held.ends_inside && (!options.frames.last || *options.frames.last > held.whole))
-    dcd.check_all_markers();
-  trajectory.frame_numbers = select_frames(trajectory.file, options.frames, held, trajectory.warnings);
-  warn_of_false_count(dcd.layout(), held, trajectory);
+    dcd->check_all_markers();
+  const FramesAsked asked = select_frames(opened.file, options.frames, held, opened.warnings);
+  warn_of_false_count(layout, held, opened);
+  dcd->check_markers(asked[0]);
 
-  if (const auto& times = dcd.layout().times)
-    for (const std::size_t k : trajectory.frame_numbers)
-      trajectory.times.push_back(times->first + static_cast<double>(k) * times->step);
-
-  Beads beads = choose_beads(trajectory.file, options, dcd.layout().atom_count);
-  trajectory.element_radii = std::move(beads.element_radii);
-  if (beads.unread) trajectory.warnings.push_back(std::move(*beads.unread));
-  read.chains = std::move(beads.chains);
-  Atoms atoms(dcd);
-  for (const std::size_t k : trajectory.frame_numbers) {
-    trajectory.frames.push_back(atoms.beads(k, beads.atoms));
-    read.cells.push_back(dcd.cell());
-  }
-  read.chain_like = !options.topology || options.selection != Selection::all;
-  return read;
+  Beads beads = choose_beads(opened.file, options, layout.atom_count);
+  opened.element_radii = std::move(beads.element_radii);
+  if (beads.unread) opened.warnings.push_back(std::move(*beads.unread));
+  opened.chains = std::move(beads.chains);
+  opened.chain_like = !options.topology || options.selection != Selection::all;
+  opened.frames = std::make_unique<DcdFrames>(std::move(dcd), std::move(beads.atoms), asked);
+  return opened;
 }
 
 }  // namespace kds

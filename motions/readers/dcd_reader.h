@@ -5,12 +5,12 @@
 
 #include <filesystem>
 
-#include "motions/readers/frames_read.h"
+#include "motions/readers/frame_reader.h"
 #include "motions/readers/read_trajectory.h"
 
 namespace kds {
 
 /// The topology either names all atoms of the DCD, in their order, or its selected beads are the DCD's atoms.
-[[nodiscard]] FramesRead read_dcd(const std::filesystem::path& path, const ReadOptions& options);
+[[nodiscard]] FramesOpened open_dcd(const std::filesystem::path& path, const ReadOptions& options);
 
 }  // namespace kds

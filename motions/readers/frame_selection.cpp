@@ -16,8 +16,8 @@ std::string where_it_ends(const std::string& file, std::size_t whole) {
 
 }  // namespace
 
-std::vector<std::size_t> select_frames(const std::string& file, const FrameRange& range,
-                                       const FramesHeld& held, std::vector<std::string>& warnings) {
+FramesAsked select_frames(const std::string& file, const FrameRange& range, const FramesHeld& held,
+                          std::vector<std::string>& warnings) {
   if (range.stride == 0) throw InputError("--frames: the stride must be at least 1");
   if (range.last && *range.last <= range.first)
     throw InputError(fmt::format("--frames: no frame lies in {}:{}", range.first, *range.last));
@@ -30,21 +30,18 @@ std::vector<std::size_t> select_frames(const std::string& file, const FrameRange
     warnings.push_back(message);
   }
   if (held.whole == 0) throw InputError(fmt::format("{}: the file holds no frame", file));
-  if (held.whole == 1 && !held.ends_inside) return {0};  // at rest, whatever frames others take
+  if (held.whole == 1 && !held.ends_inside) return {0, 1, 1};  // at rest, whatever frames others take
   if (range.first >= held.whole)
     throw InputError(fmt::format("--frames: frame {} is asked for, {} holds {}", range.first, file,
                                  counted(held.whole, "frame")));
   if (last > held.whole)
     throw InputError(fmt::format("--frames: frames up to {} are asked for, {} holds {}", last - 1, file,
                                  counted(held.whole, "frame")));
-  std::vector<std::size_t> frames;
-  for (std::size_t k = range.first; k < last; k += range.stride) {
-    frames.push_back(k);
-    if (range.stride >= last - k) break;  // adding so large a stride could wrap around
-  }
-  if (const std::size_t behind = last - 1 - frames.back(); behind > 0)
+  const FramesAsked frames{range.first, range.stride, 1 + (last - 1 - range.first) / range.stride};
+  const std::size_t final = frames[frames.count - 1];
+  if (const std::size_t behind = last - 1 - final; behind > 0)
     warnings.push_back(fmt::format("{}: a stride of {} ends at frame {}; {} behind it {} left out", file,
-                                   range.stride, frames.back(), counted(behind, "frame"),
+                                   range.stride, final, counted(behind, "frame"),
                                    behind == 1 ? "is" : "are"));
   return frames;
 }

@@ -16,31 +16,40 @@ namespace {
 
 class PdbModels : public StructureModels {
  public:
-  explicit PdbModels(const std::filesystem::path& path)
-      : file_(path.string()), text_(read_whole_file(path)), split_(split_pdb_models(text_)) {
-    if (split_.models.empty())
+  explicit PdbModels(const std::filesystem::path& path) : file_(path.string()), reader_(path) {
+    while (reader_.skip()) {
+    }
+    held_ = reader_.held();
+    if (held_.whole == 0)
       throw InputError(fmt::format("{}: no ATOM or HETATM line; is this a PDB file?", file_));
+    reader_.rewind();
   }
 
-  FramesHeld held() const override {
-    return {split_.models.size() - (split_.ends_inside ? 1 : 0), split_.ends_inside};
-  }
+  FramesHeld held() const override { return held_; }
 
-  gemmi::Model model(std::size_t k) const override {
-    const std::string lines = atom_lines(file_, split_.models[k]);
+  StructureModel model(std::size_t k) override {
+    if (k < next_) {
+      reader_.rewind();
+      next_ = 0;
+    }
+    bool there = true;
+    for (; there && next_ < k; ++next_) there = reader_.skip();
+    PdbModel text;
+    if (!there || !reader_.next(text))
+      throw InputError(fmt::format("{}: frame {}: is gone since the file was first read", file_, k));
+    ++next_;
     try {
-      return gemmi::read_pdb_string(lines, file_).models.at(0);
+      return {gemmi::read_pdb_string(text.atom_lines, file_).models.at(0), text.cell};
     } catch (const std::exception& error) {
       throw InputError(fmt::format("{}: frame {}: {}", file_, k, one_line_message(error.what())));
     }
   }
 
-  std::optional<Cell> cell(std::size_t k) const override { return split_.models[k].cell; }
-
  private:
   std::string file_;
-  std::string text_;
-  PdbText split_;
+  PdbModelReader reader_;
+  FramesHeld held_;
+  std::size_t next_ = 0;
 };
 
 }  // namespace

@@ -67,61 +67,69 @@ void check_atom_line(const std::string& file, std::size_t line_number, std::stri
 
 }  // namespace
 
-PdbText split_pdb_models(std::string_view text) {
-  std::vector<PdbModel> models;
-  std::optional<Cell> cell;
-  bool inside = false;
-  std::size_t closed = 0;
-  const char* begin = text.data();
-  const auto close = [&](const char* end) {
-    if (inside) models.back().text = {begin, static_cast<std::size_t>(end - begin)};
-    inside = false;
-  };
-  const auto open = [&](std::string_view line, std::size_t number) {
-    close(line.data());
-    begin = line.data();
-    models.push_back({{}, number, cell});
-    inside = true;
-  };
-  std::string_view rest = text;
-  for (std::size_t number = 1; !rest.empty(); ++number) {
-    const std::string_view line = next_line(rest);
-    if (is_record(line, "CRYST1")) {
-      cell = box_cell(line);
-      if (inside) models.back().cell = cell;  // some programs write it behind MODEL
-    } else if (is_record(line, "MODEL")) {
-      open(line, number);
-    } else if (is_record(line, "ENDMDL") || is_record(line, "END")) {
-      if (inside) ++closed;
-      close(line.data());
-    } else if (!inside && is_atom(line)) {
-      open(line, number);
-    }
+void PdbModelReader::add_line(std::string_view line, std::size_t atoms, std::string& atom_lines) const {
+  // Behind column 78 stands the charge, which nothing here needs and not every program writes properly.
+  line = line.substr(0, 78);
+  if (is_atom(line)) {
+    check_atom_line(lines_.name(), lines_.number(), line);
+    atom_lines.append(line.substr(0, 6)).append(serial_field(atoms)).append(line.substr(11));
+  } else {
+    atom_lines.append(line);
   }
-  const bool ends_inside = inside && models.size() > 1 && closed + 1 == models.size();
-  close(text.data() + text.size());
-  return {std::move(models), ends_inside};
+  atom_lines += '\n';
+  if (atom_lines.size() > most_whole)
+    throw InputError(
+        fmt::format("{}:{}: the atoms of this model take more than the {} bytes that are read of one",
+                    lines_.name(), lines_.number(), most_whole));
 }
 
-std::string atom_lines(const std::string& file, const PdbModel& model) {
-  std::string lines;
-  lines.reserve(model.text.size());
+bool PdbModelReader::read(PdbModel* model) {
+  if (model != nullptr) *model = {};
+  bool inside = false;
   std::size_t atoms = 0;
-  std::string_view rest = model.text;
-  for (std::size_t number = model.first_line; !rest.empty(); ++number) {
-    // Behind column 78 stands the charge, which nothing here needs and not every program writes properly.
-    const std::string_view line = next_line(rest).substr(0, 78);
-    if (is_atom(line)) {
-      check_atom_line(file, number, line);
-      lines.append(line.substr(0, 6)).append(serial_field(atoms++)).append(line.substr(11));
-    } else if (is_record(line, "TER")) {
-      lines.append(line);
-    } else {
-      continue;
+  const auto open = [&] {
+    inside = true;
+    ++models_;
+    if (model != nullptr) model->cell = cell_;
+  };
+  if (!opening_.empty()) open();
+  opening_.clear();
+  for (std::string_view line; lines_.next(line);) {
+    if (is_record(line, "CRYST1")) {
+      cell_ = box_cell(line);
+      if (inside && model != nullptr) model->cell = cell_;  // some programs write it behind MODEL
+    } else if (is_record(line, "MODEL")) {
+      if (inside) {
+        opening_ = "MODEL";
+        return true;
+      }
+      open();
+    } else if (is_record(line, "ENDMDL") || is_record(line, "END")) {
+      if (!inside) continue;
+      ++closed_;
+      return true;
+    } else if (is_atom(line)) {
+      if (!inside) open();
+      if (model != nullptr) add_line(line, atoms++, model->atom_lines);
+    } else if (inside && model != nullptr && is_record(line, "TER")) {
+      add_line(line, atoms, model->atom_lines);
     }
-    lines += '\n';
   }
-  return lines;
+  if (inside) ended_ = true;
+  return inside;
+}
+
+void PdbModelReader::rewind() {
+  lines_.rewind();
+  opening_.clear();
+  cell_.reset();
+  models_ = closed_ = 0;
+  ended_ = false;
+}
+
+FramesHeld PdbModelReader::held() const {
+  const bool ends_inside = ended_ && models_ > 1 && closed_ + 1 == models_;
+  return {models_ - (ends_inside ? 1 : 0), ends_inside};
 }
 
 }  // namespace kds

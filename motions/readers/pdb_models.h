@@ -1,33 +1,49 @@
 #pragma once
-// Cuts the text of a PDB file into its models, each with the lines that name and place atoms, checked.
+// Cuts a PDB file into its models while it is read, each with the lines that name and place atoms, checked.
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "motions/base/line_reader.h"
+#include "motions/readers/frame_selection.h"
 #include "motions/readers/periodic.h"
 
 namespace kds {
 
 struct PdbModel {
-  std::string_view text;     ///< from its first line on to the next model's
-  std::size_t first_line;    ///< 1-based, of the file
+  /// ATOM, HETATM and TER, with an atom's place in the model (from 0) for its serial number.
+  std::string atom_lines;
   std::optional<Cell> cell;  ///< of a simulation box: CRYST1 with space group P 1 (or none)
 };
 
-struct PdbText {
-  std::vector<PdbModel> models;
-  bool ends_inside = false;  ///< all models but the last are closed by ENDMDL or END
-};
-
 /// Models begin at MODEL and end at ENDMDL, END or the next MODEL; atoms before any MODEL make one too.
-/// The result looks into `text`.
-[[nodiscard]] PdbText split_pdb_models(std::string_view text);
+class PdbModelReader {
+ public:
+  /// Throws InputError naming the file.
+  explicit PdbModelReader(const std::filesystem::path& path) : lines_(path) {}
 
-/// The ATOM, HETATM and TER lines of a model, with an atom's place in the model (from 0) for its serial
-/// number. Throws InputError naming file and line if a line is too short or a coordinate is no number.
-[[nodiscard]] std::string atom_lines(const std::string& file, const PdbModel& model);
+  /// The next model; false behind the last one. Throws InputError naming file and line if a line is too short
+  /// or a coordinate is no number.
+  [[nodiscard]] bool next(PdbModel& model) { return read(&model); }
+  /// Leaves the next model unread, and unchecked.
+  [[nodiscard]] bool skip() { return read(nullptr); }
+  void rewind();
+  /// Of the models read or left out so far. The file ends inside a model if all but the last are closed by
+  /// ENDMDL or END.
+  [[nodiscard]] FramesHeld held() const;
+
+ private:
+  [[nodiscard]] bool read(PdbModel* model);
+  void add_line(std::string_view line, std::size_t atoms, std::string& atom_lines) const;
+
+  LineReader lines_;
+  std::string opening_;  ///< MODEL, read already, of the next model; empty: none
+  std::optional<Cell> cell_;
+  std::size_t models_ = 0, closed_ = 0;
+  bool ended_ = false;  ///< with the file, inside a model
+};
 
 }  // namespace kds

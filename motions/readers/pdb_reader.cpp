@@ -75,41 +75,72 @@ std::optional<std::string> unread_chains(const std::string& file, const gemmi::M
   return describe_unread_chains(file, model, selected.chains.front().name, selection);
 }
 
+class StructureFrames final : public FrameReader {
+ public:
+  StructureFrames(std::string file, std::unique_ptr<StructureModels> models, const ReadOptions& options,
+                  const FramesAsked& asked)
+      : file_(std::move(file)),
+        models_(std::move(models)),
+        selection_(options.selection),
+        chain_(options.chain),
+        asked_(asked),
+        alone_(models_->held().whole == 1) {}
+
+  // What the first frame tells of all.
+  void describe(FramesOpened& opened) {
+    const gemmi::Model model = models_->model(asked_[0]).model;
+    SelectedChains selected = select_chains(place(asked_[0]), model, selection_, chain_);
+    names_ = names_of(selected.atoms);
+    opened.element_radii = element_radii_of(selected.atoms);
+    if (auto unread = unread_chains(file_, model, selection_, chain_, selected))
+      opened.warnings.push_back(std::move(*unread));
+    opened.chains = std::move(selected.chains);
+  }
+
+  bool next(FrameRead& frame) override {
+    if (next_ == asked_.count) return false;
+    const std::size_t k = asked_[next_++];
+    const StructureModel read = models_->model(k);
+    const SelectedChains selected = select_chains(place(k), read.model, selection_, chain_);
+    check_same_atoms(file_, asked_[0], names_, k, selected.atoms);
+    frame.stamp = {k, std::nullopt};
+    frame.positions = positions(selected.atoms);
+    frame.cell = alone_ ? std::nullopt : read.cell;
+    return true;
+  }
+
+  void rewind() override { next_ = 0; }
+
+ private:
+  std::string place(std::size_t k) const { return alone_ ? file_ : fmt::format("{}: frame {}", file_, k); }
+
+  std::string file_;
+  std::unique_ptr<StructureModels> models_;
+  Selection selection_;
+  std::optional<std::string> chain_;
+  FramesAsked asked_;
+  bool alone_;
+  std::size_t next_ = 0;
+  std::vector<std::string> names_;  // of the beads in the first frame
+};
+
 }  // namespace
 
-FramesRead read_structure(const std::filesystem::path& path, const ReadOptions& options) {
-  const std::unique_ptr<StructureModels> models = open_structure(path);
-  const FramesHeld held = models->held();
-  FramesRead read;
-  Trajectory& trajectory = read.trajectory;
-  trajectory.file = path.string();
-  trajectory.frame_numbers = select_frames(trajectory.file, options.frames, held, trajectory.warnings);
-  std::vector<std::string> names;
-  for (const std::size_t k : trajectory.frame_numbers) {
-    const gemmi::Model model = models->model(k);
-    const std::string place =
-        held.whole == 1 ? trajectory.file : fmt::format("{}: frame {}", trajectory.file, k);
-    SelectedChains selected = select_chains(place, model, options.selection, options.chain);
-    const std::vector<SelectedAtom>& atoms = selected.atoms;
-    if (trajectory.frames.empty()) {
-      names = names_of(atoms);
-      trajectory.element_radii = element_radii_of(atoms);
-      if (auto unread = unread_chains(trajectory.file, model, options.selection, options.chain, selected))
-        trajectory.warnings.push_back(std::move(*unread));
-      read.chains = std::move(selected.chains);
-    } else {
-      check_same_atoms(trajectory.file, trajectory.frame_numbers.front(), names, k, atoms);
-    }
-    trajectory.frames.push_back(positions(atoms));
-    read.cells.push_back(held.whole > 1 ? models->cell(k) : std::nullopt);
-  }
-  read.chain_like = options.selection != Selection::all;
-  return read;
+FramesOpened open_structure_frames(const std::filesystem::path& path, const ReadOptions& options) {
+  FramesOpened opened;
+  opened.file = path.string();
+  opened.chain_like = options.selection != Selection::all;
+  std::unique_ptr<StructureModels> models = open_structure(path);
+  const FramesAsked asked = select_frames(opened.file, options.frames, models->held(), opened.warnings);
+  auto frames = std::make_unique<StructureFrames>(opened.file, std::move(models), options, asked);
+  frames->describe(opened);
+  opened.frames = std::move(frames);
+  return opened;
 }
 
 Topology read_topology(const std::filesystem::path& path, Selection selection,
                        const std::optional<std::string>& chain) {
-  const gemmi::Model model = open_structure(path)->model(0);
+  const gemmi::Model model = open_structure(path)->model(0).model;
   Topology topology;
   for (const gemmi::Chain& part : model.chains)
     for (const gemmi::Residue& residue : part.residues) topology.atom_count += residue.atoms.size();

@@ -7,12 +7,13 @@
 #include <filesystem>
 #include <vector>
 
-#include "motions/readers/frames_read.h"
+#include "motions/readers/frame_reader.h"
 #include "motions/readers/read_trajectory.h"
 
 namespace kds {
 
-[[nodiscard]] FramesRead read_structure(const std::filesystem::path& path, const ReadOptions& options);
+[[nodiscard]] FramesOpened open_structure_frames(const std::filesystem::path& path,
+                                                 const ReadOptions& options);
 
 /// The atoms of a structure's first model, by their place in the file.
 struct Topology {

@@ -49,7 +49,7 @@ class Images {
 };
 
 // Returns the centroid.
-Eigen::Vector3d make_frame_whole(Eigen::Matrix3Xd& frame, const Images& images,
+Eigen::Vector3d make_frame_whole(WholeChain::Frame frame, const Images& images,
                                  const std::optional<Eigen::Vector3d>& last_centroid, bool& moved) {
   Eigen::Matrix3Xd shifts = Eigen::Matrix3Xd::Zero(3, frame.cols());
   Eigen::Matrix3Xd whole = frame;
@@ -95,19 +95,14 @@ std::optional<Cell> cell_from_angles(const Eigen::Vector3d& lengths, const Eigen
   return cell_from_lengths(lengths, {cosine(degrees[0]), cosine(degrees[1]), cosine(degrees[2])});
 }
 
-std::size_t make_whole(std::vector<Eigen::Matrix3Xd>& frames, const std::vector<std::optional<Cell>>& cells) {
-  std::size_t frames_moved = 0;
-  std::optional<Eigen::Vector3d> last_centroid;
-  for (std::size_t k = 0; k < frames.size(); ++k) {
-    if (k >= cells.size() || !cells[k] || frames[k].cols() == 0) {
-      last_centroid.reset();
-      continue;
-    }
-    bool moved = false;
-    last_centroid = make_frame_whole(frames[k], Images(*cells[k]), last_centroid, moved);
-    if (moved) ++frames_moved;
+bool WholeChain::make_whole(Frame frame, const std::optional<Cell>& cell) {
+  if (!cell || frame.cols() == 0) {
+    last_centroid_.reset();
+    return false;
   }
-  return frames_moved;
+  bool moved = false;
+  last_centroid_ = make_frame_whole(frame, Images(*cell), last_centroid_, moved);
+  return moved;
 }
 
 }  // namespace kds

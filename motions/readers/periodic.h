@@ -2,9 +2,7 @@
 // Periodic images: a chain that was cut at the walls of a simulation box is put together again.
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <optional>
-#include <vector>
 
 namespace kds {
 
@@ -20,9 +18,20 @@ using Cell = Eigen::Matrix3d;
 [[nodiscard]] std::optional<Cell> cell_from_angles(const Eigen::Vector3d& lengths,
                                                    const Eigen::Vector3d& degrees);
 
-/// Takes for each bead the image nearest to the bead before it, and for each frame the image of the whole
-/// chain whose centroid is nearest to that of the frame before. Each bead moves by whole cell vectors, in one
-/// rounding; what need not move keeps its bits. Returns in how many frames something moved.
-std::size_t make_whole(std::vector<Eigen::Matrix3Xd>& frames, const std::vector<std::optional<Cell>>& cells);
+/// Makes the frames of a chain whole, one after the other: takes for each bead the image nearest to the bead
+/// before it, and for each frame the image of the whole chain whose centroid is nearest to that of the frame
+/// before. Each bead moves by whole cell vectors, in one rounding; what need not move keeps its bits.
+class WholeChain {
+ public:
+  using Frame = Eigen::Ref<Eigen::Matrix3Xd, 0, Eigen::OuterStride<>>;
+
+  /// Returns whether something moved. A frame without a cell stays as it is.
+  bool make_whole(Frame frame, const std::optional<Cell>& cell);
+  /// The next frame is the first.
+  void restart() { last_centroid_.reset(); }
+
+ private:
+  std::optional<Eigen::Vector3d> last_centroid_;
+};
 
 }  // namespace kds

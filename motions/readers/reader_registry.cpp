@@ -53,9 +53,9 @@ ReaderRegistry& reader_registry() {
     own.add({"structure",
              {".pdb", ".ent", ".cif", ".mmcif", ".pdb.gz", ".ent.gz", ".cif.gz", ".mmcif.gz"},
              false,
-             read_structure});
-    own.add({"dcd", {".dcd"}, true, read_dcd});
-    own.add({"xyz", {".xyz"}, false, read_xyz});
+             open_structure_frames});
+    own.add({"dcd", {".dcd"}, true, open_dcd});
+    own.add({"xyz", {".xyz"}, false, open_xyz});
     return own;
   }();
   return registry;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/readers/frames_read.h"
+#include "motions/readers/frame_reader.h"
 
 namespace kds {
 
@@ -16,7 +16,7 @@ struct ReaderSpec {
   std::string name;
   std::vector<std::string> endings;  ///< in lower case, with their dots; ".pdb.gz" is one too
   bool takes_topology = false;       ///< another file names its atoms
-  std::function<FramesRead(const std::filesystem::path&, const ReadOptions&)> read;
+  std::function<FramesOpened(const std::filesystem::path&, const ReadOptions&)> open;
 };
 
 class ReaderRegistry {

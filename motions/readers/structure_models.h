@@ -1,27 +1,28 @@
 #pragma once
-// The models of a PDB or mmCIF file, one after the other.
+// The models of a PDB or mmCIF file, one after the other: of a PDB file only the one asked for is in memory.
 
 #include <cstddef>
 #include <filesystem>
+#include <gemmi/model.hpp>
 #include <memory>
 #include <optional>
 
 #include "motions/readers/frame_selection.h"
 #include "motions/readers/periodic.h"
 
-namespace gemmi {
-struct Model;
-}
-
 namespace kds {
 
-/// In each model an atom's serial number is its place among the model's atoms in the file, from 0.
+struct StructureModel {
+  gemmi::Model model;  ///< an atom's serial number is its place among the model's atoms in the file, from 0
+  std::optional<Cell> cell;
+};
+
 class StructureModels {
  public:
   virtual ~StructureModels() = default;
   [[nodiscard]] virtual FramesHeld held() const = 0;
-  [[nodiscard]] virtual gemmi::Model model(std::size_t k) const = 0;
-  [[nodiscard]] virtual std::optional<Cell> cell(std::size_t k) const = 0;
+  /// Quick where they are asked for in their order. Throws InputError naming file and model.
+  [[nodiscard]] virtual StructureModel model(std::size_t k) = 0;
 };
 
 /// Throws InputError if the file cannot be read or holds no atoms.

@@ -4,9 +4,10 @@
 
 #include <Eigen/LU>
 #include <array>
-#include <fstream>
+#include <utility>
 
 #include "motions/base/input_error.h"
+#include "motions/base/line_reader.h"
 #include "motions/base/text_input.h"
 #include "motions/readers/frame_selection.h"
 #include "motions/readers/vdw_radii.h"
@@ -17,72 +18,79 @@ namespace {
 
 class XyzFile {
  public:
-  explicit XyzFile(const std::filesystem::path& path)
-      : file_(path.string()), stream_(path, std::ios::binary) {
-    std::error_code ignored;
-    if (!stream_ || !std::filesystem::is_regular_file(path, ignored))
-      throw InputError(fmt::format("{}: cannot open this file", file_));
-    find_frames();
+  explicit XyzFile(const std::filesystem::path& path) : lines_(path) {
+    FramesHeld held;
+    while (skip_frame(held)) {
+    }
+    held_ = held;
+    rewind();
   }
 
   FramesHeld held() const { return held_; }
 
-  // Symbols are read into `symbols` where given.
-  Eigen::Matrix3Xd frame(std::size_t k, std::optional<Cell>& cell, std::vector<std::string>* symbols) {
-    stream_.clear();
-    stream_.seekg(starts_[k].place);
-    line_number_ = starts_[k].line;
-    read_line();
-    read_line();
-    cell = cell_of(line_);
+  void rewind() {
+    lines_.rewind();
+    next_ = 0;
+  }
+
+  // Quick where frames are asked for in their order. Symbols are read into `symbols` where given.
+  void read_frame(std::size_t k, FrameRead& frame, std::vector<std::string>* symbols = nullptr) {
+    if (k < next_) rewind();
+    FramesHeld held{next_, false};
+    for (; next_ < k; ++next_)
+      if (!skip_frame(held)) fail_gone(k);
+    if (!read_count() || atoms_in_frame() != atoms_ || !read_line()) fail_gone(k);
+    ++next_;
+    frame.stamp = {k, std::nullopt};
+    frame.cell = cell_of(line_);
     check_columns(line_);
-    Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(atoms_));
-    for (Eigen::Index i = 0; i < positions.cols(); ++i) {
-      read_line();
-      positions.col(i) = atom(symbols);
+    frame.positions.resize(3, static_cast<Eigen::Index>(atoms_));
+    for (Eigen::Index i = 0; i < frame.positions.cols(); ++i) {
+      if (!read_line()) fail_gone(k);
+      frame.positions.col(i) = atom(symbols);
     }
-    return positions;
   }
 
  private:
-  struct Start {
-    std::streamoff place;
-    std::size_t line;
-  };
-
-  bool read_line() {
-    if (!std::getline(stream_, line_)) return false;
-    ++line_number_;
-    return true;
-  }
+  bool read_line() { return lines_.next(line_); }
 
   [[noreturn]] void fail(const std::string& message) const {
-    throw InputError(fmt::format("{}:{}: {}", file_, line_number_, message));
+    throw InputError(fmt::format("{}:{}: {}", lines_.name(), lines_.number(), message));
+  }
+
+  [[noreturn]] void fail_gone(std::size_t k) const {
+    throw InputError(fmt::format("{}: frame {}: is gone since the file was first read", lines_.name(), k));
+  }
+
+  // The line of a frame's number of atoms; false where no frame follows.
+  bool read_count() {
+    while (read_line())
+      if (!trimmed(line_).empty()) return true;
+    return false;
+  }
+
+  std::optional<std::size_t> atoms_in_frame() const {
+    const auto fields = split_fields(line_);
+    return fields.size() == 1 ? parse_count(fields.front()) : std::nullopt;
   }
 
   // Counts lines only: what they hold is looked at in the frames asked for.
-  void find_frames() {
-    for (;;) {
-      const Start start{stream_.tellg(), line_number_};
-      if (!read_line()) return;
-      if (trimmed(line_).empty()) continue;
-      const auto fields = split_fields(line_);
-      const auto count = parse_count(fields.front());
-      if (!count || fields.size() != 1)
-        fail(
-            fmt::format("expected the number of atoms of frame {}, found {}", held_.whole, in_quotes(line_)));
-      if (*count == 0) fail("expected at least 1 atom, found 0");
-      if (held_.whole == 0) atoms_ = *count;
-      if (!skip_atoms(*count)) {
-        held_.ends_inside = true;
-        return;
-      }
-      if (*count != atoms_)
-        throw InputError(fmt::format("{}: frame {}: {}, expected {} as in frame 0", file_, held_.whole,
-                                     counted(*count, "atom"), atoms_));
-      starts_.push_back(start);
-      ++held_.whole;
+  bool skip_frame(FramesHeld& held) {
+    if (!read_count()) return false;
+    const auto count = atoms_in_frame();
+    if (!count)
+      fail(fmt::format("expected the number of atoms of frame {}, found {}", held.whole, in_quotes(line_)));
+    if (*count == 0) fail("expected at least 1 atom, found 0");
+    if (held.whole == 0) atoms_ = *count;
+    if (!skip_atoms(*count)) {
+      held.ends_inside = true;
+      return false;
     }
+    if (*count != atoms_)
+      throw InputError(fmt::format("{}: frame {}: {}, expected {} as in frame 0", lines_.name(), held.whole,
+                                   counted(*count, "atom"), atoms_));
+    ++held.whole;
+    return true;
   }
 
   // Whether the frame is all there; the last line of a cut file may be cut itself.
@@ -90,7 +98,7 @@ class XyzFile {
     if (!read_line()) return false;
     for (std::size_t i = 0; i < count; ++i)
       if (!read_line()) return false;
-    return !stream_.eof() || is_atom_line();
+    return !lines_.cut() || is_atom_line();
   }
 
   bool is_atom_line() const {
@@ -143,13 +151,28 @@ class XyzFile {
       fail(fmt::format("expected columns that begin with {}, found {}", plain, in_quotes(comment)));
   }
 
-  std::string file_;
-  std::ifstream stream_;
-  std::string line_;
-  std::size_t line_number_ = 0;
+  LineReader lines_;
+  std::string_view line_;
   std::size_t atoms_ = 0;
-  std::vector<Start> starts_;
   FramesHeld held_;
+  std::size_t next_ = 0;  // frame that the next line begins
+};
+
+class XyzFrames final : public FrameReader {
+ public:
+  XyzFrames(XyzFile file, const FramesAsked& asked) : file_(std::move(file)), asked_(asked) {}
+
+  bool next(FrameRead& frame) override {
+    if (next_ == asked_.count) return false;
+    file_.read_frame(asked_[next_++], frame);
+    return true;
+  }
+  void rewind() override { next_ = 0; }
+
+ private:
+  XyzFile file_;
+  FramesAsked asked_;
+  std::size_t next_ = 0;
 };
 
 std::vector<double> radii_of(const std::vector<std::string>& symbols) {
@@ -164,26 +187,23 @@ std::vector<double> radii_of(const std::vector<std::string>& symbols) {
 
 }  // namespace
 
-FramesRead read_xyz(const std::filesystem::path& path, const ReadOptions& options) {
+FramesOpened open_xyz(const std::filesystem::path& path, const ReadOptions& options) {
   if (options.selection == Selection::backbone || options.selection == Selection::ca)
     throw InputError(fmt::format(
         "--select: {} does not name residues; an XYZ file is read with all its atoms", path.string()));
   if (options.chain)
     throw InputError(fmt::format("--chain: {} does not name chains; an XYZ file is read with all its atoms",
                                  path.string()));
-  FramesRead read;
-  Trajectory& trajectory = read.trajectory;
-  trajectory.file = path.string();
-  XyzFile xyz(path);
-  trajectory.frame_numbers = select_frames(trajectory.file, options.frames, xyz.held(), trajectory.warnings);
+  FramesOpened opened;
+  opened.file = path.string();
+  XyzFile file(path);
+  const FramesAsked asked = select_frames(opened.file, options.frames, file.held(), opened.warnings);
   std::vector<std::string> symbols;
-  for (const std::size_t k : trajectory.frame_numbers) {
-    std::optional<Cell> cell;
-    trajectory.frames.push_back(xyz.frame(k, cell, trajectory.frames.empty() ? &symbols : nullptr));
-    read.cells.push_back(cell);
-  }
-  trajectory.element_radii = radii_of(symbols);
-  return read;
+  FrameRead first;
+  file.read_frame(asked[0], first, &symbols);
+  opened.element_radii = radii_of(symbols);
+  opened.frames = std::make_unique<XyzFrames>(std::move(file), asked);
+  return opened;
 }
 
 }  // namespace kds

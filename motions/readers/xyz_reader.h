@@ -4,11 +4,11 @@
 
 #include <filesystem>
 
-#include "motions/readers/frames_read.h"
+#include "motions/readers/frame_reader.h"
 #include "motions/readers/read_trajectory.h"
 
 namespace kds {
 
-[[nodiscard]] FramesRead read_xyz(const std::filesystem::path& path, const ReadOptions& options);
+[[nodiscard]] FramesOpened open_xyz(const std::filesystem::path& path, const ReadOptions& options);
 
 }  // namespace kds

@@ -19,19 +19,19 @@ using Visit = std::function<void(BeadId, BeadId)>;
 
 void visit_in_order(const Visit& visit, BeadId a, BeadId b) { visit(std::min(a, b), std::max(a, b)); }
 
-struct Cell {
+struct GridCell {
   std::int64_t x = 0, y = 0, z = 0;
-  friend auto operator<=>(const Cell&, const Cell&) = default;
+  friend auto operator<=>(const GridCell&, const GridCell&) = default;
 };
 
 struct Entry {
-  Cell cell;
+  GridCell cell;
   BeadId bead = 0;
 };
 
 // Cells of side 2^power. Scaling by a power of two and rounding down are exact, so that two points within
 // 2^power of each other lie in the same cell or in neighbours. None where a number needs more than 52 bits.
-std::optional<Cell> cell_of(const Eigen::Matrix3Xd& centers, BeadId bead, int power) {
+std::optional<GridCell> cell_of(const Eigen::Matrix3Xd& centers, BeadId bead, int power) {
   std::array<std::int64_t, 3> place{};
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const double x = centers(axis, static_cast<Eigen::Index>(bead));
@@ -40,7 +40,7 @@ std::optional<Cell> cell_of(const Eigen::Matrix3Xd& centers, BeadId bead, int po
     if (!(std::abs(number) < 0x1p52)) return std::nullopt;
     place[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(number);
   }
-  return Cell{place[0], place[1], place[2]};
+  return GridCell{place[0], place[1], place[2]};
 }
 
 std::optional<std::vector<Entry>> sorted_entries(const Eigen::Matrix3Xd& centers,
@@ -62,14 +62,14 @@ void visit_neighbours(const std::vector<Entry>& queries, const std::vector<Entry
                       const Visit& visit) {
   std::array<std::size_t, 9> starts{};
   for (std::size_t q = 0; q < queries.size(); ++q) {
-    const Cell& cell = queries[q].cell;
+    const GridCell& cell = queries[q].cell;
     for (std::size_t row = 0; row < 9; ++row) {
-      const Cell from{cell.x + static_cast<std::int64_t>(row / 3) - 1,
-                      cell.y + static_cast<std::int64_t>(row % 3) - 1, cell.z - 1};
+      const GridCell from{cell.x + static_cast<std::int64_t>(row / 3) - 1,
+                          cell.y + static_cast<std::int64_t>(row % 3) - 1, cell.z - 1};
       std::size_t& start = starts[row];
       while (start < others.size() && others[start].cell < from) ++start;
       for (std::size_t o = once ? std::max(start, q + 1) : start; o < others.size(); ++o) {
-        const Cell& other = others[o].cell;
+        const GridCell& other = others[o].cell;
         if (other.x != from.x || other.y != from.y || other.z > cell.z + 1) break;
         visit_in_order(visit, queries[q].bead, others[o].bead);
       }

@@ -24,20 +24,6 @@ std::size_t bead_count(std::span<const Trajectory> necklaces) {
 
 using Ends = std::array<Eigen::Vector3d, 2>;
 
-// Calls visit(ends, rounded length) for every bond of every frame; a chain break is no bond.
-template <class Visit>
-void visit_bonds(std::span<const Trajectory> necklaces, const Visit& visit) {
-  for (const Trajectory& necklace : necklaces) {
-    const auto& breaks = necklace.breaks;
-    for (const Eigen::Matrix3Xd& frame : necklace.frames)
-      for (Eigen::Index i = 0; i + 1 < frame.cols(); ++i) {
-        if (std::find(breaks.begin(), breaks.end(), static_cast<std::size_t>(i)) != breaks.end()) continue;
-        const Ends ends{frame.col(i), frame.col(i + 1)};
-        visit(ends, (ends[1] - ends[0]).stableNorm());
-      }
-  }
-}
-
 // Whether two balls of this radius meet, decided exactly.
 bool balls_meet(const Ends& centers, double radius) {
   Rational rest = 4 * Dyadic(radius).rational() * Dyadic(radius).rational();
@@ -46,27 +32,6 @@ bool balls_meet(const Ends& centers, double radius) {
     rest -= d * d;
   }
   return rest >= 0;
-}
-
-// The least double of which consecutive beads meet: half of a rounded length may leave a gap of half an ulp.
-double automatic_radius(std::span<const Trajectory> necklaces) {
-  double longest = 0;
-  visit_bonds(necklaces, [&](const Ends&, double length) { longest = std::max(longest, length); });
-  if (!(longest > 0))
-    throw InputError(
-        "--radius: auto is half the longest bond, and here no bond is longer than 0; give --radius NUMBER");
-  if (!std::isfinite(longest))
-    throw InputError(
-        "--radius: auto is half the longest bond, and here that is beyond all numbers; "
-        "give --radius NUMBER");
-  constexpr double rounding = 0x1p-48;  // well above the relative error of a length
-  double radius = longest / 2 * (1 - rounding);
-  visit_bonds(necklaces, [&](const Ends& ends, double length) {
-    if (length < longest * (1 - 2 * rounding) || balls_meet(ends, radius)) return;
-    radius = std::max(radius, length / 2 * (1 - 4 * std::numeric_limits<double>::epsilon()));
-    while (!balls_meet(ends, radius)) radius = std::nextafter(radius, longest);
-  });
-  return radius;
 }
 
 std::vector<double> element_radii(const std::string& policy, std::span<const Trajectory> necklaces) {
@@ -102,10 +67,11 @@ std::vector<double> radii_from_file(const std::string& file, std::size_t beads) 
   return radii;
 }
 
-std::vector<double> radii_by(const std::string& policy, std::span<const Trajectory> necklaces) {
+std::vector<double> radii_by(const std::string& policy, std::span<const Trajectory> necklaces,
+                             const LongestBond& bonds) {
   const std::size_t beads = bead_count(necklaces);
   constexpr std::string_view from_file = "file:";
-  if (policy == "auto") return std::vector<double>(beads, automatic_radius(necklaces));
+  if (policy == "auto") return std::vector<double>(beads, bonds.radius());
   if (policy == "element") return element_radii(policy, necklaces);
   if (policy == "element:fit") return fit_radii(element_radii(policy, necklaces), necklaces);
   if (policy.starts_with(from_file)) return radii_from_file(policy.substr(from_file.size()), beads);
@@ -120,8 +86,37 @@ std::vector<double> radii_by(const std::string& policy, std::span<const Trajecto
 
 }  // namespace
 
-std::vector<double> bead_radii(const std::string& policy, std::span<const Trajectory> necklaces) {
-  std::vector<double> radii = radii_by(policy, necklaces);
+void LongestBond::add(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
+                      const std::vector<std::size_t>& breaks) {
+  constexpr double rounding = 0x1p-48;  // well above the relative error of a length
+  for (Eigen::Index i = 0; i + 1 < frame.cols(); ++i) {
+    if (std::find(breaks.begin(), breaks.end(), static_cast<std::size_t>(i)) != breaks.end()) continue;
+    const Ends ends{frame.col(i), frame.col(i + 1)};
+    const double length = (ends[1] - ends[0]).stableNorm();
+    longest_ = std::isfinite(length) ? std::max(longest_, length) : std::numeric_limits<double>::infinity();
+    if (!std::isfinite(longest_)) return;
+    if (length / 2 < radius_ * (1 - rounding) || balls_meet(ends, radius_)) continue;
+    // Half of a rounded length may leave a gap of half an ulp.
+    radius_ = std::max(radius_, length / 2 * (1 - 4 * std::numeric_limits<double>::epsilon()));
+    while (!balls_meet(ends, radius_))
+      radius_ = std::nextafter(radius_, std::numeric_limits<double>::infinity());
+  }
+}
+
+double LongestBond::radius() const {
+  if (!(longest_ > 0))
+    throw InputError(
+        "--radius: auto is half the longest bond, and here no bond is longer than 0; give --radius NUMBER");
+  if (!std::isfinite(longest_))
+    throw InputError(
+        "--radius: auto is half the longest bond, and here that is beyond all numbers; "
+        "give --radius NUMBER");
+  return radius_;
+}
+
+std::vector<double> bead_radii(const std::string& policy, std::span<const Trajectory> necklaces,
+                               const LongestBond& bonds) {
+  std::vector<double> radii = radii_by(policy, necklaces, bonds);
   for (const double radius : radii)
     if (!std::isfinite(radius * radius))
       throw InputError(
@@ -129,6 +124,14 @@ std::vector<double> bead_radii(const std::string& policy, std::span<const Trajec
                       "give a smaller one",
                       policy, radius));
   return radii;
+}
+
+std::vector<double> bead_radii(const std::string& policy, std::span<const Trajectory> necklaces) {
+  LongestBond bonds;
+  if (policy == "auto")
+    for (const Trajectory& necklace : necklaces)
+      for (const Eigen::Matrix3Xd& frame : necklace.frames) bonds.add(frame, necklace.breaks);
+  return bead_radii(policy, necklaces, bonds);
 }
 
 }  // namespace kds

@@ -49,27 +49,23 @@ void check_control_points(const Instance& instance) {
 }  // namespace
 
 Scene::Scene(std::span<const Trajectory> necklaces, std::vector<double> radii, FrameMotion motion)
-    : degree_(motion == FrameMotion::hermite ? 3 : 1),
-      is_lifted_(motion == FrameMotion::lifted),
-      radii_(std::move(radii)) {
-  BeadId beads = 0;
+    : radii_(std::move(radii)) {
   const Trajectory* longest = nullptr;
+  std::vector<std::size_t> bead_counts;
   for (const Trajectory& necklace : necklaces) {
     if (longest == nullptr || necklace.frames.size() > longest->frames.size()) longest = &necklace;
-    const auto count = static_cast<BeadId>(necklace.bead_count());
-    necklaces_.push_back({beads, beads + count - 1});
-    beads += count;
+    bead_counts.push_back(necklace.bead_count());
   }
-  if (longest == nullptr || longest->frames.size() < 2) {
-    throw InputError(fmt::format("{}: a run needs at least two frames, this input has {}",
-                                 longest == nullptr ? "no input" : longest->file,
-                                 longest == nullptr ? 0 : longest->frames.size()));
+  frame_count_ = longest == nullptr ? 0 : longest->frames.size();
+  begin(motion, bead_counts, longest == nullptr ? "no input" : longest->file);
+  held_.resize(frame_count_);
+  for (std::size_t k = 0; k < frame_count_; ++k) {
+    held_[k].stamp.number = longest->frame_number(k);
+    if (k < longest->times.size()) held_[k].stamp.picoseconds = longest->times[k];
+    held_[k].positions.resize(3, static_cast<Eigen::Index>(necklaces_.back().last) + 1);
   }
-  if (beads == 0) throw InputError(fmt::format("{}: expected beads, found none", longest->file));
-  frame_count_ = longest->frames.size();
-  frame_numbers_ = longest->frame_numbers;
-  times_ = longest->times;
-  frames_.assign(frame_count_, Eigen::Matrix3Xd(3, static_cast<Eigen::Index>(beads)));
+  first_ = held_.front().stamp;
+  last_ = held_.back().stamp;
   for (std::size_t n = 0; n < necklaces.size(); ++n) {
     const auto& frames = necklaces[n].frames;
     if (frames.size() != frame_count_ && frames.size() != 1) {
@@ -80,36 +76,100 @@ Scene::Scene(std::span<const Trajectory> necklaces, std::vector<double> radii, F
     for (std::size_t k = 0; k < frames.size(); ++k) check_frame(necklaces[n], k);
     for (std::size_t k = 0; k < frame_count_; ++k) {
       const auto& frame = frames[frames.size() == 1 ? 0 : k];
-      frames_[k].middleCols(necklaces_[n].first, frame.cols()) = frame;
+      held_[k].positions.middleCols(necklaces_[n].first, frame.cols()) = frame;
     }
   }
   check_radii(radii_);
-  lay_in_plane();
+  PlaneSearch planes;
+  for (const FrameRead& frame : held_) planes.add(frame.positions);
+  lay_in_plane(planes.plane());
+  for (FrameRead& frame : held_) lay_in_plane(frame.positions);
 }
 
-void Scene::lay_in_plane() {
-  if (bead_count() < 4) return;  // always in some plane
-  for (const auto& axes : {std::array<Eigen::Index, 3>{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}) {
-    const double height = frames_[0](axes[2], 0);
-    const auto at_height = [&](const Eigen::Matrix3Xd& frame) {
-      return (frame.row(axes[2]).array() == height).all();
-    };
-    if (!std::all_of(frames_.begin(), frames_.end(), at_height)) continue;
-    for (Eigen::Matrix3Xd& frame : frames_) {
-      frame = frame(axes, Eigen::all).eval();
-      frame.row(2).setZero();
+Scene::Scene(std::unique_ptr<SceneStream> frames, const SceneSurvey& survey, std::vector<double> radii,
+             FrameMotion motion)
+    : frame_count_(survey.frame_count),
+      radii_(std::move(radii)),
+      first_(survey.first),
+      last_(survey.last),
+      stream_(std::move(frames)),
+      most_held_(motion == FrameMotion::hermite ? 4 : 2) {
+  std::vector<std::size_t> bead_counts;
+  for (const Trajectory& necklace : survey.necklaces) bead_counts.push_back(necklace.bead_count());
+  begin(motion, bead_counts, survey.necklaces.empty() ? "no input" : survey.necklaces.front().file);
+  check_radii(radii_);
+  lay_in_plane(survey.plane);
+}
+
+void Scene::begin(FrameMotion motion, const std::vector<std::size_t>& bead_counts,
+                  const std::string& longest) {
+  degree_ = motion == FrameMotion::hermite ? 3 : 1;
+  is_lifted_ = motion == FrameMotion::lifted;
+  BeadId beads = 0;
+  for (const std::size_t count : bead_counts) {
+    necklaces_.push_back({beads, beads + static_cast<BeadId>(count) - 1});
+    beads += static_cast<BeadId>(count);
+  }
+  if (frame_count_ < 2)
+    throw InputError(
+        fmt::format("{}: a run needs at least two frames, this input has {}", longest, frame_count_));
+  if (beads == 0) throw InputError(fmt::format("{}: expected beads, found none", longest));
+}
+
+void Scene::lay_in_plane(const std::optional<AxisPlane>& plane) {
+  plane_ = plane;
+  if (plane_) dimension_ = 2;
+}
+
+void Scene::lay_in_plane(Eigen::Matrix3Xd& frame) const {
+  if (!plane_) return;
+  frame = frame(plane_->axes, Eigen::all).eval();
+  frame.row(2).setZero();
+}
+
+void Scene::hold(std::size_t first, std::size_t last) const {
+  if (!stream_) return;
+  if (first < first_held_) {
+    stream_->rewind();
+    held_.clear();
+    first_held_ = 0;
+  }
+  while (first_held_ + held_.size() <= last) {
+    FrameRead next;
+    if (held_.size() == most_held_) {  // its memory is used again
+      next = std::move(held_.front());
+      held_.erase(held_.begin());
+      ++first_held_;
     }
-    dimension_ = 2;
-    axes_ = axes;
-    height_ = height;
-    return;
+    if (!stream_->next(next) || next.positions.cols() != static_cast<Eigen::Index>(bead_count()))
+      throw InputError(fmt::format("frame {} of {} is gone since the input was first read",
+                                   first_held_ + held_.size(), frame_count_));
+    lay_in_plane(next.positions);
+    held_.push_back(std::move(next));
   }
 }
 
+void Scene::hold_for_step(std::size_t step) const {
+  if (degree_ == 3) {
+    hold(step == 0 ? 0 : step - 1, std::min(step + 2, frame_count_ - 1));
+  } else {
+    hold(step, step + 1);
+  }
+}
+
+FrameStamp Scene::stamp(std::size_t frame) const {
+  if (!is_sampled()) return {frame, std::nullopt};
+  if (frame == 0) return first_;
+  if (frame + 1 == frame_count_) return last_;
+  hold(frame, frame);
+  return held_[frame - first_held_].stamp;
+}
+
 Eigen::Vector3d Scene::in_input(const Eigen::Vector3d& point) const {
-  Eigen::Vector3d there = Eigen::Vector3d::Constant(height_);
+  const AxisPlane plane = plane_.value_or(AxisPlane{});
+  Eigen::Vector3d there = Eigen::Vector3d::Constant(plane.height);
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimension_); ++k)
-    there[axes_[k]] = point[static_cast<Eigen::Index>(k)];
+    there[plane.axes[k]] = point[static_cast<Eigen::Index>(k)];
   return there;
 }
 
@@ -120,21 +180,21 @@ Scene::Scene(Instance instance, std::vector<double> radii)
       frame_count_(2),
       radii_(std::move(radii)),
       instance_(std::move(instance)) {
-  check_control_points(instance_);
-  const std::size_t points = instance_.point_count();
+  check_control_points(*instance_);
+  const std::size_t points = instance_->point_count();
   necklaces_.push_back({0, static_cast<BeadId>(points - 1)});
   if (has_radii_) {
     if (radii_.size() != points) {
-      throw InputError(fmt::format("{}: {} points, expected as many radii, found {}", instance_.file, points,
+      throw InputError(fmt::format("{}: {} points, expected as many radii, found {}", instance_->file, points,
                                    radii_.size()));
     }
     check_radii(radii_);
     return;
   }
   radii_.assign(points, 0);
-  if (instance_.weighted()) {
+  if (instance_->weighted()) {
     for (std::size_t p = 0; p < points; ++p)
-      radii_[p] = std::sqrt(std::max(0.0, instance_.control_point(p, 3, 0)));
+      radii_[p] = std::sqrt(std::max(0.0, instance_->control_point(p, 3, 0)));
   }
 }
 
@@ -151,7 +211,7 @@ void Scene::require_weights() const {
 }
 
 bool Scene::equal_radii() const {
-  if (!has_radii_ && instance_.weighted()) {
+  if (!has_radii_ && instance_ && instance_->weighted()) {
     for (BeadId b = 0; b < bead_count(); ++b) {
       for (int k = 0; k <= degree_; ++k) {
         if (weight(b, k) != weight(0, k)) return false;
@@ -163,11 +223,11 @@ bool Scene::equal_radii() const {
 }
 
 double Scene::coordinate(std::size_t step, BeadId bead, int k, int axis) const {
-  if (frames_.empty()) return instance_.control_point(bead, axis, k);
-  if (k == 0) return frames_[step](axis, bead);
-  if (k == degree_) return frames_[step + 1](axis, bead);
-  const double point = k == 1 ? frames_[step](axis, bead) + third_of_velocity(step, bead, axis)
-                              : frames_[step + 1](axis, bead) - third_of_velocity(step + 1, bead, axis);
+  if (!is_sampled()) return instance_->control_point(bead, axis, k);
+  if (k == 0) return frame(step)(axis, bead);
+  if (k == degree_) return frame(step + 1)(axis, bead);
+  const double point = k == 1 ? frame(step)(axis, bead) + third_of_velocity(step, bead, axis)
+                              : frame(step + 1)(axis, bead) - third_of_velocity(step + 1, bead, axis);
   if (!std::isfinite(point)) {
     throw InputError(fmt::format(
         "bead {}, between frames {} and {}: moves too far for a Hermite curve in doubles; expected "
@@ -180,21 +240,24 @@ double Scene::coordinate(std::size_t step, BeadId bead, int k, int axis) const {
 double Scene::third_of_velocity(std::size_t frame, BeadId bead, int axis) const {
   const std::size_t before = frame == 0 ? 0 : frame - 1;
   const std::size_t after = std::min(frame + 1, frame_count_ - 1);
-  return (frames_[after](axis, bead) - frames_[before](axis, bead)) /
+  return (this->frame(after)(axis, bead) - this->frame(before)(axis, bead)) /
          (3.0 * static_cast<double>(after - before));
 }
 
 double Scene::weight(BeadId bead, int k) const {
-  if (!has_radii_ && instance_.weighted()) return instance_.control_point(bead, 3, k);
+  if (!has_radii_ && instance_ && instance_->weighted()) return instance_->control_point(bead, 3, k);
   return radii_[bead] * radii_[bead];
 }
 
 Eigen::Matrix3Xd Scene::centers(std::size_t frame) const {
-  if (!frames_.empty()) return frames_[frame];
+  if (is_sampled()) {
+    hold(frame, frame);
+    return this->frame(frame);
+  }
   Eigen::Matrix3Xd centers = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(bead_count()));
   for (BeadId b = 0; b < bead_count(); ++b) {
     for (int axis = 0; axis < dimension_; ++axis)
-      centers(axis, b) = instance_.control_point(b, axis, frame == 0 ? 0 : degree_);
+      centers(axis, b) = instance_->control_point(b, axis, frame == 0 ? 0 : degree_);
   }
   return centers;
 }

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +18,7 @@
 #include "motions/curves/lifted_motion.h"
 #include "motions/readers/instance.h"
 #include "motions/readers/trajectory.h"
+#include "motions/scene/scene_stream.h"
 
 namespace kds {
 
@@ -42,6 +45,11 @@ class Scene {
   /// two-dimensional, in that plane's coordinates (from four beads on, as fewer always keep to some plane).
   Scene(std::span<const Trajectory> necklaces, std::vector<double> radii,
         FrameMotion motion = FrameMotion::linear);
+  /// The same of files, read frame by frame: in memory are those that the motion of one step needs, two, or
+  /// four for Hermite curves. Steps are quick to load, and frames to look at, in their order; going back
+  /// begins again with the first. `survey` is the stream's.
+  Scene(std::unique_ptr<SceneStream> frames, const SceneSurvey& survey, std::vector<double> radii,
+        FrameMotion motion = FrameMotion::linear);
   /// Points, or balls of these radii where they are given, one a point. Throws InputError likewise.
   explicit Scene(Instance instance, std::vector<double> radii = {});
 
@@ -52,12 +60,9 @@ class Scene {
   /// An instance has two: u = 0 and u = 1.
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
   [[nodiscard]] std::size_t step_count() const { return frame_count_ - 1; }
-  /// Of the file, for messages and results.
-  [[nodiscard]] std::size_t frame_number(std::size_t frame) const {
-    return frame < frame_numbers_.size() ? frame_numbers_[frame] : frame;
-  }
-  /// Of the frames, in picoseconds; empty where the file has none.
-  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+  /// A frame's number in the file and its time, for messages and results.
+  [[nodiscard]] FrameStamp stamp(std::size_t frame) const;
+  [[nodiscard]] std::size_t frame_number(std::size_t frame) const { return stamp(frame).number; }
   [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   [[nodiscard]] bool equal_radii() const;
@@ -71,7 +76,8 @@ class Scene {
   /// motion. Radii do not change during a step; the points of an instance have none, only weights.
   template <Motion M>
   void load(std::size_t step, M& motion) const {
-    if (M::degree == 1 && !frames_.empty()) {
+    hold_for_step(step);
+    if (M::degree == 1 && is_sampled()) {
       load_between_frames(step, motion);
     } else {
       for (BeadId b = 0; b < bead_count(); ++b) {
@@ -87,7 +93,17 @@ class Scene {
   [[nodiscard]] Eigen::Vector3d in_input(const Eigen::Vector3d& point) const;
 
  private:
-  void lay_in_plane();
+  [[nodiscard]] bool is_sampled() const { return !instance_; }
+  void begin(FrameMotion motion, const std::vector<std::size_t>& bead_counts, const std::string& longest);
+  void lay_in_plane(const std::optional<AxisPlane>& plane);
+  void lay_in_plane(Eigen::Matrix3Xd& frame) const;
+  /// Reads on, or from the start again, until these frames are in memory.
+  void hold(std::size_t first, std::size_t last) const;
+  void hold_for_step(std::size_t step) const;
+  /// Of a frame in memory.
+  [[nodiscard]] const Eigen::Matrix3Xd& frame(std::size_t k) const {
+    return held_[k - first_held_].positions;
+  }
   [[nodiscard]] double coordinate(std::size_t step, BeadId bead, int k, int axis) const;
   /// A third of a bead's velocity at a frame, per step.
   [[nodiscard]] double third_of_velocity(std::size_t frame, BeadId bead, int axis) const;
@@ -105,7 +121,7 @@ class Scene {
     for (BeadId b = 0; b < bead_count(); ++b) {
       const double radius = radii_[b];
       for (int k = 0; k <= 1; ++k) {
-        const double* const center = frames_[step + static_cast<std::size_t>(k)].data() + 3 * std::size_t{b};
+        const double* const center = frame(step + static_cast<std::size_t>(k)).data() + 3 * std::size_t{b};
         for (int axis = 0; axis < M::dimension; ++axis) motion.set_coordinate(b, k, axis, center[axis]);
         motion.set_weight(b, k, radius * radius);
         motion.set_radius(b, k, radius);
@@ -115,7 +131,7 @@ class Scene {
   /// The mean displacement; any vector makes a motion, this one dips weights the least on average.
   template <Motion M>
   [[nodiscard]] typename M::Vector drift(std::size_t step) const {
-    const Eigen::Vector3d mean = (frames_[step + 1] - frames_[step]).rowwise().mean();
+    const Eigen::Vector3d mean = (frame(step + 1) - frame(step)).rowwise().mean();
     typename M::Vector drift{};
     for (std::size_t axis = 0; axis < drift.size(); ++axis) {
       const double x = mean[static_cast<Eigen::Index>(axis)];
@@ -131,12 +147,13 @@ class Scene {
   std::size_t frame_count_ = 0;
   std::vector<BeadRange> necklaces_;
   std::vector<double> radii_;
-  std::vector<Eigen::Matrix3Xd> frames_;       // of the whole scene; empty for an instance
-  std::array<Eigen::Index, 3> axes_{0, 1, 2};  // the input's, of each axis of the scene
-  double height_ = 0;                          // of a planar scene along the last of them
-  Instance instance_;
-  std::vector<std::size_t> frame_numbers_;  // empty: from 0 on
-  std::vector<double> times_;
+  std::optional<AxisPlane> plane_;       // none: in space
+  std::optional<Instance> instance_;     // none: sampled frames
+  FrameStamp first_, last_;              // of sampled frames
+  std::unique_ptr<SceneStream> stream_;  // null where all frames are held
+  std::size_t most_held_ = 0;            // frames of a stream in memory at once
+  mutable std::vector<FrameRead> held_;  // frames that follow each other, those in memory
+  mutable std::size_t first_held_ = 0;
 };
 
 }  // namespace kds

@@ -1,6 +1,7 @@
 #include "tests/experiments/run_program.h"
 
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -41,8 +42,10 @@ ProgramRun spawn(std::vector<std::string> words) {
   if (failed != 0) throw std::runtime_error("cannot start " + words.front());
 
   int status = 0;
-  ::waitpid(child, &status, 0);
+  rusage used{};
+  ::wait4(child, &status, 0, &used);
   ProgramRun run;
+  run.peak_kilobytes = used.ru_maxrss;
   if (WIFEXITED(status)) run.code = WEXITSTATUS(status);
   run.out = drain(out);
   run.err = drain(err);

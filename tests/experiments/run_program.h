@@ -9,6 +9,7 @@ namespace kds::test {
 struct ProgramRun {
   int code = -1;  ///< -1: ended by a signal
   std::string out, err;
+  long peak_kilobytes = 0;  ///< of memory
 };
 
 [[nodiscard]] ProgramRun run_program(std::vector<std::string> arguments);

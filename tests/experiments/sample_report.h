@@ -1,16 +1,25 @@
 #pragma once
 // A small run, made up, with every kind of figure a report shows.
 
+#include <initializer_list>
+
 #include "experiments/run/run_report.h"
 
 namespace kds::test {
+
+/// From frame 0 on.
+inline EventCourse course_of(std::initializer_list<std::uint64_t> events) {
+  EventCourse course;
+  for (const std::uint64_t count : events) course.add(count, course.steps());
+  return course;
+}
 
 inline RunReport sample_report() {
   StructureReport wrapped;
   wrapped.name = "wrapped";
   wrapped.events_total = 6;
   wrapped.events_by_kind = {{"enter", 3}, {"leave", 2}, {"pivot", 1}};
-  wrapped.events_per_step = {1, 2, 3};
+  wrapped.course = course_of({1, 2, 3});
   wrapped.created = 1234567;
   wrapped.never_failing = 1234000;
   wrapped.cancelled = 500;
@@ -28,7 +37,7 @@ inline RunReport sample_report() {
   power.name = "power";
   power.events_total = 30;
   power.events_by_kind = {{"2-3", 17}, {"3-2", 13}, {"wander", 5}};
-  power.events_per_step = {10, 0, 20};
+  power.course = course_of({10, 0, 20});
   power.stages = {{"coefficients", 40}, {"exact", 2}};
   power.rebuilds = 1;
 

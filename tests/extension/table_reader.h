@@ -2,8 +2,10 @@
 // A reader of someone else: a file of numbers, a line a bead and a blank line between frames.
 
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "motions/base/input_error.h"
 #include "motions/readers/read_trajectory.h"
@@ -11,34 +13,48 @@
 
 namespace extension {
 
-inline kds::FramesRead read_table(const std::filesystem::path& path, const kds::ReadOptions&) {
-  std::ifstream file(path);
-  if (!file) throw kds::InputError(path.string() + ": cannot be read");
-  kds::FramesRead read;
-  read.trajectory.file = path.string();
-  std::vector<Eigen::Vector3d> beads;
-  const auto end_frame = [&] {
-    if (beads.empty()) return;
-    Eigen::Matrix3Xd frame(3, static_cast<Eigen::Index>(beads.size()));
-    for (std::size_t b = 0; b < beads.size(); ++b) frame.col(static_cast<Eigen::Index>(b)) = beads[b];
-    read.trajectory.frame_numbers.push_back(read.trajectory.frames.size());
-    read.trajectory.frames.push_back(frame);
-    beads.clear();
-  };
-  for (std::string line; std::getline(file, line);) {
-    Eigen::Vector3d bead;
-    std::istringstream numbers(line);
-    if (numbers >> bead.x() >> bead.y() >> bead.z()) {
-      beads.push_back(bead);
-    } else {
-      end_frame();
-    }
+class TableFrames final : public kds::FrameReader {
+ public:
+  explicit TableFrames(const std::filesystem::path& path) : file_(path) {
+    if (!file_) throw kds::InputError(path.string() + ": cannot be read");
   }
-  end_frame();
-  read.cells.resize(read.trajectory.frames.size());
-  return read;
+
+  bool next(kds::FrameRead& frame) override {
+    std::vector<Eigen::Vector3d> beads;
+    for (std::string line; std::getline(file_, line);) {
+      Eigen::Vector3d bead;
+      std::istringstream numbers(line);
+      if (numbers >> bead.x() >> bead.y() >> bead.z()) {
+        beads.push_back(bead);
+      } else if (!beads.empty()) {
+        break;
+      }
+    }
+    if (beads.empty()) return false;
+    frame.stamp = {frame_++, std::nullopt};
+    frame.positions.resize(3, static_cast<Eigen::Index>(beads.size()));
+    for (std::size_t b = 0; b < beads.size(); ++b)
+      frame.positions.col(static_cast<Eigen::Index>(b)) = beads[b];
+    return true;
+  }
+  void rewind() override {
+    file_.clear();
+    file_.seekg(0);
+    frame_ = 0;
+  }
+
+ private:
+  std::ifstream file_;
+  std::size_t frame_ = 0;
+};
+
+inline kds::FramesOpened open_table(const std::filesystem::path& path, const kds::ReadOptions&) {
+  kds::FramesOpened opened;
+  opened.file = path.string();
+  opened.frames = std::make_unique<TableFrames>(path);
+  return opened;
 }
 
-inline kds::ReaderSpec table_reader() { return {"table", {".table"}, false, read_table}; }
+inline kds::ReaderSpec table_reader() { return {"table", {".table"}, false, open_table}; }
 
 }  // namespace extension

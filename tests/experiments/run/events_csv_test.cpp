@@ -2,14 +2,29 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include "experiments/run/event_bins.h"
-#include "tests/experiments/sample_report.h"
 
 namespace kds {
 namespace {
 
+// Three steps of two structures, or of the first of them.
+std::string csv_of(bool timed, const std::vector<FrameStamp>& frames, bool both) {
+  std::ostringstream text;
+  EventsCsv csv(text, timed);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    csv.add(frames[k], "wrapped", k + 1);
+    if (both) csv.add(frames[k], "power", std::array{10U, 0U, 20U}[k]);
+  }
+  return text.str();
+}
+
 TEST(EventsCsv, HasOneLineForEachFrameAndStructure) {
-  EXPECT_EQ(events_csv(test::sample_report()),
+  EXPECT_EQ(csv_of(false, {{0, {}}, {1, {}}, {2, {}}}, true),
             "frame,structure,events,cumulative\n"
             "0,wrapped,1,1\n"
             "0,power,10,10\n"
@@ -20,30 +35,31 @@ TEST(EventsCsv, HasOneLineForEachFrameAndStructure) {
 }
 
 TEST(EventsCsv, NamesFramesByTheirNumberInTheFileAndTellsTheirTimes) {
-  RunReport report = test::sample_report();
-  report.structures.pop_back();
-  report.frame_numbers = {100, 110, 120, 130};
-  EXPECT_EQ(events_csv(report),
+  EXPECT_EQ(csv_of(false, {{100, {}}, {110, {}}, {120, {}}}, false),
             "frame,structure,events,cumulative\n100,wrapped,1,1\n110,wrapped,2,3\n120,wrapped,3,6\n");
-  report.times = {2, 2.2, 2.4, 2.6};
-  EXPECT_EQ(events_csv(report),
+  EXPECT_EQ(csv_of(true, {{100, 2.0}, {110, 2.2}, {120, 2.4}}, false),
             "frame,structure,events,cumulative,picoseconds\n"
             "100,wrapped,1,1,2\n110,wrapped,2,3,2.2\n120,wrapped,3,6,2.4\n");
 }
 
-TEST(EventsCsv, IsAHeaderWithoutSteps) { EXPECT_EQ(events_csv({}), "frame,structure,events,cumulative\n"); }
+TEST(EventsCsv, IsAHeaderWithoutSteps) {
+  EXPECT_EQ(csv_of(false, {}, true), "frame,structure,events,cumulative\n");
+}
 
 TEST(EventBins, HoldEveryStepOnce) {
-  const std::vector<std::uint64_t> events{1, 2, 3, 4, 5};
-  const auto bins = bin_events(events, 2);
+  EventCourse course(2);
+  for (const std::uint64_t events : {1U, 2U, 3U, 4U, 5U}) course.add(events, 10 * course.steps());
+  EXPECT_EQ(course.steps(), 5U);
+  const auto& bins = course.bins();
   ASSERT_EQ(bins.size(), 3U);
   EXPECT_EQ(bins[0].events, 3U);
   EXPECT_EQ(bins[1].first_step, 2U);
+  EXPECT_EQ(bins[1].first_frame, 20U);
   EXPECT_EQ(bins[1].cumulative, 10U);
   EXPECT_EQ(bins[2].steps, 1U);
   EXPECT_EQ(bins[2].events, 5U);
   EXPECT_EQ(bins[2].cumulative, 15U);
-  EXPECT_TRUE(bin_events({}, 1).empty());
+  EXPECT_TRUE(EventCourse(1).bins().empty());
 }
 
 TEST(EventBins, AreNeverMoreThanAskedFor) {

@@ -101,7 +101,8 @@ TEST(HtmlReport, EscapesNames) {
 
 TEST(HtmlReport, OneStepShowsKindsInsteadOfACourse) {
   RunReport report = test::sample_report();
-  for (StructureReport& structure : report.structures) structure.events_per_step = {structure.events_total};
+  for (StructureReport& structure : report.structures)
+    structure.course = test::course_of({structure.events_total});
   const std::string html = html_report(report);
   expect_sound(html);
   EXPECT_THAT(html, HasSubstr("Events of the power structure by kind"));
@@ -110,8 +111,11 @@ TEST(HtmlReport, OneStepShowsKindsInsteadOfACourse) {
 
 TEST(HtmlReport, LongRunsStaySmall) {
   RunReport report = test::sample_report();
-  report.structures[0].events_per_step.assign(300000, 3);
-  report.structures[1].events_per_step.assign(300000, 1000000);
+  constexpr std::size_t steps = 300000;
+  for (StructureReport& structure : report.structures) {
+    structure.course = EventCourse(bin_width(steps, EventCourse::most_bins));
+    for (std::size_t step = 0; step < steps; ++step) structure.course.add(1000000, step);
+  }
   const std::string html = html_report(report);
   EXPECT_LT(html.size(), 500000U);
   EXPECT_THAT(html, HasSubstr("the mean over 500 steps"));
@@ -122,10 +126,10 @@ TEST(HtmlReport, NoEventsAreNoFailure) {
   for (StructureReport& structure : report.structures) {
     structure.events_total = 0;
     for (auto& [kind, times] : structure.events_by_kind) times = 0;
-    structure.events_per_step = {0, 0, 0};
+    structure.course = test::course_of({0, 0, 0});
   }
   expect_sound(html_report(report));
-  for (StructureReport& structure : report.structures) structure.events_per_step = {0};
+  for (StructureReport& structure : report.structures) structure.course = test::course_of({0});
   expect_sound(html_report(report));
   expect_sound(html_report(RunReport{}));
 }

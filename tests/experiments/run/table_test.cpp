@@ -35,11 +35,14 @@ TEST(Table, ComparesStructuresFigureByFigure) {
 
 TEST(Table, NamesFramesByTheirNumberInTheFile) {
   RunReport report = test::sample_report();
-  report.frame_numbers = {0, 1, 2, 3};
+  report.first_frame = FrameStamp{0, std::nullopt};
+  report.last_frame = FrameStamp{3, std::nullopt};
   EXPECT_THAT(comparison_table(report), HasSubstr("36 beads, 4 frames, dimension 3"));
-  report.frame_numbers = {100, 110, 120, 130};
+  report.first_frame = FrameStamp{100, std::nullopt};
+  report.last_frame = FrameStamp{130, std::nullopt};
   EXPECT_THAT(comparison_table(report), HasSubstr("36 beads, 4 frames (100 to 130), dimension 3"));
-  report.times = {2, 2.2, 2.4, 2.6};
+  report.first_frame->picoseconds = 2;
+  report.last_frame->picoseconds = 2.6;
   EXPECT_THAT(comparison_table(report), HasSubstr("4 frames (100 to 130, 2 to 2.6 ps), dimension 3"));
 }
 
@@ -75,7 +78,7 @@ TEST(Table, AStageWithoutALabelKeepsItsName) {
 TEST(Table, OneStructureOfOddFiguresStillPrints) {
   RunReport report = test::sample_report();
   report.structures.resize(1);
-  report.structures[0].events_per_step.clear();
+  report.structures[0].course = EventCourse();
   report.structures[0].stages.clear();
   report.radius_max = 2;
   report.files = {"a\nb"};

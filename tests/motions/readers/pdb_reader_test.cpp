@@ -268,9 +268,12 @@ TEST(PdbReader, TopologyIsForDcdFiles) {
 TEST(PdbModels, AtomsAreNumberedByTheirPlace) {
   std::string text;
   for (int i = 0; i < 100002; ++i) text += "ATOM  xxxxx  CA  ALA A   1       0.000   0.000   0.000\n";
-  const PdbText split = split_pdb_models(text);
-  ASSERT_EQ(split.models.size(), 1U);
-  const std::string lines = atom_lines("f", split.models[0]);
+  PdbModelReader reader(test::write_file("a.pdb", text));
+  PdbModel model;
+  ASSERT_TRUE(reader.next(model));
+  EXPECT_FALSE(reader.skip());
+  EXPECT_EQ(reader.held().whole, 1U);
+  const std::string& lines = model.atom_lines;
   const auto serial = [&](std::size_t i) { return lines.substr(i * (lines.size() / 100002) + 6, 5); };
   EXPECT_EQ(serial(0), "    0");
   EXPECT_EQ(serial(99999), "99999");

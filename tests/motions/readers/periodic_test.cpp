@@ -13,6 +13,15 @@ namespace {
 using Frames = std::vector<Eigen::Matrix3Xd>;
 using Cells = std::vector<std::optional<Cell>>;
 
+// Returns in how many frames something moved. A cell that is not given is none.
+std::size_t make_whole(Frames& frames, const Cells& cells) {
+  WholeChain chain;
+  std::size_t moved = 0;
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    if (chain.make_whole(frames[k], k < cells.size() ? cells[k] : std::nullopt)) ++moved;
+  return moved;
+}
+
 // A random walk with short bonds that drifts from frame to frame.
 Frames walk(std::mt19937& random, Eigen::Index beads, std::size_t count, const Eigen::Vector3d& drift) {
   std::uniform_real_distribution<double> step(-1, 1);

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "motions/readers/instance.h"
+#include "motions/readers/necklace_stream.h"
 #include "motions/readers/read_trajectory.h"
 #include "motions/scene/radii.h"
 #include "tests/motions/test_files.h"
@@ -81,9 +82,27 @@ int fuzz(const std::string& name, const std::string& bytes, int rounds, const Re
   return accepted;
 }
 
+// Frame by frame, and a second time from the start, come the same frames.
+void expect_same_frame_by_frame(const Trajectory& trajectory, const std::filesystem::path& path,
+                                const ReadOptions& options) {
+  NecklaceStream stream(path, options);
+  EXPECT_EQ(stream.heads().front().frames.front(), trajectory.frames.front());
+  for (int round = 0; round < 2; ++round, stream.rewind()) {
+    std::size_t k = 0;
+    for (FrameRead frame; stream.next(frame); ++k) {
+      ASSERT_LT(k, trajectory.frames.size());
+      ASSERT_EQ(frame.positions, trajectory.frames[k]);
+      ASSERT_EQ(frame.stamp.number, trajectory.frame_numbers[k]);
+    }
+    ASSERT_EQ(k, trajectory.frames.size());
+    EXPECT_EQ(stream.warnings(0), trajectory.warnings);
+  }
+}
+
 void read_and_check(const std::filesystem::path& path, const ReadOptions& options = {}) {
   const Trajectory trajectory = read_trajectory(path, options);
   expect_sound(trajectory);
+  expect_same_frame_by_frame(trajectory, path, options);
   for (const char* policy : {"auto", "element:fit"}) {
     try {
       EXPECT_EQ(bead_radii(policy, std::span(&trajectory, 1)).size(), trajectory.bead_count());

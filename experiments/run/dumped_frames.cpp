@@ -1,0 +1,37 @@
+#include "experiments/run/dumped_frames.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+namespace kds {
+
+void DumpedFrames::write(std::size_t frame, const std::vector<DumpFile>& files) {
+  for (const DumpFile& file : files) {
+    files_.write(fmt::format("frame-{}.{}", frame, file.ending), file.text);
+    endings_.insert(file.ending);
+  }
+  frames_ = frame + 1;
+}
+
+void DumpedFrames::commit() {
+  files_.commit([this](std::string_view name) { return is_stale(name); });
+}
+
+// frame-NUMBER.WORD.csv, and not one that has just been written.
+bool DumpedFrames::is_stale(std::string_view name) const {
+  constexpr std::string_view start = "frame-", end = ".csv";
+  if (!name.starts_with(start) || !name.ends_with(end)) return false;
+  name.remove_prefix(start.size());
+  std::size_t frame = 0;
+  const auto [after, error] = std::from_chars(name.data(), name.data() + name.size(), frame);
+  const auto digits = static_cast<std::size_t>(after - name.data());
+  if (error != std::errc() || name.substr(0, digits) != std::to_string(frame)) return false;
+  if (digits == name.size() || name[digits] != '.') return false;
+  const std::string_view ending = name.substr(digits + 1);
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz_";
+  if (ending.find_first_not_of(letters) != ending.size() - end.size()) return false;
+  return frame >= frames_ || !endings_.contains(ending);
+}
+
+}  // namespace kds

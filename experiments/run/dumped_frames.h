@@ -1,0 +1,35 @@
+#pragma once
+// The files of --dump: those of all frames of a run, or none, and no others of an earlier dump.
+
+#include <cstddef>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/output/staged_files.h"
+#include "structures/session/structure_spec.h"
+
+namespace kds {
+
+class DumpedFrames {
+ public:
+  /// Throws InputError or OutputError naming option and path.
+  explicit DumpedFrames(std::filesystem::path directory) : files_(std::move(directory), "--dump") {}
+
+  /// In the order of the frames, from 0.
+  void write(std::size_t frame, const std::vector<DumpFile>& files);
+  /// All files take their places, and frame files of an earlier dump that none of them replaces go: else two
+  /// dumps would be taken for one.
+  void commit();
+
+ private:
+  [[nodiscard]] bool is_stale(std::string_view name) const;
+
+  StagedFiles files_;
+  std::size_t frames_ = 0;
+  std::set<std::string, std::less<>> endings_;
+};
+
+}  // namespace kds

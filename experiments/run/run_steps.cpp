@@ -1,0 +1,48 @@
+#include "experiments/run/run_steps.h"
+
+#include <fmt/format.h>
+
+#include "experiments/output/text.h"
+#include "experiments/run/run_settings.h"
+#include "kds/audit.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+namespace {
+
+// Structures count steps from 0: messages say which frames of the file these are.
+template <class Work>
+void in_step(const Scene& scene, std::size_t step, const RunOptions& options, Work work) {
+  const auto named = [&](const char* message) {
+    return fmt::format("{} (step {} leads from frame {} to frame {})", message, step,
+                       scene.frame_number(step), scene.frame_number(step + 1));
+  };
+  try {
+    work();
+  } catch (const AuditError& error) {
+    throw AuditError(fmt::format("{}\nto see it again: kds run {}", named(error.what()),
+                                 shell_words(option_arguments(options))));
+  } catch (const InputError& error) {
+    throw InputError(named(error.what()));
+  }
+}
+
+}  // namespace
+
+void run_steps(Session& session, const Scene& scene, const RunOptions& options,
+               const std::function<void(std::size_t frame)>& at_frame) {
+  session.load(0);
+  session.simulator().build();
+  at_frame(0);
+  for (std::size_t step = 0; step < scene.step_count(); ++step) {
+    session.load(step);
+    in_step(scene, step, options, [&] { session.simulator().run_step(); });
+    at_frame(step + 1);
+  }
+  // What is only known when no step follows is about the last one.
+  if (scene.step_count() > 0)
+    in_step(scene, scene.step_count() - 1, options, [&] { session.simulator().finish(); });
+}
+
+}  // namespace kds

@@ -1,0 +1,29 @@
+#pragma once
+// Takes the counts of each step away from the structures, so that nothing grows with the number of steps.
+
+#include <vector>
+
+#include "experiments/run/event_bins.h"
+#include "experiments/run/run_results.h"
+#include "motions/scene/scene.h"
+#include "structures/session/session.h"
+
+namespace kds {
+
+class StepCounts {
+ public:
+  /// Both must outlive it.
+  StepCounts(Session& session, const Scene& scene);
+
+  /// The step has been run: folds its events, and has them written where a file is for them.
+  void end_step(std::size_t step, RunResults* results);
+  /// In the order of the session's structures.
+  [[nodiscard]] const std::vector<EventCourse>& courses() const { return courses_; }
+
+ private:
+  Session& session_;
+  const Scene& scene_;
+  std::vector<EventCourse> courses_;
+};
+
+}  // namespace kds

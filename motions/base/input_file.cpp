@@ -1,0 +1,87 @@
+#include "motions/base/input_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+namespace {
+
+void check_kind(const std::string& name, mode_t mode) {
+  if (S_ISREG(mode)) return;
+  throw InputError(fmt::format("{}: this is a {}, expected a file", name,
+                               S_ISDIR(mode)    ? "folder"
+                               : S_ISFIFO(mode) ? "pipe"
+                               : S_ISSOCK(mode) ? "socket"
+                                                : "device"));
+}
+
+struct Opened {
+  gzFile file;
+  std::uint64_t size;
+};
+
+Opened open_regular(const std::string& name) {
+  struct stat status {};
+  if (::stat(name.c_str(), &status) == 0) check_kind(name, status.st_mode);
+  // Whatever takes its place meanwhile: a pipe without a writer is not waited for.
+  const int descriptor = ::open(name.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) throw InputError(fmt::format("{}: cannot open this file", name));
+  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
+    ::close(descriptor);
+    check_kind(name, status.st_mode);
+    throw InputError(fmt::format("{}: cannot open this file", name));
+  }
+  const gzFile file = ::gzdopen(descriptor, "rb");  // hands through what is not compressed
+  if (file == nullptr) {
+    ::close(descriptor);
+    throw InputError(fmt::format("{}: cannot open this file", name));
+  }
+  return {file, static_cast<std::uint64_t>(status.st_size)};
+}
+
+}  // namespace
+
+void require_regular_file(const std::filesystem::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0)
+    throw InputError(fmt::format("{}: cannot open this file", path.string()));
+  check_kind(path.string(), status.st_mode);
+}
+
+InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()), file_(nullptr, gzclose) {
+  const Opened opened = open_regular(name_);
+  file_.reset(opened.file);
+  size_ = opened.size;
+}
+
+std::size_t InputFile::read(char* to, std::size_t size) {
+  size = std::min<std::size_t>(size, 1U << 30U);
+  const bool plain = gzdirect(file_.get()) != 0;
+  if (plain) size = static_cast<std::size_t>(std::min<std::uint64_t>(size, size_ - std::min(read_, size_)));
+  if (size == 0) return 0;
+  const int got = gzread(file_.get(), to, static_cast<unsigned>(size));
+  int code = Z_OK;
+  const char* const why = got < static_cast<int>(size) ? gzerror(file_.get(), &code) : "";
+  if (got < 0 || (code != Z_OK && code != Z_STREAM_END))
+    throw InputError(fmt::format("{}: cannot read this file ({})", name_, why));
+  read_ += static_cast<std::uint64_t>(got);
+  if (!plain && read_ > most_unpacked && read_ / most_ratio > size_)
+    throw InputError(fmt::format("{}: unpacks to more than {} times its size, which no coordinates do", name_,
+                                 most_ratio));
+  return static_cast<std::size_t>(got);
+}
+
+void InputFile::rewind() {
+  if (gzrewind(file_.get()) != 0) throw InputError(fmt::format("{}: cannot read this file again", name_));
+  read_ = 0;
+}
+
+}  // namespace kds

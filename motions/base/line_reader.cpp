@@ -1,0 +1,57 @@
+#include "motions/base/line_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+bool LineReader::next(std::string_view& line) {
+  for (std::size_t searched = 0;;) {
+    const std::string_view left(buffer_.data() + begin_, end_ - begin_);
+    const std::size_t length = left.find('\n', searched);
+    if (std::min(length, left.size()) > longest)
+      throw InputError(
+          fmt::format("{}:{}: this line is longer than {} characters, which none of this format is", name(),
+                      number_ + 1, longest));
+    if (length != std::string_view::npos) {
+      line = left.substr(0, length);
+      begin_ += length + 1;
+      cut_ = false;
+      break;
+    }
+    searched = left.size();
+    if (fill()) continue;
+    if (left.empty()) return false;
+    line = {buffer_.data() + begin_, end_ - begin_};
+    begin_ = end_;
+    cut_ = true;
+    break;
+  }
+  ++number_;
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return true;
+}
+
+// Makes room behind what is left and reads on; false at the end of the file.
+bool LineReader::fill() {
+  constexpr std::size_t piece = std::size_t{1} << 16U;
+  std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
+            buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
+  end_ -= begin_;
+  begin_ = 0;
+  if (buffer_.size() < end_ + piece) buffer_.resize(end_ + piece);
+  const std::size_t got = file_.read(buffer_.data() + end_, piece);
+  end_ += got;
+  return got > 0;
+}
+
+void LineReader::rewind() {
+  file_.rewind();
+  begin_ = end_ = number_ = 0;
+  cut_ = false;
+}
+
+}  // namespace kds

@@ -1,0 +1,53 @@
+#pragma once
+// What the reader of one format hands over: its frames one after the other, before the chain is made whole
+// and searched for breaks. Only the frame asked for is in memory.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "motions/readers/periodic.h"
+
+namespace kds {
+
+struct ChainRead {
+  std::string name;
+  std::size_t bead_count = 0;
+};
+
+/// A frame's place in its file and its time.
+struct FrameStamp {
+  std::size_t number = 0;             ///< 0-based place in the file
+  std::optional<double> picoseconds;  ///< none where the file has no times
+};
+
+struct FrameRead {
+  FrameStamp stamp;
+  Eigen::Matrix3Xd positions;  ///< one column a bead, in the file's length unit (angstrom)
+  std::optional<Cell> cell;
+};
+
+class FrameReader {
+ public:
+  virtual ~FrameReader() = default;
+  /// The next of the frames asked for; false behind the last one, which nobody need know before. Throws
+  /// InputError naming file and frame.
+  [[nodiscard]] virtual bool next(FrameRead& frame) = 0;
+  /// Begins again with the first.
+  virtual void rewind() = 0;
+};
+
+/// A file of frames, open.
+struct FramesOpened {
+  std::string file;                   ///< for messages
+  std::vector<ChainRead> chains;      ///< that the beads belong to, in order; empty: one without a name
+  std::vector<double> element_radii;  ///< van der Waals radius of each bead; empty where elements are unknown
+  std::vector<std::string> warnings;  ///< one line each
+  bool chain_like = true;             ///< beads that follow each other are meant to be bonded
+  std::unique_ptr<FrameReader> frames;
+};
+
+}  // namespace kds

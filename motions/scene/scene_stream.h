@@ -1,0 +1,63 @@
+#pragma once
+// The files of a scene, read frame by frame, all beads side by side. They are read once to find out what a
+// scene must know of all its frames, and again by whoever runs it.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "motions/readers/necklace_stream.h"
+#include "motions/scene/radii.h"
+
+namespace kds {
+
+/// A plane x, y or z = constant.
+struct AxisPlane {
+  std::array<Eigen::Index, 3> axes{0, 1, 2};  ///< the two in the plane, and the one across it
+  double height = 0;                          ///< along the last of them
+};
+
+/// Finds the plane that all beads of all frames keep to.
+class PlaneSearch {
+ public:
+  void add(const Eigen::Matrix3Xd& frame);
+  /// None where there is none, and for fewer than four beads, which always keep to some plane.
+  [[nodiscard]] std::optional<AxisPlane> plane() const;
+
+ private:
+  std::vector<AxisPlane> left_;  ///< those that held so far
+  bool begun_ = false;
+};
+
+/// What reading all frames of a scene tells.
+struct SceneSurvey {
+  std::vector<Trajectory> necklaces;  ///< with their first frames only
+  std::size_t frame_count = 0;
+  FrameStamp first, last;
+  std::optional<AxisPlane> plane;
+  LongestBond bonds;  ///< empty where nobody asked for it
+};
+
+class SceneStream final : public FrameReader {
+ public:
+  /// Frames go side by side: all files have as many, or one (at rest), or survey() throws.
+  explicit SceneStream(std::vector<NecklaceStream> files) : files_(std::move(files)) {}
+
+  /// Reads all frames and begins again. Throws InputError for whatever is wrong with one of them, and where
+  /// frame counts differ. Each necklace's warnings go to `warn`.
+  [[nodiscard]] SceneSurvey survey(bool with_bonds, const std::function<void(const std::string&)>& warn);
+
+  [[nodiscard]] bool next(FrameRead& frame) override;
+  void rewind() override;
+
+ private:
+  std::vector<NecklaceStream> files_;
+  std::vector<FrameRead> present_;   ///< of each file
+  std::vector<std::size_t> frames_;  ///< read so far of each file
+};
+
+}  // namespace kds

@@ -1,0 +1,141 @@
+#include "experiments/output/replace_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <csignal>
+
+#include "experiments/output/output_files.h"
+#include "experiments/output/staged_files.h"
+#include "experiments/output/unfinished_file.h"
+#include "motions/base/input_error.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds {
+namespace {
+
+namespace fs = std::filesystem;
+using test::content_of;
+using test::ScratchDirectory;
+
+unsigned mode_of(const fs::path& path) {
+  struct stat status {};
+  EXPECT_EQ(::stat(path.c_str(), &status), 0);
+  return status.st_mode & 07777U;
+}
+
+// Both ways in which results come to their places.
+void write_alone(const fs::path& path, const std::string& content) { write_file_atomically(path, content); }
+void write_staged(const fs::path& path, const std::string& content) {
+  StagedFiles files(path.parent_path(), "--dump");
+  files.write(path.filename().string(), content);
+  files.commit();
+}
+constexpr auto kWays = {write_alone, write_staged};
+
+TEST(ReplaceFile, PermissionsStay) {
+  for (const auto write : kWays) {
+    const ScratchDirectory directory;
+    const fs::path path = directory.file("result", "old");
+    for (const unsigned mode : {0640U, 0444U, 0755U}) {
+      ::chmod(path.c_str(), mode);
+      write(path, "new " + std::to_string(mode));
+      EXPECT_EQ(content_of(path), "new " + std::to_string(mode));
+      EXPECT_EQ(mode_of(path), mode);
+    }
+    EXPECT_EQ(directory.entries(), 1U);
+  }
+}
+
+TEST(ReplaceFile, SymbolicLinksStay) {
+  for (const auto write : kWays) {
+    const ScratchDirectory directory;
+    fs::create_directory(directory / "elsewhere");
+    const fs::path target = directory.file("elsewhere/kept", "old"), link = directory / "result";
+    fs::create_symlink("elsewhere/kept", link);
+    write(link, "new");
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_EQ(content_of(target), "new");
+    EXPECT_EQ(std::distance(fs::directory_iterator(directory / "elsewhere"), {}), 1);
+    const fs::path dangling = directory / "dangling";
+    fs::create_symlink(directory / "elsewhere/made", dangling);
+    write(dangling, "new");
+    EXPECT_TRUE(fs::is_symlink(dangling));
+    EXPECT_EQ(content_of(directory / "elsewhere/made"), "new");
+  }
+}
+
+TEST(ReplaceFile, HardLinksStay) {
+  for (const auto write : kWays) {
+    const ScratchDirectory directory;
+    const fs::path path = directory.file("result", "old and long"), other = directory / "other";
+    fs::create_hard_link(path, other);
+    for (const std::string& content : {std::string("short"), std::string(200000, 'x'), std::string()}) {
+      write(path, content);
+      EXPECT_EQ(content_of(other), content);
+      EXPECT_EQ(fs::hard_link_count(path), 2U);
+    }
+    EXPECT_EQ(directory.entries(), 2U);
+  }
+}
+
+// One of the places is a directory: nothing is replaced.
+TEST(StagedFiles, ARefusedPlaceLeavesTheOthersAlone) {
+  const ScratchDirectory directory;
+  directory.file("a", "old");
+  fs::create_directory(directory / "b");
+  StagedFiles files(directory.path(), "--dump");
+  files.write("a", "new");
+  files.write("b", "new");
+  EXPECT_THROW(files.commit(), InputError);
+  EXPECT_EQ(content_of(directory / "a"), "old");
+}
+
+TEST(StagedFiles, AFileMayGrowUntilTheEnd) {
+  const ScratchDirectory directory;
+  directory.file("stale", "of an earlier result");
+  directory.file("mine", "the user's");
+  {
+    StagedFiles files(directory.path(), "--out");
+    std::ostream& growing = files.open("growing");
+    for (int k = 0; k < 10000; ++k) growing << k << '\n';
+    files.write("other", "x");
+    files.check();
+    files.commit([](std::string_view name) { return name == "stale"; });
+  }
+  EXPECT_EQ(content_of(directory / "growing").substr(0, 4), "0\n1\n");
+  EXPECT_EQ(content_of(directory / "growing").size(), 48890U);
+  EXPECT_FALSE(fs::exists(directory / "stale"));
+  EXPECT_EQ(directory.entries(), 3U);
+}
+
+// A signal that comes at any moment, even between the making of a file and its end, leaves nothing.
+TEST(UnfinishedFile, EverySignalThatCanBeCaughtClearsTheFolder) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1,
+                           SIGUSR2, SIGXCPU, SIGABRT, SIGSEGV, SIGFPE, SIGRTMIN, SIGRTMAX}) {
+    const ScratchDirectory directory;
+    EXPECT_EXIT(
+        {
+          StagedFiles files(directory / "made/dump", "--dump");
+          for (int k = 0; k < 30; ++k) files.write("frame-" + std::to_string(k), "x");
+          AtomicFile single(directory / "single");
+          single.stream() << "half";
+          ::raise(signal);
+        },
+        testing::KilledBySignal(signal), "");
+    EXPECT_EQ(directory.entries(), 0U) << signal;
+  }
+}
+
+TEST(UnfinishedFile, SignalsThatDoNotEndAProgramDoNot) {
+  EXPECT_EXIT(
+      {
+        const UnfinishedFile unfinished("no/such/file");
+        for (const int signal : {SIGCHLD, SIGURG, SIGWINCH, SIGCONT}) ::raise(signal);
+        ::_exit(7);
+      },
+      testing::ExitedWithCode(7), "");
+}
+
+}  // namespace
+}  // namespace kds

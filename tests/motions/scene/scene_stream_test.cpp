@@ -1,0 +1,127 @@
+// A scene that reads its frames as it goes is the scene that holds them all.
+
+#include "motions/scene/scene_stream.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+#include <random>
+
+#include "motions/curves/any_degree_motion.h"
+#include "motions/scene/scene.h"
+#include "tests/motions/test_files.h"
+
+namespace kds {
+namespace {
+
+std::string xyz_frames(std::mt19937& random, std::size_t frames, std::size_t beads, bool flat,
+                       const std::string& comment = "frame") {
+  std::string text;
+  for (std::size_t k = 0; k < frames; ++k) {
+    text += std::to_string(beads) + "\n" + comment + "\n";
+    for (std::size_t b = 0; b < beads; ++b) {
+      const auto number = [&] { return std::to_string(static_cast<int>(random() % 4001) - 2000) + "e-2"; };
+      text += "C " + number() + " " + (flat ? std::string("3.5") : number()) + " " + number() + "\n";
+    }
+  }
+  return text;
+}
+
+struct Streamed {
+  std::unique_ptr<SceneStream> stream;
+  SceneSurvey survey;
+  std::vector<std::string> warnings;
+};
+
+Streamed open(const std::vector<std::filesystem::path>& paths, const ReadOptions& options = {}) {
+  std::vector<NecklaceStream> files;
+  for (const auto& path : paths) files.emplace_back(path, options);
+  Streamed streamed;
+  streamed.stream = std::make_unique<SceneStream>(std::move(files));
+  streamed.survey = streamed.stream->survey(
+      true, [&](const std::string& warning) { streamed.warnings.push_back(warning); });
+  return streamed;
+}
+
+template <int D>
+void expect_same_steps(const Scene& a, const Scene& b, const std::vector<std::size_t>& steps) {
+  AnyDegreeMotion<D> motion_a(a.bead_count(), a.degree()), motion_b(b.bead_count(), b.degree());
+  for (const std::size_t step : steps) {
+    a.load(step, motion_a);
+    b.load(step, motion_b);
+    for (BeadId bead = 0; bead < a.bead_count(); ++bead)
+      for (int k = 0; k <= a.degree(); ++k)
+        for (int axis = 0; axis < D; ++axis)
+          ASSERT_EQ(motion_a.coordinate(bead, k, axis), motion_b.coordinate(bead, k, axis))
+              << "step " << step << ", bead " << bead;
+    EXPECT_EQ(a.centers(step + 1), b.centers(step + 1));
+    EXPECT_EQ(a.frame_number(step), b.frame_number(step));
+    EXPECT_EQ(a.stamp(step).picoseconds, b.stamp(step).picoseconds);
+  }
+}
+
+TEST(SceneStream, IsTheSceneOfAllFramesAtOnce) {
+  std::mt19937 random(17);
+  for (const bool flat : {false, true}) {
+    const auto moving =
+        test::write_file("moving.xyz", xyz_frames(random, 9, 5, flat, "Lattice=\"8 0 0 0 8 0 0 0 8\""));
+    const auto resting = test::write_file("resting.xyz", xyz_frames(random, 1, 3, flat));
+    for (const FrameMotion kind : {FrameMotion::linear, FrameMotion::hermite}) {
+      for (const FrameRange range : {FrameRange{}, FrameRange{1, 8, 2}}) {
+        const ReadOptions options{.frames = range};
+        std::vector<Trajectory> whole{read_trajectory(moving, options), read_trajectory(resting, options)};
+        Streamed streamed = open({moving, resting}, options);
+        EXPECT_EQ(streamed.warnings, whole[0].warnings);
+        EXPECT_FALSE(streamed.warnings.empty());
+        const std::vector<double> radii = bead_radii("auto", whole);
+        EXPECT_EQ(bead_radii("auto", streamed.survey.necklaces, streamed.survey.bonds), radii);
+        EXPECT_EQ(bead_radii("element", streamed.survey.necklaces, streamed.survey.bonds),
+                  bead_radii("element", whole));
+        const Scene held(whole, radii, kind);
+        const Scene read(std::move(streamed.stream), streamed.survey, radii, kind);
+        ASSERT_EQ(read.frame_count(), held.frame_count());
+        ASSERT_EQ(read.dimension(), held.dimension());
+        ASSERT_EQ(read.dimension(), flat ? 2 : 3);
+        std::vector<std::size_t> steps;
+        for (std::size_t step = 0; step < held.step_count(); ++step) steps.push_back(step);
+        steps.insert(steps.end(), {0, 2, 1, 1, 0});  // back and forth
+        if (flat) {
+          expect_same_steps<2>(read, held, steps);
+        } else {
+          expect_same_steps<3>(read, held, steps);
+        }
+        EXPECT_EQ(read.in_input({1, 2, 0}), held.in_input({1, 2, 0}));
+      }
+    }
+  }
+}
+
+TEST(SceneStream, RefusesUnlikeFrameCountsAndFramesThatAreNone) {
+  std::mt19937 random(18);
+  const auto three = test::write_file("three.xyz", xyz_frames(random, 3, 4, false));
+  const auto two = test::write_file("two.xyz", xyz_frames(random, 2, 4, false));
+  test::expect_refused([&] { (void)open({two, three}); }, {"two.xyz: 2 frames", "three.xyz has 3"});
+  const auto late = test::write_file("late.xyz", xyz_frames(random, 3, 1, false) + "1\nlate\nC 0 inf 0\n");
+  test::expect_refused([&] { (void)open({late}); }, {"late.xyz: frame 3: bead 0 has y = inf"});
+  const auto one = test::write_file("one.xyz", xyz_frames(random, 1, 4, false));
+  test::expect_refused(
+      [&] {
+        Streamed streamed = open({one});
+        const Scene scene(std::move(streamed.stream), streamed.survey, std::vector<double>(4, 1));
+      },
+      {"one.xyz", "at least two frames"});
+}
+
+TEST(SceneStream, TellsOfAFileThatLosesFramesMeanwhile) {
+  std::mt19937 random(19);
+  const std::string text = xyz_frames(random, 4000, 10, false);
+  const auto path = test::write_file("a.xyz", text);
+  Streamed streamed = open({path});
+  const Scene scene(std::move(streamed.stream), streamed.survey, std::vector<double>(10, 1));
+  std::filesystem::resize_file(path, text.find("10\nframe", text.size() / 2));
+  test::expect_refused([&] { (void)scene.centers(3999); }, {"a.xyz: frame", "is gone"});
+}
+
+}  // namespace
+}  // namespace kds
