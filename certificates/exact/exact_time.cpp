@@ -2,34 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
-
-#include "certificates/exact/precise_values.h"
+#include <vector>
 
 namespace kds {
 
 namespace {
 
-// To so many leading digits a time is narrowed before it is asked whether two are equal, which a common
-// factor tells: cheaper while they differ, wasted where they are equal.
-constexpr std::int64_t digits_before_gcd = 64;
-
-std::int64_t exponent_of(const Integer& numerator, unsigned exponent) {
-  return static_cast<std::int64_t>(mpz_sizeinbase(numerator.backend().data(), 2)) -
-         static_cast<std::int64_t>(exponent);
-}
-
-bool has_digits_before_gcd(const ExactTime& time) {
-  if (time.is_dyadic()) return true;
-  const Dyadic& lower = time.lower();
-  const Dyadic& upper = time.upper();
-  const unsigned e = std::max(lower.exponent(), upper.exponent());
-  const Integer from = lower.numerator() << (e - lower.exponent());
-  const Integer to = upper.numerator() << (e - upper.exponent());
-  const std::int64_t scale = std::min(exponent_of(to, e), exponent_of((Integer(1) << e) - from, e));
-  return exponent_of(to - from, e) < scale - digits_before_gcd;
-}
+// Bisections before a gcd is tried: cheaper while the times differ, wasted where they are equal.
+constexpr int separation_budget = 16;
 
 bool disjoint(const ExactTime& a, const ExactTime& b) {
   if (a.is_dyadic() && b.is_dyadic()) return !(a.lower() == b.lower());
@@ -43,31 +24,44 @@ bool is_root(const ExactPolynomial& g, const ExactTime& time) {
   return g.sign_at(time.lower()) * g.sign_at(time.upper()) < 0;
 }
 
-// The sign of `function` in the time's interval if its leading digits say that it has no root there, by
-// Descartes' rule; else 0.
+// The sign of `function` in the time's interval if it has no root there, by Descartes' rule; else 0.
 int sign_all_over(const ExactPolynomial& function, const ExactTime& time) {
-  const Variations variations = function.variations_on(time.lower(), time.upper());
-  return variations.most == 0 ? variations.sign : 0;
+  const ExactPolynomial local = function.restricted(time.lower(), time.upper());
+  if (local.sign_variations() != 0) return 0;
+  for (const Integer& x : local.scaled()) {
+    if (x != 0) return x > 0 ? 1 : -1;
+  }
+  return 0;
 }
 
-// The same by as many digits as it takes.
-int sign_all_over_exactly(const ExactPolynomial& function, const ExactTime& time) {
-  // Ends of unlike sign have a root between.
-  const int sign = function.sign_at(time.upper());
-  if (sign != 0 && sign == -function.sign_at(time.lower())) return 0;
-  const Variations variations = exact_variations(function, time.lower(), time.upper());
-  return variations.most == 0 ? variations.sign : 0;
-}
-
-// In which of `cells` equal parts of an interval a function is zero that is straight between its values at
-// both ends.
-Integer straight_zero(const LongEnclosure& at_lower, const LongEnclosure& at_upper, const Integer& cells) {
-  Integer from = abs(at_lower.number()), to = abs(at_upper.number());
-  const std::int64_t apart = at_upper.exponent() - at_lower.exponent();
-  (apart > 0 ? to : from) <<= static_cast<std::size_t>(std::abs(apart));
-  if (from + to == 0) return 0;
-  const Integer cell = from * cells / (from + to);
-  return cell < cells ? cell : Integer(cells - 1);
+// Where the time roughly is: bisection in double on the polynomial's coefficients over its interval.
+double rough(const ExactTime& time) {
+  const ExactPolynomial local = time.polynomial().restricted(time.lower(), time.upper());
+  const auto shift = static_cast<long>(local.largest_bit_length());
+  std::vector<double> c;
+  for (const Integer& x : local.scaled()) {
+    long exponent = 0;
+    const double fraction = mpz_get_d_2exp(&exponent, x.backend().data());
+    c.push_back(std::ldexp(fraction, static_cast<int>(std::max(exponent - shift, -1100L))));
+  }
+  const auto value = [&c](double s) {
+    double sum = c.back();
+    double power = 1;
+    for (std::size_t k = c.size() - 1; k-- > 0;) {
+      power *= 1 - s;
+      sum = sum * s + c[k] * power;
+    }
+    return sum;
+  };
+  const bool rising = c.front() < 0;
+  double low = 0;
+  double high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((value(middle) < 0) == rising ? low : high) = middle;
+  }
+  const double lower = time.lower().round_down();
+  return lower + (time.upper().round_up() - lower) * low;
 }
 
 }  // namespace
@@ -101,53 +95,21 @@ bool ExactTime::narrow_to(const Dyadic& lower, const Dyadic& upper) {
   return true;
 }
 
-void ExactTime::narrow() {
-  if (is_dyadic()) return;
-  const auto take = [this](Dyadic point) {  // whether the time is after it
-    const int sign = polynomial_.sign_at(point);
-    if (sign == 0) {
-      lower_ = point;
-      upper_ = std::move(point);
-      return false;
-    }
-    const bool after = sign == sign_lower_;
-    (after ? lower_ : upper_) = std::move(point);
-    return after;
-  };
-  if (Dyadic split = split_point(lower_, upper_); !(split == Dyadic::midpoint(lower_, upper_))) {
-    take(std::move(split));
-    return;
-  }
-  // One cell of 2^digits, beside the guessed one where the guess is wrong.
-  constexpr unsigned most_digits = 4096;
-  const Dyadic lower = lower_, upper = upper_;
-  const Integer cells = Integer(1) << digits_;
-  const Integer cell = straight_zero(value_at(polynomial_, lower, digits_ + 2),
-                                     value_at(polynomial_, upper, digits_ + 2), cells);
-  const auto border = [&](const Integer& number) {
-    const unsigned exponent = std::max(lower.exponent(), upper.exponent());
-    const Integer from = lower.numerator() << (exponent - lower.exponent());
-    const Integer to = upper.numerator() << (exponent - upper.exponent());
-    return Dyadic((from << digits_) + number * (to - from), exponent + digits_);
-  };
-  const bool after = cell == 0 || take(border(cell));
-  const bool before = !is_dyadic() && after && (cell + 1 == cells || !take(border(cell + 1)));
-  digits_ = after && before ? std::min(2 * digits_, most_digits) : std::max(1U, digits_ / 2);
-}
-
 void ExactTime::narrow_for_doubles() {
-  constexpr double width = 0x1p-44, smallest = 0x1p-900;
-  const auto wide = [&] {
-    const double upper = upper_.round_up();
-    return upper - lower_.round_down() > width * std::max(upper, smallest);
-  };
-  while (!is_dyadic() && wide()) narrow();
+  constexpr double width = 0x1p-44;
+  if (is_dyadic()) return;
+  const double guess = rough(*this);
+  for (const double reach : {0x1p-46, 0x1p-42}) {
+    if (narrow_to(Dyadic(guess - reach), Dyadic(guess + reach))) return;
+  }
+  while (!is_dyadic() && upper_.round_up() - lower_.round_down() > width) refine();
 }
 
 int ExactTime::compare(ExactTime& a, ExactTime& b) {
-  while (!disjoint(a, b) && !(has_digits_before_gcd(a) && has_digits_before_gcd(b))) {
-    if (!has_digits_before_gcd(a)) a.narrow();
-    if (!has_digits_before_gcd(b)) b.narrow();
+  for (int i = 0; i < separation_budget && !disjoint(a, b); ++i) {
+    if (a.is_dyadic() && b.is_dyadic()) return 0;
+    a.refine();
+    b.refine();
   }
   if (!disjoint(a, b)) {
     if (a.is_dyadic() && b.is_dyadic()) return 0;
@@ -162,8 +124,8 @@ int ExactTime::compare(ExactTime& a, ExactTime& b) {
       if (!g.is_constant() && g.sign_at(lower) * g.sign_at(upper) < 0) return 0;
     }
     while (!disjoint(a, b)) {
-      a.narrow();
-      b.narrow();
+      a.refine();
+      b.refine();
     }
   }
   if (a.upper_ <= b.lower_) return -1;
@@ -172,10 +134,9 @@ int ExactTime::compare(ExactTime& a, ExactTime& b) {
 
 int sign_at(const ExactPolynomial& function, ExactTime& time) {
   if (function.is_zero()) return 0;
-  for (bool enough = false; !time.is_dyadic() && !enough;) {
+  for (int i = 0; i < separation_budget && !time.is_dyadic(); ++i) {
     if (const int sign = sign_all_over(function, time)) return sign;
-    enough = has_digits_before_gcd(time);
-    if (!enough) time.narrow();
+    time.refine();
   }
   if (time.is_dyadic()) return function.sign_at(time.lower());
   if (is_root(ExactPolynomial::gcd(time.polynomial(), function.square_free()), time)) return 0;
@@ -185,27 +146,26 @@ int sign_at(const ExactPolynomial& function, ExactTime& time) {
 int sign_after(const ExactPolynomial& function, ExactTime& time) {
   if (function.is_zero()) return 0;
   if (time.is_dyadic()) return function.sign_after(time.lower());
-  for (bool enough = false; !enough;) {
+  for (int i = 0; i < separation_budget; ++i) {
     if (const int sign = sign_all_over(function, time)) return sign;
-    enough = has_digits_before_gcd(time);
-    if (!enough) time.narrow();
+    time.refine();
     if (time.is_dyadic()) return function.sign_after(time.lower());
   }
   const ExactPolynomial simple = function.square_free();
   if (is_root(ExactPolynomial::gcd(time.polynomial(), simple), time)) {
     // Narrow until the time is the only root around; then the upper end tells.
     while (true) {
-      const Variations variations = exact_variations(simple, time.lower(), time.upper());
-      if (variations.most == 1) {
+      const ExactPolynomial local = simple.restricted(time.lower(), time.upper());
+      if (local.sign_variations() == 1) {
         if (const int sign = function.sign_at(time.upper())) return sign;
       }
-      time.narrow();
+      time.refine();
       if (time.is_dyadic()) return function.sign_after(time.lower());
     }
   }
   while (true) {
-    if (const int sign = sign_all_over_exactly(function, time)) return sign;
-    time.narrow();
+    if (const int sign = sign_all_over(function, time)) return sign;
+    time.refine();
     if (time.is_dyadic()) return function.sign_after(time.lower());
   }
 }
@@ -235,8 +195,8 @@ Dyadic dyadic_between(ExactTime& a, ExactTime& b) {
   if (ExactTime::compare(a, b) >= 0) return a.upper();  // caller's error; nothing lies between
   while (!(a.upper() < b.lower())) {
     if (a.upper() == b.lower() && !a.is_dyadic() && !b.is_dyadic()) return a.upper();
-    a.narrow();
-    b.narrow();
+    a.refine();
+    b.refine();
   }
   return Dyadic::midpoint(a.upper(), b.lower());
 }
@@ -253,7 +213,7 @@ Dyadic next_on_grid(ExactTime& time, unsigned bits) {
     if (time.polynomial().sign_at(next) == 0) {  // halving may miss a time on the grid for ever
       time = ExactTime(next);
     } else {
-      time.narrow();
+      time.refine();
     }
   }
   return {after(time.lower()), bits};

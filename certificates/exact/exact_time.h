@@ -6,7 +6,6 @@
 
 #include "certificates/base/failure_time.h"
 #include "certificates/exact/exact_polynomial.h"
-#include "certificates/exact/isolate_roots.h"
 
 namespace kds {
 
@@ -23,15 +22,11 @@ class ExactTime {
 
   /// Halves the interval, or finds that the time is its middle.
   void refine();
-  /// Narrows the interval by as much as a few signs tell: to one scale where it reaches over many, as they
-  /// are towards 0 and 1, then around where the polynomial's values at both ends point to. Near a simple root
-  /// each call doubles the digits that are known.
-  void narrow();
   /// Narrows the interval to this one if the time lies in it; returns whether it does. Ends must not be
   /// roots.
   bool narrow_to(const Dyadic& lower, const Dyadic& upper);
-  /// Narrows the interval to about 2^-44 of the time or less, which keeps nearly all failure times of a step
-  /// apart.
+  /// Narrows the interval to about 2^-44, which keeps nearly all failure times of a step apart: around a
+  /// guess, or by bisection.
   void narrow_for_doubles();
 
   /// -1, 0 or 1 where a is before b, equal, or after. Narrows both.
@@ -41,7 +36,6 @@ class ExactTime {
   ExactPolynomial polynomial_;
   Dyadic lower_, upper_;
   int sign_lower_ = 0;
-  unsigned digits_ = 2;  ///< binary ones that the next narrowing is to find
 };
 
 /// Sign of `function` at the time itself. Narrows `time`.

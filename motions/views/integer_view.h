@@ -2,10 +2,9 @@
 // A motion in whole numbers: all coordinates and radii times one power of two, weights times its square.
 // Functions of certificates are homogeneous in lengths, so the common factor changes no sign. Exact.
 //
-//   IntegerView    whole numbers of any width
-//   ResidueView    the same modulo a prime (modular.h)
-//   EnclosureView  their leading digits (enclosure.h)
-//   MomentView     whole numbers, at one dyadic time: polynomials of degree 0
+//   IntegerView  whole numbers of any width
+//   ResidueView  the same modulo a prime (modular.h)
+//   MomentView   whole numbers, at one dyadic time: polynomials of degree 0
 
 #include <algorithm>
 #include <bit>
@@ -17,7 +16,6 @@
 #include "motions/curves/curves.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/numbers/bernstein.h"
-#include "motions/numbers/enclosure.h"
 #include "motions/numbers/exact_number.h"
 #include "motions/numbers/modular.h"
 #include "motions/views/motion_view.h"
@@ -71,12 +69,6 @@ struct Residues {
   using Number = Residue;
   std::uint64_t fold;
   [[nodiscard]] Residue of(long long x) const { return Residue::of(x, fold); }
-};
-
-/// The leading digits of whole numbers.
-struct Enclosures {
-  using Number = Enclosure;
-  [[nodiscard]] static Enclosure of(long long x) { return Enclosure::of(x); }
 };
 
 template <Motion M, class Ring, Channels channels = all_channels>
@@ -161,8 +153,6 @@ template <Motion M, Channels channels = all_channels>
 using IntegerView = ExactView<M, Integers, channels>;
 template <Motion M, Channels channels = all_channels>
 using ResidueView = ExactView<M, Residues, channels>;
-template <Motion M, Channels channels = all_channels>
-using EnclosureView = ExactView<M, Enclosures, channels>;
 
 template <Motion M, Channels channels = all_channels>
 class MomentView {
@@ -224,7 +214,6 @@ class MomentView {
 
 static_assert(MotionView<IntegerView<Curves<3>>>);
 static_assert(MotionView<ResidueView<Curves<3>>>);
-static_assert(MotionView<EnclosureView<Curves<3>>>);
 static_assert(MotionView<MomentView<Curves<3>>>);
 
 }  // namespace kds

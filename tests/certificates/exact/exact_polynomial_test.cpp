@@ -1,5 +1,4 @@
 #include "certificates/exact/exact_polynomial.h"
-#include "certificates/exact/isolate_roots.h"
 
 #include <gtest/gtest.h>
 
