@@ -119,8 +119,8 @@ int RoundedPolynomial::sign_on(double lower, double upper) const {
   if (lower < upper) {
     double steepest = 0;
     for (std::size_t k = 0; k + 1 < count; ++k)
-      steepest = std::max(steepest, std::abs(whole_.c[k + 1] - whole_.c[k]) +
-                                        first_error * (whole_.m[k] + whole_.m[k + 1]));
+      steepest = std::max(
+          steepest, std::abs(whole_.c[k + 1] - whole_.c[k]) + first_error * (whole_.m[k] + whole_.m[k + 1]));
     at.error += static_cast<double>(count - 1) * steepest * (upper - lower) * inflation;
   }
   return at.value > at.error ? 1 : at.value < -at.error ? -1 : 0;
