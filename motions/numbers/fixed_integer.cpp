@@ -1,5 +1,7 @@
 #include "motions/numbers/fixed_integer.h"
 
+#include <algorithm>
+
 #include "motions/numbers/modular.h"
 
 namespace kds {
@@ -37,22 +39,39 @@ FixedInteger& FixedInteger::operator<<=(unsigned shift) {
   return *this;
 }
 
+std::size_t FixedInteger::significant() const {
+  const std::uint64_t sign = is_negative() ? ~std::uint64_t{0} : 0;
+  std::size_t limbs = count;
+  while (limbs > 0 && limbs_[limbs - 1] == sign) --limbs;
+  return limbs;
+}
+
 void FixedInteger::add_product(const FixedInteger& a, const FixedInteger& b) {
-  // Two's complements multiply like numbers without sign, modulo 2^384.
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint64_t factor = a.limbs_[i];
-    if (factor == 0) continue;
+  const std::size_t of_a = a.significant(), of_b = b.significant();
+  const FixedInteger& other = of_a <= of_b ? b : a;
+  const FixedInteger& rows = of_a <= of_b ? a : b;
+  const std::size_t limbs = std::min(of_a, of_b);
+  for (std::size_t i = 0; i < limbs; ++i) {
+    const std::uint64_t factor = rows.limbs_[i];
     std::uint64_t carry = 0;
     for (std::size_t j = 0; i + j < count; ++j) {
-      const Wide sum = Wide{factor} * b.limbs_[j] + limbs_[i + j] + carry;
+      const Wide sum = Wide{factor} * other.limbs_[j] + limbs_[i + j] + carry;
       limbs_[i + j] = static_cast<std::uint64_t>(sum);
       carry = static_cast<std::uint64_t>(sum >> 64U);
     }
   }
+  if (!rows.is_negative()) return;
+  // The limbs left out are those of -2^(64 limbs).
+  std::uint64_t carry = 1;
+  for (std::size_t j = 0; limbs + j < count; ++j) {
+    const Wide sum = Wide{limbs_[limbs + j]} + ~other.limbs_[j] + carry;
+    limbs_[limbs + j] = static_cast<std::uint64_t>(sum);
+    carry = static_cast<std::uint64_t>(sum >> 64U);
+  }
 }
 
 Integer FixedInteger::whole_number() const {
-  const bool negative = limbs_.back() >> 63U != 0;
+  const bool negative = is_negative();
   const FixedInteger magnitude = negative ? -*this : *this;
   Integer result;
   mpz_import(result.backend().data(), count, -1, sizeof(std::uint64_t), 0, 0, magnitude.limbs_.data());

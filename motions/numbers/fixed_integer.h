@@ -41,6 +41,11 @@ class FixedInteger {
 
  private:
   static constexpr std::size_t count = bits / 64;
+
+  [[nodiscard]] bool is_negative() const { return limbs_.back() >> 63U != 0; }
+  /// Lowest limbs, above which all are the sign's.
+  [[nodiscard]] std::size_t significant() const;
+
   std::array<std::uint64_t, count> limbs_{};  // lowest first, of the two's complement
 };
 

@@ -173,7 +173,6 @@ bool DiagramRebuilder<Dimension>::repair(std::vector<CellId> wrong) {
 
 template <int Dimension>
 bool DiagramRebuilder<Dimension>::try_to_repair(std::span<const CellId> wrong) {
-  constexpr unsigned coarsest = 32;
   std::vector<BeadId> beads;
   for (const CellId cell : wrong) {
     for (const BeadId b : state_.beads_of(cell)) {
@@ -187,11 +186,12 @@ bool DiagramRebuilder<Dimension>::try_to_repair(std::span<const CellId> wrong) {
     }
   }
   state_.present = {};
-  for (unsigned bits = coarsest; bits <= finest_grid; bits += 12) {
+  for (const unsigned bits : {32U, 56U, 80U, 128U, finest_grid}) {
     const Dyadic time = next_on_grid(state_.simulator.now().exact(), bits);
     if (!(time < Dyadic(1.0))) continue;
     const std::vector<Beads> made = exchange_.fill_of(wrong, beads, time);
-    if (made.empty() || !exchange_.can_fill(wrong, made) || !exchange_.is_regular(wrong, made)) continue;
+    if (made.empty()) return false;  // ties decided otherwise
+    if (!exchange_.can_fill(wrong, made) || !exchange_.is_regular(wrong, made)) continue;
     hidden_.displace(wrong);
     exchange_.fill(wrong, made);
     ++state_.owner.statistics.rebuilds;
