@@ -13,6 +13,22 @@
 
 namespace kds {
 
+namespace {
+
+/// The cells in a ring around some, too.
+template <int Dimension>
+std::vector<CellId> with_those_around(const DiagramState<Dimension>& state, std::vector<CellId> cells) {
+  const std::size_t count = cells.size();
+  for (std::size_t c = 0; c < count; ++c) {
+    for (int i = 0; i <= Dimension; ++i) cells.push_back(state.neighbor(cells[c], i));
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+}  // namespace
+
 template <int Dimension>
 void DiagramRebuilder<Dimension>::start_step() {
   rough_rebuilds_ = 0;
@@ -140,19 +156,6 @@ std::vector<ExactTime> DiagramRebuilder<Dimension>::contradictions(const Dyadic&
   return times;
 }
 
-/// The cells in a ring around some, too.
-template <int Dimension>
-static std::vector<CellId> with_those_around(const DiagramState<Dimension>& state,
-                                             std::vector<CellId> cells) {
-  const std::size_t count = cells.size();
-  for (std::size_t c = 0; c < count; ++c) {
-    for (int i = 0; i <= Dimension; ++i) cells.push_back(state.neighbor(cells[c], i));
-  }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
-}
-
 template <int Dimension>
 bool DiagramRebuilder<Dimension>::repair(std::vector<CellId> wrong) {
   constexpr int rings = 3;
@@ -186,12 +189,11 @@ bool DiagramRebuilder<Dimension>::try_to_repair(std::span<const CellId> wrong) {
     }
   }
   state_.present = {};
-  for (const unsigned bits : {32U, 56U, 80U, 128U, finest_grid}) {
+  for (const unsigned bits : {80U, finest_grid}) {  // hardly ever does anything happen sooner
     const Dyadic time = next_on_grid(state_.simulator.now().exact(), bits);
     if (!(time < Dyadic(1.0))) continue;
     const std::vector<Beads> made = exchange_.fill_of(wrong, beads, time);
-    if (made.empty()) return false;  // ties decided otherwise
-    if (!exchange_.can_fill(wrong, made) || !exchange_.is_regular(wrong, made)) continue;
+    if (made.empty() || !exchange_.can_fill(wrong, made) || !exchange_.is_regular(wrong, made)) continue;
     hidden_.displace(wrong);
     exchange_.fill(wrong, made);
     ++state_.owner.statistics.rebuilds;

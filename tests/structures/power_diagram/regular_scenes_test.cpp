@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "motions/models/model.h"
+#include "structures/power_diagram/diagram_events.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "tests/support/inputs/moving_beads.h"
 
