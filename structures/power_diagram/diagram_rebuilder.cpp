@@ -15,6 +15,8 @@ namespace kds {
 
 namespace {
 
+constexpr std::size_t most_times = 64;  // of many, which are much alike
+
 /// The cells in a ring around some, too.
 template <int Dimension>
 std::vector<CellId> with_those_around(const DiagramState<Dimension>& state, std::vector<CellId> cells) {
@@ -130,7 +132,6 @@ void DiagramRebuilder<Dimension>::apply(const Change& change) {
 
 template <int Dimension>
 std::vector<ExactTime> DiagramRebuilder<Dimension>::contradictions(const Dyadic& time) {
-  constexpr std::size_t most = 64;  // they are much alike
   std::vector<ExactTime> times;
   ExactTime limit(time);
   // What fails before that time.
@@ -139,11 +140,16 @@ std::vector<ExactTime> DiagramRebuilder<Dimension>::contradictions(const Dyadic&
     ExactTime failure = exact_time(*table.exact_function(slot_of(guard)), table.time(slot_of(guard)));
     if (ExactTime::compare(limit, failure) < 0) return true;
     times.push_back(std::move(failure));
-    return times.size() < most;
+    return times.size() < most_times;
   };
   static_cast<void>(facets_.all_of(later) && hidden_.all_of(later));
-  // What holds then and not yet just after now.
-  facets_.for_violated(most, [&]<class Certificate>(Certificate certificate) {
+  add_beginnings(times);  // what holds then and not yet just after now
+  return times;
+}
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::add_beginnings(std::vector<ExactTime>& times) {
+  facets_.for_violated(most_times, [&]<class Certificate>(Certificate certificate) {
     certificate.sign = -certificate.sign;
     const auto& search = state_.template search<Certificate>();
     const KnownAtStart known = KnownAtStart::unknown;
@@ -153,7 +159,6 @@ std::vector<ExactTime> DiagramRebuilder<Dimension>::contradictions(const Dyadic&
     if (failure.kind == Failure::Kind::later)
       times.push_back(exact_time(*search.exact_function(certificate), failure.time));
   });
-  return times;
 }
 
 template <int Dimension>
@@ -206,10 +211,11 @@ bool DiagramRebuilder<Dimension>::try_to_repair(std::span<const CellId> wrong) {
 
 template <int Dimension>
 bool DiagramRebuilder<Dimension>::try_to_rebuild() {
+  std::vector<ExactTime> before;  // a rebuild must be before these
+  add_beginnings(before);
   drop_all();
   state_.present = {};
-  bool solid = false;             // at some time
-  std::vector<ExactTime> before;  // a rebuild must be before these
+  bool solid = false;  // at some time
   const auto is_late = [&](const Dyadic& time) {
     return std::any_of(before.begin(), before.end(), [limit = ExactTime(time)](ExactTime& other) mutable {
       return ExactTime::compare(limit, other) >= 0;

@@ -53,6 +53,8 @@ class DiagramRebuilder {
   void drop_all();
   /// Times after now before which a rebuild must be, of what the one just made contradicts.
   [[nodiscard]] std::vector<ExactTime> contradictions(const Dyadic& time);
+  /// Those at which certificates that do not hold just after now begin to.
+  void add_beginnings(std::vector<ExactTime>& times);
   /// Puts other cells in the place of these, or of these and those around them; false where it cannot.
   [[nodiscard]] bool repair(std::vector<CellId> wrong);
   [[nodiscard]] bool try_to_repair(std::span<const CellId> wrong);

@@ -88,6 +88,7 @@ class FacetGuards {
   /// Calls `visit` with the certificates that do not hold just after now, at most so many: negated they do.
   template <class Visit>
   void for_violated(std::size_t most, Visit visit) const {
+    if (!guarded_) return;
     const auto look_at_cell = [&](CellId cell, int i) {
       if (guard(cell, i).guard == CertificateHandle::violated && most > 0) {
         --most;
