@@ -1,7 +1,8 @@
 #pragma once
-// A function of beads on whole numbers. It is evaluated modulo a few primes, as many as its coefficients'
-// bound in lengths asks for at the width of these beads' control points; where those are wider than the
-// primes reach, on whole numbers outright. Exact.
+// A function of beads on whole numbers. Its coefficients' bound in lengths tells how long they are at the
+// width of these beads' control points: most fit into numbers of a fixed width. Longer ones are evaluated
+// modulo as many primes as they ask for; where they are longer than the primes reach, on whole numbers
+// outright. Exact.
 
 #include <algorithm>
 #include <array>
@@ -42,7 +43,15 @@ template <class Function, Motion M>
                                                 const CoefficientBits& size) {
   constexpr Channels channels = channels_of<Function>;
   const WholeScale scale = whole_scale<channels>(motion, function.beads);
-  const std::size_t count = residues_for(size.bits + size.power * (scale.bits + 1));
+  const int bits = size.bits + size.power * (scale.bits + 1);
+  std::vector<Integer> scaled;
+  if (bits < FixedInteger::bits) {
+    const auto p = function_of(function, FixedView<M, channels>(motion, scale));
+    scaled.reserve(p.scaled.size());
+    for (const FixedInteger& c : p.scaled) scaled.push_back(c.whole_number());
+    return ExactPolynomial(std::move(scaled));
+  }
+  const std::size_t count = residues_for(bits);
   if (count > residue_folds.size())
     return ExactPolynomial(function_of(function, IntegerView<M, channels>(motion, scale)));
 
@@ -53,7 +62,6 @@ template <class Function, Motion M>
     residues.resize(p.scaled.size());
     for (std::size_t k = 0; k < p.scaled.size(); ++k) residues[k][i] = p.scaled[k].value;
   }
-  std::vector<Integer> scaled;
   scaled.reserve(residues.size());
   for (const auto& coefficient : residues)
     scaled.push_back(whole_number(std::span(coefficient).first(count)));

@@ -38,7 +38,7 @@ ExactTime& Instant::exact() const {
 }
 
 bool Instant::narrow() const {
-  if (narrowed_ || source_ == nullptr || time_.lower == time_.upper) return false;
+  if (narrowed_ || source_ == nullptr || time_.upper - time_.lower <= 0x1p-45) return false;
   narrowed_ = true;
   exact().narrow_for_doubles();
   kds::narrow(time_, exact());

@@ -204,7 +204,9 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
       }
     }
     // Whatever touches zero comes here: doubles prove signs, and a zero has none.
-    return exact_first_failure(Values::exact(certificate, curves), now, stages, touches);
+    const ExactPolynomial exact = Values::exact(certificate, curves);
+    if (kernel == Kernel::filtered) return rounded_first_failure(exact, now, known, stages, touches);
+    return exact_first_failure(exact, now, stages, touches);
   }
 
  private:
@@ -237,7 +239,7 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
     const ExactPolynomial exact = Values::exact(certificate, curves);
     ++stages.signs_exact;
     stages.largest_bits = std::max<std::uint64_t>(stages.largest_bits, exact.largest_bit_length());
-    return exact_sign(exact, now.exact());
+    return kernel == Kernel::filtered ? rounded_sign(exact, now, exact_sign) : exact_sign(exact, now.exact());
   }
 
   MotionRef<dimension> motion_;

@@ -1,8 +1,32 @@
 #include "certificates/search/exact_search.h"
 
 #include <algorithm>
+#include <optional>
+
+#include "certificates/exact/rounded_polynomial.h"
+#include "certificates/search/careful_search.h"
 
 namespace kds {
+
+namespace {
+
+/// What doubles prove of it, or nothing. No touch is overlooked: a double root is never proved away.
+std::optional<Failure> proved_failure(const RoundedPolynomial& function, const Instant& now,
+                                      KnownAtStart known) {
+  if (known == KnownAtStart::at_own_root) {
+    if (!now.isolating()) return std::nullopt;  // then it is positive at the bracket's upper end
+  } else {
+    const int sign = function.sign_on(now.lower(), now.upper());
+    if (sign == 0) return std::nullopt;
+    if (sign < 0) return failed_at_birth(now);
+  }
+  const auto [verdict, descent] = function.first_descent(now.upper());
+  if (verdict == RoundedPolynomial::Verdict::undecided) return std::nullopt;
+  if (verdict == RoundedPolynomial::Verdict::never) return Failure{};
+  return Failure{Failure::Kind::later, {descent.lower, descent.upper, 0, true, false, descent.last}};
+}
+
+}  // namespace
 
 Failure to_failure(const ExactPolynomial& function, ExactFailure& failure) {
   ExactTime& root = failure.time;
@@ -46,6 +70,26 @@ Failure exact_first_failure(const ExactPolynomial& function, const Instant& now,
   std::optional<ExactFailure> root = first_failure_after(function, time, touches);
   if (!root) return {};
   return to_failure(function, *root);
+}
+
+Failure rounded_first_failure(const ExactPolynomial& function, const Instant& now, KnownAtStart known,
+                              StageCounts& stages, TouchPolicy touches) {
+  if (!function.is_zero()) {
+    if (const auto failure = proved_failure(RoundedPolynomial(function), now, known)) {
+      ++stages.exact;
+      stages.largest_bits = std::max<std::uint64_t>(stages.largest_bits, function.largest_bit_length());
+      return *failure;
+    }
+  }
+  return exact_first_failure(function, now, stages, touches);
+}
+
+int rounded_sign(const ExactPolynomial& function, const Instant& now,
+                 int (*exact_sign)(const ExactPolynomial&, ExactTime&)) {
+  if (now.lower() > 0) {  // a root there is no root just after
+    if (const int sign = RoundedPolynomial(function).sign_on(now.lower(), now.upper())) return sign;
+  }
+  return exact_sign(function, now.exact());
 }
 
 }  // namespace kds

@@ -37,6 +37,18 @@ Eigen::Matrix3Xd model_at_rest(std::string_view name, std::size_t beads, double 
   return models::generate(*model, settings).front().frames.front();
 }
 
+std::vector<Eigen::Matrix3Xd> rotating_frames(std::string_view name, std::size_t beads) {
+  const models::Settings settings{.beads = beads, .frames = 2, .motion = models::ShapeMotion::rotate};
+  return models::generate(*models::find_model(name), settings).front().frames;
+}
+
+std::vector<Eigen::Matrix3Xd> grid_with_one_moving(std::size_t beads) {
+  const Eigen::Matrix3Xd start = model_at_rest("grid", beads, 0);
+  std::vector<Eigen::Matrix3Xd> frames{start, start};
+  frames[1].col(start.cols() / 2) += Eigen::Vector3d(0.37, 0.21, -0.3);
+  return frames;
+}
+
 Eigen::Matrix3Xd planar_spiral(std::size_t beads) {
   return models::spiral(beads, std::sqrt(static_cast<double>(beads) / 10), 1);
 }

@@ -27,6 +27,12 @@ struct BenchChain {
 [[nodiscard]] Eigen::Matrix3Xd model_at_rest(std::string_view model, std::size_t beads, double jitter = 0.05,
                                              int dimension = 3);
 
+/// Two frames of the model with its defaults, between which it rotates.
+[[nodiscard]] std::vector<Eigen::Matrix3Xd> rotating_frames(std::string_view model, std::size_t beads);
+
+/// Two frames of a grid of which one bead alone moves, to another place between its neighbours.
+[[nodiscard]] std::vector<Eigen::Matrix3Xd> grid_with_one_moving(std::size_t beads);
+
 /// Rolled up in the plane, with as many turns as so many beads have room for.
 [[nodiscard]] Eigen::Matrix3Xd planar_spiral(std::size_t beads);
 

@@ -24,8 +24,10 @@ namespace kds {
 namespace {
 
 constexpr std::array kOptions{
-    OptionSpec{"--sizes", "LIST",
-               "hierarchies, power: beads of generated chains (default: 640,10240,102400; power: 10240)"},
+    OptionSpec{
+        "--sizes", "LIST",
+        "hierarchies, power: beads of generated chains (default: 640,10240,102400; power: 10240, regular "
+        "scenes 1000,8000)"},
     OptionSpec{"--data", "DIR",
                "the folder that holds trajectories and kinetic (default: data beside the sources)"},
     OptionSpec{"--trajectories", "LIST",
@@ -72,6 +74,8 @@ template <class Options, auto bench>
 Rows on_chains(const BenchInputs& inputs, const Progress& progress) {
   Options options;
   if (inputs.sizes) options.sizes = *inputs.sizes;
+  if constexpr (requires { options.regular; })
+    if (inputs.sizes) options.regular = *inputs.sizes;
   options.trajectories = inputs.trajectories;
   options.rounds = inputs.rounds;
   return bench(options, progress);

@@ -91,6 +91,29 @@ void measure(const Input& input, std::size_t rounds, std::vector<BenchRow>& rows
   }
 }
 
+double seconds_to_build_frames(const Input& input) {
+  const auto build = [&]<int Dimension>() {
+    const auto update = make_diagram_update<Dimension>(UpdateTechnique::rebuild);
+    return processor_seconds_of([&] {
+      update->build(input.frames[0], input.weights);
+      for (std::size_t k = 1; k < input.frames.size(); ++k)
+        static_cast<void>(update->advance(input.frames[k], input.weights));
+    });
+  };
+  return input.dimension == 2 ? build.template operator()<2>() : build.template operator()<3>();
+}
+
+void measure_regular(const Input& input, std::size_t rounds, std::vector<BenchRow>& rows) {
+  std::vector<double> peer, ours;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    peer.push_back(seconds_to_build_frames(input));
+    ours.push_back(seconds_by(UpdateTechnique::kinetic, input));
+  }
+  rows.push_back({"regular", input.name, input.weights.size(), 1e6 * median_of(ours), "us/frame",
+                  fmt::format("{} at both frames", peer_name(input.dimension)), 1e6 * median_of(peer),
+                  input.goal});
+}
+
 /// What the kinetic step is asked to be on a trajectory, by its name's start.
 std::optional<double> goal_of(std::string_view name) {
   if (name.starts_with("random100") || name.starts_with("villin")) return 1 / 2.5;
@@ -138,15 +161,33 @@ std::vector<BenchRow> bench_power(const PowerBenchOptions& options,
     add(
         "planar spiral", [=] { return planar_spiral(beads); }, 0.01, 2, std::nullopt);
   }
+  std::vector<std::function<Input()>> regular;
+  for (const std::size_t beads : options.regular) {
+    const auto scene = [&](const char* name, const auto& frames) {
+      regular.emplace_back([=] {
+        BenchChain chain{name, frames(), {}, 3};
+        chain.radii.assign(static_cast<std::size_t>(chain.frames[0].cols()), 1.0);
+        return Input(std::move(chain), 30.0);
+      });
+    };
+    for (const char* model : {"grid", "helix", "grill"})
+      scene(model, [=] { return rotating_frames(model, beads); });
+    scene("grid, one bead moves", [=] { return grid_with_one_moving(beads); });
+  }
   std::vector<BenchRow> rows;
   std::size_t done = 0;
+  const std::size_t all = inputs.size() + regular.size();
+  for (const auto& make : regular) {
+    measure_regular(make(), options.rounds, rows);
+    progress(++done, all);
+  }
   for (const auto& make : inputs) {
     const Input input = make();
     // A stride may leave one frame: nothing to do. Short rounds are many.
     if (input.frames.size() > 1) {
       measure(input, std::max(options.rounds, 20000 / (input.weights.size() * input.frames.size())), rows);
     }
-    progress(++done, inputs.size());
+    progress(++done, all);
   }
   return rows;
 }

@@ -3,6 +3,7 @@
 // Functions of certificates are homogeneous in lengths, so the common factor changes no sign. Exact.
 //
 //   IntegerView  whole numbers of any width
+//   FixedView    the same of a fixed width (fixed_integer.h)
 //   ResidueView  the same modulo a prime (modular.h)
 //   MomentView   whole numbers, at one dyadic time: polynomials of degree 0
 
@@ -17,6 +18,7 @@
 #include "motions/curves/lifted_motion.h"
 #include "motions/numbers/bernstein.h"
 #include "motions/numbers/exact_number.h"
+#include "motions/numbers/fixed_integer.h"
 #include "motions/numbers/modular.h"
 #include "motions/views/motion_view.h"
 
@@ -62,6 +64,12 @@ template <Channels channels = all_channels, Motion M>
 struct Integers {
   using Number = Integer;
   [[nodiscard]] static Integer of(long long x) { return x; }
+};
+
+/// Those of a fixed width.
+struct FixedIntegers {
+  using Number = FixedInteger;
+  [[nodiscard]] static FixedInteger of(long long x) { return FixedInteger(x); }
 };
 
 /// The whole numbers modulo the prime 2^61 - fold.
@@ -152,6 +160,8 @@ class ExactView {
 template <Motion M, Channels channels = all_channels>
 using IntegerView = ExactView<M, Integers, channels>;
 template <Motion M, Channels channels = all_channels>
+using FixedView = ExactView<M, FixedIntegers, channels>;
+template <Motion M, Channels channels = all_channels>
 using ResidueView = ExactView<M, Residues, channels>;
 
 template <Motion M, Channels channels = all_channels>
@@ -213,6 +223,7 @@ class MomentView {
 };
 
 static_assert(MotionView<IntegerView<Curves<3>>>);
+static_assert(MotionView<FixedView<Curves<3>>>);
 static_assert(MotionView<ResidueView<Curves<3>>>);
 static_assert(MotionView<MomentView<Curves<3>>>);
 

@@ -1,14 +1,38 @@
 #include "structures/power_diagram/diagram_checks.h"
 
+#include <algorithm>
+
 #include "certificates/exact/exact_polynomial.h"
 #include "structures/power_diagram/static_diagrams.h"
 #include "structures/triangulation/regularity_fault.h"
 
 namespace kds {
 
+namespace {
+
+template <int Dimension>
+bool is_wrong_at(DiagramState<Dimension>& state, CellId cell) {
+  if (!state.triangulation.is_live(cell)) return false;
+  const auto& v = state.beads_of(cell);
+  if (!state.is_infinite(cell) && state.sign_just_after(Orientation<Dimension>(v, 1)) <= 0) return true;
+  for (int i = 0; i <= Dimension; ++i) {
+    if (!state.is_regular_just_after(v, state.beads_of(state.neighbor(cell, i)), state.apex(cell, i)))
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 template <int Dimension>
 bool is_wrong_just_after(DiagramState<Dimension>& state) {
   if (state.simulator.kernel() == Kernel::fast) return false;
+  // Functions turn negative where they are zero now, and that is at the cells touched. Others were right, and
+  // with them the diagram covers what it covered.
+  if (state.hidden.empty() && !state.touched.empty()) {
+    return std::any_of(state.touched.begin(), state.touched.end(),
+                       [&](CellId cell) { return is_wrong_at(state, cell); });
+  }
   return regularity_fault(
              state.triangulation, state.bead_count(), state.hidden.with_hosts(), false,
              [&](const auto& function) { return state.sign_just_after(function); }, state.absent)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <unordered_set>
@@ -10,41 +9,8 @@
 
 #include "certificates/exact/exact_time.h"
 #include "motions/curves/positions.h"
-#include "structures/power_diagram/static_diagrams.h"
 
 namespace kds {
-
-namespace {
-
-/// The side of a facet on which a cell is: the same for two cells with the facet on the same side. `v` is
-/// positively oriented.
-template <std::size_t N>
-struct FacetSide {
-  std::array<BeadId, N - 1> beads{};
-  bool even = false;
-
-  FacetSide(const std::array<BeadId, N>& v, std::size_t opposite) {
-    for (std::size_t j = 0, k = 0; j < N; ++j) {
-      if (j != opposite) beads[k++] = v[j];
-    }
-    even = (sort_beads(beads) > 0) == ((N - 1 - opposite) % 2 == 0);
-  }
-  [[nodiscard]] FacetSide beyond() const {
-    FacetSide side = *this;
-    side.even = !even;
-    return side;
-  }
-  friend auto operator<=>(const FacetSide&, const FacetSide&) = default;
-};
-
-/// The beads of a cell ascending, but for the last two where that would turn it over.
-template <std::size_t N>
-std::array<BeadId, N> in_order(std::array<BeadId, N> cell) {
-  if (sort_beads(cell) < 0) std::swap(cell[N - 2], cell[N - 1]);
-  return cell;
-}
-
-}  // namespace
 
 template <int Dimension>
 void DiagramEditor<Dimension>::set_absent(BeadId bead, bool absent) {
@@ -171,9 +137,9 @@ void DiagramEditor<Dimension>::put_in(BeadId bead, CellId from) {
   for (const bool zero_too : {false, true}) {
     const std::vector<CellId> hole = cells_in_conflict(bead, cell, zero_too);
     const std::vector<Beads> made = star_in_place_of(hole, bead);
-    if (!can_fill(hole, made)) continue;
+    if (!exchange_.can_fill(hole, made)) continue;
     hidden_.displace(hole);
-    fill(hole, made);
+    exchange_.fill(hole, made);
     return finish_edit(Events::inserts, bead);
   }
   rebuild_after_edit(Events::inserts, bead);
@@ -197,16 +163,16 @@ void DiagramEditor<Dimension>::take_out(BeadId bead, std::span<const CellId> hol
     std::copy_if(v.begin(), v.end(), std::back_inserter(beads),
                  [bead](BeadId b) { return b != bead && b != infinite_bead; });
   }
-  std::vector<Beads> made = fill_of(hole, bead, beads, time);
+  std::vector<Beads> made = exchange_.fill_of(hole, beads, time);
   if (made.empty()) {  // these may lie in one plane: the beads beyond do not
     for (const CellId cell : hole) {
       if (const BeadId b = state_.apex(cell, state_.place_of(cell, bead)); b != infinite_bead)
         beads.push_back(b);
     }
-    made = fill_of(hole, bead, beads, time);
+    made = exchange_.fill_of(hole, beads, time);
   }
-  if (!can_fill(hole, made)) return rebuild_after_edit(Events::erases, bead);
-  fill(hole, made);
+  if (!exchange_.can_fill(hole, made)) return rebuild_after_edit(Events::erases, bead);
+  exchange_.fill(hole, made);
   finish_edit(Events::erases, bead);
 }
 
@@ -240,100 +206,6 @@ auto DiagramEditor<Dimension>::star_in_place_of(std::span<const CellId> hole, Be
   return made;
 }
 
-/// Cells for the place of those around a bead, of the static triangulation of some others, among them all
-/// around it; none if it does not have the facets around.
-template <int Dimension>
-auto DiagramEditor<Dimension>::fill_of(std::span<const CellId> hole, BeadId bead, std::vector<BeadId> beads,
-                                       const Dyadic& time) const -> std::vector<Beads> {
-  using Side = FacetSide<Dimension + 1>;
-  std::sort(beads.begin(), beads.end());
-  beads.erase(std::unique(beads.begin(), beads.end()), beads.end());
-  const auto built = static_diagram(state_, std::span<const BeadId>(beads), time, true);
-  std::map<Side, std::size_t> cell_on;
-  for (std::size_t c = 0; c < built.cells.size(); ++c) {
-    for (std::size_t i = 0; i <= Dimension; ++i) cell_on.emplace(Side(built.cells[c], i), c);
-  }
-  std::vector<Side> open;
-  for (const CellId cell : hole)
-    open.emplace_back(state_.beads_of(cell), static_cast<std::size_t>(state_.place_of(cell, bead)));
-  std::vector<Side> around = open;
-  std::sort(around.begin(), around.end());
-  std::vector<char> taken(built.cells.size(), 0);
-  std::vector<Beads> made;
-  while (!open.empty()) {
-    const auto cell = cell_on.find(open.back());
-    open.pop_back();
-    if (cell == cell_on.end()) return {};
-    const Beads& v = built.cells[cell->second];
-    if (std::exchange(taken[cell->second], 1) != 0) continue;
-    made.push_back(v);
-    for (std::size_t i = 0; i <= Dimension; ++i) {
-      const Side side(v, i);
-      if (!std::binary_search(around.begin(), around.end(), side)) open.push_back(side.beyond());
-    }
-  }
-  return made;
-}
-
-template <int Dimension>
-bool DiagramEditor<Dimension>::can_fill(std::span<const CellId> hole, std::span<const Beads> made) {
-  return state_.triangulation.fits(hole, made) &&
-         std::all_of(made.begin(), made.end(), [this](const Beads& cell) {
-           const Orientation<Dimension> orientation(cell, 1);
-           return orientation.beads.back() == infinite_bead || state_.sign_just_after(orientation) > 0;
-         });
-}
-
-/// Exchanges cells whose hidden beads are displaced, and guards the new ones.
-template <int Dimension>
-void DiagramEditor<Dimension>::fill(std::span<const CellId> hole, std::span<const Beads> made) {
-  facets_.drop_around(hole);
-  std::vector<Beads> cleared, filled;
-  for (const CellId cell : hole) {
-    cleared.push_back(state_.beads_of(cell));
-    std::sort(cleared.back().begin(), cleared.back().end());
-  }
-  for (const Beads& cell : made) filled.push_back(in_order(cell));
-  for (auto* cells : {&cleared, &filled}) {
-    std::sort(cells->begin(), cells->end());
-    for (const Beads& cell : *cells) {
-      Change change{cells == &cleared ? Events::clears : Events::fills, Dimension + 1, {}};
-      std::copy(cell.begin(), cell.end(), change.ids.begin());
-      state_.record(change);
-    }
-  }
-  const std::vector<CellId> cells = exchange_cells(hole, filled);
-  facets_.watch_around(cells);
-  hidden_.rehouse(cells[0]);
-}
-
-/// Beads that have no cell any more are hidden, and displaced; hidden ones that have cells come back.
-template <int Dimension>
-std::vector<CellId> DiagramEditor<Dimension>::exchange_cells(std::span<const CellId> hole,
-                                                             std::span<const Beads> made) {
-  std::vector<BeadId> before;
-  for (const CellId cell : hole) {
-    const Beads& v = state_.beads_of(cell);
-    before.insert(before.end(), v.begin(), v.end());
-  }
-  std::sort(before.begin(), before.end());
-  before.erase(std::unique(before.begin(), before.end()), before.end());
-  std::vector<CellId> cells = state_.triangulation.replace(hole, made);
-  for (const BeadId b : before) {
-    if (state_.is_absent(b) || state_.triangulation.is_vertex(b)) continue;
-    hidden_.hide(b);
-    hidden_.add_displaced(b);
-  }
-  for (const Beads& cell : made) {
-    for (const BeadId b : cell) {
-      if (b == infinite_bead || !state_.hidden.contains(b)) continue;
-      state_.hidden.show(b);
-      hidden_.remove_displaced(b);
-    }
-  }
-  return cells;
-}
-
 template <int Dimension>
 void DiagramEditor<Dimension>::finish_edit(Kind kind, BeadId bead) {
   state_.record({kind, 1, {bead}});
@@ -352,7 +224,7 @@ void DiagramEditor<Dimension>::rebuild_after_edit(Kind kind, BeadId bead) {
 template <int Dimension>
 void DiagramEditor<Dimension>::apply(const Change& change) {
   const auto& id = change.ids;
-  if (change.kind > Events::changes || change.size != (change.kind <= Events::fills ? Dimension + 1 : 1))
+  if (change.kind > Events::repairs || change.size != (change.kind <= Events::fills ? Dimension + 1 : 1))
     throw std::invalid_argument("an edit has other numbers of beads");
   for (std::size_t i = 0; i < change.size; ++i) {
     if (id[i] >= state_.bead_count() && (change.kind > Events::fills || id[i] != infinite_bead))
@@ -367,6 +239,7 @@ void DiagramEditor<Dimension>::apply(const Change& change) {
     return cleared_.push_back(*stands);
   }
   const BeadId bead = id[0];
+  const bool repair = change.kind == Events::repairs;
   require_edit(bead, change.kind != Events::inserts);
   const std::vector<CellId> hole = std::exchange(cleared_, {});
   const std::vector<Beads> made = std::exchange(filled_, {});
@@ -376,10 +249,11 @@ void DiagramEditor<Dimension>::apply(const Change& change) {
   }
   if (!(hole.empty() && made.empty()) && !state_.triangulation.fits(hole, made))
     throw std::invalid_argument("the cells do not fill the place of those cleared");
-  set_absent(bead, change.kind == Events::erases);
+  if (repair && hole.empty()) throw std::invalid_argument("a repair exchanges cells");
+  if (!repair) set_absent(bead, change.kind == Events::erases);
   if (!hole.empty()) {
     hidden_.forget_displaced();
-    static_cast<void>(exchange_cells(hole, made));
+    static_cast<void>(exchange_.exchange(hole, made));
   } else if (change.kind == Events::inserts) {
     state_.hidden.hide(bead);
   } else if (state_.hidden.contains(bead)) {

@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "structures/power_diagram/cell_exchange.h"
 #include "structures/power_diagram/diagram_rebuilder.h"
 
 namespace kds {
@@ -31,7 +32,11 @@ class DiagramEditor {
  public:
   DiagramEditor(State& state, FacetGuards<Dimension>& facets, HiddenGuards<Dimension>& hidden,
                 DiagramRebuilder<Dimension>& rebuilder)
-      : state_(state), facets_(facets), hidden_(hidden), rebuilder_(rebuilder) {}
+      : state_(state),
+        facets_(facets),
+        hidden_(hidden),
+        rebuilder_(rebuilder),
+        exchange_(state, facets, hidden) {}
 
   // What PowerDiagram says of them.
   void leave_out(BeadId bead);
@@ -55,11 +60,6 @@ class DiagramEditor {
   [[nodiscard]] int power_against(BeadId bead, CellId cell);
   [[nodiscard]] std::vector<CellId> cells_in_conflict(BeadId bead, CellId start, bool zero_too);
   [[nodiscard]] std::vector<Beads> star_in_place_of(std::span<const CellId> hole, BeadId bead) const;
-  [[nodiscard]] std::vector<Beads> fill_of(std::span<const CellId> hole, BeadId bead,
-                                           std::vector<BeadId> beads, const Dyadic& time) const;
-  [[nodiscard]] bool can_fill(std::span<const CellId> hole, std::span<const Beads> made);
-  void fill(std::span<const CellId> hole, std::span<const Beads> made);
-  [[nodiscard]] std::vector<CellId> exchange_cells(std::span<const CellId> hole, std::span<const Beads> made);
   void finish_edit(Kind kind, BeadId bead);
   void rebuild_after_edit(Kind kind, BeadId bead);
 
@@ -67,6 +67,7 @@ class DiagramEditor {
   FacetGuards<Dimension>& facets_;
   HiddenGuards<Dimension>& hidden_;
   DiagramRebuilder<Dimension>& rebuilder_;
+  CellExchange<Dimension> exchange_;
   // Replay: cells that the edit being read clears and fills.
   std::vector<CellId> cleared_;
   std::vector<Beads> filled_;

@@ -16,7 +16,7 @@ namespace kds {
 /// bead. Where one wanders: itself, then its host's, ascending. Ids of a rebuild: its time numerator /
 /// 2^exponent as exponent, then 32-bit words of the numerator, lowest first. Ids of a cell that an edit
 /// clears: ascending; of one that fills its place, positively oriented: ascending but for the last two
-/// perhaps. Of an insert, erase or change: the bead.
+/// perhaps. Of an insert, erase or change: the bead; of a repair: the least bead of its cells.
 template <int Dimension>
 struct DiagramEvents {
   /// In the plane `to_edge` is the 2-2 flip, and there is no `to_facet`.
@@ -33,6 +33,8 @@ struct DiagramEvents {
     inserts,
     erases,
     changes,
+    // Cells that go and that come where flips block each other, then this.
+    repairs,
   };
 
   [[nodiscard]] static std::span<const EventKind> all_kinds() {
@@ -40,11 +42,11 @@ struct DiagramEvents {
     static constexpr EventKind rebuilt{"rebuild", false, true};
     static constexpr EventKind clear{"clear", false, true}, fill{"fill", false, true};
     static constexpr EventKind insert{"insert", false, true}, erase{"erase", false, true},
-        change{"change", false, true};
-    static constexpr std::array<EventKind, 11> in_space{
-        {{"2-3"}, {"3-2"}, {"4-1"}, {"1-4"}, wander, rebuilt, clear, fill, insert, erase, change}};
-    static constexpr std::array<EventKind, 10> in_plane{
-        {{"2-2"}, {"3-1"}, {"1-3"}, wander, rebuilt, clear, fill, insert, erase, change}};
+        change{"change", false, true}, repair{"repair", false, true};
+    static constexpr std::array<EventKind, 12> in_space{
+        {{"2-3"}, {"3-2"}, {"4-1"}, {"1-4"}, wander, rebuilt, clear, fill, insert, erase, change, repair}};
+    static constexpr std::array<EventKind, 11> in_plane{
+        {{"2-2"}, {"3-1"}, {"1-3"}, wander, rebuilt, clear, fill, insert, erase, change, repair}};
     if constexpr (Dimension == 3) return in_space;
     return in_plane;
   }

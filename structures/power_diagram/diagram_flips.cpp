@@ -122,7 +122,7 @@ void DiagramFlips<Dimension>::flip_to_edge(CellId cell, int facet) {
   const std::array<Beads, 2> old_cells{v, state_.beads_of(other)};
   if (!can_replace(old_cells, new_cells) ||
       (may_stand_already() && stands_already(std::array{d, e}, cell, other))) {
-    state_.suspect(Doubt::wrong);
+    state_.suspect_at(cell, other);
     return;
   }
 
@@ -165,7 +165,8 @@ void DiagramFlips<Dimension>::flip_to_facet(CellId cell, int facet,
   for (std::size_t o = 0; o < 3; ++o) old_cells[o] = state_.beads_of(old[o]);
   if (!can_replace(old_cells, std::array{State::with(v, edge[0], e), State::with(v, edge[1], e)}) ||
       (may_stand_already() && stands_already(std::array{c, d, e}, cell, old[1]))) {
-    state_.suspect(Doubt::wrong);
+    state_.touch(old);
+    state_.suspect_touched(Doubt::wrong);
     return;
   }
 

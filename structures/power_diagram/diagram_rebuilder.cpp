@@ -1,7 +1,9 @@
 #include "structures/power_diagram/diagram_rebuilder.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "certificates/exact/exact_time.h"
 #include "motions/base/input_error.h"
@@ -11,10 +13,29 @@
 
 namespace kds {
 
+namespace {
+
+constexpr std::size_t most_times = 64;  // of many, which are much alike
+
+/// The cells in a ring around some, too.
+template <int Dimension>
+std::vector<CellId> with_those_around(const DiagramState<Dimension>& state, std::vector<CellId> cells) {
+  const std::size_t count = cells.size();
+  for (std::size_t c = 0; c < count; ++c) {
+    for (int i = 0; i <= Dimension; ++i) cells.push_back(state.neighbor(cells[c], i));
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+}  // namespace
+
 template <int Dimension>
 void DiagramRebuilder<Dimension>::start_step() {
   rough_rebuilds_ = 0;
   coarsest_that_worked_ = coarsest_grid;
+  state_.clear_doubt();
 }
 
 template <int Dimension>
@@ -26,11 +47,13 @@ void DiagramRebuilder<Dimension>::watch_all() {
 template <int Dimension>
 void DiagramRebuilder<Dimension>::after_batch() {
   const bool wrong = state_.doubt == Doubt::wrong || is_wrong_just_after(state_);
+  std::vector<CellId> cells;  // those that may be wrong, if these are all
+  if (state_.known_places) cells.swap(state_.touched);
   state_.clear_doubt();
   if (!wrong) return;
   if (state_.simulator.kernel() == Kernel::fast) {
     rebuild_roughly();
-  } else {
+  } else if (!repair(std::move(cells))) {
     rebuild_at_first_time_that_works();
   }
 }
@@ -108,34 +131,111 @@ void DiagramRebuilder<Dimension>::apply(const Change& change) {
 }
 
 template <int Dimension>
-bool DiagramRebuilder<Dimension>::nothing_fails_until(const Dyadic& time) const {
+std::vector<ExactTime> DiagramRebuilder<Dimension>::contradictions(const Dyadic& time) {
+  std::vector<ExactTime> times;
   ExactTime limit(time);
+  // What fails before that time.
   const auto later = [&](const auto& table, CertificateHandle guard) {
     if (!has_slot(guard)) return true;
     ExactTime failure = exact_time(*table.exact_function(slot_of(guard)), table.time(slot_of(guard)));
-    return ExactTime::compare(limit, failure) < 0;
+    if (ExactTime::compare(limit, failure) < 0) return true;
+    times.push_back(std::move(failure));
+    return times.size() < most_times;
   };
-  return facets_.all_of(later) && hidden_.all_of(later);
+  static_cast<void>(facets_.all_of(later) && hidden_.all_of(later));
+  add_beginnings(times);  // what holds then and not yet just after now
+  return times;
+}
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::add_beginnings(std::vector<ExactTime>& times) {
+  facets_.for_violated(most_times, [&]<class Certificate>(Certificate certificate) {
+    certificate.sign = -certificate.sign;
+    const auto& search = state_.template search<Certificate>();
+    const KnownAtStart known = KnownAtStart::unknown;
+    Failure failure;
+    search.first_failures(state_.simulator.kernel(), {&certificate, 1}, state_.simulator.now(), {&known, 1},
+                          state_.owner.statistics.stages, TouchPolicy::ignored, {&failure, 1});
+    if (failure.kind == Failure::Kind::later)
+      times.push_back(exact_time(*search.exact_function(certificate), failure.time));
+  });
+}
+
+template <int Dimension>
+bool DiagramRebuilder<Dimension>::repair(std::vector<CellId> wrong) {
+  constexpr int rings = 3;
+  std::erase_if(wrong, [&](CellId cell) { return !state_.triangulation.is_live(cell); });
+  std::sort(wrong.begin(), wrong.end());
+  wrong.erase(std::unique(wrong.begin(), wrong.end()), wrong.end());
+  for (int ring = 0; ring <= rings; ++ring) {
+    if (wrong.empty() || 4 * wrong.size() > state_.triangulation.live_count()) return false;
+    if (try_to_repair(wrong)) {
+      const bool right = state_.doubt != Doubt::wrong;
+      state_.clear_doubt();
+      return right;
+    }
+    wrong = with_those_around(state_, std::move(wrong));
+  }
+  return false;
+}
+
+template <int Dimension>
+bool DiagramRebuilder<Dimension>::try_to_repair(std::span<const CellId> wrong) {
+  std::vector<BeadId> beads;
+  for (const CellId cell : wrong) {
+    for (const BeadId b : state_.beads_of(cell)) {
+      if (b != infinite_bead) beads.push_back(b);
+    }
+  }
+  if (!state_.hidden.empty()) {
+    for (const HiddenBead& hidden : state_.hidden.with_hosts()) {
+      if (hidden.host != no_cell && std::find(wrong.begin(), wrong.end(), hidden.host) != wrong.end())
+        beads.push_back(hidden.bead);
+    }
+  }
+  state_.present = {};
+  for (const unsigned bits : {80U, finest_grid}) {  // hardly ever does anything happen sooner
+    const Dyadic time = next_on_grid(state_.simulator.now().exact(), bits);
+    if (!(time < Dyadic(1.0))) continue;
+    const std::vector<Beads> made = exchange_.fill_of(wrong, beads, time);
+    if (made.empty() || !exchange_.can_fill(wrong, made) || !exchange_.is_regular(wrong, made)) continue;
+    hidden_.displace(wrong);
+    exchange_.fill(wrong, made);
+    ++state_.owner.statistics.rebuilds;
+    const BeadId least = *std::min_element(made.front().begin(), made.front().end());
+    state_.record({Events::repairs, 1, {least}});
+    return true;
+  }
+  return false;
 }
 
 template <int Dimension>
 bool DiagramRebuilder<Dimension>::try_to_rebuild() {
+  std::vector<ExactTime> before;  // a rebuild must be before these
+  add_beginnings(before);
   drop_all();
   state_.present = {};
   bool solid = false;  // at some time
+  const auto is_late = [&](const Dyadic& time) {
+    return std::any_of(before.begin(), before.end(), [limit = ExactTime(time)](ExactTime& other) mutable {
+      return ExactTime::compare(limit, other) >= 0;
+    });
+  };
   for (unsigned bits = coarsest_that_worked_; bits <= finest_grid; bits += bits < 32 ? 4 : 12) {
     const Dyadic time = next_on_grid(state_.simulator.now().exact(), bits);
-    if (!(time < Dyadic(1.0))) continue;
+    if (!(time < Dyadic(1.0)) || (bits + 12 <= finest_grid && is_late(time))) continue;
     if (!assign_static(time)) continue;
     solid = true;
     state_.clear_doubt();
     watch_all();
-    if (state_.doubt != Doubt::wrong && nothing_fails_until(time)) {
+    std::vector<ExactTime> more = contradictions(time);
+    if (state_.doubt != Doubt::wrong && more.empty()) {
       state_.clear_doubt();
       coarsest_that_worked_ = bits;
       record(time);
       return true;
     }
+    before.insert(before.end(), more.begin(), more.end());
     drop_all();
   }
   state_.clear_doubt();

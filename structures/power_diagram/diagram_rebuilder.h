@@ -1,8 +1,13 @@
 #pragma once
 // Where flips do not suffice: simultaneous events that block each other, cells that turn over unseen, frames
 // where beads coincide or all lie in one plane. Then the diagram is built anew, by CGAL with exact numbers,
-// at a time after the present one so near that nothing is skipped, and the rebuild is counted.
+// at a time after the present one so near that nothing is skipped, and the rebuild is counted. Where it is
+// known which cells are wrong and these are few, only they and perhaps some around them are.
 
+#include <vector>
+
+#include "certificates/exact/exact_time.h"
+#include "structures/power_diagram/cell_exchange.h"
 #include "structures/power_diagram/facet_guards.h"
 #include "structures/power_diagram/hidden_guards.h"
 
@@ -12,10 +17,11 @@ template <int Dimension>
 class DiagramRebuilder {
   using State = DiagramState<Dimension>;
   using Events = typename State::Events;
+  using Beads = typename State::Beads;
 
  public:
   DiagramRebuilder(State& state, FacetGuards<Dimension>& facets, HiddenGuards<Dimension>& hidden)
-      : state_(state), facets_(facets), hidden_(hidden) {}
+      : state_(state), facets_(facets), hidden_(hidden), exchange_(state, facets, hidden) {}
 
   /// From the k-th control points, an end of the step.
   void build_from_control_points(int k);
@@ -45,12 +51,19 @@ class DiagramRebuilder {
   /// `fast`: rebuilds near now from doubles, a few times a step; what is violated then stays so.
   void rebuild_roughly();
   void drop_all();
-  [[nodiscard]] bool nothing_fails_until(const Dyadic& time) const;
+  /// Times after now before which a rebuild must be, of what the one just made contradicts.
+  [[nodiscard]] std::vector<ExactTime> contradictions(const Dyadic& time);
+  /// Those at which certificates that do not hold just after now begin to.
+  void add_beginnings(std::vector<ExactTime>& times);
+  /// Puts other cells in the place of these, or of these and those around them; false where it cannot.
+  [[nodiscard]] bool repair(std::vector<CellId> wrong);
+  [[nodiscard]] bool try_to_repair(std::span<const CellId> wrong);
   void record(const Dyadic& time);
 
   State& state_;
   FacetGuards<Dimension>& facets_;
   HiddenGuards<Dimension>& hidden_;
+  CellExchange<Dimension> exchange_;
   int rough_rebuilds_ = 0;                         // in this step
   unsigned coarsest_that_worked_ = coarsest_grid;  // in this step: blocked flips come in crowds
 };

@@ -3,6 +3,7 @@
 // is being handled, and whether the diagram is in doubt.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,6 +20,7 @@
 #include "structures/power_diagram/diagram_events.h"
 #include "structures/triangulation/facet_certificate.h"
 #include "structures/triangulation/hidden_beads.h"
+#include "structures/triangulation/hull_faces.h"
 #include "structures/triangulation/regular_triangulation.h"
 
 namespace kds {
@@ -62,14 +64,36 @@ struct DiagramState {
   /// The certificate that fails now; outside events no certificate's.
   Identity present;
   Doubt doubt = Doubt::none;
+  /// Cells, some gone again, to which something happened at this moment: only there a function can have
+  /// turned negative unless `known_places` denies it.
+  std::vector<CellId> touched;
+  std::uint64_t touched_moment = 0;
+  bool known_places = true;
 
+  /// Something is amiss, who knows where if it is wrong; if it is unclear, among the cells touched.
   void suspect(Doubt more) {
+    if (more == Doubt::wrong) known_places = false;
+    suspect_touched(more);
+  }
+  void suspect_touched(Doubt more) {
     doubt = std::max(doubt, more);
     owner.needs_after_batch = true;
+  }
+  void suspect_at(CellId cell, CellId other) {
+    touch(std::array{cell, other});
+    suspect_touched(Doubt::wrong);
   }
   void clear_doubt() {
     doubt = Doubt::none;
     owner.needs_after_batch = false;
+    known_places = true;
+    touched.clear();
+  }
+  /// Something happens to these cells, or they are made, at the present moment.
+  void touch(std::span<const CellId> cells) {
+    if (touched_moment != simulator.moment()) touched.clear();
+    touched_moment = simulator.moment();
+    touched.insert(touched.end(), cells.begin(), cells.end());
   }
 
   [[nodiscard]] BeadId bead_count() const { return static_cast<BeadId>(motion.bead_count()); }
@@ -123,6 +147,15 @@ struct DiagramState {
   [[nodiscard]] int sign_just_after(const Function& function) {
     return search<Function>().sign_just_after(simulator.kernel(), function, simulator.now(),
                                               owner.statistics.stages);
+  }
+  /// Whether a cell's facet is, beyond which is that cell with that bead off the facet: its certificate is
+  /// not negative, and faces of the hull in one plane do not fold over each other.
+  [[nodiscard]] bool is_regular_just_after(const Beads& cell, const Beads& beyond, BeadId apex) {
+    const int sign = with_facet_certificate(
+        cell, apex, [this](const auto& certificate) { return sign_just_after(certificate); });
+    if (sign != 0) return sign > 0;
+    const auto face = hull_face<Dimension>(cell), other = hull_face<Dimension>(beyond);
+    return !face || !other || sign_just_after(same_turn<Dimension>(*face, *other)) > 0;
   }
   [[nodiscard]] bool all_positive_now(std::span<const Orientation<Dimension>> cells) {
     return search<Orientation<Dimension>>().all_positive_now(simulator.kernel(), cells, simulator.now(),

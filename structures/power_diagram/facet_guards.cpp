@@ -1,6 +1,7 @@
 #include "structures/power_diagram/facet_guards.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "motions/base/grow_little.h"
@@ -173,7 +174,8 @@ void FacetGuards<Dimension>::watch_marked() {
 template <int Dimension>
 void FacetGuards<Dimension>::watch_enqueued() {
   const auto take = [this](FacetId facet, CertificateHandle guard, About about) {
-    if (guard == CertificateHandle::violated) state_.suspect(Doubt::wrong);
+    if (guard == CertificateHandle::violated)
+      state_.suspect_at(cell_of(facet), state_.neighbor(cell_of(facet), index_of(facet)));
     set_guard(cell_of(facet), index_of(facet), {guard, about});
   };
   power_tests_.watch_enqueued([&](FacetId facet, CertificateHandle guard) {
@@ -197,7 +199,7 @@ void FacetGuards<Dimension>::watch_cell(CellId cell, int i) {
   const CertificateHandle guard =
       orientations_.watch(orientation, facet_id(cell, i), state_.known_of(orientation));
   set_own_guard(cell, i, {guard, About::cell});
-  if (guard == CertificateHandle::violated) state_.suspect(Doubt::wrong);
+  if (guard == CertificateHandle::violated) state_.suspect_at(cell, state_.neighbor(cell, i));
 }
 
 /// Of each of a few new cells the facets whose power test is known to be positive all over the step, as most
@@ -217,6 +219,7 @@ auto FacetGuards<Dimension>::positive_all_over(std::span<const CellId> cells)
 template <int Dimension>
 void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
   if (!all_move()) flipped_.insert(flipped_.end(), cells.begin(), cells.end());
+  state_.touch(cells);
   StageCounts& stages = state_.owner.statistics.stages;
   const bool in_event = state_.present != Identity{};
   const KnownAtStart known = in_event ? KnownAtStart::at_own_root : KnownAtStart::unknown;
@@ -274,13 +277,15 @@ auto FacetGuards<Dimension>::take_failure(unsigned table, std::uint32_t slot) ->
   fetch_scheduled(cell);
   fetch_scheduled(state_.neighbor(cell, facet));
   const bool touch = table == powers ? power_tests_.touches(slot) : orientations_.touches(slot);
+  if (touch || state_.doubt == Doubt::wrong) state_.touch(std::array{cell, state_.neighbor(cell, facet)});
   if (touch) state_.suspect(Doubt::unclear);
   if (guard(cell, facet).about == About::cell) {
     set_own_guard(cell, facet, {CertificateHandle::violated, About::cell});
     if (touch) {
       watch_cell(cell, facet);
     } else {
-      state_.suspect(Doubt::wrong);  // cospherical cells turn over: no flip tells how to go on
+      // Cospherical cells turn over: no flip tells how to go on.
+      state_.suspect_at(cell, state_.neighbor(cell, facet));
     }
     return std::nullopt;
   }

@@ -85,6 +85,28 @@ class FacetGuards {
     return all;
   }
 
+  /// Calls `visit` with the certificates that do not hold just after now, at most so many: negated they do.
+  template <class Visit>
+  void for_violated(std::size_t most, Visit visit) const {
+    if (!guarded_) return;
+    const auto look_at_cell = [&](CellId cell, int i) {
+      if (guard(cell, i).guard == CertificateHandle::violated && most > 0) {
+        --most;
+        visit(Orientation<Dimension>(state_.beads_of(cell), 1));
+      }
+    };
+    for_all_facets([&](CellId cell, int i) {
+      if (guard(cell, i).about == About::cell) {
+        const auto [other, k] = state_.across(cell, i);
+        look_at_cell(cell, i);
+        look_at_cell(other, k);
+      } else if (guard(cell, i).guard == CertificateHandle::violated && most > 0) {
+        --most;
+        with_facet_certificate(state_.beads_of(cell), state_.apex(cell, i), visit);
+      }
+    });
+  }
+
   /// From now on only the beads marked, one entry a bead, move in a step. Facets of beads that all rest need
   /// no certificate. Empty: all beads move.
   void move_only(std::vector<char> moving);

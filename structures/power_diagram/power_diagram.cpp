@@ -1,6 +1,7 @@
 #include "structures/power_diagram/power_diagram.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "motions/base/input_error.h"
@@ -56,9 +57,14 @@ void PowerDiagram<Dimension>::start_step() {
   facets.start_step();
   hidden.start_step();
   rebuilder.start_step();
-  if (state.has_cells() && !(state.flat && is_wrong_just_after(state))) {
-    rebuilder.watch_all();
-  } else if (!rebuilder.try_to_rebuild()) {
+  if (state.flat) {  // any cell may turn over
+    for (CellId cell = 0; cell < state.triangulation.cells().size(); ++cell) state.touch(std::array{cell});
+  }
+  const bool wrong = state.flat && is_wrong_just_after(state);
+  state.clear_doubt();
+  // Also where it is wrong: its certificates tell how soon a rebuild must be.
+  if (state.has_cells()) rebuilder.watch_all();
+  if ((wrong || !state.has_cells()) && !rebuilder.try_to_rebuild()) {
     // All beads stay in one plane, or on one line: no cells, no events.
     rebuilder.build_from_control_points(0);
   }

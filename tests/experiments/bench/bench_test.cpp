@@ -130,9 +130,9 @@ TEST(Bench, PowerGivesARowForEachTechniqueAndInput) {
     if (!row["goal"].is_null()) goals.insert(row["name"]);
   }
   EXPECT_THAT(names, testing::ElementsAre("activate", "auto to best", "auto to rebuild", "greedy", "kinetic",
-                                          "lifted", "reinsert"));
-  EXPECT_THAT(goals, testing::ElementsAre("auto to best", "auto to rebuild", "kinetic"));
-  EXPECT_EQ(inputs.size(), 10U);  // four strides, six chains
+                                          "lifted", "regular", "reinsert"));
+  EXPECT_THAT(goals, testing::ElementsAre("auto to best", "auto to rebuild", "kinetic", "regular"));
+  EXPECT_EQ(inputs.size(), 14U);  // four strides, six chains, four regular scenes
 }
 
 TEST(Bench, CertificatesGiveARowEachWithTheGoalsThatThereAre) {

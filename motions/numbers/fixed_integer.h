@@ -1,0 +1,63 @@
+#pragma once
+// Whole numbers modulo 2^384, in place and all of one cost: exact for values below 2^383 in size, whatever
+// was computed on the way to them. Most functions of beads fit, and need no long numbers and no residues.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "motions/numbers/exact_number.h"
+#include "motions/numbers/sum_of_products.h"
+
+namespace kds {
+
+class FixedInteger {
+ public:
+  static constexpr int bits = 384;
+
+  FixedInteger() = default;  // zero
+  explicit FixedInteger(long long x) {
+    limbs_.fill(x < 0 ? ~std::uint64_t{0} : 0);
+    limbs_[0] = static_cast<std::uint64_t>(x);
+  }
+
+  FixedInteger& operator+=(const FixedInteger& other);
+  FixedInteger& operator-=(const FixedInteger& other);
+  FixedInteger& operator*=(long long factor);
+  FixedInteger& operator<<=(unsigned shift);
+  void add_product(const FixedInteger& a, const FixedInteger& b);
+
+  friend FixedInteger operator+(FixedInteger a, const FixedInteger& b) { return a += b; }
+  friend FixedInteger operator-(FixedInteger a, const FixedInteger& b) { return a -= b; }
+  friend FixedInteger operator-(const FixedInteger& a) { return FixedInteger(0) - a; }
+  friend FixedInteger operator*(const FixedInteger& a, const FixedInteger& b) {
+    FixedInteger product;
+    product.add_product(a, b);
+    return product;
+  }
+
+  /// Between -2^383 and 2^383.
+  [[nodiscard]] Integer whole_number() const;
+
+ private:
+  static constexpr std::size_t count = bits / 64;
+
+  [[nodiscard]] bool is_negative() const { return limbs_.back() >> 63U != 0; }
+  /// Lowest limbs, above which all are the sign's.
+  [[nodiscard]] std::size_t significant() const;
+
+  std::array<std::uint64_t, count> limbs_{};  // lowest first, of the two's complement
+};
+
+template <>
+class SumOfProducts<FixedInteger> {
+ public:
+  SumOfProducts(const FixedInteger& a, const FixedInteger& b) { sum_.add_product(a, b); }
+  void add(const FixedInteger& a, const FixedInteger& b) { sum_.add_product(a, b); }
+  [[nodiscard]] const FixedInteger& value() && { return sum_; }
+
+ private:
+  FixedInteger sum_;
+};
+
+}  // namespace kds
