@@ -86,7 +86,7 @@ Failure rounded_first_failure(const ExactPolynomial& function, const Instant& no
 
 int rounded_sign(const ExactPolynomial& function, const Instant& now,
                  int (*exact_sign)(const ExactPolynomial&, ExactTime&)) {
-  if (now.lower() > 0) {  // a root there is no root just after
+  if (now.lower() > 0 && now.upper() < 1) {  // roots at 0 and 1 are left out
     if (const int sign = RoundedPolynomial(function).sign_on(now.lower(), now.upper())) return sign;
   }
   return exact_sign(function, now.exact());

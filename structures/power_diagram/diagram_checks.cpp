@@ -28,8 +28,10 @@ template <int Dimension>
 bool is_wrong_just_after(DiagramState<Dimension>& state) {
   if (state.simulator.kernel() == Kernel::fast) return false;
   // Functions turn negative where they are zero now, and that is at the cells touched. Others were right, and
-  // with them the diagram covers what it covered.
-  if (state.hidden.empty() && !state.touched.empty()) {
+  // with them the diagram covers what it covered; if there are others.
+  const bool known = !state.touched.empty() && state.touched_moment == state.simulator.moment() &&
+                     state.touched.size() < state.triangulation.live_count();
+  if (state.hidden.empty() && known) {
     return std::any_of(state.touched.begin(), state.touched.end(),
                        [&](CellId cell) { return is_wrong_at(state, cell); });
   }

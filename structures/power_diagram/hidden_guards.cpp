@@ -184,8 +184,9 @@ auto HiddenGuards<Dimension>::take_failure(unsigned table, std::uint32_t slot) -
     failed = {cell_of(place), index_of(place), departures_.identity(slot)};
     guards_[failed.bead][static_cast<std::size_t>(index_of(place))] = CertificateHandle::violated;
   }
-  if (state_.doubt == Doubt::wrong) return std::nullopt;
-  return failed;
+  if (state_.doubt != Doubt::wrong) return failed;
+  state_.suspect(Doubt::wrong);  // what fails is not done where it is: repairs elsewhere are not enough
+  return std::nullopt;
 }
 
 template class HiddenGuards<2>;

@@ -4,7 +4,6 @@
 
 #include "tests/support/inputs/polynomials.h"
 #include "tests/support/judges/sturm.h"
-#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -178,7 +177,7 @@ TEST(ExactPolynomial, ElevationIsDividedOut) {
     }
     return ExactPolynomial(std::move(c));
   };
-  for (int round = 0; round < test::rounds(50); ++round) {
+  for (int round = 0; round < 50; ++round) {
     std::vector<Integer> c(6), other(5);
     for (Integer& x : c) x = test::pick(random, -1000, 1000);
     for (Integer& x : other) x = test::pick(random, -1000, 1000);

@@ -13,7 +13,6 @@
 #include "motions/curves/lifted_motion.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/rational_geometry.h"
-#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -24,7 +23,7 @@ void compare(std::uint64_t least_found) {
   using Function = Orientation<dimension>;
   test::Random random(91);
   std::uint64_t found = 0, looked_at = 0;
-  for (int round = 0; round < test::rounds(200); ++round) {
+  for (int round = 0; round < 200; ++round) {
     for (const test::MotionKind kind : test::all_motion_kinds) {
       const M motion = test::random_motion<M>(random, dimension + 1, kind);
       const Dyadic time = test::random_dyadic(random);
@@ -59,7 +58,7 @@ TEST(MomentLanes, ClaimNothingNextToZero) {
   test::Random random(92);
   std::uint64_t found = 0;
   for (int places = 2; places < 60; ++places) {
-    for (int round = 0; round < test::rounds(40); ++round) {
+    for (int round = 0; round < 40; ++round) {
       BezierMotion<3, 1> motion(4);
       for (BeadId b = 0; b < 4; ++b) {
         for (int k = 0; k < 2; ++k) {

@@ -8,7 +8,6 @@
 #include "certificates/exact/exact_time.h"
 #include "certificates/types/ball_in_sphere.h"
 #include "tests/support/inputs/random_motion.h"
-#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -65,7 +64,7 @@ TEST(TrackedMoment, ScalesWithTheInput) {
 
 template <class Radical, class M>
 void judge_radical(Tally& tally) {
-  for (unsigned seed = 0; seed < test::rounds(60U); ++seed) {
+  for (unsigned seed = 0; seed < 60U; ++seed) {
     for (const MotionKind kind : all_motion_kinds) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", kind " << static_cast<int>(kind));
       Random random(1000 * seed + static_cast<unsigned>(kind));

@@ -5,7 +5,6 @@
 
 #include "tests/support/inputs/any_certificate.h"
 #include "tests/support/inputs/random_motion.h"
-#include "tests/support/rounds.h"
 #include "tests/support/searches.h"
 
 namespace kds {
@@ -30,7 +29,7 @@ TYPED_TEST(FastKernel, SaysWhatFilteredSaysOfGenericMotion) {
   using C = typename TypeParam::C;
   test::Random random(311);
   int later = 0;
-  for (int round = 0; round < test::rounds(60); ++round) {
+  for (int round = 0; round < 60; ++round) {
     SCOPED_TRACE("seed 311, round " + std::to_string(round));
     const auto motion =
         test::random_motion<typename TypeParam::M>(random, 3 * TypeParam::beads, test::MotionKind::generic);

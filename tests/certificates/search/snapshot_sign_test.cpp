@@ -6,7 +6,6 @@
 #include "certificates/types/power_test.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/rational_geometry.h"
-#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -17,7 +16,7 @@ void signs_agree(std::array<BeadId, Certificate::size> beads) {
   test::Random random(404);
   std::array<int, 3> seen{};
   int generic = 0, missed = 0;
-  for (int round = 0; round < test::rounds(60); ++round) {
+  for (int round = 0; round < 60; ++round) {
     for (const test::MotionKind kind : test::all_motion_kinds) {
       const M motion = test::random_motion<M>(random, 5, kind);
       for (const int k : {0, 1}) {
