@@ -145,7 +145,7 @@ TEST(Basis, AmongUpToFiveBeads) {
         << testing::PrintToString(points);
     ASSERT_TRUE(is_proper(*basis, signs));
   }
-  for (std::size_t size = 1; size <= 4; ++size) EXPECT_GT(sizes[size], 50) << size;
+  for (std::size_t size = 1; size <= 4; ++size) EXPECT_GT(sizes[size], test::rounds(50)) << size;
 }
 
 TEST(Basis, NoneIfTheSignsContradictThemselves) {

@@ -156,11 +156,11 @@ TEST(SphereCrossing, IsWhenRadicalCertificatesFail) {
   }
   for (const Tally& tally : {space, plane}) {
     EXPECT_GT(tally.never + tally.later, tally.asked / 2);
-    EXPECT_GT(tally.never, 100);
-    EXPECT_GT(tally.later, 50);
-    EXPECT_GT(tally.never_again, 25);
-    EXPECT_GT(tally.again, 2);
-    EXPECT_GT(tally.signs, 500);
+    EXPECT_GT(tally.never, test::rounds(100));
+    EXPECT_GT(tally.later, test::rounds(50));
+    EXPECT_GT(tally.never_again, test::rounds(25));
+    EXPECT_GT(tally.again, test::rounds(2));
+    EXPECT_GT(tally.signs, test::rounds(500));
   }
 }
 
@@ -190,11 +190,11 @@ TEST(SphereCrossing, OfNearlyFlatBases) {
     for (const BeadId bead : basis) judge(motion, paths, without(basis, bead), bead, false, 0, tally);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(steep, 50);
-  EXPECT_GT(tally.never, 300);
-  EXPECT_GT(tally.later, 100);
-  EXPECT_GT(tally.never_again, 50);
-  EXPECT_GT(tally.signs, 500);
+  EXPECT_GT(steep, test::rounds(50));
+  EXPECT_GT(tally.never, test::rounds(300));
+  EXPECT_GT(tally.later, test::rounds(100));
+  EXPECT_GT(tally.never_again, test::rounds(50));
+  EXPECT_GT(tally.signs, test::rounds(500));
 }
 
 TEST(SphereCrossing, OfDegenerateMotions) {
@@ -280,7 +280,7 @@ TEST(SphereCrossing, SignsOfAFastBall) {
     }
     // Slow ones are known at some ends, fast ones of all that far away.
     if (exponent <= 16) {
-      EXPECT_GT(claimed, 100) << exponent;
+      EXPECT_GT(claimed, test::rounds(100)) << exponent;
     }
   }
 }

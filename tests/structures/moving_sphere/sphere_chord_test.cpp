@@ -303,8 +303,8 @@ TEST(SpherePath, BeadsNextToTheLimit) {
     for (const double off : {-1e-12, -1e-13, 0.0, 1e-13, 1e-12})
       judge_next_to_limit<Radii::equal>(motion, basis, chord, way.normalized(), off, tally);
   }
-  EXPECT_GT(tally.inside, 50);
-  EXPECT_GT(tally.beyond, 50);
+  EXPECT_GT(tally.inside, test::rounds(50));
+  EXPECT_GT(tally.beyond, test::rounds(50));
 }
 
 // In the directions in which the centre strays most.
@@ -325,7 +325,7 @@ TEST(SpherePath, BeadsNextToTheLimitOfNearlyFlatBases) {
     for (const Eigen::Vector3d& way : {across, Eigen::Vector3d(-across)})
       judge_next_to_limit<Radii::any>(motion, basis, chord, way, -1e-10, tally);
   }
-  EXPECT_GT(tally.inside, 100);
+  EXPECT_GT(tally.inside, test::rounds(100));
 }
 
 template <class M, Radii radii>
@@ -388,9 +388,9 @@ TEST(SpherePath, ProvesPartsOfAStep) {
     judge_parts<BezierMotion<2, 3>, Radii::any>(seed, any);
   }
   for (const Tally& tally : {equal, any}) {
-    EXPECT_GT(tally.proved, 50);
-    EXPECT_GT(tally.inside, 200);
-    EXPECT_GT(tally.beyond, 200);
+    EXPECT_GT(tally.proved, test::rounds(50));
+    EXPECT_GT(tally.inside, test::rounds(200));
+    EXPECT_GT(tally.beyond, test::rounds(200));
   }
 }
 
@@ -426,8 +426,8 @@ TEST(SpherePath, KnowsBallsThatStayApart) {
     judge_pairs<Space>(seed, said, missed);
     judge_pairs<BezierMotion<2, 3>>(seed, said, missed);
   }
-  EXPECT_GT(said, 300);
-  EXPECT_GT(missed, 10);
+  EXPECT_GT(said, test::rounds(300));
+  EXPECT_GT(missed, test::rounds(10));
 }
 
 // Four bases at once are bounded as each alone, bit for bit.

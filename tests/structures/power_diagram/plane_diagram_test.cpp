@@ -212,7 +212,7 @@ TEST(PlaneDiagram, RandomMotionsFullOfTies) {
     }
     if (HasFailure()) return;
   }
-  EXPECT_GT(ran, 400);
+  EXPECT_GT(ran, test::rounds(400));
 }
 
 // Beads that stay together, one of them hidden: it is in any of the cells around the other. Which one is the

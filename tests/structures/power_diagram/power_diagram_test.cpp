@@ -503,7 +503,7 @@ TEST(PowerDiagram, RandomMotionsFullOfTies) {
     ++(run_audited({moving(from, to)}) ? refused : ran);
     if (HasFailure()) return;
   }
-  EXPECT_GT(ran, 350);
+  EXPECT_GT(ran, test::rounds(350));
 }
 
 TEST(PowerDiagram, RandomFramesFullOfTies) {
