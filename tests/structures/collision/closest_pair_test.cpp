@@ -15,7 +15,6 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/ball_gaps.h"
-#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -294,7 +293,7 @@ TEST(ClosestPair, OfThinBeads) {
 
 TEST(ClosestPair, InFewBeadsAndFlatScenes) {
   for (const int dimension : {0, 1, 2}) {
-    for (unsigned seed = 0; seed < test::rounds(200U); ++seed) {
+    for (unsigned seed = 0; seed < 200U; ++seed) {
       Random random(seed);
       Balls balls;
       for (unsigned b = 0; b < 1 + seed % 8; ++b) {
@@ -314,7 +313,7 @@ TEST(ClosestPair, InFewBeadsAndFlatScenes) {
 /// Rounded squares of radii may change the diagram where balls all but touch: a grid answers then.
 TEST(ClosestPair, WhereRoundedSquaresOfRadiiMightMatter) {
   Seen seen;
-  for (unsigned seed = 0; seed < test::rounds(500U); ++seed) {
+  for (unsigned seed = 0; seed < 500U; ++seed) {
     Random random(seed);
     Balls balls;
     grow(balls, random, 8, 3, Sizes::unequal, 0);
@@ -331,7 +330,7 @@ TEST(ClosestPair, WhereRoundedSquaresOfRadiiMightMatter) {
     balls.necklaces.push_back({8, 8});
     expect_right<3>(balls, BeadPairs::along(9, balls.necklaces), seen, "seed " + std::to_string(seed));
   }
-  EXPECT_GT(seen.near, test::rounds(50U));
+  EXPECT_GT(seen.near, 50U);
   EXPECT_GT(seen.disjoint, seen.near + 20);
 }
 
@@ -382,7 +381,7 @@ TEST(ClosestPair, OfProteins) {
 TEST(BallDistance, ComparesGapsAndPowers) {
   Random random(3);
   unsigned equal = 0, close = 0;
-  for (int round = 0; round < test::rounds(20000); ++round) {
+  for (int round = 0; round < 20000; ++round) {
     const auto whole = [&] {
       const double x = pick(random, -3, 3), y = pick(random, -3, 3), z = pick(random, -3, 3);
       return Eigen::Vector3d(x, y, z);
@@ -405,8 +404,8 @@ TEST(BallDistance, ComparesGapsAndPowers) {
         Rational((a - b).squaredNorm()) - Rational(r) - Rational((a - c).squaredNorm()) + Rational(u);
     EXPECT_EQ(compare_powers(a, b, r, c, u), power > 0 ? 1 : power < 0 ? -1 : 0);
   }
-  EXPECT_GT(equal, test::rounds(30U));
-  EXPECT_GT(close, test::rounds(50U));
+  EXPECT_GT(equal, 30U);
+  EXPECT_GT(close, 50U);
 }
 
 TEST(BeadPairs, AreAsGiven) {

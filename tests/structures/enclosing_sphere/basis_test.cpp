@@ -10,7 +10,6 @@
 #include "tests/support/inputs/ball_sets.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/judges/exact_checks.h"
-#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -127,7 +126,7 @@ TEST(Basis, ProperIffNoBeadIsToSpare) {
 TEST(Basis, AmongUpToFiveBeads) {
   std::mt19937 random(31);
   std::array<int, 5> sizes{};
-  for (int round = 0; round < test::rounds(3000); ++round) {
+  for (int round = 0; round < 3000; ++round) {
     const std::size_t count = 1 + random() % 5;
     const int range = 2 + static_cast<int>(random() % 8);
     const Points points = random_grid_points(random, count, range);
@@ -145,7 +144,7 @@ TEST(Basis, AmongUpToFiveBeads) {
         << testing::PrintToString(points);
     ASSERT_TRUE(is_proper(*basis, signs));
   }
-  for (std::size_t size = 1; size <= 4; ++size) EXPECT_GT(sizes[size], test::rounds(50)) << size;
+  for (std::size_t size = 1; size <= 4; ++size) EXPECT_GT(sizes[size], 50) << size;
 }
 
 TEST(Basis, NoneIfTheSignsContradictThemselves) {
@@ -160,7 +159,7 @@ TEST(Basis, NoneIfTheSignsContradictThemselves) {
 template <int Dimension>
 void expect_bases_of_balls(std::array<int, 5>& sizes) {
   std::mt19937 random(32);
-  for (int round = 0; round < test::rounds(1200); ++round) {
+  for (int round = 0; round < 1200; ++round) {
     const std::size_t count = 1 + random() % (Dimension + 2);
     const BallSet set = hard_ball_set(random, static_cast<std::size_t>(round) % hard_ball_sets,
                                       static_cast<Eigen::Index>(count), round % 7 == 0, Dimension == 2);

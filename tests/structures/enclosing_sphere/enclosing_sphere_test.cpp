@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include "tests/support/inputs/ball_sets.h"
-#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -21,7 +20,7 @@ TYPED_TEST(SmallestSphereIn, OfHardSetsIsTheSmallestWithNoBallToSpare) {
   constexpr int d = TypeParam::value;
   std::mt19937 random(71 + d);
   std::size_t by_double = 0;
-  for (int round = 0; round < test::rounds(60); ++round) {
+  for (int round = 0; round < 60; ++round) {
     for (std::size_t which = 0; which < hard_ball_sets; ++which) {
       const auto beads = static_cast<Eigen::Index>(1 + random() % (round % 4 == 0 ? 20 : 7));
       const BallSet set = hard_ball_set(random, which, beads, round % 2 == 0, d == 2);
@@ -50,7 +49,7 @@ TYPED_TEST(SmallestSphereIn, OfHardSetsIsTheSmallestWithNoBallToSpare) {
 TYPED_TEST(SmallestSphereIn, DoubleSettlesWhatIsNotDegenerate) {
   constexpr int d = TypeParam::value;
   std::mt19937 random(5);
-  for (int round = 0; round < test::rounds(200); ++round) {
+  for (int round = 0; round < 200; ++round) {
     const BallSet set = hard_ball_set(random, 0, 3 + round, round % 2 == 0, d == 2);
     const Balls<d> balls(set.centers, set.radii);
     const SmallestSphere found = smallest_sphere(balls, 0, static_cast<BeadId>(2 + round));

@@ -7,7 +7,6 @@
 
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/judges/exact_checks.h"
-#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -50,7 +49,7 @@ TEST(ExactSphereOf, BallsOfTwoSizesInThePlane) {
 
 TEST(ExactSphereOf, IsRoundedOnceACoordinate) {
   std::mt19937 random(41);
-  for (int round = 0; round < test::rounds(500); ++round) {
+  for (int round = 0; round < 500; ++round) {
     const std::size_t size = 1 + random() % 4;
     const double scale = std::ldexp(1.0, static_cast<int>(random() % 600) - 300);
     Points points = random_grid_points(random, size, 50);

@@ -11,7 +11,6 @@
 #include "structures/moving_sphere/beads_beyond.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
-#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -130,7 +129,7 @@ TYPED_TEST_SUITE(SteadyNodes, Motions);
 
 TYPED_TEST(SteadyNodes, AreThoseOfChordAndScan) {
   Tally tally;
-  for (unsigned seed = 0; seed < test::rounds(60U); ++seed) look_at_random_nodes<TypeParam>(seed, tally);
+  for (unsigned seed = 0; seed < 60U; ++seed) look_at_random_nodes<TypeParam>(seed, tally);
   EXPECT_GT(tally.steady, 100);
   EXPECT_GT(tally.unproved, 20);
   EXPECT_GT(tally.beyond, 1000);

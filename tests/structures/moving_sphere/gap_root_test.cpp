@@ -19,7 +19,6 @@
 #include "tests/support/inputs/polynomial_source.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/integer_search.h"
-#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -150,17 +149,17 @@ void judge_all(unsigned seed, MotionKind kind, int exponent, Tally& tally) {
 
 TEST(SphereCrossing, IsWhenRadicalCertificatesFail) {
   Tally space, plane;
-  for (unsigned seed = 0; seed < test::rounds(150U); ++seed) {
+  for (unsigned seed = 0; seed < 150U; ++seed) {
     judge_all<Space>(seed, MotionKind::generic, 0, space);
     judge_all<BezierMotion<2, 1>>(seed, MotionKind::generic, 0, plane);
   }
   for (const Tally& tally : {space, plane}) {
     EXPECT_GT(tally.never + tally.later, tally.asked / 2);
-    EXPECT_GT(tally.never, test::rounds(100));
-    EXPECT_GT(tally.later, test::rounds(50));
-    EXPECT_GT(tally.never_again, test::rounds(25));
-    EXPECT_GT(tally.again, test::rounds(2));
-    EXPECT_GT(tally.signs, test::rounds(500));
+    EXPECT_GT(tally.never, 100);
+    EXPECT_GT(tally.later, 50);
+    EXPECT_GT(tally.never_again, 25);
+    EXPECT_GT(tally.again, 2);
+    EXPECT_GT(tally.signs, 500);
   }
 }
 
@@ -169,7 +168,7 @@ TEST(SphereCrossing, OfNearlyFlatBases) {
   Tally tally;
   int steep = 0;
   const Basis basis(std::array<BeadId, 4>{0, 1, 2, 3});
-  for (unsigned seed = 0; seed < test::rounds(200U); ++seed) {
+  for (unsigned seed = 0; seed < 200U; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Random random(seed);
     const double height = std::ldexp(1.0, -static_cast<int>(1 + seed % 6));
@@ -190,11 +189,11 @@ TEST(SphereCrossing, OfNearlyFlatBases) {
     for (const BeadId bead : basis) judge(motion, paths, without(basis, bead), bead, false, 0, tally);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(steep, test::rounds(50));
-  EXPECT_GT(tally.never, test::rounds(300));
-  EXPECT_GT(tally.later, test::rounds(100));
-  EXPECT_GT(tally.never_again, test::rounds(50));
-  EXPECT_GT(tally.signs, test::rounds(500));
+  EXPECT_GT(steep, 50);
+  EXPECT_GT(tally.never, 300);
+  EXPECT_GT(tally.later, 100);
+  EXPECT_GT(tally.never_again, 50);
+  EXPECT_GT(tally.signs, 500);
 }
 
 TEST(SphereCrossing, OfDegenerateMotions) {
@@ -237,7 +236,7 @@ TEST(SphereCrossing, SignsOfAFastBall) {
   const auto uniform = [&] { return 0.3 + 0.7 * static_cast<double>(random() >> 11U) * 0x1p-53; };
   for (const int exponent : {4, 12, 16, 24, 30}) {
     int claimed = 0;
-    for (int trial = 0; trial < test::rounds(3000); ++trial) {
+    for (int trial = 0; trial < 3000; ++trial) {
       const double from_x = -std::ldexp(uniform(), exponent), to_x = std::ldexp(uniform(), exponent);
       const Points start{{0, -1, 0}, {0, 1, 0}, {from_x, 0, 0}}, end{{0, -1, 0}, {0, 1, 0}, {to_x, 0, 0}};
       Space motion = moving(start, end);
@@ -280,7 +279,7 @@ TEST(SphereCrossing, SignsOfAFastBall) {
     }
     // Slow ones are known at some ends, fast ones of all that far away.
     if (exponent <= 16) {
-      EXPECT_GT(claimed, test::rounds(100)) << exponent;
+      EXPECT_GT(claimed, 100) << exponent;
     }
   }
 }
