@@ -1,6 +1,8 @@
 #pragma once
-// Signs of functions of beads where the beads are put (motions/curves/snapshot.h). Exact: four at once in
-// double with proved bounds, then one by one with errors followed, then in whole numbers.
+// Signs of functions of beads where the beads are put (motions/curves/snapshot.h). Exact: in double with
+// proved bounds, four at once or one, then with errors followed, then in whole numbers.
+
+#include <cmath>
 
 #include "certificates/filters/classify_lanes.h"
 #include "certificates/search/function_values.h"
@@ -11,7 +13,12 @@ namespace kds {
 /// The sign of a function of beads: 1, 0 or -1.
 template <class Function, int Dimension>
 [[nodiscard]] int snapshot_sign(const Function& function, const Snapshot<Dimension>& snapshot) {
-  return FunctionValues<Function, Curves<Dimension>>::sign_at_rest(function, Curves<Dimension>(snapshot));
+  using Values = FunctionValues<Function, Curves<Dimension>>;
+  const DoubleView<Snapshot<Dimension>> view(snapshot);
+  const double value = function_of(function, view).scaled[0];
+  const ErrorBound& bound = Values::error_bound(0);
+  if (std::abs(value) > bound.coefficient[0] * bound.scale(view.largest_length())) return value > 0 ? 1 : -1;
+  return Values::sign_at_rest(function, Curves<Dimension>(snapshot));
 }
 
 namespace detail {

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <locale>
 #include <system_error>
+#include <utility>
 
 #include "experiments/output/output_error.h"
 #include "experiments/output/replace_file.h"
@@ -89,6 +90,10 @@ AtomicFile::AtomicFile(fs::path path) : path_(link_target(path)), stream_(nullpt
   stream_.imbue(std::locale::classic());
 }
 
+AtomicFile::AtomicFile(fs::path path, std::string_view content) : AtomicFile(std::move(path)) {
+  stream_.write(content.data(), static_cast<std::streamsize>(content.size()));
+}
+
 AtomicFile::~AtomicFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
@@ -97,19 +102,17 @@ void AtomicFile::check() const {
   if (buffer_->error() != 0) fail_to_write(subject(), buffer_->error());
 }
 
-void AtomicFile::commit() {
+void AtomicFile::finish() {
   buffer_->pubsync();
   check();
   // Some file systems tell only here that there is no room; the file itself stays open, and locked.
   const int copy = ::dup(part_ ? part_->descriptor() : descriptor_);
   if (copy >= 0 && ::close(copy) != 0) fail_to_write(subject(), errno);
-  if (part_) part_->become(path_, subject());
+  if (part_) check_replaceable(path_);
 }
 
-void write_file_atomically(const fs::path& path, std::string_view content) {
-  AtomicFile file(path);
-  file.stream().write(content.data(), static_cast<std::streamsize>(content.size()));
-  file.commit();
+void AtomicFile::take_place() {
+  if (part_) part_->become(path_, subject());
 }
 
 }  // namespace kds

@@ -10,6 +10,7 @@
 
 #include "experiments/output/descriptor_buffer.h"
 #include "experiments/output/part.h"
+#include "experiments/output/staged.h"
 
 namespace kds {
 
@@ -22,22 +23,21 @@ void check_directory(const std::filesystem::path& path, std::string_view option,
 /// Checks, without a trace left behind, that `path` can be written later. Throws InputError likewise.
 void ensure_writable_file(const std::filesystem::path& path, std::string_view option);
 
-/// Throws InputError or OutputError naming the path.
-void write_file_atomically(const std::filesystem::path& path, std::string_view content);
-
-/// The same for content that comes piece by piece. Without commit() nothing is left, not even if the
-/// program is interrupted.
-class AtomicFile {
+/// Its content comes at once or piece by piece. Without take_place() nothing is left, not even if the program
+/// is interrupted. Throws InputError or OutputError naming the path.
+class AtomicFile final : public Staged {
  public:
   explicit AtomicFile(std::filesystem::path path);
-  ~AtomicFile();
+  AtomicFile(std::filesystem::path path, std::string_view content);
+  ~AtomicFile() override;
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   [[nodiscard]] std::ostream& stream() { return stream_; }
   /// Throws where something could not be written: soon, and not after a long run.
   void check() const;
-  void commit();
+  void finish() override;
+  void take_place() override;
 
  private:
   [[nodiscard]] std::string subject() const { return path_.string() + ": cannot write"; }

@@ -65,8 +65,10 @@ fs::path Part::add_file() {
 }
 
 Part::~Part() {
-  std::error_code ignored;
-  if (unfinished_) fs::remove_all(path_, ignored);
+  if (unfinished_) {  // by names: to list a folder takes a descriptor, of which there may be none left
+    for (std::uint64_t number = 0; number < files_; ++number) ::unlink(file(number).c_str());
+    if (::unlink(path_.c_str()) != 0) ::rmdir(path_.c_str());
+  }
   ::close(descriptor_);
 }
 

@@ -67,6 +67,13 @@ bool take_over(const fs::path& finished, const struct stat& old) {
   return ::chmod(finished.c_str(), old.st_mode & 07777U) == 0;
 }
 
+// Immutable, or only to be appended to: so even for those who may write.
+bool is_kept(const fs::path& file) {
+  struct statx status {};
+  return ::statx(AT_FDCWD, file.c_str(), 0, 0, &status) == 0 &&
+         (status.stx_attributes & (STATX_ATTR_IMMUTABLE | STATX_ATTR_APPEND)) != 0;
+}
+
 }  // namespace
 
 SignalsWait::SignalsWait() {
@@ -89,11 +96,18 @@ fs::path link_target(const fs::path& path) {
 }
 
 void check_replaceable(const fs::path& place) {
+  const fs::path target = link_target(place);
+  const std::string subject = place.string() + ": cannot write";
+  std::error_code ignored;
+  if (fs::is_symlink(target, ignored)) fail_to_write(subject, ELOOP);
+  const fs::path directory = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (::access(directory.c_str(), W_OK | X_OK) != 0) fail_to_write(subject, errno);
   struct stat old {};
-  if (::stat(place.c_str(), &old) != 0) return;
+  if (::stat(target.c_str(), &old) != 0) return;
   if (S_ISDIR(old.st_mode))
     throw InputError(fmt::format("{}: is a directory, expected a file", place.string()));
   if (!S_ISREG(old.st_mode)) throw InputError(fmt::format("{}: is no regular file", place.string()));
+  if (is_kept(target)) fail_to_write(subject, EPERM);
   if (old.st_nlink > 1 && ::access(place.c_str(), W_OK) != 0)
     fail_to_write(place.string() + ": has other hard links and cannot be written", errno);
 }

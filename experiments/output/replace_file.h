@@ -23,8 +23,10 @@ class SignalsWait {
 /// Where a symbolic link leads, also to what is not there yet; any other path itself.
 [[nodiscard]] std::filesystem::path link_target(const std::filesystem::path& path);
 
-/// Throws InputError where replace_file would fail: the place is a directory, or a file with other hard links
-/// that may not be written.
+/// Throws InputError or OutputError where replace_file would fail for a reason that can be known: the place
+/// is
+/// a directory, no regular file, or a file that the system keeps as it is; it has other hard links and may
+/// not be written; it is a symbolic link that leads into a circle, or where no file can be made.
 void check_replaceable(const std::filesystem::path& place);
 
 /// Moves the file at `finished` to `place`. A symbolic link there stays, and what it leads to is replaced. A

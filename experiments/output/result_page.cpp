@@ -6,18 +6,16 @@
 
 namespace kds {
 
-std::exception_ptr commit_with_page(StagedFiles& files, const std::function<std::string()>& make) {
-  constexpr std::string_view page = "report.html";
-  std::exception_ptr thrown;
-  if (make) {
-    try {
-      files.write(std::string(page), make());
-    } catch (const std::exception&) {
-      thrown = std::current_exception();
-    }
+std::exception_ptr add_page(StagedFiles& files, const std::function<std::string()>& make) {
+  static constexpr std::string_view page = "report.html";
+  if (!make) return nullptr;
+  try {
+    files.write(std::string(page), make());
+    return nullptr;
+  } catch (const std::exception&) {
+    files.replace([](std::string_view name) { return name == page; });
+    return std::current_exception();
   }
-  files.commit([&](std::string_view name) { return thrown && name == page; });
-  return thrown;
 }
 
 void refuse_page_beside(const std::filesystem::path& directory, std::string_view file,

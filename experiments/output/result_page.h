@@ -12,10 +12,10 @@
 
 namespace kds {
 
-/// Writes the page that `make` makes, if there is such a function, and commits. Where it throws, the figures
-/// are safe and the page of an earlier result goes, as it would be taken for theirs; returns what was thrown.
-[[nodiscard]] std::exception_ptr commit_with_page(StagedFiles& files,
-                                                  const std::function<std::string()>& make);
+/// Writes the page that `make` makes, if there is such a function. Where it throws, the page of an earlier
+/// result will go, as it would be taken for that of these files; returns what was thrown, for later: the
+/// figures are to be safe first.
+[[nodiscard]] std::exception_ptr add_page(StagedFiles& files, const std::function<std::string()>& make);
 
 /// Throws InputError where the directory holds this file, of another command's result, whose page would be
 /// lost.

@@ -53,19 +53,21 @@ void StagedFiles::for_each(const Visit& visit) const {
   for (std::string name; std::getline(names, name); ++number) visit(folder_.file(number), directory_ / name);
 }
 
-void StagedFiles::commit(const std::function<bool(std::string_view)>& is_stale) {
+void StagedFiles::finish() {
   if (open_) open_->close();
   names_->close();
   for_each([&](const fs::path&, const fs::path& place) { check_replaceable(place); });
-  const SignalsWait wait;
+}
+
+void StagedFiles::take_place() {
   for_each([&](const fs::path& waiting, const fs::path& place) {
     replace_file(waiting, place, place.string() + ": cannot write");
   });
-  if (!is_stale) return;
+  if (!is_stale_) return;
   std::vector<fs::path> stale;
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory_, ignored))
-    if (!entry.is_directory(ignored) && is_stale(entry.path().filename().string()))
+    if (!entry.is_directory(ignored) && is_stale_(entry.path().filename().string()))
       stale.push_back(entry.path());
   for (const fs::path& path : stale) fs::remove(path, ignored);
 }

@@ -8,14 +8,16 @@
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "experiments/output/made_directories.h"
 #include "experiments/output/part.h"
+#include "experiments/output/staged.h"
 #include "experiments/output/written_file.h"
 
 namespace kds {
 
-class StagedFiles {
+class StagedFiles final : public Staged {
  public:
   /// Makes the directory if it is not there. Throws InputError or OutputError naming option and path.
   StagedFiles(std::filesystem::path directory, std::string_view option);
@@ -24,14 +26,17 @@ class StagedFiles {
 
   /// Throws likewise.
   void write(const std::string& name, std::string_view text);
-  /// A file that is written piece by piece until commit(); one only.
+  /// A file that is written piece by piece until finish(); one only.
   [[nodiscard]] std::ostream& open(const std::string& name);
   /// Throws where the open file could not be written.
   void check() const;
 
-  /// All files take their places, and those of the directory that `is_stale` go: these belong to an earlier
-  /// result. Signals wait meanwhile. Without it nothing is left, and a directory made goes too.
-  void commit(const std::function<bool(std::string_view name)>& is_stale = {});
+  /// Files of the directory that belong to an earlier result go when those of this one take their places.
+  void replace(std::function<bool(std::string_view name)> is_stale) { is_stale_ = std::move(is_stale); }
+
+  void finish() override;
+  /// Without it nothing is left, and a directory made goes too.
+  void take_place() override;
 
  private:
   [[nodiscard]] std::filesystem::path place_for(const std::string& name);
@@ -44,6 +49,7 @@ class StagedFiles {
   Part folder_;
   std::optional<WrittenFile> names_;  ///< a line a file
   std::optional<WrittenFile> open_;
+  std::function<bool(std::string_view name)> is_stale_;
 };
 
 }  // namespace kds

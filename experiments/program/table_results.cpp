@@ -3,9 +3,11 @@
 #include <array>
 #include <exception>
 #include <filesystem>
+#include <optional>
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/result_page.h"
+#include "experiments/output/staged.h"
 #include "experiments/program/taken_paths.h"
 
 namespace kds {
@@ -25,14 +27,17 @@ void check_table_destinations(const Destinations& destinations, const std::strin
 void deliver_table(const Destinations& destinations, const std::string& name, const TableResults& results) {
   const bool json_on_stdout = destinations.json == "-";
   std::exception_ptr no_page;
+  std::optional<StagedFiles> files;
   if (destinations.out) {
-    StagedFiles files(*destinations.out, "--out");
-    files.write(name + ".json", results.json);
-    files.write(name + ".csv", results.csv);
-    no_page = commit_with_page(files, results.page);
+    files.emplace(*destinations.out, "--out");
+    files->write(name + ".json", results.json);
+    files->write(name + ".csv", results.csv);
+    no_page = add_page(*files, results.page);
   }
+  std::optional<AtomicFile> json;
+  if (destinations.json && !json_on_stdout) json.emplace(*destinations.json, results.json);
+  commit_together(std::array<Staged*, 2>{files ? &*files : nullptr, json ? &*json : nullptr});
   if (json_on_stdout) print_to_stdout(results.json);
-  if (destinations.json && !json_on_stdout) write_file_atomically(*destinations.json, results.json);
   if (!destinations.quiet && !json_on_stdout) print_to_stdout(results.table);
   if (no_page) std::rethrow_exception(no_page);
 }

@@ -3,8 +3,13 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <utility>
 
 namespace kds {
+
+DumpedFrames::DumpedFrames(std::filesystem::path directory) : files_(std::move(directory), "--dump") {
+  files_.replace([this](std::string_view name) { return is_stale(name); });
+}
 
 void DumpedFrames::write(std::size_t frame, const std::vector<DumpFile>& files) {
   for (const DumpFile& file : files) {
@@ -12,10 +17,6 @@ void DumpedFrames::write(std::size_t frame, const std::vector<DumpFile>& files) 
     endings_.insert(file.ending);
   }
   frames_ = frame + 1;
-}
-
-void DumpedFrames::commit() {
-  files_.commit([this](std::string_view name) { return is_stale(name); });
 }
 
 // frame-NUMBER.WORD.csv, and not one that has just been written.

@@ -16,13 +16,15 @@ namespace kds {
 class DumpedFrames {
  public:
   /// Throws InputError or OutputError naming option and path.
-  explicit DumpedFrames(std::filesystem::path directory) : files_(std::move(directory), "--dump") {}
+  explicit DumpedFrames(std::filesystem::path directory);
+  DumpedFrames(const DumpedFrames&) = delete;
+  DumpedFrames& operator=(const DumpedFrames&) = delete;
 
   /// In the order of the frames, from 0.
   void write(std::size_t frame, const std::vector<DumpFile>& files);
-  /// All files take their places, and frame files of an earlier dump that none of them replaces go: else two
-  /// dumps would be taken for one.
-  void commit();
+  /// When these files take their places, frame files of an earlier dump that none of them replaces go: else
+  /// two dumps would be taken for one.
+  [[nodiscard]] Staged& staged() { return files_; }
 
  private:
   [[nodiscard]] bool is_stale(std::string_view name) const;

@@ -122,10 +122,9 @@ void EventLogWriter::end_step() {
   step_hash_ = {};
 }
 
-void EventLogWriter::commit(std::uint64_t fingerprint) {
+void EventLogWriter::end(std::uint64_t fingerprint) {
   end_step();
   file_.stream() << fmt::format("end {} {:016x}\n", events_, fingerprint);
-  file_.commit();
 }
 
 EventLogReader::EventLogReader(const std::filesystem::path& path) : lines_(path) {

@@ -29,8 +29,9 @@ class EventLogWriter final : public EventListener {
  public:
   EventLogWriter(const std::filesystem::path& path, const RunOptions& options, const Scene& scene);
   void on_event(const KineticStructure& structure, const LoggedEvent& event) override;
-  /// Ends the log. Without it nothing is left.
-  void commit(std::uint64_t fingerprint);
+  /// Ends the log.
+  void end(std::uint64_t fingerprint);
+  [[nodiscard]] Staged& staged() { return file_; }
 
  private:
   void end_step();

@@ -47,7 +47,7 @@ int run_command(const Arguments& arguments) {
   ProgressBar bar(!options.quiet);
   const RunReport report = run_scene(
       options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },
-      [&bar](const std::string& warning) { print_warning(bar, warning); }, &results);
+      [&bar](const std::string& warning) { print_warning(bar, warning); }, results);
   bar.erase();
   results.deliver(report, report_json(report), comparison_table(report));
   return 0;

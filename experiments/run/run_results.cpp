@@ -9,6 +9,7 @@
 #include "experiments/output/output_error.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/result_page.h"
+#include "experiments/output/staged.h"
 #include "experiments/run/html_report.h"
 
 namespace kds {
@@ -33,6 +34,18 @@ void RunResults::begin(const Scene& scene) {
   events_.emplace(files_->open("events.csv"), scene.stamp(0).picoseconds.has_value());
 }
 
+void RunResults::begin_dump_and_log(const RunOptions& options, const Scene& scene, Session& session) {
+  if (options.log) {
+    log_.emplace(*options.log, options, scene);
+    session.simulator().listen(*log_);
+  }
+  if (options.dump) dumps_.emplace(*options.dump);
+}
+
+void RunResults::add_frame(std::size_t frame, const Session& session) {
+  if (dumps_) dumps_->write(frame, session.dump(frame));
+}
+
 void RunResults::add_step(const FrameStamp& frame, std::string_view structure, std::uint64_t events) {
   if (!events_) return;
   events_->add(frame, structure, events);
@@ -45,10 +58,15 @@ void RunResults::deliver(const RunReport& report, const std::string& json, const
   std::exception_ptr no_page;
   if (files_) {
     files_->write("summary.json", json);
-    no_page = commit_with_page(*files_, [&] { return html_report(report); });
+    no_page = add_page(*files_, [&] { return html_report(report); });
   }
+  std::optional<AtomicFile> json_file;
+  if (destinations_.json && !json_on_stdout) json_file.emplace(*destinations_.json, json);
+  if (log_) log_->end(report.fingerprint);
+  commit_together(std::array<Staged*, 4>{dumps_ ? &dumps_->staged() : nullptr,
+                                         log_ ? &log_->staged() : nullptr, files_ ? &*files_ : nullptr,
+                                         json_file ? &*json_file : nullptr});
   if (json_on_stdout) print_to_stdout(json);
-  if (destinations_.json && !json_on_stdout) write_file_atomically(*destinations_.json, json);
   if (table_on_stdout) print_to_stdout(table);
   if (no_page) std::rethrow_exception(no_page);
   if (files_ && table_on_stdout)

@@ -1,5 +1,6 @@
 #pragma once
-// The results of a run: summary.json, events.csv and report.html in --out, --json, standard output.
+// The results of a run: summary.json, events.csv and report.html in --out, --json, --dump, --log, standard
+// output.
 
 #include <optional>
 #include <string>
@@ -7,9 +8,13 @@
 
 #include "experiments/output/destinations.h"
 #include "experiments/output/staged_files.h"
+#include "experiments/run/dumped_frames.h"
+#include "experiments/run/event_log_file.h"
 #include "experiments/run/events_csv.h"
+#include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
 #include "motions/scene/scene.h"
+#include "structures/session/session.h"
 
 namespace kds {
 
@@ -22,17 +27,24 @@ class RunResults {
 
   /// The input is accepted: from now on there are files in the making.
   void begin(const Scene& scene);
+  /// --dump and --log of a run with these options. The log listens to the session, which must not go on when
+  /// this object has gone.
+  void begin_dump_and_log(const RunOptions& options, const Scene& scene, Session& session);
+  /// A frame that has just been reached.
+  void add_frame(std::size_t frame, const Session& session);
   /// Events of a structure in the step from that frame on.
   void add_step(const FrameStamp& frame, std::string_view structure, std::uint64_t events);
-  /// `json` is the summary; `table` is printed unless quiet, or where standard output is the JSON's. The
-  /// files of --out appear together, in place of those of an earlier run. Where the plots fail the figures
-  /// are safe, and the page of an earlier run goes.
+  /// `json` is the summary; `table` is printed unless quiet, or where standard output is the JSON's. All
+  /// files appear together, in place of those of an earlier run. Where the plots fail the figures are safe,
+  /// and the page of an earlier run goes.
   void deliver(const RunReport& report, const std::string& json, const std::string& table);
 
  private:
   Destinations destinations_;
   std::optional<StagedFiles> files_;
   std::optional<EventsCsv> events_;
+  std::optional<DumpedFrames> dumps_;
+  std::optional<EventLogWriter> log_;
 };
 
 }  // namespace kds

@@ -10,11 +10,10 @@
 
 namespace kds {
 
-/// Warnings about the input go to `warn`, one line each; what is written step by step to `results`. Throws
-/// InputError for what a user can mend, and AuditError (kds/audit.h) where a structure disagrees with its
-/// static rebuild.
+/// Warnings about the input go to `warn`, one line each; what is written to `results`, which is delivered by
+/// the caller. Throws InputError for what a user can mend, and AuditError (kds/audit.h) where a structure
+/// disagrees with its static rebuild.
 [[nodiscard]] RunReport run_scene(const RunOptions& options, const Progress& progress,
-                                  const std::function<void(const std::string&)>& warn,
-                                  RunResults* results = nullptr);
+                                  const std::function<void(const std::string&)>& warn, RunResults& results);
 
 }  // namespace kds

@@ -52,7 +52,9 @@ void write_files(const GenerateOptions& options, const std::vector<Trajectory>& 
       write_xyz(files.back()->stream(), necklace, command_line(options));
     }
   }
-  for (const auto& file : files) file->commit();
+  std::vector<Staged*> staged;
+  for (const auto& file : files) staged.push_back(file.get());
+  commit_together(staged);
 }
 
 // As they will be read.

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <stdexcept>
 
 #include "experiments/output/made_directories.h"
 #include "experiments/output/output_error.h"
+#include "experiments/output/staged.h"
 #include "experiments/output/staged_files.h"
 #include "motions/base/input_error.h"
 #include "tests/experiments/scratch_directory.h"
@@ -18,12 +20,18 @@ namespace fs = std::filesystem;
 using test::content_of;
 using test::ScratchDirectory;
 
+void commit(Staged& staged) { commit_together(std::array<Staged*, 1>{&staged}); }
+void write(const fs::path& path, std::string_view content) {
+  AtomicFile file(path, content);
+  commit(file);
+}
+
 TEST(OutputFiles, WritesAndReplacesWholeFiles) {
   const ScratchDirectory directory;
   const fs::path path = directory / "summary.json";
-  write_file_atomically(path, std::string("one\0two", 7));
+  write(path, std::string("one\0two", 7));
   EXPECT_EQ(content_of(path), std::string("one\0two", 7));
-  write_file_atomically(path, "short");
+  write(path, "short");
   EXPECT_EQ(content_of(path), "short");
   EXPECT_EQ(directory.entries(), 1U);
 }
@@ -31,7 +39,7 @@ TEST(OutputFiles, WritesAndReplacesWholeFiles) {
 TEST(OutputFiles, WithoutCommitNothingChanges) {
   const ScratchDirectory directory;
   const fs::path path = directory / "events.csv";
-  write_file_atomically(path, "old");
+  write(path, "old");
   try {
     AtomicFile file(path);
     file.stream() << "half of the new";
@@ -46,7 +54,7 @@ TEST(OutputFiles, NamesThePathItCannotWrite) {
   const ScratchDirectory directory;
   for (const fs::path& path : {directory / "missing/file", directory.path()}) {
     try {
-      write_file_atomically(path, "x");
+      write(path, "x");
       FAIL() << path;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos);
@@ -59,7 +67,7 @@ TEST(OutputFiles, AFullDiskIsNoSuccess) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   for (const std::size_t size : {std::size_t{1}, std::size_t{1} << 20U}) {
     try {
-      write_file_atomically("/dev/full", std::string(size, 'x'));
+      write("/dev/full", std::string(size, 'x'));
       FAIL();
     } catch (const OutputError& error) {
       EXPECT_STREQ(error.what(), "/dev/full: cannot write: No space left on device");
@@ -119,7 +127,7 @@ TEST(StagedFiles, AppearTogetherOrNotAtAll) {
     StagedFiles files(directory / "dump", "--dump");
     files.write("frame-0", "zero");
     files.write("frame-1", "one");
-    files.commit();
+    commit(files);
   }
   EXPECT_EQ(entries_of("dump"), 2);
   EXPECT_EQ(content_of(directory / "dump/frame-1"), "one");

@@ -1,11 +1,20 @@
 #include "experiments/output/replace_file.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
 #include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <memory>
+#include <vector>
 
 #include "experiments/output/output_files.h"
+#include "experiments/output/staged.h"
 #include "experiments/output/staged_files.h"
 #include "experiments/output/unfinished_file.h"
 #include "motions/base/input_error.h"
@@ -24,12 +33,17 @@ unsigned mode_of(const fs::path& path) {
   return status.st_mode & 07777U;
 }
 
+void commit(Staged& staged) { commit_together(std::array<Staged*, 1>{&staged}); }
+
 // Both ways in which results come to their places.
-void write_alone(const fs::path& path, const std::string& content) { write_file_atomically(path, content); }
+void write_alone(const fs::path& path, const std::string& content) {
+  AtomicFile file(path, content);
+  commit(file);
+}
 void write_staged(const fs::path& path, const std::string& content) {
   StagedFiles files(path.parent_path(), "--dump");
   files.write(path.filename().string(), content);
-  files.commit();
+  commit(files);
 }
 constexpr auto kWays = {write_alone, write_staged};
 
@@ -87,8 +101,66 @@ TEST(StagedFiles, ARefusedPlaceLeavesTheOthersAlone) {
   StagedFiles files(directory.path(), "--dump");
   files.write("a", "new");
   files.write("b", "new");
-  EXPECT_THROW(files.commit(), InputError);
+  EXPECT_THROW(commit(files), InputError);
   EXPECT_EQ(content_of(directory / "a"), "old");
+}
+
+// Results of one command: where one cannot take its place, none does.
+TEST(Staged, AllOrNone) {
+  const ScratchDirectory directory;
+  const fs::path kept = directory.file("kept", "old"), circle = directory / "circle",
+                 nowhere = directory / "nowhere";
+  fs::create_symlink("circle", circle);
+  fs::create_symlink("missing/file", nowhere);
+  for (const char* place : {"circle", "nowhere"}) {
+    AtomicFile alone(kept, "new");
+    StagedFiles files(directory.path(), "--dump");
+    files.write("a", "new");
+    files.write(place, "new");
+    try {
+      commit_together(std::array<Staged*, 3>{&alone, nullptr, &files});
+      FAIL() << place;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr((directory / place).string() + ": cannot write"));
+    }
+    EXPECT_EQ(content_of(kept), "old");
+    EXPECT_FALSE(fs::exists(directory / "a"));
+  }
+  EXPECT_EQ(directory.entries(), 3U);
+}
+
+// A file that even its owner may not replace is found out before others are replaced. Not every file system
+// knows such files, nor every user may make them.
+TEST(Staged, ImmutableFilesAreFoundOutBeforehand) {
+  const ScratchDirectory directory;
+  const fs::path immutable = directory.file("immutable", "old"), kept = directory.file("kept", "old");
+  if (std::system(("chattr +i '" + immutable.string() + "' 2>/dev/null").c_str()) != 0)
+    GTEST_SKIP() << "no immutable files here";
+  AtomicFile first(kept, "new"), second(immutable, "new");
+  EXPECT_THROW(commit_together(std::array<Staged*, 2>{&first, &second}), InputError);
+  EXPECT_EQ(std::system(("chattr -i '" + immutable.string() + "'").c_str()), 0);
+  EXPECT_EQ(content_of(kept), "old");
+}
+
+// Clearing takes no descriptor.
+TEST(StagedFiles, NothingIsLeftWhereFilesRunOut) {
+  const ScratchDirectory directory;
+  EXPECT_EXIT(
+      {
+        rlimit few{};
+        few.rlim_cur = few.rlim_max = 8;
+        ::setrlimit(RLIMIT_NOFILE, &few);
+        try {
+          StagedFiles files(directory / "made", "--dump");
+          std::vector<std::unique_ptr<AtomicFile>> more;
+          for (int k = 0; k < 10; ++k)
+            more.push_back(std::make_unique<AtomicFile>(directory / ("file-" + std::to_string(k))));
+        } catch (const std::exception&) {
+          ::_exit(7);
+        }
+      },
+      testing::ExitedWithCode(7), "");
+  EXPECT_EQ(directory.entries(), 0U);
 }
 
 TEST(StagedFiles, AFileMayGrowUntilTheEnd) {
@@ -101,7 +173,8 @@ TEST(StagedFiles, AFileMayGrowUntilTheEnd) {
     for (int k = 0; k < 10000; ++k) growing << k << '\n';
     files.write("other", "x");
     files.check();
-    files.commit([](std::string_view name) { return name == "stale"; });
+    files.replace([](std::string_view name) { return name == "stale"; });
+    commit(files);
   }
   EXPECT_EQ(content_of(directory / "growing").substr(0, 4), "0\n1\n");
   EXPECT_EQ(content_of(directory / "growing").size(), 48890U);

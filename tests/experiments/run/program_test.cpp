@@ -647,6 +647,23 @@ TEST(Program, ADumpReplacesAnEarlierOneAsAWhole) {
                                                    "frame-01.power.csv", "notes.csv"));
 }
 
+// A frame's file leads nowhere: neither the other frames nor the log nor the summary are replaced.
+TEST(Program, AllResultsOfARunAreReplacedOrNone) {
+  const ScratchDirectory directory;
+  const std::string dump = (directory / "dump").string(), log = directory.file("log", "old"),
+                    json = directory.file("json", "old"), out = (directory / "out").string();
+  std::filesystem::create_directory(dump);
+  directory.file("dump/frame-0.wrapped.csv", "old");
+  std::filesystem::create_symlink("missing/file", dump + "/frame-1.power.csv");
+  expect_refused({"run", kTrajectory, "--frames", "0:3", "--quiet", "--dump", dump, "--log", log, "--json",
+                  json, "--out", out},
+                 {"frame-1.power.csv: cannot write: No such file or directory"});
+  for (const std::string& file : {log, json, dump + "/frame-0.wrapped.csv"})
+    EXPECT_EQ(content_of(file), "old");
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dump), {}), 2);
+}
+
 // The plots of the second run fail: the page of the first must not stand beside the figures of the second.
 TEST(Program, AReportReplacesAnEarlierOneAsAWhole) {
   const ScratchDirectory directory;

@@ -13,6 +13,7 @@
 #include "experiments/output/text.h"
 #include "experiments/run/parse_run_options.h"
 #include "experiments/run/replay_log.h"
+#include "experiments/run/run_results.h"
 #include "experiments/run/run_scene.h"
 #include "kds/fingerprint.h"
 #include "motions/base/input_error.h"
@@ -40,9 +41,11 @@ Outcome replay(const std::string& path, std::string* message = nullptr) {
 Lines log_of(const std::string& instance, const std::string& structures, const ScratchDirectory& directory) {
   const std::string path = (directory / "right.log").string();
   const auto silent = [](auto&&...) {};
-  static_cast<void>(run_scene(
+  RunResults results({std::nullopt, std::nullopt, true});
+  const RunReport report = run_scene(
       parse_run_options({data_file("kinetic/" + instance), "--structures", structures, "--log", path}),
-      silent, silent));
+      silent, silent, results);
+  results.deliver(report, "", "");
   EXPECT_EQ(replay(path), Outcome::same);
   Lines lines = split(content_of(path), '\n');
   lines.pop_back();  // after the last newline
