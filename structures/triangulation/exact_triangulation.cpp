@@ -2,6 +2,8 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
+#include <algorithm>
+
 #include "motions/base/floating_point_guard.h"
 #include "structures/triangulation/cgal_triangulations.h"
 
@@ -11,9 +13,25 @@ namespace {
 
 using Geometry = CGAL::Exact_predicates_exact_constructions_kernel;
 
-Geometry::FT to_cgal(const Rational& x) {
+// Twos in the denominator.
+mp_bitcnt_t binary_places(const Rational& x) { return mpz_scan1(mpq_denref(x.backend().data()), 0); }
+
+// Lengths are taken times two to this power: dyadic numbers are whole then, which CGAL's rationals need no
+// common divisors for. The triangulation stays as it is.
+mp_bitcnt_t places_of(std::span<const ExactBead> beads) {
+  mp_bitcnt_t places = 0;
+  for (const ExactBead& b : beads) {
+    for (const Rational& x : b.center) places = std::max(places, binary_places(x));
+    places = std::max(places, (binary_places(b.weight) + 1) / 2);
+  }
+  return places;
+}
+
+Geometry::FT to_cgal(const Rational& x, mp_bitcnt_t places) {
   using Exact = Geometry::FT::ET;
-  return Geometry::FT(Exact(x.backend().data()));
+  Rational shifted;
+  mpq_mul_2exp(shifted.backend().data(), x.backend().data(), places);
+  return Geometry::FT(Exact(shifted.backend().data()));
 }
 
 }  // namespace
@@ -24,11 +42,13 @@ StaticTriangulation<Dimension> static_triangulation(std::span<const ExactBead> b
   using Cgal = CgalTriangulation<Geometry, Dimension>;
   using Triangulation = typename Cgal::Type;
   std::vector<std::pair<typename Triangulation::Weighted_point, BeadId>> points;
+  const mp_bitcnt_t places = places_of(beads);
+  const auto length = [places](const Rational& x) { return to_cgal(x, places); };
   for (const ExactBead& b : beads) {
-    points.emplace_back(
-        typename Triangulation::Weighted_point(
-            Cgal::point(to_cgal(b.center[0]), to_cgal(b.center[1]), to_cgal(b.center[2])), to_cgal(b.weight)),
-        static_cast<BeadId>(points.size()));
+    points.emplace_back(typename Triangulation::Weighted_point(
+                            Cgal::point(length(b.center[0]), length(b.center[1]), length(b.center[2])),
+                            to_cgal(b.weight, 2 * places)),
+                        static_cast<BeadId>(points.size()));
   }
   Triangulation triangulation;
   triangulation.insert(points.begin(), points.end());
