@@ -19,6 +19,7 @@
 #include "motions/base/input_error.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
+#include "tests/support/rounds.h"
 
 namespace kds::test {
 namespace {
@@ -130,7 +131,7 @@ TEST(ReplayFuzz, SpoiledLogsAreRefusedOrDiffer) {
        {std::pair<std::string, std::string>{"d1_n20_linear.txt", "sorted"},
         {"d3_n20_linear.txt", "sorted,wrapped,power"}}) {
     const Lines right = log_of(instance, structures, directory);
-    for (int round = 0; round < 250; ++round) {
+    for (int round = 0; round < rounds(250); ++round) {
       Lines lines = right;
       for (std::size_t times = 1 + random() % 2; times-- > 0;) spoil(lines, random);
       if (random() % 2 != 0) mend(lines);
@@ -140,7 +141,7 @@ TEST(ReplayFuzz, SpoiledLogsAreRefusedOrDiffer) {
       different += outcome == Outcome::different ? 1 : 0;
     }
   }
-  EXPECT_GT(refused, 300U);
+  EXPECT_GT(refused, rounds(300U));
   EXPECT_GT(different, 0U);
 }
 

@@ -22,6 +22,7 @@
 #include "motions/scene/scene.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -223,7 +224,7 @@ TEST(StabilityRow, HoldsOnlyWithoutTrouble) {
 TEST(Stability, EverySubjectHoldsInAFewCasesOfEveryExtreme) {
   std::set<std::string> subjects, extremes;
   std::uint64_t audits = 0, events = 0;
-  for (const StabilityRow& row : rows_of({"--cases", "3", "--seed", "9"})) {
+  for (const StabilityRow& row : rows_of({"--cases", std::to_string(test::rounds(3)), "--seed", "9"})) {
     EXPECT_TRUE(row.holds()) << name_of(row) << ": " << row.reason << "\n" << row.motion;
     EXPECT_GE(row.cases, 1U);
     subjects.insert(row.subject);
@@ -237,8 +238,8 @@ TEST(Stability, EverySubjectHoldsInAFewCasesOfEveryExtreme) {
                            "bead_in_sphere_3", "contact", "ball_in_sphere_1", "ball_in_sphere_2",
                            "ball_in_sphere_3", "ball_in_sphere_4", "sorted", "wrapped", "power"})
     EXPECT_TRUE(subjects.contains(name)) << name;
-  EXPECT_GT(audits, 1000U);
-  EXPECT_GT(events, 1000U);
+  EXPECT_GT(audits, test::rounds(1000U));
+  EXPECT_GT(events, test::rounds(1000U));
 }
 
 TEST(Stability, OneBeadInSphereHasDegree18) {

@@ -2,6 +2,7 @@
 
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -152,7 +153,7 @@ TEST(MmcifReader, SyntaxOfCif) {
 
 TEST(MmcifReader, CutFileOfTheRealWorld) {
   const std::string text = test::read_bytes(test::data_file("proteins/6wqa.cif"));
-  for (std::size_t size = 0; size < text.size(); size += text.size() / 40) {
+  for (std::size_t size = 0; size < text.size(); size += text.size() / test::rounds(40U)) {
     const auto path = test::write_file("a.cif", std::string_view(text).substr(0, size));
     try {
       EXPECT_GT(read_trajectory(path).bead_count(), 0U);
