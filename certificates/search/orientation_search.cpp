@@ -5,11 +5,6 @@ namespace kds {
 
 template std::unique_ptr<CertificateSearch<Orientation<2>>> search_over(const MotionRef<2>&);
 template std::unique_ptr<CertificateSearch<Orientation<3>>> search_over(const MotionRef<3>&);
-// For snapshot_sign.h.
-template const ErrorBound& FunctionValues<Orientation<2>, Curves<2>>::error_bound(int);
-template const ErrorBound& FunctionValues<Orientation<3>, Curves<3>>::error_bound(int);
-template int FunctionValues<Orientation<2>, Curves<2>>::sign_at_rest(const Orientation<2>&, const Curves<2>&);
-template int FunctionValues<Orientation<3>, Curves<3>>::sign_at_rest(const Orientation<3>&, const Curves<3>&);
 
 // For signs where beads are (snapshot_sign.h).
 template struct FunctionValues<Orientation<2>, Curves<2>>;

@@ -5,11 +5,6 @@ namespace kds {
 
 template std::unique_ptr<CertificateSearch<PowerTest<2>>> search_over(const MotionRef<2>&);
 template std::unique_ptr<CertificateSearch<PowerTest<3>>> search_over(const MotionRef<3>&);
-// For snapshot_sign.h.
-template const ErrorBound& FunctionValues<PowerTest<2>, Curves<2>>::error_bound(int);
-template const ErrorBound& FunctionValues<PowerTest<3>, Curves<3>>::error_bound(int);
-template int FunctionValues<PowerTest<2>, Curves<2>>::sign_at_rest(const PowerTest<2>&, const Curves<2>&);
-template int FunctionValues<PowerTest<3>, Curves<3>>::sign_at_rest(const PowerTest<3>&, const Curves<3>&);
 
 // For signs where beads are (snapshot_sign.h).
 template struct FunctionValues<PowerTest<2>, Curves<2>>;

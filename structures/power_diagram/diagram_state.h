@@ -152,7 +152,7 @@ struct DiagramState {
   /// not negative, and faces of the hull in one plane do not fold over each other.
   [[nodiscard]] bool is_regular_just_after(const Beads& cell, const Beads& beyond, BeadId apex) {
     const int sign = with_facet_certificate(
-        cell, apex, [this](const auto& certificate) { return sign_just_after(certificate); });
+        cell, apex, [this](const auto& certificate) { return this->sign_just_after(certificate); });
     if (sign != 0) return sign > 0;
     const auto face = hull_face<Dimension>(cell), other = hull_face<Dimension>(beyond);
     return !face || !other || sign_just_after(same_turn<Dimension>(*face, *other)) > 0;
