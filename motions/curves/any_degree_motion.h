@@ -44,10 +44,10 @@ class AnyDegreeMotion {
   }
 
  private:
-  [[nodiscard]] static int accepted(int degree) {
-    if (degree < 0)
-      throw std::invalid_argument("a motion of degree " + std::to_string(degree) + ": expected 0 or more");
-    return degree;
+  [[nodiscard]] static int accepted(int wanted) {
+    if (wanted < 0)
+      throw std::invalid_argument("a motion of degree " + std::to_string(wanted) + ": expected 0 or more");
+    return wanted;
   }
   [[nodiscard]] std::size_t row() const { return static_cast<std::size_t>(own_degree_) + 1; }
   [[nodiscard]] double& number(BeadId bead, int k, int place) {

@@ -227,7 +227,7 @@ class NodeWrapper {
   }
   [[gnu::always_inline]] auto below(NodeId node) {
     return [ this, node ](const Sphere& sphere, const auto& look) __attribute__((always_inline)) {
-      visit_blocks(node, sphere, look);
+      this->visit_blocks(node, sphere, look);
     };
   }
 
