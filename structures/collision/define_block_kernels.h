@@ -1,0 +1,278 @@
+#pragma once
+// The loops of block_kernels.h, for the files that instantiate them, one a vector target. Such a file says
+// before what KDS_BLOCK_TARGET is, the attribute of all these functions, and defines for itself
+//
+//   meeting_children(node, box)       a bit for each child of the node that the box meets
+//   meeting_groups(a, b)              bit 4 g + h: group g of boxes a meets group h of boxes b
+//   near_beads<Equal>(blocks, a, g, b, h, limit)
+//                                     bit 4 i + j: bead i of group g of block a is near bead j of group h of
+//                                     b
+//   append_bits(out, base, bits)      writes base + k for each bit k there is, in order, and returns how many
+//
+// Such functions may only be inlined into others of their target, and code for other targets must not get to
+// see them: all is local to the file.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "motions/base/floating_point.h"
+#include "structures/collision/block_kernels.h"
+
+#define KDS_BLOCK_INLINE [[gnu::always_inline, KDS_BLOCK_TARGET]] inline
+
+namespace kds {
+
+namespace {
+
+using Row4 = float __attribute__((vector_size(16)));
+using Doubles4 = double __attribute__((vector_size(32)));
+
+KDS_BLOCK_INLINE Row4 smaller(const Row4& a, const Row4& b) { return a < b ? a : b; }
+KDS_BLOCK_INLINE Row4 larger(const Row4& a, const Row4& b) { return a > b ? a : b; }
+KDS_BLOCK_INLINE float least(const Row4& a) {
+  const Row4 b = smaller(a, __builtin_shufflevector(a, a, 2, 3, 0, 1));
+  return std::min(b[0], b[1]);
+}
+KDS_BLOCK_INLINE float greatest(const Row4& a) {
+  const Row4 b = larger(a, __builtin_shufflevector(a, a, 2, 3, 0, 1));
+  return std::max(b[0], b[1]);
+}
+KDS_BLOCK_INLINE Row4 load_row(const float* from) {
+  Row4 row;
+  __builtin_memcpy(&row, from, sizeof row);
+  return row;
+}
+KDS_BLOCK_INLINE void store_row(float* to, const Row4& row) { __builtin_memcpy(to, &row, sizeof row); }
+
+/// Four doubles times a factor plus a term, as floats.
+KDS_BLOCK_INLINE Row4 floats_of(const double* from, double factor, double term) {
+  Doubles4 four;
+  __builtin_memcpy(&four, from, sizeof four);
+  return __builtin_convertvector(four * factor + term, Row4);
+}
+
+/// Lane g of the k-th is number k of row g.
+KDS_BLOCK_INLINE void transpose(std::array<Row4, 4>& rows) {
+  const Row4 ab01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5);
+  const Row4 ab23 = __builtin_shufflevector(rows[0], rows[1], 2, 6, 3, 7);
+  const Row4 cd01 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 1, 5);
+  const Row4 cd23 = __builtin_shufflevector(rows[2], rows[3], 2, 6, 3, 7);
+  rows = {__builtin_shufflevector(ab01, cd01, 0, 1, 4, 5), __builtin_shufflevector(ab01, cd01, 2, 3, 6, 7),
+          __builtin_shufflevector(ab23, cd23, 0, 1, 4, 5), __builtin_shufflevector(ab23, cd23, 2, 3, 6, 7)};
+}
+
+template <int Dimension, bool Equal>
+[[KDS_BLOCK_TARGET, gnu::noinline]] BlockExtent fill(const BlockSource<Dimension>& source, std::size_t first,
+                                                     std::size_t last, const Blocks<Dimension>& blocks,
+                                                     BlockNode<Dimension>* parents) {
+  const Row4 zero{};
+  Row4 farthest = zero, widest = zero;
+  std::array<Row4, 4> radius{zero + source.radius, zero, zero, zero};
+  for (std::size_t b = first; b < last; ++b) {
+    const std::size_t from = beads_in_block * (b - first);
+    if constexpr (!Equal) {
+      for (std::size_t g = 0; g < 4; ++g) {
+        radius[g] = floats_of(source.radii + from + 4 * g, source.radius_factor, source.radius_added);
+        store_row(blocks.radii[b].bead.data() + 4 * g, radius[g]);
+        widest = larger(widest, radius[g]);
+      }
+      transpose(radius);
+    }
+    BlockNode<Dimension>& parent = parents[b / children_of_node];
+    const std::size_t place = b % children_of_node;
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      std::array<Row4, 4> rows;
+      for (std::size_t g = 0; g < 4; ++g) {
+        rows[g] = floats_of(source.centers[axis] + from + 4 * g, source.scale, -source.shift[axis]);
+        store_row(blocks.centers[b].axis[axis].data() + 4 * g, rows[g]);
+      }
+      transpose(rows);
+      Row4 low, high;
+      if constexpr (Equal) {
+        low = smaller(smaller(rows[0], rows[1]), smaller(rows[2], rows[3]));
+        high = larger(larger(rows[0], rows[1]), larger(rows[2], rows[3]));
+        farthest = larger(farthest, larger(high, -low));
+        low -= radius[0];
+        high += radius[0];
+      } else {
+        low = smaller(smaller(rows[0] - radius[0], rows[1] - radius[1]),
+                      smaller(rows[2] - radius[2], rows[3] - radius[3]));
+        high = larger(larger(rows[0] + radius[0], rows[1] + radius[1]),
+                      larger(rows[2] + radius[2], rows[3] + radius[3]));
+        for (const Row4& row : rows) farthest = larger(farthest, larger(row, -row));
+      }
+      store_row(blocks.boxes[b].low[axis].data(), low);
+      store_row(blocks.boxes[b].high[axis].data(), high);
+      parent.low[axis][place] = least(low);
+      parent.high[axis][place] = greatest(high);
+    }
+  }
+  return {greatest(farthest), Equal ? source.radius : greatest(widest)};
+}
+
+template <int Dimension>
+[[KDS_BLOCK_TARGET, gnu::noinline]] float stray(const BlockSource<Dimension>& source, std::size_t first,
+                                                std::size_t last, const BlockCenters<Dimension>* before) {
+  Row4 farthest{};
+  for (std::size_t b = first; b < last; ++b) {
+    for (std::size_t g = 0; g < 4; ++g) {
+      const std::size_t from = beads_in_block * (b - first) + 4 * g;
+      Row4 square{};
+      for (std::size_t axis = 0; axis < Dimension; ++axis) {
+        const Row4 d = floats_of(source.centers[axis] + from, source.scale, -source.shift[axis]) -
+                       load_row(before[b].axis[axis].data() + 4 * g);
+        square = axis == 0 ? d * d : square + d * d;
+      }
+      farthest = larger(square, farthest);  // the second where one is NaN
+    }
+  }
+  return greatest(farthest);
+}
+
+template <int Dimension>
+[[KDS_BLOCK_TARGET, gnu::noinline]] void unite(const BlockNode<Dimension>* nodes, std::size_t first,
+                                               std::size_t last, BlockNode<Dimension>* parents) {
+  for (std::size_t n = first; n < last; ++n) {
+    BlockNode<Dimension>& parent = parents[n / children_of_node];
+    const std::size_t place = n % children_of_node;
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      const float* low = nodes[n].low[axis].data();
+      const float* high = nodes[n].high[axis].data();
+      parent.low[axis][place] = least(
+          smaller(smaller(load_row(low), load_row(low + 4)), smaller(load_row(low + 8), load_row(low + 12))));
+      parent.high[axis][place] = greatest(larger(larger(load_row(high), load_row(high + 4)),
+                                                 larger(load_row(high + 8), load_row(high + 12))));
+    }
+  }
+}
+
+template <int Dimension>
+struct ChildBox {
+  std::array<float, static_cast<std::size_t>(Dimension)> low, high;
+};
+template <int Dimension>
+KDS_BLOCK_INLINE ChildBox<Dimension> child_box(const BlockNode<Dimension>& node, std::size_t child) {
+  ChildBox<Dimension> box;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    box.low[axis] = node.low[axis][child];
+    box.high[axis] = node.high[axis][child];
+  }
+  return box;
+}
+template <int Dimension>
+KDS_BLOCK_INLINE ChildBox<Dimension> box_of(const BlockNode<Dimension>& node) {
+  ChildBox<Dimension> box;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    const float* low = node.low[axis].data();
+    const float* high = node.high[axis].data();
+    box.low[axis] = least(
+        smaller(smaller(load_row(low), load_row(low + 4)), smaller(load_row(low + 8), load_row(low + 12))));
+    box.high[axis] = greatest(
+        larger(larger(load_row(high), load_row(high + 4)), larger(load_row(high + 8), load_row(high + 12))));
+  }
+  return box;
+}
+
+KDS_BLOCK_INLINE void write_sixteen(std::uint32_t* out, std::uint32_t number) {
+  for (std::size_t k = 0; k < 16; ++k) out[k] = number;
+}
+
+template <int Dimension>
+[[KDS_BLOCK_TARGET, gnu::noinline]] std::size_t expand(const BlockNode<Dimension>* nodes, std::uint32_t a,
+                                                       std::uint32_t b, NodePairs found) {
+  constexpr auto children = static_cast<std::uint32_t>(children_of_node);
+  const BlockNode<Dimension>& first = nodes[a];
+  const BlockNode<Dimension>& second = nodes[b];
+  std::size_t count = 0;
+  // Bits of children that a child may be paired with, and of the children that may have any.
+  unsigned others = 0xffff, ours = 0xffff;
+  if (a != b) {
+    ours = meeting_children(first, box_of(second));
+    if (ours == 0) return 0;
+    others = meeting_children(second, box_of(first));
+  }
+  for (; ours != 0; ours &= ours - 1) {
+    const auto child = static_cast<std::uint32_t>(__builtin_ctz(ours));
+    unsigned meeting = meeting_children(second, child_box(first, child)) & others;
+    if (a == b) meeting &= 0xffffU << child;
+    write_sixteen(found.first + count, children * a + child);
+    count += append_bits(found.second + count, children * b, meeting);
+  }
+  return count;
+}
+
+/// Bits 4 i + j with j - i at least so many, from -3 (all) to 4 (none).
+inline constexpr auto lanes_apart = [] {
+  std::array<std::uint16_t, 8> table{};
+  for (int least_apart = -3; least_apart <= 4; ++least_apart) {
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 4; ++j)
+        if (j - i >= least_apart)
+          table[static_cast<std::size_t>(least_apart + 3)] |= static_cast<std::uint16_t>(1 << (4 * i + j));
+    }
+  }
+  return table;
+}();
+/// Bits 4 g + h of groups some of whose beads are at least so many apart, from -12 (all) to 16 (none).
+inline constexpr auto groups_apart = [] {
+  std::array<std::uint16_t, 29> table{};
+  for (int least_apart = -12; least_apart <= 16; ++least_apart) {
+    for (int g = 0; g < 4; ++g) {
+      for (int h = 0; h < 4; ++h)
+        if (4 * (h - g) + 3 >= least_apart)
+          table[static_cast<std::size_t>(least_apart + 12)] |= static_cast<std::uint16_t>(1 << (4 * g + h));
+    }
+  }
+  return table;
+}();
+
+/// How far apart within their blocks beads must be, at least: none are where it is above 15.
+KDS_BLOCK_INLINE int least_apart_in(std::uint32_t a, std::uint32_t b, const LanesAsked& asked) {
+  constexpr int all = -15, none = 16;
+  if (asked.necklace_of_block[a] != asked.necklace_of_block[b]) return asked.between ? all : none;
+  if (!asked.within) return none;
+  const std::int64_t apart = std::int64_t{asked.apart} - 16 * (std::int64_t{b} - std::int64_t{a});
+  return static_cast<int>(std::clamp<std::int64_t>(apart, all, none));
+}
+
+template <int Dimension, bool Equal>
+[[KDS_BLOCK_TARGET, gnu::noinline]] std::size_t compare(const Blocks<Dimension>& blocks,
+                                                        const NodePairs& pairs, std::size_t count,
+                                                        const LanesAsked& asked, float limit,
+                                                        std::uint32_t* groups, const NearGroups& found,
+                                                        std::uint64_t& tests) {
+  // Without a branch in either loop: which groups meet, and which beads are near, nobody foretells.
+  std::size_t meeting = 0;
+  for (std::size_t p = 0; p < count; ++p) {
+    const std::uint32_t a = pairs.first[p], b = pairs.second[p];
+    const int least_apart = std::max(least_apart_in(a, b, asked), -12);
+    const unsigned bits = meeting_groups(blocks.boxes[a], blocks.boxes[b]) &
+                          groups_apart[static_cast<std::size_t>(least_apart + 12)];
+    meeting += append_bits(groups + meeting, static_cast<std::uint32_t>(16 * p), bits);
+  }
+  tests += meeting;
+  std::size_t near = 0;
+  for (std::size_t k = 0; k < meeting; ++k) {
+    const std::uint32_t group = groups[k];
+    const std::size_t p = group / 16, g = group / 4 % 4, h = group % 4;
+    const std::uint32_t a = pairs.first[p], b = pairs.second[p];
+    const int least_apart = least_apart_in(a, b, asked) - 4 * (static_cast<int>(h) - static_cast<int>(g));
+    const unsigned bits = near_beads<Equal>(blocks, a, g, b, h, limit) &
+                          lanes_apart[static_cast<std::size_t>(std::clamp(least_apart, -3, 4) + 3)];
+    found.groups[near] = group;
+    found.beads[near] = static_cast<std::uint16_t>(bits);
+    near += bits != 0 ? 1 : 0;
+  }
+  return near;
+}
+
+template <int Dimension>
+inline constexpr BlockKernels<Dimension> kernels_here{
+    fill<Dimension, true>, fill<Dimension, false>,   stray<Dimension>,         unite<Dimension>,
+    expand<Dimension>,     compare<Dimension, true>, compare<Dimension, false>};
+
+}  // namespace
+
+}  // namespace kds
