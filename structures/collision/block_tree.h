@@ -61,6 +61,8 @@ class BlockTree {
 
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] BlockOrder order() const { return order_; }
+  /// Of the last scene.
+  [[nodiscard]] const FloatFrame<Dimension>& frame() const { return frame_; }
   /// A new scene: the order of blocks is chosen again.
   void forget_order() { chosen_ = false; }
 
