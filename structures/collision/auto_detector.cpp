@@ -73,12 +73,26 @@ const std::vector<BeadPair>& AutoDetector<Dimension>::rebuild(const Balls<Dimens
   kept_.keep(balls, tree_.near_pairs(balls, skin), skin, tree_.frame());
   // A wide skin is for scenes in which few beads are near others.
   if (kept_.size() > most_pairs_a_bead * balls.size()) longest_skin_ = std::min(longest_skin_, 0.5 * skin);
-  if (kept_.size() < balls.size() / 4 && skin == longest_skin_) longest_skin_ = std::max(longest_skin_, std::min(2 * longest_skin_, 0x1p900));
+  if (kept_.size() < balls.size() / 4 && skin == longest_skin_)
+    longest_skin_ = std::max(longest_skin_, std::min(2 * longest_skin_, 0x1p900));
   mode_ = Mode::kept;
   moved_ = 0;
   frames_kept_ = 0;
   kept_.find_meeting(balls, 0, pairs_);
   return pairs_;
+}
+
+// Where next to nothing is near a skin may be wider. Each try is twice as wide, and costs no more than a
+// search from scratch while little is found.
+template <int Dimension>
+void AutoDetector<Dimension>::widen_skin(const Balls<Dimension>& balls, double wanted) {
+  constexpr int most_tries = 4;
+  const auto few = [this, &balls] { return tree_.counts().group_pairs <= balls.size() / 64; };
+  for (int k = 0; k < most_tries && longest_skin_ <= wanted && few(); ++k) {
+    const double wider = std::min(2 * longest_skin_, 0x1p900);
+    (void)tree_.near_pairs(balls, wider);
+    if (few() && wider > longest_skin_) longest_skin_ = wider;
+  }
 }
 
 template <int Dimension>
@@ -99,6 +113,7 @@ const std::vector<BeadPair>& AutoDetector<Dimension>::pairs(const Balls<Dimensio
     }
     // The tree has the positions of the frame before.
     const double step = speed_ ? *speed_ : tree_.strayed(balls);
+    widen_skin(balls, 2 * fewest_frames * step);
     if (longest_skin_ > 2 * fewest_frames * step) return rebuild(balls, step);
     look_every_ = std::min(2 * look_every_, longest_wait);
     until_look_ = look_every_;

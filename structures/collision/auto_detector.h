@@ -50,6 +50,7 @@ class AutoDetector {
 
   const std::vector<BeadPair>& from_scratch(const Balls<Dimension>& balls);
   const std::vector<BeadPair>& rebuild(const Balls<Dimension>& balls, double step);
+  void widen_skin(const Balls<Dimension>& balls, double wanted);
   [[nodiscard]] bool same_radii(const Balls<Dimension>& balls) const;
   void measure_scene(const Balls<Dimension>& balls);
 

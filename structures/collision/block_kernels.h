@@ -14,6 +14,8 @@ namespace kds {
 
 inline constexpr std::size_t beads_in_block = 16;
 inline constexpr std::size_t children_of_node = 16;
+/// So many, at most, are compared in one call: their scratch stays in the first cache.
+inline constexpr std::size_t block_pairs_at_once = 256;
 /// Behind the last number that a kernel writes there must be room for so many more.
 inline constexpr std::size_t kernel_padding = 16;
 

@@ -45,15 +45,31 @@ KDS_AVX2 unsigned meeting_children(const BlockNode<Dimension>& node, const Box& 
   return bits;
 }
 
+using Floats = float __attribute__((vector_size(32)));
+/// Group g in the four lanes that its bits are of.
 template <int Dimension>
-KDS_AVX2 unsigned meeting_groups(const GroupBoxes<Dimension>& a, const GroupBoxes<Dimension>& b) {
+struct SpreadGroups {
+  std::array<std::array<Floats, static_cast<std::size_t>(Dimension)>, 2> low, high;
+};
+template <int Dimension>
+KDS_AVX2 SpreadGroups<Dimension> spread_groups(const GroupBoxes<Dimension>& boxes) {
+  SpreadGroups<Dimension> spread;
+  for (std::size_t half = 0; half < 2; ++half) {
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      spread.low[half][axis] = each_four_times(boxes.low[axis].data(), half == 1);
+      spread.high[half][axis] = each_four_times(boxes.high[axis].data(), half == 1);
+    }
+  }
+  return spread;
+}
+template <int Dimension>
+KDS_AVX2 unsigned meeting_groups(const SpreadGroups<Dimension>& a, const GroupBoxes<Dimension>& b) {
   unsigned bits = 0;
   for (std::size_t half = 0; half < 2; ++half) {
     __m256 all = _mm256_setzero_ps();
     for (std::size_t axis = 0; axis < Dimension; ++axis) {
-      const __m256 one = meeting(each_four_times(a.low[axis].data(), half == 1),
-                                 each_four_times(a.high[axis].data(), half == 1),
-                                 four_twice(b.low[axis].data()), four_twice(b.high[axis].data()));
+      const __m256 one = meeting(a.low[half][axis], a.high[half][axis], four_twice(b.low[axis].data()),
+                                 four_twice(b.high[axis].data()));
       all = axis == 0 ? one : _mm256_and_ps(all, one);
     }
     bits |= bits_of_lanes(all) << (8 * half);
@@ -62,20 +78,21 @@ KDS_AVX2 unsigned meeting_groups(const GroupBoxes<Dimension>& a, const GroupBoxe
 }
 
 template <bool Equal, int Dimension>
-KDS_AVX2 unsigned near_beads(const Blocks<Dimension>& blocks, std::size_t a, std::size_t g, std::size_t b,
-                             std::size_t h, float limit) {
+KDS_AVX2 unsigned near_beads(const BlockCenters<Dimension>& a, [[maybe_unused]] const BlockRadii* radii_of_a,
+                             std::size_t g, const BlockCenters<Dimension>& b,
+                             [[maybe_unused]] const BlockRadii* radii_of_b, std::size_t h, float limit) {
   unsigned bits = 0;
   for (std::size_t half = 0; half < 2; ++half) {
     __m256 square = _mm256_setzero_ps();
     for (std::size_t axis = 0; axis < Dimension; ++axis) {
-      const __m256 d = _mm256_sub_ps(four_twice(blocks.centers[b].axis[axis].data() + 4 * h),
-                                     each_four_times(blocks.centers[a].axis[axis].data() + 4 * g, half == 1));
+      const __m256 d = _mm256_sub_ps(four_twice(b.axis[axis].data() + 4 * h),
+                                     each_four_times(a.axis[axis].data() + 4 * g, half == 1));
       square = axis == 0 ? _mm256_mul_ps(d, d) : _mm256_add_ps(square, _mm256_mul_ps(d, d));
     }
     __m256 most = _mm256_set1_ps(limit);
     if constexpr (!Equal) {
-      const __m256 reach = _mm256_add_ps(four_twice(blocks.radii[b].bead.data() + 4 * h),
-                                         each_four_times(blocks.radii[a].bead.data() + 4 * g, half == 1));
+      const __m256 reach = _mm256_add_ps(four_twice(radii_of_b->bead.data() + 4 * h),
+                                         each_four_times(radii_of_a->bead.data() + 4 * g, half == 1));
       most = _mm256_mul_ps(reach, reach);
     }
     bits |= bits_of_lanes(_mm256_cmp_ps(square, most, _CMP_LE_OQ)) << (8 * half);

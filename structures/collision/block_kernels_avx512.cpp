@@ -36,31 +36,46 @@ KDS_AVX512 unsigned meeting_children(const BlockNode<Dimension>& node, const Box
   return bits;
 }
 
+using Floats = float __attribute__((vector_size(64)));
+/// Group g in the four lanes that its bits are of.
 template <int Dimension>
-KDS_AVX512 unsigned meeting_groups(const GroupBoxes<Dimension>& a, const GroupBoxes<Dimension>& b) {
+struct SpreadGroups {
+  std::array<Floats, static_cast<std::size_t>(Dimension)> low, high;
+};
+template <int Dimension>
+KDS_AVX512 SpreadGroups<Dimension> spread_groups(const GroupBoxes<Dimension>& boxes) {
+  SpreadGroups<Dimension> spread;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    spread.low[axis] = each_four_times(boxes.low[axis].data());
+    spread.high[axis] = each_four_times(boxes.high[axis].data());
+  }
+  return spread;
+}
+template <int Dimension>
+KDS_AVX512 unsigned meeting_groups(const SpreadGroups<Dimension>& a, const GroupBoxes<Dimension>& b) {
   __mmask16 bits = 0xffff;
   for (std::size_t axis = 0; axis < Dimension; ++axis) {
-    bits = _mm512_mask_cmp_ps_mask(bits, each_four_times(a.low[axis].data()),
-                                   four_by_four(b.high[axis].data()), _CMP_LE_OQ);
-    bits = _mm512_mask_cmp_ps_mask(bits, each_four_times(a.high[axis].data()),
-                                   four_by_four(b.low[axis].data()), _CMP_GE_OQ);
+    bits = _mm512_mask_cmp_ps_mask(bits, a.low[axis], four_by_four(b.high[axis].data()), _CMP_LE_OQ);
+    bits = _mm512_mask_cmp_ps_mask(bits, a.high[axis], four_by_four(b.low[axis].data()), _CMP_GE_OQ);
   }
   return bits;
 }
 
 template <bool Equal, int Dimension>
-KDS_AVX512 unsigned near_beads(const Blocks<Dimension>& blocks, std::size_t a, std::size_t g, std::size_t b,
-                               std::size_t h, float limit) {
+KDS_AVX512 unsigned near_beads(const BlockCenters<Dimension>& a,
+                               [[maybe_unused]] const BlockRadii* radii_of_a, std::size_t g,
+                               const BlockCenters<Dimension>& b,
+                               [[maybe_unused]] const BlockRadii* radii_of_b, std::size_t h, float limit) {
   __m512 square = _mm512_setzero_ps();
   for (std::size_t axis = 0; axis < Dimension; ++axis) {
-    const __m512 d = _mm512_sub_ps(four_by_four(blocks.centers[b].axis[axis].data() + 4 * h),
-                                   each_four_times(blocks.centers[a].axis[axis].data() + 4 * g));
+    const __m512 d = _mm512_sub_ps(four_by_four(b.axis[axis].data() + 4 * h),
+                                   each_four_times(a.axis[axis].data() + 4 * g));
     square = axis == 0 ? _mm512_mul_ps(d, d) : _mm512_add_ps(square, _mm512_mul_ps(d, d));
   }
   __m512 most = _mm512_set1_ps(limit);
   if constexpr (!Equal) {
-    const __m512 reach = _mm512_add_ps(four_by_four(blocks.radii[b].bead.data() + 4 * h),
-                                       each_four_times(blocks.radii[a].bead.data() + 4 * g));
+    const __m512 reach = _mm512_add_ps(four_by_four(radii_of_b->bead.data() + 4 * h),
+                                       each_four_times(radii_of_a->bead.data() + 4 * g));
     most = _mm512_mul_ps(reach, reach);
   }
   return _mm512_cmp_ps_mask(square, most, _CMP_LE_OQ);

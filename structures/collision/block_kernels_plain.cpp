@@ -38,6 +38,10 @@ inline unsigned meeting_children(const BlockNode<Dimension>& node, const Box& bo
 }
 
 template <int Dimension>
+inline const GroupBoxes<Dimension>& spread_groups(const GroupBoxes<Dimension>& boxes) {
+  return boxes;
+}
+template <int Dimension>
 inline unsigned meeting_groups(const GroupBoxes<Dimension>& a, const GroupBoxes<Dimension>& b) {
   unsigned bits = 0;
   for (std::size_t g = 0; g < 4; ++g) {
@@ -51,19 +55,19 @@ inline unsigned meeting_groups(const GroupBoxes<Dimension>& a, const GroupBoxes<
 }
 
 template <bool Equal, int Dimension>
-inline unsigned near_beads(const Blocks<Dimension>& blocks, std::size_t a, std::size_t g, std::size_t b,
-                           std::size_t h, float limit) {
+inline unsigned near_beads(const BlockCenters<Dimension>& a, [[maybe_unused]] const BlockRadii* radii_of_a,
+                           std::size_t g, const BlockCenters<Dimension>& b,
+                           [[maybe_unused]] const BlockRadii* radii_of_b, std::size_t h, float limit) {
   unsigned bits = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     PlainRow square{};
     for (std::size_t axis = 0; axis < Dimension; ++axis) {
-      const PlainRow d =
-          plain_row(blocks.centers[b].axis[axis].data() + 4 * h) - blocks.centers[a].axis[axis][4 * g + i];
+      const PlainRow d = plain_row(b.axis[axis].data() + 4 * h) - a.axis[axis][4 * g + i];
       square = axis == 0 ? d * d : square + d * d;
     }
     PlainRow most = PlainRow{} + limit;
     if constexpr (!Equal) {
-      const PlainRow reach = plain_row(blocks.radii[b].bead.data() + 4 * h) + blocks.radii[a].bead[4 * g + i];
+      const PlainRow reach = plain_row(radii_of_b->bead.data() + 4 * h) + radii_of_a->bead[4 * g + i];
       most = reach * reach;
     }
     bits |= plain_bits(square <= most) << (4 * i);

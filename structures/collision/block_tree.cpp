@@ -13,7 +13,6 @@ namespace kds {
 
 namespace {
 
-constexpr std::size_t pairs_at_once = 256;  // of blocks: their scratch stays in the first cache
 constexpr std::size_t sample_stride = 8;
 
 // What a search has cost, in comparisons of four beads with four, about 2 ns each.
@@ -23,8 +22,10 @@ double work_of(const Counts& counts) {
          static_cast<double>(counts.group_pairs);
 }
 // What sorting and a search of sorted beads cost a block.
-constexpr double work_of_sorted_block = 120;
+constexpr double work_of_sorted_block = 230;
 constexpr std::size_t fewest_beads_to_sort = 2000;
+// Then the sequence is tried again.
+constexpr std::uint64_t most_searches_in_space = 64;
 
 // Every `spread`-th bit from the lowest.
 std::uint64_t spread_bits(std::uint64_t bits, int spread) {
@@ -45,7 +46,7 @@ BlockTree<Dimension>::BlockTree(PairsAsked asked, std::optional<BlockOrder> orde
   }
   if (asked_.apart < 1) throw std::invalid_argument("expected beads at least 1 apart along the chain");
   make_blocks(wanted_.value_or(BlockOrder::sequence));
-  groups_.resize(16 * pairs_at_once + kernel_padding);
+  groups_.resize(16 * block_pairs_at_once + kernel_padding);
   near_groups_.resize(groups_.size());
   near_beads_.resize(groups_.size());
 }
@@ -200,6 +201,8 @@ void BlockTree<Dimension>::sort_in_space(const Balls<Dimension>& balls) {
   double longest = 0;
   for (std::size_t axis = 0; axis < Dimension; ++axis)
     longest = std::max(longest, 0.5 * box.high[axis] - 0.5 * box.low[axis]);
+  // Any order will do: of a scene so small that this is infinite, that of beads.
+  const double cells_a_length = longest > 0 && cells / longest < 0x1p1000 ? cells / longest : 0.0;
   std::vector<std::uint64_t> spread(std::size_t{1} << bits);
   for (std::size_t k = 0; k < spread.size(); ++k) spread[k] = spread_bits(k, Dimension);
   keys_.resize(beads_);
@@ -208,15 +211,15 @@ void BlockTree<Dimension>::sort_in_space(const Balls<Dimension>& balls) {
     std::uint64_t key = 0;
     for (std::size_t axis = 0; axis < Dimension; ++axis) {
       const double along = 0.5 * balls.coordinates(axis)[b] - 0.5 * box.low[axis];
-      const double cell = longest > 0 ? std::min(along / longest, 1.0) * cells : 0.0;
-      key |= spread[static_cast<std::size_t>(cell)] << axis;
+      const double cell = std::min(along * cells_a_length, cells);
+      key |= spread[static_cast<std::size_t>(static_cast<std::int64_t>(cell))] << axis;
     }
     keys_[b] = key << 32 | b;
   }
   // By half of the bits, then by the other half.
   const int half = (bits * Dimension + 1) / 2;
   const std::uint64_t mask = (std::uint64_t{1} << half) - 1;
-  std::vector<std::size_t> places;
+  std::vector<std::uint32_t> places;
   for (const int shift : {32, 32 + half}) {
     places.assign(mask + 2, 0);
     for (const std::uint64_t key : keys_) ++places[(key >> shift & mask) + 1];
@@ -273,7 +276,7 @@ bool BlockTree<Dimension>::search(bool may_give_up) {
     block_pairs_.reserve(children_of_node * children_of_node);
     block_pairs_.count += kernels_.expand(levels_[0].data(), a, b, block_pairs_.end());
     ++counts_.node_pairs;
-    if (block_pairs_.count >= pairs_at_once) compare_blocks();
+    if (block_pairs_.count >= block_pairs_at_once) compare_blocks();
   };
   if (!may_give_up) {
     for (std::size_t k = 0; k < nodes_.count; ++k) expand(k);
@@ -299,8 +302,8 @@ void BlockTree<Dimension>::compare_blocks() {
   const LanesAsked lanes{necklace_of_block_.data(), sequence ? asked_.apart : 1, !sequence || asked_.within,
                          !sequence || asked_.between};
   counts_.block_pairs += block_pairs_.count;
-  for (std::size_t from = 0; from < block_pairs_.count; from += pairs_at_once) {
-    const std::size_t count = std::min(pairs_at_once, block_pairs_.count - from);
+  for (std::size_t from = 0; from < block_pairs_.count; from += block_pairs_at_once) {
+    const std::size_t count = std::min(block_pairs_at_once, block_pairs_.count - from);
     const NodePairs some{block_pairs_.first.data() + from, block_pairs_.second.data() + from};
     const std::size_t near = kernel(blocks(), some, count, lanes, limit_, groups_.data(),
                                     {near_groups_.data(), near_beads_.data()}, counts_.group_pairs);
@@ -332,15 +335,17 @@ void BlockTree<Dimension>::find_candidates(const Balls<Dimension>& balls, double
   counts_ = {};
   candidate_count_ = 0;
   if (beads_ == 0) return;
-  if (!wanted_ && !chosen_ && order_ != BlockOrder::sequence) make_blocks(BlockOrder::sequence);
+  if (!wanted_ && order_ == BlockOrder::spatial && searches_in_space_ >= most_searches_in_space)
+    make_blocks(BlockOrder::sequence);
   build(balls, gap);
-  const bool may_give_up = !wanted_ && !chosen_ && beads_ >= fewest_beads_to_sort;
-  chosen_ = true;
+  const bool may_give_up = !wanted_ && order_ == BlockOrder::sequence && beads_ >= fewest_beads_to_sort;
   if (!search(may_give_up)) {
     make_blocks(BlockOrder::spatial);
+    searches_in_space_ = 0;
     build(balls, gap);
     (void)search(false);
   }
+  if (order_ == BlockOrder::spatial) ++searches_in_space_;
   counts_.candidates = candidate_count_;
 }
 

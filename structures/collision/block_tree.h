@@ -63,8 +63,8 @@ class BlockTree {
   [[nodiscard]] BlockOrder order() const { return order_; }
   /// Of the last scene.
   [[nodiscard]] const FloatFrame<Dimension>& frame() const { return frame_; }
-  /// A new scene: the order of blocks is chosen again.
-  void forget_order() { chosen_ = false; }
+  /// A new scene: the sequence is tried first again.
+  void forget_order() { searches_in_space_ = ~std::uint64_t{0}; }
 
  private:
   struct PairList {
@@ -105,7 +105,7 @@ class BlockTree {
   const BlockKernels<Dimension>& kernels_;
   std::size_t beads_;
   BlockOrder order_ = BlockOrder::sequence;
-  bool chosen_ = false;
+  std::uint64_t searches_in_space_ = 0;
 
   FloatFrame<Dimension> frame_;
   bool equal_ = true;

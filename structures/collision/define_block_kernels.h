@@ -3,10 +3,10 @@
 // before what KDS_BLOCK_TARGET is, the attribute of all these functions, and defines for itself
 //
 //   meeting_children(node, box)       a bit for each child of the node that the box meets
-//   meeting_groups(a, b)              bit 4 g + h: group g of boxes a meets group h of boxes b
-//   near_beads<Equal>(blocks, a, g, b, h, limit)
-//                                     bit 4 i + j: bead i of group g of block a is near bead j of group h of
-//                                     b
+//   spread_groups(a)                  the boxes of groups as the next wants them
+//   meeting_groups(spread, b)         bit 4 g + h: group g of those boxes meets group h of boxes b
+//   near_beads<Equal>(a, radii of a, g, b, radii of b, h, limit)
+//                                     bit 4 i + j: bead i of group g of a is near bead j of group h of b
 //   append_bits(out, base, bits)      writes base + k for each bit k there is, in order, and returns how many
 //
 // Such functions may only be inlined into others of their target, and code for other targets must not get to
@@ -203,39 +203,36 @@ template <int Dimension>
   return count;
 }
 
-/// Bits 4 i + j with j - i at least so many, from -3 (all) to 4 (none).
+/// Which pairs of beads are far enough apart in their necklace, that of bit 4 i + j of groups g and h by [4 g
+/// + h], and groups with any such by bit 4 g + h. By how far apart they must be within their blocks.
+struct LanesApart {
+  std::array<std::uint16_t, 16> beads{};
+  std::uint16_t groups = 0;
+};
+inline constexpr int least_all = -15, least_none = 16;
 inline constexpr auto lanes_apart = [] {
-  std::array<std::uint16_t, 8> table{};
-  for (int least_apart = -3; least_apart <= 4; ++least_apart) {
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < 4; ++j)
-        if (j - i >= least_apart)
-          table[static_cast<std::size_t>(least_apart + 3)] |= static_cast<std::uint16_t>(1 << (4 * i + j));
-    }
-  }
-  return table;
-}();
-/// Bits 4 g + h of groups some of whose beads are at least so many apart, from -12 (all) to 16 (none).
-inline constexpr auto groups_apart = [] {
-  std::array<std::uint16_t, 29> table{};
-  for (int least_apart = -12; least_apart <= 16; ++least_apart) {
-    for (int g = 0; g < 4; ++g) {
-      for (int h = 0; h < 4; ++h)
-        if (4 * (h - g) + 3 >= least_apart)
-          table[static_cast<std::size_t>(least_apart + 12)] |= static_cast<std::uint16_t>(1 << (4 * g + h));
+  std::array<LanesApart, least_none - least_all + 1> table{};
+  for (int least = least_all; least <= least_none; ++least) {
+    LanesApart& lanes = table[static_cast<std::size_t>(least - least_all)];
+    for (int first = 0; first < 16; ++first) {
+      for (int second = 0; second < 16; ++second) {
+        if (second - first < least) continue;
+        const int group = 4 * (first / 4) + second / 4, bead = 4 * (first % 4) + second % 4;
+        lanes.groups = static_cast<std::uint16_t>(lanes.groups | 1 << group);
+        auto& beads = lanes.beads[static_cast<std::size_t>(group)];
+        beads = static_cast<std::uint16_t>(beads | 1 << bead);
+      }
     }
   }
   return table;
 }();
 
-/// How far apart within their blocks beads must be, at least: none are where it is above 15.
-KDS_BLOCK_INLINE int least_apart_in(std::uint32_t a, std::uint32_t b, const LanesAsked& asked) {
-  constexpr int all = -15, none = 16;
-  if (asked.necklace_of_block[a] != asked.necklace_of_block[b]) return asked.between ? all : none;
-  if (!asked.within) return none;
-  const std::int64_t apart = std::int64_t{asked.apart} - 16 * (std::int64_t{b} - std::int64_t{a});
-  return static_cast<int>(std::clamp<std::int64_t>(apart, all, none));
-}
+template <int Dimension>
+struct ComparedPair {
+  const BlockCenters<Dimension>* first;
+  const BlockCenters<Dimension>* second;
+  const LanesApart* lanes;
+};
 
 template <int Dimension, bool Equal>
 [[KDS_BLOCK_TARGET, gnu::noinline]] std::size_t compare(const Blocks<Dimension>& blocks,
@@ -243,26 +240,53 @@ template <int Dimension, bool Equal>
                                                         const LanesAsked& asked, float limit,
                                                         std::uint32_t* groups, const NearGroups& found,
                                                         std::uint64_t& tests) {
+  const BlockCenters<Dimension>* const centers = blocks.centers;
+  const GroupBoxes<Dimension>* const boxes = blocks.boxes;
+  const BlockRadii* const radii = blocks.radii;
+  const std::uint32_t* const necklaces = asked.necklace_of_block;
+  const std::uint32_t* const firsts = pairs.first;
+  const std::uint32_t* const seconds = pairs.second;
+  const std::int64_t within = asked.within ? std::int64_t{asked.apart} : std::int64_t{1} << 40;
+  const std::int64_t between = asked.between ? least_all : least_none;
   // Without a branch in either loop: which groups meet, and which beads are near, nobody foretells.
+  std::array<ComparedPair<Dimension>, block_pairs_at_once> compared;
   std::size_t meeting = 0;
-  for (std::size_t p = 0; p < count; ++p) {
-    const std::uint32_t a = pairs.first[p], b = pairs.second[p];
-    const int least_apart = std::max(least_apart_in(a, b, asked), -12);
-    const unsigned bits = meeting_groups(blocks.boxes[a], blocks.boxes[b]) &
-                          groups_apart[static_cast<std::size_t>(least_apart + 12)];
-    meeting += append_bits(groups + meeting, static_cast<std::uint32_t>(16 * p), bits);
+  for (std::size_t p = 0; p < count;) {
+    const std::uint32_t a = firsts[p];
+    const std::uint32_t necklace = necklaces[a];
+    const auto ours = spread_groups(boxes[a]);
+    do {
+      const std::uint32_t b = seconds[p];
+      const std::int64_t along = within - 16 * (std::int64_t{b} - std::int64_t{a});
+      std::int64_t least = necklaces[b] == necklace ? along : between;
+      least = std::max<std::int64_t>(least, least_all);
+      least = std::min<std::int64_t>(least, least_none);
+      const LanesApart* const lanes = lanes_apart.data() + (least - least_all);
+      compared[p] = {centers + a, centers + b, lanes};
+      meeting += append_bits(groups + meeting, static_cast<std::uint32_t>(16 * p),
+                             meeting_groups(ours, boxes[b]) & lanes->groups);
+      ++p;
+    } while (p < count && firsts[p] == a);
   }
   tests += meeting;
+  std::uint32_t* const near_groups = found.groups;
+  std::uint16_t* const near_bits = found.beads;
   std::size_t near = 0;
   for (std::size_t k = 0; k < meeting; ++k) {
     const std::uint32_t group = groups[k];
-    const std::size_t p = group / 16, g = group / 4 % 4, h = group % 4;
-    const std::uint32_t a = pairs.first[p], b = pairs.second[p];
-    const int least_apart = least_apart_in(a, b, asked) - 4 * (static_cast<int>(h) - static_cast<int>(g));
-    const unsigned bits = near_beads<Equal>(blocks, a, g, b, h, limit) &
-                          lanes_apart[static_cast<std::size_t>(std::clamp(least_apart, -3, 4) + 3)];
-    found.groups[near] = group;
-    found.beads[near] = static_cast<std::uint16_t>(bits);
+    const ComparedPair<Dimension>& pair = compared[group / 16];
+    const std::size_t g = group / 4 % 4, h = group % 4;
+    const BlockRadii* first_radii = nullptr;
+    const BlockRadii* second_radii = nullptr;
+    if constexpr (!Equal) {
+      first_radii = radii + (pair.first - centers);
+      second_radii = radii + (pair.second - centers);
+    }
+    const unsigned bits =
+        near_beads<Equal>(*pair.first, first_radii, g, *pair.second, second_radii, h, limit) &
+        pair.lanes->beads[group % 16];
+    near_groups[near] = group;
+    near_bits[near] = static_cast<std::uint16_t>(bits);
     near += bits != 0 ? 1 : 0;
   }
   return near;
