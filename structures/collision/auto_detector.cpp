@@ -10,7 +10,7 @@ namespace kds {
 
 namespace {
 
-constexpr double frames_to_keep = 32;  // the skin is made for as many, where that is not too wide
+constexpr double frames_to_keep = 64;  // the skin is made for as many, where that is not too wide
 constexpr double fewest_frames = 4;    // keeping pairs for fewer costs more than starting from scratch
 constexpr std::uint64_t longest_wait = 16;
 constexpr std::size_t most_pairs_a_bead = 4;
@@ -36,8 +36,8 @@ bool AutoDetector<Dimension>::same_radii(const Balls<Dimension>& balls) const {
   return radii_.size() == count && std::equal(radii_.begin(), radii_.end(), balls.radii());
 }
 
-// How wide a skin may be at first: a mean radius, or half a mean bond of beads without one. What is not
-// finite or zero keeps nothing.
+// How wide a skin may be at first: half a mean radius, or a fourth of a mean bond of beads without one. What
+// is not finite or zero keeps nothing.
 template <int Dimension>
 void AutoDetector<Dimension>::measure_scene(const Balls<Dimension>& balls) {
   const std::size_t beads = balls.size();
@@ -55,7 +55,7 @@ void AutoDetector<Dimension>::measure_scene(const Balls<Dimension>& balls) {
     bonds += std::sqrt(square);
     ++count;
   }
-  longest_skin_ = count > 0 ? (radii > 0 ? radii : 0.5 * bonds) / count : 0;
+  longest_skin_ = count > 0 ? (radii > 0 ? 0.5 * radii : 0.25 * bonds) / count : 0;
   if (!std::isfinite(longest_skin_)) longest_skin_ = 0;
 }
 
