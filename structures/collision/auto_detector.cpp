@@ -99,18 +99,18 @@ template <int Dimension>
 const std::vector<BeadPair>& AutoDetector<Dimension>::pairs(const Balls<Dimension>& balls) {
   const FloatingPointGuard to_nearest;
   if (mode_ == Mode::nothing || balls.size() != tree_.bead_count() || balls.size() == 0 ||
-      (!speed_ && !same_radii(balls))) {
-    const auto& found = from_scratch(balls);
-    measure_scene(balls);
+      (!speed_ && !radii_.empty() && !same_radii(balls))) {
+    radii_.clear();  // nothing is measured that only a second frame would need
     until_look_ = 0;
     look_every_ = 1;
-    return found;
+    return from_scratch(balls);
   }
   if (mode_ == Mode::scratch) {
     if (until_look_ > 0) {
       --until_look_;
       return from_scratch(balls);
     }
+    if (radii_.empty()) measure_scene(balls);
     // The tree has the positions of the frame before.
     const double step = speed_ ? *speed_ : tree_.strayed(balls);
     widen_skin(balls, 2 * fewest_frames * step);
