@@ -19,26 +19,18 @@ inline constexpr std::size_t block_pairs_at_once = 256;
 /// Behind the last number that a kernel writes there must be room for so many more.
 inline constexpr std::size_t kernel_padding = 16;
 
-/// Centres. Lanes without a bead are NaN, which is near nothing; the boxes do not know of them.
-template <int Dimension>
-struct alignas(64) BlockCenters {
-  std::array<std::array<float, beads_in_block>, static_cast<std::size_t>(Dimension)> axis;
-};
 /// Boxes of four consecutive beads each.
 template <int Dimension>
 struct alignas(32) GroupBoxes {
   std::array<std::array<float, 4>, static_cast<std::size_t>(Dimension)> low, high;
 };
-/// Float radii.
-struct alignas(64) BlockRadii {
-  std::array<float, beads_in_block> bead;
-};
-/// One of each a block; no radii where all are equal.
+/// 16 numbers of each kind a block. Lanes without a bead, and 16 behind the last block, have centres that are
+/// NaN, which is near nothing; the boxes do not know of them.
 template <int Dimension>
 struct Blocks {
-  BlockCenters<Dimension>* centers;
+  std::array<float*, static_cast<std::size_t>(Dimension)> centers;
+  float* radii;  ///< float radii; not looked at where all are equal
   GroupBoxes<Dimension>* boxes;
-  BlockRadii* radii;
 };
 
 /// The boxes of its children; one that does not exist meets nothing.
@@ -80,7 +72,9 @@ struct LanesAsked {
   const std::uint32_t* necklace_of_block;
   std::uint32_t apart;
   bool within, between;
+  bool along_done;  ///< beads of one group, or of a group and the next, have been compared already
 };
+inline constexpr std::uint32_t farthest_along = 7;  // between beads of two groups in a row
 
 /// Four beads of one block and four of another, some of which are near: pair p of those looked at, group g of
 /// the first and h of the second as 16 p + 4 g + h; bit 4 i + j for bead i of g and j of h.
@@ -97,7 +91,7 @@ struct BlockKernels {
                                const Blocks<Dimension>& blocks, BlockNode<Dimension>* parents);
   /// The greatest square of how far a centre of these blocks is from where it was.
   using Stray = float (*)(const BlockSource<Dimension>& source, std::size_t first, std::size_t last,
-                          const BlockCenters<Dimension>* before);
+                          const Blocks<Dimension>& before);
   /// The boxes of nodes first .. last - 1 into those above.
   using Unite = void (*)(const BlockNode<Dimension>* nodes, std::size_t first, std::size_t last,
                          BlockNode<Dimension>* parents);
@@ -111,11 +105,16 @@ struct BlockKernels {
   using Compare = std::size_t (*)(const Blocks<Dimension>& blocks, const NodePairs& pairs, std::size_t count,
                                   const LanesAsked& asked, float limit, std::uint32_t* groups,
                                   const NearGroups& found, std::uint64_t& tests);
+  /// Near beads from `apart` to farthest_along apart in sequence, of blocks first .. last - 1 and what
+  /// follows them: 8 block + how far apart, and a bit for the first bead of each pair. Room for 8 a block.
+  using CompareAlong = std::size_t (*)(const Blocks<Dimension>& blocks, std::size_t first, std::size_t last,
+                                       std::uint32_t apart, float limit, const NearGroups& found);
   Fill fill_equal, fill_unequal;
   Stray stray;
   Unite unite;
   Expand expand;
   Compare compare_equal, compare_unequal;
+  CompareAlong along_equal, along_unequal;
 };
 
 /// The target must be available.

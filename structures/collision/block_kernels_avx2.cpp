@@ -78,21 +78,41 @@ KDS_AVX2 unsigned meeting_groups(const SpreadGroups<Dimension>& a, const GroupBo
 }
 
 template <bool Equal, int Dimension>
-KDS_AVX2 unsigned near_beads(const BlockCenters<Dimension>& a, [[maybe_unused]] const BlockRadii* radii_of_a,
-                             std::size_t g, const BlockCenters<Dimension>& b,
-                             [[maybe_unused]] const BlockRadii* radii_of_b, std::size_t h, float limit) {
+KDS_AVX2 unsigned near_beads(const Blocks<Dimension>& blocks, std::size_t i, std::size_t j, float limit) {
   unsigned bits = 0;
   for (std::size_t half = 0; half < 2; ++half) {
     __m256 square = _mm256_setzero_ps();
     for (std::size_t axis = 0; axis < Dimension; ++axis) {
-      const __m256 d = _mm256_sub_ps(four_twice(b.axis[axis].data() + 4 * h),
-                                     each_four_times(a.axis[axis].data() + 4 * g, half == 1));
+      const __m256 d = _mm256_sub_ps(four_twice(blocks.centers[axis] + j),
+                                     each_four_times(blocks.centers[axis] + i, half == 1));
       square = axis == 0 ? _mm256_mul_ps(d, d) : _mm256_add_ps(square, _mm256_mul_ps(d, d));
     }
     __m256 most = _mm256_set1_ps(limit);
     if constexpr (!Equal) {
-      const __m256 reach = _mm256_add_ps(four_twice(radii_of_b->bead.data() + 4 * h),
-                                         each_four_times(radii_of_a->bead.data() + 4 * g, half == 1));
+      const __m256 reach =
+          _mm256_add_ps(four_twice(blocks.radii + j), each_four_times(blocks.radii + i, half == 1));
+      most = _mm256_mul_ps(reach, reach);
+    }
+    bits |= bits_of_lanes(_mm256_cmp_ps(square, most, _CMP_LE_OQ)) << (8 * half);
+  }
+  return bits;
+}
+
+template <bool Equal, int Dimension>
+KDS_AVX2 unsigned near_along(const Blocks<Dimension>& blocks, std::size_t i, std::size_t apart, float limit) {
+  unsigned bits = 0;
+  for (std::size_t half = 0; half < 2; ++half) {
+    const std::size_t from = i + 8 * half;
+    __m256 square = _mm256_setzero_ps();
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      const __m256 d = _mm256_sub_ps(_mm256_loadu_ps(blocks.centers[axis] + from + apart),
+                                     _mm256_loadu_ps(blocks.centers[axis] + from));
+      square = axis == 0 ? _mm256_mul_ps(d, d) : _mm256_add_ps(square, _mm256_mul_ps(d, d));
+    }
+    __m256 most = _mm256_set1_ps(limit);
+    if constexpr (!Equal) {
+      const __m256 reach =
+          _mm256_add_ps(_mm256_loadu_ps(blocks.radii + from + apart), _mm256_loadu_ps(blocks.radii + from));
       most = _mm256_mul_ps(reach, reach);
     }
     bits |= bits_of_lanes(_mm256_cmp_ps(square, most, _CMP_LE_OQ)) << (8 * half);

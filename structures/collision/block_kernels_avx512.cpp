@@ -62,20 +62,34 @@ KDS_AVX512 unsigned meeting_groups(const SpreadGroups<Dimension>& a, const Group
 }
 
 template <bool Equal, int Dimension>
-KDS_AVX512 unsigned near_beads(const BlockCenters<Dimension>& a,
-                               [[maybe_unused]] const BlockRadii* radii_of_a, std::size_t g,
-                               const BlockCenters<Dimension>& b,
-                               [[maybe_unused]] const BlockRadii* radii_of_b, std::size_t h, float limit) {
+KDS_AVX512 unsigned near_beads(const Blocks<Dimension>& blocks, std::size_t i, std::size_t j, float limit) {
   __m512 square = _mm512_setzero_ps();
   for (std::size_t axis = 0; axis < Dimension; ++axis) {
-    const __m512 d = _mm512_sub_ps(four_by_four(b.axis[axis].data() + 4 * h),
-                                   each_four_times(a.axis[axis].data() + 4 * g));
+    const __m512 d =
+        _mm512_sub_ps(four_by_four(blocks.centers[axis] + j), each_four_times(blocks.centers[axis] + i));
     square = axis == 0 ? _mm512_mul_ps(d, d) : _mm512_add_ps(square, _mm512_mul_ps(d, d));
   }
   __m512 most = _mm512_set1_ps(limit);
   if constexpr (!Equal) {
-    const __m512 reach = _mm512_add_ps(four_by_four(radii_of_b->bead.data() + 4 * h),
-                                       each_four_times(radii_of_a->bead.data() + 4 * g));
+    const __m512 reach = _mm512_add_ps(four_by_four(blocks.radii + j), each_four_times(blocks.radii + i));
+    most = _mm512_mul_ps(reach, reach);
+  }
+  return _mm512_cmp_ps_mask(square, most, _CMP_LE_OQ);
+}
+
+template <bool Equal, int Dimension>
+KDS_AVX512 unsigned near_along(const Blocks<Dimension>& blocks, std::size_t i, std::size_t apart,
+                               float limit) {
+  __m512 square = _mm512_setzero_ps();
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    const __m512 d = _mm512_sub_ps(_mm512_loadu_ps(blocks.centers[axis] + i + apart),
+                                   _mm512_loadu_ps(blocks.centers[axis] + i));
+    square = axis == 0 ? _mm512_mul_ps(d, d) : _mm512_add_ps(square, _mm512_mul_ps(d, d));
+  }
+  __m512 most = _mm512_set1_ps(limit);
+  if constexpr (!Equal) {
+    const __m512 reach =
+        _mm512_add_ps(_mm512_loadu_ps(blocks.radii + i + apart), _mm512_loadu_ps(blocks.radii + i));
     most = _mm512_mul_ps(reach, reach);
   }
   return _mm512_cmp_ps_mask(square, most, _CMP_LE_OQ);

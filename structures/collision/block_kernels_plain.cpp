@@ -55,22 +55,40 @@ inline unsigned meeting_groups(const GroupBoxes<Dimension>& a, const GroupBoxes<
 }
 
 template <bool Equal, int Dimension>
-inline unsigned near_beads(const BlockCenters<Dimension>& a, [[maybe_unused]] const BlockRadii* radii_of_a,
-                           std::size_t g, const BlockCenters<Dimension>& b,
-                           [[maybe_unused]] const BlockRadii* radii_of_b, std::size_t h, float limit) {
+inline unsigned near_beads(const Blocks<Dimension>& blocks, std::size_t i, std::size_t j, float limit) {
   unsigned bits = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t k = 0; k < 4; ++k) {
     PlainRow square{};
     for (std::size_t axis = 0; axis < Dimension; ++axis) {
-      const PlainRow d = plain_row(b.axis[axis].data() + 4 * h) - a.axis[axis][4 * g + i];
+      const PlainRow d = plain_row(blocks.centers[axis] + j) - blocks.centers[axis][i + k];
       square = axis == 0 ? d * d : square + d * d;
     }
     PlainRow most = PlainRow{} + limit;
     if constexpr (!Equal) {
-      const PlainRow reach = plain_row(radii_of_b->bead.data() + 4 * h) + radii_of_a->bead[4 * g + i];
+      const PlainRow reach = plain_row(blocks.radii + j) + blocks.radii[i + k];
       most = reach * reach;
     }
-    bits |= plain_bits(square <= most) << (4 * i);
+    bits |= plain_bits(square <= most) << (4 * k);
+  }
+  return bits;
+}
+
+template <bool Equal, int Dimension>
+inline unsigned near_along(const Blocks<Dimension>& blocks, std::size_t i, std::size_t apart, float limit) {
+  unsigned bits = 0;
+  for (std::size_t four = 0; four < beads_in_block; four += 4) {
+    PlainRow square{};
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      const float* from = blocks.centers[axis] + i + four;
+      const PlainRow d = plain_row(from + apart) - plain_row(from);
+      square = axis == 0 ? d * d : square + d * d;
+    }
+    PlainRow most = PlainRow{} + limit;
+    if constexpr (!Equal) {
+      const PlainRow reach = plain_row(blocks.radii + i + four + apart) + plain_row(blocks.radii + i + four);
+      most = reach * reach;
+    }
+    bits |= plain_bits(square <= most) << four;
   }
   return bits;
 }

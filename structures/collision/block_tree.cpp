@@ -68,7 +68,9 @@ void BlockTree<Dimension>::make_blocks(BlockOrder order) {
     necklace_of_block_.assign((beads_ + beads_in_block - 1) / beads_in_block, 0);
   }
   const std::size_t blocks = necklace_of_block_.size();
-  centers_.resize(blocks);
+  for (auto& axis : centers_)
+    axis.assign((blocks + 1) * beads_in_block, std::numeric_limits<float>::quiet_NaN());
+  radii_.assign((blocks + 1) * beads_in_block, 0.0F);
   boxes_.resize(blocks);
   levels_.clear();
   for (std::size_t nodes = blocks; nodes > 1 || levels_.empty();) {
@@ -79,7 +81,9 @@ void BlockTree<Dimension>::make_blocks(BlockOrder order) {
 
 template <int Dimension>
 Blocks<Dimension> BlockTree<Dimension>::blocks() {
-  return {centers_.data(), boxes_.data(), radii_.data()};
+  Blocks<Dimension> here{{}, radii_.data(), boxes_.data()};
+  for (std::size_t axis = 0; axis < Dimension; ++axis) here.centers[axis] = centers_[axis].data();
+  return here;
 }
 
 template <int Dimension>
@@ -152,12 +156,12 @@ BlockExtent BlockTree<Dimension>::fill(const Balls<Dimension>& balls, double gap
     extent.radius = std::max(extent.radius, e.radius);
   });
   const auto clear_from = [&](std::size_t block, std::size_t lane) {
-    for (auto& axis : centers_[block].axis)
-      std::fill(axis.begin() + static_cast<std::ptrdiff_t>(lane), axis.end(),
-                std::numeric_limits<float>::quiet_NaN());
+    for (auto& axis : centers_)
+      std::fill_n(axis.begin() + static_cast<std::ptrdiff_t>(beads_in_block * block + lane),
+                  beads_in_block - lane, std::numeric_limits<float>::quiet_NaN());
   };
   if (order_ == BlockOrder::spatial) {
-    if (beads_ % beads_in_block != 0) clear_from(centers_.size() - 1, beads_ % beads_in_block);
+    if (beads_ % beads_in_block != 0) clear_from(boxes_.size() - 1, beads_ % beads_in_block);
     return extent;
   }
   std::size_t blocks_before = 0;
@@ -173,7 +177,6 @@ BlockExtent BlockTree<Dimension>::fill(const Balls<Dimension>& balls, double gap
 template <int Dimension>
 void BlockTree<Dimension>::build(const Balls<Dimension>& balls, double gap) {
   equal_ = balls.equal_radii();
-  if (!equal_) radii_.resize(centers_.size());
   if (order_ == BlockOrder::spatial) sort_in_space(balls);
   const auto fits = [this](const BlockExtent& e) {
     return e.coordinate <= frame_.bound && e.radius <= largest_float_radius;
@@ -268,7 +271,7 @@ bool BlockTree<Dimension>::search(bool may_give_up) {
   counts_ = {};
   candidate_count_ = 0;
   expand_levels();
-  const double most_work = work_of_sorted_block * static_cast<double>(centers_.size());
+  const double most_work = work_of_sorted_block * static_cast<double>(boxes_.size());
   block_pairs_.count = 0;
   const auto expand = [&](std::size_t k) {
     const std::uint32_t a = nodes_.first[k], b = nodes_.second[k];
@@ -291,7 +294,42 @@ bool BlockTree<Dimension>::search(bool may_give_up) {
       if (k % sample_stride != 0) expand(k);
   }
   compare_blocks();
+  compare_along();
   return true;
+}
+
+template <int Dimension>
+void BlockTree<Dimension>::reserve_candidates(std::size_t groups) {
+  const std::size_t needed = candidate_count_ + 16 * groups;
+  if (candidates_.size() < needed) candidates_.resize(2 * needed);
+}
+
+template <int Dimension>
+bool BlockTree<Dimension>::goes_along() const {
+  return order_ == BlockOrder::sequence && asked_.within && asked_.apart <= farthest_along;
+}
+
+// Beads that are near along the chain: boxes of four in a row always meet, so all such pairs are looked at in
+// a row, and no more when groups are compared.
+template <int Dimension>
+void BlockTree<Dimension>::compare_along() {
+  if (!goes_along()) return;
+  const auto kernel = equal_ ? kernels_.along_equal : kernels_.along_unequal;
+  constexpr std::size_t at_once = 2 * block_pairs_at_once;  // eight found a block at most
+  for (std::size_t first = 0; first < boxes_.size(); first += at_once) {
+    const std::size_t near = kernel(blocks(), first, std::min(first + at_once, boxes_.size()), asked_.apart,
+                                    limit_, {near_groups_.data(), near_beads_.data()});
+    reserve_candidates(near);
+    for (std::size_t k = 0; k < near; ++k) {
+      const std::uint32_t block = near_groups_[k] / 8, along = near_groups_[k] % 8;
+      const BeadId last = asked_.necklaces[necklace_of_block_[block]].last;
+      for (unsigned bits = near_beads_[k]; bits != 0; bits &= bits - 1) {
+        const BeadId bead = first_bead_[block] + static_cast<BeadId>(std::countr_zero(bits));
+        if (last - bead < along) continue;  // the next necklace's
+        candidates_[candidate_count_++] = {bead, bead + along};
+      }
+    }
+  }
 }
 
 template <int Dimension>
@@ -300,15 +338,14 @@ void BlockTree<Dimension>::compare_blocks() {
   const bool sequence = order_ == BlockOrder::sequence;
   const bool one_necklace = asked_.necklaces.size() == 1;
   const LanesAsked lanes{necklace_of_block_.data(), sequence ? asked_.apart : 1, !sequence || asked_.within,
-                         !sequence || asked_.between};
+                         !sequence || asked_.between, goes_along()};
   counts_.block_pairs += block_pairs_.count;
   for (std::size_t from = 0; from < block_pairs_.count; from += block_pairs_at_once) {
     const std::size_t count = std::min(block_pairs_at_once, block_pairs_.count - from);
     const NodePairs some{block_pairs_.first.data() + from, block_pairs_.second.data() + from};
     const std::size_t near = kernel(blocks(), some, count, lanes, limit_, groups_.data(),
                                     {near_groups_.data(), near_beads_.data()}, counts_.group_pairs);
-    if (candidates_.size() < candidate_count_ + 16 * near)
-      candidates_.resize(2 * (candidate_count_ + 16 * near));
+    reserve_candidates(near);
     for (std::size_t k = 0; k < near; ++k) {
       const std::uint32_t group = near_groups_[k];
       const std::uint32_t a = some.first[group / 16], b = some.second[group / 16];
@@ -374,7 +411,7 @@ double BlockTree<Dimension>::strayed(const Balls<Dimension>& balls) {
   float farthest = 0;
   with_sources(balls, source_of(0, 0),
                [&](const BlockSource<Dimension>& some, std::size_t first, std::size_t last) {
-                 farthest = std::max(farthest, kernels_.stray(some, first, last, centers_.data()));
+                 farthest = std::max(farthest, kernels_.stray(some, first, last, blocks()));
                });
   return frame_.farthest(farthest);
 }

@@ -95,6 +95,9 @@ class BlockTree {
   void expand_levels();
   [[nodiscard]] bool asks(std::uint32_t a, std::uint32_t b, std::size_t level) const;
   void compare_blocks();
+  void compare_along();
+  void reserve_candidates(std::size_t groups);
+  [[nodiscard]] bool goes_along() const;
   [[nodiscard]] BeadId bead_at(std::uint32_t block, std::size_t lane) const {
     return order_ == BlockOrder::sequence ? first_bead_[block] + static_cast<BeadId>(lane)
                                           : sorted_[beads_in_block * block + lane];
@@ -115,9 +118,9 @@ class BlockTree {
   std::vector<BeadId> first_bead_;
   std::vector<std::uint32_t> necklace_of_block_;
   std::vector<BeadId> sorted_;
-  std::vector<BlockCenters<Dimension>> centers_;
+  std::array<std::vector<float>, static_cast<std::size_t>(Dimension)> centers_;
+  std::vector<float> radii_;
   std::vector<GroupBoxes<Dimension>> boxes_;
-  std::vector<BlockRadii> radii_;
   std::vector<std::vector<BlockNode<Dimension>>> levels_;  // from those above the blocks up to one root
 
   PairList nodes_, more_nodes_, block_pairs_;

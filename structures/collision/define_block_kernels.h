@@ -5,8 +5,10 @@
 //   meeting_children(node, box)       a bit for each child of the node that the box meets
 //   spread_groups(a)                  the boxes of groups as the next wants them
 //   meeting_groups(spread, b)         bit 4 g + h: group g of those boxes meets group h of boxes b
-//   near_beads<Equal>(a, radii of a, g, b, radii of b, h, limit)
-//                                     bit 4 i + j: bead i of group g of a is near bead j of group h of b
+//   near_beads<Equal>(blocks, i, j, limit)
+//                                     bit 4 k + l: bead i + k is near bead j + l
+//   near_along<Equal>(blocks, i, apart, limit)
+//                                     bit k: bead i + k is near bead i + k + apart; of 16
 //   append_bits(out, base, bits)      writes base + k for each bit k there is, in order, and returns how many
 //
 // Such functions may only be inlined into others of their target, and code for other targets must not get to
@@ -75,7 +77,7 @@ template <int Dimension, bool Equal>
     if constexpr (!Equal) {
       for (std::size_t g = 0; g < 4; ++g) {
         radius[g] = floats_of(source.radii + from + 4 * g, source.radius_factor, source.radius_added);
-        store_row(blocks.radii[b].bead.data() + 4 * g, radius[g]);
+        store_row(blocks.radii + beads_in_block * b + 4 * g, radius[g]);
         widest = larger(widest, radius[g]);
       }
       transpose(radius);
@@ -86,7 +88,7 @@ template <int Dimension, bool Equal>
       std::array<Row4, 4> rows;
       for (std::size_t g = 0; g < 4; ++g) {
         rows[g] = floats_of(source.centers[axis] + from + 4 * g, source.scale, -source.shift[axis]);
-        store_row(blocks.centers[b].axis[axis].data() + 4 * g, rows[g]);
+        store_row(blocks.centers[axis] + beads_in_block * b + 4 * g, rows[g]);
       }
       transpose(rows);
       Row4 low, high;
@@ -114,7 +116,7 @@ template <int Dimension, bool Equal>
 
 template <int Dimension>
 [[KDS_BLOCK_TARGET, gnu::noinline]] float stray(const BlockSource<Dimension>& source, std::size_t first,
-                                                std::size_t last, const BlockCenters<Dimension>* before) {
+                                                std::size_t last, const Blocks<Dimension>& before) {
   Row4 farthest{};
   for (std::size_t b = first; b < last; ++b) {
     for (std::size_t g = 0; g < 4; ++g) {
@@ -122,7 +124,7 @@ template <int Dimension>
       Row4 square{};
       for (std::size_t axis = 0; axis < Dimension; ++axis) {
         const Row4 d = floats_of(source.centers[axis] + from, source.scale, -source.shift[axis]) -
-                       load_row(before[b].axis[axis].data() + 4 * g);
+                       load_row(before.centers[axis] + beads_in_block * b + 4 * g);
         square = axis == 0 ? d * d : square + d * d;
       }
       farthest = larger(square, farthest);  // the second where one is NaN
@@ -227,10 +229,15 @@ inline constexpr auto lanes_apart = [] {
   return table;
 }();
 
-template <int Dimension>
+/// Groups of two blocks, so many apart, that compare_along has looked at, of blocks far apart none.
+inline constexpr std::array<std::uint16_t, 3> groups_not_along{0xffff & ~0x8c63, 0xffff & ~0x1000, 0xffff};
+
+/// Beads of a block that have one of their own group or the next so far behind them.
+inline constexpr std::array<std::uint16_t, farthest_along + 1> firsts_along{0xffff, 0xffff, 0xffff, 0xffff,
+                                                                            0xffff, 0x7777, 0x3333, 0x1111};
+
 struct ComparedPair {
-  const BlockCenters<Dimension>* first;
-  const BlockCenters<Dimension>* second;
+  std::uint32_t first, second;  // beads
   const LanesApart* lanes;
 };
 
@@ -240,31 +247,33 @@ template <int Dimension, bool Equal>
                                                         const LanesAsked& asked, float limit,
                                                         std::uint32_t* groups, const NearGroups& found,
                                                         std::uint64_t& tests) {
-  const BlockCenters<Dimension>* const centers = blocks.centers;
-  const GroupBoxes<Dimension>* const boxes = blocks.boxes;
-  const BlockRadii* const radii = blocks.radii;
+  const Blocks<Dimension> here = blocks;
   const std::uint32_t* const necklaces = asked.necklace_of_block;
   const std::uint32_t* const firsts = pairs.first;
   const std::uint32_t* const seconds = pairs.second;
   const std::int64_t within = asked.within ? std::int64_t{asked.apart} : std::int64_t{1} << 40;
   const std::int64_t between = asked.between ? least_all : least_none;
+  const std::uint32_t never_along = asked.along_done ? 0 : 2;
   // Without a branch in either loop: which groups meet, and which beads are near, nobody foretells.
-  std::array<ComparedPair<Dimension>, block_pairs_at_once> compared;
+  std::array<ComparedPair, block_pairs_at_once> compared;
   std::size_t meeting = 0;
   for (std::size_t p = 0; p < count;) {
     const std::uint32_t a = firsts[p];
     const std::uint32_t necklace = necklaces[a];
-    const auto ours = spread_groups(boxes[a]);
+    const auto ours = spread_groups(here.boxes[a]);
     do {
       const std::uint32_t b = seconds[p];
       const std::int64_t along = within - 16 * (std::int64_t{b} - std::int64_t{a});
-      std::int64_t least = necklaces[b] == necklace ? along : between;
+      const bool same = necklaces[b] == necklace;
+      std::int64_t least = same ? along : between;
       least = std::max<std::int64_t>(least, least_all);
       least = std::min<std::int64_t>(least, least_none);
       const LanesApart* const lanes = lanes_apart.data() + (least - least_all);
-      compared[p] = {centers + a, centers + b, lanes};
-      meeting += append_bits(groups + meeting, static_cast<std::uint32_t>(16 * p),
-                             meeting_groups(ours, boxes[b]) & lanes->groups);
+      const std::uint32_t blocks_apart = std::min((same ? b - a : 2) | never_along, 2U);
+      compared[p] = {16 * a, 16 * b, lanes};
+      meeting +=
+          append_bits(groups + meeting, static_cast<std::uint32_t>(16 * p),
+                      meeting_groups(ours, here.boxes[b]) & lanes->groups & groups_not_along[blocks_apart]);
       ++p;
     } while (p < count && firsts[p] == a);
   }
@@ -274,17 +283,10 @@ template <int Dimension, bool Equal>
   std::size_t near = 0;
   for (std::size_t k = 0; k < meeting; ++k) {
     const std::uint32_t group = groups[k];
-    const ComparedPair<Dimension>& pair = compared[group / 16];
-    const std::size_t g = group / 4 % 4, h = group % 4;
-    const BlockRadii* first_radii = nullptr;
-    const BlockRadii* second_radii = nullptr;
-    if constexpr (!Equal) {
-      first_radii = radii + (pair.first - centers);
-      second_radii = radii + (pair.second - centers);
-    }
-    const unsigned bits =
-        near_beads<Equal>(*pair.first, first_radii, g, *pair.second, second_radii, h, limit) &
-        pair.lanes->beads[group % 16];
+    const ComparedPair& pair = compared[group / 16];
+    const unsigned bits = near_beads<Equal>(here, std::size_t{pair.first} + (group & 12),
+                                            std::size_t{pair.second} + 4 * (group & 3), limit) &
+                          pair.lanes->beads[group % 16];
     near_groups[near] = group;
     near_bits[near] = static_cast<std::uint16_t>(bits);
     near += bits != 0 ? 1 : 0;
@@ -292,10 +294,40 @@ template <int Dimension, bool Equal>
   return near;
 }
 
+template <int Dimension, bool Equal>
+[[KDS_BLOCK_TARGET, gnu::noinline]] std::size_t compare_along(const Blocks<Dimension>& blocks,
+                                                              std::size_t first, std::size_t last,
+                                                              std::uint32_t apart, float limit,
+                                                              const NearGroups& found) {
+  const Blocks<Dimension> here = blocks;
+  std::size_t near = 0;
+  for (std::size_t b = first; b < last; ++b) {
+    std::array<unsigned, farthest_along + 1> bits;
+    unsigned any = 0;
+    for (std::uint32_t k = apart; k <= farthest_along; ++k) {
+      bits[k] = near_along<Equal>(here, beads_in_block * b, k, limit) & firsts_along[k];
+      any |= bits[k];
+    }
+    if (any == 0) continue;
+    for (std::uint32_t k = apart; k <= farthest_along; ++k) {
+      if (bits[k] == 0) continue;
+      found.groups[near] = static_cast<std::uint32_t>(8 * b + k);
+      found.beads[near++] = static_cast<std::uint16_t>(bits[k]);
+    }
+  }
+  return near;
+}
+
 template <int Dimension>
-inline constexpr BlockKernels<Dimension> kernels_here{
-    fill<Dimension, true>, fill<Dimension, false>,   stray<Dimension>,         unite<Dimension>,
-    expand<Dimension>,     compare<Dimension, true>, compare<Dimension, false>};
+inline constexpr BlockKernels<Dimension> kernels_here{fill<Dimension, true>,
+                                                      fill<Dimension, false>,
+                                                      stray<Dimension>,
+                                                      unite<Dimension>,
+                                                      expand<Dimension>,
+                                                      compare<Dimension, true>,
+                                                      compare<Dimension, false>,
+                                                      compare_along<Dimension, true>,
+                                                      compare_along<Dimension, false>};
 
 }  // namespace
 
