@@ -11,12 +11,15 @@
 #include <string_view>
 #include <vector>
 
+#include "experiments/bench/bench_collision.h"
 #include "experiments/bench/bench_hierarchies.h"
 #include "experiments/bench/bench_power.h"
 #include "experiments/bench/bench_subjects.h"
+#include "experiments/bench/collision_peers.h"
 #include "experiments/output/text.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/table_results.h"
+#include "experiments/program/warnings.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -26,12 +29,12 @@ namespace {
 constexpr std::array kOptions{
     OptionSpec{
         "--sizes", "LIST",
-        "hierarchies, power: beads of generated chains (default: 640,10240,102400; power: 10240, regular "
-        "scenes 1000,8000)"},
+        "hierarchies, power, collision: beads of generated chains (default: 640,10240,102400; power: 10240, "
+        "regular scenes 1000,8000; collision: 1000,10240,102400)"},
     OptionSpec{"--data", "DIR",
                "the folder that holds trajectories and kinetic (default: data beside the sources)"},
     OptionSpec{"--trajectories", "LIST",
-               "hierarchies, power: trajectory files (default: DIR/trajectories/*.dcd)"},
+               "hierarchies, power, collision: trajectory files (default: DIR/trajectories/*.dcd)"},
     OptionSpec{"--instances", "DIR",
                "certificates, engine: the folder of moving-point files (default: kinetic in that of --data)"},
     OptionSpec{"--rounds", "N", "interleaved runs of ours and the peer, at least 5 (default: 5)"},
@@ -47,10 +50,12 @@ constexpr CommandSpec kCommand{
     "certificates: from beads to failure times, beside CGAL's predicates and algebraic numbers; engine: "
     "whole "
     "runs of moving points, beside CGAL's static build; hierarchies: wrapped and layered hierarchies, beside "
-    "CGAL at every node; power: the power diagram from frame to frame, beside CGAL's static build",
+    "CGAL at every node; power: the power diagram from frame to frame, beside CGAL's static build; "
+    "collision: the pairs of beads that meet, beside a cell list, a Verlet list, FCL and Bullet",
     kOptions,
     "kds bench certificates\n"
     "kds bench hierarchies\n"
+    "kds bench collision --sizes 10240\n"
     "kds bench power --sizes 10240 --trajectories villin_hp36_300K.dcd --json -",
 };
 
@@ -85,12 +90,14 @@ struct Subject {
   std::string_view name;
   std::size_t fewest_beads;  // of a generated chain; 0: it runs on instances
   Rows (*bench)(const BenchInputs&, const Progress&);
+  std::string_view (*what_is_missing)() = nullptr;  // a line about rows that this build cannot have
 };
 
 constexpr std::array kSubjects{
     Subject{"certificates", 0, on_instances<bench_certificates>},
     Subject{"engine", 0, on_instances<bench_engine>},
     Subject{"hierarchies", 2, on_chains<HierarchyBenchOptions, bench_hierarchies>},
+    Subject{"collision", 2, on_chains<CollisionBenchOptions, bench_collision>, missing_collision_peers},
     // In space, where all beads should not lie in one plane.
     Subject{"power", 20, on_chains<PowerBenchOptions, bench_power>},
 };
@@ -100,7 +107,7 @@ const Subject& subject_of(const std::vector<std::string>& operands) {
     for (const Subject& subject : kSubjects)
       if (subject.name == operands[0]) return subject;
   }
-  throw InputError("kds bench: expected one subject of certificates, engine, hierarchies, power");
+  throw InputError("kds bench: expected one subject of certificates, collision, engine, hierarchies, power");
 }
 
 std::size_t parse_count(std::string_view option, const std::string& text, std::size_t least) {
@@ -169,6 +176,8 @@ int bench_command(const Arguments& arguments) {
   check_table_destinations(destinations, "bench");
 
   ProgressBar bar(!destinations.quiet);
+  if (subject.what_is_missing != nullptr && !destinations.quiet && !subject.what_is_missing().empty())
+    print_warning(bar, std::string(subject.what_is_missing()));
   const Rows rows =
       subject.bench(inputs, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
   bar.erase();

@@ -1,0 +1,282 @@
+#include "experiments/bench/bench_collision.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "experiments/bench/bench_chains.h"
+#include "experiments/bench/collision_peers.h"
+#include "experiments/program/timing.h"
+#include "motions/models/model.h"
+#include "motions/models/random.h"
+#include "structures/collision/auto_detector.h"
+#include "structures/collision/verlet_list.h"
+
+namespace kds {
+
+namespace {
+
+using Scenes = std::vector<Balls<3>>;
+
+struct Input {
+  std::string name;
+  Eigen::Matrix3Xd start;
+  double fastest_static = 1, fastest_frame = 1;  // ratios asked for
+};
+
+Input generated(std::string_view name, std::size_t beads) {
+  const bool packed = name.ends_with("packed");
+  const models::Model* model = models::find_model(packed ? "grid" : name);
+  models::Settings settings{.beads = beads, .motion = models::ShapeMotion::rest};
+  if (packed) {
+    settings.jitter = 0.05;
+    settings.gap = 0.11;  // radii of 0.45 of the spacing
+  }
+  Input input{std::string(name), models::generate(*model, settings).front().frames.front()};
+  if (name == "rotated packed") {
+    const Eigen::Quaterniond turn(0.6, 0.3, 0.5, 0.55);
+    input.start = turn.normalized().toRotationMatrix() * input.start;
+  }
+  const bool helix = name.ends_with("helix");
+  if (helix && beads >= 10240) input.fastest_static = 0.1;
+  if (name == "packed") input.fastest_static = 0.2;
+  if (name == "random-chain") input.fastest_static = 0.5;
+  if (helix || name == "packed") input.fastest_frame = 0.5;
+  return input;
+}
+
+class Measured {
+ public:
+  Measured(const Input& input, std::vector<double> radii, std::size_t rounds, std::vector<BenchRow>& rows)
+      : input_(input),
+        radii_(std::move(radii)),
+        rounds_(rounds),
+        rows_(rows),
+        asked_{{{0, static_cast<BeadId>(radii_.size() - 1)}}} {}
+
+  /// Scene by scene, each as if it were the first.
+  void run_static(const Scenes& scenes) {
+    CellList<3> cells(asked_);
+    AutoDetector<3> widest(asked_), short_vectors(asked_, std::nullopt, usual_target());
+    const auto anew = [](AutoDetector<3>& detector, const Balls<3>& balls) -> const std::vector<BeadPair>& {
+      detector.forget();
+      return detector.pairs(balls);
+    };
+    for (const Balls<3>& balls : scenes) expect_same(anew(widest, balls), cells.pairs(balls));
+    std::vector<double> ours, ours_short, peer;
+    std::vector<std::vector<double>> others(collision_peers().size());
+    for (std::size_t round = 0; round < rounds_for(scenes); ++round) {
+      peer.push_back(seconds_for(scenes, [&](const Balls<3>& balls) { (void)cells.pairs(balls); }));
+      ours.push_back(seconds_for(scenes, [&](const Balls<3>& balls) { (void)anew(widest, balls); }));
+      ours_short.push_back(
+          seconds_for(scenes, [&](const Balls<3>& balls) { (void)anew(short_vectors, balls); }));
+      if (round >= rounds_) continue;  // these are slow
+      for (std::size_t k = 0; k < others.size(); ++k)
+        others[k].push_back(seconds_of_tree(collision_peers()[k], scenes[round % scenes.size()]));
+    }
+    row("static auto, AVX-512", widest.tree().order() == BlockOrder::sequence ? "" : " (sorted)", ours,
+        "cell list", peer, input_.fastest_static, widest_vector_target() == VectorTarget::avx512);
+    row("static auto, AVX2", "", ours_short, "cell list", peer, input_.fastest_static,
+        usual_target() == VectorTarget::avx2);
+    for (std::size_t k = 0; k < others.size(); ++k)
+      row("static auto, AVX2", "", ours_short, collision_peers()[k].name, others[k], 1.0, true);
+  }
+
+  /// Frame after frame, the first few not timed: lists are made in them.
+  void run_frames(const Scenes& frames, std::string_view motion, double goal) {
+    std::vector<double> ours, verlet, cell;
+    const double skin = *std::max_element(radii_.begin(), radii_.end());
+    for (std::size_t round = 0; round < rounds_for(frames); ++round) {
+      AutoDetector<3> detector(asked_);
+      VerletList<3> list(asked_, skin);
+      CellList<3> cells(asked_);
+      const std::span<const Balls<3>> warm = std::span(frames).first(4), later = std::span(frames).subspan(4);
+      for (const Balls<3>& balls : warm) expect_same(detector.pairs(balls), list.pairs(balls));
+      ours.push_back(seconds_for(later, [&](const Balls<3>& balls) { (void)detector.pairs(balls); }));
+      verlet.push_back(seconds_for(later, [&](const Balls<3>& balls) { (void)list.pairs(balls); }));
+      cell.push_back(seconds_for(later, [&](const Balls<3>& balls) { (void)cells.pairs(balls); }));
+      expect_same(detector.pairs(later.back()), cells.pairs(later.back()));
+    }
+    row(fmt::format("frame auto, {}", motion), "", ours, "Verlet list", verlet, goal, true);
+    row(fmt::format("frame auto, {}", motion), "", ours, "cell list", cell, 1.0, true);
+  }
+
+ private:
+  static VectorTarget usual_target() {
+    return is_available(VectorTarget::avx2) ? VectorTarget::avx2 : VectorTarget::plain;
+  }
+  static void expect_same(const std::vector<BeadPair>& ours, const std::vector<BeadPair>& theirs) {
+    if (ours != theirs) throw std::logic_error("kds bench collision: two detectors found different pairs");
+  }
+  /// Short runs are repeated.
+  [[nodiscard]] std::size_t rounds_for(std::span<const Balls<3>> scenes) const {
+    return std::max(rounds_, std::min<std::size_t>(25, 400000 / (scenes.size() * radii_.size() + 1)));
+  }
+  template <class Find>
+  static double seconds_for(std::span<const Balls<3>> scenes, const Find& find) {
+    return processor_seconds_of([&] {
+             for (const Balls<3>& balls : scenes) find(balls);
+           }) /
+           static_cast<double>(scenes.size());
+  }
+  static double seconds_of_tree(const CollisionPeer& peer, const Balls<3>& balls) {
+    const auto tree = peer.build(balls);
+    return processor_seconds_of([&] { (void)tree->pairs(); });
+  }
+  void row(std::string name, std::string_view remark, const std::vector<double>& ours, std::string_view peer,
+           const std::vector<double>& theirs, double goal, bool available) {
+    if (!available) return;
+    const double nanoseconds = 1e9 / static_cast<double>(radii_.size());
+    rows_.push_back({std::move(name), input_.name + std::string(remark), radii_.size(),
+                     median_of(ours) * nanoseconds, "ns/bead", std::string(peer),
+                     median_of(theirs) * nanoseconds, goal});
+  }
+
+  const Input& input_;
+  std::vector<double> radii_;
+  std::size_t rounds_;
+  std::vector<BenchRow>& rows_;
+  PairsAsked asked_;
+};
+
+Scenes scenes_of(const std::vector<Eigen::Matrix3Xd>& frames, const std::vector<double>& radii) {
+  Scenes scenes;
+  for (const Eigen::Matrix3Xd& frame : frames) scenes.emplace_back(frame, radii);
+  return scenes;
+}
+
+/// Every bead goes on in a direction of its own.
+Scenes moving_on(const Eigen::Matrix3Xd& start, double step, std::size_t frames,
+                 const std::vector<double>& radii) {
+  models::Random random(1);
+  Eigen::Matrix3Xd along(3, start.cols());
+  for (Eigen::Index b = 0; b < start.cols(); ++b) along.col(b) = step * random.direction(3);
+  Scenes scenes;
+  for (std::size_t k = 0; k < frames; ++k) scenes.emplace_back(start + static_cast<double>(k) * along, radii);
+  return scenes;
+}
+
+void bench_generated(const Input& input, std::size_t rounds, std::vector<BenchRow>& rows) {
+  const auto beads = static_cast<std::size_t>(input.start.cols());
+  const std::vector<double> radii(beads, 1.0);
+  Measured measured(input, radii, rounds, rows);
+  measured.run_static(scenes_of(jostled_frames(input.start, 0.01, 6), radii));
+  const std::size_t frames = beads > 50000 ? 24 : 64;
+  for (const double step : {0.003, 0.03, 0.3})
+    measured.run_frames(moving_on(input.start, step, frames, radii), fmt::format("{} r a frame", step),
+                        step < 0.1 ? input.fastest_frame : 1.0);
+}
+
+// Radii 1.6 times those of beads that meet along the chain: contacts that mean something begin there.
+void bench_protein(const std::filesystem::path& path, std::size_t rounds, std::vector<BenchRow>& rows) {
+  const BenchChain chain = read_bench_chain(path);
+  std::vector<double> radii = chain.radii;
+  for (double& r : radii) r *= 1.6;
+  const Input input{chain.name, chain.frames.front(), 0.5, 1};
+  Measured measured(input, radii, rounds, rows);
+  const Scenes frames = scenes_of(chain.frames, radii);
+  measured.run_static(frames);
+  measured.run_frames(frames, "as simulated", 1.0);
+}
+
+/// Two necklaces far from each other, which both turn about themselves, asked only whether they meet.
+void bench_far(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& rows) {
+  const Eigen::Matrix3Xd helix = model_at_rest("helix", beads);
+  const double apart = 3 * (helix.rowwise().maxCoeff() - helix.rowwise().minCoeff()).norm();
+  const double angle = 1e-6;
+  const std::vector<double> radii(2 * beads, 1.0);
+  Scenes frames;
+  for (int k = 0; k < 24; ++k) {
+    Eigen::Matrix3Xd both(3, 2 * helix.cols());
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle * k, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    both << turn * helix, (turn * helix).colwise() + Eigen::Vector3d(apart, 0, 0);
+    frames.emplace_back(both, radii);
+  }
+  const auto n = static_cast<BeadId>(beads);
+  const PairsAsked asked{{{0, n - 1}, {n, 2 * n - 1}}, false, 2, true};
+  const double speed = angle * apart;
+  std::vector<double> ours, told, reading;
+  double sum = 0;  // used, so that nothing can be left out
+  for (std::size_t round = 0; round < rounds; ++round) {
+    AutoDetector<3> detector(asked), knows(asked, speed);
+    for (const Balls<3>& balls : std::span(frames).first(4))
+      if (!detector.pairs(balls).empty() || !knows.pairs(balls).empty())
+        throw std::logic_error("kds bench collision: far necklaces meet");
+    const auto seconds = [&](const auto& look) {
+      return processor_seconds_of([&] {
+        for (const Balls<3>& balls : std::span(frames).subspan(4)) look(balls);
+      });
+    };
+    ours.push_back(seconds([&](const Balls<3>& balls) { (void)detector.pairs(balls); }));
+    told.push_back(seconds([&](const Balls<3>& balls) { (void)knows.pairs(balls); }));
+    reading.push_back(seconds([&](const Balls<3>& balls) { sum += scene_box(balls).low[0]; }));
+  }
+  const double nanoseconds = 1e9 / (static_cast<double>(2 * beads) * static_cast<double>(frames.size() - 4));
+  const std::string peer = sum == sum ? "reading the positions" : "";
+  rows.push_back({"frame auto, distant necklaces", "two helices", 2 * beads, median_of(ours) * nanoseconds,
+                  "ns/bead", peer, median_of(reading) * nanoseconds, 1.5});
+  rows.push_back({"frame auto, declared speed", "two helices", 2 * beads, median_of(told) * nanoseconds,
+                  "ns/bead", peer, median_of(reading) * nanoseconds, 0.1});
+}
+
+/// Time a bead of ten times the beads.
+void bench_growth(std::string_view model, std::size_t beads, std::size_t rounds,
+                  std::vector<BenchRow>& rows) {
+  std::array<std::vector<double>, 2> seconds;
+  std::array<Scenes, 2> scenes;
+  std::vector<AutoDetector<3>> detectors;
+  for (const std::size_t large : {0, 1}) {
+    const std::size_t n = large == 1 ? 10 * beads : beads;
+    const Input input = generated(model, n);
+    scenes[large] = scenes_of(jostled_frames(input.start, 0.01, 2), std::vector<double>(n, 1.0));
+    detectors.emplace_back(PairsAsked{{{0, static_cast<BeadId>(n - 1)}}});
+  }
+  for (std::size_t round = 0; round < rounds; ++round) {
+    for (const std::size_t large : {0, 1}) {
+      seconds[large].push_back(processor_seconds_of([&] {
+        for (const Balls<3>& balls : scenes[large]) {
+          detectors[large].forget();
+          (void)detectors[large].pairs(balls);
+        }
+      }));
+    }
+  }
+  const double nanoseconds = 1e9 / static_cast<double>(2 * beads);
+  rows.push_back({"static auto, ten times the beads", std::string(model), 10 * beads,
+                  median_of(seconds[1]) * nanoseconds / 10, "ns/bead", fmt::format("the same of {}", beads),
+                  median_of(seconds[0]) * nanoseconds, 1.5});
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_collision(const CollisionBenchOptions& options,
+                                      const std::function<void(std::size_t, std::size_t)>& progress) {
+  std::vector<BenchRow> rows;
+  std::vector<std::function<void()>> parts;
+  for (const std::size_t beads : options.sizes) {
+    for (const std::string_view name :
+         {"helix", "scaling-helix", "packed", "rotated packed", "random-chain", "spline"})
+      parts.emplace_back([&, name, beads] { bench_generated(generated(name, beads), options.rounds, rows); });
+  }
+  for (const std::filesystem::path& path : options.trajectories)
+    parts.emplace_back([&, path] { bench_protein(path, options.rounds, rows); });
+  if (!options.sizes.empty()) {
+    const std::size_t most = *std::max_element(options.sizes.begin(), options.sizes.end());
+    parts.emplace_back([&, most] { bench_far(most, options.rounds, rows); });
+    for (const std::string_view name : {"helix", "random-chain"})
+      parts.emplace_back([&, name, most] { bench_growth(name, most, options.rounds, rows); });
+  }
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    parts[k]();
+    progress(k + 1, parts.size());
+  }
+  return rows;
+}
+
+}  // namespace kds

@@ -1,0 +1,128 @@
+#include "experiments/bench/collision_peers.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#ifdef KDS_FCL
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/geometry/shape/sphere.h>
+#endif
+#ifdef KDS_BULLET
+#include <BulletCollision/BroadphaseCollision/btDbvt.h>
+#endif
+
+namespace kds {
+
+namespace {
+
+// Both find pairs of boxes; whether the balls meet is asked in the same way for both, in doubles.
+[[maybe_unused]] bool are_counted(const Balls<3>& balls, std::size_t a, std::size_t b) {
+  if ((a > b ? a - b : b - a) < 2) return false;
+  double square = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double d = balls.coordinates(axis)[a] - balls.coordinates(axis)[b];
+    square += d * d;
+  }
+  const double reach = balls.radii()[a] + balls.radii()[b];
+  return square <= reach * reach;
+}
+
+#ifdef KDS_FCL
+class FclTree final : public PeerTree {
+ public:
+  explicit FclTree(const Balls<3>& balls) : balls_(balls) {
+    objects_.reserve(balls.size());
+    for (BeadId b = 0; b < balls.size(); ++b)
+      objects_.emplace_back(
+          std::make_shared<fcl::Sphere<double>>(balls.radius(b)), fcl::Matrix3<double>::Identity(),
+          fcl::Vector3<double>(balls.coordinate(b, 0), balls.coordinate(b, 1), balls.coordinate(b, 2)));
+    std::vector<fcl::CollisionObject<double>*> all;
+    for (auto& object : objects_) all.push_back(&object);
+    tree_.registerObjects(all);
+    tree_.setup();
+  }
+  std::size_t pairs() override {
+    pairs_ = 0;
+    tree_.collide(this, [](fcl::CollisionObject<double>* a, fcl::CollisionObject<double>* b, void* data) {
+      auto& self = *static_cast<FclTree*>(data);
+      const auto place = [&self](const fcl::CollisionObject<double>* object) {
+        return static_cast<std::size_t>(object - self.objects_.data());
+      };
+      self.pairs_ += are_counted(self.balls_, place(a), place(b)) ? 1 : 0;
+      return false;
+    });
+    return pairs_;
+  }
+
+ private:
+  const Balls<3>& balls_;
+  std::vector<fcl::CollisionObject<double>> objects_;
+  fcl::DynamicAABBTreeCollisionManager<double> tree_;
+  std::size_t pairs_ = 0;
+};
+#endif
+
+#ifdef KDS_BULLET
+class BulletTree final : public PeerTree, private btDbvt::ICollide {
+ public:
+  explicit BulletTree(const Balls<3>& balls) : balls_(balls) {
+    for (BeadId b = 0; b < balls.size(); ++b) {
+      const btVector3 center(static_cast<btScalar>(balls.coordinate(b, 0)),
+                             static_cast<btScalar>(balls.coordinate(b, 1)),
+                             static_cast<btScalar>(balls.coordinate(b, 2)));
+      const auto box = btDbvtVolume::FromCR(center, static_cast<btScalar>(balls.radius(b)));
+      tree_.insert(box, nullptr)->dataAsInt = static_cast<int>(b);
+    }
+    tree_.optimizeTopDown();
+  }
+  std::size_t pairs() override {
+    pairs_ = 0;
+    tree_.collideTT(tree_.m_root, tree_.m_root, *this);
+    return pairs_;
+  }
+
+ private:
+  void Process(const btDbvtNode* a, const btDbvtNode* b) override {
+    const auto place = [](const btDbvtNode* node) { return static_cast<std::size_t>(node->dataAsInt); };
+    pairs_ += are_counted(balls_, place(a), place(b)) ? 1 : 0;
+  }
+
+  const Balls<3>& balls_;
+  btDbvt tree_;
+  std::size_t pairs_ = 0;
+};
+#endif
+
+template <class Tree>
+[[maybe_unused]] std::unique_ptr<PeerTree> build(const Balls<3>& balls) {
+  return std::make_unique<Tree>(balls);
+}
+
+}  // namespace
+
+std::span<const CollisionPeer> collision_peers() {
+  static const std::vector<CollisionPeer> peers{
+#ifdef KDS_FCL
+      {"FCL dynamic AABB tree, built before", build<FclTree>},
+#endif
+#ifdef KDS_BULLET
+      {"Bullet btDbvt, built before", build<BulletTree>},
+#endif
+  };
+  return peers;
+}
+
+std::string_view missing_collision_peers() {
+#if defined(KDS_FCL) && defined(KDS_BULLET)
+  return "";
+#elif defined(KDS_FCL)
+  return "no rows beside Bullet: this program was built without libbullet-dev";
+#elif defined(KDS_BULLET)
+  return "no rows beside FCL: this program was built without libfcl-dev";
+#else
+  return "no rows beside FCL and Bullet: this program was built without libfcl-dev and libbullet-dev";
+#endif
+}
+
+}  // namespace kds

@@ -1,0 +1,147 @@
+#include "structures/collision/auto_detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "motions/base/floating_point_guard.h"
+
+namespace kds {
+
+namespace {
+
+constexpr double frames_to_keep = 64;  // the skin is made for as many, where that is not too wide
+constexpr double fewest_frames = 4;    // keeping pairs for fewer costs more than starting from scratch
+constexpr std::uint64_t longest_wait = 16;
+constexpr std::size_t most_pairs_a_bead = 4;
+
+}  // namespace
+
+template <int Dimension>
+AutoDetector<Dimension>::AutoDetector(PairsAsked asked, std::optional<double> speed, VectorTarget target)
+    : tree_(std::move(asked), std::nullopt, target), speed_(speed) {
+  if (speed_ && !(*speed_ >= 0 && std::isfinite(*speed_)))
+    throw std::invalid_argument("expected a finite speed, not negative");
+}
+
+template <int Dimension>
+void AutoDetector<Dimension>::forget() {
+  mode_ = Mode::nothing;
+  tree_.forget_order();
+}
+
+template <int Dimension>
+bool AutoDetector<Dimension>::same_radii(const Balls<Dimension>& balls) const {
+  const std::size_t count = balls.equal_radii() ? std::min<std::size_t>(balls.size(), 1) : balls.size();
+  return radii_.size() == count && std::equal(radii_.begin(), radii_.end(), balls.radii());
+}
+
+// How wide a skin may be at first: half a mean radius, or a fourth of a mean bond of beads without one. What
+// is not finite or zero keeps nothing.
+template <int Dimension>
+void AutoDetector<Dimension>::measure_scene(const Balls<Dimension>& balls) {
+  const std::size_t beads = balls.size();
+  radii_.assign(balls.radii(),
+                balls.radii() + (balls.equal_radii() ? std::min<std::size_t>(beads, 1) : beads));
+  const std::size_t stride = beads / 1024 + 1;
+  double radii = 0, bonds = 0, count = 0;
+  for (BeadId b = 0; b + 1 < beads; b += static_cast<BeadId>(stride)) {
+    double square = 0;
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      const double d = balls.coordinate(b + 1, axis) - balls.coordinate(b, axis);
+      square += d * d;
+    }
+    radii += balls.radius(b);
+    bonds += std::sqrt(square);
+    ++count;
+  }
+  longest_skin_ = count > 0 ? (radii > 0 ? 0.5 * radii : 0.25 * bonds) / count : 0;
+  if (!std::isfinite(longest_skin_)) longest_skin_ = 0;
+}
+
+template <int Dimension>
+const std::vector<BeadPair>& AutoDetector<Dimension>::from_scratch(const Balls<Dimension>& balls) {
+  ++counts_.from_scratch;
+  mode_ = Mode::scratch;
+  return tree_.pairs(balls);
+}
+
+template <int Dimension>
+const std::vector<BeadPair>& AutoDetector<Dimension>::rebuild(const Balls<Dimension>& balls, double step) {
+  ++counts_.rebuilds;
+  const double skin = std::clamp(2 * frames_to_keep * step, longest_skin_ / 16, longest_skin_);
+  kept_.keep(balls, tree_.near_pairs(balls, skin), skin, tree_.frame());
+  // A wide skin is for scenes in which few beads are near others.
+  if (kept_.size() > most_pairs_a_bead * balls.size()) longest_skin_ = std::min(longest_skin_, 0.5 * skin);
+  if (kept_.size() < balls.size() / 4 && skin == longest_skin_)
+    longest_skin_ = std::max(longest_skin_, std::min(2 * longest_skin_, 0x1p900));
+  mode_ = Mode::kept;
+  moved_ = 0;
+  frames_kept_ = 0;
+  kept_.find_meeting(balls, 0, pairs_);
+  return pairs_;
+}
+
+// Where next to nothing is near a skin may be wider. Each try is twice as wide, and costs no more than a
+// search from scratch while little is found.
+template <int Dimension>
+void AutoDetector<Dimension>::widen_skin(const Balls<Dimension>& balls, double wanted) {
+  constexpr int most_tries = 4;
+  const auto few = [this, &balls] { return tree_.counts().group_pairs <= balls.size() / 64; };
+  for (int k = 0; k < most_tries && longest_skin_ <= wanted && few(); ++k) {
+    const double wider = std::min(2 * longest_skin_, 0x1p900);
+    (void)tree_.near_pairs(balls, wider);
+    if (few() && wider > longest_skin_) longest_skin_ = wider;
+  }
+}
+
+template <int Dimension>
+const std::vector<BeadPair>& AutoDetector<Dimension>::pairs(const Balls<Dimension>& balls) {
+  const FloatingPointGuard to_nearest;
+  if (mode_ == Mode::nothing || balls.size() != tree_.bead_count() || balls.size() == 0 ||
+      (!speed_ && !radii_.empty() && !same_radii(balls))) {
+    radii_.clear();  // nothing is measured that only a second frame would need
+    until_look_ = 0;
+    look_every_ = 1;
+    return from_scratch(balls);
+  }
+  if (mode_ == Mode::scratch) {
+    if (until_look_ > 0) {
+      --until_look_;
+      return from_scratch(balls);
+    }
+    if (radii_.empty()) measure_scene(balls);
+    // The tree has the positions of the frame before.
+    const double step = speed_ ? *speed_ : tree_.strayed(balls);
+    widen_skin(balls, 2 * fewest_frames * step);
+    if (longest_skin_ > 2 * fewest_frames * step) return rebuild(balls, step);
+    look_every_ = std::min(2 * look_every_, longest_wait);
+    until_look_ = look_every_;
+    return from_scratch(balls);
+  }
+  ++frames_kept_;
+  if (speed_) moved_ = (moved_ + *speed_) * (1 + 0x1p-50);
+  const double most = 0.5 * kept_.skin();
+  if (speed_ && moved_ <= most) {
+    ++counts_.unread;
+  } else {
+    const double strayed = tree_.strayed(balls);
+    if (!(strayed <= most)) {
+      const auto frames = static_cast<double>(frames_kept_);
+      const double step = speed_ ? *speed_ : strayed / frames;
+      if (frames >= fewest_frames && step < longest_skin_) return rebuild(balls, step);
+      until_look_ = look_every_ = std::min(2 * look_every_, longest_wait);
+      return from_scratch(balls);
+    }
+    look_every_ = 1;
+    moved_ = strayed;
+    ++counts_.read;
+  }
+  kept_.find_meeting(balls, moved_, pairs_);
+  return pairs_;
+}
+
+template class AutoDetector<2>;
+template class AutoDetector<3>;
+
+}  // namespace kds

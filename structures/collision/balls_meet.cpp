@@ -1,0 +1,38 @@
+#include "structures/collision/balls_meet.h"
+
+namespace kds {
+
+namespace detail {
+
+template <int Dimension>
+bool balls_meet_exactly(const Balls<Dimension>& balls, BeadId a, BeadId b) {
+  const auto center = [&balls](BeadId bead) {
+    return Eigen::Vector3d(balls.coordinate(bead, 0), balls.coordinate(bead, 1),
+                           Dimension == 3 ? balls.coordinate(bead, Dimension - 1) : 0.0);
+  };
+  return compare_distance(center(a), center(b), balls.radius(a), balls.radius(b)) <= 0;
+}
+
+template bool balls_meet_exactly(const Balls<2>&, BeadId, BeadId);
+template bool balls_meet_exactly(const Balls<3>&, BeadId, BeadId);
+
+}  // namespace detail
+
+void PairSorter::sort(std::vector<BeadPair>& pairs, std::size_t beads) {
+  if (pairs.size() < beads / 16) return std::sort(pairs.begin(), pairs.end());
+  // Counted out by the first bead; few have the same.
+  places_.assign(beads + 1, 0);
+  for (const BeadPair& pair : pairs) ++places_[pair.first + 1];
+  for (std::size_t b = 0; b < beads; ++b) places_[b + 1] += places_[b];
+  sorted_.resize(pairs.size());
+  for (const BeadPair& pair : pairs) sorted_[places_[pair.first]++] = pair;
+  for (std::size_t begin = 0; begin < sorted_.size();) {
+    const auto end = places_[sorted_[begin].first];
+    std::sort(sorted_.begin() + static_cast<std::ptrdiff_t>(begin),
+              sorted_.begin() + static_cast<std::ptrdiff_t>(end));
+    begin = end;
+  }
+  pairs.swap(sorted_);
+}
+
+}  // namespace kds

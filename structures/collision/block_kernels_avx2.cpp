@@ -1,0 +1,168 @@
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "structures/collision/block_kernels.h"
+
+#if defined(__x86_64__)
+
+#include <immintrin.h>
+
+#define KDS_BLOCK_TARGET gnu::target("avx2,popcnt")
+#define KDS_AVX2 [[gnu::always_inline, KDS_BLOCK_TARGET]] inline
+
+namespace kds {
+
+namespace {
+
+KDS_AVX2 __m256 four_twice(const float* four) {
+  return _mm256_broadcast_ps(reinterpret_cast<const __m128*>(four));
+}
+/// Each of the first two, or of the last two, of four in four lanes.
+KDS_AVX2 __m256 each_four_times(const float* four, bool last) {
+  return _mm256_permutevar_ps(four_twice(four), last ? _mm256_setr_epi32(2, 2, 2, 2, 3, 3, 3, 3)
+                                                     : _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1));
+}
+KDS_AVX2 unsigned bits_of_lanes(__m256 flags) { return static_cast<unsigned>(_mm256_movemask_ps(flags)); }
+KDS_AVX2 __m256 meeting(__m256 low, __m256 high, __m256 other_low, __m256 other_high) {
+  return _mm256_and_ps(_mm256_cmp_ps(low, other_high, _CMP_LE_OQ),
+                       _mm256_cmp_ps(other_low, high, _CMP_LE_OQ));
+}
+
+template <int Dimension, class Box>
+KDS_AVX2 unsigned meeting_children(const BlockNode<Dimension>& node, const Box& box) {
+  unsigned bits = 0;
+  for (std::size_t half = 0; half < 2; ++half) {
+    __m256 all = _mm256_setzero_ps();
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      const __m256 one = meeting(_mm256_loadu_ps(node.low[axis].data() + 8 * half),
+                                 _mm256_loadu_ps(node.high[axis].data() + 8 * half),
+                                 _mm256_set1_ps(box.low[axis]), _mm256_set1_ps(box.high[axis]));
+      all = axis == 0 ? one : _mm256_and_ps(all, one);
+    }
+    bits |= bits_of_lanes(all) << (8 * half);
+  }
+  return bits;
+}
+
+using Floats = float __attribute__((vector_size(32)));
+/// Group g in the four lanes that its bits are of.
+template <int Dimension>
+struct SpreadGroups {
+  std::array<std::array<Floats, static_cast<std::size_t>(Dimension)>, 2> low, high;
+};
+template <int Dimension>
+KDS_AVX2 SpreadGroups<Dimension> spread_groups(const GroupBoxes<Dimension>& boxes) {
+  SpreadGroups<Dimension> spread;
+  for (std::size_t half = 0; half < 2; ++half) {
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      spread.low[half][axis] = each_four_times(boxes.low[axis].data(), half == 1);
+      spread.high[half][axis] = each_four_times(boxes.high[axis].data(), half == 1);
+    }
+  }
+  return spread;
+}
+template <int Dimension>
+KDS_AVX2 unsigned meeting_groups(const SpreadGroups<Dimension>& a, const GroupBoxes<Dimension>& b) {
+  unsigned bits = 0;
+  for (std::size_t half = 0; half < 2; ++half) {
+    __m256 all = _mm256_setzero_ps();
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      const __m256 one = meeting(a.low[half][axis], a.high[half][axis], four_twice(b.low[axis].data()),
+                                 four_twice(b.high[axis].data()));
+      all = axis == 0 ? one : _mm256_and_ps(all, one);
+    }
+    bits |= bits_of_lanes(all) << (8 * half);
+  }
+  return bits;
+}
+
+template <bool Equal, int Dimension>
+KDS_AVX2 unsigned near_beads(const Blocks<Dimension>& blocks, std::size_t i, std::size_t j, float limit) {
+  unsigned bits = 0;
+  for (std::size_t half = 0; half < 2; ++half) {
+    __m256 square = _mm256_setzero_ps();
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      const __m256 d = _mm256_sub_ps(four_twice(blocks.centers[axis] + j),
+                                     each_four_times(blocks.centers[axis] + i, half == 1));
+      square = axis == 0 ? _mm256_mul_ps(d, d) : _mm256_add_ps(square, _mm256_mul_ps(d, d));
+    }
+    __m256 most = _mm256_set1_ps(limit);
+    if constexpr (!Equal) {
+      const __m256 reach =
+          _mm256_add_ps(four_twice(blocks.radii + j), each_four_times(blocks.radii + i, half == 1));
+      most = _mm256_mul_ps(reach, reach);
+    }
+    bits |= bits_of_lanes(_mm256_cmp_ps(square, most, _CMP_LE_OQ)) << (8 * half);
+  }
+  return bits;
+}
+
+template <bool Equal, int Dimension>
+KDS_AVX2 unsigned near_along(const Blocks<Dimension>& blocks, std::size_t i, std::size_t apart, float limit) {
+  unsigned bits = 0;
+  for (std::size_t half = 0; half < 2; ++half) {
+    const std::size_t from = i + 8 * half;
+    __m256 square = _mm256_setzero_ps();
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      const __m256 d = _mm256_sub_ps(_mm256_loadu_ps(blocks.centers[axis] + from + apart),
+                                     _mm256_loadu_ps(blocks.centers[axis] + from));
+      square = axis == 0 ? _mm256_mul_ps(d, d) : _mm256_add_ps(square, _mm256_mul_ps(d, d));
+    }
+    __m256 most = _mm256_set1_ps(limit);
+    if constexpr (!Equal) {
+      const __m256 reach =
+          _mm256_add_ps(_mm256_loadu_ps(blocks.radii + from + apart), _mm256_loadu_ps(blocks.radii + from));
+      most = _mm256_mul_ps(reach, reach);
+    }
+    bits |= bits_of_lanes(_mm256_cmp_ps(square, most, _CMP_LE_OQ)) << (8 * half);
+  }
+  return bits;
+}
+
+/// Of eight bits, the numbers of those that are set, a byte each.
+inline constexpr auto bit_numbers = [] {
+  std::array<std::uint64_t, 256> table{};
+  for (std::size_t bits = 0; bits < table.size(); ++bits) {
+    unsigned place = 0;
+    for (std::uint64_t bit = 0; bit < 8; ++bit)
+      if ((bits >> bit & 1) != 0) table[bits] |= bit << (8 * place++);
+  }
+  return table;
+}();
+
+KDS_AVX2 std::size_t append_bits(std::uint32_t* out, std::uint32_t base, unsigned bits) {
+  std::size_t count = 0;
+  for (std::uint32_t half = 0; half < 2; ++half) {
+    const unsigned eight = bits >> (8 * half) & 0xff;
+    const __m128i numbers = _mm_cvtsi64_si128(static_cast<long long>(bit_numbers[eight]));
+    const __m256i from = _mm256_set1_epi32(static_cast<int>(base + 8 * half));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + count),
+                        _mm256_add_epi32(_mm256_cvtepu8_epi32(numbers), from));
+    count += static_cast<std::size_t>(__builtin_popcount(eight));
+  }
+  return count;
+}
+
+}  // namespace
+
+}  // namespace kds
+
+#include "structures/collision/define_block_kernels.h"
+
+#endif
+
+namespace kds::detail {
+
+template <int Dimension>
+const BlockKernels<Dimension>* avx2_block_kernels() {
+#if defined(__x86_64__)
+  return &kernels_here<Dimension>;
+#else
+  return nullptr;
+#endif
+}
+template const BlockKernels<2>* avx2_block_kernels<2>();
+template const BlockKernels<3>* avx2_block_kernels<3>();
+
+}  // namespace kds::detail

@@ -1,0 +1,126 @@
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "structures/collision/block_kernels.h"
+
+#if defined(__x86_64__)
+
+#include <immintrin.h>
+
+#define KDS_BLOCK_TARGET gnu::target("avx512f,avx2,popcnt")
+#define KDS_AVX512 [[gnu::always_inline, KDS_BLOCK_TARGET]] inline
+
+namespace kds {
+
+namespace {
+
+KDS_AVX512 __m512 four_by_four(const float* four) {
+  return _mm512_maskz_broadcast_f32x4(0xffff, _mm_loadu_ps(four));
+}
+/// Each of four in four lanes.
+KDS_AVX512 __m512 each_four_times(const float* four) {
+  const __m512i lane = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+  return _mm512_maskz_permutevar_ps(0xffff, four_by_four(four), lane);
+}
+
+template <int Dimension, class Box>
+KDS_AVX512 unsigned meeting_children(const BlockNode<Dimension>& node, const Box& box) {
+  __mmask16 bits = 0xffff;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    bits = _mm512_mask_cmp_ps_mask(bits, _mm512_loadu_ps(node.low[axis].data()),
+                                   _mm512_set1_ps(box.high[axis]), _CMP_LE_OQ);
+    bits = _mm512_mask_cmp_ps_mask(bits, _mm512_loadu_ps(node.high[axis].data()),
+                                   _mm512_set1_ps(box.low[axis]), _CMP_GE_OQ);
+  }
+  return bits;
+}
+
+using Floats = float __attribute__((vector_size(64)));
+/// Group g in the four lanes that its bits are of.
+template <int Dimension>
+struct SpreadGroups {
+  std::array<Floats, static_cast<std::size_t>(Dimension)> low, high;
+};
+template <int Dimension>
+KDS_AVX512 SpreadGroups<Dimension> spread_groups(const GroupBoxes<Dimension>& boxes) {
+  SpreadGroups<Dimension> spread;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    spread.low[axis] = each_four_times(boxes.low[axis].data());
+    spread.high[axis] = each_four_times(boxes.high[axis].data());
+  }
+  return spread;
+}
+template <int Dimension>
+KDS_AVX512 unsigned meeting_groups(const SpreadGroups<Dimension>& a, const GroupBoxes<Dimension>& b) {
+  __mmask16 bits = 0xffff;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    bits = _mm512_mask_cmp_ps_mask(bits, a.low[axis], four_by_four(b.high[axis].data()), _CMP_LE_OQ);
+    bits = _mm512_mask_cmp_ps_mask(bits, a.high[axis], four_by_four(b.low[axis].data()), _CMP_GE_OQ);
+  }
+  return bits;
+}
+
+template <bool Equal, int Dimension>
+KDS_AVX512 unsigned near_beads(const Blocks<Dimension>& blocks, std::size_t i, std::size_t j, float limit) {
+  __m512 square = _mm512_setzero_ps();
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    const __m512 d =
+        _mm512_sub_ps(four_by_four(blocks.centers[axis] + j), each_four_times(blocks.centers[axis] + i));
+    square = axis == 0 ? _mm512_mul_ps(d, d) : _mm512_add_ps(square, _mm512_mul_ps(d, d));
+  }
+  __m512 most = _mm512_set1_ps(limit);
+  if constexpr (!Equal) {
+    const __m512 reach = _mm512_add_ps(four_by_four(blocks.radii + j), each_four_times(blocks.radii + i));
+    most = _mm512_mul_ps(reach, reach);
+  }
+  return _mm512_cmp_ps_mask(square, most, _CMP_LE_OQ);
+}
+
+template <bool Equal, int Dimension>
+KDS_AVX512 unsigned near_along(const Blocks<Dimension>& blocks, std::size_t i, std::size_t apart,
+                               float limit) {
+  __m512 square = _mm512_setzero_ps();
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    const __m512 d = _mm512_sub_ps(_mm512_loadu_ps(blocks.centers[axis] + i + apart),
+                                   _mm512_loadu_ps(blocks.centers[axis] + i));
+    square = axis == 0 ? _mm512_mul_ps(d, d) : _mm512_add_ps(square, _mm512_mul_ps(d, d));
+  }
+  __m512 most = _mm512_set1_ps(limit);
+  if constexpr (!Equal) {
+    const __m512 reach =
+        _mm512_add_ps(_mm512_loadu_ps(blocks.radii + i + apart), _mm512_loadu_ps(blocks.radii + i));
+    most = _mm512_mul_ps(reach, reach);
+  }
+  return _mm512_cmp_ps_mask(square, most, _CMP_LE_OQ);
+}
+
+KDS_AVX512 std::size_t append_bits(std::uint32_t* out, std::uint32_t base, unsigned bits) {
+  const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const __m512i numbers = _mm512_add_epi32(lane, _mm512_set1_epi32(static_cast<int>(base)));
+  _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), numbers));
+  return static_cast<std::size_t>(__builtin_popcount(bits));
+}
+
+}  // namespace
+
+}  // namespace kds
+
+#include "structures/collision/define_block_kernels.h"
+
+#endif
+
+namespace kds::detail {
+
+template <int Dimension>
+const BlockKernels<Dimension>* avx512_block_kernels() {
+#if defined(__x86_64__)
+  return &kernels_here<Dimension>;
+#else
+  return nullptr;
+#endif
+}
+template const BlockKernels<2>* avx512_block_kernels<2>();
+template const BlockKernels<3>* avx512_block_kernels<3>();
+
+}  // namespace kds::detail

@@ -1,0 +1,422 @@
+#include "structures/collision/block_tree.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+
+#include "motions/base/floating_point_guard.h"
+
+namespace kds {
+
+namespace {
+
+constexpr std::size_t sample_stride = 8;
+
+// What a search has cost, in comparisons of four beads with four, about 2 ns each.
+template <class Counts>
+double work_of(const Counts& counts) {
+  return 10.0 * static_cast<double>(counts.node_pairs) + 1.5 * static_cast<double>(counts.block_pairs) +
+         static_cast<double>(counts.group_pairs);
+}
+// What sorting and a search of sorted beads cost a block.
+constexpr double work_of_sorted_block = 230;
+constexpr std::size_t fewest_beads_to_sort = 2000;
+// Then the sequence is tried again.
+constexpr std::uint64_t most_searches_in_space = 64;
+
+// Every `spread`-th bit from the lowest.
+std::uint64_t spread_bits(std::uint64_t bits, int spread) {
+  std::uint64_t result = 0;
+  for (int k = 0; bits >> k != 0; ++k) result |= (bits >> k & 1) << (k * spread);
+  return result;
+}
+
+}  // namespace
+
+template <int Dimension>
+BlockTree<Dimension>::BlockTree(PairsAsked asked, std::optional<BlockOrder> order, VectorTarget target)
+    : asked_(std::move(asked)), wanted_(order), kernels_(block_kernels<Dimension>(target)), beads_(0) {
+  for (const BeadRange& range : asked_.necklaces) {
+    if (range.first != beads_ || range.last < range.first)
+      throw std::invalid_argument("expected a scene's necklaces one after the other");
+    beads_ = std::size_t{range.last} + 1;
+  }
+  if (asked_.apart < 1) throw std::invalid_argument("expected beads at least 1 apart along the chain");
+  make_blocks(wanted_.value_or(BlockOrder::sequence));
+  groups_.resize(16 * block_pairs_at_once + kernel_padding);
+  near_groups_.resize(groups_.size());
+  near_beads_.resize(groups_.size());
+}
+
+template <int Dimension>
+void BlockTree<Dimension>::make_blocks(BlockOrder order) {
+  order_ = order;
+  first_bead_.clear();
+  necklace_of_block_.clear();
+  if (order == BlockOrder::sequence) {
+    for (std::uint32_t n = 0; n < asked_.necklaces.size(); ++n) {
+      const BeadRange& range = asked_.necklaces[n];
+      for (std::size_t bead = range.first; bead <= range.last; bead += beads_in_block) {
+        first_bead_.push_back(static_cast<BeadId>(bead));
+        necklace_of_block_.push_back(n);
+      }
+    }
+  } else {
+    necklace_of_block_.assign((beads_ + beads_in_block - 1) / beads_in_block, 0);
+  }
+  const std::size_t blocks = necklace_of_block_.size();
+  for (auto& axis : centers_)
+    axis.assign((blocks + 1) * beads_in_block, std::numeric_limits<float>::quiet_NaN());
+  radii_.assign((blocks + 1) * beads_in_block, 0.0F);
+  boxes_.resize(blocks);
+  levels_.clear();
+  for (std::size_t nodes = blocks; nodes > 1 || levels_.empty();) {
+    nodes = (nodes + children_of_node - 1) / children_of_node;
+    levels_.emplace_back(std::max<std::size_t>(nodes, 1));
+  }
+}
+
+template <int Dimension>
+Blocks<Dimension> BlockTree<Dimension>::blocks() {
+  Blocks<Dimension> here{{}, radii_.data(), boxes_.data()};
+  for (std::size_t axis = 0; axis < Dimension; ++axis) here.centers[axis] = centers_[axis].data();
+  return here;
+}
+
+template <int Dimension>
+BlockSource<Dimension> BlockTree<Dimension>::source_of(double gap, double radius) const {
+  BlockSource<Dimension> source{};
+  source.shift = frame_.shift;
+  source.scale = frame_.scale;
+  source.radius_factor = frame_.scale * (1 + 0x1p-20);
+  source.radius_added = frame_.float_radius(0.5 * gap);
+  source.radius = static_cast<float>(radius * source.radius_factor + source.radius_added);
+  return source;
+}
+
+template <int Dimension>
+template <class Visit>
+void BlockTree<Dimension>::with_sources(const Balls<Dimension>& balls, BlockSource<Dimension> source,
+                                        const Visit& visit) {
+  constexpr std::size_t gathered_blocks = 64;
+  std::array<const double*, static_cast<std::size_t>(Dimension) + 1> numbers;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) numbers[axis] = balls.coordinates(axis);
+  numbers[Dimension] = balls.radii();
+  const auto from = [&source](std::size_t i, const double* first) {
+    (i < Dimension ? source.centers[i] : source.radii) = first;
+  };
+  // Blocks whose beads do not lie one after the other, or are too few, are copied; a bead in want stands for
+  // the last.
+  const auto gathered = [&](std::size_t first_block, std::size_t count, const auto& bead) {
+    const std::size_t blocks = (count + beads_in_block - 1) / beads_in_block;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      std::vector<double>& copy = gathered_[i];
+      copy.resize(gathered_blocks * beads_in_block);
+      if (i == Dimension && equal_) continue;
+      for (std::size_t k = 0; k < count; ++k) copy[k] = numbers[i][bead(k)];
+      for (std::size_t k = count; k < blocks * beads_in_block; ++k) copy[k] = copy[count - 1];
+      from(i, copy.data());
+    }
+    visit(source, first_block, first_block + blocks);
+  };
+  if (order_ == BlockOrder::spatial) {
+    constexpr std::size_t step = gathered_blocks * beads_in_block;
+    for (std::size_t first = 0; first < beads_; first += step)
+      gathered(first / beads_in_block, std::min(step, beads_ - first),
+               [&](std::size_t k) { return sorted_[first + k]; });
+    return;
+  }
+  std::size_t block = 0;
+  for (const BeadRange& range : asked_.necklaces) {
+    const std::size_t count = std::size_t{range.last} - range.first + 1, whole = count / beads_in_block;
+    if (whole > 0) {
+      for (std::size_t i = 0; i < numbers.size(); ++i) from(i, numbers[i] + range.first);
+      visit(source, block, block + whole);
+      block += whole;
+    }
+    if (const std::size_t rest = count % beads_in_block; rest > 0) {
+      gathered(block, rest, [&](std::size_t k) { return range.first + whole * beads_in_block + k; });
+      ++block;
+    }
+  }
+}
+
+template <int Dimension>
+BlockExtent BlockTree<Dimension>::fill(const Balls<Dimension>& balls, double gap) {
+  BlockExtent extent;
+  const auto kernel = equal_ ? kernels_.fill_equal : kernels_.fill_unequal;
+  const BlockSource<Dimension> source = source_of(gap, balls.radius(0));
+  limit_ = (source.radius + source.radius) * (source.radius + source.radius);
+  with_sources(balls, source, [&](const BlockSource<Dimension>& some, std::size_t first, std::size_t last) {
+    const BlockExtent e = kernel(some, first, last, blocks(), levels_[0].data());
+    extent.coordinate = std::max(extent.coordinate, e.coordinate);
+    extent.radius = std::max(extent.radius, e.radius);
+  });
+  const auto clear_from = [&](std::size_t block, std::size_t lane) {
+    for (auto& axis : centers_)
+      std::fill_n(axis.begin() + static_cast<std::ptrdiff_t>(beads_in_block * block + lane),
+                  beads_in_block - lane, std::numeric_limits<float>::quiet_NaN());
+  };
+  if (order_ == BlockOrder::spatial) {
+    if (beads_ % beads_in_block != 0) clear_from(boxes_.size() - 1, beads_ % beads_in_block);
+    return extent;
+  }
+  std::size_t blocks_before = 0;
+  for (const BeadRange& range : asked_.necklaces) {
+    const std::size_t count = std::size_t{range.last} - range.first + 1;
+    if (count % beads_in_block != 0)
+      clear_from(blocks_before + count / beads_in_block, count % beads_in_block);
+    blocks_before += (count + beads_in_block - 1) / beads_in_block;
+  }
+  return extent;
+}
+
+template <int Dimension>
+void BlockTree<Dimension>::build(const Balls<Dimension>& balls, double gap) {
+  equal_ = balls.equal_radii();
+  if (order_ == BlockOrder::spatial) sort_in_space(balls);
+  const auto fits = [this](const BlockExtent& e) {
+    return e.coordinate <= frame_.bound && e.radius <= largest_float_radius;
+  };
+  const auto blunt = [this](const BlockExtent& e) {  // and a frame of this scene would not be
+    return e.coordinate < 0x1p-6 * frame_.bound && frame_.bound > 0x1p-20;
+  };
+  BlockExtent extent;
+  if (frame_.bound > 0) extent = fill(balls, gap);
+  if (frame_.bound == 0 || !fits(extent) || blunt(extent)) {
+    frame_ = fit_float_frame(scene_box(balls), gap);
+    extent = fill(balls, gap);
+    if (!fits(extent)) throw std::logic_error("a frame of floats does not hold its own scene");
+  }
+  for (std::size_t level = 0; level + 1 < levels_.size(); ++level)
+    kernels_.unite(levels_[level].data(), 0, levels_[level].size(), levels_[level + 1].data());
+}
+
+template <int Dimension>
+void BlockTree<Dimension>::sort_in_space(const Balls<Dimension>& balls) {
+  // Cells of about a fourth of a bead each, were they evenly spread, along a Morton curve.
+  const int bits = (std::bit_width(4 * beads_) + Dimension - 1) / Dimension;
+  const auto cells = static_cast<double>((std::size_t{1} << bits) - 1);
+  const SceneBox<Dimension> box = scene_box(balls);
+  double longest = 0;
+  for (std::size_t axis = 0; axis < Dimension; ++axis)
+    longest = std::max(longest, 0.5 * box.high[axis] - 0.5 * box.low[axis]);
+  // Any order will do: of a scene so small that this is infinite, that of beads.
+  const double cells_a_length = longest > 0 && cells / longest < 0x1p1000 ? cells / longest : 0.0;
+  std::vector<std::uint64_t> spread(std::size_t{1} << bits);
+  for (std::size_t k = 0; k < spread.size(); ++k) spread[k] = spread_bits(k, Dimension);
+  keys_.resize(beads_);
+  more_keys_.resize(beads_);
+  for (std::size_t b = 0; b < beads_; ++b) {
+    std::uint64_t key = 0;
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      const double along = 0.5 * balls.coordinates(axis)[b] - 0.5 * box.low[axis];
+      const double cell = std::min(along * cells_a_length, cells);
+      key |= spread[static_cast<std::size_t>(static_cast<std::int64_t>(cell))] << axis;
+    }
+    keys_[b] = key << 32 | b;
+  }
+  // By half of the bits, then by the other half.
+  const int half = (bits * Dimension + 1) / 2;
+  const std::uint64_t mask = (std::uint64_t{1} << half) - 1;
+  std::vector<std::uint32_t> places;
+  for (const int shift : {32, 32 + half}) {
+    places.assign(mask + 2, 0);
+    for (const std::uint64_t key : keys_) ++places[(key >> shift & mask) + 1];
+    for (std::size_t k = 0; k + 1 < places.size(); ++k) places[k + 1] += places[k];
+    for (const std::uint64_t key : keys_) more_keys_[places[key >> shift & mask]++] = key;
+    keys_.swap(more_keys_);
+  }
+  sorted_.resize(beads_ + beads_in_block);
+  for (std::size_t k = 0; k < beads_; ++k) sorted_[k] = static_cast<BeadId>(keys_[k]);
+}
+
+// Whether any pair of the nodes' beads may be asked about: nodes of levels_[level], a <= b.
+template <int Dimension>
+bool BlockTree<Dimension>::asks(std::uint32_t a, std::uint32_t b, std::size_t level) const {
+  if (order_ == BlockOrder::spatial) return true;
+  const std::size_t width = children_of_node << (4 * level), blocks = first_bead_.size();
+  const std::size_t first = a * width, last = std::min((b + 1) * width, blocks) - 1;
+  if (!asked_.between &&
+      necklace_of_block_[std::min((a + 1) * width, blocks) - 1] < necklace_of_block_[b * width])
+    return false;
+  if (necklace_of_block_[first] != necklace_of_block_[last]) return true;
+  return asked_.within && (last - first + 1) * beads_in_block > asked_.apart;
+}
+
+template <int Dimension>
+void BlockTree<Dimension>::expand_levels() {
+  nodes_.count = 0;
+  nodes_.reserve(1);
+  nodes_.first[0] = nodes_.second[0] = 0;
+  nodes_.count = 1;
+  for (std::size_t level = levels_.size() - 1; level > 0; --level) {
+    more_nodes_.count = 0;
+    for (std::size_t k = 0; k < nodes_.count; ++k) {
+      const std::uint32_t a = nodes_.first[k], b = nodes_.second[k];
+      if (!asks(a, b, level)) continue;
+      more_nodes_.reserve(children_of_node * children_of_node);
+      more_nodes_.count += kernels_.expand(levels_[level].data(), a, b, more_nodes_.end());
+      ++counts_.node_pairs;
+    }
+    std::swap(nodes_, more_nodes_);
+  }
+}
+
+template <int Dimension>
+bool BlockTree<Dimension>::search(bool may_give_up) {
+  counts_ = {};
+  candidate_count_ = 0;
+  expand_levels();
+  const double most_work = work_of_sorted_block * static_cast<double>(boxes_.size());
+  block_pairs_.count = 0;
+  const auto expand = [&](std::size_t k) {
+    const std::uint32_t a = nodes_.first[k], b = nodes_.second[k];
+    if (!asks(a, b, 0)) return;
+    block_pairs_.reserve(children_of_node * children_of_node);
+    block_pairs_.count += kernels_.expand(levels_[0].data(), a, b, block_pairs_.end());
+    ++counts_.node_pairs;
+    if (block_pairs_.count >= block_pairs_at_once) compare_blocks();
+  };
+  if (!may_give_up) {
+    for (std::size_t k = 0; k < nodes_.count; ++k) expand(k);
+  } else {
+    const double before = work_of(counts_);
+    for (std::size_t k = 0; k < nodes_.count; k += sample_stride) expand(k);
+    compare_blocks();
+    const double sampled = static_cast<double>((nodes_.count + sample_stride - 1) / sample_stride);
+    if (before + (work_of(counts_) - before) * static_cast<double>(nodes_.count) / sampled > most_work)
+      return false;
+    for (std::size_t k = 0; k < nodes_.count; ++k)
+      if (k % sample_stride != 0) expand(k);
+  }
+  compare_blocks();
+  compare_along();
+  return true;
+}
+
+template <int Dimension>
+void BlockTree<Dimension>::reserve_candidates(std::size_t groups) {
+  const std::size_t needed = candidate_count_ + 16 * groups;
+  if (candidates_.size() < needed) candidates_.resize(2 * needed);
+}
+
+template <int Dimension>
+bool BlockTree<Dimension>::goes_along() const {
+  return order_ == BlockOrder::sequence && asked_.within && asked_.apart <= farthest_along;
+}
+
+// Beads that are near along the chain: boxes of four in a row always meet, so all such pairs are looked at in
+// a row, and no more when groups are compared.
+template <int Dimension>
+void BlockTree<Dimension>::compare_along() {
+  if (!goes_along()) return;
+  const auto kernel = equal_ ? kernels_.along_equal : kernels_.along_unequal;
+  constexpr std::size_t at_once = 2 * block_pairs_at_once;  // eight found a block at most
+  for (std::size_t first = 0; first < boxes_.size(); first += at_once) {
+    const std::size_t near = kernel(blocks(), first, std::min(first + at_once, boxes_.size()), asked_.apart,
+                                    limit_, {near_groups_.data(), near_beads_.data()});
+    reserve_candidates(near);
+    for (std::size_t k = 0; k < near; ++k) {
+      const std::uint32_t block = near_groups_[k] / 8, along = near_groups_[k] % 8;
+      const BeadId last = asked_.necklaces[necklace_of_block_[block]].last;
+      for (unsigned bits = near_beads_[k]; bits != 0; bits &= bits - 1) {
+        const BeadId bead = first_bead_[block] + static_cast<BeadId>(std::countr_zero(bits));
+        if (last - bead < along) continue;  // the next necklace's
+        candidates_[candidate_count_++] = {bead, bead + along};
+      }
+    }
+  }
+}
+
+template <int Dimension>
+void BlockTree<Dimension>::compare_blocks() {
+  const auto kernel = equal_ ? kernels_.compare_equal : kernels_.compare_unequal;
+  const bool sequence = order_ == BlockOrder::sequence;
+  const bool one_necklace = asked_.necklaces.size() == 1;
+  const LanesAsked lanes{necklace_of_block_.data(), sequence ? asked_.apart : 1, !sequence || asked_.within,
+                         !sequence || asked_.between, goes_along()};
+  counts_.block_pairs += block_pairs_.count;
+  for (std::size_t from = 0; from < block_pairs_.count; from += block_pairs_at_once) {
+    const std::size_t count = std::min(block_pairs_at_once, block_pairs_.count - from);
+    const NodePairs some{block_pairs_.first.data() + from, block_pairs_.second.data() + from};
+    const std::size_t near = kernel(blocks(), some, count, lanes, limit_, groups_.data(),
+                                    {near_groups_.data(), near_beads_.data()}, counts_.group_pairs);
+    reserve_candidates(near);
+    for (std::size_t k = 0; k < near; ++k) {
+      const std::uint32_t group = near_groups_[k];
+      const std::uint32_t a = some.first[group / 16], b = some.second[group / 16];
+      const std::size_t g = group / 4 % 4, h = group % 4;
+      for (unsigned bits = near_beads_[k]; bits != 0; bits &= bits - 1) {
+        const auto bit = static_cast<std::size_t>(std::countr_zero(bits));
+        BeadPair pair{bead_at(a, 4 * g + bit / 4), bead_at(b, 4 * h + bit % 4)};
+        if (!sequence) {
+          if (pair.second < pair.first) std::swap(pair.first, pair.second);
+          const bool is_asked =
+              one_necklace ? asked_.within && pair.second - pair.first >= asked_.apart : asked_.asks(pair);
+          if (!is_asked) continue;
+        }
+        candidates_[candidate_count_++] = pair;
+      }
+    }
+  }
+  block_pairs_.count = 0;
+}
+
+template <int Dimension>
+void BlockTree<Dimension>::find_candidates(const Balls<Dimension>& balls, double gap) {
+  if (balls.size() != beads_) throw std::invalid_argument("balls and necklaces must be of the same beads");
+  counts_ = {};
+  candidate_count_ = 0;
+  if (beads_ == 0) return;
+  if (!wanted_ && order_ == BlockOrder::spatial && searches_in_space_ >= most_searches_in_space)
+    make_blocks(BlockOrder::sequence);
+  build(balls, gap);
+  const bool may_give_up = !wanted_ && order_ == BlockOrder::sequence && beads_ >= fewest_beads_to_sort;
+  if (!search(may_give_up)) {
+    make_blocks(BlockOrder::spatial);
+    searches_in_space_ = 0;
+    build(balls, gap);
+    (void)search(false);
+  }
+  if (order_ == BlockOrder::spatial) ++searches_in_space_;
+  counts_.candidates = candidate_count_;
+}
+
+template <int Dimension>
+const std::vector<BeadPair>& BlockTree<Dimension>::pairs(const Balls<Dimension>& balls) {
+  const FloatingPointGuard to_nearest;
+  find_candidates(balls, 0);
+  pairs_.clear();
+  for (std::size_t k = 0; k < candidate_count_; ++k)
+    if (balls_meet(balls, candidates_[k].first, candidates_[k].second)) pairs_.push_back(candidates_[k]);
+  sorter_.sort(pairs_, beads_);
+  return pairs_;
+}
+
+template <int Dimension>
+std::span<const BeadPair> BlockTree<Dimension>::near_pairs(const Balls<Dimension>& balls, double gap) {
+  const FloatingPointGuard to_nearest;
+  find_candidates(balls, gap);
+  return {candidates_.data(), candidate_count_};
+}
+
+template <int Dimension>
+double BlockTree<Dimension>::strayed(const Balls<Dimension>& balls) {
+  const FloatingPointGuard to_nearest;
+  if (balls.size() != beads_) throw std::invalid_argument("balls and necklaces must be of the same beads");
+  float farthest = 0;
+  with_sources(balls, source_of(0, 0),
+               [&](const BlockSource<Dimension>& some, std::size_t first, std::size_t last) {
+                 farthest = std::max(farthest, kernels_.stray(some, first, last, blocks()));
+               });
+  return frame_.farthest(farthest);
+}
+
+template class BlockTree<2>;
+template class BlockTree<3>;
+
+}  // namespace kds

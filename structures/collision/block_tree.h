@@ -1,0 +1,137 @@
+#pragma once
+// All pairs of beads that meet, by the paper's idea of grouping them in sequence, on vectors: blocks of 16
+// beads in float, four boxes of four beads in each, and a tree above them, 16 children a node. Pairs of nodes
+// whose boxes meet are taken apart level by level, 16 boxes at once; of two blocks the 16 pairs of boxes at
+// once; of two boxes the 16 pairs of beads. Floats only rule out (float_frame.h has the proof); what is left
+// is decided exactly. Built anew for every scene, 1 to 2 ns a bead.
+//
+// Where a chain is packed so densely that blocks of consecutive beads meet many others, the beads are put in
+// spatial order first, along a Morton curve, and blocks are made of these: that costs sorting. It is found
+// out on an eighth of the work.
+//
+// Exact for all finite input. Time: coordinates that are huge beside distances and radii (10^5 times and
+// more) blunt the filter, radii that differ widely the boxes; in the worst case all pairs are looked at.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "structures/collision/balls_meet.h"
+#include "structures/collision/block_kernels.h"
+#include "structures/collision/float_frame.h"
+#include "structures/collision/pairs_asked.h"
+
+namespace kds {
+
+enum class BlockOrder { sequence, spatial };
+
+template <int Dimension>
+class BlockTree {
+ public:
+  /// What the last search did; the same on every machine.
+  struct Counts {
+    std::uint64_t node_pairs = 0;  ///< of nodes above blocks
+    std::uint64_t block_pairs = 0;
+    std::uint64_t group_pairs = 0;  ///< four beads against four
+    std::uint64_t candidates = 0;   ///< pairs that floats left
+  };
+
+  /// Without an order: whichever seems faster. Throws std::invalid_argument where `asked` does not name a
+  /// scene's necklaces one after the other or the target is not available.
+  explicit BlockTree(PairsAsked asked, std::optional<BlockOrder> order = std::nullopt,
+                     VectorTarget target = widest_vector_target());
+
+  [[nodiscard]] const PairsAsked& asked() const { return asked_; }
+  [[nodiscard]] std::size_t bead_count() const { return beads_; }
+
+  /// All pairs asked about that meet, in order. Valid until the next call. Throws std::invalid_argument where
+  /// the balls are not as many as the necklaces have.
+  const std::vector<BeadPair>& pairs(const Balls<Dimension>& balls);
+
+  /// All pairs asked about that are at most `gap` apart (finite, not negative), and some that are little
+  /// farther, in no order.
+  std::span<const BeadPair> near_pairs(const Balls<Dimension>& balls, double gap);
+
+  /// How far a bead is at most from where the last search found it, rounded up; NaN and infinity are no
+  /// bounds. As many balls as then.
+  [[nodiscard]] double strayed(const Balls<Dimension>& balls);
+
+  [[nodiscard]] const Counts& counts() const { return counts_; }
+  [[nodiscard]] BlockOrder order() const { return order_; }
+  /// Of the last scene.
+  [[nodiscard]] const FloatFrame<Dimension>& frame() const { return frame_; }
+  /// A new scene: the sequence is tried first again.
+  void forget_order() { searches_in_space_ = ~std::uint64_t{0}; }
+
+ private:
+  struct PairList {
+    std::vector<std::uint32_t> first, second;
+    std::size_t count = 0;
+    /// Room for `more`, and for what kernels write behind.
+    void reserve(std::size_t more) {
+      const std::size_t needed = count + more + kernel_padding;
+      if (first.size() >= needed) return;
+      first.resize(2 * needed);
+      second.resize(2 * needed);
+    }
+    [[nodiscard]] NodePairs end() { return {first.data() + count, second.data() + count}; }
+  };
+
+  void make_blocks(BlockOrder order);
+  void sort_in_space(const Balls<Dimension>& balls);
+  void build(const Balls<Dimension>& balls, double gap);
+  BlockExtent fill(const Balls<Dimension>& balls, double gap);
+  [[nodiscard]] BlockSource<Dimension> source_of(double gap, double radius) const;
+  /// Calls visit(source, first block, last block) with sources for all blocks.
+  template <class Visit>
+  void with_sources(const Balls<Dimension>& balls, BlockSource<Dimension> source, const Visit& visit);
+  [[nodiscard]] Blocks<Dimension> blocks();
+
+  void find_candidates(const Balls<Dimension>& balls, double gap);
+  [[nodiscard]] bool search(bool may_give_up);
+  void expand_levels();
+  [[nodiscard]] bool asks(std::uint32_t a, std::uint32_t b, std::size_t level) const;
+  void compare_blocks();
+  void compare_along();
+  void reserve_candidates(std::size_t groups);
+  [[nodiscard]] bool goes_along() const;
+  [[nodiscard]] BeadId bead_at(std::uint32_t block, std::size_t lane) const {
+    return order_ == BlockOrder::sequence ? first_bead_[block] + static_cast<BeadId>(lane)
+                                          : sorted_[beads_in_block * block + lane];
+  }
+
+  PairsAsked asked_;
+  std::optional<BlockOrder> wanted_;
+  const BlockKernels<Dimension>& kernels_;
+  std::size_t beads_;
+  BlockOrder order_ = BlockOrder::sequence;
+  std::uint64_t searches_in_space_ = 0;
+
+  FloatFrame<Dimension> frame_;
+  bool equal_ = true;
+  float limit_ = 0;  // the greatest square of a distance that is near
+
+  // Blocks: their first beads in sequence, or all their beads in spatial order.
+  std::vector<BeadId> first_bead_;
+  std::vector<std::uint32_t> necklace_of_block_;
+  std::vector<BeadId> sorted_;
+  std::array<std::vector<float>, static_cast<std::size_t>(Dimension)> centers_;
+  std::vector<float> radii_;
+  std::vector<GroupBoxes<Dimension>> boxes_;
+  std::vector<std::vector<BlockNode<Dimension>>> levels_;  // from those above the blocks up to one root
+
+  PairList nodes_, more_nodes_, block_pairs_;
+  std::vector<std::uint32_t> groups_, near_groups_;
+  std::vector<std::uint16_t> near_beads_;
+  std::vector<BeadPair> candidates_, pairs_;
+  std::size_t candidate_count_ = 0;
+  std::vector<std::uint64_t> keys_, more_keys_;
+  std::array<std::vector<double>, static_cast<std::size_t>(Dimension) + 1> gathered_;
+  PairSorter sorter_;
+  Counts counts_;
+};
+
+}  // namespace kds

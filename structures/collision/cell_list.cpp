@@ -1,0 +1,214 @@
+#include "structures/collision/cell_list.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+#include "motions/base/floating_point_guard.h"
+
+namespace kds {
+
+template <int Dimension>
+CellList<Dimension>::CellList(PairsAsked asked)
+    : asked_(std::move(asked)), one_necklace_(asked_.necklaces.size() == 1) {
+  if (one_necklace_) least_along_ = asked_.within ? asked_.apart : std::int64_t{no_bead} + 1;
+}
+
+// Scaled coordinates X are off by 2^-53 of the frame's bound M at most: two balls that meet have X no farther
+// apart than their radii and 2^-50 M, in the square with all roundings less than what `compare` allows. A
+// cell is wider by 2^-20 of itself than any two balls reach, and its number, below 2^20, errs by less than
+// 2^-30.
+template <int Dimension>
+auto CellList<Dimension>::lay_grid(const Balls<Dimension>& balls, double gap) const -> Grid {
+  const SceneBox<Dimension> box = scene_box(balls);
+  Grid grid;
+  grid.frame = fit_float_frame(box, gap);
+  const double scale = grid.frame.scale;
+  grid.gap = gap * scale + 0x1p-49 * grid.frame.bound;
+  const double largest = box.largest_radius * scale;
+  std::array<double, dimension> length;
+  for (std::size_t axis = 0; axis < dimension; ++axis) {
+    grid.low[axis] = box.low[axis] * scale - grid.frame.shift[axis];
+    length[axis] = box.high[axis] * scale - grid.frame.shift[axis] - grid.low[axis];
+  }
+  const double longest = *std::max_element(length.begin(), length.end());
+  const double side =
+      std::max({(2 * largest + grid.gap) * (1 + 0x1p-20), longest * 0x1p-20, 0x1p-100}) * (1 + 0x1p-40);
+  grid.cells_a_length = 1 / side;
+  grid.keys = 1;
+  // One cell without beads on each side, so that keys of neighbours differ by strides.
+  for (std::size_t axis = dimension; axis-- > 0;) {
+    grid.stride[axis] = grid.keys;
+    grid.keys *= static_cast<std::uint64_t>(length[axis] * grid.cells_a_length) + 3;
+  }
+  return grid;
+}
+
+template <int Dimension>
+auto CellList<Dimension>::entry_of(const Balls<Dimension>& balls, const Grid& grid, BeadId bead) const
+    -> Entry {
+  Entry entry;
+  for (std::size_t axis = 0; axis < dimension; ++axis)
+    entry.center[axis] = balls.coordinates(axis)[bead] * grid.frame.scale - grid.frame.shift[axis];
+  entry.bead = bead;
+  return entry;
+}
+
+template <int Dimension>
+void CellList<Dimension>::find_keys(const Balls<Dimension>& balls, const Grid& grid) {
+  keys_of_beads_.assign(balls.size(), 0);
+  for (std::size_t axis = 0; axis < dimension; ++axis) {
+    const double* x = balls.coordinates(axis);
+    for (std::size_t b = 0; b < balls.size(); ++b) {
+      const double along = x[b] * grid.frame.scale - grid.frame.shift[axis] - grid.low[axis];
+      const auto cell = static_cast<std::uint64_t>(static_cast<std::int64_t>(along * grid.cells_a_length));
+      keys_of_beads_[b] += (cell + 1) * grid.stride[axis];
+    }
+  }
+}
+
+template <int Dimension>
+void CellList<Dimension>::count_out(const Balls<Dimension>& balls, const Grid& grid) {
+  const std::size_t beads = balls.size();
+  starts_.assign(grid.keys + 1, 0);
+  for (const std::uint64_t key : keys_of_beads_) ++starts_[key + 1];
+  for (std::size_t k = 1; k < starts_.size(); ++k) starts_[k] += starts_[k - 1];
+  for (std::size_t b = 0; b < beads; ++b) {
+    // Filling a cell moves its start to its end, which is the next one's start.
+    const std::uint32_t place = starts_[keys_of_beads_[b]]++;
+    entries_[place] = entry_of(balls, grid, static_cast<BeadId>(b));
+    keys_[place] = keys_of_beads_[b];
+  }
+}
+
+template <int Dimension>
+void CellList<Dimension>::sort_by_radix(const Balls<Dimension>& balls, const Grid& grid) {
+  const std::size_t beads = balls.size();
+  keyed_.resize(beads);
+  more_keyed_.resize(beads);
+  for (std::size_t b = 0; b < beads; ++b) keyed_[b] = {keys_of_beads_[b], b};
+  constexpr int digit = 11;
+  constexpr std::uint64_t mask = (1U << digit) - 1;
+  std::array<std::uint32_t, mask + 2> places;
+  for (int shift = 0; grid.keys >> shift != 0; shift += digit) {
+    places.fill(0);
+    for (const auto& keyed : keyed_) ++places[(keyed[0] >> shift & mask) + 1];
+    for (std::size_t k = 1; k < places.size(); ++k) places[k] += places[k - 1];
+    for (const auto& keyed : keyed_) more_keyed_[places[keyed[0] >> shift & mask]++] = keyed;
+    keyed_.swap(more_keyed_);
+  }
+  for (std::size_t k = 0; k < beads; ++k) {
+    keys_[k] = keyed_[k][0];
+    entries_[k] = entry_of(balls, grid, static_cast<BeadId>(keyed_[k][1]));
+  }
+}
+
+// The entries around a cell are listed first: then each bead looks through one list, of one length, and not
+// through five short ones whose ends nobody foretells.
+template <int Dimension>
+void CellList<Dimension>::list_more(std::uint32_t first, std::uint32_t last) {
+  constexpr std::uint32_t at_once = 4;
+  if (around_.size() < listed_ + (last - first) + at_once)
+    around_.resize(2 * (listed_ + (last - first) + 64));
+  std::uint32_t* out = around_.data() + listed_;
+  for (std::uint32_t k = 0; k < at_once; ++k) out[k] = first + k;
+  listed_ += last - first;
+  for (std::uint32_t k = at_once; first + k < last; ++k) out[k] = first + k;
+}
+
+template <int Dimension>
+template <bool Equal>
+void CellList<Dimension>::compare_cell(const Balls<Dimension>& balls, std::uint32_t begin, std::uint32_t end,
+                                       const Grid& grid) {
+  const double reach_of_equal = 2 * balls.radius(0) * grid.frame.scale + grid.gap;
+  double limit = reach_of_equal * reach_of_equal * (1 + 0x1p-40) + 0x1p-1000;
+  for (std::uint32_t e = begin; e < end; ++e) {
+    const Entry& entry = entries_[e];
+    for (std::size_t k = e - begin + 1; k < listed_; ++k) {
+      const Entry& other = entries_[around_[k]];
+      double square = 0;
+      for (std::size_t axis = 0; axis < dimension; ++axis) {
+        const double d = entry.center[axis] - other.center[axis];
+        square += d * d;
+      }
+      if constexpr (!Equal) {
+        const double reach =
+            (balls.radii()[entry.bead] + balls.radii()[other.bead]) * grid.frame.scale + grid.gap;
+        limit = reach * reach * (1 + 0x1p-40) + 0x1p-1000;
+      }
+      // Neighbours along the chain are always near: one question, not two.
+      const std::int64_t along = std::int64_t{entry.bead} - std::int64_t{other.bead};
+      if (static_cast<unsigned>(square <= limit) & static_cast<unsigned>(std::abs(along) >= least_along_)) {
+        const BeadPair pair{std::min(entry.bead, other.bead), std::max(entry.bead, other.bead)};
+        if (one_necklace_ || asked_.asks(pair)) candidates_.push_back(pair);
+      }
+    }
+  }
+}
+
+template <int Dimension>
+template <bool Equal>
+void CellList<Dimension>::look_around(const Balls<Dimension>& balls, const Grid& grid) {
+  const std::uint64_t* keys = keys_.data();
+  const auto beads = static_cast<std::uint32_t>(entries_.size());
+  const bool dense = grid.is_dense(beads);
+  const std::uint64_t row = grid.stride[dimension - 2], layer = dimension == 3 ? grid.stride[0] : 0;
+  const std::array<std::uint64_t, 4> ahead{row, layer - row, layer, layer + row};
+  constexpr std::size_t rows = dimension == 3 ? 4 : 1;
+  std::array<std::uint32_t, 4> from{};  // of the sorted form: the first entry in a row of cells or beyond
+  for (std::uint32_t begin = 0, end; begin < beads; begin = end) {
+    const std::uint64_t key = keys[begin];
+    end = begin + 1;
+    while (keys[end] == key) ++end;
+    std::uint32_t next_end = end;
+    while (keys[next_end] == key + 1) ++next_end;
+    listed_ = 0;
+    list_more(begin, next_end);
+    if (dense) {  // starts_[k] is where cell k ends and the next one starts
+      for (std::size_t r = 0; r < rows; ++r)
+        list_more(starts_[key + ahead[r] - 2], starts_[key + ahead[r] + 1]);
+    } else {
+      for (std::size_t r = 0; r < rows; ++r) {
+        const std::uint64_t middle = key + ahead[r];
+        while (keys[from[r]] < middle - 1) ++from[r];
+        std::uint32_t to = from[r];
+        while (keys[to] <= middle + 1) ++to;
+        if (to > from[r]) list_more(from[r], to);
+      }
+    }
+    compare_cell<Equal>(balls, begin, end, grid);
+  }
+}
+
+template <int Dimension>
+std::span<const BeadPair> CellList<Dimension>::near_pairs(const Balls<Dimension>& balls, double gap) {
+  const FloatingPointGuard to_nearest;
+  const std::size_t beads = asked_.necklaces.empty() ? 0 : std::size_t{asked_.necklaces.back().last} + 1;
+  if (balls.size() != beads) throw std::invalid_argument("balls and necklaces must be of the same beads");
+  candidates_.clear();
+  if (beads == 0) return candidates_;
+  const Grid grid = lay_grid(balls, gap);
+  find_keys(balls, grid);
+  entries_.resize(beads);
+  keys_.resize(beads + 1);
+  keys_[beads] = ~std::uint64_t{0};
+  grid.is_dense(beads) ? count_out(balls, grid) : sort_by_radix(balls, grid);
+  balls.equal_radii() ? look_around<true>(balls, grid) : look_around<false>(balls, grid);
+  return candidates_;
+}
+
+template <int Dimension>
+const std::vector<BeadPair>& CellList<Dimension>::pairs(const Balls<Dimension>& balls) {
+  const FloatingPointGuard to_nearest;
+  pairs_.clear();
+  for (const BeadPair& pair : near_pairs(balls, 0))
+    if (balls_meet(balls, pair.first, pair.second)) pairs_.push_back(pair);
+  sorter_.sort(pairs_, balls.size());
+  return pairs_;
+}
+
+template class CellList<2>;
+template class CellList<3>;
+
+}  // namespace kds

@@ -1,0 +1,334 @@
+#pragma once
+// The loops of block_kernels.h, for the files that instantiate them, one a vector target. Such a file says
+// before what KDS_BLOCK_TARGET is, the attribute of all these functions, and defines for itself
+//
+//   meeting_children(node, box)       a bit for each child of the node that the box meets
+//   spread_groups(a)                  the boxes of groups as the next wants them
+//   meeting_groups(spread, b)         bit 4 g + h: group g of those boxes meets group h of boxes b
+//   near_beads<Equal>(blocks, i, j, limit)
+//                                     bit 4 k + l: bead i + k is near bead j + l
+//   near_along<Equal>(blocks, i, apart, limit)
+//                                     bit k: bead i + k is near bead i + k + apart; of 16
+//   append_bits(out, base, bits)      writes base + k for each bit k there is, in order, and returns how many
+//
+// Such functions may only be inlined into others of their target, and code for other targets must not get to
+// see them: all is local to the file.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "motions/base/floating_point.h"
+#include "structures/collision/block_kernels.h"
+
+#define KDS_BLOCK_INLINE [[gnu::always_inline, KDS_BLOCK_TARGET]] inline
+
+namespace kds {
+
+namespace {
+
+using Row4 = float __attribute__((vector_size(16)));
+using Doubles4 = double __attribute__((vector_size(32)));
+
+KDS_BLOCK_INLINE Row4 smaller(const Row4& a, const Row4& b) { return a < b ? a : b; }
+KDS_BLOCK_INLINE Row4 larger(const Row4& a, const Row4& b) { return a > b ? a : b; }
+KDS_BLOCK_INLINE float least(const Row4& a) {
+  const Row4 b = smaller(a, __builtin_shufflevector(a, a, 2, 3, 0, 1));
+  return std::min(b[0], b[1]);
+}
+KDS_BLOCK_INLINE float greatest(const Row4& a) {
+  const Row4 b = larger(a, __builtin_shufflevector(a, a, 2, 3, 0, 1));
+  return std::max(b[0], b[1]);
+}
+KDS_BLOCK_INLINE Row4 load_row(const float* from) {
+  Row4 row;
+  __builtin_memcpy(&row, from, sizeof row);
+  return row;
+}
+KDS_BLOCK_INLINE void store_row(float* to, const Row4& row) { __builtin_memcpy(to, &row, sizeof row); }
+
+/// Four doubles times a factor plus a term, as floats.
+KDS_BLOCK_INLINE Row4 floats_of(const double* from, double factor, double term) {
+  Doubles4 four;
+  __builtin_memcpy(&four, from, sizeof four);
+  return __builtin_convertvector(four * factor + term, Row4);
+}
+
+/// Lane g of the k-th is number k of row g.
+KDS_BLOCK_INLINE void transpose(std::array<Row4, 4>& rows) {
+  const Row4 ab01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5);
+  const Row4 ab23 = __builtin_shufflevector(rows[0], rows[1], 2, 6, 3, 7);
+  const Row4 cd01 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 1, 5);
+  const Row4 cd23 = __builtin_shufflevector(rows[2], rows[3], 2, 6, 3, 7);
+  rows = {__builtin_shufflevector(ab01, cd01, 0, 1, 4, 5), __builtin_shufflevector(ab01, cd01, 2, 3, 6, 7),
+          __builtin_shufflevector(ab23, cd23, 0, 1, 4, 5), __builtin_shufflevector(ab23, cd23, 2, 3, 6, 7)};
+}
+
+template <int Dimension, bool Equal>
+[[KDS_BLOCK_TARGET, gnu::noinline]] BlockExtent fill(const BlockSource<Dimension>& source, std::size_t first,
+                                                     std::size_t last, const Blocks<Dimension>& blocks,
+                                                     BlockNode<Dimension>* parents) {
+  const Row4 zero{};
+  Row4 farthest = zero, widest = zero;
+  std::array<Row4, 4> radius{zero + source.radius, zero, zero, zero};
+  for (std::size_t b = first; b < last; ++b) {
+    const std::size_t from = beads_in_block * (b - first);
+    if constexpr (!Equal) {
+      for (std::size_t g = 0; g < 4; ++g) {
+        radius[g] = floats_of(source.radii + from + 4 * g, source.radius_factor, source.radius_added);
+        store_row(blocks.radii + beads_in_block * b + 4 * g, radius[g]);
+        widest = larger(widest, radius[g]);
+      }
+      transpose(radius);
+    }
+    BlockNode<Dimension>& parent = parents[b / children_of_node];
+    const std::size_t place = b % children_of_node;
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      std::array<Row4, 4> rows;
+      for (std::size_t g = 0; g < 4; ++g) {
+        rows[g] = floats_of(source.centers[axis] + from + 4 * g, source.scale, -source.shift[axis]);
+        store_row(blocks.centers[axis] + beads_in_block * b + 4 * g, rows[g]);
+      }
+      transpose(rows);
+      Row4 low, high;
+      if constexpr (Equal) {
+        low = smaller(smaller(rows[0], rows[1]), smaller(rows[2], rows[3]));
+        high = larger(larger(rows[0], rows[1]), larger(rows[2], rows[3]));
+        farthest = larger(farthest, larger(high, -low));
+        low -= radius[0];
+        high += radius[0];
+      } else {
+        low = smaller(smaller(rows[0] - radius[0], rows[1] - radius[1]),
+                      smaller(rows[2] - radius[2], rows[3] - radius[3]));
+        high = larger(larger(rows[0] + radius[0], rows[1] + radius[1]),
+                      larger(rows[2] + radius[2], rows[3] + radius[3]));
+        for (const Row4& row : rows) farthest = larger(farthest, larger(row, -row));
+      }
+      store_row(blocks.boxes[b].low[axis].data(), low);
+      store_row(blocks.boxes[b].high[axis].data(), high);
+      parent.low[axis][place] = least(low);
+      parent.high[axis][place] = greatest(high);
+    }
+  }
+  return {greatest(farthest), Equal ? source.radius : greatest(widest)};
+}
+
+template <int Dimension>
+[[KDS_BLOCK_TARGET, gnu::noinline]] float stray(const BlockSource<Dimension>& source, std::size_t first,
+                                                std::size_t last, const Blocks<Dimension>& before) {
+  Row4 farthest{};
+  for (std::size_t b = first; b < last; ++b) {
+    for (std::size_t g = 0; g < 4; ++g) {
+      const std::size_t from = beads_in_block * (b - first) + 4 * g;
+      Row4 square{};
+      for (std::size_t axis = 0; axis < Dimension; ++axis) {
+        const Row4 d = floats_of(source.centers[axis] + from, source.scale, -source.shift[axis]) -
+                       load_row(before.centers[axis] + beads_in_block * b + 4 * g);
+        square = axis == 0 ? d * d : square + d * d;
+      }
+      farthest = larger(square, farthest);  // the second where one is NaN
+    }
+  }
+  return greatest(farthest);
+}
+
+template <int Dimension>
+[[KDS_BLOCK_TARGET, gnu::noinline]] void unite(const BlockNode<Dimension>* nodes, std::size_t first,
+                                               std::size_t last, BlockNode<Dimension>* parents) {
+  for (std::size_t n = first; n < last; ++n) {
+    BlockNode<Dimension>& parent = parents[n / children_of_node];
+    const std::size_t place = n % children_of_node;
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      const float* low = nodes[n].low[axis].data();
+      const float* high = nodes[n].high[axis].data();
+      parent.low[axis][place] = least(
+          smaller(smaller(load_row(low), load_row(low + 4)), smaller(load_row(low + 8), load_row(low + 12))));
+      parent.high[axis][place] = greatest(larger(larger(load_row(high), load_row(high + 4)),
+                                                 larger(load_row(high + 8), load_row(high + 12))));
+    }
+  }
+}
+
+template <int Dimension>
+struct ChildBox {
+  std::array<float, static_cast<std::size_t>(Dimension)> low, high;
+};
+template <int Dimension>
+KDS_BLOCK_INLINE ChildBox<Dimension> child_box(const BlockNode<Dimension>& node, std::size_t child) {
+  ChildBox<Dimension> box;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    box.low[axis] = node.low[axis][child];
+    box.high[axis] = node.high[axis][child];
+  }
+  return box;
+}
+template <int Dimension>
+KDS_BLOCK_INLINE ChildBox<Dimension> box_of(const BlockNode<Dimension>& node) {
+  ChildBox<Dimension> box;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    const float* low = node.low[axis].data();
+    const float* high = node.high[axis].data();
+    box.low[axis] = least(
+        smaller(smaller(load_row(low), load_row(low + 4)), smaller(load_row(low + 8), load_row(low + 12))));
+    box.high[axis] = greatest(
+        larger(larger(load_row(high), load_row(high + 4)), larger(load_row(high + 8), load_row(high + 12))));
+  }
+  return box;
+}
+
+KDS_BLOCK_INLINE void write_sixteen(std::uint32_t* out, std::uint32_t number) {
+  for (std::size_t k = 0; k < 16; ++k) out[k] = number;
+}
+
+template <int Dimension>
+[[KDS_BLOCK_TARGET, gnu::noinline]] std::size_t expand(const BlockNode<Dimension>* nodes, std::uint32_t a,
+                                                       std::uint32_t b, NodePairs found) {
+  constexpr auto children = static_cast<std::uint32_t>(children_of_node);
+  const BlockNode<Dimension>& first = nodes[a];
+  const BlockNode<Dimension>& second = nodes[b];
+  std::size_t count = 0;
+  // Bits of children that a child may be paired with, and of the children that may have any.
+  unsigned others = 0xffff, ours = 0xffff;
+  if (a != b) {
+    ours = meeting_children(first, box_of(second));
+    if (ours == 0) return 0;
+    others = meeting_children(second, box_of(first));
+  }
+  for (; ours != 0; ours &= ours - 1) {
+    const auto child = static_cast<std::uint32_t>(__builtin_ctz(ours));
+    unsigned meeting = meeting_children(second, child_box(first, child)) & others;
+    if (a == b) meeting &= 0xffffU << child;
+    write_sixteen(found.first + count, children * a + child);
+    count += append_bits(found.second + count, children * b, meeting);
+  }
+  return count;
+}
+
+/// Which pairs of beads are far enough apart in their necklace, that of bit 4 i + j of groups g and h by [4 g
+/// + h], and groups with any such by bit 4 g + h. By how far apart they must be within their blocks.
+struct LanesApart {
+  std::array<std::uint16_t, 16> beads{};
+  std::uint16_t groups = 0;
+};
+inline constexpr int least_all = -15, least_none = 16;
+inline constexpr auto lanes_apart = [] {
+  std::array<LanesApart, least_none - least_all + 1> table{};
+  for (int least = least_all; least <= least_none; ++least) {
+    LanesApart& lanes = table[static_cast<std::size_t>(least - least_all)];
+    for (int first = 0; first < 16; ++first) {
+      for (int second = 0; second < 16; ++second) {
+        if (second - first < least) continue;
+        const int group = 4 * (first / 4) + second / 4, bead = 4 * (first % 4) + second % 4;
+        lanes.groups = static_cast<std::uint16_t>(lanes.groups | 1 << group);
+        auto& beads = lanes.beads[static_cast<std::size_t>(group)];
+        beads = static_cast<std::uint16_t>(beads | 1 << bead);
+      }
+    }
+  }
+  return table;
+}();
+
+/// Groups of two blocks, so many apart, that compare_along has looked at, of blocks far apart none.
+inline constexpr std::array<std::uint16_t, 3> groups_not_along{0xffff & ~0x8c63, 0xffff & ~0x1000, 0xffff};
+
+/// Beads of a block that have one of their own group or the next so far behind them.
+inline constexpr std::array<std::uint16_t, farthest_along + 1> firsts_along{0xffff, 0xffff, 0xffff, 0xffff,
+                                                                            0xffff, 0x7777, 0x3333, 0x1111};
+
+struct ComparedPair {
+  std::uint32_t first, second;  // beads
+  const LanesApart* lanes;
+};
+
+template <int Dimension, bool Equal>
+[[KDS_BLOCK_TARGET, gnu::noinline]] std::size_t compare(const Blocks<Dimension>& blocks,
+                                                        const NodePairs& pairs, std::size_t count,
+                                                        const LanesAsked& asked, float limit,
+                                                        std::uint32_t* groups, const NearGroups& found,
+                                                        std::uint64_t& tests) {
+  const Blocks<Dimension> here = blocks;
+  const std::uint32_t* const necklaces = asked.necklace_of_block;
+  const std::uint32_t* const firsts = pairs.first;
+  const std::uint32_t* const seconds = pairs.second;
+  const std::int64_t within = asked.within ? std::int64_t{asked.apart} : std::int64_t{1} << 40;
+  const std::int64_t between = asked.between ? least_all : least_none;
+  const std::uint32_t never_along = asked.along_done ? 0 : 2;
+  // Without a branch in either loop: which groups meet, and which beads are near, nobody foretells.
+  std::array<ComparedPair, block_pairs_at_once> compared;
+  std::size_t meeting = 0;
+  for (std::size_t p = 0; p < count;) {
+    const std::uint32_t a = firsts[p];
+    const std::uint32_t necklace = necklaces[a];
+    const auto ours = spread_groups(here.boxes[a]);
+    do {
+      const std::uint32_t b = seconds[p];
+      const std::int64_t along = within - 16 * (std::int64_t{b} - std::int64_t{a});
+      const bool same = necklaces[b] == necklace;
+      std::int64_t least = same ? along : between;
+      least = std::max<std::int64_t>(least, least_all);
+      least = std::min<std::int64_t>(least, least_none);
+      const LanesApart* const lanes = lanes_apart.data() + (least - least_all);
+      const std::uint32_t blocks_apart = std::min((same ? b - a : 2) | never_along, 2U);
+      compared[p] = {16 * a, 16 * b, lanes};
+      meeting +=
+          append_bits(groups + meeting, static_cast<std::uint32_t>(16 * p),
+                      meeting_groups(ours, here.boxes[b]) & lanes->groups & groups_not_along[blocks_apart]);
+      ++p;
+    } while (p < count && firsts[p] == a);
+  }
+  tests += meeting;
+  std::uint32_t* const near_groups = found.groups;
+  std::uint16_t* const near_bits = found.beads;
+  std::size_t near = 0;
+  for (std::size_t k = 0; k < meeting; ++k) {
+    const std::uint32_t group = groups[k];
+    const ComparedPair& pair = compared[group / 16];
+    const unsigned bits = near_beads<Equal>(here, std::size_t{pair.first} + (group & 12),
+                                            std::size_t{pair.second} + 4 * (group & 3), limit) &
+                          pair.lanes->beads[group % 16];
+    near_groups[near] = group;
+    near_bits[near] = static_cast<std::uint16_t>(bits);
+    near += bits != 0 ? 1 : 0;
+  }
+  return near;
+}
+
+template <int Dimension, bool Equal>
+[[KDS_BLOCK_TARGET, gnu::noinline]] std::size_t compare_along(const Blocks<Dimension>& blocks,
+                                                              std::size_t first, std::size_t last,
+                                                              std::uint32_t apart, float limit,
+                                                              const NearGroups& found) {
+  const Blocks<Dimension> here = blocks;
+  std::size_t near = 0;
+  for (std::size_t b = first; b < last; ++b) {
+    std::array<unsigned, farthest_along + 1> bits;
+    unsigned any = 0;
+    for (std::uint32_t k = apart; k <= farthest_along; ++k) {
+      bits[k] = near_along<Equal>(here, beads_in_block * b, k, limit) & firsts_along[k];
+      any |= bits[k];
+    }
+    if (any == 0) continue;
+    for (std::uint32_t k = apart; k <= farthest_along; ++k) {
+      if (bits[k] == 0) continue;
+      found.groups[near] = static_cast<std::uint32_t>(8 * b + k);
+      found.beads[near++] = static_cast<std::uint16_t>(bits[k]);
+    }
+  }
+  return near;
+}
+
+template <int Dimension>
+inline constexpr BlockKernels<Dimension> kernels_here{fill<Dimension, true>,
+                                                      fill<Dimension, false>,
+                                                      stray<Dimension>,
+                                                      unite<Dimension>,
+                                                      expand<Dimension>,
+                                                      compare<Dimension, true>,
+                                                      compare<Dimension, false>,
+                                                      compare_along<Dimension, true>,
+                                                      compare_along<Dimension, false>};
+
+}  // namespace
+
+}  // namespace kds

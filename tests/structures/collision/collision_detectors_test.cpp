@@ -1,0 +1,132 @@
+// Static detectors against all pairs decided one by one.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "structures/collision/auto_detector.h"
+#include "structures/collision/block_tree.h"
+#include "structures/collision/cell_list.h"
+#include "structures/collision/verlet_list.h"
+#include "tests/structures/collision/collision_scenes.h"
+#include "tests/support/rounds.h"
+
+namespace kds {
+
+void PrintTo(const BeadPair& pair, std::ostream* out) { *out << pair.first << "-" << pair.second; }
+
+namespace {
+
+using namespace test;
+
+std::vector<VectorTarget> targets() {
+  std::vector<VectorTarget> some;
+  for (const VectorTarget target : {VectorTarget::plain, VectorTarget::avx2, VectorTarget::avx512})
+    if (is_available(target)) some.push_back(target);
+  return some;
+}
+
+template <int Dimension>
+void expect_all_right(const CollisionScene& scene) {
+  const Balls<Dimension> balls(scene.centers, scene.radii);
+  const auto expected = all_pairs(scene.centers, scene.radii, scene.asked, Dimension);
+  const std::string what = scene.name + ", " + std::to_string(scene.radii.size()) + " beads in " +
+                           std::to_string(scene.asked.necklaces.size()) + " necklaces, dimension " +
+                           std::to_string(Dimension);
+  ASSERT_EQ(CellList<Dimension>(scene.asked).pairs(balls), expected) << "cell list, " << what;
+  ASSERT_EQ(VerletList<Dimension>(scene.asked, 1.0).pairs(balls), expected) << "Verlet list, " << what;
+  std::optional<typename BlockTree<Dimension>::Counts> counts;
+  for (const VectorTarget target : targets()) {
+    const std::string with = std::string(vector_target_names[static_cast<std::size_t>(target)]) + ", " + what;
+    BlockTree<Dimension> sequence(scene.asked, BlockOrder::sequence, target);
+    ASSERT_EQ(sequence.pairs(balls), expected) << "blocks in sequence, " << with;
+    ASSERT_EQ(sequence.pairs(balls), expected) << "the same again, " << with;
+    // The same bits on all targets.
+    if (!counts) counts = sequence.counts();
+    EXPECT_EQ(counts->group_pairs, sequence.counts().group_pairs) << with;
+    EXPECT_EQ(counts->candidates, sequence.counts().candidates) << with;
+    BlockTree<Dimension> spatial(scene.asked, BlockOrder::spatial, target);
+    ASSERT_EQ(spatial.pairs(balls), expected) << "blocks in space, " << with;
+    ASSERT_EQ(AutoDetector<Dimension>(scene.asked, std::nullopt, target).pairs(balls), expected)
+        << "auto, " << with;
+  }
+}
+
+TEST(CollisionDetectors, RandomScenesOfAllSizesAndPlaces) {
+  for (unsigned seed = 0; seed < rounds(600U); ++seed) {
+    Chance chance(seed);
+    const CollisionScene scene = random_scene(chance, seed % 50 == 0 ? 400 : 60);
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    expect_all_right<3>(scene);
+    expect_all_right<2>(scene);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(CollisionDetectors, NoBeadsOneBeadTwoBeads) {
+  const PairsAsked none;
+  const Balls<3> nothing(Eigen::Matrix3Xd(3, 0), {});
+  EXPECT_TRUE(CellList<3>(none).pairs(nothing).empty());
+  EXPECT_TRUE(BlockTree<3>(none).pairs(nothing).empty());
+  EXPECT_TRUE(AutoDetector<3>(none).pairs(nothing).empty());
+  for (const double distance : {0.0, 1.0, 2.0, std::nextafter(2.0, 3.0), 3.0}) {
+    CollisionScene scene{"two beads", Eigen::Matrix3Xd::Zero(3, 2), {1, 1}, {{{0, 1}}, true, 1, true}};
+    scene.centers(0, 1) = distance;
+    expect_all_right<3>(scene);
+    expect_all_right<2>(scene);
+    EXPECT_EQ(BlockTree<3>(scene.asked).pairs(Balls<3>(scene.centers, scene.radii)).size(),
+              distance <= 2 ? 1 : 0);
+  }
+}
+
+// Many that coincide, and grids in which every bead touches its neighbours exactly: all candidates are
+// decided on rationals.
+TEST(CollisionDetectors, AllCoincideOrTouch) {
+  CollisionScene same{"coincident", Eigen::Matrix3Xd::Constant(3, 70, 0.1), std::vector<double>(70, 0.0), {}};
+  same.asked.necklaces = {{0, 69}};
+  expect_all_right<3>(same);
+  for (const double spacing : {1.0, 0x1p-1060, 0x1p1015}) {
+    CollisionScene grid{"grid", Eigen::Matrix3Xd(3, 343), std::vector<double>(343, spacing / 2), {}};
+    for (Eigen::Index b = 0; b < 343; ++b)
+      grid.centers.col(b) =
+          spacing * Eigen::Vector3d(static_cast<double>(b % 7), static_cast<double>(b / 7 % 7),
+                                    static_cast<double>(b / 49));
+    grid.asked = {{{0, 199}, {200, 342}}, true, 1, true};
+    expect_all_right<3>(grid);
+    const auto found = BlockTree<3>(grid.asked).pairs(Balls<3>(grid.centers, grid.radii));
+    EXPECT_EQ(found.size(), 3U * 7 * 7 * 6);
+  }
+}
+
+TEST(CollisionDetectors, SequenceIsGivenUpWhereItCostsTooMuch) {
+  Chance chance(1);
+  CollisionScene gas{"gas", Eigen::Matrix3Xd(3, 4000), std::vector<double>(4000, 0.4), {}};
+  for (Eigen::Index b = 0; b < 4000; ++b)
+    gas.centers.col(b) = 14 * Eigen::Vector3d(uniform(chance), uniform(chance), uniform(chance));
+  gas.asked.necklaces = {{0, 3999}};
+  const Balls<3> balls(gas.centers, gas.radii);
+  BlockTree<3> tree(gas.asked);
+  EXPECT_EQ(tree.pairs(balls), CellList<3>(gas.asked).pairs(balls));
+  EXPECT_EQ(tree.order(), BlockOrder::spatial);
+  EXPECT_EQ(tree.pairs(balls), all_pairs(gas.centers, gas.radii, gas.asked, 3));
+  // A straight chain then: the sequence is tried again.
+  for (Eigen::Index b = 0; b < 4000; ++b) gas.centers.col(b) = Eigen::Vector3d(static_cast<double>(b), 0, 0);
+  const Balls<3> straight(gas.centers, gas.radii);
+  tree.forget_order();
+  EXPECT_TRUE(tree.pairs(straight).empty());
+  EXPECT_EQ(tree.order(), BlockOrder::sequence);
+}
+
+TEST(CollisionDetectors, WrongUseIsRefused) {
+  const Balls<3> two(Eigen::Matrix3Xd::Zero(3, 2), std::vector<double>(2, 1.0));
+  const PairsAsked three{{{0, 2}}}, gap{{{0, 1}, {3, 4}}};
+  EXPECT_THROW((void)BlockTree<3>(three).pairs(two), std::invalid_argument);
+  EXPECT_THROW((void)CellList<3>(three).pairs(two), std::invalid_argument);
+  EXPECT_THROW((void)AutoDetector<3>(three).pairs(two), std::invalid_argument);
+  EXPECT_THROW(BlockTree<3>{gap}, std::invalid_argument);
+  EXPECT_THROW((AutoDetector<3>{three, -1.0}), std::invalid_argument);
+}
+
+}  // namespace
+
+}  // namespace kds

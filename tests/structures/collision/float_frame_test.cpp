@@ -1,0 +1,133 @@
+// The bounds that float_frame.h claims, on rationals.
+
+#include "structures/collision/float_frame.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "motions/numbers/exact_number.h"
+#include "structures/collision/block_tree.h"
+#include "tests/structures/collision/collision_scenes.h"
+#include "tests/support/rounds.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+
+struct Pair {
+  Eigen::Matrix3Xd centers;
+  std::vector<double> radii;
+};
+
+/// Two balls that touch, or overlap by a rounding, at the edge of a scene that two others make wide: the
+/// floats are as coarse as they get, and both centres about half a float from one.
+Pair touching_pair(Chance& chance) {
+  Pair pair{Eigen::Matrix3Xd(3, 4), {0, 0, 0, 0}};
+  pair.centers.col(2).setConstant(-1);
+  pair.centers.col(3).setConstant(1);
+  const double reach = std::exp2(uniform(chance, -30, -1));
+  Eigen::Vector3d direction(uniform(chance, -1, 1), uniform(chance, -1, 1), uniform(chance, -1, 1));
+  if (chance() % 3 == 0) direction = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(chance() % 3));
+  direction.normalize();
+  const double half_float = 0x1p-25 * (1 - 1e-6);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double sign = direction[axis] < 0 ? -1 : 1;
+    const double edge = std::round(uniform(chance, 0.5, 0.99) * 0x1p24) * 0x1p-24;
+    // Rounded to floats, the two move apart by up to a float.
+    pair.centers(axis, 0) = sign * (edge - half_float);
+    pair.centers(axis, 1) = pair.centers(axis, 0) + direction[axis] * reach;
+  }
+  pair.radii[0] = uniform(chance, 0, 1) * reach;
+  const double distance = (pair.centers.col(0) - pair.centers.col(1)).norm();
+  pair.radii[1] = std::max(0.0, distance - pair.radii[0]);
+  while (compare_distance(pair.centers.col(0), pair.centers.col(1), pair.radii[0], pair.radii[1]) > 0)
+    pair.radii[1] = std::nextafter(pair.radii[1], 2.0);
+  return pair;
+}
+
+TEST(FloatFrame, BallsThatTouchAreNearInFloats) {
+  Chance chance(1);
+  double tightest = 1;
+  for (unsigned k = 0; k < rounds(100000U); ++k) {
+    const Pair pair = touching_pair(chance);
+    const Balls<3> balls(pair.centers, pair.radii);
+    const FloatFrame<3> frame = fit_float_frame(scene_box(balls), 0);
+    float square = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto place = [&](BeadId b) {
+        return static_cast<float>(balls.coordinate(b, axis) * frame.scale - frame.shift[axis]);
+      };
+      const auto r = static_cast<float>(frame.float_radius(pair.radii[0]));
+      const auto s = static_cast<float>(frame.float_radius(pair.radii[1]));
+      const float f = place(0), g = place(1);
+      ASSERT_LE(std::abs(f), frame.bound);
+      ASSERT_LE(f - r, g + s);
+      ASSERT_LE(g - s, f + r);
+      square += (f - g) * (f - g);
+    }
+    const float reach = static_cast<float>(frame.float_radius(pair.radii[0])) +
+                        static_cast<float>(frame.float_radius(pair.radii[1]));
+    ASSERT_LE(square, reach * reach);
+    tightest = std::min(tightest, 1 - static_cast<double>(std::sqrt(square) / reach));
+  }
+  EXPECT_LT(tightest, 0x1p-17);  // the cases come close
+}
+
+TEST(FloatFrame, CoordinatesErrByLessThanClaimed) {
+  Chance chance(2);
+  for (unsigned k = 0; k < rounds(3000U); ++k) {
+    const CollisionScene scene = random_scene(chance, 5);
+    const Balls<3> balls(scene.centers, scene.radii);
+    const FloatFrame<3> frame = fit_float_frame(scene_box(balls), 0);
+    ASSERT_GE(frame.bound, 0x1p-30);
+    for (BeadId b = 0; b < balls.size(); ++b) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double f = static_cast<float>(balls.coordinate(b, axis) * frame.scale - frame.shift[axis]);
+        const Rational exact =
+            Rational(balls.coordinate(b, axis)) * Rational(frame.scale) - Rational(frame.shift[axis]);
+        ASSERT_LE(abs(Rational(f) - exact), Rational(0x1p-24) * Rational(1 + 0x1p-19) * Rational(frame.bound))
+            << scene.name;
+        ASSERT_LE(std::abs(f), frame.bound);
+      }
+      ASSERT_LT(balls.radius(b) * frame.scale, 1.0);
+    }
+  }
+}
+
+TEST(FloatFrame, StrayedIsNoLessThanExactly) {
+  Chance chance(3);
+  for (unsigned k = 0; k < rounds(2000U); ++k) {
+    const CollisionScene scene = random_scene(chance, 40);
+    BlockTree<3> tree(scene.asked);
+    (void)tree.pairs(Balls<3>(scene.centers, scene.radii));
+    Eigen::Matrix3Xd moved = scene.centers;
+    const double size = moved.cwiseAbs().maxCoeff() * std::exp2(uniform(chance, -60, 1));
+    for (Eigen::Index b = 0; b < moved.cols(); ++b)
+      moved.col(b) +=
+          size * Eigen::Vector3d(uniform(chance, -1, 1), uniform(chance, -1, 1), uniform(chance, -1, 1));
+    if (!moved.allFinite()) continue;
+    Rational farthest = 0;
+    for (Eigen::Index b = 0; b < moved.cols(); ++b) {
+      Rational square = 0;
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        const Rational d = Rational(moved(axis, b)) - Rational(scene.centers(axis, b));
+        square += d * d;
+      }
+      farthest = std::max(farthest, square);
+    }
+    const double told = tree.strayed(Balls<3>(moved, scene.radii));
+    if (std::isfinite(told)) {
+      ASSERT_LE(farthest, Rational(told) * Rational(told)) << scene.name;
+    }
+    const double size_of_scene = scene.centers.cwiseAbs().maxCoeff();
+    EXPECT_LE(tree.strayed(Balls<3>(scene.centers, scene.radii)),
+              0x1p-18 * size_of_scene + 4 * std::numeric_limits<double>::denorm_min())
+        << scene.name;
+  }
+}
+
+}  // namespace
+}  // namespace kds
