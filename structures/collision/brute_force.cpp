@@ -28,8 +28,9 @@ template <int Dimension>
   for (BeadId b = first; b < end; b += 8) {
     const detail::Eight square = detail::square_distance<Dimension>(centers, b, center);
     const detail::Eight reach = radius + detail::load(balls.radii() + b) + distance;
-    const auto apart = (square > reach * reach * (1 + 0x1p-46)) & (square >= 0x1p-900);
-    unsigned near = detail::bits_of(~apart);
+    const detail::Eight least = detail::all(0x1p-900), limit = reach * reach * (1 + 0x1p-46);
+    const detail::EightFlags none{};
+    unsigned near = detail::bits_of(square > (limit > least ? limit : least) ? none : ~none);
     if (end - b < 8) near &= (1U << (end - b)) - 1;
     for (; near != 0; near &= near - 1) found[count++] = b + static_cast<BeadId>(std::countr_zero(near));
   }
