@@ -96,7 +96,6 @@ Json json_of(const FamiliesOptions& options, const Families& families) {
                     {"n", row.beads},
                     {"family", row.family},
                     {"ratio", row.ratio()},
-                    {"looked_at", row.looked_at},
                     {"seconds", row.seconds},
                     {"build_seconds", row.build_seconds}});
   for (const FittedExponent& fit : families.fits)
@@ -114,20 +113,20 @@ Json json_of(const FamiliesOptions& options, const Families& families) {
 }
 
 std::string csv_of(const Families& families) {
-  std::string text = "dimension,hierarchy,side,n,family,ratio,looked_at,seconds,build_seconds\n";
+  std::string text = "dimension,hierarchy,side,n,family,ratio,seconds,build_seconds\n";
   for (const FamilySize& row : families.rows)
-    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", row.dimension, name_of(row.hierarchy), row.side,
-                        row.beads, row.family, row.ratio(), row.looked_at, row.seconds, row.build_seconds);
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", row.dimension, name_of(row.hierarchy), row.side,
+                        row.beads, row.family, row.ratio(), row.seconds, row.build_seconds);
   return text;
 }
 
 std::string table_of(const Families& families) {
-  std::string text = fmt::format("{:<10}{:<10}{:>6}{:>12}{:>14}{:>10}{:>16}{:>10}\n", "dimension",
-                                 "hierarchy", "side", "n", "family", "ratio", "looked at", "seconds");
+  std::string text = fmt::format("{:<10}{:<10}{:>6}{:>12}{:>14}{:>10}{:>10}\n", "dimension", "hierarchy",
+                                 "side", "n", "family", "ratio", "seconds");
   for (const FamilySize& row : families.rows)
-    text += fmt::format("{:<10}{:<10}{:>6}{:>12}{:>14}{:>10.3f}{:>16}{:>10.3f}\n", row.dimension,
+    text += fmt::format("{:<10}{:<10}{:>6}{:>12}{:>14}{:>10.3f}{:>10.3f}\n", row.dimension,
                         name_of(row.hierarchy), row.side, with_thousands(row.beads),
-                        with_thousands(row.family), row.ratio(), with_thousands(row.looked_at), row.seconds);
+                        with_thousands(row.family), row.ratio(), row.seconds);
   text += "\nratio: to n log2 n in the plane, to n^(4/3) in space\n";
   for (const FittedExponent& fit : families.fits)
     text += fmt::format("{} {}: {} grows as n^{:.3f}, 95% {:.3f} to {:.3f}, theorem {:.3f}\n",

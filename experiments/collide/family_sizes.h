@@ -20,8 +20,8 @@ struct FamilySize {
   int dimension = 3;
   Hierarchy hierarchy = Hierarchy::wrapped;
   std::size_t side = 0, beads = 0;
-  std::uint64_t family = 0, looked_at = 0;  ///< pairs of spheres
-  double seconds = 0;                       ///< of the search, without building the hierarchy
+  std::uint64_t family = 0;  ///< pairs of spheres
+  double seconds = 0;        ///< of the search, without building the hierarchy
   double build_seconds = 0;
 
   /// n log2 n in the plane, n^(4/3) in space.

@@ -49,11 +49,10 @@ void for_each_root(const SphereTree<Dimension>& tree, const PairsAsked& asked, c
 // Calls apart(pair) for pairs of nodes that are farther apart, and near(pair) for beads that are not, until
 // that returns false.
 template <int Dimension, class Apart, class Near>
-std::uint64_t search_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked, double distance,
-                           const Apart& apart, const Near& near) {
+void search_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked, double distance,
+                  const Apart& apart, const Near& near) {
   const FloatingPointGuard to_nearest;
   const TreeSphere<Dimension>* const spheres = tree.spheres().data();
-  std::uint64_t looked_at = 0;
   for_each_root(tree, asked, [&](const NodePair& roots, BeadId least_apart) {
     Stack<NodePair> stack;
     stack.push(roots);
@@ -67,7 +66,6 @@ std::uint64_t search_pairs(const SphereTree<Dimension>& tree, const PairsAsked& 
         stack.push({a.left, a.left});
         continue;
       }
-      ++looked_at;
       const Point<Dimension> d = detail::minus(a.center, b.center);
       const double square = detail::dot(d, d), reach = a.radius + b.radius + distance;
       if (surely_apart(square, reach)) {
@@ -91,14 +89,13 @@ std::uint64_t search_pairs(const SphereTree<Dimension>& tree, const PairsAsked& 
     }
     return true;
   });
-  return looked_at;
 }
 
 template <int Dimension, class Apart>
 PairsFound search(const SphereTree<Dimension>& tree, const PairsAsked& asked, double distance,
                   const Apart& apart) {
   PairsFound found;
-  found.looked_at = search_pairs(
+  search_pairs(
       tree, asked, distance,
       [&](const NodePair& pair) {
         ++found.family;

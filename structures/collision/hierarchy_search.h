@@ -22,7 +22,6 @@ namespace kds {
 struct PairsFound {
   std::vector<BeadPair> pairs;  ///< ascending
   std::uint64_t family = 0;     ///< pairs of nodes that are farther apart: the size of the separating family
-  std::uint64_t looked_at = 0;  ///< pairs of nodes
 };
 
 /// All pairs asked for whose closed balls are at most so far apart. At a distance of 0 these are the

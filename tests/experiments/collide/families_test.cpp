@@ -61,7 +61,7 @@ TEST(FamilySizes, RowsAndFits) {
   for (const Json& row : json["rows"]) {
     EXPECT_GT(row["ratio"], row["dimension"] == 2 ? 1 : 3) << row;
     EXPECT_LT(row["ratio"], row["dimension"] == 2 ? 1.5 : 4) << row;
-    EXPECT_LE(row["family"], row["looked_at"]) << row;
+    EXPECT_GT(row["seconds"], 0) << row;
   }
 }
 
