@@ -107,7 +107,7 @@ void ask_all_about_necklaces(unsigned cases, BeadId most_beads) {
     expect_detectors_agree(balls, asked, uniform(random, 0, 1), "seed " + std::to_string(seed), seen);
   }
   EXPECT_GT(seen.colliding, seen.cases / 3);
-  EXPECT_LT(seen.colliding, seen.cases);
+  EXPECT_TRUE(seen.cases < 500 || seen.colliding < seen.cases);
 }
 
 TEST(Detectors, OfTenThousandRandomNecklaces) {
@@ -143,10 +143,14 @@ void ask_all_about_a_grid(BeadId side, double scale, const Eigen::Vector3d& shif
 }
 
 TEST(Detectors, OfGridsThatTouch) {
-  for (const double scale : {1.0, 3.0, 0x1p-300, 0x1p300, 0x1p-520, 0x1p505}) {
+  for (const double scale : {1.0, 3.0, 0x1p-300, 0x1p300}) {
     ask_all_about_a_grid<2>(9, scale, {0, 0, 0});
     ask_all_about_a_grid<3>(5, scale, {0, 0, 0});
     ask_all_about_a_grid<3>(4, scale, {0x1p40, -0x1p45, 0x1p30});
+  }
+  for (const double scale : {0x1p-520, 0x1p505}) {  // all of it on rationals
+    ask_all_about_a_grid<2>(5, scale, {0, 0, 0});
+    ask_all_about_a_grid<3>(3, scale, {0, 0, 0});
   }
   ask_all_about_a_grid<2>(30, 1, {0, 0, 0});
   ask_all_about_a_grid<3>(10, 1, {0, 0, 0});
