@@ -12,6 +12,8 @@
 #include <string_view>
 
 #include "experiments/bench/bench_command.h"
+#include "experiments/collide/collide_command.h"
+#include "experiments/collide/families_command.h"
 #include "experiments/output/destinations.h"
 #include "experiments/output/provenance.h"
 #include "experiments/output/text.h"
@@ -39,6 +41,8 @@ constexpr std::array kCommands{
     Command{"generate", "write a model necklace", generate_command},
     Command{"replay", "run a logged run again and compare", replay_command},
     Command{"update", "compare techniques that bring the power diagram from frame to frame", update_command},
+    Command{"collide", "which beads collide in each frame, by several methods", collide_command},
+    Command{"families", "measure separating families of packed grids", families_command},
     Command{"bench", "measure ours beside what users would pick today", bench_command},
     Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},
 };

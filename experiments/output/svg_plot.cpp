@@ -56,6 +56,7 @@ std::string embeddable_svg(const std::string& document, const std::string& id) {
 std::string svg_plot(const LinePlot& plot) {
   std::string script = preamble(plot.y_label, 3.6);
   script += fmt::format("set xlabel {} textcolor '#4a525c'\n", gnuplot_text(plot.x_label));
+  if (plot.below_zero) script += "set yrange [*:*]\n";
   script += "set format x '%.12g'\nset key outside top left horizontal textcolor '#1f2933' samplen 2\n";
   std::string curves;
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
@@ -67,6 +68,27 @@ std::string svg_plot(const LinePlot& plot) {
                           kColours[i % kColours.size()], gnuplot_text(plot.curves[i].name));
   }
   return embeddable_svg(run_gnuplot(script + "plot " + curves + "\n"), plot.id);
+}
+
+std::string svg_plot(const MapPlot& plot) {
+  const std::string label = gnuplot_text(plot.label);
+  std::string script = fmt::format(
+      "set terminal svg size 620,540 dynamic noenhanced font 'sans-serif,13' background '#ffffff'\n"
+      "set border 15 linecolor '#8a929c' linewidth 0.8\n"
+      "set tics nomirror out scale 0.6 textcolor '#4a525c'\n"
+      "set size square\nunset key\nset format x '%.12g'\nset format y '%.12g'\nset format cb '%.12g'\n"
+      "set xlabel {0} textcolor '#4a525c'\nset ylabel {0} textcolor '#4a525c'\n"
+      "set cblabel {1} textcolor '#4a525c'\nset cbrange [0:*]\n"
+      "set palette defined (0 '#cfe0f3', 0.5 '{2}', 1 '#0d2847')\n"
+      "set style fill solid 1 noborder\nset xrange [{3:.10g}:{4:.10g}]\nset yrange [{3:.10g}:{4:.10g}]\n"
+      "$squares << EOD\n",
+      label, gnuplot_text(plot.value_label), kColours[0], plot.from, plot.to);
+  for (const auto& [x, y, value] : plot.squares)
+    script += fmt::format("{:.10g} {:.10g} {:.10g}\n", x, y, value);
+  script +=
+      fmt::format("EOD\nplot $squares using 1:2:({0:.10g}):({0:.10g}):3 with boxxyerror linecolor palette\n",
+                  plot.side / 2);
+  return embeddable_svg(run_gnuplot(script), plot.id);
 }
 
 std::string svg_plot(const BarPlot& plot) {

@@ -1,5 +1,5 @@
 #pragma once
-// Curves and bars as SVG elements that can stand side by side in one page.
+// Curves, bars and maps as SVG elements that can stand side by side in one page.
 
 #include <string>
 #include <utility>
@@ -17,6 +17,7 @@ struct LinePlot {
   std::string x_label, y_label;
   bool staircase = false;  ///< a value holds until the next point
   std::vector<Curve> curves;
+  bool below_zero = false;  ///< values may be; else the axis begins at 0
 };
 
 struct BarPlot {
@@ -25,8 +26,23 @@ struct BarPlot {
   std::vector<std::pair<std::string, double>> bars;
 };
 
+/// Squares of equal size in a square, coloured by value; where there is none, nothing.
+struct MapPlot {
+  struct Square {
+    double x, y;  ///< its middle
+    double value;
+  };
+  std::string id;
+  std::string label;        ///< of both axes
+  std::string value_label;  ///< of the colours
+  double from = 0, to = 1;  ///< both axes
+  double side = 1;          ///< of a square
+  std::vector<Square> squares;
+};
+
 [[nodiscard]] std::string svg_plot(const LinePlot& plot);
 [[nodiscard]] std::string svg_plot(const BarPlot& plot);
+[[nodiscard]] std::string svg_plot(const MapPlot& plot);
 
 /// The <svg> element alone, its ids and the references to them prefixed: two plots of one page must not share
 /// any.

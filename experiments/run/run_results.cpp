@@ -26,6 +26,7 @@ void check_destinations(const Destinations& destinations) {
   require_gnuplot("--out");
   check_directory(*destinations.out, "--out", {kFiles[0], kFiles[1], kFiles[2]});
   refuse_page_beside(*destinations.out, "update.json", "kds update");
+  refuse_page_beside(*destinations.out, "collide.json", "kds collide");
 }
 
 void RunResults::begin(const Scene& scene) {

@@ -69,6 +69,7 @@ int update_command(const Arguments& arguments) {
   if (options.out) {
     check_directory(*options.out, "--out", {"report.html"});
     refuse_page_beside(*options.out, "summary.json", "kds run");
+    refuse_page_beside(*options.out, "collide.json", "kds collide");
   }
 
   ProgressBar bar(!options.quiet);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "motions/numbers/exact_number.h"
+#include "structures/necklace/exact_total.h"
 
 namespace kds {
 
@@ -26,6 +27,10 @@ Rational square_in_rationals(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 
 int sign_of(const Rational& x) { return (x > 0) - (x < 0); }
 
+TwoTerms exact_difference(const Eigen::Vector3d& a, const Eigen::Vector3d& b, Eigen::Index axis) {
+  return exact_sum(a[axis], -b[axis]);
+}
+
 // The sign of the difference of two numbers that are not negative, each computed with at most eight roundings
 // in a row, hence with a relative error below 2^-49, if they tell it. What underflows in one of them is below
 // 2^-1000, which does not matter beside the larger one; infinities and NaN tell nothing.
@@ -43,6 +48,10 @@ std::optional<int> sign_told(double left, double right) {
 int compare_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s) {
   const double reach = r + s;
   if (const auto sign = sign_told(square_in_double(a, b), reach * reach)) return *sign;
+  ExactTotal total;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) total.add_square(exact_difference(a, b, axis));
+  total.subtract_square(exact_sum(r, s));
+  if (total.is_exact()) return total.sign();
   const Rational exact_reach = Rational(r) + Rational(s);
   return sign_of(square_in_rationals(a, b) - exact_reach * exact_reach);
 }
@@ -76,6 +85,14 @@ int compare_gaps(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Exact
   // Each of the four is off by less than 2^-50 of itself, or by less than 2^-500 where squares underflow.
   const double difference = (first - reach) - (second - other_reach);
   if (sizes <= 0x1p500 && std::abs(difference) > 0x1p-48 * sizes + 0x1p-490) return difference > 0 ? 1 : -1;
+  if (exact_sum(r.first, r.second) == exact_sum(s.first, s.second)) {
+    ExactTotal total;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      total.add_square(exact_difference(a, b, axis));
+      total.subtract_square(exact_difference(c, d, axis));
+    }
+    if (total.is_exact()) return total.sign();
+  }
   // The sign of sqrt(p) - (sqrt(q) + u).
   const Rational p = square_in_rationals(a, b), q = square_in_rationals(c, d);
   const Rational u = Rational(r.first) + Rational(r.second) - Rational(s.first) - Rational(s.second);

@@ -1,0 +1,76 @@
+#include "experiments/collide/collide_options.h"
+
+#include <algorithm>
+
+#include "experiments/collide/methods.h"
+#include "experiments/output/text.h"
+#include "experiments/program/option_values.h"
+
+namespace kds {
+
+namespace {
+
+constexpr std::array kCollideOptions{
+    OptionSpec{"--method", "LIST",
+               "comma list of brute, wrapped, layered, power, or all; brute looks at all pairs of beads "
+               "(default: all)"},
+    OptionSpec{"--pairs", "NAME", "of beads within a necklace, between two, or all (default: all)"},
+    OptionSpec{"--apart", "K", "only beads at least so many apart along their necklace (default: 2)"},
+    OptionSpec{
+        "--out", "DIR",
+        "write collide.json, collide.csv, pairs.csv, frames.csv and report.html there (default: none)"},
+    OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
+    OptionSpec{"--quiet", "", "no table, no progress bar"},
+};
+
+constexpr auto kOptions = joined(kInputOptions, kCollideOptions);
+
+constexpr CommandSpec kCommand{
+    "kds collide",
+    "Which beads collide in each frame, exactly: closed balls, so touching counts. Methods are compared.",
+    kInputOperand,
+    "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
+    kOptions,
+    "kds collide 1l2y.pdb --select all --radius element --apart 4\n"
+    "kds collide a.xyz b.xyz --pairs between --method wrapped,layered --json -\n"
+    "kds collide villin.dcd --topology villin.pdb --radius 1.9 --apart 5 --out report",
+};
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const Method& method : collision_methods()) names.emplace_back(method.name);
+  return names;
+}
+
+std::vector<std::string> parse_methods(const std::string& list) {
+  const std::vector<std::string> all = method_names(), names = split(list, ',');
+  for (const std::string& name : names) {
+    if (std::find(all.begin(), all.end(), name) == all.end())
+      throw InputError(
+          fmt::format("--method: '{}' is not one of {} or, alone, all", name, fmt::join(all, ", ")));
+    if (std::count(names.begin(), names.end(), name) > 1)
+      throw InputError(fmt::format("--method: {} is listed twice", name));
+  }
+  std::vector<std::string> ordered;
+  for (const std::string& name : all)
+    if (std::find(names.begin(), names.end(), name) != names.end()) ordered.push_back(name);
+  return ordered;
+}
+
+}  // namespace
+
+CollideOptions parse_collide_options(const Arguments& arguments) {
+  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  CollideOptions options;
+  options.input = parse_input_options(parsed, kCommand.name);
+  const std::string methods = parsed.value("--method").value_or("all");
+  options.all_methods = methods == "all";
+  options.methods = options.all_methods ? method_names() : parse_methods(methods);
+  options.pairs = chosen<WhichPairs>(parsed, "--pairs", which_pairs_names).value_or(options.pairs);
+  if (const auto text = parsed.value("--apart"))
+    options.apart = static_cast<BeadId>(parse_whole_number("--apart", *text, 1, 1'000'000'000));
+  options.destinations = {path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
+  return options;
+}
+
+}  // namespace kds

@@ -1,0 +1,36 @@
+#pragma once
+// `kds collide`: what it was asked to do, and how that is parsed.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/output/destinations.h"
+#include "experiments/program/command_line.h"
+#include "experiments/program/input_options.h"
+#include "motions/base/bead.h"
+
+namespace kds {
+
+enum class WhichPairs : std::uint8_t { all, within, between };
+/// In the order of the enumerators.
+inline constexpr std::array<std::string_view, 3> which_pairs_names{"all", "within", "between"};
+[[nodiscard]] constexpr std::string_view name_of(WhichPairs pairs) {
+  return which_pairs_names[static_cast<std::size_t>(pairs)];
+}
+
+struct CollideOptions {
+  InputOptions input;
+  std::vector<std::string> methods;  ///< in the order of all methods
+  bool all_methods = true;           ///< nobody has named them
+  WhichPairs pairs = WhichPairs::all;
+  BeadId apart = 2;
+  Destinations destinations;
+};
+
+/// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.
+[[nodiscard]] CollideOptions parse_collide_options(const Arguments& arguments);
+
+}  // namespace kds

@@ -1,0 +1,40 @@
+#pragma once
+// The results of `kds collide`: collide.json, collide.csv, pairs.csv, frames.csv and report.html in --out,
+// --json, standard output.
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "experiments/collide/collide_report.h"
+#include "experiments/collide/contact_map.h"
+#include "experiments/collide/pairs_csv.h"
+#include "experiments/output/destinations.h"
+#include "experiments/output/staged_files.h"
+#include "experiments/program/taken_paths.h"
+
+namespace kds {
+
+/// Throws InputError where something could not be written later, or would replace another result or one of
+/// the files that are taken, and where gnuplot is missing for --out.
+void check_collide_destinations(const Destinations& destinations, TakenPaths taken);
+
+class CollideResults {
+ public:
+  explicit CollideResults(Destinations destinations) : destinations_(std::move(destinations)) {}
+
+  /// The input is accepted: from now on there are files in the making. `scene` must outlive this.
+  void begin(const CollideFrames& scene);
+  void add_frame(const FrameRead& frame, std::span<const BeadPair> pairs);
+  /// The files of --out appear together, in place of those of an earlier result. Where the plots fail the
+  /// figures are safe, and the page of an earlier result goes.
+  void deliver(const CollideReport& report, const std::string& json, const std::string& input);
+
+ private:
+  Destinations destinations_;
+  std::optional<StagedFiles> files_;
+  std::optional<PairsCsv> pairs_;
+  std::optional<ContactMap> contacts_;
+};
+
+}  // namespace kds

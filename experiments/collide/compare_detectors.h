@@ -1,0 +1,60 @@
+#pragma once
+// Every method over every frame: what they tell, that they agree, and how long they take.
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/collide/collide_frames.h"
+#include "experiments/collide/methods.h"
+
+namespace kds {
+
+struct ClosestInFrame {
+  FrameStamp frame;
+  ClosestPair pair;
+};
+
+/// One method over all frames: sums, and the closest pair of all.
+struct CollideRow {
+  std::string_view method;
+  std::size_t colliding_frames = 0;
+  std::optional<std::uint64_t> pairs = 0;  ///< none where a method does not tell them
+  std::optional<ClosestInFrame> closest;   ///< none where it does not tell of some frame
+  std::optional<std::uint64_t> family;
+  double seconds = 0;          ///< to find collisions from scratch
+  double closest_seconds = 0;  ///< and then the closest pair, where that is another search
+};
+
+/// What was found in one frame, by all methods that tell.
+struct FrameFound {
+  FrameStamp stamp;
+  bool collide = false;
+  std::optional<std::uint64_t> pairs;
+  std::optional<ClosestPair> closest;
+};
+
+struct CollideReport {
+  std::vector<CollideRow> rows;
+  std::vector<FrameFound> frames;
+};
+
+/// Told of each frame for which some method tells all pairs.
+using PairsOfFrame = std::function<void(const FrameRead&, std::span<const BeadPair>)>;
+
+struct CollideTask {
+  std::vector<const Method*> methods;
+  PairsAsked asked;
+  bool leave_out_refusing = false;  ///< a method that cannot answer goes, with a warning
+};
+
+/// Throws InputError with the refusal of a method, and std::runtime_error where two methods disagree.
+[[nodiscard]] CollideReport compare_detectors(CollideFrames& frames, const CollideTask& task,
+                                              const PairsOfFrame& pairs_of_frame,
+                                              const std::function<void(const std::string&)>& warn,
+                                              const std::function<void(std::size_t, std::size_t)>& progress);
+
+}  // namespace kds

@@ -1,0 +1,32 @@
+#pragma once
+// How often beads collide, pair by pair, or by groups of consecutive beads where there are many: what a
+// contact map shows. Memory does not grow with frames or pairs.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "structures/collision/pairs_asked.h"
+
+namespace kds {
+
+class ContactMap {
+ public:
+  explicit ContactMap(std::size_t beads);
+
+  void add_frame(std::span<const BeadPair> pairs);
+  [[nodiscard]] bool empty() const { return pairs_ == 0; }
+  /// As an SVG element.
+  [[nodiscard]] std::string plot() const;
+
+ private:
+  static constexpr std::size_t most_groups = 240;
+  std::size_t beads_, in_group_, groups_;
+  std::size_t frames_ = 0;
+  std::uint64_t pairs_ = 0;
+  std::vector<std::uint64_t> counts_;  // of groups i <= j, at i * groups_ + j
+};
+
+}  // namespace kds

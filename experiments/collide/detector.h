@@ -1,0 +1,37 @@
+#pragma once
+// A method of collision detection behind one interface.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "structures/collision/closest_pair.h"
+#include "structures/collision/pairs_asked.h"
+#include "structures/necklace/balls.h"
+
+namespace kds {
+
+/// What a method tells of one frame: all methods the same, where they tell it.
+struct Detection {
+  bool collide = false;
+  std::optional<std::vector<BeadPair>> pairs;  ///< all that collide, ascending
+  std::optional<ClosestPair> closest;          ///< of all pairs asked for
+  std::optional<std::uint64_t> family;  ///< the pairs of what it groups beads in that prove the others apart
+};
+
+template <int Dimension>
+class Detector {
+ public:
+  virtual ~Detector() = default;
+  /// Why it cannot answer about these balls, in a sentence.
+  [[nodiscard]] virtual std::optional<std::string> refusal(const Balls<Dimension>&) const {
+    return std::nullopt;
+  }
+  /// Collisions, from scratch.
+  virtual void detect(const Balls<Dimension>& balls, Detection& found) = 0;
+  /// The closest pair, where that is another search; `detect` has been called with these balls.
+  virtual void find_closest(const Balls<Dimension>&, Detection&) {}
+};
+
+}  // namespace kds

@@ -1,0 +1,125 @@
+#include "structures/collision/brute_force.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "motions/base/floating_point_guard.h"
+#include "structures/collision/separation.h"
+#include "structures/enclosing_sphere/scan_targets.h"
+#include "structures/enclosing_sphere/sphere_scan.h"
+
+namespace kds {
+
+namespace {
+
+constexpr BeadId at_a_time = 1024;
+using Found = std::array<BeadId, at_a_time>;
+
+// The beads of first..end-1, at most so many as are looked at at a time, that are not surely_apart from this
+// one.
+template <int Dimension>
+[[KDS_SCAN_TARGETS]] std::size_t find_near(const Balls<Dimension>& balls, BeadId bead, double distance,
+                                           BeadId first, BeadId end, Found& found) {
+  const auto centers = detail::coordinates_of(balls);
+  const Point<Dimension> center = detail::center_of(balls, bead);
+  const double radius = balls.radius(bead);
+  std::size_t count = 0;
+  for (BeadId b = first; b < end; b += 8) {
+    const detail::Eight square = detail::square_distance<Dimension>(centers, b, center);
+    const detail::Eight reach = radius + detail::load(balls.radii() + b) + distance;
+    const detail::Eight least = detail::all(0x1p-900), limit = reach * reach * (1 + 0x1p-46);
+    const detail::EightFlags none{};
+    unsigned near = detail::bits_of(square > (limit > least ? limit : least) ? none : ~none);
+    if (end - b < 8) near &= (1U << (end - b)) - 1;
+    for (; near != 0; near &= near - 1) found[count++] = b + static_cast<BeadId>(std::countr_zero(near));
+  }
+  return count;
+}
+
+// The beads after this one that it is asked about, as runs first..end-1.
+struct Run {
+  BeadId first, end;
+};
+std::array<Run, 2> asked_of(BeadId bead, std::size_t necklace, const PairsAsked& asked) {
+  const BeadId end = asked.necklaces[necklace].last + 1, beads = asked.necklaces.back().last + 1;
+  const BeadId first = end - bead > asked.apart ? bead + asked.apart : end;
+  return {Run{first, asked.within ? end : first}, Run{end, asked.between ? beads : end}};
+}
+
+// Calls visit(i, j) for pairs that are not surely_apart, ascending, until it returns false. `distance()` is
+// asked for each bead.
+template <int Dimension, class Distance, class Visit>
+void visit_near(const Balls<Dimension>& balls, const PairsAsked& asked, const Distance& distance,
+                const Visit& visit) {
+  const FloatingPointGuard to_nearest;
+  Found found;
+  for (std::size_t n = 0; n < asked.necklaces.size(); ++n) {
+    for (BeadId i = asked.necklaces[n].first; i <= asked.necklaces[n].last; ++i) {
+      for (const Run& run : asked_of(i, n, asked)) {
+        for (BeadId first = run.first; first < run.end;) {
+          const BeadId end = first + std::min(at_a_time, run.end - first);
+          const std::size_t count = find_near(balls, i, distance(), first, end, found);
+          for (std::size_t k = 0; k < count; ++k)
+            if (!visit(i, found[k])) return;
+          first = end;
+        }
+      }
+    }
+  }
+}
+
+template <int Dimension>
+bool are_within(const Balls<Dimension>& balls, BeadId i, BeadId j, double distance) {
+  return within<Dimension>(detail::center_of(balls, i), detail::center_of(balls, j), balls.radius(i),
+                           balls.radius(j), distance);
+}
+
+}  // namespace
+
+template <int Dimension>
+std::vector<BeadPair> pairs_by_force(const Balls<Dimension>& balls, const PairsAsked& asked,
+                                     double distance) {
+  std::vector<BeadPair> pairs;
+  visit_near(
+      balls, asked, [distance] { return distance; },
+      [&](BeadId i, BeadId j) {
+        if (are_within(balls, i, j, distance)) pairs.push_back({i, j});
+        return true;
+      });
+  return pairs;
+}
+
+template <int Dimension>
+std::optional<BeadPair> first_pair_by_force(const Balls<Dimension>& balls, const PairsAsked& asked,
+                                            double distance) {
+  std::optional<BeadPair> first;
+  visit_near(
+      balls, asked, [distance] { return distance; },
+      [&](BeadId i, BeadId j) {
+        if (are_within(balls, i, j, distance)) first = BeadPair{i, j};
+        return !first;
+      });
+  return first;
+}
+
+template <int Dimension>
+std::optional<ClosestPair> closest_pair_by_force(const Balls<Dimension>& balls, const PairsAsked& asked) {
+  ClosestSoFar<Dimension> closest(balls);
+  visit_near(
+      balls, asked, [&] { return std::max(0.0, closest.at_most()); },
+      [&](BeadId i, BeadId j) {
+        closest.offer(i, j);
+        return true;
+      });
+  return closest.result();
+}
+
+template std::vector<BeadPair> pairs_by_force(const Balls<2>&, const PairsAsked&, double);
+template std::vector<BeadPair> pairs_by_force(const Balls<3>&, const PairsAsked&, double);
+template std::optional<BeadPair> first_pair_by_force(const Balls<2>&, const PairsAsked&, double);
+template std::optional<BeadPair> first_pair_by_force(const Balls<3>&, const PairsAsked&, double);
+template std::optional<ClosestPair> closest_pair_by_force(const Balls<2>&, const PairsAsked&);
+template std::optional<ClosestPair> closest_pair_by_force(const Balls<3>&, const PairsAsked&);
+
+}  // namespace kds

@@ -1,0 +1,234 @@
+// `kds collide`: its options, what it finds and what it writes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "experiments/collide/collide_options.h"
+#include "experiments/collide/compare_detectors.h"
+#include "motions/base/input_error.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string refusal(const Arguments& arguments) {
+  try {
+    static_cast<void>(parse_collide_options(arguments));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(CollideOptions, DefaultsAndAll) {
+  const CollideOptions plain = parse_collide_options({"a.pdb"});
+  EXPECT_TRUE(plain.all_methods);
+  EXPECT_EQ(plain.methods.size(), collision_methods().size());
+  EXPECT_EQ(plain.apart, 2U);
+  EXPECT_EQ(plain.pairs, WhichPairs::all);
+  const CollideOptions all = parse_collide_options({"a.xyz", "--method", "power,brute", "--apart", "5",
+                                                    "--pairs", "between", "--out", "there", "--json", "-",
+                                                    "--quiet", "b.xyz", "--radius", "2", "--frames", ":9"});
+  EXPECT_THAT(all.input.inputs, ElementsAre("a.xyz", "b.xyz"));
+  EXPECT_THAT(all.methods, ElementsAre("brute", "power"));
+  EXPECT_FALSE(all.all_methods);
+  EXPECT_EQ(all.apart, 5U);
+  EXPECT_EQ(all.pairs, WhichPairs::between);
+  EXPECT_EQ(all.destinations.out, "there");
+  EXPECT_EQ(all.destinations.json, "-");
+  EXPECT_TRUE(all.destinations.quiet);
+}
+
+TEST(CollideOptions, RefusesWithTheOptionAndWhatItTakes) {
+  EXPECT_THAT(refusal({}), HasSubstr("kds collide needs at least one INPUT"));
+  EXPECT_THAT(refusal({"a.pdb", "--method", "magic"}), HasSubstr("--method: 'magic' is not one of brute,"));
+  EXPECT_THAT(refusal({"a.pdb", "--method", "brute,all"}), HasSubstr("or, alone, all"));
+  EXPECT_THAT(refusal({"a.pdb", "--method", "brute,brute"}), HasSubstr("brute is listed twice"));
+  EXPECT_THAT(refusal({"a.pdb", "--apart", "0"}), HasSubstr("--apart"));
+  EXPECT_THAT(refusal({"a.pdb", "--pairs", "some"}), HasSubstr("--pairs: 'some' is not one of all, within"));
+}
+
+// A square of side 2 that opens: beads of radius 1 at the corners touch, those of a diagonal never.
+std::string opening_square(const ScratchDirectory& directory) {
+  return directory.file("square.xyz",
+                        "4\nframe\nC 0 0 0\nC 2 0 0\nC 2 2 0\nC 0 2 0\n"
+                        "4\nframe\nC 0 0 1\nC 2 0 0\nC 2 2 0\nC 0 2 0\n"
+                        "4\nframe\nC 0 0.5 0\nC 2 0 0\nC 2 2 0\nC 0 2 0\n");
+}
+
+TEST(Collide, RowsOfAllMethodsAgree) {
+  const ScratchDirectory directory;
+  const ProgramRun run = run_program({"collide", opening_square(directory), "--radius", "1", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["input"]["beads"], 4);
+  EXPECT_EQ(json["input"]["frames"], 3);
+  EXPECT_EQ(json["input"]["dimension"], 3);
+  EXPECT_EQ(json["settings"]["apart"], 2);
+  EXPECT_TRUE(json.contains("machine") && json.contains("version"));
+  std::vector<std::string> methods;
+  for (const Json& row : json["rows"]) {
+    methods.push_back(row["method"]);
+    // Beads 0 and 3 touch in frame 0 and overlap in frame 2.
+    EXPECT_EQ(row["pairs"], 2) << row;
+    EXPECT_EQ(row["colliding_frames"], 2) << row;
+    EXPECT_EQ(row["closest"]["i"], 0) << row;
+    EXPECT_EQ(row["closest"]["j"], 3) << row;
+    EXPECT_EQ(row["closest"]["distance"], -0.5) << row;
+    EXPECT_EQ(row["closest"]["frame"], 2) << row;
+    EXPECT_EQ(row["family"].is_null(), row["method"] == "brute") << row;
+    EXPECT_GE(row["seconds"], 0) << row;
+  }
+  EXPECT_THAT(methods, ElementsAre("brute", "wrapped", "layered", "power"));
+  ASSERT_EQ(json["frames"].size(), 3U);
+  EXPECT_EQ(json["frames"][0]["pairs"], 1);
+  EXPECT_EQ(json["frames"][0]["closest"]["distance"], 0);
+  EXPECT_EQ(json["frames"][1]["pairs"], 0);
+  EXPECT_NEAR(json["frames"][1]["closest"]["distance"].get<double>(), std::sqrt(5.0) - 2, 1e-12);
+}
+
+TEST(Collide, InThePlaneAndBetweenTwo) {
+  const ScratchDirectory directory;
+  const std::string a = directory.file("a.xyz", "3\n\nC 0 0 7\nC 2 0 7\nC 4 0 7\n");
+  const std::string b = directory.file("b.xyz", "3\n\nC 0 2 7\nC 2 3 7\nC 4 2 7\n");
+  ProgramRun run = run_program({"collide", a, b, "--radius", "1", "--json", "-", "--pairs", "between"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("--method power is left out: the power diagram is of all beads"));
+  Json json = Json::parse(run.out);
+  EXPECT_EQ(json["input"]["dimension"], 2);
+  EXPECT_EQ(json["warnings"].size(), 1U);
+  ASSERT_EQ(json["rows"].size(), 3U);
+  for (const Json& row : json["rows"]) EXPECT_EQ(row["pairs"], 2) << row;
+  run = run_program({"collide", a, b, "--radius", "1", "--json", "-", "--apart", "1"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  json = Json::parse(run.out);
+  ASSERT_EQ(json["rows"].size(), 4U);
+  for (const Json& row : json["rows"]) EXPECT_EQ(row["pairs"], 4) << row;  // beads of a touch
+}
+
+TEST(Collide, OfUnequalRadiiTheDiagramTellsLess) {
+  const ProgramRun run = run_program({"collide", data_file("proteins/1ejg.pdb"), "--select", "all",
+                                      "--radius", "element", "--apart", "6", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  const Json &brute = json["rows"][0], &power = json["rows"][3];
+  EXPECT_GT(brute["pairs"], 100);
+  EXPECT_EQ(power["pairs"], nullptr);
+  EXPECT_EQ(power["closest"], nullptr);
+  EXPECT_EQ(power["colliding_frames"], 1);
+}
+
+TEST(Collide, OfATrajectoryWithPlots) {
+  const ScratchDirectory directory;
+  const ProgramRun run = run_program(
+      {"collide", data_file("trajectories/villin_hp36_300K.dcd"), "--topology",
+       data_file("trajectories/villin_hp36_300K.pdb"), "--frames", ":40:4", "--radius", "1.9", "--apart", "5",
+       "--out", (directory / "out").string(), "--json", (directory / "rows.json").string()});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("closest   beads "));
+  const Json json = Json::parse(content_of(directory / "out/collide.json"));
+  EXPECT_EQ(content_of(directory / "out/collide.json"), content_of(directory / "rows.json"));
+  const std::string pairs = content_of(directory / "out/pairs.csv");
+  EXPECT_THAT(pairs, StartsWith("frame,i,j,distance,name_i,name_j\n"));
+  EXPECT_THAT(pairs, HasSubstr(" in chain "));
+  EXPECT_EQ(std::count(pairs.begin(), pairs.end(), '\n') - 1, json["rows"][0]["pairs"]);
+  EXPECT_THAT(content_of(directory / "out/collide.csv"), HasSubstr("\nwrapped,"));
+  const std::string frames = content_of(directory / "out/frames.csv");
+  EXPECT_EQ(std::count(frames.begin(), frames.end(), '\n'), 11);
+  EXPECT_THAT(frames, HasSubstr("\n36,true,"));
+  const std::string page = content_of(directory / "out/report.html");
+  EXPECT_THAT(page, HasSubstr("</html>"));
+  for (const char* plot : {"contacts-", "closest-"}) EXPECT_THAT(page, HasSubstr(plot));
+  // Its page is not lost to another command's.
+  const ProgramRun other = run_program({"update", data_file("trajectories/villin_hp36_300K.dcd"), "--frames",
+                                        ":3", "--out", (directory / "out").string()});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.err, HasSubstr("collide.json"));
+}
+
+TEST(Collide, BadInputIsOneLine) {
+  const ScratchDirectory directory;
+  const std::string a = opening_square(directory);
+  const std::string two = directory.file("two.xyz", "1\n\nC 0 0 0\n1\n\nC 0 0 0\n");
+  const std::string broken = directory.file("broken.xyz", "2\n\nC 0 0 0\nC 0 zero 0\n");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{"collide"}, "INPUT"},
+      {{"collide", (directory / "none.xyz").string()}, "none.xyz"},
+      {{"collide", broken}, "broken.xyz"},
+      {{"collide", a, two, "--radius", "1"}, "frame counts"},
+      {{"collide", a, "--radius", "-1"}, "--radius"},
+      {{"collide", a, "--apart", "two"}, "--apart"},
+      {{"collide", a, "--method", "cubes"}, "--method"},
+      {{"collide", a, "--pairs", "between", "--radius", "1"}, "--pairs between"},
+      {{"collide", a, a, "--pairs", "within", "--method", "power", "--radius", "1"}, "--method power"},
+      {{"collide", a, "--frames", "9:"}, "frame"},
+      {{"collide", data_file("kinetic/d3_n20_linear.txt")}, "expected a trajectory"},
+      {{"collide", a, "--json", a, "--radius", "1"}, "square.xyz"},
+      {{"families", "--beads", "10"}, "--beads"},
+      {{"families", "--dimension", "4"}, "--dimension"},
+      {{"families", "input.xyz"}, "input.xyz"},
+  };
+  for (const auto& [arguments, word] : cases) {
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 2) << word;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(word));
+    EXPECT_EQ(run.out, "");
+  }
+}
+
+TEST(Collide, AFullDiskIsAnInternalFailure) {
+  const ScratchDirectory directory;
+  const ProgramRun run =
+      run_shell("\"$0\" collide \"$1\" --radius 1 > /dev/full", {opening_square(directory)});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+// A method that is wrong is found out: the frame and both methods are named.
+template <int Dimension>
+class Wrong final : public Detector<Dimension> {
+ public:
+  void detect(const Balls<Dimension>&, Detection& found) override {
+    found.pairs.emplace();
+    found.collide = false;
+  }
+};
+template <int Dimension>
+std::unique_ptr<Detector<Dimension>> make_wrong(const PairsAsked&) {
+  return std::make_unique<Wrong<Dimension>>();
+}
+
+TEST(Collide, MethodsThatDisagreeAreAnInternalFailure) {
+  const ScratchDirectory directory;
+  InputOptions input;
+  input.inputs = {opening_square(directory)};
+  input.radius = "1";
+  const auto ignore = [](const std::string&) {};
+  CollideFrames frames(input, ignore);
+  const Method wrong{"wrong", "", make_wrong<2>, make_wrong<3>};
+  CollideTask task{{&collision_methods().front(), &wrong}, {frames.necklaces(), true, 2, true}};
+  try {
+    static_cast<void>(compare_detectors(
+        frames, task, [](const FrameRead&, std::span<const BeadPair>) {}, ignore,
+        [](std::size_t, std::size_t) {}));
+    ADD_FAILURE() << "nobody noticed";
+  } catch (const InputError&) {
+    ADD_FAILURE() << "the input is not at fault";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("frame 0: brute and wrong disagree on whether beads collide"));
+  }
+}
+
+}  // namespace
+}  // namespace kds::test

@@ -1,0 +1,127 @@
+#pragma once
+// One question to all static detectors, and whether they agree.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "structures/collision/brute_force.h"
+#include "structures/collision/diagram_collision.h"
+#include "structures/collision/hierarchy_search.h"
+#include "structures/collision/neighbor_walk.h"
+#include "structures/collision/separating_family.h"
+#include "structures/collision/separation.h"
+
+namespace kds {
+
+inline std::ostream& operator<<(std::ostream& out, const BeadPair& pair) {
+  return out << '(' << pair.first << ' ' << pair.second << ')';
+}
+
+}  // namespace kds
+
+namespace kds::test {
+
+/// What the cases of a test were like, so that it can be seen that they were hard.
+struct DetectorsSeen {
+  unsigned cases = 0, colliding = 0, touching = 0, by_walk = 0;
+};
+
+inline PairsAsked all_pairs(std::vector<BeadRange> necklaces, BeadId apart = 2) {
+  return {std::move(necklaces), true, apart, true};
+}
+
+inline void expect_closest(const std::optional<ClosestPair>& found,
+                           const std::optional<ClosestPair>& expected, const std::string& what) {
+  ASSERT_EQ(found.has_value(), expected.has_value()) << what;
+  if (!found) return;
+  EXPECT_EQ(found->first, expected->first) << what;
+  EXPECT_EQ(found->second, expected->second) << what;
+  EXPECT_EQ(found->sign, expected->sign) << what;
+  EXPECT_EQ(found->distance, expected->distance) << what;
+}
+
+template <int Dimension>
+void expect_hierarchies_agree(const Balls<Dimension>& balls, const PairsAsked& asked,
+                              const std::vector<BeadPair>& expected, double distance,
+                              const std::string& what) {
+  const auto closest = closest_pair_by_force(balls, asked);
+  for (const Hierarchy kind : {Hierarchy::wrapped, Hierarchy::layered}) {
+    const std::string by = what + ", " + std::string(hierarchy_names[static_cast<std::size_t>(kind)]);
+    SphereTree<Dimension> tree(kind, asked.necklaces);
+    tree.build(balls);
+    const PairsFound found = find_pairs(tree, asked);
+    ASSERT_EQ(found.pairs, expected) << by;
+    SeparatingFamily family;
+    EXPECT_EQ(find_pairs(tree, asked, family).pairs, expected) << by;
+    EXPECT_EQ(family.pairs.size(), found.family) << by;
+    const auto fault = family_fault(family, expected, balls, asked);
+    EXPECT_FALSE(fault) << by << ": " << *fault;
+    const auto any = find_any_pair(tree, asked);
+    EXPECT_EQ(any.has_value(), !expected.empty()) << by;
+    if (any) {
+      EXPECT_TRUE(std::binary_search(expected.begin(), expected.end(), *any)) << by;
+    }
+    EXPECT_EQ(find_pairs(tree, asked, distance).pairs, pairs_by_force(balls, asked, distance)) << by;
+    expect_closest(find_closest_pair(tree, balls, asked), closest, by);
+  }
+}
+
+template <int Dimension>
+void expect_diagram_agrees(const Balls<Dimension>& balls, const PairsAsked& asked,
+                           const std::vector<BeadPair>& expected, double distance, const std::string& what,
+                           DetectorsSeen& seen) {
+  if (diagram_refusal(balls, asked)) {
+    EXPECT_THROW((void)collide_by_diagram(balls, asked), std::invalid_argument) << what;
+    return;
+  }
+  const DiagramCollision found = collide_by_diagram(balls, asked);
+  EXPECT_EQ(found.collide, !expected.empty()) << what;
+  EXPECT_EQ(found.pairs.has_value(), balls.equal_radii()) << what;
+  if (found.pairs) {
+    ASSERT_EQ(*found.pairs, expected) << what;
+    ++seen.by_walk;
+  }
+  if (found.closest) {
+    expect_closest(found.closest, closest_pair_by_force(balls, asked), what + ", power");
+  } else {
+    EXPECT_TRUE(found.collide ? !balls.equal_radii() : !closest_pair_by_force(balls, asked).has_value())
+        << what;
+  }
+  if (!balls.equal_radii()) return;
+  Eigen::Matrix3Xd centers = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(balls.size()));
+  for (BeadId b = 0; b < balls.size(); ++b)
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
+      centers(static_cast<Eigen::Index>(axis), Eigen::Index{b}) = balls.coordinate(b, axis);
+  const DiagramEdges diagram = static_edges<Dimension>(centers, std::vector<double>(balls.size(), 0));
+  EXPECT_EQ(pairs_by_walk(balls, diagram, asked, distance), pairs_by_force(balls, asked, distance))
+      << what << ", walk";
+}
+
+/// All methods beside brute force; `distance` is that of a second question.
+template <int Dimension>
+void expect_detectors_agree(const Balls<Dimension>& balls, const PairsAsked& asked, double distance,
+                            const std::string& what, DetectorsSeen& seen) {
+  const std::vector<BeadPair> expected = pairs_by_force(balls, asked);
+  const auto first = first_pair_by_force(balls, asked);
+  ASSERT_EQ(first.has_value(), !expected.empty()) << what;
+  if (first) {
+    EXPECT_EQ(*first, expected.front()) << what;
+  }
+  const auto closest = closest_pair_by_force(balls, asked);
+  EXPECT_EQ(closest && closest->sign <= 0, !expected.empty()) << what;
+  const auto touch = [&balls](const BeadPair& pair) {
+    return compare_separation(in_space<Dimension>(detail::center_of(balls, pair.first)),
+                              in_space<Dimension>(detail::center_of(balls, pair.second)),
+                              balls.radius(pair.first), balls.radius(pair.second), 0) == 0;
+  };
+  ++seen.cases;
+  seen.colliding += expected.empty() ? 0 : 1;
+  seen.touching += std::any_of(expected.begin(), expected.end(), touch) ? 1 : 0;
+  expect_hierarchies_agree(balls, asked, expected, distance, what);
+  expect_diagram_agrees(balls, asked, expected, distance, what, seen);
+}
+
+}  // namespace kds::test

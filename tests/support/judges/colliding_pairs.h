@@ -1,0 +1,36 @@
+#pragma once
+// Which balls are within a distance of each other, by looking at all pairs over rationals.
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "motions/numbers/exact_number.h"
+#include "structures/collision/pairs_asked.h"
+
+namespace kds::test {
+
+/// The pairs for which |a - b| <= r + s + distance.
+inline std::vector<BeadPair> pairs_over_rationals(const Eigen::Matrix3Xd& centers,
+                                                  std::span<const double> radii, const PairsAsked& asked,
+                                                  double distance = 0) {
+  std::vector<BeadPair> pairs;
+  for (BeadId a = 0; a < radii.size(); ++a) {
+    for (BeadId b = a + 1; b < radii.size(); ++b) {
+      std::size_t of_a = 0, of_b = 0;
+      while (asked.necklaces[of_a].last < a) ++of_a;
+      while (asked.necklaces[of_b].last < b) ++of_b;
+      if (of_a == of_b ? !asked.within || b - a < asked.apart : !asked.between) continue;
+      Rational square = 0;
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        const Rational x = Rational(centers(axis, a)) - Rational(centers(axis, b));
+        square += x * x;
+      }
+      const Rational reach = Rational(radii[a]) + Rational(radii[b]) + Rational(distance);
+      if (square <= reach * reach) pairs.push_back({a, b});
+    }
+  }
+  return pairs;
+}
+
+}  // namespace kds::test
