@@ -119,6 +119,7 @@ class DcdFile {
 struct Beads {
   std::vector<std::size_t> atoms;
   std::vector<double> element_radii;
+  std::vector<std::string> names;
   std::vector<ChainRead> chains;
   std::optional<std::string> unread;  ///< a line about chains of the file that are not read
 };
@@ -157,6 +158,7 @@ Beads choose_beads(const std::string& file, const ReadOptions& options, std::uin
                                  topology.selected.size()));
   }
   beads.element_radii = std::move(topology.element_radii);
+  beads.names = std::move(topology.bead_names);
   beads.chains = std::move(topology.chains);
   return beads;
 }
@@ -247,6 +249,7 @@ FramesOpened open_dcd(const std::filesystem::path& path, const ReadOptions& opti
 
   Beads beads = choose_beads(opened.file, options, layout.atom_count);
   opened.element_radii = std::move(beads.element_radii);
+  opened.bead_names = std::move(beads.names);
   if (beads.unread) opened.warnings.push_back(std::move(*beads.unread));
   opened.chains = std::move(beads.chains);
   opened.chain_like = !options.topology || options.selection != Selection::all;

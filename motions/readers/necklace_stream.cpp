@@ -39,22 +39,29 @@ void check_finite(const std::string& file, const FrameRead& frame) {
                                      frame.stamp.number, bead, "xyz"[axis], positions(axis, bead)));
 }
 
+// Those of a chain among those of all beads, where there are any.
+template <class T>
+std::vector<T> of_chain(const std::vector<T>& of_beads, std::size_t first, std::size_t bead_count) {
+  if (of_beads.empty()) return {};
+  const auto begin = of_beads.begin() + static_cast<std::ptrdiff_t>(first);
+  return {begin, begin + static_cast<std::ptrdiff_t>(bead_count)};
+}
+
 // A necklace for each chain, without frames yet.
 std::vector<Trajectory> heads_of(const FramesOpened& opened) {
   std::vector<Trajectory> heads;
   if (opened.chains.size() < 2) {
     heads.emplace_back().file = opened.file;
     heads.front().element_radii = opened.element_radii;
+    heads.front().bead_names = opened.bead_names;
     return heads;
   }
   std::size_t first = 0;
   for (const auto& [name, bead_count] : opened.chains) {
     Trajectory& head = heads.emplace_back();
     head.file = fmt::format("{} chain {}", opened.file, name.empty() ? "' '" : name);
-    if (!opened.element_radii.empty()) {
-      const auto radius = opened.element_radii.begin() + static_cast<std::ptrdiff_t>(first);
-      head.element_radii.assign(radius, radius + static_cast<std::ptrdiff_t>(bead_count));
-    }
+    head.element_radii = of_chain(opened.element_radii, first, bead_count);
+    head.bead_names = of_chain(opened.bead_names, first, bead_count);
     first += bead_count;
   }
   return heads;

@@ -92,6 +92,7 @@ class StructureFrames final : public FrameReader {
     SelectedChains selected = select_chains(place(asked_[0]), model, selection_, chain_);
     names_ = names_of(selected.atoms);
     opened.element_radii = element_radii_of(selected.atoms);
+    opened.bead_names = names_;
     if (auto unread = unread_chains(file_, model, selection_, chain_, selected))
       opened.warnings.push_back(std::move(*unread));
     opened.chains = std::move(selected.chains);
@@ -148,6 +149,7 @@ Topology read_topology(const std::filesystem::path& path, Selection selection,
   for (const SelectedAtom& atom : selected.atoms)
     topology.selected.push_back(static_cast<std::size_t>(atom.atom->serial));
   topology.element_radii = element_radii_of(selected.atoms);
+  topology.bead_names = names_of(selected.atoms);
   topology.unread = unread_chains(path.string(), model, selection, chain, selected);
   topology.chains = std::move(selected.chains);
   return topology;

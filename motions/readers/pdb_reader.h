@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "motions/readers/frame_reader.h"
@@ -22,6 +24,7 @@ struct Topology {
   std::vector<ChainRead> chains;      ///< that they belong to
   std::optional<std::string> unread;  ///< a line about other chains, where the default chain is read
   std::vector<double> element_radii;  ///< of the beads; empty where elements are unknown
+  std::vector<std::string> bead_names;
 };
 
 [[nodiscard]] Topology read_topology(const std::filesystem::path& path, Selection selection,

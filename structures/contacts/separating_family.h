@@ -1,0 +1,55 @@
+#pragma once
+// Pairs of cages that are disjoint all over a step, and with them all pairs of beads that need not be looked
+// at (Agarwal et al., section 3). The cages are moving boxes around runs of consecutive beads. A pair of
+// boxes that is not proved disjoint is split; where both are blocks, their beads are looked at pair by pair.
+// The family is coarse again at the start of every step: what was split for one step need not be for the
+// next.
+
+#include <cstdint>
+#include <vector>
+
+#include "structures/collision/pairs_asked.h"
+#include "structures/contacts/block_beads.h"
+#include "structures/contacts/moving_boxes.h"
+
+namespace kds {
+
+template <int Dimension>
+class SeparatingFamily {
+ public:
+  SeparatingFamily(PairsAsked asked, int degree);
+  SeparatingFamily(const SeparatingFamily&) = delete;
+  SeparatingFamily& operator=(const SeparatingFamily&) = delete;
+
+  [[nodiscard]] const PairsAsked& asked() const { return asked_; }
+
+  /// Pairs at rest: whose beads do not move in this step, nor did in the one before. Nothing becomes of them.
+  enum class Resting : std::uint8_t { left_out, looked_at };
+  /// The motion is that of the first step: nothing is before.
+  void forget_rest() { boxes_.forget_rest(); }
+  /// Once a step. Finds the pairs of beads asked about that are not proved apart all over the step of these
+  /// curves.
+  void find_pairs(const Curves<Dimension>& curves, Resting resting, bool list_overlapping,
+                  PairsOfBlocks& pairs);
+
+  /// Pairs of boxes that it has.
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
+ private:
+  struct Search {
+    Resting resting;
+    bool list_overlapping;
+    PairsOfBlocks* pairs;
+  };
+
+  void split(const Search& search, std::size_t level, std::size_t first, std::size_t second);
+  void look_at(const Search& search, std::size_t first, std::size_t second);
+
+  PairsAsked asked_;
+  std::vector<BeadBlock> blocks_;
+  MovingBoxes<Dimension> boxes_;
+  BlockBeads<Dimension> beads_;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace kds
