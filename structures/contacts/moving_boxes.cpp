@@ -16,30 +16,40 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 double rounded_down(double side) { return side - std::abs(side) * 0x1p-51; }
 double rounded_up(double side) { return side + std::abs(side) * 0x1p-51; }
 
+/// A control point in lanes. What follows its coordinates is left out of all that is done with them.
+template <int Dimension>
+[[nodiscard, gnu::always_inline]] inline Lanes point_of(const Curves<Dimension>& curves, BeadId bead, int k) {
+  const double* const p = curves.control_point(bead, k);
+  if constexpr (Dimension == 3) {
+    return Lanes::load(p);
+  } else {
+    return Lanes::Vector{p[0], p[1], 0, 0};
+  }
+}
+
 /// Bounds of the control points of a few beads, and whether all of a bead's are the same.
 template <int Dimension>
-bool bound_beads(const Curves<Dimension>& curves, const BeadBlock& block, int controls, double* sides) {
-  bool rests = true;
+[[KDS_LANES_TARGETS]] bool bound_beads(const Curves<Dimension>& curves, const BeadBlock& block, int controls,
+                                       double* sides) {
+  Lanes::Mask moves{};
+  bool same_radii = true;
   for (int k = 0; k < controls; ++k) {
-    std::array<double, Dimension> low, high;
-    low.fill(infinity);
-    high.fill(-infinity);
+    Lanes low(infinity), high(-infinity);
     for (BeadId b = block.first; b < block.first + block.count; ++b) {
-      const double* const point = curves.control_point(b, k);
-      const double* const start = curves.control_point(b, 0);
+      const Lanes point = point_of(curves, b, k), start = point_of(curves, b, 0);
       const double radius = curves.radius(b, k);
-      rests &= radius == curves.radius(b, 0);
-      for (std::size_t axis = 0; axis < Dimension; ++axis) {
-        low[axis] = std::min(low[axis], point[axis] - radius);
-        high[axis] = std::max(high[axis], point[axis] + radius);
-        rests &= point[axis] == start[axis];
-      }
+      same_radii &= radius == curves.radius(b, 0);
+      low = Lanes::min(low, point - Lanes(radius));
+      high = Lanes::max(high, point + Lanes(radius));
+      moves |= (point < start) | (point > start);
     }
-    for (std::size_t axis = 0; axis < Dimension; ++axis) {
-      *sides++ = rounded_down(low[axis]);
-      *sides++ = rounded_up(high[axis]);
+    for (int axis = 0; axis < Dimension; ++axis) {
+      *sides++ = rounded_down(low.v[axis]);
+      *sides++ = rounded_up(high.v[axis]);
     }
   }
+  bool rests = same_radii;
+  for (int axis = 0; axis < Dimension; ++axis) rests &= moves[axis] == 0;
   return rests;
 }
 

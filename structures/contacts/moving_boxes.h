@@ -8,7 +8,6 @@
 // the other: that difference of sides is a curve with positive control points. What both boxes share of their
 // motion does not matter. Nothing is rounded in a comparison; sides are rounded outwards when they are made.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>

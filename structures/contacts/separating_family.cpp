@@ -37,18 +37,20 @@ void SeparatingFamily<Dimension>::find_pairs(const Curves<Dimension>& curves, Re
     half = std::max(half, 0.5 * high - 0.5 * low);
   }
   beads_.move_to(curves, middle, half);
-  split({resting, list_overlapping, &pairs}, top + 1, 0, 0);
+  near_blocks_.clear();
+  split(resting, top + 1, 0, 0);
+  beads_.look_at(near_blocks_, asked_.apart, list_overlapping, pairs);
 }
 
 // The children of two boxes of a level, or of one with itself; above the top one box holds all.
 template <int Dimension>
-void SeparatingFamily<Dimension>::split(const Search& search, std::size_t level, std::size_t first,
+void SeparatingFamily<Dimension>::split(Resting resting, std::size_t level, std::size_t first,
                                         std::size_t second) {
   constexpr std::size_t fan = MovingBoxes<Dimension>::fan;
   const std::size_t below = level - 1;
   const std::size_t end = std::min(boxes_.box_count(below), (first + 1) * fan);
   const auto at_rest = [&](std::size_t group) {
-    return search.resting == Resting::left_out ? boxes_.at_rest(below, group) : 0;
+    return resting == Resting::left_out ? boxes_.at_rest(below, group) : 0;
   };
   const std::uint32_t resting_first = at_rest(first), resting_second = at_rest(second);
   const std::uint32_t present = boxes_.present(below, second);
@@ -63,19 +65,17 @@ void SeparatingFamily<Dimension>::split(const Search& search, std::size_t level,
     for (; near != 0; near &= near - 1) {
       const std::size_t other = second * fan + static_cast<std::size_t>(std::countr_zero(near));
       if (below > 0) {
-        split(search, below, child, other);
-      } else {
-        look_at(search, child, other);
+        split(resting, below, child, other);
+      } else if (asks(child, other)) {
+        near_blocks_.push_back({static_cast<std::uint32_t>(child), static_cast<std::uint32_t>(other)});
       }
     }
   }
 }
 
 template <int Dimension>
-void SeparatingFamily<Dimension>::look_at(const Search& search, std::size_t first, std::size_t second) {
-  const bool same_necklace = blocks_[first].necklace == blocks_[second].necklace;
-  if (same_necklace ? !asked_.within : !asked_.between) return;
-  beads_.look_at(first, second, asked_.apart, search.list_overlapping, *search.pairs);
+bool SeparatingFamily<Dimension>::asks(std::size_t first, std::size_t second) const {
+  return blocks_[first].necklace == blocks_[second].necklace ? asked_.within : asked_.between;
 }
 
 template class SeparatingFamily<2>;

@@ -36,19 +36,14 @@ class SeparatingFamily {
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
  private:
-  struct Search {
-    Resting resting;
-    bool list_overlapping;
-    PairsOfBlocks* pairs;
-  };
-
-  void split(const Search& search, std::size_t level, std::size_t first, std::size_t second);
-  void look_at(const Search& search, std::size_t first, std::size_t second);
+  void split(Resting resting, std::size_t level, std::size_t first, std::size_t second);
+  [[nodiscard]] bool asks(std::size_t first, std::size_t second) const;
 
   PairsAsked asked_;
   std::vector<BeadBlock> blocks_;
   MovingBoxes<Dimension> boxes_;
   BlockBeads<Dimension> beads_;
+  std::vector<BlockPair> near_blocks_;
   std::uint64_t size_ = 0;
 };
 
