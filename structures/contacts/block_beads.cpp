@@ -46,6 +46,19 @@ template <class F>
   return v;
 }
 
+template <class F>
+[[gnu::always_inline]] inline void store(const F& lanes, float* numbers) {
+  __builtin_memcpy(numbers, &lanes.v, sizeof lanes.v);
+}
+template <class F>
+[[nodiscard, gnu::always_inline]] inline float greatest(const F& lanes) {
+  std::array<float, F::width> x;
+  store(lanes, x.data());
+  for (std::size_t half = F::width / 2; half > 0; half /= 2)
+    for (std::size_t i = 0; i < half; ++i) x[i] = std::max(x[i], x[i + half]);
+  return x[0];
+}
+
 /// Bits of a row, gathered vector by vector.
 template <class F>
 class BitsOf {
@@ -146,34 +159,55 @@ struct Scan {
   }
 };
 
-/// What it finds out about a bead of the first of two blocks: one bit a bead of the second.
+/// A bead of one block and, one bit each, beads of another.
 struct RowFound {
-  std::uint32_t bead;
-  std::uint32_t second;  // block
+  std::uint32_t bead;    // of all
+  std::uint32_t others;  // block
   std::uint32_t inside, unclear;
 };
 
-/// A look at many pairs of blocks, which stops where there is no room for what it finds.
+/// A look at a few pairs of blocks at a time. Each stage sifts what the one before left over, and lists what
+/// it leaves without a branch: no one foretells what that will be.
 struct Look {
+  static constexpr std::size_t at_a_time = 64;
+  struct PairLeft {
+    BlockPair blocks;
+    std::uint32_t rows, columns;
+  };
+  struct RowLeft {
+    BlockPair blocks;
+    std::uint32_t bead;  // of the first block
+    std::uint32_t near;
+  };
+
   const float* floats;
   std::size_t stride, controls;
   const BeadBlock* blocks;
-  std::span<const BlockPair> pairs;
   BeadId apart;
 
-  std::size_t next = 0;  // pair
   std::uint64_t looked_at = 0;
-  std::size_t count = 0;
-  std::array<RowFound, 32 * row> found;
+  std::size_t pairs_left, rows_left, count;
+  std::array<PairLeft, at_a_time> pairs;
+  std::array<RowLeft, at_a_time * row> rows;
+  std::array<RowFound, at_a_time * row> found;
+
+  [[nodiscard, gnu::always_inline]] const float* block(std::uint32_t place) const {
+    return floats + place * stride;
+  }
 };
 
-/// Beads of the second block that a bead of the first is asked about, by their distance along the chain. They
-/// are far enough where blocks are of two necklaces: `chain_offset` says how far their first beads are.
-[[gnu::always_inline]] inline std::uint32_t far_enough(std::size_t bead, std::int64_t chain_offset,
-                                                       BeadId apart) {
-  const std::int64_t from = static_cast<std::int64_t>(bead) + static_cast<std::int64_t>(apart) - chain_offset;
-  if (from <= 0) return 0xffffU;
-  return from >= static_cast<std::int64_t>(row) ? 0U : (0xffffU << from) & 0xffffU;
+/// Beads of another block that a bead is asked about by their distance along the chain, at least `apart`; the
+/// first bead of the other block lies `offset` beads after (or before) that of its own. Of its own block
+/// those that follow it.
+[[gnu::always_inline]] inline std::uint32_t far_enough(std::size_t bead, std::int64_t offset, BeadId apart) {
+  constexpr std::uint32_t all = (1U << row) - 1U;
+  constexpr auto most = static_cast<std::int64_t>(row);
+  if (offset >= 0) {
+    const std::int64_t from = static_cast<std::int64_t>(bead) + static_cast<std::int64_t>(apart) - offset;
+    return from <= 0 ? all : from >= most ? 0U : (all << from) & all;
+  }
+  const std::int64_t end = static_cast<std::int64_t>(bead) - static_cast<std::int64_t>(apart) - offset + 1;
+  return end >= most ? all : end <= 0 ? 0U : all >> (most - end);
 }
 
 [[nodiscard, gnu::always_inline]] inline std::int64_t chain_offset(const BeadBlock& a, const BeadBlock& b) {
@@ -182,56 +216,64 @@ struct Look {
 }
 
 template <class F, int Dimension, std::size_t Controls>
-[[gnu::always_inline]] inline void look_at_two(const BlockPair& pair, Look& look) {
+[[gnu::always_inline]] inline void look_at_pairs(std::span<const BlockPair> pairs, Look& look) {
   const Scan<F, Dimension, Controls> scan{look.controls};
-  const BeadBlock &first = look.blocks[pair.first], &second = look.blocks[pair.second];
-  const float* const a = look.floats + pair.first * look.stride;
-  const float* const b = look.floats + pair.second * look.stride;
-  std::uint32_t rows = first.bits(), columns = second.bits();
-  if (a != b) {
-    rows &= scan.near_box(a, b);
-    if (rows == 0) return;
-    columns &= scan.near_box(b, a);
-    if (columns == 0) return;
+  look.pairs_left = look.rows_left = look.count = 0;
+  for (const BlockPair& pair : pairs) {
+    std::uint32_t rows = look.blocks[pair.first].bits(), columns = look.blocks[pair.second].bits();
+    if (pair.first != pair.second) {
+      const float *const a = look.block(pair.first), *const b = look.block(pair.second);
+      rows &= scan.near_box(a, b);
+      columns &= scan.near_box(b, a);
+    }
+    // Row by row the block that has fewer left.
+    const bool swap = std::popcount(columns) < std::popcount(rows) && pair.first != pair.second;
+    look.pairs[look.pairs_left] =
+        swap ? Look::PairLeft{{pair.second, pair.first}, columns, rows} : Look::PairLeft{pair, rows, columns};
+    look.pairs_left += (rows != 0) & (columns != 0) ? 1 : 0;
   }
-  const std::int64_t offset = chain_offset(first, second);
-  for (; rows != 0; rows &= rows - 1) {
-    const auto bead = static_cast<std::uint32_t>(std::countr_zero(rows));
-    const std::uint32_t asked = columns & far_enough(bead, offset, look.apart);
-    if (asked == 0) continue;
-    look.looked_at += static_cast<std::uint64_t>(std::popcount(asked));
-    const std::uint32_t near = asked & scan.near_bead(a, bead, b);
-    if (near == 0) continue;
-    const RowBits bits = scan.one_row(a, bead, b);
+  for (std::size_t p = 0; p < look.pairs_left; ++p) {
+    const auto [pair, all_rows, columns] = look.pairs[p];
+    const float *const a = look.block(pair.first), *const b = look.block(pair.second);
+    const std::int64_t offset = chain_offset(look.blocks[pair.first], look.blocks[pair.second]);
+    for (std::uint32_t rows = all_rows; rows != 0; rows &= rows - 1) {
+      const auto bead = static_cast<std::uint32_t>(std::countr_zero(rows));
+      const std::uint32_t asked = columns & far_enough(bead, offset, look.apart);
+      const std::uint32_t near = asked & scan.near_bead(a, bead, b);
+      look.looked_at += static_cast<std::uint64_t>(std::popcount(asked));
+      look.rows[look.rows_left] = {pair, bead, near};
+      look.rows_left += near != 0 ? 1 : 0;
+    }
+  }
+  for (std::size_t r = 0; r < look.rows_left; ++r) {
+    const auto& [pair, bead, near] = look.rows[r];
+    const RowBits bits = scan.one_row(look.block(pair.first), bead, look.block(pair.second));
     const std::uint32_t left = near & ~bits.apart;
-    if (left != 0)
-      look.found[look.count++] = {first.first + bead, pair.second, left & bits.inside, left & ~bits.inside};
+    look.found[look.count] = {look.blocks[pair.first].first + bead, pair.second, left & bits.inside,
+                              left & ~bits.inside};
+    look.count += left != 0 ? 1 : 0;
   }
-}
-
-template <class F, int Dimension, std::size_t Controls>
-[[gnu::always_inline]] inline void look_at_pairs(Look& look) {
-  for (; look.next < look.pairs.size() && look.count + row <= look.found.size(); ++look.next)
-    look_at_two<F, Dimension, Controls>(look.pairs[look.next], look);
 }
 
 template <class F, int Dimension>
-[[gnu::always_inline]] inline void look_at_pairs(Look& look) {
+[[gnu::always_inline]] inline void look_at_pairs(std::span<const BlockPair> pairs, Look& look) {
   if (look.controls == 2) {
-    look_at_pairs<F, Dimension, 2>(look);
+    look_at_pairs<F, Dimension, 2>(pairs, look);
   } else {
-    look_at_pairs<F, Dimension, 0>(look);
+    look_at_pairs<F, Dimension, 0>(pairs, look);
   }
 }
 
 template <int Dimension>
-[[KDS_FLOAT_LANES_TARGETS]] void look_in_eights(Look& look) {
-  look_at_pairs<FloatLanesIn<8>, Dimension>(look);
+[[KDS_FLOAT_LANES_TARGETS]] void look_in_eights(std::span<const BlockPair> pairs, Look& look) {
+  look_at_pairs<FloatLanesIn<8>, Dimension>(pairs, look);
 }
 template <int Dimension>
-[[KDS_FLOAT_LANES_TARGETS]] void look_in_fours(Look& look) {
-  look_at_pairs<FloatLanesIn<4>, Dimension>(look);
+[[KDS_FLOAT_LANES_TARGETS]] void look_in_fours(std::span<const BlockPair> pairs, Look& look) {
+  look_at_pairs<FloatLanesIn<4>, Dimension>(pairs, look);
 }
+
+BeadPair in_order(BeadId a, BeadId b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// Calls visit(bead) for each bit.
 template <class Visit>
@@ -250,36 +292,25 @@ struct Move {
   std::size_t controls;
 };
 
-/// Of a block; where it has fewer beads its last one stands for those that lack.
+/// A bead of a block; where there are fewer its last one stands for those that lack.
+[[nodiscard, gnu::always_inline]] inline BeadId bead_at(const BeadBlock& block, std::size_t place) {
+  return block.first + std::min(static_cast<BeadId>(place), static_cast<BeadId>(block.count - 1));
+}
+
+/// The coordinates of a block.
 template <int Dimension>
 [[gnu::always_inline]] inline void convert(const Move<Dimension>& move, const BeadBlock& beads,
                                            float* numbers) {
   using L = Layout<Dimension>;
   using F = FloatLanesIn<4>;
-  constexpr double spare = 0x1p-19;
   const Lanes scale(move.scale);
   Lanes middle(0.0);
   for (std::size_t axis = 0; axis < L::axes; ++axis) middle.v[axis] = move.middle[axis];
   for (std::size_t first = 0; first < row; first += F::width) {
-    std::array<BeadId, F::width> some;
-    for (std::size_t i = 0; i < F::width; ++i)
-      some[i] = beads.first + std::min(static_cast<BeadId>(first + i), static_cast<BeadId>(beads.count - 1));
-    for (std::size_t i = 0; i < F::width; ++i) {
-      const double* const radii = move.curves->radii(some[i]);
-      double least = radii[0], most = radii[0];
-      for (std::size_t k = 1; k < move.controls; ++k) {
-        least = std::min(least, radii[k]);
-        most = std::max(most, radii[k]);
-      }
-      numbers[L::larger(move.controls) + first + i] =
-          static_cast<float>(move.scale * most * (1 + 0x1p-20) + spare);
-      numbers[L::smaller(move.controls) + first + i] =
-          static_cast<float>(move.scale * least * (1 - 0x1p-20) - spare);
-    }
     for (std::size_t k = 0; k < move.controls; ++k) {
       std::array<typename F::Row, F::width> rows;
       for (std::size_t i = 0; i < F::width; ++i) {
-        const double* const p = move.curves->control_point(some[i], static_cast<int>(k));
+        const double* const p = move.curves->control_point(bead_at(beads, first + i), static_cast<int>(k));
         Lanes point;
         if constexpr (Dimension == 3) {
           point = Lanes::load(p);
@@ -290,65 +321,68 @@ template <int Dimension>
       }
       const std::array<F, 4> columns = F::transposed(rows);
       for (std::size_t axis = 0; axis < L::axes; ++axis)
-        __builtin_memcpy(numbers + L::coordinates(k, axis) + first, &columns[axis].v, sizeof columns[axis].v);
+        store(columns[axis], numbers + L::coordinates(k, axis) + first);
     }
   }
 }
 
-/// The swept balls, and the box around them.
-template <int Dimension>
+/// The swept balls of a block, and the box around them.
+template <class F, int Dimension>
 [[gnu::always_inline]] inline void sweep(const Move<Dimension>& move, float* numbers) {
   using L = Layout<Dimension>;
   const std::size_t controls = move.controls, last = controls - 1;
-  std::array<float, row> square{};
-  for (std::size_t axis = 0; axis < L::axes; ++axis) {
-    float* const center = numbers + L::center(controls, axis);
-    const float* const from = numbers + L::coordinates(0, axis);
-    const float* const to = numbers + L::coordinates(last, axis);
-    const float drift = move.drift[last * L::axes + axis];
-    for (std::size_t i = 0; i < row; ++i) center[i] = 0.5F * (from[i] + (to[i] - drift));
-  }
-  for (std::size_t k = 0; k < controls; ++k) {
-    std::array<float, row> strayed{};
+  std::array<F, L::axes> low, high;
+  for (std::size_t first = 0; first < row; first += F::width) {
+    std::array<F, L::axes> center;
     for (std::size_t axis = 0; axis < L::axes; ++axis) {
-      const float* const center = numbers + L::center(controls, axis);
-      const float* const x = numbers + L::coordinates(k, axis);
-      const float drift = move.drift[k * L::axes + axis];
-      for (std::size_t i = 0; i < row; ++i) {
-        const float d = (x[i] - drift) - center[i];
-        strayed[i] += d * d;
-      }
+      const F from = load<F>(numbers + L::coordinates(0, axis) + first);
+      const F to = load<F>(numbers + L::coordinates(last, axis) + first);
+      center[axis] = F(0.5F) * (from + (to - F(move.drift[last * L::axes + axis])));
+      store(center[axis], numbers + L::center(controls, axis) + first);
     }
-    for (std::size_t i = 0; i < row; ++i) square[i] = std::max(square[i], strayed[i]);
+    F square(0.0F);
+    for (std::size_t k = 0; k < controls; ++k) {
+      F strayed(0.0F);
+      for (std::size_t axis = 0; axis < L::axes; ++axis) {
+        const F x = load<F>(numbers + L::coordinates(k, axis) + first);
+        const F d = (x - F(move.drift[k * L::axes + axis])) - center[axis];
+        strayed += d * d;
+      }
+      square = F::max(square, strayed);
+    }
+    for (std::size_t lane = 0; lane < F::width; ++lane) square.v[lane] = std::sqrt(square.v[lane]);
+    const F larger = load<F>(numbers + L::larger(controls) + first);
+    const F reach = (larger + square + F(0x1p-20F)) * F(1 + 0x1p-20F);
+    store(reach, numbers + L::reach(controls) + first);
+    for (std::size_t axis = 0; axis < L::axes; ++axis) {
+      const F below = -(center[axis] - reach), above = center[axis] + reach;
+      low[axis] = first == 0 ? below : F::max(low[axis], below);
+      high[axis] = first == 0 ? above : F::max(high[axis], above);
+    }
   }
-  float* const reach = numbers + L::reach(controls);
-  const float* const larger = numbers + L::larger(controls);
-  for (std::size_t i = 0; i < row; ++i)
-    reach[i] = (larger[i] + std::sqrt(square[i]) + 0x1p-20F) * (1 + 0x1p-20F);
   for (std::size_t axis = 0; axis < L::axes; ++axis) {
-    const float* const center = numbers + L::center(controls, axis);
-    std::array<float, row> low, high;
-    for (std::size_t i = 0; i < row; ++i) {
-      low[i] = center[i] - reach[i];
-      high[i] = center[i] + reach[i];
-    }
-    for (std::size_t half = row / 2; half > 0; half /= 2) {
-      for (std::size_t i = 0; i < half; ++i) {
-        low[i] = std::min(low[i], low[i + half]);
-        high[i] = std::max(high[i], high[i + half]);
-      }
-    }
-    numbers[L::box(controls, axis)] = low[0];
-    numbers[L::box(controls, axis) + 1] = high[0];
+    numbers[L::box(controls, axis)] = -greatest(low[axis]);
+    numbers[L::box(controls, axis) + 1] = greatest(high[axis]);
   }
 }
 
-template <int Dimension>
-[[KDS_FLOAT_LANES_TARGETS]] void move_blocks(const Move<Dimension>& move, std::size_t stride, float* floats) {
+template <class F, int Dimension>
+[[gnu::always_inline]] inline void move_blocks(const Move<Dimension>& move, std::size_t stride,
+                                               float* floats) {
   for (std::size_t block = 0; block < move.blocks.size(); ++block, floats += stride) {
     convert(move, move.blocks[block], floats);
-    sweep(move, floats);
+    sweep<F>(move, floats);
   }
+}
+template <int Dimension>
+[[KDS_FLOAT_LANES_TARGETS]] void move_in_eights(const Move<Dimension>& move, std::size_t stride,
+                                                float* floats) {
+  move_blocks<FloatLanesIn<8>>(move, stride, floats);
+}
+template <int Dimension>
+[[KDS_FLOAT_LANES_TARGETS]] void move_in_fours(const Move<Dimension>& move, std::size_t stride,
+                                               float* floats) {
+  move_blocks<FloatLanesIn<4>>(move, stride, floats);
 }
 
 bool has_long_vectors() {
@@ -379,8 +413,13 @@ void BlockBeads<Dimension>::move_to(const Curves<Dimension>& curves,
   if (!usable_) return;
   const double scale = std::ldexp(1.0, -exponent);
   find_drift(curves, scale);
-  move_blocks<Dimension>({&curves, blocks_, middle.data(), drift_.data(), scale, controls_}, stride_,
-                         floats_.data());
+  set_radii(curves, scale);
+  const Move<Dimension> move{&curves, blocks_, middle.data(), drift_.data(), scale, controls_};
+  if (long_vectors_) {
+    move_in_eights(move, stride_, floats_.data());
+  } else {
+    move_in_fours(move, stride_, floats_.data());
+  }
 }
 
 // What a sample of beads moves on average, control point by control point. Any numbers would do.
@@ -403,6 +442,35 @@ void BlockBeads<Dimension>::find_drift(const Curves<Dimension>& curves, double s
   }
 }
 
+// Only where they are not those of the step before.
+template <int Dimension>
+void BlockBeads<Dimension>::set_radii(const Curves<Dimension>& curves, double scale) {
+  using L = Layout<Dimension>;
+  constexpr double spare = 0x1p-19;
+  const std::size_t beads = curves.bead_count();
+  bool same = scale == scale_of_radii_ && radii_.size() == beads * controls_;
+  radii_.resize(beads * controls_);
+  for (BeadId bead = 0; bead < beads; ++bead) {
+    for (std::size_t k = 0; k < controls_; ++k) {
+      double& known = radii_[bead * controls_ + k];
+      const double radius = curves.radii(bead)[k];
+      same &= known == radius;
+      known = radius;
+    }
+  }
+  if (same) return;
+  scale_of_radii_ = scale;
+  for (std::size_t block = 0; block < blocks_.size(); ++block) {
+    float* const numbers = &floats_[block * stride_];
+    for (std::size_t i = 0; i < row; ++i) {
+      const double* const radii = &radii_[bead_at(blocks_[block], i) * controls_];
+      const auto [least, most] = std::minmax_element(radii, radii + controls_);
+      numbers[L::larger(controls_) + i] = static_cast<float>(scale * *most * (1 + 0x1p-20) + spare);
+      numbers[L::smaller(controls_) + i] = static_cast<float>(scale * *least * (1 - 0x1p-20) - spare);
+    }
+  }
+}
+
 template <int Dimension>
 void BlockBeads<Dimension>::look_at(std::span<const BlockPair> blocks, BeadId apart, bool list_overlapping,
                                     PairsOfBlocks& pairs) const {
@@ -415,23 +483,22 @@ void BlockBeads<Dimension>::look_at(std::span<const BlockPair> blocks, BeadId ap
   look.stride = stride_;
   look.controls = controls_;
   look.blocks = blocks_.data();
-  look.pairs = blocks;
   look.apart = apart;
-  while (look.next < blocks.size()) {
-    look.count = 0;
+  for (; !blocks.empty(); blocks = blocks.subspan(std::min(Look::at_a_time, blocks.size()))) {
+    const auto some = blocks.first(std::min(Look::at_a_time, blocks.size()));
     if (long_vectors_) {
-      look_in_eights<Dimension>(look);
+      look_in_eights<Dimension>(some, look);
     } else {
-      look_in_fours<Dimension>(look);
+      look_in_fours<Dimension>(some, look);
     }
     for (std::size_t r = 0; r < look.count; ++r) {
       const RowFound& of = look.found[r];
-      const BeadBlock& others = blocks_[of.second];
-      for_each_bead(others, of.unclear, [&](BeadId other) { pairs.unclear.push_back({of.bead, other}); });
+      const BeadBlock& others = blocks_[of.others];
+      for_each_bead(others, of.unclear,
+                    [&](BeadId other) { pairs.unclear.push_back(in_order(of.bead, other)); });
       if (list_overlapping)
-        for_each_bead(others, of.inside, [&](BeadId other) {
-          pairs.overlapping.push_back({of.bead, other});
-        });
+        for_each_bead(others, of.inside,
+                      [&](BeadId other) { pairs.overlapping.push_back(in_order(of.bead, other)); });
     }
   }
   pairs.looked_at += look.looked_at;

@@ -69,6 +69,7 @@ class BlockBeads {
 
  private:
   void find_drift(const Curves<Dimension>& curves, double scale);
+  void set_radii(const Curves<Dimension>& curves, double scale);
   void look_at_all(const BeadBlock& a, const BeadBlock& b, BeadId apart, PairsOfBlocks& pairs) const;
 
   std::span<const BeadBlock> blocks_;
@@ -76,6 +77,8 @@ class BlockBeads {
   std::size_t stride_;    // of a block, in floats
   std::vector<float> floats_;
   std::vector<float> drift_;  // of each control point
+  std::vector<double> radii_;
+  double scale_of_radii_ = 0;
   bool long_vectors_;
   bool usable_ = false;  // floats: else lengths are too large or too small for them
 };
