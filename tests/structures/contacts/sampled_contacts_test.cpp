@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "structures/contacts/contacts.h"
 #include "structures/session/session.h"
 #include "tests/support/inputs/moving_beads.h"
 
