@@ -37,12 +37,11 @@ void StagedFiles::write(const std::string& name, std::string_view text) {
 }
 
 std::ostream& StagedFiles::open(const std::string& name) {
-  open_.emplace(place_for(name), subject_);
-  return open_->stream();
+  return open_.emplace_back(place_for(name), subject_).stream();
 }
 
 void StagedFiles::check() const {
-  if (open_) open_->check();
+  for (const WrittenFile& file : open_) file.check();
 }
 
 // Calls visit(where a file waits, where its place is) for all.
@@ -54,7 +53,7 @@ void StagedFiles::for_each(const Visit& visit) const {
 }
 
 void StagedFiles::finish() {
-  if (open_) open_->close();
+  for (WrittenFile& file : open_) file.close();
   names_->close();
   for_each([&](const fs::path&, const fs::path& place) { check_replaceable(place); });
 }

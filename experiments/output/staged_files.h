@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <list>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -26,13 +27,22 @@ class StagedFiles final : public Staged {
 
   /// Throws likewise.
   void write(const std::string& name, std::string_view text);
-  /// A file that is written piece by piece until finish(); one only.
+  /// A file that is written piece by piece until finish().
   [[nodiscard]] std::ostream& open(const std::string& name);
-  /// Throws where the open file could not be written.
+  /// Throws where an open file could not be written.
   void check() const;
 
-  /// Files of the directory that belong to an earlier result go when those of this one take their places.
-  void replace(std::function<bool(std::string_view name)> is_stale) { is_stale_ = std::move(is_stale); }
+  /// Files of the directory that belong to an earlier result go when those of this one take their places:
+  /// these, too.
+  void replace(std::function<bool(std::string_view name)> is_stale) {
+    if (is_stale_) {
+      is_stale_ = [before = std::move(is_stale_), more = std::move(is_stale)](std::string_view name) {
+        return before(name) || more(name);
+      };
+    } else {
+      is_stale_ = std::move(is_stale);
+    }
+  }
 
   void finish() override;
   /// Without it nothing is left, and a directory made goes too.
@@ -48,7 +58,7 @@ class StagedFiles final : public Staged {
   MadeDirectories made_;
   Part folder_;
   std::optional<WrittenFile> names_;  ///< a line a file
-  std::optional<WrittenFile> open_;
+  std::list<WrittenFile> open_;
   std::function<bool(std::string_view name)> is_stale_;
 };
 

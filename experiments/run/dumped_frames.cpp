@@ -5,10 +5,17 @@
 #include <charconv>
 #include <utility>
 
+#include "experiments/run/contacts_csv.h"
+
 namespace kds {
 
 DumpedFrames::DumpedFrames(std::filesystem::path directory) : files_(std::move(directory), "--dump") {
   files_.replace([this](std::string_view name) { return is_stale(name); });
+}
+
+std::ostream& DumpedFrames::open_contacts() {
+  has_contacts_ = true;
+  return files_.open(std::string(contacts_file));
 }
 
 void DumpedFrames::write(std::size_t frame, const std::vector<DumpFile>& files) {
@@ -17,10 +24,12 @@ void DumpedFrames::write(std::size_t frame, const std::vector<DumpFile>& files) 
     endings_.insert(file.ending);
   }
   frames_ = frame + 1;
+  files_.check();
 }
 
-// frame-NUMBER.WORD.csv, and not one that has just been written.
+// frame-NUMBER.WORD.csv or contacts.csv, and not one that has just been written.
 bool DumpedFrames::is_stale(std::string_view name) const {
+  if (name == contacts_file) return !has_contacts_;
   constexpr std::string_view start = "frame-", end = ".csv";
   if (!name.starts_with(start) || !name.ends_with(end)) return false;
   name.remove_prefix(start.size());

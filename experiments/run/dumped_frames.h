@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <ostream>
 #include <set>
 #include <string>
 #include <string_view>
@@ -20,10 +21,12 @@ class DumpedFrames {
   DumpedFrames(const DumpedFrames&) = delete;
   DumpedFrames& operator=(const DumpedFrames&) = delete;
 
+  /// The file of contacts, that of the whole run.
+  [[nodiscard]] std::ostream& open_contacts();
   /// In the order of the frames, from 0.
   void write(std::size_t frame, const std::vector<DumpFile>& files);
-  /// When these files take their places, frame files of an earlier dump that none of them replaces go: else
-  /// two dumps would be taken for one.
+  /// When these files take their places, those of an earlier dump that none of them replaces go: else two
+  /// dumps would be taken for one.
   [[nodiscard]] Staged& staged() { return files_; }
 
  private:
@@ -31,6 +34,7 @@ class DumpedFrames {
 
   StagedFiles files_;
   std::size_t frames_ = 0;
+  bool has_contacts_ = false;
   std::set<std::string, std::less<>> endings_;
 };
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array kRunOptions{
     OptionSpec{"--structures", "LIST",
-               "comma list of sorted, wrapped, power (default: wrapped,power;"
+               "comma list of sorted, wrapped, power, contacts (default: wrapped,power;"
                " instances: sorted in 1D, else power)"},
     OptionSpec{"--motion", "NAME",
                "how beads move between frames: linear, hermite, lifted (default: linear)"},
@@ -28,11 +28,15 @@ constexpr std::array kRunOptions{
                "levels of wrapped to keep, FIRST:LAST, roots 0, LAST excluded (default: all)"},
     OptionSpec{"--nodes", "RANGE",
                "nodes of wrapped to keep, those over beads FIRST:LAST, LAST excluded (default: all)"},
+    OptionSpec{"--apart", "K",
+               "contacts: of beads of one chain, those at least K apart along it (default: 2)"},
     OptionSpec{"--audit", "WHEN", "compare with static builds: none, frames or events (default: none)"},
     OptionSpec{"--dump", "DIR",
                "write the structures at every frame there, in place of an earlier dump (default: none)"},
     OptionSpec{"--log", "FILE", "write the event log there, for kds replay (default: none)"},
-    OptionSpec{"--out", "DIR", "write summary.json, events.csv and report.html there (default: none)"},
+    OptionSpec{
+        "--out", "DIR",
+        "write summary.json, events.csv, report.html and, of contacts, contacts.csv there (default: none)"},
     OptionSpec{"--json", "FILE", "write the summary there; - is standard output (default: none)"},
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
@@ -94,6 +98,8 @@ RunOptions parse_run_options(const Arguments& arguments) {
   options.motion = chosen<FrameMotion>(parsed, "--motion", frame_motion_names).value_or(options.motion);
   options.kernel = chosen<Kernel>(parsed, "--kernel", kernel_names).value_or(options.kernel);
   options.nodes = parse_nodes(parsed);
+  if (const auto apart = parsed.value("--apart"))
+    options.apart = static_cast<BeadId>(parse_whole_number("--apart", *apart, 1, no_bead));
   options.audit = chosen<AuditMode>(parsed, "--audit", audit_mode_names).value_or(options.audit);
   options.dump = path_of(parsed, "--dump");
   options.log = path_of(parsed, "--log");

@@ -20,7 +20,9 @@ namespace kds {
 namespace {
 
 constexpr std::array kOptions{
-    OptionSpec{"--out", "DIR", "write summary.json, events.csv and report.html there (default: none)"},
+    OptionSpec{
+        "--out", "DIR",
+        "write summary.json, events.csv, report.html and, of contacts, contacts.csv there (default: none)"},
     OptionSpec{"--json", "FILE", "write the summary there; - is standard output (default: none)"},
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };

@@ -116,8 +116,9 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
   LogComparison comparison(log, name, session->simulator());
   session->simulator().listen(comparison);
   StepCounts counts(*session, scene);
-  if (results != nullptr) results->begin(scene);
+  if (results != nullptr) results->begin(scene, *session);
   run_steps(*session, scene, options, [&](std::size_t frame) {
+    if (results != nullptr) results->add_frame(frame, *session);
     if (frame == 0) return warnings.release(warn);
     counts.end_step(frame - 1, results);
     progress(frame, scene.step_count());

@@ -16,7 +16,7 @@ namespace kds {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kFiles{"summary.json", "events.csv", "report.html"};
+constexpr std::array<std::string_view, 4> kFiles{"summary.json", "events.csv", "report.html", contacts_file};
 
 }  // namespace
 
@@ -24,15 +24,19 @@ void check_destinations(const Destinations& destinations) {
   if (destinations.json && *destinations.json != "-") ensure_writable_file(*destinations.json, "--json");
   if (!destinations.out) return;
   require_gnuplot("--out");
-  check_directory(*destinations.out, "--out", {kFiles[0], kFiles[1], kFiles[2]});
+  check_directory(*destinations.out, "--out", {kFiles[0], kFiles[1], kFiles[2], kFiles[3]});
   refuse_page_beside(*destinations.out, "update.json", "kds update");
   refuse_page_beside(*destinations.out, "collide.json", "kds collide");
 }
 
-void RunResults::begin(const Scene& scene) {
+void RunResults::begin(const Scene& scene, Session& session) {
   if (!destinations_.out) return;
   files_.emplace(*destinations_.out, "--out");
   events_.emplace(files_->open("events.csv"), scene.stamp(0).picoseconds.has_value());
+  if (!has_contacts(session))
+    return files_->replace([](std::string_view name) { return name == contacts_file; });
+  contacts_.emplace(files_->open(std::string(contacts_file)), scene);
+  session.simulator().listen(*contacts_);
 }
 
 void RunResults::begin_dump_and_log(const RunOptions& options, const Scene& scene, Session& session) {
@@ -40,10 +44,19 @@ void RunResults::begin_dump_and_log(const RunOptions& options, const Scene& scen
     log_.emplace(*options.log, options, scene);
     session.simulator().listen(*log_);
   }
-  if (options.dump) dumps_.emplace(*options.dump);
+  if (!options.dump) return;
+  dumps_.emplace(*options.dump);
+  if (!has_contacts(session)) return;
+  dumped_contacts_.emplace(dumps_->open_contacts());
+  session.simulator().listen(*dumped_contacts_);
 }
 
 void RunResults::add_frame(std::size_t frame, const Session& session) {
+  if (frame == 0) {
+    for (ContactsCsv* const file : std::array<ContactsCsv*, 2>{
+             contacts_ ? &*contacts_ : nullptr, dumped_contacts_ ? &*dumped_contacts_ : nullptr})
+      if (file != nullptr) file->add_built(session);
+  }
   if (dumps_) dumps_->write(frame, session.dump(frame));
 }
 

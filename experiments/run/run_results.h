@@ -1,6 +1,6 @@
 #pragma once
-// The results of a run: summary.json, events.csv and report.html in --out, --json, --dump, --log, standard
-// output.
+// The results of a run: summary.json, events.csv, contacts.csv and report.html in --out, --json, --dump,
+// --log, standard output.
 
 #include <optional>
 #include <string>
@@ -8,6 +8,7 @@
 
 #include "experiments/output/destinations.h"
 #include "experiments/output/staged_files.h"
+#include "experiments/run/contacts_csv.h"
 #include "experiments/run/dumped_frames.h"
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/events_csv.h"
@@ -25,12 +26,12 @@ class RunResults {
  public:
   explicit RunResults(Destinations destinations) : destinations_(std::move(destinations)) {}
 
-  /// The input is accepted: from now on there are files in the making.
-  void begin(const Scene& scene);
-  /// --dump and --log of a run with these options. The log listens to the session, which must not go on when
-  /// this object has gone.
+  /// The input is accepted: from now on there are files in the making. They listen to the session, which must
+  /// not go on when this object has gone.
+  void begin(const Scene& scene, Session& session);
+  /// --dump and --log of a run with these options, likewise.
   void begin_dump_and_log(const RunOptions& options, const Scene& scene, Session& session);
-  /// A frame that has just been reached.
+  /// A frame that has just been reached; the first when the structures have been built.
   void add_frame(std::size_t frame, const Session& session);
   /// Events of a structure in the step from that frame on.
   void add_step(const FrameStamp& frame, std::string_view structure, std::uint64_t events);
@@ -43,7 +44,9 @@ class RunResults {
   Destinations destinations_;
   std::optional<StagedFiles> files_;
   std::optional<EventsCsv> events_;
+  std::optional<ContactsTable> contacts_;
   std::optional<DumpedFrames> dumps_;
+  std::optional<ContactsDump> dumped_contacts_;
   std::optional<EventLogWriter> log_;
 };
 

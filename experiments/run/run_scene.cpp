@@ -13,7 +13,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   const Scene scene = load_scene(options, warnings.hold());
   const auto session = open_session(options, scene, options.audit);
   StepCounts counts(*session, scene);
-  results.begin(scene);
+  results.begin(scene, *session);
   results.begin_dump_and_log(options, scene, *session);
 
   run_steps(*session, scene, options, [&](std::size_t frame) {

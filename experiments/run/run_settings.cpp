@@ -36,7 +36,8 @@ std::vector<std::pair<std::string, std::string>> option_settings(const RunOption
           {"frames", name_of(reading.frames)},
           {"radius", options.radius},
           {"levels", levels_of(options.nodes)},
-          {"nodes", beads_of(options.nodes)}};
+          {"nodes", beads_of(options.nodes)},
+          {"apart", options.apart ? std::to_string(*options.apart) : ""}};
 }
 
 std::vector<std::string> option_arguments(const RunOptions& options) {
@@ -60,6 +61,7 @@ std::vector<std::string> option_arguments(const RunOptions& options) {
   add("--radius", radius);
   if (const std::string levels = levels_of(options.nodes); !levels.empty()) add("--levels", levels);
   if (const std::string beads = beads_of(options.nodes); !beads.empty()) add("--nodes", beads);
+  if (options.apart) add("--apart", std::to_string(*options.apart));
   return arguments;
 }
 

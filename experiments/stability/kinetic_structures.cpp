@@ -170,6 +170,7 @@ std::vector<StabilitySubject> kinetic_structures() {
     for (const int dimension : {2, 3}) {
       subjects.push_back(structure_subject("wrapped", Of::points, dimension, degree, few));
       subjects.push_back(structure_subject("power", Of::points, dimension, degree, few));
+      subjects.push_back(structure_subject("contacts", Of::balls, dimension, degree, few));
     }
   }
   // In whole numbers curves take minutes: their functions have degree 36.

@@ -58,6 +58,7 @@ Scene::Scene(std::span<const Trajectory> necklaces, std::vector<double> radii, F
   }
   frame_count_ = longest == nullptr ? 0 : longest->frames.size();
   begin(motion, bead_counts, longest == nullptr ? "no input" : longest->file);
+  name_beads(necklaces);
   held_.resize(frame_count_);
   for (std::size_t k = 0; k < frame_count_; ++k) {
     held_[k].stamp.number = longest->frame_number(k);
@@ -97,6 +98,7 @@ Scene::Scene(std::unique_ptr<SceneStream> frames, const SceneSurvey& survey, std
   std::vector<std::size_t> bead_counts;
   for (const Trajectory& necklace : survey.necklaces) bead_counts.push_back(necklace.bead_count());
   begin(motion, bead_counts, survey.necklaces.empty() ? "no input" : survey.necklaces.front().file);
+  name_beads(survey.necklaces);
   check_radii(radii_);
   lay_in_plane(survey.plane);
 }
@@ -114,6 +116,15 @@ void Scene::begin(FrameMotion motion, const std::vector<std::size_t>& bead_count
     throw InputError(
         fmt::format("{}: a run needs at least two frames, this input has {}", longest, frame_count_));
   if (beads == 0) throw InputError(fmt::format("{}: expected beads, found none", longest));
+}
+
+void Scene::name_beads(std::span<const Trajectory> necklaces) {
+  for (std::size_t n = 0; n < necklaces.size(); ++n) {
+    const std::vector<std::string>& names = necklaces[n].bead_names;
+    if (names.empty()) continue;
+    bead_names_.resize(bead_count());
+    std::copy(names.begin(), names.end(), bead_names_.begin() + necklaces_[n].first);
+  }
 }
 
 void Scene::lay_in_plane(const std::optional<AxisPlane>& plane) {

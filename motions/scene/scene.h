@@ -64,6 +64,11 @@ class Scene {
   [[nodiscard]] FrameStamp stamp(std::size_t frame) const;
   [[nodiscard]] std::size_t frame_number(std::size_t frame) const { return stamp(frame).number; }
   [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
+  /// As files name beads, "CA of ALA 12 in chain A"; empty where they do not.
+  [[nodiscard]] const std::string& bead_name(BeadId bead) const {
+    static const std::string unnamed;
+    return bead < bead_names_.size() ? bead_names_[bead] : unnamed;
+  }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   [[nodiscard]] bool equal_radii() const;
   /// Those of an instance file have weights at most.
@@ -95,6 +100,7 @@ class Scene {
  private:
   [[nodiscard]] bool is_sampled() const { return !instance_; }
   void begin(FrameMotion motion, const std::vector<std::size_t>& bead_counts, const std::string& longest);
+  void name_beads(std::span<const Trajectory> necklaces);
   void lay_in_plane(const std::optional<AxisPlane>& plane);
   void lay_in_plane(Eigen::Matrix3Xd& frame) const;
   /// Reads on, or from the start again, until these frames are in memory.
@@ -146,6 +152,7 @@ class Scene {
   bool has_radii_ = true;
   std::size_t frame_count_ = 0;
   std::vector<BeadRange> necklaces_;
+  std::vector<std::string> bead_names_;  // none, or of all beads
   std::vector<double> radii_;
   std::optional<AxisPlane> plane_;       // none: in space
   std::optional<Instance> instance_;     // none: sampled frames

@@ -16,5 +16,6 @@ inline constexpr const char* fictitious_radii =
 [[nodiscard]] StructureSpec sorted_structure();
 [[nodiscard]] StructureSpec wrapped_structure();
 [[nodiscard]] StructureSpec power_structure();
+[[nodiscard]] StructureSpec contacts_structure();
 
 }  // namespace kds

@@ -39,6 +39,10 @@ class Session {
   [[nodiscard]] const std::vector<KineticStructure*>& structures() const { return kinetic_; }
   /// All structures at a frame that has just been reached (or, frame 0, built).
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const;
+  /// What a structure was built as, as changes (RunningStructure::built).
+  [[nodiscard]] std::vector<Change> built(std::size_t structure) const {
+    return running_[structure]->built();
+  }
   /// Builds the same structures statically at a frame; adds the seconds, one entry a structure.
   void time_static_builds(std::size_t frame, std::vector<double>& seconds) const;
 

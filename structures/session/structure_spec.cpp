@@ -30,6 +30,7 @@ StructureRegistry& structure_registry() {
     own.add(sorted_structure());
     own.add(wrapped_structure());
     own.add(power_structure());
+    own.add(contacts_structure());
     return own;
   }();
   return registry;

@@ -31,18 +31,21 @@ class RunningStructure {
   [[nodiscard]] virtual KineticStructure& kinetic() = 0;
   /// The structure at a frame that has just been reached (or, frame 0, built).
   [[nodiscard]] virtual std::vector<DumpFile> dump(std::size_t frame) const = 0;
+  /// What it was built as, for logs of its events to begin with: the changes that would make it of nothing.
+  [[nodiscard]] virtual std::vector<Change> built() const { return {}; }
   /// Wall seconds to build the same structure statically at a frame, as a user would without this library.
   [[nodiscard]] virtual double static_seconds(std::size_t frame) const = 0;
 };
 
 struct StructureSettings {
   NodeSelection nodes;  ///< of hierarchies
+  BeadId apart = 2;     ///< contacts: of beads of one necklace, those at least so far apart along it
 };
 
 struct StructureSpec {
   std::string name;
   /// In what order structures act at one time, and stand in reports: ascending, then by name. Those of the
-  /// framework have 10, 20, 30.
+  /// framework have 10, 20, 30, 40.
   int order = 100;
   /// Whether a run of this scene has it when nobody says which structures to run.
   std::function<bool(const Scene&)> by_default = [](const Scene&) { return false; };

@@ -108,8 +108,8 @@ TEST(RunOptions, RefusesOptionsWithoutAValue) {
 }
 
 TEST(RunOptions, RefusesStructuresThatAreNotRegistered) {
-  EXPECT_THAT(refusal({"a", "--structures", "power,contacts"}),
-              HasSubstr("'contacts' is not one of sorted, wrapped, power"));
+  EXPECT_THAT(refusal({"a", "--structures", "power,heap"}),
+              HasSubstr("'heap' is not one of sorted, wrapped, power, contacts"));
   EXPECT_EQ(parse_run_options({"a", "--motion", "hermite"}).motion, FrameMotion::hermite);
   EXPECT_EQ(parse_run_options({"a", "--motion", "lifted"}).motion, FrameMotion::lifted);
 }

@@ -1,0 +1,17 @@
+// The order of two beads. In lanes where points have one coordinate, whose one structure is the sorted list.
+#include "certificates/search/define_certificate_search.h"
+#include "certificates/types/precedes.h"
+
+namespace kds {
+
+template std::unique_ptr<CertificateSearch<Precedes>> search_over(const MotionRef<1>&);
+template <>
+std::unique_ptr<CertificateSearch<Precedes>> search_over(const MotionRef<2>& motion) {
+  return detail::search_one_by_one<Precedes>(motion);
+}
+template <>
+std::unique_ptr<CertificateSearch<Precedes>> search_over(const MotionRef<3>& motion) {
+  return detail::search_one_by_one<Precedes>(motion);
+}
+
+}  // namespace kds

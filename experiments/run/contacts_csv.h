@@ -1,0 +1,59 @@
+#pragma once
+// contacts.csv: which beads began to meet, parted or touched, and when; written while the run goes on.
+
+#include <ostream>
+#include <string_view>
+
+#include "kds/event_log.h"
+#include "motions/scene/scene.h"
+#include "structures/session/session.h"
+
+namespace kds {
+
+/// The name of the file, in --dump and in --out.
+inline constexpr std::string_view contacts_file = "contacts.csv";
+
+/// Whether the session has the structure that the file is about.
+[[nodiscard]] bool has_contacts(const Session& session);
+
+/// Hears of all events, and writes a line for each contact.
+class ContactsCsv : public EventListener {
+ public:
+  /// Those that begin with the first frame: to be called once, when the structures have been built.
+  void add_built(const Session& session);
+  void on_event(const KineticStructure& structure, const LoggedEvent& event) override;
+
+ private:
+  virtual void add(const LoggedEvent& event, std::string_view kind) = 0;
+};
+
+/// As in --dump: header `step,lower,upper,i,j,event`, then the bracket of the time in the step, the beads and
+/// begin, end or touch. Those in contact at the start: step 0, 0, 0, begin.
+class ContactsDump final : public ContactsCsv {
+ public:
+  /// Writes the header.
+  explicit ContactsDump(std::ostream& stream);
+
+ private:
+  void add(const LoggedEvent& event, std::string_view kind) override;
+
+  std::ostream& stream_;
+};
+
+/// As in --out: header `event,i,j,first,second,frame`, the beads with their names where the input names them.
+/// `frame` is the time by the numbers of frames in the file, between two frames with its fraction; where the
+/// file has times `picoseconds` follows.
+class ContactsTable final : public ContactsCsv {
+ public:
+  /// Writes the header. The scene must outlive it.
+  ContactsTable(std::ostream& stream, const Scene& scene);
+
+ private:
+  void add(const LoggedEvent& event, std::string_view kind) override;
+
+  std::ostream& stream_;
+  const Scene& scene_;
+  bool timed_;
+};
+
+}  // namespace kds

@@ -1,0 +1,162 @@
+#include "structures/contacts/moving_boxes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "motions/numbers/lanes.h"
+
+namespace kds {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Sides come from one rounded sum each, which errs by 2^-53 of it at most; where it is subnormal, by nothing.
+double rounded_down(double side) { return side - std::abs(side) * 0x1p-51; }
+double rounded_up(double side) { return side + std::abs(side) * 0x1p-51; }
+
+/// A control point in lanes. What follows its coordinates is left out of all that is done with them.
+template <int Dimension>
+[[nodiscard, gnu::always_inline]] inline Lanes point_of(const Curves<Dimension>& curves, BeadId bead, int k) {
+  const double* const p = curves.control_point(bead, k);
+  if constexpr (Dimension == 3) {
+    return Lanes::load(p);
+  } else {
+    return Lanes::Vector{p[0], p[1], 0, 0};
+  }
+}
+
+/// Bounds of the control points of a few beads, and whether all of a bead's are the same.
+template <int Dimension>
+[[KDS_LANES_TARGETS]] bool bound_beads(const Curves<Dimension>& curves, const BeadBlock& block, int controls,
+                                       double* sides) {
+  Lanes::Mask moves{};
+  bool same_radii = true;
+  for (int k = 0; k < controls; ++k) {
+    Lanes low(infinity), high(-infinity);
+    for (BeadId b = block.first; b < block.first + block.count; ++b) {
+      const Lanes point = point_of(curves, b, k), start = point_of(curves, b, 0);
+      const double radius = curves.radius(b, k);
+      same_radii &= radius == curves.radius(b, 0);
+      low = Lanes::min(low, point - Lanes(radius));
+      high = Lanes::max(high, point + Lanes(radius));
+      moves |= (point < start) | (point > start);
+    }
+    for (int axis = 0; axis < Dimension; ++axis) {
+      *sides++ = rounded_down(low.v[axis]);
+      *sides++ = rounded_up(high.v[axis]);
+    }
+  }
+  bool rests = same_radii;
+  for (int axis = 0; axis < Dimension; ++axis) rests &= moves[axis] == 0;
+  return rests;
+}
+
+template <int Dimension>
+[[KDS_LANES_TARGETS]] std::uint32_t near_in_lanes(const double* box, const double* group, int controls) {
+  using Mask = Lanes::Mask;
+  constexpr std::size_t fan = 16;
+  Mask bits{0, 0, 0, 0};
+  Mask weight{1, 2, 4, 8};
+  for (std::size_t first = 0; first < fan; first += Lanes::width) {
+    Mask apart{0, 0, 0, 0};
+    for (int axis = 0; axis < Dimension; ++axis) {
+      Mask above{-1, -1, -1, -1}, below{-1, -1, -1, -1};
+      for (int k = 0; k < controls; ++k) {
+        const std::size_t lower = 2 * static_cast<std::size_t>(k * Dimension + axis), upper = lower + 1;
+        above &= Lanes(Lanes::load(group + fan * lower + first)) > Lanes(box[upper]);
+        below &= Lanes(Lanes::load(group + fan * upper + first)) < Lanes(box[lower]);
+      }
+      apart |= above | below;
+    }
+    bits |= ~apart & weight;
+    weight *= 16;
+  }
+  return static_cast<std::uint32_t>((bits[0] | bits[1]) | (bits[2] | bits[3]));
+}
+
+}  // namespace
+
+template <int Dimension>
+MovingBoxes<Dimension>::MovingBoxes(std::span<const BeadBlock> blocks, int degree) : controls_(degree + 1) {
+  for (std::size_t count = blocks.size(); count > 0; count = (count + fan - 1) / fan) {
+    Level& level = levels_.emplace_back();
+    level.count = count;
+    const std::size_t groups = (count + fan - 1) / fan;
+    level.sides.resize(count * sides_of_box());
+    level.lanes.resize(groups * fan * sides_of_box());
+    level.rest.resize(groups);
+    level.present.assign(groups, (1U << fan) - 1U);
+    if (count % fan != 0) level.present.back() = (1U << (count % fan)) - 1U;
+    if (count <= fan) break;
+  }
+  rests_.assign(blocks.size(), 1);
+  rested_ = rests_;
+}
+
+template <int Dimension>
+void MovingBoxes<Dimension>::forget_rest() {
+  std::fill(rests_.begin(), rests_.end(), 1);
+}
+
+template <int Dimension>
+auto MovingBoxes<Dimension>::near_bits(const double* box, const double* group, int controls) -> Bits {
+  return near_in_lanes<Dimension>(box, group, controls);
+}
+
+template <int Dimension>
+void MovingBoxes<Dimension>::move_to(const Curves<Dimension>& curves, std::span<const BeadBlock> blocks) {
+  if (levels_.empty()) return;
+  std::swap(rests_, rested_);
+  bound_blocks(curves, blocks);
+  lay_in_lanes(levels_.front());
+  for (std::size_t l = 1; l < levels_.size(); ++l) {
+    bound_boxes_of(levels_[l - 1], levels_[l]);
+    lay_in_lanes(levels_[l]);
+  }
+}
+
+template <int Dimension>
+void MovingBoxes<Dimension>::bound_blocks(const Curves<Dimension>& curves,
+                                          std::span<const BeadBlock> blocks) {
+  Level& level = levels_.front();
+  std::fill(level.rest.begin(), level.rest.end(), 0);
+  for (std::size_t box = 0; box < blocks.size(); ++box) {
+    rests_[box] = bound_beads(curves, blocks[box], controls_, &level.sides[box * sides_of_box()]) ? 1 : 0;
+    if (rests_[box] != 0 && rested_[box] != 0) level.rest[box / fan] |= 1U << (box % fan);
+  }
+}
+
+template <int Dimension>
+void MovingBoxes<Dimension>::bound_boxes_of(const Level& below, Level& level) const {
+  const std::size_t sides = sides_of_box();
+  std::fill(level.rest.begin(), level.rest.end(), 0);
+  for (std::size_t box = 0; box < level.count; ++box) {
+    double* const bounds = &level.sides[box * sides];
+    const std::size_t end = std::min(below.count, (box + 1) * fan);
+    std::copy_n(&below.sides[box * fan * sides], sides, bounds);
+    for (std::size_t child = box * fan + 1; child < end; ++child) {
+      const double* const inner = &below.sides[child * sides];
+      for (std::size_t s = 0; s < sides; s += 2) {
+        bounds[s] = std::min(bounds[s], inner[s]);
+        bounds[s + 1] = std::max(bounds[s + 1], inner[s + 1]);
+      }
+    }
+    if (below.rest[box] == below.present[box]) level.rest[box / fan] |= 1U << (box % fan);
+  }
+}
+
+template <int Dimension>
+void MovingBoxes<Dimension>::lay_in_lanes(Level& level) const {
+  const std::size_t sides = sides_of_box();
+  for (std::size_t box = 0; box < level.count; ++box) {
+    double* const lanes = &level.lanes[(box / fan) * fan * sides + box % fan];
+    for (std::size_t s = 0; s < sides; ++s) lanes[s * fan] = level.sides[box * sides + s];
+  }
+}
+
+template class MovingBoxes<2>;
+template class MovingBoxes<3>;
+
+}  // namespace kds

@@ -1,0 +1,65 @@
+#include "kds/seconds.h"
+#include "structures/contacts/contacts.h"
+#include "structures/contacts/static_contacts.h"
+#include "structures/session/own_structures.h"
+
+namespace kds {
+
+namespace {
+
+template <int Dimension>
+class ContactsInRun final : public RunningStructure {
+ public:
+  ContactsInRun(Simulator& simulator, const Scene& scene, const MotionRef<Dimension>& motion,
+                const PairsAsked& asked)
+      : scene_(scene), asked_(asked), contacts_(simulator, motion, asked) {}
+
+  [[nodiscard]] KineticStructure& kinetic() override { return contacts_; }
+  [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override { return {}; }
+  [[nodiscard]] std::vector<Change> built() const override {
+    std::vector<Change> changes;
+    for (const BeadPair& pair : contacts_.pairs())
+      changes.push_back({Contacts<Dimension>::begin, 2, {pair.first, pair.second}});
+    return changes;
+  }
+  [[nodiscard]] double static_seconds(std::size_t frame) const override {
+    const Eigen::Matrix3Xd centers = scene_.centers(frame);
+    return seconds_of([&] { (void)contacts_of(centers, scene_.radii(), asked_); }).clock;
+  }
+
+ private:
+  const Scene& scene_;
+  PairsAsked asked_;
+  Contacts<Dimension> contacts_;
+};
+
+}  // namespace
+
+StructureSpec contacts_structure() {
+  StructureSpec spec;
+  spec.name = "contacts";
+  spec.order = 40;
+  spec.refusal = [](const Scene& scene) -> std::optional<std::string> {
+    if (scene.is_lifted()) return fictitious_radii;
+    if (scene.dimension() < 2) return needs_plane_or_space(scene);
+    if (!scene.has_radii())
+      return "the points of an instance have no radii, and contacts are of balls; expected a trajectory";
+    return std::nullopt;
+  };
+  spec.make = [](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,
+                 const StructureSettings& settings) {
+    return std::visit(
+        [&]<int D>(const MotionRef<D>& ref) -> std::unique_ptr<RunningStructure> {
+          if constexpr (D == 1) {
+            return nullptr;
+          } else {
+            return std::make_unique<ContactsInRun<D>>(
+                simulator, scene, ref, PairsAsked{scene.necklaces(), true, settings.apart, true});
+          }
+        },
+        motion);
+  };
+  return spec;
+}
+
+}  // namespace kds

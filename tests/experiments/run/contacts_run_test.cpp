@@ -1,0 +1,122 @@
+// kds run --structures contacts, from outside: its files, its options, and what it refuses.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds::test {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+const std::string kDcd = data_file("trajectories/villin_hp36_300K.dcd");
+const std::string kPdb = data_file("trajectories/villin_hp36_300K.pdb");
+
+std::vector<std::string> lines_of(const std::filesystem::path& path) {
+  std::vector<std::string> lines;
+  std::istringstream text(content_of(path));
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string frames_at(const std::vector<std::string>& beads, const std::vector<double>& x) {
+  std::string frames;
+  for (const double shift : x) {
+    frames += std::to_string(beads.size()) + "\nframe\n";
+    for (const std::string& bead : beads) frames += "C " + std::to_string(shift) + " " + bead + "\n";
+  }
+  return frames;
+}
+
+// Balls come, meet an obstacle at rest, and go; one only touches it, at a frame.
+TEST(ContactsRun, ANecklaceAndAnObstacleAtRest) {
+  const ScratchDirectory scratch;
+  const std::string moving = scratch.file("moving.xyz", frames_at({"0 0", "8 0", "16 3"}, {-4, 0, 4}));
+  const std::string at_rest = scratch.file("rest.xyz", frames_at({"0 0", "8 1.5", "8 2"}, {0}));
+  std::vector<std::string> arguments{"run",      moving,   at_rest,          "--structures", "contacts",
+                                     "--radius", "1",      "--audit",        "events",       "--json",
+                                     "-",        "--dump", scratch / "dump", "--log",        scratch / "log"};
+  const ProgramRun run = run_program(arguments);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json contacts = Json::parse(run.out)["structures"]["contacts"];
+  EXPECT_EQ(contacts["events"]["total"], 5);
+  EXPECT_EQ(contacts["events"]["begin"], 2);
+  EXPECT_EQ(contacts["events"]["end"], 2);
+  EXPECT_EQ(contacts["events"]["touch"], 1);
+  EXPECT_EQ(contacts["audits"]["failed"], 0);
+  const std::vector<std::string> lines = lines_of(scratch / "dump/contacts.csv");
+  ASSERT_EQ(lines.size(), 6U);
+  EXPECT_EQ(lines[0], "step,lower,upper,i,j,event");
+  EXPECT_THAT(lines[1], testing::AllOf(testing::StartsWith("0,0.49999"), testing::EndsWith(",0,3,begin")));
+  EXPECT_THAT(lines[2], testing::AllOf(testing::StartsWith("0,0.66"), testing::EndsWith(",1,4,begin")));
+  EXPECT_EQ(lines[3], "1,0,0,1,5,touch");
+  EXPECT_THAT(lines[4], testing::AllOf(testing::StartsWith("1,0.33"), testing::EndsWith(",1,4,end")));
+  EXPECT_EQ(run_program({"replay", scratch / "log", "--quiet"}).code, 0);
+}
+
+TEST(ContactsRun, NamesFramesAndTimes) {
+  const ScratchDirectory scratch;
+  const ProgramRun run = run_program({"run", kDcd, "--topology", kPdb, "--frames", "0:20", "--structures",
+                                      "contacts", "--radius", "1.9", "--apart", "5", "--out", scratch / "out",
+                                      "--dump", scratch / "dump", "--quiet"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto named = lines_of(scratch / "out/contacts.csv"), dumped = lines_of(scratch / "dump/contacts.csv");
+  EXPECT_THAT(named[0], testing::StartsWith("event,i,j,first,second,frame"));
+  EXPECT_EQ(named[1].substr(0, 68), "begin,41,48,C of THR 54 in chain A,N of ALA 57 in chain A,0");
+  ASSERT_EQ(named.size(), dumped.size());
+  EXPECT_GT(named.size(), 20U);
+  EXPECT_EQ(dumped[1], "0,0,0,41,48,begin");
+  // A run of other structures takes its place.
+  const ProgramRun other =
+      run_program({"run", kDcd, "--topology", kPdb, "--frames", "0:3", "--structures", "sorted", "--out",
+                   scratch / "out", "--dump", scratch / "dump", "--quiet"});
+  ASSERT_EQ(other.code, 0) << other.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/contacts.csv"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "dump/contacts.csv"));
+}
+
+TEST(ContactsRun, PairsNearAlongTheChain) {
+  const auto total = [](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"run",      kDcd, "--topology",   kPdb,       "--frames", "0:6",
+                                       "--radius", "2",  "--structures", "contacts", "--json",   "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    const Json summary = Json::parse(run.out);
+    EXPECT_EQ(summary["settings"]["apart"], more.empty() ? "" : more[1]);
+    return summary["structures"]["contacts"]["events"]["total"].get<int>();
+  };
+  EXPECT_EQ(total({}), total({"--apart", "2"}));
+  EXPECT_GT(total({}), total({"--apart", "5"}));
+  EXPECT_GT(total({"--apart", "5"}), total({"--apart", "30"}));
+}
+
+void expect_refused(std::vector<std::string> arguments, const std::string& reason) {
+  arguments.insert(arguments.begin(), "run");
+  const ProgramRun run = run_program(arguments);
+  EXPECT_EQ(run.code, 2) << run.out;
+  EXPECT_THAT(run.err, HasSubstr(reason));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+TEST(ContactsRun, Refusals) {
+  expect_refused({kDcd, "--apart", "5"}, "--apart: it chooses pairs of contacts");
+  expect_refused({kDcd, "--structures", "contacts", "--apart", "0"}, "--apart");
+  expect_refused({kDcd, "--structures", "contacts", "--apart", "two"}, "--apart");
+  expect_refused({kDcd, "--structures", "contacts", "--motion", "lifted"}, "fictitious");
+  expect_refused({data_file("kinetic/d3_n20_linear.txt"), "--structures", "contacts"}, "no radii");
+  expect_refused({data_file("kinetic/d1_n20_linear.txt"), "--structures", "contacts"}, "1 coordinate");
+}
+
+}  // namespace
+}  // namespace kds::test
