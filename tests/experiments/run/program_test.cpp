@@ -69,7 +69,8 @@ TEST(Program, RefusesWrongUsage) {
   expect_refused({"run"}, {"INPUT"});
   expect_refused({"run", kSmall, "--fly"}, {"unknown option '--fly'"});
   expect_refused({"run", kSmall, "--kernel", "slow"}, {"--kernel", "slow"});
-  expect_refused({"run", kSmall, "--structures", "contacts"}, {"is not one of sorted, wrapped, power"});
+  expect_refused({"run", kSmall, "--structures", "heaps"},
+                 {"is not one of sorted, wrapped, power, contacts"});
   expect_refused({"run", kSmall, "--motion", "hermite"}, {"--motion", "instance"});
   expect_refused({"run", kSmall, "--motion", "lifted"}, {"--motion", "instance"});
   expect_refused({"run", kTrajectory, "--motion", "lifted"}, {"--motion lifted", "fictitious", "wrapped"});
