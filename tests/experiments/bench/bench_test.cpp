@@ -135,6 +135,31 @@ TEST(Bench, PowerGivesARowForEachTechniqueAndInput) {
   EXPECT_EQ(inputs.size(), 14U);  // four strides, six chains, four regular scenes
 }
 
+TEST(Bench, CollisionGivesARowForEachDetectorMotionAndInput) {
+  const test::ProgramRun result =
+      test::run_program({"bench", "collision", "--sizes", "64", "--trajectories",
+                         test::data_file("trajectories/villin_hp36_300K.dcd"), "--json", "-", "--quiet"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const Json json = Json::parse(result.out);
+  std::set<std::string> names, inputs, peers;
+  for (const Json& row : json["rows"]) {
+    names.insert(row["name"]);
+    inputs.insert(row["input"]);
+    peers.insert(row["peer"]);
+    EXPECT_EQ(row["unit"], "ns/bead");
+    EXPECT_GT(row["value"].get<double>(), 0);
+    EXPECT_EQ(row["holds"].get<bool>(), row["ratio"] <= row["goal"]);
+  }
+  EXPECT_THAT(names, testing::IsSupersetOf({"frame auto, 0.003 r a frame", "frame auto, 0.03 r a frame",
+                                            "frame auto, 0.3 r a frame", "frame auto, as simulated",
+                                            "frame auto, declared speed", "frame auto, distant necklaces",
+                                            "static auto, ten times the beads"}));
+  EXPECT_THAT(inputs, testing::IsSupersetOf({"helix", "scaling-helix", "packed", "rotated packed",
+                                             "random-chain", "spline", "villin_hp36_300K"}));
+  EXPECT_THAT(peers, testing::IsSupersetOf({"cell list", "Verlet list", "reading the positions"}));
+}
+
 TEST(Bench, CertificatesGiveARowEachWithTheGoalsThatThereAre) {
   const test::ProgramRun result = test::run_program(
       {"bench", "certificates", "--instances", test::data_file("kinetic"), "--json", "-", "--quiet"});
