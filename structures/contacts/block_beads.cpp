@@ -14,8 +14,9 @@ namespace {
 constexpr std::size_t row = BeadBlock::most_beads;
 
 // A block in floats: rows of sixteen, one for each coordinate of each control point, two for radii made
-// larger and smaller, one for each coordinate of the swept balls' centres, one for their radii; then the box
-// around the swept balls.
+// larger and smaller, one for each coordinate of the swept balls' centres, one for their radii; the sides of
+// the boxes around four swept balls each, for all pairs of one of these with one of another block: each of
+// the four four times, and all four four times; then the box around all.
 template <int Dimension>
 struct Layout {
   static constexpr std::size_t axes = static_cast<std::size_t>(Dimension);
@@ -29,10 +30,13 @@ struct Layout {
     return smaller(controls) + row * (1 + axis);
   }
   static constexpr std::size_t reach(std::size_t controls) { return center(controls, axes); }
-  static constexpr std::size_t box(std::size_t controls, std::size_t axis) {
-    return reach(controls) + row + 2 * axis;
+  static constexpr std::size_t quarters(std::size_t controls, std::size_t axis) {
+    return reach(controls) + row * (1 + 4 * axis);
   }
-  static constexpr std::size_t size(std::size_t controls) { return reach(controls) + 2 * row; }
+  static constexpr std::size_t box(std::size_t controls, std::size_t axis) {
+    return quarters(controls, axes) + 2 * axis;
+  }
+  static constexpr std::size_t size(std::size_t controls) { return quarters(controls, axes) + row; }
 };
 
 struct RowBits {
@@ -50,15 +54,6 @@ template <class F>
 [[gnu::always_inline]] inline void store(const F& lanes, float* numbers) {
   __builtin_memcpy(numbers, &lanes.v, sizeof lanes.v);
 }
-template <class F>
-[[nodiscard, gnu::always_inline]] inline float greatest(const F& lanes) {
-  std::array<float, F::width> x;
-  store(lanes, x.data());
-  for (std::size_t half = F::width / 2; half > 0; half /= 2)
-    for (std::size_t i = 0; i < half; ++i) x[i] = std::max(x[i], x[i + half]);
-  return x[0];
-}
-
 /// Bits of a row, gathered vector by vector.
 template <class F>
 class BitsOf {
@@ -99,6 +94,21 @@ struct Scan {
       for (std::size_t axis = 0; axis < L::axes; ++axis) {
         const F x = load<F>(beads + L::center(controls(), axis) + first);
         apart |= (x - reach > F(sides[2 * axis + 1])) | (F(sides[2 * axis]) > x + reach);
+      }
+      near.add(~apart, first);
+    }
+    return near.bits();
+  }
+
+  /// Which of four runs of a block may meet which of another: bit 4 a + b.
+  [[nodiscard, gnu::always_inline]] std::uint32_t near_quarters(const float* a, const float* b) const {
+    BitsOf<F> near;
+    for (std::size_t first = 0; first < row; first += F::width) {
+      typename F::Mask apart{};
+      for (std::size_t axis = 0; axis < L::axes; ++axis) {
+        const float* const of_a = a + L::quarters(controls(), axis) + first;
+        const float* const of_b = b + L::quarters(controls(), axis) + first + 2 * row;
+        apart |= (load<F>(of_a) > load<F>(of_b + row)) | (load<F>(of_b) > load<F>(of_a + row));
       }
       near.add(~apart, first);
     }
@@ -172,7 +182,7 @@ struct Look {
   static constexpr std::size_t at_a_time = 64;
   struct PairLeft {
     BlockPair blocks;
-    std::uint32_t rows, columns;
+    std::uint32_t quarters;  // bit 4 a + b: run a of the first may meet run b of the second
   };
   struct RowLeft {
     BlockPair blocks;
@@ -196,18 +206,12 @@ struct Look {
   }
 };
 
-/// Beads of another block that a bead is asked about by their distance along the chain, at least `apart`; the
-/// first bead of the other block lies `offset` beads after (or before) that of its own. Of its own block
-/// those that follow it.
+/// Beads of a block that a bead is asked about by their distance along the chain, at least `apart`; the block
+/// begins `offset` beads after the bead's own, or is its own: then those that follow.
 [[gnu::always_inline]] inline std::uint32_t far_enough(std::size_t bead, std::int64_t offset, BeadId apart) {
   constexpr std::uint32_t all = (1U << row) - 1U;
-  constexpr auto most = static_cast<std::int64_t>(row);
-  if (offset >= 0) {
-    const std::int64_t from = static_cast<std::int64_t>(bead) + static_cast<std::int64_t>(apart) - offset;
-    return from <= 0 ? all : from >= most ? 0U : (all << from) & all;
-  }
-  const std::int64_t end = static_cast<std::int64_t>(bead) - static_cast<std::int64_t>(apart) - offset + 1;
-  return end >= most ? all : end <= 0 ? 0U : all >> (most - end);
+  const std::int64_t from = static_cast<std::int64_t>(bead) + static_cast<std::int64_t>(apart) - offset;
+  return from <= 0 ? all : from >= static_cast<std::int64_t>(row) ? 0U : (all << from) & all;
 }
 
 [[nodiscard, gnu::always_inline]] inline std::int64_t chain_offset(const BeadBlock& a, const BeadBlock& b) {
@@ -215,30 +219,35 @@ struct Look {
   return static_cast<std::int64_t>(b.first) - static_cast<std::int64_t>(a.first);
 }
 
+/// Four bits, each four times.
+[[gnu::always_inline]] inline std::uint32_t each_four_times(std::uint32_t bits) {
+  const std::uint32_t spread = (bits & 1U) | (bits & 2U) << 3U | (bits & 4U) << 6U | (bits & 8U) << 9U;
+  return spread * 0xfU;
+}
+
 template <class F, int Dimension, std::size_t Controls>
 [[gnu::always_inline]] inline void look_at_pairs(std::span<const BlockPair> pairs, Look& look) {
   const Scan<F, Dimension, Controls> scan{look.controls};
   look.pairs_left = look.rows_left = look.count = 0;
   for (const BlockPair& pair : pairs) {
+    const std::uint32_t quarters = scan.near_quarters(look.block(pair.first), look.block(pair.second));
+    look.pairs[look.pairs_left] = {pair, quarters};
+    look.pairs_left += quarters != 0 ? 1 : 0;
+  }
+  for (std::size_t p = 0; p < look.pairs_left; ++p) {
+    const auto [pair, quarters] = look.pairs[p];
+    const float *const a = look.block(pair.first), *const b = look.block(pair.second);
     std::uint32_t rows = look.blocks[pair.first].bits(), columns = look.blocks[pair.second].bits();
     if (pair.first != pair.second) {
-      const float *const a = look.block(pair.first), *const b = look.block(pair.second);
       rows &= scan.near_box(a, b);
       columns &= scan.near_box(b, a);
     }
-    // Row by row the block that has fewer left.
-    const bool swap = std::popcount(columns) < std::popcount(rows) && pair.first != pair.second;
-    look.pairs[look.pairs_left] =
-        swap ? Look::PairLeft{{pair.second, pair.first}, columns, rows} : Look::PairLeft{pair, rows, columns};
-    look.pairs_left += (rows != 0) & (columns != 0) ? 1 : 0;
-  }
-  for (std::size_t p = 0; p < look.pairs_left; ++p) {
-    const auto [pair, all_rows, columns] = look.pairs[p];
-    const float *const a = look.block(pair.first), *const b = look.block(pair.second);
     const std::int64_t offset = chain_offset(look.blocks[pair.first], look.blocks[pair.second]);
-    for (std::uint32_t rows = all_rows; rows != 0; rows &= rows - 1) {
+    for (; rows != 0; rows &= rows - 1) {
       const auto bead = static_cast<std::uint32_t>(std::countr_zero(rows));
-      const std::uint32_t asked = columns & far_enough(bead, offset, look.apart);
+      const std::uint32_t asked =
+          columns & each_four_times(quarters >> (bead & 12U) & 15U) & far_enough(bead, offset, look.apart);
+      if (asked == 0) continue;
       const std::uint32_t near = asked & scan.near_bead(a, bead, b);
       look.looked_at += static_cast<std::uint64_t>(std::popcount(asked));
       look.rows[look.rows_left] = {pair, bead, near};
@@ -272,8 +281,6 @@ template <int Dimension>
 [[KDS_FLOAT_LANES_TARGETS]] void look_in_fours(std::span<const BlockPair> pairs, Look& look) {
   look_at_pairs<FloatLanesIn<4>, Dimension>(pairs, look);
 }
-
-BeadPair in_order(BeadId a, BeadId b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// Calls visit(bead) for each bit.
 template <class Visit>
@@ -326,12 +333,38 @@ template <int Dimension>
   }
 }
 
-/// The swept balls of a block, and the box around them.
+/// The boxes around swept balls, along one axis.
+template <int Dimension>
+[[gnu::always_inline]] inline void bound(const std::array<float, row>& low,
+                                         const std::array<float, row>& high, std::size_t axis,
+                                         std::size_t controls, float* numbers) {
+  using L = Layout<Dimension>;
+  std::array<float, 4> lowest, highest;
+  for (std::size_t q = 0; q < 4; ++q) {
+    const std::size_t i = 4 * q;
+    lowest[q] = std::min(std::min(low[i], low[i + 1]), std::min(low[i + 2], low[i + 3]));
+    highest[q] = std::max(std::max(high[i], high[i + 1]), std::max(high[i + 2], high[i + 3]));
+  }
+  float* const sides = numbers + L::quarters(controls, axis);
+  for (std::size_t q = 0; q < 4; ++q) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      sides[4 * q + i] = lowest[q];
+      sides[row + 4 * q + i] = highest[q];
+      sides[2 * row + 4 * q + i] = lowest[i];
+      sides[3 * row + 4 * q + i] = highest[i];
+    }
+  }
+  numbers[L::box(controls, axis)] = std::min(std::min(lowest[0], lowest[1]), std::min(lowest[2], lowest[3]));
+  numbers[L::box(controls, axis) + 1] =
+      std::max(std::max(highest[0], highest[1]), std::max(highest[2], highest[3]));
+}
+
+/// The swept balls of a block, and the boxes around them.
 template <class F, int Dimension>
 [[gnu::always_inline]] inline void sweep(const Move<Dimension>& move, float* numbers) {
   using L = Layout<Dimension>;
   const std::size_t controls = move.controls, last = controls - 1;
-  std::array<F, L::axes> low, high;
+  std::array<std::array<float, row>, L::axes> low, high;
   for (std::size_t first = 0; first < row; first += F::width) {
     std::array<F, L::axes> center;
     for (std::size_t axis = 0; axis < L::axes; ++axis) {
@@ -355,15 +388,12 @@ template <class F, int Dimension>
     const F reach = (larger + square + F(0x1p-20F)) * F(1 + 0x1p-20F);
     store(reach, numbers + L::reach(controls) + first);
     for (std::size_t axis = 0; axis < L::axes; ++axis) {
-      const F below = -(center[axis] - reach), above = center[axis] + reach;
-      low[axis] = first == 0 ? below : F::max(low[axis], below);
-      high[axis] = first == 0 ? above : F::max(high[axis], above);
+      store(center[axis] - reach, low[axis].data() + first);
+      store(center[axis] + reach, high[axis].data() + first);
     }
   }
-  for (std::size_t axis = 0; axis < L::axes; ++axis) {
-    numbers[L::box(controls, axis)] = -greatest(low[axis]);
-    numbers[L::box(controls, axis) + 1] = greatest(high[axis]);
-  }
+  for (std::size_t axis = 0; axis < L::axes; ++axis)
+    bound<Dimension>(low[axis], high[axis], axis, controls, numbers);
 }
 
 template <class F, int Dimension>
@@ -494,11 +524,11 @@ void BlockBeads<Dimension>::look_at(std::span<const BlockPair> blocks, BeadId ap
     for (std::size_t r = 0; r < look.count; ++r) {
       const RowFound& of = look.found[r];
       const BeadBlock& others = blocks_[of.others];
-      for_each_bead(others, of.unclear,
-                    [&](BeadId other) { pairs.unclear.push_back(in_order(of.bead, other)); });
+      for_each_bead(others, of.unclear, [&](BeadId other) { pairs.unclear.push_back({of.bead, other}); });
       if (list_overlapping)
-        for_each_bead(others, of.inside,
-                      [&](BeadId other) { pairs.overlapping.push_back(in_order(of.bead, other)); });
+        for_each_bead(others, of.inside, [&](BeadId other) {
+          pairs.overlapping.push_back({of.bead, other});
+        });
     }
   }
   pairs.looked_at += look.looked_at;

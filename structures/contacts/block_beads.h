@@ -3,12 +3,13 @@
 // apart, or overlapping, all over the step. What is neither is not known: its polynomial must tell.
 //
 // First by swept balls: relative to a drift that all beads share, a bead's control points lie within some
-// distance of a centre, and so does the bead at all times; its ball lies in a larger one that rests. Those
-// that these leave over by all control points: let d_k be the differences of two beads' control points and
-// R_k the sums of their radii. The beads' distance exceeds R all over the step if for some direction n all
-// n.d_k > R_k |n|, as their difference is a mean of the d_k with weights that are never negative. It is below
-// R if all |d_k| < R_k, by the triangle inequality. The direction taken is d_0 plus the last d_k: where beads
-// move little relative to each other it loses nothing.
+// distance of a centre, and so does the bead at all times; its ball lies in a larger one that rests. Boxes
+// around four swept balls each come before these. Those that they leave over by all control points: let d_k
+// be the differences of two beads' control points and R_k the sums of their radii. The beads' distance
+// exceeds R all over the step if for some direction n all n.d_k > R_k |n|, as their difference is a mean of
+// the d_k with weights that are never negative. It is below R if all |d_k| < R_k, by the triangle inequality.
+// The direction taken is d_0 plus the last d_k: where beads move little relative to each other it loses
+// nothing.
 //
 // The bound of the errors. Coordinates are taken relative to the middle of all boxes and brought to [-1, 1]
 // by a power of two; let e = 2^-24. As a float one errs by at most 1.01 e, a difference of two by another 2e:

@@ -91,6 +91,7 @@ MovingBoxes<Dimension>::MovingBoxes(std::span<const BeadBlock> blocks, int degre
     if (count % fan != 0) level.present.back() = (1U << (count % fan)) - 1U;
     if (count <= fan) break;
   }
+  sides_of_blocks_.resize(blocks.size() * sides_of_box());
   rests_.assign(blocks.size(), 1);
   rested_ = rests_;
 }
@@ -107,24 +108,27 @@ auto MovingBoxes<Dimension>::near_bits(const double* box, const double* group, i
 
 template <int Dimension>
 void MovingBoxes<Dimension>::move_to(const Curves<Dimension>& curves, std::span<const BeadBlock> blocks) {
-  if (levels_.empty()) return;
   std::swap(rests_, rested_);
-  bound_blocks(curves, blocks);
-  lay_in_lanes(levels_.front());
-  for (std::size_t l = 1; l < levels_.size(); ++l) {
-    bound_boxes_of(levels_[l - 1], levels_[l]);
-    lay_in_lanes(levels_[l]);
-  }
+  for (std::size_t block = 0; block < blocks.size(); ++block)
+    rests_[block] =
+        bound_beads(curves, blocks[block], controls_, &sides_of_blocks_[block * sides_of_box()]) ? 1 : 0;
 }
 
 template <int Dimension>
-void MovingBoxes<Dimension>::bound_blocks(const Curves<Dimension>& curves,
-                                          std::span<const BeadBlock> blocks) {
+void MovingBoxes<Dimension>::arrange(std::span<const std::uint32_t> order) {
+  if (levels_.empty()) return;
+  const std::size_t sides = sides_of_box();
   Level& level = levels_.front();
   std::fill(level.rest.begin(), level.rest.end(), 0);
-  for (std::size_t box = 0; box < blocks.size(); ++box) {
-    rests_[box] = bound_beads(curves, blocks[box], controls_, &level.sides[box * sides_of_box()]) ? 1 : 0;
-    if (rests_[box] != 0 && rested_[box] != 0) level.rest[box / fan] |= 1U << (box % fan);
+  for (std::size_t box = 0; box < order.size(); ++box) {
+    const std::size_t block = order[box];
+    std::copy_n(&sides_of_blocks_[block * sides], sides, &level.sides[box * sides]);
+    if (rests_[block] != 0 && rested_[block] != 0) level.rest[box / fan] |= 1U << (box % fan);
+  }
+  lay_in_lanes(level);
+  for (std::size_t l = 1; l < levels_.size(); ++l) {
+    bound_boxes_of(levels_[l - 1], levels_[l]);
+    lay_in_lanes(levels_[l]);
   }
 }
 

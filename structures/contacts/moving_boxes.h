@@ -27,12 +27,15 @@ class MovingBoxes {
 
   MovingBoxes(std::span<const BeadBlock> blocks, int degree);
 
-  /// Takes the blocks' boxes for the step of these curves. Throws nothing; sides that overflow are infinite.
+  /// Takes the blocks' boxes for the step of these curves, once a step; boxes around them come with
+  /// arrange(). Sides that overflow are infinite.
   void move_to(const Curves<Dimension>& curves, std::span<const BeadBlock> blocks);
+  /// Groups the blocks in this order: those that follow each other should be near each other.
+  void arrange(std::span<const std::uint32_t> order);
   /// Beads move, it is not known from when on: nothing is at rest before the first step.
   void forget_rest();
 
-  /// Level 0: the blocks. The last has at most `fan` boxes.
+  /// Level 0: the blocks, as they are arranged. The last has at most `fan` boxes.
   [[nodiscard]] std::size_t level_count() const { return levels_.size(); }
   [[nodiscard]] std::size_t box_count(std::size_t level) const { return levels_[level].count; }
 
@@ -50,9 +53,9 @@ class MovingBoxes {
     return levels_[level].rest[group];
   }
 
-  /// A side of a box: control point, axis, and whether it is the upper one.
-  [[nodiscard]] double side(std::size_t level, std::size_t box, int k, int axis, bool upper) const {
-    return levels_[level].sides[box * sides_of_box() + place(k, axis, upper)];
+  /// A side of a block's box: control point, axis, and whether it is the upper one.
+  [[nodiscard]] double side(std::size_t block, int k, int axis, bool upper) const {
+    return sides_of_blocks_[block * sides_of_box() + place(k, axis, upper)];
   }
   [[nodiscard]] int control_count() const { return controls_; }
 
@@ -71,11 +74,11 @@ class MovingBoxes {
     return 2 * static_cast<std::size_t>(k * Dimension + axis) + (upper ? 1 : 0);
   }
   [[nodiscard]] static Bits near_bits(const double* box, const double* group, int controls);
-  void bound_blocks(const Curves<Dimension>& curves, std::span<const BeadBlock> blocks);
   void bound_boxes_of(const Level& below, Level& level) const;
   void lay_in_lanes(Level& level) const;
 
   int controls_;  // a curve
+  std::vector<double> sides_of_blocks_;
   std::vector<Level> levels_;
   std::vector<std::uint8_t> rests_, rested_;  // of each block: in this step, in the one before
 };

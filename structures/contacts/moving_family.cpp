@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace kds {
@@ -13,33 +14,69 @@ MovingFamily<Dimension>::MovingFamily(PairsAsked asked, int degree)
     : asked_(std::move(asked)),
       blocks_(blocks_of(asked_.necklaces)),
       boxes_(blocks_, degree),
-      beads_(blocks_, degree) {}
+      beads_(blocks_, degree),
+      order_(blocks_.size()) {
+  std::iota(order_.begin(), order_.end(), 0U);
+}
 
 template <int Dimension>
 void MovingFamily<Dimension>::find_pairs(const Curves<Dimension>& curves, Resting resting,
                                          bool list_overlapping, PairsOfBlocks& pairs) {
+  // Fewer make three levels of boxes at most.
+  constexpr std::size_t few = MovingBoxes<Dimension>::fan * MovingBoxes<Dimension>::fan;
   pairs.clear();
-  size_ = 0;
   if (blocks_.empty()) return;
   boxes_.move_to(curves, blocks_);
-  const std::size_t top = boxes_.level_count() - 1;
-  std::array<double, Dimension> middle;
-  double half = 0;
+  const Extent all = extent();
+  beads_.move_to(curves, all.middle, all.half);
+  const bool has_grown = size_ > size_when_sorted_ + size_when_sorted_ / 2;
+  const bool sorts = blocks_.size() > few && (size_when_sorted_ == 0 || has_grown);
+  if (sorts) sort_blocks(all);
+  boxes_.arrange(order_);
+  size_ = 0;
+  near_blocks_.clear();
+  split(resting, boxes_.level_count(), 0, 0);
+  if (sorts) size_when_sorted_ = size_;
+  beads_.look_at(near_blocks_, asked_.apart, list_overlapping, pairs);
+}
+
+template <int Dimension>
+auto MovingFamily<Dimension>::extent() const -> Extent {
+  Extent all{};
   for (int axis = 0; axis < Dimension; ++axis) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t box = 0; box < boxes_.box_count(top); ++box) {
+    for (std::size_t block = 0; block < blocks_.size(); ++block) {
       for (int k = 0; k < boxes_.control_count(); ++k) {
-        low = std::min(low, boxes_.side(top, box, k, axis, false));
-        high = std::max(high, boxes_.side(top, box, k, axis, true));
+        low = std::min(low, boxes_.side(block, k, axis, false));
+        high = std::max(high, boxes_.side(block, k, axis, true));
       }
     }
-    middle[static_cast<std::size_t>(axis)] = 0.5 * low + 0.5 * high;
-    half = std::max(half, 0.5 * high - 0.5 * low);
+    all.middle[static_cast<std::size_t>(axis)] = 0.5 * low + 0.5 * high;
+    all.half = std::max(all.half, 0.5 * high - 0.5 * low);
   }
-  beads_.move_to(curves, middle, half);
-  near_blocks_.clear();
-  split(resting, top + 1, 0, 0);
-  beads_.look_at(near_blocks_, asked_.apart, list_overlapping, pairs);
+  return all;
+}
+
+// Along a Morton curve. Any order would do: what cannot be told goes anywhere.
+template <int Dimension>
+void MovingFamily<Dimension>::sort_blocks(const Extent& all) {
+  constexpr unsigned bits = 63 / Dimension;
+  constexpr double most = static_cast<double>((std::uint64_t{1} << bits) - 1);
+  std::vector<std::uint64_t> codes(blocks_.size(), 0);
+  for (std::size_t block = 0; block < blocks_.size(); ++block) {
+    for (int axis = 0; axis < Dimension; ++axis) {
+      const double center =
+          0.5 * boxes_.side(block, 0, axis, false) + 0.5 * boxes_.side(block, 0, axis, true);
+      const double share = 0.5 + 0.5 * (center - all.middle[static_cast<std::size_t>(axis)]) / all.half;
+      if (!(share >= 0 && share <= 1)) continue;
+      const auto place = static_cast<std::uint64_t>(share * most);
+      for (unsigned bit = 0; bit < bits; ++bit)
+        codes[block] |= (place >> bit & 1U) << (bit * Dimension + static_cast<unsigned>(axis));
+    }
+  }
+  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return codes[a] != codes[b] ? codes[a] < codes[b] : a < b;
+  });
 }
 
 // The children of two boxes of a level, or of one with itself; above the top one box holds all.
@@ -66,8 +103,9 @@ void MovingFamily<Dimension>::split(Resting resting, std::size_t level, std::siz
       const std::size_t other = second * fan + static_cast<std::size_t>(std::countr_zero(near));
       if (below > 0) {
         split(resting, below, child, other);
-      } else if (asks(child, other)) {
-        near_blocks_.push_back({static_cast<std::uint32_t>(child), static_cast<std::uint32_t>(other)});
+      } else {
+        const auto [a, b] = std::minmax(order_[child], order_[other]);
+        if (asks(a, b)) near_blocks_.push_back({a, b});
       }
     }
   }

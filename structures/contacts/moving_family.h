@@ -5,6 +5,10 @@
 // The family is coarse again at the start of every step: what was split for one step need not be for the
 // next.
 //
+// Boxes around blocks hold those that are near along the chain, where there are few blocks, else those that
+// are near in space: a long chain that is packed tightly comes back to a place again and again. They are
+// sorted anew when the family has grown.
+//
 // A pair that is disjoint for a part of the step only is split at the step's start and not when that part
 // ends. Boxes that move with their beads leave next to nothing to wait for: of 171 pairs of blocks of a
 // protein of 100 residues 20 may meet in a step of 20 fs, and 0.1 of these are disjoint at its start; of 2346
@@ -12,6 +16,7 @@
 // (balls 2.5 times as large as half the longest bond). Waiting would spare the beads of these 0.085, for an
 // entry in the queue for each of the 6.1.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -43,6 +48,12 @@ class MovingFamily {
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
  private:
+  struct Extent {
+    std::array<double, Dimension> middle;
+    double half;  // of the longest side
+  };
+  [[nodiscard]] Extent extent() const;
+  void sort_blocks(const Extent& all);
   void split(Resting resting, std::size_t level, std::size_t first, std::size_t second);
   [[nodiscard]] bool asks(std::size_t first, std::size_t second) const;
 
@@ -50,7 +61,9 @@ class MovingFamily {
   std::vector<BeadBlock> blocks_;
   MovingBoxes<Dimension> boxes_;
   BlockBeads<Dimension> beads_;
+  std::vector<std::uint32_t> order_;  // of blocks: those in one box one after the other
   std::vector<BlockPair> near_blocks_;
+  std::uint64_t size_when_sorted_ = 0;
   std::uint64_t size_ = 0;
 };
 

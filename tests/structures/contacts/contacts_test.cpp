@@ -299,6 +299,39 @@ TEST(Contacts, AreThoseOfFrames) {
   }
 }
 
+// Many blocks: three levels of boxes, blocks grouped by where they are, anew as the family grows.
+TEST(Contacts, OfALongChainAreThoseOfFrames) {
+  constexpr std::size_t beads = 6000;
+  std::mt19937 random(17);
+  const auto wandering = [&](double x) { return x + std::uniform_real_distribution<double>(-1, 1)(random); };
+  std::vector<Points> frames(1, Points(beads));
+  for (std::size_t b = 0; b < beads; ++b)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      frames[0][b][axis] = b == 0 ? 0 : 0.995 * wandering(frames[0][b - 1][axis]);
+  for (std::size_t k = 1; k < 6; ++k) {
+    frames.push_back(frames.back());
+    // In the second half they are drawn together, which makes the family grow.
+    for (auto& point : frames.back())
+      for (double& x : point) x = (k < 3 ? 1 : 0.6) * x + 0.2 * wandering(0);
+  }
+  const auto steps = with_radii(through(frames), {0.3, 0.2});
+  const PairsAsked asked{{{0, 3999}, {4000, 5999}}, true, 3, true};
+  ContactRig<Space> rig(steps.front(), AuditMode::frames, asked);
+  rig.motion = steps.front();
+  rig.simulator.build();
+  const auto at_frame = [&](const Space& step, int k) {
+    return contacts_of(control_points(step, k), control_radii(step, k), asked);
+  };
+  EXPECT_EQ(rig.structure.pairs(), at_frame(steps.front(), 0));
+  for (const Space& step : steps) {
+    ASSERT_NO_THROW(rig.step(step));
+    EXPECT_EQ(rig.structure.pairs(), at_frame(step, 1));
+  }
+  EXPECT_GT(rig.history.events.size(), 1000U);
+  const auto& c = rig.structure.statistics.certificates;
+  EXPECT_LT(c.created, steps.size() * beads * 1000);  // of 3000 pairs a bead
+}
+
 TEST(Contacts, BeadsAtRestCostNothing) {
   // Two necklaces that rest side by side, and one that moves far away from both.
   Points from, to;
