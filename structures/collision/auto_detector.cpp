@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "motions/base/floating_point_guard.h"
@@ -13,7 +14,8 @@ namespace {
 constexpr double frames_to_keep = 64;  // the skin is made for as many, where that is not too wide
 constexpr double fewest_frames = 4;    // keeping pairs for fewer costs more than starting from scratch
 constexpr std::uint64_t longest_wait = 16;
-constexpr std::size_t most_pairs_a_bead = 4;
+// More, and the next skin is shorter; many more, and none are kept.
+constexpr std::size_t most_pairs_a_bead = 4, most_kept_a_bead = 32;
 
 }  // namespace
 
@@ -57,6 +59,7 @@ void AutoDetector<Dimension>::measure_scene(const Balls<Dimension>& balls) {
   }
   longest_skin_ = count > 0 ? (radii > 0 ? 0.5 * radii : 0.25 * bonds) / count : 0;
   if (!std::isfinite(longest_skin_)) longest_skin_ = 0;
+  too_wide_ = std::numeric_limits<double>::infinity();
 }
 
 template <int Dimension>
@@ -68,13 +71,17 @@ const std::vector<BeadPair>& AutoDetector<Dimension>::from_scratch(const Balls<D
 
 template <int Dimension>
 const std::vector<BeadPair>& AutoDetector<Dimension>::rebuild(const Balls<Dimension>& balls, double step) {
-  ++counts_.rebuilds;
   const double skin = std::clamp(2 * frames_to_keep * step, longest_skin_ / 16, longest_skin_);
-  kept_.keep(balls, tree_.near_pairs(balls, skin), skin, tree_.frame());
+  const auto near = tree_.near_pairs(balls, skin, most_kept_a_bead * balls.size());
+  if (!near) {
+    longest_skin_ = 0.5 * skin;
+    until_look_ = look_every_ = longest_wait;
+    return from_scratch(balls);
+  }
+  ++counts_.rebuilds;
+  kept_.keep(balls, *near, skin, tree_.frame());
   // A wide skin is for scenes in which few beads are near others.
   if (kept_.size() > most_pairs_a_bead * balls.size()) longest_skin_ = std::min(longest_skin_, 0.5 * skin);
-  if (kept_.size() < balls.size() / 4 && skin == longest_skin_)
-    longest_skin_ = std::max(longest_skin_, std::min(2 * longest_skin_, 0x1p900));
   mode_ = Mode::kept;
   moved_ = 0;
   frames_kept_ = 0;
@@ -82,16 +89,20 @@ const std::vector<BeadPair>& AutoDetector<Dimension>::rebuild(const Balls<Dimens
   return pairs_;
 }
 
-// Where next to nothing is near a skin may be wider. Each try is twice as wide, and costs no more than a
-// search from scratch while little is found.
+// Where next to nothing is near, a skin may be wider. Each try is twice as wide, and ends when it finds more.
 template <int Dimension>
 void AutoDetector<Dimension>::widen_skin(const Balls<Dimension>& balls, double wanted) {
   constexpr int most_tries = 4;
-  const auto few = [this, &balls] { return tree_.counts().group_pairs <= balls.size() / 64; };
-  for (int k = 0; k < most_tries && longest_skin_ <= wanted && few(); ++k) {
-    const double wider = std::min(2 * longest_skin_, 0x1p900);
-    (void)tree_.near_pairs(balls, wider);
-    if (few() && wider > longest_skin_) longest_skin_ = wider;
+  const std::size_t few = balls.size() / 64;
+  const auto& counts = tree_.counts();
+  for (int k = 0; k < most_tries && longest_skin_ <= wanted && longest_skin_ < 0x1p900; ++k) {
+    const double wider = 2 * longest_skin_;
+    if (wider >= too_wide_ || counts.group_pairs + counts.candidates > few) return;
+    if (!tree_.near_pairs(balls, wider, few) || counts.group_pairs > few) {
+      too_wide_ = wider;
+      return;
+    }
+    longest_skin_ = wider;
   }
 }
 
@@ -113,7 +124,7 @@ const std::vector<BeadPair>& AutoDetector<Dimension>::pairs(const Balls<Dimensio
     if (radii_.empty()) measure_scene(balls);
     // The tree has the positions of the frame before.
     const double step = speed_ ? *speed_ : tree_.strayed(balls);
-    widen_skin(balls, 2 * fewest_frames * step);
+    widen_skin(balls, 2 * frames_to_keep * step);
     if (longest_skin_ > 2 * fewest_frames * step) return rebuild(balls, step);
     look_every_ = std::min(2 * look_every_, longest_wait);
     until_look_ = look_every_;
@@ -129,6 +140,7 @@ const std::vector<BeadPair>& AutoDetector<Dimension>::pairs(const Balls<Dimensio
     if (!(strayed <= most)) {
       const auto frames = static_cast<double>(frames_kept_);
       const double step = speed_ ? *speed_ : strayed / frames;
+      widen_skin(balls, 2 * frames_to_keep * step);
       if (frames >= fewest_frames && step < longest_skin_) return rebuild(balls, step);
       until_look_ = look_every_ = std::min(2 * look_every_, longest_wait);
       return from_scratch(balls);

@@ -59,6 +59,7 @@ class AutoDetector {
   std::optional<double> speed_;
   Mode mode_ = Mode::nothing;
   double longest_skin_ = 0;                        // worth keeping pairs for
+  double too_wide_ = 0;                            // with such a skin more than a few are near
   double moved_ = 0;                               // no bead has moved farther since the rebuild
   std::uint64_t frames_kept_ = 0;                  // since the rebuild
   std::uint64_t until_look_ = 0, look_every_ = 1;  // frames from scratch before motion is measured again

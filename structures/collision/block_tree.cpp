@@ -275,7 +275,7 @@ bool BlockTree<Dimension>::search(bool may_give_up) {
   block_pairs_.count = 0;
   const auto expand = [&](std::size_t k) {
     const std::uint32_t a = nodes_.first[k], b = nodes_.second[k];
-    if (!asks(a, b, 0)) return;
+    if (candidate_count_ > most_candidates_ || !asks(a, b, 0)) return;
     block_pairs_.reserve(children_of_node * children_of_node);
     block_pairs_.count += kernels_.expand(levels_[0].data(), a, b, block_pairs_.end());
     ++counts_.node_pairs;
@@ -287,6 +287,7 @@ bool BlockTree<Dimension>::search(bool may_give_up) {
     const double before = work_of(counts_);
     for (std::size_t k = 0; k < nodes_.count; k += sample_stride) expand(k);
     compare_blocks();
+    if (candidate_count_ > most_candidates_) return true;
     const double sampled = static_cast<double>((nodes_.count + sample_stride - 1) / sample_stride);
     if (before + (work_of(counts_) - before) * static_cast<double>(nodes_.count) / sampled > most_work)
       return false;
@@ -367,7 +368,8 @@ void BlockTree<Dimension>::compare_blocks() {
 }
 
 template <int Dimension>
-void BlockTree<Dimension>::find_candidates(const Balls<Dimension>& balls, double gap) {
+void BlockTree<Dimension>::find_candidates(const Balls<Dimension>& balls, double gap, std::size_t most) {
+  most_candidates_ = most;
   if (balls.size() != beads_) throw std::invalid_argument("balls and necklaces must be of the same beads");
   counts_ = {};
   candidate_count_ = 0;
@@ -389,7 +391,7 @@ void BlockTree<Dimension>::find_candidates(const Balls<Dimension>& balls, double
 template <int Dimension>
 const std::vector<BeadPair>& BlockTree<Dimension>::pairs(const Balls<Dimension>& balls) {
   const FloatingPointGuard to_nearest;
-  find_candidates(balls, 0);
+  find_candidates(balls, 0, std::numeric_limits<std::size_t>::max());
   pairs_.clear();
   for (std::size_t k = 0; k < candidate_count_; ++k)
     if (balls_meet(balls, candidates_[k].first, candidates_[k].second)) pairs_.push_back(candidates_[k]);
@@ -398,10 +400,12 @@ const std::vector<BeadPair>& BlockTree<Dimension>::pairs(const Balls<Dimension>&
 }
 
 template <int Dimension>
-std::span<const BeadPair> BlockTree<Dimension>::near_pairs(const Balls<Dimension>& balls, double gap) {
+std::optional<std::span<const BeadPair>> BlockTree<Dimension>::near_pairs(const Balls<Dimension>& balls,
+                                                                          double gap, std::size_t most) {
   const FloatingPointGuard to_nearest;
-  find_candidates(balls, gap);
-  return {candidates_.data(), candidate_count_};
+  find_candidates(balls, gap, most);
+  if (candidate_count_ > most) return std::nullopt;
+  return std::span<const BeadPair>(candidates_.data(), candidate_count_);
 }
 
 template <int Dimension>

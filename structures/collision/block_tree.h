@@ -52,8 +52,10 @@ class BlockTree {
   const std::vector<BeadPair>& pairs(const Balls<Dimension>& balls);
 
   /// All pairs asked about that are at most `gap` apart (finite, not negative), and some that are little
-  /// farther, in no order.
-  std::span<const BeadPair> near_pairs(const Balls<Dimension>& balls, double gap);
+  /// farther, in no order; none where there are more than `most`, which is found out before there are many
+  /// more.
+  std::optional<std::span<const BeadPair>> near_pairs(const Balls<Dimension>& balls, double gap,
+                                                      std::size_t most);
 
   /// How far a bead is at most from where the last search found it, rounded up; NaN and infinity are no
   /// bounds. As many balls as then.
@@ -90,7 +92,7 @@ class BlockTree {
   void with_sources(const Balls<Dimension>& balls, BlockSource<Dimension> source, const Visit& visit);
   [[nodiscard]] Blocks<Dimension> blocks();
 
-  void find_candidates(const Balls<Dimension>& balls, double gap);
+  void find_candidates(const Balls<Dimension>& balls, double gap, std::size_t most);
   [[nodiscard]] bool search(bool may_give_up);
   void expand_levels();
   [[nodiscard]] bool asks(std::uint32_t a, std::uint32_t b, std::size_t level) const;
@@ -127,7 +129,7 @@ class BlockTree {
   std::vector<std::uint32_t> groups_, near_groups_;
   std::vector<std::uint16_t> near_beads_;
   std::vector<BeadPair> candidates_, pairs_;
-  std::size_t candidate_count_ = 0;
+  std::size_t candidate_count_ = 0, most_candidates_ = 0;
   std::vector<std::uint64_t> keys_, more_keys_;
   std::array<std::vector<double>, static_cast<std::size_t>(Dimension) + 1> gathered_;
   PairSorter sorter_;

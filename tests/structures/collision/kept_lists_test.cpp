@@ -6,6 +6,7 @@
 #include <string>
 
 #include "structures/collision/auto_detector.h"
+#include "structures/collision/cell_list.h"
 #include "structures/collision/verlet_list.h"
 #include "tests/structures/collision/collision_scenes.h"
 #include "tests/support/rounds.h"
@@ -103,6 +104,26 @@ TEST(KeptLists, DistantNecklacesAreNotReadWithADeclaredSpeed) {
     centers.row(1).tail(100).array() -= 0.05;
   }
   EXPECT_GT(detector.counts().unread, 4 * (detector.counts().read + detector.counts().rebuilds));
+}
+
+// Two clouds at some distance: a skin as wide as that would have all pairs of them to keep.
+TEST(KeptLists, SkinsAreNotWidenedUntilEverythingIsNear) {
+  Chance chance(1);
+  constexpr Eigen::Index count = 6000;
+  Eigen::Matrix3Xd centers(3, 2 * count);
+  for (Eigen::Index b = 0; b < centers.cols(); ++b)
+    centers.col(b) = Eigen::Vector3d(uniform(chance, 0, 20) + (b < count ? 0 : 40), uniform(chance, 0, 20),
+                                     uniform(chance, 0, 20));
+  const std::vector<double> radii(2 * count, 0.1);
+  const PairsAsked asked{{{0, count - 1}, {count, 2 * count - 1}}, false, 2, true};
+  AutoDetector<3> detector(asked);
+  for (int k = 0; k < 30; ++k) {
+    centers.row(0).head(count).array() += 0.5;
+    const Balls<3> balls(centers, radii);
+    const auto& found = detector.pairs(balls);
+    ASSERT_EQ(found, CellList<3>(asked).pairs(balls)) << k;
+    ASSERT_LE(detector.kept(), 32U * 2 * count);
+  }
 }
 
 TEST(KeptLists, ChangedRadiiAreNoticed) {
