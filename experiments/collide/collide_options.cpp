@@ -10,10 +10,7 @@ namespace kds {
 
 namespace {
 
-constexpr std::array kCollideOptions{
-    OptionSpec{"--method", "LIST",
-               "comma list of brute, wrapped, layered, power, or all; brute looks at all pairs of beads "
-               "(default: all)"},
+constexpr std::array kFurtherOptions{
     OptionSpec{"--pairs", "NAME", "of beads within a necklace, between two, or all (default: all)"},
     OptionSpec{"--apart", "K", "only beads at least so many apart along their necklace (default: 2)"},
     OptionSpec{
@@ -23,23 +20,33 @@ constexpr std::array kCollideOptions{
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
 
-constexpr auto kOptions = joined(kInputOptions, kCollideOptions);
-
-constexpr CommandSpec kCommand{
-    "kds collide",
-    "Which beads collide in each frame, exactly: closed balls, so touching counts. Methods are compared.",
-    kInputOperand,
-    "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
-    kOptions,
-    "kds collide 1l2y.pdb --select all --radius element --apart 4\n"
-    "kds collide a.xyz b.xyz --pairs between --method wrapped,layered --json -\n"
-    "kds collide villin.dcd --topology villin.pdb --radius 1.9 --apart 5 --out report",
-};
-
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (const Method& method : collision_methods()) names.emplace_back(method.name);
   return names;
+}
+
+std::string method_help() {
+  std::vector<std::string> methods;
+  for (const Method& method : collision_methods())
+    methods.push_back(fmt::format("{} ({})", method.name, method.about));
+  return fmt::format("comma list of {}, or all (default: all)", fmt::join(methods, ", "));
+}
+
+const CommandSpec& command() {
+  static const std::string help = method_help();
+  static const auto options =
+      joined(kInputOptions, joined(std::array{OptionSpec{"--method", "LIST", help}}, kFurtherOptions));
+  static const CommandSpec spec{
+      "kds collide",
+      "Which beads collide in each frame, exactly: closed balls, so touching counts. Methods are compared.",
+      kInputOperand,
+      "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
+      options,
+      "kds collide 1l2y.pdb --select all --radius element --apart 4\n"
+      "kds collide a.xyz b.xyz --pairs between --method wrapped,layered --json -\n"
+      "kds collide villin.dcd --topology villin.pdb --radius 1.9 --apart 5 --out report"};
+  return spec;
 }
 
 std::vector<std::string> parse_methods(const std::string& list) {
@@ -60,9 +67,9 @@ std::vector<std::string> parse_methods(const std::string& list) {
 }  // namespace
 
 CollideOptions parse_collide_options(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  const ParsedArguments parsed = parse_arguments(command(), arguments);
   CollideOptions options;
-  options.input = parse_input_options(parsed, kCommand.name);
+  options.input = parse_input_options(parsed, command().name);
   const std::string methods = parsed.value("--method").value_or("all");
   options.all_methods = methods == "all";
   options.methods = options.all_methods ? method_names() : parse_methods(methods);

@@ -35,7 +35,7 @@ std::string closest_line(const CollideReport& report) {
     return fmt::format("closest   beads {} and {} in frame {}, distance {} ({})\n", pair.first, pair.second,
                        row.closest->frame.number, pair.distance, what);
   }
-  return "closest   no pair that is asked for\n";
+  return "closest   -\n";  // by these methods, or no pair is asked for
 }
 
 std::string distance_plot(const CollideReport& report) {
@@ -116,8 +116,8 @@ std::string collide_page(const CollideReport& report, const std::string& input, 
       "All methods decide exactly, and have found the same. <em>Pairs</em>: beads that have a point in "
       "common, "
       "of all frames together; <em>family</em>: pairs of spheres of a hierarchy that prove all others "
-      "disjoint, for the power diagram its edges; <em>seconds</em>: to find the pairs from scratch in all "
-      "frames. The distance of two beads is that of their surfaces, below zero where they overlap.";
+      "disjoint, for the power diagram its edges; <em>seconds</em>: to find the pairs in all frames. The "
+      "distance of two beads is that of their surfaces, below zero where they overlap.";
   std::string body;
   if (!map.empty()) body += html_figure(map, "Which beads collide.");
   if (const std::string distance = distance_plot(report); !distance.empty())

@@ -25,7 +25,7 @@ struct CollideRow {
   std::optional<std::uint64_t> pairs = 0;  ///< none where a method does not tell them
   std::optional<ClosestInFrame> closest;   ///< none where it does not tell of some frame
   std::optional<std::uint64_t> family;
-  double seconds = 0;          ///< to find collisions from scratch
+  double seconds = 0;          ///< to find collisions
   double closest_seconds = 0;  ///< and then the closest pair, where that is another search
 };
 

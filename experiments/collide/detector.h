@@ -28,7 +28,7 @@ class Detector {
   [[nodiscard]] virtual std::optional<std::string> refusal(const Balls<Dimension>&) const {
     return std::nullopt;
   }
-  /// Collisions, from scratch.
+  /// Collisions of the next frame; what is kept from one frame to the next is the method's own affair.
   virtual void detect(const Balls<Dimension>& balls, Detection& found) = 0;
   /// The closest pair, where that is another search; `detect` has been called with these balls.
   virtual void find_closest(const Balls<Dimension>&, Detection&) {}

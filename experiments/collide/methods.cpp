@@ -2,7 +2,9 @@
 
 #include <array>
 
+#include "structures/collision/auto_detector.h"
 #include "structures/collision/brute_force.h"
+#include "structures/collision/cell_list.h"
 #include "structures/collision/diagram_collision.h"
 #include "structures/collision/hierarchy_search.h"
 
@@ -66,6 +68,23 @@ class ByDiagram final : public Detector<Dimension> {
   PairsAsked asked_;
 };
 
+template <int Dimension, template <int> class Finder>
+class PairsOnly : public Detector<Dimension> {
+ public:
+  explicit PairsOnly(const PairsAsked& asked) : finder_(asked) {}
+  void detect(const Balls<Dimension>& balls, Detection& found) override {
+    found.pairs = finder_.pairs(balls);
+    found.collide = !found.pairs->empty();
+  }
+
+ private:
+  Finder<Dimension> finder_;
+};
+template <int Dimension>
+using Cells = PairsOnly<Dimension, CellList>;
+template <int Dimension>
+using Auto = PairsOnly<Dimension, AutoDetector>;
+
 template <int Dimension, template <int> class Made>
 std::unique_ptr<Detector<Dimension>> make(const PairsAsked& asked) {
   return std::make_unique<Made<Dimension>>(asked);
@@ -80,6 +99,8 @@ constexpr std::array kMethods{
     method<Wrapped>("wrapped", "hierarchy of minimum enclosing spheres"),
     method<Layered>("layered", "hierarchy of spheres around spheres"),
     method<ByDiagram>("power", "power diagram"),
+    method<Cells>("cells", "cell list"),
+    method<Auto>("auto", "blocks, and near pairs kept from frame to frame"),
 };
 
 }  // namespace

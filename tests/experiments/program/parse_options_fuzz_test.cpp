@@ -1,4 +1,5 @@
-// Whatever is typed after `kds generate`, `kds info` and `kds update`, options, help or one line come out.
+// Whatever is typed after `kds generate`, `kds info`, `kds update` and `kds collide`, options, help or one
+// line come out.
 
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/collide/collide_options.h"
 #include "experiments/output/text.h"
 #include "experiments/scenes/generate_options.h"
 #include "experiments/scenes/info_options.h"
@@ -102,7 +104,12 @@ const std::vector<std::string> kWords{"--beads",
                                       "kinetic,lifted",
                                       "rebuild,",
                                       "1,2,4",
-                                      "2,2"};
+                                      "2,2",
+                                      "--method",
+                                      "--pairs",
+                                      "--apart",
+                                      "wrapped,brute",
+                                      "between"};
 
 std::string random_word(std::mt19937& random) {
   std::string word = kWords[random() % kWords.size()];
@@ -179,6 +186,15 @@ TEST(UpdateOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
     EXPECT_FALSE(options.strides.empty());
     EXPECT_GE(options.strides.front(), 1U);
     EXPECT_GE(options.rounds, 1U);
+  });
+}
+
+TEST(CollideOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
+  fuzz({{}, {"a.xyz"}, {"a.xyz", "--apart", "5", "--method", "power"}}, [](const Arguments& arguments) {
+    const CollideOptions options = parse_collide_options(arguments);
+    EXPECT_FALSE(options.input.inputs.empty());
+    EXPECT_FALSE(options.methods.empty());
+    EXPECT_GE(options.apart, 1U);
   });
 }
 

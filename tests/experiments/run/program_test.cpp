@@ -604,7 +604,7 @@ TEST(Program, ARefusalMakesNoDirectory) {
     expect_refused({"run", kSmall, option, there, "--structures", "power"}, {"power"});
     EXPECT_FALSE(std::filesystem::exists(directory / "new"));
   }
-  for (const char* command : {"info", "update", "replay"}) {
+  for (const char* command : {"info", "update", "collide", "replay"}) {
     const std::string of = command == std::string("replay") ? log : input;
     expect_refused({command, of, "--out", (directory / "new").string()}, {of});
     EXPECT_FALSE(std::filesystem::exists(directory / "new"));
@@ -623,7 +623,7 @@ TEST(Program, WarningsWaitUntilTheInputIsAccepted) {
   const std::string bad = directory.file("bad.xyz", "what\n");
   EXPECT_THAT(run_program({"run", cut, "--frames", ":2", "--structures", "wrapped"}).err,
               HasSubstr("warning: " + cut));
-  for (const char* command : {"run", "info", "update"})
+  for (const char* command : {"run", "info", "update", "collide"})
     expect_refused({command, cut, bad, "--frames", ":2"}, {"bad.xyz"});
   expect_refused({"run", cut, "--frames", ":2", "--structures", "wrapped", "--nodes", "70:80"}, {"--nodes"});
 }
@@ -689,7 +689,7 @@ TEST(Program, PipesAndDevicesAreRefusedAtOnce) {
   for (const char* name : {"pipe.xyz", "pipe.pdb", "pipe.cif", "pipe.dcd", "pipe.txt"}) {
     const std::string pipe = (directory / name).string();
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-    for (const char* command : {"run", "info", "update", "replay"})
+    for (const char* command : {"run", "info", "update", "collide", "replay"})
       expect_refused({command, pipe}, {name, "is a pipe, expected a file"});
     expect_refused({"run", input, "--topology", pipe}, {name, "is a pipe"});
     expect_refused({"run", input, "--radius", "file:" + pipe}, {name, "is a pipe"});
