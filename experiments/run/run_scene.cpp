@@ -7,6 +7,7 @@
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/report_of_session.h"
+#include "experiments/run/watch_exact_work.h"
 #include "structures/session/session.h"
 
 namespace kds {
@@ -23,6 +24,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   }
   std::optional<DumpedFrames> dumps;
   if (options.dump) dumps.emplace(*options.dump);
+  if (!options.quiet) watch_exact_work(session->simulator(), scene, warn);
   StepCounts counts(*session, scene);
   if (results != nullptr) results->begin(scene);
 
