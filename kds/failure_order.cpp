@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "certificates/exact/exact_time.h"
+#include "certificates/exact/exact_work.h"
 
 namespace kds {
 
@@ -30,6 +31,7 @@ int FailureOrder::compare(ScheduledFailure& a, ScheduledFailure& b, bool& one_fu
     return 0;
   }
   ++counts_.exact;
+  const ExactWork::About about(a);
   ExactTime exact_a = exact_time(*a.source->exact_function(a.slot), a.time);
   ExactTime exact_b = exact_time(*b.source->exact_function(b.slot), b.time);
   const int order = ExactTime::compare(exact_a, exact_b);

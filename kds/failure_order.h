@@ -32,6 +32,8 @@ struct ScheduledFailure {
   std::uint32_t tie = 0;  ///< same non-zero number: known to be the same time
   std::uint32_t slot = 0;
   ScheduledSource* source = nullptr;
+
+  [[nodiscard]] Identity identity() const { return source->identity(slot); }
 };
 
 struct ComparisonCounts {

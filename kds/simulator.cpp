@@ -1,12 +1,12 @@
 #include "kds/simulator.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
 
 #include "certificates/exact/exact_time.h"
-#include "motions/base/floating_point_guard.h"
 
 namespace kds {
 
@@ -41,7 +41,7 @@ void Simulator::require(Phase phase, const char* what) const {
 }
 
 void Simulator::build() {
-  const FloatingPointGuard to_nearest;
+  const Entry entry(*this);
   if (phase_ == Phase::within_step) require(Phase::between_steps, "build()");
   phase_ = Phase::between_steps;
   for (std::size_t s = 0; s < structures_.size(); ++s) {
@@ -59,7 +59,7 @@ void Simulator::run_step() {
 }
 
 void Simulator::finish() {
-  const FloatingPointGuard to_nearest;
+  const Entry entry(*this);
   require(Phase::between_steps, "finish()");
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     watch_.charge(s + 1);
@@ -69,7 +69,7 @@ void Simulator::finish() {
 }
 
 void Simulator::enter_step() {
-  const FloatingPointGuard to_nearest;
+  const Entry entry(*this);
   require(Phase::between_steps, "a step");
   begin_step();
   for (std::size_t s = 0; s < structures_.size(); ++s) {
@@ -81,7 +81,7 @@ void Simulator::enter_step() {
 }
 
 void Simulator::run_until(const Dyadic& time) {
-  const FloatingPointGuard to_nearest;
+  const Entry entry(*this);
   require(Phase::within_step, "run_until()");
   ExactTime stop(time);
   if (ExactTime::compare(stop, now_.exact()) < 0 || !(time < Dyadic(1.0)))
@@ -94,14 +94,14 @@ void Simulator::run_until(const Dyadic& time) {
 }
 
 void Simulator::leave_step() {
-  const FloatingPointGuard to_nearest;
+  const Entry entry(*this);
   require(Phase::within_step, "leave_step()");
   run_events(nullptr);
   finish_step();
 }
 
 bool Simulator::try_step(std::uint64_t most) {
-  const FloatingPointGuard to_nearest;
+  const Entry entry(*this);
   enter_step();
   if (run_events(nullptr, most)) {
     finish_step();
@@ -141,14 +141,14 @@ void Simulator::finish_step() {
 }
 
 void Simulator::build_for_replay() {
-  const FloatingPointGuard to_nearest;
+  const Entry entry(*this);
   recording_ = false;
   build();
   recording_ = true;
 }
 
 void Simulator::replay_step(std::span<const Replayed> events) {
-  const FloatingPointGuard to_nearest;
+  const Entry entry(*this);
   require(Phase::between_steps, "a step");
   begin_step();
   for (const Replayed& event : events) {
@@ -239,6 +239,16 @@ void Simulator::audit(const Dyadic& time) {
     }
   }
   watch_.charge(before);
+}
+
+std::string Simulator::name_of_work(std::optional<Identity> subject) const {
+  if (!subject && present_.source != nullptr) subject = present_.identity();
+  if (!subject) return "the start of the step";
+  const auto type = std::find_if(types_.begin(), types_.end(),
+                                 [&](const CertificateType& t) { return t.number == subject->type; });
+  const auto end = std::find(subject->beads.begin(), subject->beads.end(), no_bead);
+  return fmt::format("{} of beads {}", type == types_.end() ? "a certificate" : type->name,
+                     fmt::join(subject->beads.begin(), end, ", "));
 }
 
 QueueHandle Simulator::schedule(const FailureTime& time, FailureSource& source, std::uint32_t slot) {

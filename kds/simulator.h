@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "certificates/base/certificate_type.h"
 #include "certificates/base/kernel.h"
+#include "certificates/exact/exact_work.h"
 #include "certificates/exact/instant.h"
 #include "kds/audit.h"
 #include "kds/event_log.h"
@@ -17,6 +19,7 @@
 #include "kds/fingerprint.h"
 #include "kds/kinetic_structure.h"
 #include "kds/stopwatch.h"
+#include "motions/base/floating_point_guard.h"
 
 namespace kds {
 
@@ -90,12 +93,29 @@ class Simulator {
   /// A structure reports what it did now.
   void record(std::size_t structure, const Change& change);
 
+  /// The exact stage's work in this run, to be watched and limited: then what runs may throw
+  /// WorkLimitReached, after which nothing but the end of the run is possible.
+  [[nodiscard]] ExactWork& exact_work() { return work_; }
+  /// What work is spent on, in words: this certificate, or, if none is named, the one whose failure is the
+  /// present event.
+  [[nodiscard]] std::string name_of_work(std::optional<Identity> subject) const;
+
   [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_.value(); }
   [[nodiscard]] const ComparisonCounts& comparisons() const { return order_.counts(); }
   [[nodiscard]] double seconds() const { return watch_.seconds(nobody); }
   [[nodiscard]] double seconds_of(std::size_t structure) const { return watch_.seconds(structure + 1); }
 
  private:
+  /// What all computing here goes on under.
+  class Entry {
+   public:
+    explicit Entry(Simulator& simulator) : account_(simulator.work_) {}
+
+   private:
+    FloatingPointGuard to_nearest_;
+    ExactWork::Open account_;
+  };
+
   enum class Phase : std::uint8_t { new_run, between_steps, within_step };
   static constexpr std::size_t nobody = 0;  // the stopwatch's lane of the engine; structures follow
 
@@ -112,6 +132,7 @@ class Simulator {
   void after_batch();
   void audit(const Dyadic& time);
 
+  ExactWork work_;
   FailureOrder order_;
   EventQueue<ScheduledFailure, FailureOrder> queue_;
   std::vector<KineticStructure*> structures_;

@@ -3,18 +3,26 @@
 // width of these beads' control points: most fit into numbers of a fixed width. Longer ones are evaluated
 // modulo as many primes as they ask for; where they are longer than the primes reach, on whole numbers
 // outright. Exact.
+//
+// Where the control points themselves are of wildly different size, the function is wide (wide_polynomial.h):
+// its coefficients are formed when they are asked for, and as precisely.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "certificates/base/certificate.h"
 #include "certificates/exact/exact_polynomial.h"
+#include "certificates/exact/exact_work.h"
+#include "certificates/exact/recent_functions.h"
+#include "certificates/exact/wide_polynomial.h"
+#include "motions/curves/copied_curves.h"
 #include "motions/numbers/magnitude.h"
 #include "motions/views/integer_view.h"
 
@@ -38,22 +46,37 @@ template <class Magnitudes>
   return result;
 }
 
+/// Lengths of so many bits make a function wide: two doubles and 2^54 between them. Those of ordinary input,
+/// decimal numbers or rounded ones with what is nearly zero among them, are shorter.
+inline constexpr int wide_length_bits = 160;
+
+namespace detail {
+
+/// What forming so many coefficients of so many bits takes.
+inline void spend_on_forming(std::size_t count, int bits) {
+  ExactWork::spend(count * count * (static_cast<std::size_t>(bits) / 64 + 1));
+}
+
+/// The coefficients, `size` bounding them, of curves whose lengths are whole at this scale.
 template <class Function, Motion M>
-[[nodiscard]] ExactPolynomial exact_function_of(const Function& function, const M& motion,
-                                                const CoefficientBits& size) {
+[[nodiscard]] std::vector<Integer> whole_coefficients(const Function& function, const M& motion,
+                                                      const CoefficientBits& size, const WholeScale& scale) {
   constexpr Channels channels = channels_of<Function>;
-  const WholeScale scale = whole_scale<channels>(motion, function.beads);
   const int bits = size.bits + size.power * (scale.bits + 1);
   std::vector<Integer> scaled;
   if (bits < FixedInteger::bits) {
     const auto p = function_of(function, FixedView<M, channels>(motion, scale));
     scaled.reserve(p.scaled.size());
     for (const FixedInteger& c : p.scaled) scaled.push_back(c.whole_number());
-    return ExactPolynomial(std::move(scaled));
+    spend_on_forming(scaled.size(), bits);
+    return scaled;
   }
   const std::size_t count = residues_for(bits);
-  if (count > residue_folds.size())
-    return ExactPolynomial(function_of(function, IntegerView<M, channels>(motion, scale)));
+  if (count > residue_folds.size()) {
+    const auto p = function_of(function, IntegerView<M, channels>(motion, scale));
+    spend_on_forming(p.scaled.size(), bits);
+    return {p.scaled.begin(), p.scaled.end()};
+  }
 
   using Residual = std::array<std::uint64_t, residue_folds.size()>;
   Coefficients<Residual> residues;  // of each coefficient
@@ -65,7 +88,64 @@ template <class Function, Motion M>
   scaled.reserve(residues.size());
   for (const auto& coefficient : residues)
     scaled.push_back(whole_number(std::span(coefficient).first(count)));
-  return ExactPolynomial(std::move(scaled));
+  spend_on_forming(scaled.size(), bits);
+  return scaled;
+}
+
+/// The coefficients of a wide function, from its beads' curves as they were when it was made. `C`: Curves or
+/// LiftedCurves.
+template <class Function, class C>
+class WideFunction final : public CoefficientSource {
+  static constexpr Channels channels = channels_of<Function>;
+
+ public:
+  template <Motion M>
+  WideFunction(const Function& function, const M& motion, const CoefficientBits& size,
+               const WholeScale& scale)
+      : function_(function), curves_(motion, function.beads), size_(size), scale_(scale) {
+    for (std::size_t i = 0; i < function_.beads.size(); ++i) function_.beads[i] = static_cast<BeadId>(i);
+  }
+
+  /// All that the function is made from.
+  [[nodiscard]] std::vector<double> numbers() const {
+    std::vector<double> all = curves_.numbers();
+    if constexpr (requires { function_.side(); }) all.push_back(function_.side() ? 1 : -1);
+    return all;
+  }
+
+  [[nodiscard]] std::vector<LeadingDigits> leading_digits() const override {
+    const auto p = function_of(function_, DigitsView<C, channels>(curves_.curves(), scale_));
+    spend_on_forming(p.scaled.size(), LeadingDigits::most_bits);
+    return {p.scaled.begin(), p.scaled.end()};
+  }
+  [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {
+    const auto p = function_of(function_, ResidueView<C, channels>(curves_.curves(), scale_, {fold}));
+    spend_on_forming(p.scaled.size(), Residue::bits);
+    return {p.scaled.begin(), p.scaled.end()};
+  }
+  [[nodiscard]] std::vector<Integer> whole() const override {
+    return whole_coefficients(function_, curves_.curves(), size_, scale_);
+  }
+
+ private:
+  Function function_;  // of beads numbered from 0
+  CopiedCurves<C> curves_;
+  CoefficientBits size_;
+  WholeScale scale_;
+};
+
+}  // namespace detail
+
+template <class Function, Motion M>
+[[nodiscard]] ExactPolynomial exact_function_of(const Function& function, const M& motion,
+                                                const CoefficientBits& size) {
+  const WholeScale scale = whole_scale<channels_of<Function>>(motion, function.beads);
+  if (scale.bits < wide_length_bits)
+    return ExactPolynomial(detail::whole_coefficients(function, motion, size, scale));
+  static const char formula = 0;  // its place is the formula's name
+  auto source = std::make_unique<detail::WideFunction<Function, CurvesOf<M>>>(function, motion, size, scale);
+  const std::vector<double> numbers = source->numbers();
+  return ExactPolynomial(ExactWork::current().recent_functions().of(&formula, numbers, std::move(source)));
 }
 
 }  // namespace kds

@@ -4,28 +4,22 @@
 #include <cstddef>
 #include <deque>
 
+#include "certificates/exact/bernstein_parts.h"
+#include "certificates/exact/halves.h"
 #include "certificates/exact/modular_gcd.h"
+#include "certificates/exact/precise_values.h"
+#include "certificates/exact/wide_roots.h"
 
 namespace kds {
 
 namespace {
 
+using detail::Ends;
+using detail::sign_variations_of;
 using Integers = std::vector<Integer>;
 
 void drop_leading_zeros(Integers& c) {
   while (!c.empty() && c.back() == 0) c.pop_back();
-}
-
-// Divides by the content, so that remainder sequences stay small.
-void make_primitive(Integers& c) {
-  Integer content = 0;
-  for (const Integer& x : c) {
-    content = boost::multiprecision::gcd(content, x);
-    if (content == 1) return;
-  }
-  if (content != 0) {
-    for (Integer& x : c) x /= content;
-  }
 }
 
 // Divides out all factors 1 + t, that is (1-u) + u = 1: what a polynomial carries whose degree is written
@@ -43,86 +37,41 @@ void drop_elevation(Integers& c) {
   }
 }
 
-// A positive multiple of the remainder of a by b, both without leading zeros, deg a >= deg b.
-Integers pseudo_remainder(Integers a, const Integers& b) {
-  const Integer lead = abs(b.back());
-  const bool negative = b.back() < 0;
-  while (a.size() >= b.size()) {
-    const Integer factor = negative ? Integer(-a.back()) : a.back();
-    const std::size_t shift = a.size() - b.size();
-    for (Integer& x : a) x *= lead;
-    for (std::size_t i = 0; i < b.size(); ++i) a[i + shift] -= factor * b[i];
-    a.pop_back();
-    drop_leading_zeros(a);
-    make_primitive(a);
-  }
-  return a;
-}
-
-Integers polynomial_gcd(Integers a, Integers b) {
-  drop_leading_zeros(a);
-  drop_leading_zeros(b);
-  if (certainly_coprime(a, b)) return {Integer(1)};
-  drop_elevation(a);
-  drop_elevation(b);
-  if (certainly_coprime(a, b)) return {Integer(1)};
-  make_primitive(a);
-  make_primitive(b);
-  if (a.size() < b.size()) std::swap(a, b);
-  while (!b.empty()) {
-    Integers r = pseudo_remainder(a, b);
-    a = std::move(b);
-    b = std::move(r);
-  }
-  return a;
-}
-
-// a / b where b divides a over the rationals; the quotient is made primitive.
-Integers exact_quotient(Integers a, const Integers& b) {
-  if (a.size() < b.size()) return {};
-  Integers quotient(a.size() - b.size() + 1);
-  // Multiplying ahead keeps every step whole.
-  Integer ahead = 1;
-  for (std::size_t i = 0; i < quotient.size(); ++i) ahead *= b.back();
-  for (Integer& x : a) x *= ahead;
-  for (std::size_t k = quotient.size(); k-- > 0;) {
-    quotient[k] = a[k + b.size() - 1] / b.back();
-    for (std::size_t i = 0; i < b.size(); ++i) a[k + i] -= quotient[k] * b[i];
-  }
-  make_primitive(quotient);
-  return quotient;
+Integers square_free_part(Integers c) {
+  drop_leading_zeros(c);
+  if (c.size() <= 2 || certainly_square_free(c)) return c;
+  drop_elevation(c);
+  if (c.size() <= 2 || certainly_square_free(c)) return c;
+  Integers derivative(c.size() - 1);
+  for (std::size_t k = 1; k < c.size(); ++k) derivative[k - 1] = c[k] * k;
+  make_primitive(c);
+  const Integers repeated = polynomial_gcd(c, std::move(derivative));
+  return repeated.size() > 1 ? quotient(std::move(c), repeated).value() : c;
 }
 
 int sign_of(const Integer& x) { return x.sign(); }
 
-int sign_variations_of(const Integers& c) {
-  int variations = 0;
-  int last = 0;
-  for (const Integer& x : c) {
-    const int sign = sign_of(x);
-    if (sign == 0) continue;
-    if (last != 0 && sign != last) ++variations;
-    last = sign;
-  }
-  return variations;
-}
-
-void add_product(Integer& sum, const Integer& a, const Integer& b) {
-  mpz_addmul(sum.backend().data(), a.backend().data(), b.backend().data());
-}
-
 }  // namespace
 
+const Integers& ExactPolynomial::wide_whole() const { return wide_->whole(); }
+
+ExactPolynomial ExactPolynomial::alike(Integers scaled) const {
+  return wide_ ? ExactPolynomial(std::make_shared<const WidePolynomial>(std::move(scaled)))
+               : ExactPolynomial(std::move(scaled));
+}
+
 bool ExactPolynomial::is_zero() const {
+  if (wide_) return wide_->is_zero();
   return std::all_of(scaled_.begin(), scaled_.end(), [](const Integer& x) { return x == 0; });
 }
 
 bool ExactPolynomial::is_constant() const {
-  return scaled_.empty() ||
-         std::all_of(scaled_.begin() + 1, scaled_.end(), [](const Integer& x) { return x == 0; });
+  const Integers& c = scaled();
+  return c.empty() || std::all_of(c.begin() + 1, c.end(), [](const Integer& x) { return x == 0; });
 }
 
 std::size_t ExactPolynomial::largest_bit_length() const {
+  if (wide_) return wide_->largest_bit_length();
   std::size_t bits = 0;
   for (const Integer& x : scaled_) {
     if (x != 0) bits = std::max(bits, mpz_sizeinbase(x.backend().data(), 2));
@@ -131,107 +80,86 @@ std::size_t ExactPolynomial::largest_bit_length() const {
 }
 
 int ExactPolynomial::sign_at(const Dyadic& u) const {
+  if (wide_) return wide_->sign_at(u);
   if (scaled_.empty()) return 0;
   if (u.exponent() == 0 && u.numerator() == 0) return sign_of(scaled_.front());
-  const Integer earlier = (Integer(1) << u.exponent()) - u.numerator();
-  Integer value = scaled_.back();
-  Integer power = 1;
-  for (std::size_t k = scaled_.size() - 1; k-- > 0;) {
-    power *= earlier;
-    value *= u.numerator();
-    add_product(value, scaled_[k], power);
-  }
-  return sign_of(value);
+  return sign_of(detail::value_of(scaled_, Integer(1), u.numerator(),
+                                  Integer((Integer(1) << u.exponent()) - u.numerator())));
 }
 
 int ExactPolynomial::sign_after(const Dyadic& u) const {
   if (const int sign = sign_at(u)) return sign;
   const ExactPolynomial from_u =
       restricted(u, Dyadic(u.numerator() + (Integer(1) << u.exponent()), u.exponent()));
+  if (from_u.wide_) return from_u.wide_->first_sign();
   for (const Integer& x : from_u.scaled_) {
     if (x != 0) return sign_of(x);
   }
   return 0;
 }
 
-int ExactPolynomial::sign_variations() const { return sign_variations_of(scaled_); }
+int ExactPolynomial::sign_variations() const {
+  return wide_ ? wide_->sign_variations() : sign_variations_of(scaled_);
+}
+
+int ExactPolynomial::sign_between(const Dyadic& lower, const Dyadic& upper, bool exactly) const {
+  if (wide_) {
+    const int sign = wide_->sign_on(lower, upper);
+    if (sign != 0 || !exactly) return sign;
+    // Ends of unlike sign have a root between.
+    const int at_upper = sign_at(upper);
+    if (at_upper != 0 && at_upper == -sign_at(lower)) return 0;
+    const Variations variations = exact_variations(*wide_, lower, upper);
+    return variations.most == 0 ? variations.sign : 0;
+  }
+  const ExactPolynomial local = restricted(lower, upper);
+  if (local.sign_variations() != 0) return 0;
+  for (const Integer& x : local.scaled_) {
+    if (x != 0) return sign_of(x);
+  }
+  return 0;
+}
+
+bool ExactPolynomial::has_few_roots_between(const Dyadic& lower, const Dyadic& upper) const {
+  return wide_ ? exact_variations(*wide_, lower, upper).most <= 1
+               : restricted(lower, upper).sign_variations() <= 1;
+}
 
 ExactPolynomial ExactPolynomial::restricted(const Dyadic& lower, const Dyadic& upper) const {
   if (lower.numerator() == 0 && upper.exponent() == 0 && upper.numerator() == 1) return *this;
-  // u = lower (1-s) + upper s and 1-u = (1-lower)(1-s) + (1-upper) s, over a common denominator 2^e.
-  const unsigned e = std::max(lower.exponent(), upper.exponent());
-  const Integer one = Integer(1) << e;
-  const Integer a = lower.numerator() << (e - lower.exponent());
-  const Integer b = upper.numerator() << (e - upper.exponent());
-  const Integer a1 = one - a;
-  const Integer b1 = one - b;
-
-  // Horner in u with the growing power of (1-u), both linear forms in (1-s, s).
-  if (scaled_.empty()) return {};
-  Integers value(scaled_.size());
-  Integers power(scaled_.size());
-  value[0] = scaled_.back();
-  power[0] = 1;
-  for (std::size_t size = 2; size <= scaled_.size(); ++size) {
-    const Integer& c = scaled_[scaled_.size() - size];
-    for (std::size_t i = size; i-- > 0;) {
-      power[i] *= a1;
-      value[i] *= a;
-      if (i > 0) {
-        add_product(power[i], b1, power[i - 1]);
-        add_product(value[i], b, value[i - 1]);
-      }
-      add_product(value[i], c, power[i]);
-    }
-  }
-  return ExactPolynomial(std::move(value));
+  if (scaled().empty()) return {};
+  const Ends ends(lower, upper);
+  return alike(
+      detail::seen_on(scaled(), Integer(1), ends.lower, ends.upper, ends.above_lower, ends.above_upper));
 }
 
 ExactPolynomial ExactPolynomial::square_free() const {
-  Integers c = scaled_;
-  drop_leading_zeros(c);
-  if (c.size() <= 2) return ExactPolynomial(std::move(c));
-  if (certainly_square_free(c)) return ExactPolynomial(std::move(c));
-  drop_elevation(c);
-  if (c.size() <= 2 || certainly_square_free(c)) return ExactPolynomial(std::move(c));
-  Integers derivative(c.size() - 1);
-  for (std::size_t k = 1; k < c.size(); ++k) derivative[k - 1] = c[k] * k;
-  const Integers repeated = polynomial_gcd(c, std::move(derivative));
-  if (repeated.size() > 1) {
-    c = exact_quotient(std::move(c), repeated);
-  } else {
-    make_primitive(c);
-  }
-  return ExactPolynomial(std::move(c));
+  if (!wide_) return ExactPolynomial(square_free_part(scaled_));
+  if (certainly_square_free(wide_->residues())) return *this;
+  std::shared_ptr<const WidePolynomial>& known = wide_->found().square_free;
+  if (!known) known = std::make_shared<const WidePolynomial>(square_free_part(wide_->whole()));
+  return ExactPolynomial(known);
 }
 
 ExactPolynomial ExactPolynomial::gcd(const ExactPolynomial& a, const ExactPolynomial& b) {
-  return ExactPolynomial(polynomial_gcd(a.scaled_, b.scaled_));
+  if (a.wide_ && a.wide_ == b.wide_) return a;
+  const auto coefficients = [](const ExactPolynomial& p) {
+    Integers c = p.scaled();
+    drop_leading_zeros(c);
+    return c;
+  };
+  const auto residues = [](const ExactPolynomial& p) {
+    return p.wide_ ? p.wide_->residues() : image_of(p.scaled_);
+  };
+  const ExactPolynomial none({Integer(1)});
+  if (certainly_coprime(residues(a), residues(b))) return none;
+  Integers of_a = coefficients(a), of_b = coefficients(b);
+  drop_elevation(of_a);
+  drop_elevation(of_b);
+  return (a.wide_ ? a : b).alike(polynomial_gcd(std::move(of_a), std::move(of_b)));
 }
 
 namespace {
-
-// Degree over k for all k. Products of functions have higher degrees than binomial() takes.
-Integers binomials(std::size_t degree) {
-  Integers row(degree + 1, Integer(1));
-  for (std::size_t k = 1; k < degree; ++k) row[k] = row[k - 1] * (degree - k + 1) / k;
-  return row;
-}
-
-// Bernstein coefficients proper, times a common multiple of the binomials: these are halved by additions,
-// both halves at once.
-Integers unscaled(const Integers& scaled) {
-  const Integers choose = binomials(scaled.size() - 1);
-  Integer multiple = 1;
-  for (const Integer& c : choose) multiple = lcm(multiple, c);
-  Integers result = scaled;
-  for (std::size_t k = 0; k < result.size(); ++k) result[k] *= multiple / choose[k];
-  return result;
-}
-
-void shift_up(Integer& to, const Integer& from, std::size_t bits) {
-  mpz_mul_2exp(to.backend().data(), from.backend().data(), bits);
-}
 
 class Isolation {
  public:
@@ -255,16 +183,6 @@ class Isolation {
   }
 
  private:
-  // de Casteljau, times 2^degree; `local` becomes the right half.
-  static void halve(Integers& local, Integers& left) {
-    const std::size_t degree = local.size() - 1;
-    for (std::size_t round = 0; round <= degree; ++round) {
-      shift_up(left[round], local[0], degree - round);
-      for (std::size_t i = 0; i + round < degree; ++i) local[i] += local[i + 1];
-    }
-    for (std::size_t i = 1; i <= degree; ++i) shift_up(local[i], local[i], i);
-  }
-
   const RootVisitor& visit_;
   std::deque<Integers> left_;  // one a level, used again
 };
@@ -278,7 +196,8 @@ void visit_roots(const ExactPolynomial& square_free, const Dyadic& lower, const 
     if (square_free.sign_at(lower) == 0) visit({lower, lower});
     return;
   }
-  Integers local = unscaled(square_free.restricted(lower, upper).scaled());
+  if (square_free.wide() != nullptr) return visit_wide_roots(*square_free.wide(), lower, upper, visit);
+  Integers local = unscaled(square_free.restricted(lower, upper).scaled()).coefficients;
   const bool root_at_upper = local.back() == 0;
   if (Isolation(visit).visit(local, lower, upper, true) && root_at_upper) visit({upper, upper});
 }

@@ -5,12 +5,22 @@
 #include <utility>
 #include <vector>
 
+#include "certificates/exact/wide_roots.h"
+
 namespace kds {
 
 namespace {
 
-// Bisections before a gcd is tried: cheaper while the times differ, wasted where they are equal.
-constexpr int separation_budget = 16;
+// After so many bisections a gcd is tried: they are cheaper while times differ, wasted where they are equal.
+// A wide polynomial's root, of any scale, is narrowed to so many digits before.
+constexpr int bisections_before_gcd = 4;
+constexpr unsigned digits_before_gcd = 64;
+
+bool wants_gcd(const ExactTime& time, int bisections) {
+  if (time.is_dyadic()) return true;
+  return time.polynomial().wide() == nullptr ? bisections >= bisections_before_gcd
+                                             : has_digits({time.lower(), time.upper()}, digits_before_gcd);
+}
 
 bool disjoint(const ExactTime& a, const ExactTime& b) {
   if (a.is_dyadic() && b.is_dyadic()) return !(a.lower() == b.lower());
@@ -24,14 +34,9 @@ bool is_root(const ExactPolynomial& g, const ExactTime& time) {
   return g.sign_at(time.lower()) * g.sign_at(time.upper()) < 0;
 }
 
-// The sign of `function` in the time's interval if it has no root there, by Descartes' rule; else 0.
-int sign_all_over(const ExactPolynomial& function, const ExactTime& time) {
-  const ExactPolynomial local = function.restricted(time.lower(), time.upper());
-  if (local.sign_variations() != 0) return 0;
-  for (const Integer& x : local.scaled()) {
-    if (x != 0) return x > 0 ? 1 : -1;
-  }
-  return 0;
+// The sign of `function` in the time's interval if it is known to have no root there, else 0.
+int sign_all_over(const ExactPolynomial& function, const ExactTime& time, bool exactly = false) {
+  return function.sign_between(time.lower(), time.upper(), exactly);
 }
 
 // Where the time roughly is: bisection in double on the polynomial's coefficients over its interval.
@@ -67,49 +72,55 @@ double rough(const ExactTime& time) {
 }  // namespace
 
 ExactTime::ExactTime(ExactPolynomial square_free, RootInterval interval)
-    : polynomial_(std::move(square_free)),
-      lower_(std::move(interval.lower)),
-      upper_(std::move(interval.upper)) {
-  if (!is_dyadic()) sign_lower_ = polynomial_.sign_at(lower_);
+    : polynomial_(std::move(square_free)), root_(std::move(interval)) {
+  if (!is_dyadic()) sign_lower_ = polynomial_.sign_at(root_.lower);
 }
 
 void ExactTime::refine() {
   if (is_dyadic()) return;
-  Dyadic middle = Dyadic::midpoint(lower_, upper_);
+  if (polynomial_.wide() != nullptr) return narrow_root(*polynomial_.wide(), root_, sign_lower_, digits_);
+  Dyadic middle = Dyadic::midpoint(root_.lower, root_.upper);
   const int sign = polynomial_.sign_at(middle);
   if (sign == 0) {
-    lower_ = middle;
-    upper_ = std::move(middle);
+    root_ = {middle, middle};
   } else if (sign == sign_lower_) {
-    lower_ = std::move(middle);
+    root_.lower = std::move(middle);
   } else {
-    upper_ = std::move(middle);
+    root_.upper = std::move(middle);
   }
 }
 
 bool ExactTime::narrow_to(const Dyadic& lower, const Dyadic& upper) {
-  if (is_dyadic() || lower < lower_ || upper_ < upper) return false;
+  if (is_dyadic() || lower < root_.lower || root_.upper < upper) return false;
   if (polynomial_.sign_at(lower) != sign_lower_ || polynomial_.sign_at(upper) != -sign_lower_) return false;
-  lower_ = lower;
-  upper_ = upper;
+  root_.lower = lower;
+  root_.upper = upper;
   return true;
 }
 
 void ExactTime::narrow_for_doubles() {
   constexpr double width = 0x1p-44;
   if (is_dyadic()) return;
+  if (polynomial_.wide() != nullptr) {
+    constexpr double least = 0x1p-900;  // doubles have all their digits from here on
+    const auto is_wide = [&] {
+      const double upper = root_.upper.round_up();
+      return upper - root_.lower.round_down() > width * std::max(upper, least);
+    };
+    while (!is_dyadic() && is_wide()) refine();
+    return;
+  }
   const double guess = rough(*this);
   for (const double reach : {0x1p-46, 0x1p-42}) {
     if (narrow_to(Dyadic(guess - reach), Dyadic(guess + reach))) return;
   }
-  while (!is_dyadic() && upper_.round_up() - lower_.round_down() > width) refine();
+  while (!is_dyadic() && root_.upper.round_up() - root_.lower.round_down() > width) refine();
 }
 
 int ExactTime::compare(ExactTime& a, ExactTime& b) {
-  for (int i = 0; i < separation_budget && !disjoint(a, b); ++i) {
-    if (a.is_dyadic() && b.is_dyadic()) return 0;
-    a.refine();
-    b.refine();
+  for (int i = 0; !disjoint(a, b) && !(wants_gcd(a, i) && wants_gcd(b, i)); ++i) {
+    if (!wants_gcd(a, i)) a.refine();
+    if (!wants_gcd(b, i)) b.refine();
   }
   if (!disjoint(a, b)) {
     if (a.is_dyadic() && b.is_dyadic()) return 0;
@@ -119,8 +130,8 @@ int ExactTime::compare(ExactTime& a, ExactTime& b) {
       // Common roots are the roots of g; the times are equal iff one lies in the overlap, where each has one
       // root.
       const ExactPolynomial g = ExactPolynomial::gcd(a.polynomial_, b.polynomial_).square_free();
-      const Dyadic& lower = a.lower_ < b.lower_ ? b.lower_ : a.lower_;
-      const Dyadic& upper = a.upper_ < b.upper_ ? a.upper_ : b.upper_;
+      const Dyadic& lower = a.root_.lower < b.root_.lower ? b.root_.lower : a.root_.lower;
+      const Dyadic& upper = a.root_.upper < b.root_.upper ? a.root_.upper : b.root_.upper;
       if (!g.is_constant() && g.sign_at(lower) * g.sign_at(upper) < 0) return 0;
     }
     while (!disjoint(a, b)) {
@@ -128,13 +139,13 @@ int ExactTime::compare(ExactTime& a, ExactTime& b) {
       b.refine();
     }
   }
-  if (a.upper_ <= b.lower_) return -1;
+  if (a.root_.upper <= b.root_.lower) return -1;
   return 1;
 }
 
 int sign_at(const ExactPolynomial& function, ExactTime& time) {
   if (function.is_zero()) return 0;
-  for (int i = 0; i < separation_budget && !time.is_dyadic(); ++i) {
+  for (int i = 0; !wants_gcd(time, i); ++i) {
     if (const int sign = sign_all_over(function, time)) return sign;
     time.refine();
   }
@@ -146,7 +157,7 @@ int sign_at(const ExactPolynomial& function, ExactTime& time) {
 int sign_after(const ExactPolynomial& function, ExactTime& time) {
   if (function.is_zero()) return 0;
   if (time.is_dyadic()) return function.sign_after(time.lower());
-  for (int i = 0; i < separation_budget; ++i) {
+  for (int i = 0; !wants_gcd(time, i); ++i) {
     if (const int sign = sign_all_over(function, time)) return sign;
     time.refine();
     if (time.is_dyadic()) return function.sign_after(time.lower());
@@ -155,8 +166,7 @@ int sign_after(const ExactPolynomial& function, ExactTime& time) {
   if (is_root(ExactPolynomial::gcd(time.polynomial(), simple), time)) {
     // Narrow until the time is the only root around; then the upper end tells.
     while (true) {
-      const ExactPolynomial local = simple.restricted(time.lower(), time.upper());
-      if (local.sign_variations() == 1) {
+      if (simple.has_few_roots_between(time.lower(), time.upper())) {
         if (const int sign = function.sign_at(time.upper())) return sign;
       }
       time.refine();
@@ -164,7 +174,7 @@ int sign_after(const ExactPolynomial& function, ExactTime& time) {
     }
   }
   while (true) {
-    if (const int sign = sign_all_over(function, time)) return sign;
+    if (const int sign = sign_all_over(function, time, true)) return sign;
     time.refine();
     if (time.is_dyadic()) return function.sign_after(time.lower());
   }

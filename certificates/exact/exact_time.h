@@ -11,22 +11,23 @@ namespace kds {
 
 class ExactTime {
  public:
-  explicit ExactTime(Dyadic time) : lower_(time), upper_(std::move(time)) {}
+  explicit ExactTime(const Dyadic& time) : root_{time, time} {}
   /// The root of `polynomial` in `interval`: the only one there, and the polynomial changes sign at it.
   ExactTime(ExactPolynomial polynomial, RootInterval interval);
 
-  [[nodiscard]] bool is_dyadic() const { return lower_ == upper_; }
-  [[nodiscard]] const Dyadic& lower() const { return lower_; }  ///< < the time, or equal if is_dyadic()
-  [[nodiscard]] const Dyadic& upper() const { return upper_; }  ///< > the time, or equal if is_dyadic()
+  [[nodiscard]] bool is_dyadic() const { return root_.lower == root_.upper; }
+  [[nodiscard]] const Dyadic& lower() const { return root_.lower; }  ///< < the time, or equal if is_dyadic()
+  [[nodiscard]] const Dyadic& upper() const { return root_.upper; }  ///< > the time, or equal if is_dyadic()
   [[nodiscard]] const ExactPolynomial& polynomial() const { return polynomial_; }  ///< unused if is_dyadic()
 
-  /// Halves the interval, or finds that the time is its middle.
+  /// Halves the interval, or finds that the time is its middle; of a wide polynomial's root, narrows it by as
+  /// much as seems likely (narrow_root).
   void refine();
   /// Narrows the interval to this one if the time lies in it; returns whether it does. Ends must not be
   /// roots.
   bool narrow_to(const Dyadic& lower, const Dyadic& upper);
   /// Narrows the interval to about 2^-44, which keeps nearly all failure times of a step apart: around a
-  /// guess, or by bisection.
+  /// guess, or by bisection. A wide polynomial's root lies in any scale: it is narrowed to so many digits.
   void narrow_for_doubles();
 
   /// -1, 0 or 1 where a is before b, equal, or after. Narrows both.
@@ -34,8 +35,9 @@ class ExactTime {
 
  private:
   ExactPolynomial polynomial_;
-  Dyadic lower_, upper_;
+  RootInterval root_;
   int sign_lower_ = 0;
+  unsigned digits_ = 1;  // for narrow_root
 };
 
 /// Sign of `function` at the time itself. Narrows `time`.

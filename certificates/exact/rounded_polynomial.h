@@ -21,7 +21,8 @@ namespace kds {
 
 class RoundedPolynomial {
  public:
-  /// Roots at 0 and at 1 are divided out: signs are those in (0,1), and 0 is where they are just after it.
+  /// Not of a wide one, whose coefficients are apart by more than doubles are. Roots at 0 and at 1 are
+  /// divided out: signs are those in (0,1), and 0 is where they are just after it.
   explicit RoundedPolynomial(const ExactPolynomial& exact);
 
   /// 1 or -1 if that is the sign all over [lower, upper], for certain, else 0.

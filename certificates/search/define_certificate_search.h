@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "certificates/exact/exact_work.h"
 #include "certificates/filters/classify_lanes.h"
 #include "certificates/filters/moment_lanes.h"
 #include "certificates/search/careful_search.h"
@@ -193,6 +194,7 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
                                                                     TouchPolicy touches) {
     if (kernel == Kernel::fast)
       return fast_first_failure(Values::bounded(certificate, curves).polynomial, now, known, stages);
+    const ExactWork::About about(certificate);
     if (kernel == Kernel::filtered) {
       const BoundedFunction tracked = Values::tracked(certificate, curves);
       auto failure = proved_failure(tracked, now, known);
@@ -236,6 +238,7 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
         return sign;
       }
     }
+    const ExactWork::About about(certificate);
     const ExactPolynomial exact = Values::exact(certificate, curves);
     ++stages.signs_exact;
     stages.largest_bits = std::max<std::uint64_t>(stages.largest_bits, exact.largest_bit_length());

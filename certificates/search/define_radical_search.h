@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "certificates/exact/exact_work.h"
 #include "certificates/search/certificate_search.h"
 #include "certificates/search/define_function_values.h"
 #include "certificates/search/degree_limit.h"
@@ -74,6 +75,7 @@ class RadicalSearch final : public CertificateSearch<Certificate> {
                                              TouchPolicy touches) {
     if (kernel == Kernel::fast)
       return fast_first_failure(InDouble(Errors::none, certificate, curves), now, known, stages);
+    const ExactWork::About about(certificate);
     if (kernel == Kernel::filtered) {
       if (const auto failure =
               proved_failure(InDouble(Errors::own_filter, certificate, curves), now, known)) {
@@ -106,6 +108,7 @@ class RadicalSearch final : public CertificateSearch<Certificate> {
         return sign;
       }
     }
+    const ExactWork::About about(certificate);
     const ExactRadicalCertificate integers = exact(certificate, curves);
     ++stages.signs_exact;
     stages.largest_bits = std::max<std::uint64_t>(stages.largest_bits, integers.largest_bit_length());

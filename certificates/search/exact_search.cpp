@@ -74,7 +74,7 @@ Failure exact_first_failure(const ExactPolynomial& function, const Instant& now,
 
 Failure rounded_first_failure(const ExactPolynomial& function, const Instant& now, KnownAtStart known,
                               StageCounts& stages, TouchPolicy touches) {
-  if (!function.is_zero()) {
+  if (function.wide() == nullptr && !function.is_zero()) {
     if (const auto failure = proved_failure(RoundedPolynomial(function), now, known)) {
       ++stages.exact;
       stages.largest_bits = std::max<std::uint64_t>(stages.largest_bits, function.largest_bit_length());
@@ -86,7 +86,7 @@ Failure rounded_first_failure(const ExactPolynomial& function, const Instant& no
 
 int rounded_sign(const ExactPolynomial& function, const Instant& now,
                  int (*exact_sign)(const ExactPolynomial&, ExactTime&)) {
-  if (now.lower() > 0 && now.upper() < 1) {  // roots at 0 and 1 are left out
+  if (function.wide() == nullptr && now.lower() > 0 && now.upper() < 1) {  // roots at 0 and 1 are left out
     if (const int sign = RoundedPolynomial(function).sign_on(now.lower(), now.upper())) return sign;
   }
   return exact_sign(function, now.exact());

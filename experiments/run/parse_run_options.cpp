@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "certificates/exact/exact_work.h"
 #include "experiments/output/text.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option_values.h"
@@ -31,6 +32,8 @@ constexpr std::array kRunOptions{
     OptionSpec{"--apart", "K",
                "contacts: of beads of one chain, those at least K apart along it (default: 2)"},
     OptionSpec{"--audit", "WHEN", "compare with static builds: none, frames or events (default: none)"},
+    OptionSpec{"--work", "LIMIT",
+               "end the run where exact arithmetic takes more limb operations than this (default: no limit)"},
     OptionSpec{"--dump", "DIR",
                "write the structures at every frame there, in place of an earlier dump (default: none)"},
     OptionSpec{"--log", "FILE", "write the event log there, for kds replay (default: none)"},
@@ -101,6 +104,8 @@ RunOptions parse_run_options(const Arguments& arguments) {
   if (const auto apart = parsed.value("--apart"))
     options.apart = static_cast<BeadId>(parse_whole_number("--apart", *apart, 1, no_bead));
   options.audit = chosen<AuditMode>(parsed, "--audit", audit_mode_names).value_or(options.audit);
+  if (const auto limit = parsed.value("--work"))
+    options.work = parse_whole_number("--work", *limit, 0, ExactWork::no_limit - 1);
   options.dump = path_of(parsed, "--dump");
   options.log = path_of(parsed, "--log");
   options.out = path_of(parsed, "--out");

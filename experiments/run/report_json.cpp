@@ -51,7 +51,9 @@ Json run_json(const RunReport& report) {
     json["structures"][structure.name] = structure_json(structure);
   Json comparisons = Json::object();
   add_counts(comparisons, report.comparisons);
-  json["engine"] = {{"seconds", report.engine_seconds}, {"close_comparisons", comparisons}};
+  json["engine"] = {{"seconds", report.engine_seconds},
+                    {"close_comparisons", comparisons},
+                    {"exact_work", report.exact_work}};
   json["fingerprint"] = hex_digits(report.fingerprint);
   add_provenance(json);
   return json;

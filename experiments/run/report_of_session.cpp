@@ -63,6 +63,7 @@ RunReport report_of(Session& session, const Scene& scene, const RunOptions& opti
   const ComparisonCounts& comparisons = session.simulator().comparisons();
   report.comparisons = {
       {"same_function", comparisons.by_identity}, {"exact", comparisons.exact}, {"ties", comparisons.ties}};
+  report.exact_work = session.simulator().exact_work().done();
   report.fingerprint = session.simulator().fingerprint();
   return report;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // What `kds run` was asked to do. Parsed and checked by parse_run_options; see docs of each option there.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> dump;  ///< directory for the structures at every frame
   std::optional<std::filesystem::path> out;   ///< directory for summary.json, events.csv, report.html
   std::optional<std::filesystem::path> log;   ///< event log, for `kds replay`
+  std::optional<std::uint64_t> work;          ///< most limb operations of exact arithmetic
   std::optional<std::string> json;            ///< file, or - for standard output
   bool quiet = false;
 };

@@ -40,6 +40,7 @@ struct RunReport {
   std::vector<StructureReport> structures;
   double engine_seconds = 0;      ///< queue and clock
   NamedCounts comparisons;        ///< of failure times whose brackets overlap, by what settled them
+  std::uint64_t exact_work = 0;   ///< limb operations of exact arithmetic
   std::uint64_t fingerprint = 0;  ///< printed as 16 hex digits
 };
 

@@ -3,6 +3,7 @@
 #include "experiments/program/warnings.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/report_of_session.h"
+#include "experiments/run/watch_exact_work.h"
 #include "structures/session/session.h"
 
 namespace kds {
@@ -12,6 +13,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   HeldWarnings warnings;
   const Scene scene = load_scene(options, warnings.hold());
   const auto session = open_session(options, scene, options.audit);
+  if (!options.quiet) watch_exact_work(session->simulator(), scene, warn);
   StepCounts counts(*session, scene);
   results.begin(scene, *session);
   results.begin_dump_and_log(options, scene, *session);

@@ -2,10 +2,11 @@
 // A motion in whole numbers: all coordinates and radii times one power of two, weights times its square.
 // Functions of certificates are homogeneous in lengths, so the common factor changes no sign. Exact.
 //
-//   IntegerView  whole numbers of any width
-//   FixedView    the same of a fixed width (fixed_integer.h)
-//   ResidueView  the same modulo a prime (modular.h)
-//   MomentView   whole numbers, at one dyadic time: polynomials of degree 0
+//   FixedView      whole numbers of a fixed width (fixed_integer.h)
+//   ResidueView    the same modulo a prime (modular.h)
+//   DigitsView  their leading digits (leading_digits.h)
+//   IntegerView    whole numbers of any width
+//   MomentView     whole numbers, at one dyadic time: polynomials of degree 0
 
 #include <algorithm>
 #include <bit>
@@ -19,6 +20,7 @@
 #include "motions/numbers/bernstein.h"
 #include "motions/numbers/exact_number.h"
 #include "motions/numbers/fixed_integer.h"
+#include "motions/numbers/leading_digits.h"
 #include "motions/numbers/modular.h"
 #include "motions/views/motion_view.h"
 
@@ -77,6 +79,12 @@ struct Residues {
   using Number = Residue;
   std::uint64_t fold;
   [[nodiscard]] Residue of(long long x) const { return Residue::of(x, fold); }
+};
+
+/// The leading digits of whole numbers.
+struct RoundedIntegers {
+  using Number = LeadingDigits;
+  [[nodiscard]] static LeadingDigits of(long long x) { return LeadingDigits::of(x); }
 };
 
 template <Motion M, class Ring, Channels channels = all_channels>
@@ -163,6 +171,8 @@ template <Motion M, Channels channels = all_channels>
 using FixedView = ExactView<M, FixedIntegers, channels>;
 template <Motion M, Channels channels = all_channels>
 using ResidueView = ExactView<M, Residues, channels>;
+template <Motion M, Channels channels = all_channels>
+using DigitsView = ExactView<M, RoundedIntegers, channels>;
 
 template <Motion M, Channels channels = all_channels>
 class MomentView {
@@ -225,6 +235,7 @@ class MomentView {
 static_assert(MotionView<IntegerView<Curves<3>>>);
 static_assert(MotionView<FixedView<Curves<3>>>);
 static_assert(MotionView<ResidueView<Curves<3>>>);
+static_assert(MotionView<DigitsView<Curves<3>>>);
 static_assert(MotionView<MomentView<Curves<3>>>);
 
 }  // namespace kds

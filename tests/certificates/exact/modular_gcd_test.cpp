@@ -71,5 +71,50 @@ TEST(ModularGcd, ProvesSquareFreeness) {
   EXPECT_FALSE(certainly_square_free({-1, 0, prime}));
 }
 
+// Beside Euclid's algorithm on whole numbers.
+TEST(ModularGcd, FindsTheGcd) {
+  test::Random random(804);
+  for (int i = 0; i < 600 && !testing::Test::HasFailure(); ++i) {
+    const Scaled factor = random_power(random, test::pick(random, 0, 5));
+    const Scaled a =
+        test::product(test::product(factor, factor), random_power(random, test::pick(random, 0, 6)));
+    const Scaled b = test::product(factor, random_power(random, test::pick(random, 0, 6)));
+    SCOPED_TRACE("seed 804, case " + std::to_string(i) + test::describe(a) + test::describe(b));
+    sturm::Polynomial expected =
+        sturm::gcd(sturm::Polynomial(a.begin(), a.end()), sturm::Polynomial(b.begin(), b.end()));
+    const Scaled g = polynomial_gcd(a, b);
+    sturm::Polynomial found(g.begin(), g.end());
+    sturm::normalize(expected);
+    sturm::normalize(found);
+    if (sturm::sign(found.back()) != sturm::sign(expected.back()))
+      for (Integer& x : found) x = -x;
+    EXPECT_EQ(found, expected);
+    ASSERT_TRUE(quotient(a, g).has_value());
+    EXPECT_EQ(test::product(*quotient(a, g), g), a);
+  }
+}
+
+TEST(ModularGcd, TakesMorePrimesThanAreListed) {
+  test::Random random(805);
+  const Scaled factor = test::random_coefficients(random, 3, 4000);
+  const Scaled a = test::product(factor, {1, 1}), b = test::product(factor, {3, 0, 1});
+  const Scaled g = polynomial_gcd(a, b);
+  EXPECT_EQ(g.size(), factor.size());
+  EXPECT_TRUE(quotient(factor, g).has_value());
+}
+
+TEST(ModularGcd, IsNotDeceivedByPrimesThatHideADegree) {
+  const Scaled a = test::product({1, 1}, {1, prime}), b = test::product({1, 1}, {2, prime});
+  const Scaled g = polynomial_gcd(a, b);
+  EXPECT_TRUE(g == (Scaled{1, 1}) || g == (Scaled{-1, -1}));
+}
+
+TEST(ModularGcd, QuotientsAreWholeOrNone) {
+  EXPECT_EQ(quotient({-1, 0, 1}, {1, 1}), (Scaled{-1, 1}));
+  EXPECT_FALSE(quotient({1, 0, 1}, {1, 1}).has_value());
+  EXPECT_FALSE(quotient({1, 1}, {1, 2}).has_value());
+  EXPECT_FALSE(quotient({1}, {1, 1}).has_value());
+}
+
 }  // namespace
 }  // namespace kds

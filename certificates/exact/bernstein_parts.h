@@ -1,0 +1,159 @@
+#pragma once
+// Values and parts of polynomials in scaled Bernstein form, in numbers of any kind: whole ones, or leading
+// digits of which a sign may be unknown. For the exact stage's own files.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "certificates/exact/exact_work.h"
+#include "certificates/exact/wide_polynomial.h"
+
+namespace kds::detail {
+
+// Fewest and most changes of sign in a row, given one after the other.
+class VariationCount {
+ public:
+  void add(int sign) {
+    add({sign<0, sign == 0, sign> 0});
+    if (sign != 0 && first_ == 0) first_ = sign;
+  }
+  void add_unknown() { add({true, true, true}); }
+
+  [[nodiscard]] Variations value() const {
+    Variations all{far, -1, first_};
+    for (const Range& range : ranges_) {
+      all.least = std::min(all.least, range.least);
+      all.most = std::max(all.most, range.most);
+    }
+    return all;
+  }
+
+ private:
+  static constexpr int far = std::numeric_limits<int>::max();
+  // Of all rows that end on a negative number, are all 0, or end on a positive number.
+  struct Range {
+    int least = far, most = -1;
+    void include(const Range& other, int more) {
+      if (other.most < 0) return;
+      least = std::min(least, other.least + more);
+      most = std::max(most, other.most + more);
+    }
+  };
+  using Ranges = std::array<Range, 3>;
+
+  /// One number more, which may be negative, 0 or positive.
+  void add(const std::array<bool, 3>& may_be) {
+    Ranges next;
+    for (std::size_t before = 0; before < 3; ++before) {
+      for (std::size_t now = 0; now < 3; ++now) {
+        if (!may_be[now]) continue;
+        next[now == 1 ? before : now].include(ranges_[before], before + now == 2 && now != 1 ? 1 : 0);
+      }
+    }
+    ranges_ = next;
+  }
+
+  Ranges ranges_{Range{}, Range{0, 0}, Range{}};
+  int first_ = 0;
+};
+
+/// The signs of the first and the last one may be given.
+template <class Number>
+[[nodiscard]] Variations variations_of(const std::vector<Number>& c, std::optional<int> first,
+                                       std::optional<int> last) {
+  VariationCount count;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const std::optional<int> known = k == 0 ? first : k + 1 == c.size() ? last : std::nullopt;
+    const int sign = known.value_or(c[k].certain_sign());
+    if (sign == 0 && !known && !c[k].is_zero()) {
+      count.add_unknown();
+    } else {
+      count.add(sign);
+    }
+  }
+  return count.value();
+}
+
+/// Sign changes among the non-zero coefficients.
+[[nodiscard]] inline int sign_variations_of(const std::vector<Integer>& c) {
+  int variations = 0, last = 0;
+  for (const Integer& x : c) {
+    const int sign = x.sign();
+    if (sign == 0) continue;
+    if (last != 0 && sign != last) ++variations;
+    last = sign;
+  }
+  return variations;
+}
+
+inline void add_product(Integer& sum, const Integer& a, const Integer& b) {
+  mpz_addmul(sum.backend().data(), a.backend().data(), b.backend().data());
+}
+inline void add_product(LeadingDigits& sum, const LeadingDigits& a, const LeadingDigits& b) { sum += a * b; }
+
+/// Of 64 bits, roughly.
+[[nodiscard]] inline std::size_t limbs_of(const Integer& x) { return mpz_size(x.backend().data()) + 1; }
+[[nodiscard]] inline std::size_t limbs_of(const LeadingDigits&) { return 1; }
+
+/// The ends of an interval and what is beyond them up to 1, over a common denominator 2^exponent.
+struct Ends {
+  unsigned exponent;
+  Integer lower, upper, above_lower, above_upper;
+
+  Ends(const Dyadic& from, const Dyadic& to) : exponent(std::max(from.exponent(), to.exponent())) {
+    const Integer one = Integer(1) << exponent;
+    lower = from.numerator() << (exponent - from.exponent());
+    upper = to.numerator() << (exponent - to.exponent());
+    above_lower = one - lower;
+    above_upper = one - upper;
+  }
+};
+
+/// The polynomial as seen on an interval, times a positive number: with u = lower (1-s) + upper s and 1-u =
+/// above_lower (1-s) + above_upper s. Of its coefficients only the first ones, if not all are wanted.
+template <class Number>
+std::vector<Number> seen_on(const std::vector<Number>& c, const Number& one, const Number& lower,
+                            const Number& upper, const Number& above_lower, const Number& above_upper,
+                            std::size_t wanted = std::numeric_limits<std::size_t>::max()) {
+  // Horner in u with the growing power of (1-u), both linear forms in (1-s, s).
+  wanted = std::min(wanted, c.size());
+  ExactWork::spend(wanted * c.size() * (limbs_of(c.back()) + limbs_of(above_lower)));
+  std::vector<Number> value(wanted);
+  std::vector<Number> power(wanted);
+  value[0] = c.back();
+  power[0] = one;
+  for (std::size_t size = 2; size <= c.size(); ++size) {
+    const Number& next = c[c.size() - size];
+    for (std::size_t i = std::min(size, wanted); i-- > 0;) {
+      power[i] *= above_lower;
+      value[i] *= lower;
+      if (i > 0) {
+        add_product(power[i], above_upper, power[i - 1]);
+        add_product(value[i], upper, value[i - 1]);
+      }
+      add_product(value[i], next, power[i]);
+    }
+  }
+  return value;
+}
+
+/// The value at u = later / (later + earlier), times a power of later + earlier.
+template <class Number>
+[[nodiscard]] Number value_of(const std::vector<Number>& c, const Number& one, const Number& later,
+                              const Number& earlier) {
+  ExactWork::spend(c.size() * (limbs_of(c.back()) + limbs_of(earlier)));
+  Number value = c.back();
+  Number power = one;
+  for (std::size_t k = c.size() - 1; k-- > 0;) {
+    power *= earlier;
+    value *= later;
+    add_product(value, c[k], power);
+  }
+  return value;
+}
+
+}  // namespace kds::detail

@@ -1,0 +1,88 @@
+#include "certificates/exact/halves.h"
+
+#include <utility>
+
+#include "certificates/exact/bernstein_parts.h"
+
+namespace kds {
+
+namespace {
+
+using Integers = std::vector<Integer>;
+
+// Degree over k for all k. Products of functions have higher degrees than binomial() takes.
+Integers binomials(std::size_t degree) {
+  Integers row(degree + 1, Integer(1));
+  for (std::size_t k = 1; k < degree; ++k) row[k] = row[k - 1] * (degree - k + 1) / k;
+  return row;
+}
+
+void shift_up(Integer& to, const Integer& from, std::size_t bits) {
+  mpz_mul_2exp(to.backend().data(), from.backend().data(), bits);
+}
+
+bool is_certain(const Integer& x, const Integer& error) {
+  return error == 0 || mpz_cmpabs(x.backend().data(), error.backend().data()) > 0;
+}
+
+}  // namespace
+
+Unscaled unscaled(const Integers& scaled) {
+  const Integers choose = binomials(scaled.size() - 1);
+  Unscaled result{scaled, 1};
+  for (const Integer& c : choose) result.multiple = lcm(result.multiple, c);
+  for (std::size_t k = 0; k < scaled.size(); ++k) result.coefficients[k] *= result.multiple / choose[k];
+  return result;
+}
+
+void halve(Integers& local, Integers& left) {
+  const std::size_t degree = local.size() - 1;
+  ExactWork::spend(local.size() * local.size() * detail::limbs_of(local.back()));
+  for (std::size_t round = 0; round <= degree; ++round) {
+    shift_up(left[round], local[0], degree - round);
+    for (std::size_t i = 0; i + round < degree; ++i) local[i] += local[i + 1];
+  }
+  for (std::size_t i = 1; i <= degree; ++i) shift_up(local[i], local[i], i);
+}
+
+Halves::Halves(const Integers& scaled, const Integer& error) {
+  Unscaled whole = unscaled(scaled);
+  c_ = std::move(whole.coefficients);
+  error_ = error * whole.multiple;
+}
+
+Variations Halves::variations(int sign_at_lower, int sign_at_upper) const {
+  detail::VariationCount count;
+  count.add(sign_at_lower);
+  for (std::size_t k = 1; k + 1 < c_.size(); ++k) {
+    if (is_certain(c_[k], error_)) {
+      count.add(c_[k].sign());
+    } else {
+      count.add_unknown();
+    }
+  }
+  count.add(sign_at_upper);
+  return count.value();
+}
+
+std::optional<int> Halves::sign_at_upper() const {
+  if (!is_certain(c_.back(), error_)) return std::nullopt;
+  return c_.back().sign();
+}
+
+Halves Halves::halve() {
+  Halves left;
+  left.c_.resize(c_.size());
+  kds::halve(c_, left.c_);
+  if (error_ != 0) {  // rounded to the unit that they had: each is wrong by less than 1 more
+    const std::size_t degree = c_.size() - 1;
+    for (Integers* half : {&c_, &left.c_})
+      for (Integer& x : *half) mpz_fdiv_q_2exp(x.backend().data(), x.backend().data(), degree);
+    error_ += 1;
+  }
+  left.error_ = error_;
+  left.depth_ = ++depth_;
+  return left;
+}
+
+}  // namespace kds

@@ -1,0 +1,46 @@
+#pragma once
+// Halving a part of the step: de Casteljau on whole numbers, by additions alone.
+
+#include <optional>
+#include <vector>
+
+#include "certificates/exact/wide_polynomial.h"
+#include "motions/numbers/exact_number.h"
+
+namespace kds {
+
+/// Bernstein coefficients proper of a polynomial in scaled form, times a common multiple of the binomials,
+/// which can be halved by additions, and that multiple.
+struct Unscaled {
+  std::vector<Integer> coefficients;
+  Integer multiple;
+};
+[[nodiscard]] Unscaled unscaled(const std::vector<Integer>& scaled);
+
+/// Both halves, times 2^degree; `local` becomes the right one.
+void halve(std::vector<Integer>& local, std::vector<Integer>& left);
+
+/// A polynomial as seen on a part of the step: whole numbers with a common bound of what they are wrong by.
+class Halves {
+ public:
+  /// Of scaled coefficients that err by at most `error` each.
+  Halves(const std::vector<Integer>& scaled, const Integer& error);
+
+  /// The signs at both ends may be given.
+  [[nodiscard]] Variations variations(int sign_at_lower, int sign_at_upper) const;
+  /// The sign at the upper end, if it is certain.
+  [[nodiscard]] std::optional<int> sign_at_upper() const;
+  /// Becomes its right half; the left one.
+  [[nodiscard]] Halves halve();
+  /// How many times it has been halved.
+  [[nodiscard]] int depth() const { return depth_; }
+
+ private:
+  Halves() = default;
+
+  std::vector<Integer> c_;
+  Integer error_;
+  int depth_ = 0;
+};
+
+}  // namespace kds

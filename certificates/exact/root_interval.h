@@ -1,0 +1,18 @@
+#pragma once
+// One root of a polynomial among its others.
+
+#include <functional>
+
+#include "motions/numbers/exact_number.h"
+
+namespace kds {
+
+/// An interval with one root and no root at its ends; or, where lower == upper, the root itself.
+struct RootInterval {
+  Dyadic lower, upper;
+};
+
+/// Takes one root; returns whether the next one is wanted.
+using RootVisitor = std::function<bool(RootInterval)>;
+
+}  // namespace kds

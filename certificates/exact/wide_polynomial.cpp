@@ -1,0 +1,122 @@
+#include "certificates/exact/wide_polynomial.h"
+
+#include <algorithm>
+
+#include "certificates/exact/bernstein_parts.h"
+#include "certificates/exact/modular_gcd.h"
+#include "certificates/exact/precise_values.h"
+
+namespace kds {
+
+namespace {
+
+/// Half of the bits that there is room for are right, or it is 0.
+bool is_precise(const LeadingDigits& x) { return x.magnitude >> (LeadingDigits::most_bits / 2) >= x.error; }
+
+/// All numbers between two, from 0 on.
+LeadingDigits between(const Integer& low, const Integer& high) {
+  LeadingDigits all = LeadingDigits::of(high);
+  const Integer length = high - low;
+  const auto bits = static_cast<std::int64_t>(mpz_sizeinbase(length.backend().data(), 2));
+  if (const std::int64_t down = bits - 60 - all.exponent; down > 0) {
+    all.magnitude = down >= 128 ? 0 : all.magnitude >> static_cast<unsigned>(down);
+    all.exponent += down;
+    all.error = 1;
+  }
+  const Integer units = length >> static_cast<std::size_t>(all.exponent);
+  all.error += static_cast<std::uint64_t>(units) + 1;
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Integer>& WidePolynomial::whole() const {
+  if (!whole_) whole_ = source_->whole();
+  return *whole_;
+}
+
+const std::vector<LeadingDigits>& WidePolynomial::leading_digits() const {
+  if (leading_) return *leading_;
+  if (!whole_) {
+    leading_ = source_->leading_digits();
+    if (std::all_of(leading_->begin(), leading_->end(), is_precise)) return *leading_;
+  }
+  // What the coefficients are made from may cancel nearly all.
+  leading_.emplace();
+  for (const Integer& x : whole()) leading_->push_back(LeadingDigits::of(x));
+  return *leading_;
+}
+
+std::vector<Residue> WidePolynomial::residues() const {
+  return whole_ ? image_of(*whole_) : source_->residues(residue_folds[0]);
+}
+
+std::size_t WidePolynomial::largest_bit_length() const {
+  std::int64_t bits = 0;
+  for (const LeadingDigits& x : leading_digits()) {
+    if (!x.is_zero()) bits = std::max(bits, x.top_bit());
+  }
+  return static_cast<std::size_t>(bits);
+}
+
+bool WidePolynomial::is_zero() const {
+  bool zero = true;
+  for (const LeadingDigits& x : leading_digits()) {
+    if (x.certain_sign() != 0) return false;
+    zero &= x.is_zero();
+  }
+  return zero || std::all_of(whole().begin(), whole().end(), [](const Integer& x) { return x == 0; });
+}
+
+int WidePolynomial::first_sign() const {
+  for (const LeadingDigits& x : leading_digits()) {
+    if (const int sign = x.certain_sign()) return sign;
+    if (!x.is_zero()) break;
+  }
+  for (const Integer& x : whole()) {
+    if (x != 0) return x.sign();
+  }
+  return 0;
+}
+
+int WidePolynomial::sign_at(const Dyadic& u) const {
+  const std::vector<LeadingDigits>& leading = leading_digits();
+  if (leading.empty()) return 0;
+  if (u.exponent() == 0 && u.numerator() == 0) {
+    const LeadingDigits& first = leading.front();
+    return first.certain_sign() != 0 || first.is_zero() ? first.certain_sign() : whole().front().sign();
+  }
+  const LeadingDigits rough =
+      detail::value_of(leading, LeadingDigits::of(1), LeadingDigits::of(u.numerator()),
+                       LeadingDigits::of((Integer(1) << u.exponent()) - u.numerator()));
+  if (const int sign = rough.certain_sign(); sign != 0 || rough.is_zero()) return sign;
+  return value_at(*this, u, 1).certain_sign();
+}
+
+int WidePolynomial::sign_on(const Dyadic& lower, const Dyadic& upper) const {
+  if (leading_digits().empty()) return 0;
+  const detail::Ends ends(lower, upper);
+  return detail::value_of(leading_digits(), LeadingDigits::of(1), between(ends.lower, ends.upper),
+                          between(ends.above_upper, ends.above_lower))
+      .certain_sign();
+}
+
+int WidePolynomial::sign_variations() const {
+  const Variations rough = detail::variations_of(leading_digits(), std::nullopt, std::nullopt);
+  return rough.least == rough.most ? rough.least : detail::sign_variations_of(whole());
+}
+
+Variations WidePolynomial::variations_on(const Dyadic& lower, const Dyadic& upper,
+                                         std::optional<int> sign_at_lower,
+                                         std::optional<int> sign_at_upper) const {
+  const std::vector<LeadingDigits>& c = leading_digits();
+  if (c.empty() || (lower.numerator() == 0 && upper == Dyadic(1.0)))
+    return detail::variations_of(c, sign_at_lower, sign_at_upper);
+  const detail::Ends ends(lower, upper);
+  return detail::variations_of(
+      detail::seen_on(c, LeadingDigits::of(1), LeadingDigits::of(ends.lower), LeadingDigits::of(ends.upper),
+                      LeadingDigits::of(ends.above_lower), LeadingDigits::of(ends.above_upper)),
+      sign_at_lower, sign_at_upper);
+}
+
+}  // namespace kds

@@ -1,0 +1,81 @@
+#pragma once
+// Polynomials whose coefficients are thousands of bits long because the numbers they are made from are of
+// wildly different size (exact_function.h says from which width on). An answer seldom needs all those bits:
+// it is looked for in the coefficients' leading digits first (motions/numbers/leading_digits.h), whether
+// there are common factors modulo a prime, and only where these do not tell are the whole numbers formed.
+// Every answer is exact, or says that it is none.
+//
+// What has been found out is kept: for one thread.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "certificates/exact/root_interval.h"
+#include "motions/numbers/exact_number.h"
+#include "motions/numbers/leading_digits.h"
+#include "motions/numbers/modular.h"
+
+namespace kds {
+
+/// Says what a polynomial's coefficients are, as precisely as it is asked.
+class CoefficientSource {
+ public:
+  virtual ~CoefficientSource() = default;
+  [[nodiscard]] virtual std::vector<LeadingDigits> leading_digits() const = 0;
+  /// Modulo 2^61 - fold.
+  [[nodiscard]] virtual std::vector<Residue> residues(std::uint64_t fold) const = 0;
+  [[nodiscard]] virtual std::vector<Integer> whole() const = 0;
+};
+
+/// How often a polynomial's coefficients change sign, as far as their leading digits tell.
+struct Variations {
+  int least = 0, most = 0;
+  int sign = 0;  ///< of all that are not 0, where none change: known if most is 0
+};
+
+class WidePolynomial {
+ public:
+  explicit WidePolynomial(std::vector<Integer> scaled) : whole_(std::move(scaled)) {}
+  explicit WidePolynomial(std::unique_ptr<const CoefficientSource> source) : source_(std::move(source)) {}
+
+  [[nodiscard]] const std::vector<Integer>& whole() const;
+  [[nodiscard]] const std::vector<LeadingDigits>& leading_digits() const;
+  /// Modulo the first of the primes.
+  [[nodiscard]] std::vector<Residue> residues() const;
+  /// The degree that it is written with, plus 1.
+  [[nodiscard]] std::size_t size() const { return leading_digits().size(); }
+  /// Of the longest coefficient: by its leading digits, one more than it is at the most.
+  [[nodiscard]] std::size_t largest_bit_length() const;
+
+  [[nodiscard]] bool is_zero() const;
+  [[nodiscard]] int sign_at(const Dyadic& u) const;
+  /// The sign all over [lower, upper] if its leading digits tell, else 0.
+  [[nodiscard]] int sign_on(const Dyadic& lower, const Dyadic& upper) const;
+  [[nodiscard]] int sign_variations() const;
+  /// Of the polynomial as seen on [lower, upper], whose signs at both ends may be given, by leading digits.
+  [[nodiscard]] Variations variations_on(const Dyadic& lower, const Dyadic& upper,
+                                         std::optional<int> sign_at_lower = {},
+                                         std::optional<int> sign_at_upper = {}) const;
+
+  /// The sign of the first coefficient that is not 0.
+  [[nodiscard]] int first_sign() const;
+
+  /// What others have found out about it.
+  struct Found {
+    std::optional<std::vector<RootInterval>> roots;  ///< in [0,1], isolated (wide_roots.h)
+    std::shared_ptr<const WidePolynomial>
+        square_free;  ///< its part without multiple roots, unless it is that
+  };
+  [[nodiscard]] Found& found() const { return found_; }
+
+ private:
+  std::unique_ptr<const CoefficientSource> source_;
+  mutable std::optional<std::vector<Integer>> whole_;
+  mutable std::optional<std::vector<LeadingDigits>> leading_;
+  mutable Found found_;
+};
+
+}  // namespace kds

@@ -1,0 +1,269 @@
+#include "certificates/exact/wide_roots.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+#include "certificates/exact/bernstein_parts.h"
+#include "certificates/exact/precise_values.h"
+
+namespace kds {
+
+namespace {
+
+using Level = std::int64_t;
+
+/// Which scale a number between 0 and 1 is of: 0 from 1/2 on, -1 from 1/4 on, and so on towards 0; the same
+/// upwards towards 1.
+Level level_of(const Dyadic& u) {
+  const auto power_of = [](const Integer& numerator, unsigned exponent) {
+    return static_cast<Level>(mpz_sizeinbase(numerator.backend().data(), 2)) - 1 -
+           static_cast<Level>(exponent);
+  };
+  const Level power = power_of(u.numerator(), u.exponent());
+  if (power < -1 || (u.numerator() == 1 && u.exponent() == 1)) return power + 1;
+  return -(power_of((Integer(1) << u.exponent()) - u.numerator(), u.exponent()) + 1);
+}
+
+/// The simplest number of a scale, its end towards 0 or 1.
+Dyadic at_level(Level level) {
+  if (level <= 0) return {1, static_cast<unsigned>(1 - level)};
+  const auto bits = static_cast<unsigned>(level + 1);
+  return {(Integer(1) << bits) - 1, bits};
+}
+
+/// An interval in 2^digits equal parts.
+struct Cells {
+  Integer from, length;
+  unsigned exponent;
+
+  Cells(const Dyadic& lower, const Dyadic& upper, unsigned digits)
+      : exponent(std::max(lower.exponent(), upper.exponent())) {
+    from = lower.numerator() << (exponent - lower.exponent());
+    length = (upper.numerator() << (exponent - upper.exponent())) - from;
+    from <<= digits;
+    exponent += digits;
+  }
+  [[nodiscard]] Dyadic border(const Integer& number) const { return {from + number * length, exponent}; }
+};
+
+/// In which of `cells` equal parts of an interval a function is zero that is straight between its values at
+/// both ends.
+Integer straight_zero(const LongDigits& at_lower, const LongDigits& at_upper, const Integer& cells) {
+  Integer from = abs(at_lower.number()), to = abs(at_upper.number());
+  const std::int64_t apart = at_upper.exponent() - at_lower.exponent();
+  (apart > 0 ? to : from) <<= static_cast<std::size_t>(std::abs(apart));
+  if (from + to == 0) return 0;
+  const Integer cell = from * cells / (from + to);
+  return cell < cells ? cell : Integer(cells - 1);
+}
+
+/// Splits intervals until they hold one root or none. Roots that lie close together are approached as one
+/// multiple root (Sagraloff's Descartes with Newton's steps): as long as all changes of sign are in the part
+/// that the step points to, the other parts have no root, and the number of digits doubles with each step.
+class Isolation {
+ public:
+  Isolation(const WidePolynomial& polynomial, const RootVisitor& visit)
+      : polynomial_(polynomial), visit_(visit) {}
+
+  struct Part {
+    Dyadic lower, upper;
+    int sign_at_lower = 0, sign_at_upper = 0;
+    unsigned digits = fewest_digits;  ///< of the next step towards a cluster
+    std::size_t bits = first_bits;    ///< to look at it closely with
+  };
+
+  // Roots in the open interval, and at `lower` if `with_lower`; false if the visitor wants no more.
+  bool visit(Part part, bool with_lower) {
+    if (part.sign_at_lower == 0 && with_lower && !visit_({part.lower, part.lower})) return false;
+    while (true) {
+      const Variations rough =
+          polynomial_.variations_on(part.lower, part.upper, part.sign_at_lower, part.sign_at_upper);
+      const bool unclear = is_unclear(rough);
+      if (unclear && is_of_one_scale(part))
+        return visit_closely(seen_closely(polynomial_, part.lower, part.upper, part.bits), part);
+      const Variations variations = unclear ? exact_variations(polynomial_, part.lower, part.upper) : rough;
+      if (variations.most == 0) return true;
+      if (has_one_root(part, variations)) return visit_({part.lower, part.upper});
+      if (!narrow_to_cluster(part, variations)) break;
+    }
+    const Dyadic middle = split_point(part.lower, part.upper);
+    const auto [left, right] = split(part, middle, polynomial_.sign_at(middle));
+    return visit(left, false) && visit(right, true);
+  }
+
+ private:
+  static constexpr unsigned fewest_digits = 2, most_digits = 2048;
+  static constexpr std::size_t first_bits = 256;
+
+  [[nodiscard]] static bool is_unclear(const Variations& v) { return v.least < 2 && v.least != v.most; }
+  [[nodiscard]] static bool is_of_one_scale(const Part& part) {
+    return split_point(part.lower, part.upper) == Dyadic::midpoint(part.lower, part.upper);
+  }
+  [[nodiscard]] static bool has_one_root(const Part& part, const Variations& v) {
+    return part.sign_at_lower != 0 && part.sign_at_upper != 0 && v.least == 1 && v.most == 1;
+  }
+  [[nodiscard]] static std::pair<Part, Part> split(const Part& part, const Dyadic& point, int sign) {
+    const unsigned digits = std::max(fewest_digits, part.digits / 2);
+    return {{part.lower, point, part.sign_at_lower, sign, digits, part.bits},
+            {point, part.upper, sign, part.sign_at_upper, digits, part.bits}};
+  }
+
+  // The same, roots at `lower` left out, where leading digits do not tell: by the part's number of bits of
+  // the polynomial as seen on it, which is halved; by twice as many where they do not tell either.
+  bool visit_closely(Halves seen, Part part) {
+    const Variations variations = seen.variations(part.sign_at_lower, part.sign_at_upper);
+    if (variations.most == 0) return true;
+    if (has_one_root(part, variations)) return visit_({part.lower, part.upper});
+    if (is_unclear(variations)) {
+      // Halving has made the part small beside what its numbers are wrong by, or they were too short at once.
+      if (seen.depth() == 0) part.bits *= 2;
+      return visit_closely(seen_closely(polynomial_, part.lower, part.upper, part.bits), part);
+    }
+    if (narrow_to_cluster(part, variations)) return visit(part, false);
+    const Dyadic middle = Dyadic::midpoint(part.lower, part.upper);
+    const Halves left_half = seen.halve();
+    const std::optional<int> known = left_half.sign_at_upper();
+    const int sign = known ? *known : polynomial_.sign_at(middle);
+    const auto [left, right] = split(part, middle, sign);
+    if (!visit_closely(left_half, left)) return false;
+    if (sign == 0 && !visit_({middle, middle})) return false;
+    return visit_closely(std::move(seen), right);
+  }
+
+  /// Narrows the part to one around a cluster that holds all changes of sign.
+  [[nodiscard]] bool narrow_to_cluster(Part& part, const Variations& counted) const {
+    if (part.sign_at_lower == 0 || part.sign_at_upper == 0 || counted.least != counted.most ||
+        !is_of_one_scale(part))
+      return false;
+    const int variations = counted.least;
+    const unsigned digits = part.digits;
+    const Cells cells(part.lower, part.upper, digits);
+    const Integer last = (Integer(1) << digits) - 1;
+    for (const bool upwards : {true, false}) {
+      Integer cell = upwards ? newton_cell(polynomial_, part.lower, part.upper, variations, digits)
+                             : newton_cell(polynomial_, part.upper, part.lower, variations, digits);
+      if (cell < 0) continue;
+      if (!upwards) cell = last - cell;
+      Part around = part;
+      // The cell and its neighbours, of which there are at least four.
+      if (cell > 0) around.lower = cells.border(cell - 1);
+      if (cell < last) around.upper = cells.border(cell + 2 > last ? Integer(last + 1) : Integer(cell + 2));
+      around.sign_at_lower = polynomial_.sign_at(around.lower);
+      around.sign_at_upper = polynomial_.sign_at(around.upper);
+      if (around.sign_at_lower == 0 || around.sign_at_upper == 0) continue;
+      Variations inside =
+          polynomial_.variations_on(around.lower, around.upper, around.sign_at_lower, around.sign_at_upper);
+      if (inside.least != inside.most && inside.most >= variations)
+        inside = exact_variations(polynomial_, around.lower, around.upper);
+      if (inside.least != variations || inside.most != variations) continue;
+      around.digits = std::min(2 * digits, most_digits);
+      part = std::move(around);
+      return true;
+    }
+    return false;
+  }
+
+  const WidePolynomial& polynomial_;
+  const RootVisitor& visit_;
+};
+
+}  // namespace
+
+Dyadic split_point(const Dyadic& lower, const Dyadic& upper) {
+  const bool endless_below = lower == Dyadic(0.0), endless_above = upper == Dyadic(1.0);
+  const Level from = endless_below ? 0 : level_of(lower), to = endless_above ? 0 : level_of(upper);
+  Level level = 0;
+  if (!endless_below && !endless_above) {
+    if (to - from <= 2) return Dyadic::midpoint(lower, upper);
+    level = (from + to) / 2;
+  } else if (!endless_above) {
+    level = to > 0 ? 0 : 2 * to - 2;
+  } else if (!endless_below) {
+    level = from < 0 ? 0 : 2 * from + 2;
+  }
+  Dyadic point = at_level(level);
+  return lower < point && point < upper ? point : Dyadic::midpoint(lower, upper);
+}
+
+namespace {
+
+/// All roots in [0,1], found once.
+std::vector<RootInterval>& all_roots(const WidePolynomial& square_free) {
+  std::optional<std::vector<RootInterval>>& known = square_free.found().roots;
+  if (!known) {
+    const Dyadic start(0.0), end(1.0);
+    std::vector<RootInterval> roots;
+    const RootVisitor keep = [&roots](RootInterval root) {
+      roots.push_back(std::move(root));
+      return true;
+    };
+    const int sign_at_end = square_free.sign_at(end);
+    Isolation(square_free, keep).visit({start, end, square_free.sign_at(start), sign_at_end}, true);
+    if (sign_at_end == 0) roots.push_back({end, end});
+    known = std::move(roots);
+  }
+  return *known;
+}
+
+/// Cuts a root's interval at a point, so that it is on one side of it.
+void cut(RootInterval& root, const Dyadic& point, const WidePolynomial& square_free) {
+  if (!(root.lower < point && point < root.upper)) return;
+  const int sign = square_free.sign_at(point);
+  if (sign == 0) {
+    root = {point, point};
+  } else {
+    (sign == square_free.sign_at(root.lower) ? root.lower : root.upper) = point;
+  }
+}
+
+}  // namespace
+
+void visit_wide_roots(const WidePolynomial& square_free, const Dyadic& lower, const Dyadic& upper,
+                      const RootVisitor& visit) {
+  for (RootInterval& root : all_roots(square_free)) {
+    cut(root, lower, square_free);
+    if (root.lower < lower) continue;
+    cut(root, upper, square_free);
+    if (upper < root.upper || !visit(root)) return;
+  }
+}
+
+bool has_digits(const RootInterval& root, unsigned digits) {
+  const detail::Ends ends(root.lower, root.upper);
+  const auto length_of = [](const Integer& x) { return mpz_sizeinbase(x.backend().data(), 2); };
+  return length_of(ends.upper - ends.lower) + digits <
+         std::min(length_of(ends.upper), length_of(ends.above_lower));
+}
+
+void narrow_root(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lower, unsigned& digits) {
+  const auto take = [&](Dyadic point) {  // whether the root is after it
+    const int sign = polynomial.sign_at(point);
+    if (sign == 0) {
+      root = {point, point};
+      return false;
+    }
+    const bool after = sign == sign_at_lower;
+    (after ? root.lower : root.upper) = std::move(point);
+    return after;
+  };
+  if (Dyadic split = split_point(root.lower, root.upper);
+      !(split == Dyadic::midpoint(root.lower, root.upper))) {
+    take(std::move(split));
+    return;
+  }
+  // One cell of 2^digits, beside the guessed one where the guess is wrong.
+  constexpr unsigned most_digits = 4096;
+  const Integer cells = Integer(1) << digits;
+  const Integer cell = straight_zero(value_at(polynomial, root.lower, digits + 2),
+                                     value_at(polynomial, root.upper, digits + 2), cells);
+  const Cells parts(root.lower, root.upper, digits);
+  const bool after = cell == 0 || take(parts.border(cell));
+  const bool before =
+      !(root.lower == root.upper) && after && (cell + 1 == cells || !take(parts.border(cell + 1)));
+  digits = after && before ? std::min(2 * digits, most_digits) : std::max(1U, digits / 2);
+}
+
+}  // namespace kds

@@ -1,0 +1,29 @@
+#pragma once
+// The roots of a wide polynomial on [0,1], each in an interval of its own: Descartes' rule of signs on parts
+// of the step, by the polynomial's leading digits where these tell. Roots may lie anywhere between 2^-10000
+// and 1 - 2^-10000, and pairs of them as close together: where halving would take a step for each binary
+// digit, scales are searched by halving exponents, and digits doubled from step to step. Exact.
+
+#include "certificates/exact/wide_polynomial.h"
+
+namespace kds {
+
+/// Visits the roots of a square-free polynomial in [lower, upper], lower < upper, ascending; their intervals
+/// are disjoint but for touching ends.
+void visit_wide_roots(const WidePolynomial& square_free, const Dyadic& lower, const Dyadic& upper,
+                      const RootVisitor& visit);
+
+/// Narrows the interval of a root, at whose lower end the polynomial has this sign and at whose upper end the
+/// other. `digits` says how many binary digits a step is worth that is guessed from the values at both ends:
+/// 1 at first, then what the step before has made of it.
+void narrow_root(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lower, unsigned& digits);
+
+/// The interval is shorter than 2^-digits times what it is away from 0 or 1, whichever is nearer.
+[[nodiscard]] bool has_digits(const RootInterval& root, unsigned digits);
+
+/// A number between two of [0,1], with few digits, that halves the interval where its ends are of one scale
+/// and else comes as near to the end by which the scale is wide as halving their exponents does: towards 0
+/// and 1 scales are without end.
+[[nodiscard]] Dyadic split_point(const Dyadic& lower, const Dyadic& upper);
+
+}  // namespace kds

@@ -1,0 +1,151 @@
+#include "motions/numbers/long_digits.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace kds {
+
+namespace {
+
+constexpr std::size_t error_bits = 61;
+
+std::size_t width_of(const Integer& x) { return x == 0 ? 0 : mpz_sizeinbase(x.backend().data(), 2); }
+
+std::size_t width_of(Wide x) {
+  const auto high = static_cast<std::uint64_t>(x >> 64U);
+  return static_cast<std::size_t>(high != 0 ? 64 + std::bit_width(high)
+                                            : std::bit_width(static_cast<std::uint64_t>(x)));
+}
+
+/// Not less than x / 2^bits.
+std::uint64_t shifted_down(std::uint64_t x, std::size_t bits) {
+  return bits >= 64 ? (x == 0 ? 0 : 1) : (x >> bits) + ((x & ((std::uint64_t{1} << bits) - 1)) != 0 ? 1 : 0);
+}
+
+/// A bound of a size in few bits: mantissa 2^shift.
+struct Bound {
+  Wide mantissa;
+  std::size_t shift;
+
+  explicit Bound(const Integer& x) : mantissa(0), shift(0) {
+    const std::size_t width = width_of(x);
+    if (width == 0) return;
+    shift = width > 60 ? width - 60 : 0;
+    Integer top;
+    mpz_tdiv_q_2exp(top.backend().data(), x.backend().data(), shift);
+    mantissa = mpz_get_ui(top.backend().data());
+    mantissa += shift > 0 ? 1 : 0;
+  }
+  [[nodiscard]] std::size_t width() const { return mantissa == 0 ? 0 : width_of(mantissa) + shift; }
+  /// Not less than the bound / 2^bits, which must fit.
+  [[nodiscard]] std::uint64_t over(std::size_t bits) const {
+    if (mantissa == 0) return 0;
+    if (bits <= shift) return static_cast<std::uint64_t>(mantissa << (shift - bits));
+    return bits - shift >= 128 ? 1 : static_cast<std::uint64_t>(mantissa >> (bits - shift)) + 1;
+  }
+};
+
+}  // namespace
+
+LongDigits::LongDigits(const LeadingDigits& number)
+    : value_(static_cast<std::uint64_t>(number.magnitude >> 64U)),
+      error_(number.error),
+      exponent_(number.exponent),
+      most_bits_(LeadingDigits::most_bits) {
+  value_ = (value_ << 64U) + static_cast<std::uint64_t>(number.magnitude);
+  if (number.negative) value_ = -value_;
+  cut();
+}
+
+int LongDigits::certain_sign() const {
+  return mpz_cmpabs_ui(value_.backend().data(), error_) <= 0 ? 0 : value_.sign();
+}
+
+bool LongDigits::has_digits(std::size_t digits) const {
+  return error_ == 0 || width_of(value_) > digits + static_cast<std::size_t>(std::bit_width(error_));
+}
+
+std::size_t LongDigits::room(std::size_t wanted) const {
+  const std::size_t width = width_of(value_);
+  std::size_t bits = most_bits_ - std::min(width, most_bits_);
+  const auto of_error = static_cast<std::size_t>(std::bit_width(error_));
+  if (error_ != 0) bits = std::min(bits, error_bits - std::min(of_error, error_bits));
+  return std::min(bits, wanted);
+}
+
+void LongDigits::shift_down(std::size_t bits) {
+  const bool exact = value_ == 0 || mpz_scan1(value_.backend().data(), 0) >= bits;
+  mpz_tdiv_q_2exp(value_.backend().data(), value_.backend().data(), bits);
+  error_ = shifted_down(error_, bits) + (exact ? 0 : 1);
+  exponent_ += static_cast<std::int64_t>(bits);
+}
+
+LongDigits& LongDigits::operator+=(const LongDigits& other) {
+  most_bits_ = std::min(most_bits_, other.most_bits_);
+  if (other.is_zero()) return *this;
+  if (is_zero()) {
+    value_ = other.value_;
+    error_ = other.error_;
+    exponent_ = other.exponent_;
+    return *this;
+  }
+  // The upper one is moved down as far as it has room, and of the lower one what is below that is left out.
+  if (exponent_ >= other.exponent_) {
+    const auto apart = static_cast<std::size_t>(exponent_ - other.exponent_);
+    const std::size_t up = room(apart);
+    value_ <<= up;
+    if (error_ != 0) error_ <<= up;
+    exponent_ -= static_cast<std::int64_t>(up);
+    if (up < apart) {
+      LongDigits low = other;
+      low.shift_down(apart - up);
+      value_ += low.value_;
+      error_ += low.error_;
+    } else {
+      value_ += other.value_;
+      error_ += other.error_;
+    }
+  } else {
+    const auto apart = static_cast<std::size_t>(other.exponent_ - exponent_);
+    const std::size_t up = other.room(apart);
+    if (up < apart) shift_down(apart - up);
+    value_ += other.value_ << up;
+    if (other.error_ != 0) error_ += other.error_ << up;
+  }
+  cut();
+  return *this;
+}
+
+LongDigits& LongDigits::operator*=(const LongDigits& other) {
+  std::size_t down = 0;
+  if (error_ != 0 || other.error_ != 0) {
+    // |ab - a'b'| <= |a'| db + (|b'| + db) da
+    Bound of_other(value_), of_own(other.value_);
+    of_other.mantissa *= other.error_;
+    of_own.mantissa += (of_own.shift >= 64 ? 0 : other.error_ >> of_own.shift) + 1;
+    of_own.mantissa *= error_;
+    const std::size_t width = std::max(of_other.width(), of_own.width()) + 1;
+    down = width > error_bits ? width - error_bits : 0;
+    error_ = of_other.over(down) + of_own.over(down);
+  }
+  value_ *= other.value_;
+  exponent_ += other.exponent_;
+  most_bits_ = std::min(most_bits_, other.most_bits_);
+  if (down > 0) {
+    const std::uint64_t error = error_;
+    error_ = 0;
+    shift_down(down);
+    error_ += error;
+  }
+  cut();
+  return *this;
+}
+
+void LongDigits::cut() {
+  const std::size_t width = width_of(value_), of_error = static_cast<std::size_t>(std::bit_width(error_));
+  const std::size_t bits =
+      std::max(width > most_bits_ ? width - most_bits_ : 0, of_error > error_bits ? of_error - error_bits : 0);
+  if (bits > 0) shift_down(bits);
+}
+
+}  // namespace kds

@@ -1,0 +1,214 @@
+// Polynomials whose coefficients are of wildly different size, and roots that lie very close together, beside
+// Sturm's sequences on whole numbers.
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "certificates/exact/exact_time.h"
+#include "certificates/exact/precise_values.h"
+#include "certificates/exact/recent_functions.h"
+#include "certificates/exact/wide_roots.h"
+#include "tests/support/inputs/polynomials.h"
+#include "tests/support/judges/sturm.h"
+
+namespace kds {
+namespace {
+
+namespace sturm = test::sturm;
+using test::Random;
+using test::Scaled;
+
+Scaled wild(Random& random, int degree, int bits) {
+  Scaled p;
+  for (int k = 0; k <= degree; ++k) {
+    const Integer mantissa = static_cast<std::int64_t>(random()) >> 11;
+    p.push_back(random() % 6 == 0 ? Integer(0)
+                                  : mantissa << static_cast<unsigned>(test::pick(random, 0, bits)));
+  }
+  return p;
+}
+
+// Roots around one, 2^-gap apart, times another polynomial.
+Scaled cluster(Random& random, int roots, unsigned gap) {
+  const Integer q = Integer(test::pick(random, 3, 100)) << gap;
+  const Integer p = q / 3;
+  Scaled product{Integer(1)};
+  for (int i = 0; i < roots; ++i) product = test::product(product, test::linear(p + i, q));
+  return test::product(product, wild(random, test::pick(random, 0, 3), 40));
+}
+
+Scaled some(Random& random) {
+  return random() % 3 == 0
+             ? cluster(random, test::pick(random, 2, 4), static_cast<unsigned>(test::pick(random, 10, 700)))
+             : wild(random, test::pick(random, 1, 9), test::pick(random, 0, 2500));
+}
+
+ExactPolynomial wide(const Scaled& scaled) {
+  return ExactPolynomial(std::make_shared<const WidePolynomial>(scaled));
+}
+
+// Without the roots at u = 1, which square-free parts drop.
+sturm::Sequence judge_of(Scaled p) {
+  while (p.back() == 0) p.pop_back();
+  return sturm::Sequence(sturm::from_scaled(p));
+}
+
+TEST(WildPolynomials, RootsAreThoseThatSturmCounts) {
+  Random random(1201);
+  int found_any = 0;
+  for (int i = 0; i < 120 && !testing::Test::HasFailure(); ++i) {
+    const Scaled scaled = some(random);
+    const ExactPolynomial p = wide(scaled);
+    if (p.is_zero()) continue;
+    SCOPED_TRACE("seed 1201, case " + std::to_string(i) + ": " + test::describe(scaled));
+    const sturm::Sequence judge = judge_of(scaled);
+    const Dyadic lower(0.0);
+    for (const Dyadic& upper : {Dyadic(0.75), Dyadic(1.0), Dyadic(Integer(1), 600)}) {
+      const auto roots = isolate_roots(p.square_free(), lower, upper);
+      EXPECT_EQ(static_cast<int>(roots.size()), judge.roots_on(0, upper.rational()));
+      for (const auto& [low, high] : roots) {
+        ++found_any;
+        if (low == high) {
+          EXPECT_TRUE(judge.is_root(low.rational()));
+        } else {
+          EXPECT_EQ(judge.roots_between(low.rational(), high.rational()), 1);
+          EXPECT_FALSE(judge.is_root(low.rational()) || judge.is_root(high.rational()));
+        }
+      }
+    }
+  }
+  EXPECT_GT(found_any, 100);
+}
+
+TEST(WildPolynomials, NarrowingKeepsTheRootAndTellsRootsApart) {
+  Random random(1202);
+  for (int i = 0; i < 50 && !testing::Test::HasFailure(); ++i) {
+    const Scaled scaled = some(random);
+    const ExactPolynomial p = wide(scaled);
+    if (p.is_zero()) continue;
+    SCOPED_TRACE("seed 1202, case " + std::to_string(i) + ": " + test::describe(scaled));
+    const sturm::Sequence judge = judge_of(scaled);
+    std::vector<ExactTime> times;
+    for (RootInterval& root : isolate_roots(p.square_free(), Dyadic(0.0), Dyadic(1.0)))
+      times.emplace_back(p.square_free(), std::move(root));
+    for (std::size_t t = 0; t < times.size(); ++t) {
+      for (std::size_t s = 0; s < times.size(); ++s)
+        EXPECT_EQ(ExactTime::compare(times[s], times[t]), s < t ? -1 : s > t ? 1 : 0);
+      ExactTime time = times[t];
+      time.narrow_for_doubles();
+      if (time.is_dyadic()) continue;
+      EXPECT_EQ(judge.roots_between(time.lower().rational(), time.upper().rational()), 1);
+    }
+  }
+}
+
+TEST(WildPolynomials, SignsAreThoseOfWholeNumbers) {
+  Random random(1203);
+  for (int i = 0; i < 120 && !testing::Test::HasFailure(); ++i) {
+    const Scaled scaled = some(random);
+    const ExactPolynomial p = wide(scaled);
+    SCOPED_TRACE("seed 1203, case " + std::to_string(i) + ": " + test::describe(scaled));
+    const sturm::Polynomial power = sturm::from_scaled(scaled);
+    const auto bits = static_cast<unsigned>(test::pick(random, 1, 900));
+    const Integer third = (Integer(1) << bits) / 3;
+    for (const Dyadic& u : {Dyadic(1, bits), Dyadic((Integer(1) << bits) - 1, bits), Dyadic(third, bits)})
+      EXPECT_EQ(p.sign_at(u), sturm::sign_at(power, u.rational()));
+    const Variations v = exact_variations(*p.wide(), Dyadic(1, bits), Dyadic(third + 1, bits));
+    const int exact = p.restricted(Dyadic(1, bits), Dyadic(third + 1, bits)).sign_variations();
+    EXPECT_TRUE(v.least <= exact && exact <= v.most);
+    EXPECT_TRUE(v.least == v.most || v.least >= 2);
+  }
+}
+
+// The same answers as of polynomials that are not wide.
+TEST(WildPolynomials, WideOrNotIsTheSame) {
+  Random random(1204);
+  for (int i = 0; i < 60 && !testing::Test::HasFailure(); ++i) {
+    const Scaled scaled =
+        random() % 3 == 0
+            ? cluster(random, test::pick(random, 2, 3), static_cast<unsigned>(test::pick(random, 1, 60)))
+            : wild(random, test::pick(random, 1, 7), test::pick(random, 0, 200));
+    SCOPED_TRACE("seed 1204, case " + std::to_string(i) + ": " + test::describe(scaled));
+    const ExactPolynomial plain(scaled), p = wide(scaled);
+    EXPECT_EQ(p.is_zero(), plain.is_zero());
+    if (p.is_zero()) continue;
+    EXPECT_EQ(p.sign_variations(), plain.sign_variations());
+    const ExactTime start(Dyadic(0.0));
+    for (const Dyadic& u : {Dyadic(0.0), Dyadic(0.25), Dyadic(1.0)})
+      EXPECT_EQ(p.sign_after(u), plain.sign_after(u));
+    const auto plain_roots = isolate_roots(plain.square_free(), Dyadic(0.0), Dyadic(1.0));
+    const auto roots = isolate_roots(p.square_free(), Dyadic(0.0), Dyadic(1.0));
+    ASSERT_EQ(roots.size(), plain_roots.size());
+    for (std::size_t r = 0; r < roots.size(); ++r) {
+      ExactTime a(p.square_free(), roots[r]), b(plain.square_free(), plain_roots[r]);
+      EXPECT_EQ(ExactTime::compare(a, b), 0);
+      const ExactPolynomial other = wide(wild(random, 4, 100));
+      EXPECT_EQ(sign_at(other, a), sign_at(ExactPolynomial(other.scaled()), b));
+      EXPECT_EQ(sign_after(p, a), sign_after(plain, b));
+    }
+    if (plain.sign_after(Dyadic(0.0)) <= 0) continue;
+    const auto failure = first_failure_after(p, start), expected = first_failure_after(plain, start);
+    ASSERT_EQ(failure.has_value(), expected.has_value());
+    if (failure) {
+      ExactTime a = failure->time, b = expected->time;
+      EXPECT_EQ(ExactTime::compare(a, b), 0);
+    }
+  }
+}
+
+// Says the coefficients of a polynomial, and counts how often it is asked for all digits.
+class Source final : public CoefficientSource {
+ public:
+  explicit Source(Scaled p, int& asked) : p_(std::move(p)), asked_(asked) {}
+  [[nodiscard]] std::vector<LeadingDigits> leading_digits() const override {
+    std::vector<LeadingDigits> digits;
+    for (const Integer& x : p_) digits.push_back(LeadingDigits::of(x));
+    return digits;
+  }
+  [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {
+    std::vector<Residue> image;
+    for (const Integer& x : p_)
+      image.push_back({mpz_fdiv_ui(x.backend().data(), Residue::modulus(fold)), fold});
+    return image;
+  }
+  [[nodiscard]] std::vector<Integer> whole() const override {
+    ++asked_;
+    return p_;
+  }
+
+ private:
+  Scaled p_;
+  int& asked_;
+};
+
+TEST(WildPolynomials, AllDigitsAreAskedForOnlyWhereTheyCount) {
+  int asked = 0;
+  const Integer big = Integer(1) << 3000;
+  const ExactPolynomial p(
+      std::make_shared<const WidePolynomial>(std::make_unique<Source>(Scaled{-big, 7, big + 1}, asked)));
+  const auto roots = isolate_roots(p.square_free(), Dyadic(0.0), Dyadic(1.0));
+  ASSERT_EQ(roots.size(), 1U);
+  EXPECT_EQ(asked, 0);
+  EXPECT_EQ(p.sign_at(Dyadic(0.5)), 1);  // 2^3000 cancels
+  EXPECT_EQ(asked, 1);
+}
+
+TEST(RecentFunctions, KnowsAFunctionByAllItsNumbers) {
+  RecentFunctions recent;
+  const char a = 0, b = 0;
+  int asked = 0;
+  const auto of = [&](const char& formula, const std::vector<double>& numbers, Integer first) {
+    return recent.of(&formula, numbers, std::make_unique<Source>(Scaled{std::move(first), 1}, asked))
+        ->whole()[0];
+  };
+  EXPECT_EQ(of(a, {1, 2}, 10), 10);
+  EXPECT_EQ(of(a, {1, 2}, 20), 10);
+  EXPECT_EQ(of(a, {1, 3}, 30), 30);
+  EXPECT_EQ(of(b, {1, 2}, 40), 40);
+  EXPECT_EQ(of(a, {1}, 50), 50);
+  EXPECT_EQ(asked, 4);
+}
+
+}  // namespace
+}  // namespace kds

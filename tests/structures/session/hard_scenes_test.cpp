@@ -1,0 +1,82 @@
+// Small scenes that ask much of exact arithmetic: they end, and all kernels that promise anything tell the
+// same. A few dozen of them; all, 500 and 1000, where the environment has KDS_ALL_HARD_SCENES=1.
+
+#include "tests/support/inputs/hard_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string_view>
+
+#include "motions/base/input_error.h"
+#include "structures/session/session.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+
+std::uint64_t some_of(std::uint64_t all, std::uint64_t few) {
+  const char* wanted = std::getenv("KDS_ALL_HARD_SCENES");
+  return wanted != nullptr && std::string_view(wanted) == "1" ? all : few;
+}
+
+struct Outcome {
+  std::string ending;  // "done", or what refused it
+  std::uint64_t fingerprint = 0;
+  friend bool operator==(const Outcome&, const Outcome&) = default;
+};
+std::ostream& operator<<(std::ostream& out, const Outcome& outcome) {
+  return out << outcome.ending << " " << outcome.fingerprint;
+}
+
+Outcome run(const Scene& scene, const std::vector<std::string>& structures, Kernel kernel) {
+  SessionOptions options;
+  options.structures = structures;
+  options.kernel = kernel;
+  try {
+    Session session(scene, options);
+    session.load(0);
+    session.simulator().build();
+    for (std::size_t step = 0; step < scene.step_count(); ++step) {
+      session.load(step);
+      session.simulator().run_step();
+    }
+    session.simulator().finish();
+    return {"done", session.simulator().fingerprint()};
+  } catch (const InputError& refusal) {  // of what is beyond a stated limit
+    return {refusal.what()};
+  }
+}
+
+// Scenes whose events are too close together are refused, those alike with both.
+void expect_kernels_agree(const Scene& scene, const std::vector<std::string>& structures, int& done) {
+  const Outcome filtered = run(scene, structures, Kernel::filtered);
+  EXPECT_EQ(run(scene, structures, Kernel::exact), filtered);
+  done += filtered.ending == "done" ? 1 : 0;
+}
+
+TEST(HardScenes, OfWildRange) {
+  const std::uint64_t count = some_of(500, 40);
+  int done = 0;
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    SCOPED_TRACE("wild scene of seed " + std::to_string(seed));
+    expect_kernels_agree(Scene(wild_instance(seed)), {"power"}, done);
+  }
+  EXPECT_GT(done, static_cast<int>(count / 2));
+}
+
+TEST(HardScenes, OfBallsOnALatticeInHermiteMotion) {
+  const std::uint64_t count = some_of(1000, 40);
+  int done = 0;
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    const LatticeScene lattice = lattice_scene(seed);
+    SCOPED_TRACE(lattice.necklace.file);
+    const Scene scene(std::span(&lattice.necklace, 1), lattice.radii, FrameMotion::hermite);
+    expect_kernels_agree(scene, {seed % 2 == 0 ? "wrapped" : "power"}, done);
+  }
+  EXPECT_EQ(done, static_cast<int>(count));
+}
+
+}  // namespace
+}  // namespace kds
