@@ -1,0 +1,100 @@
+// The limit of a run's exact work, and what a run says that takes much of it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "experiments/run/load_scene.h"
+#include "experiments/run/parse_run_options.h"
+#include "experiments/run/run_steps.h"
+#include "experiments/run/watch_exact_work.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds::test {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kWild = data_file("hostile/deg4-wildmix.txt");
+
+std::uint64_t work_in(const std::string& json) {
+  const std::string key = "\"exact_work\": ";
+  const std::size_t at = json.find(key);
+  return at == std::string::npos ? 0 : std::stoull(json.substr(at + key.size()));
+}
+
+TEST(ExactWorkOfRuns, IsTheSameEachTimeAndLimitsTheRun) {
+  const std::vector<std::string> arguments{"run", kWild, "--structures", "power", "--quiet", "--json", "-"};
+  const ProgramRun free = run_program(arguments);
+  ASSERT_EQ(free.code, 0) << free.err;
+  const std::uint64_t work = work_in(free.out);
+  ASSERT_GT(work, 1000U);
+  auto with_limit = arguments;
+  with_limit.insert(with_limit.end(), {"--work", std::to_string(work)});
+  const ProgramRun same = run_program(with_limit);
+  EXPECT_EQ(same.code, 0) << same.err;
+  EXPECT_EQ(work_in(same.out), work);
+  for (const std::uint64_t limit : {work - 1, work / 2, std::uint64_t{0}}) {
+    with_limit.back() = std::to_string(limit);
+    const ProgramRun ended = run_program(with_limit);
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_EQ(ended.out, "");
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("--work " + std::to_string(limit)));
+    EXPECT_THAT(ended.err, HasSubstr("step 0 leads from frame 0 to frame 1"));
+    EXPECT_THAT(ended.err, HasSubstr("of beads "));
+  }
+}
+
+TEST(ExactWorkOfRuns, ThatEndAtTheirLimitLeaveEarlierResults) {
+  const ScratchDirectory scratch;
+  const std::string log = (scratch / "run.kdslog").string(), out = (scratch / "out").string();
+  const std::vector<std::string> arguments{"run",   kWild, "--structures", "power", "--quiet",
+                                           "--log", log,   "--out",        out};
+  ASSERT_EQ(run_program(arguments).code, 0);
+  const std::string events = content_of(log), summary = content_of(out + "/summary.json");
+  auto with_limit = arguments;
+  with_limit.insert(with_limit.end(), {"--work", "1000"});
+  EXPECT_EQ(run_program(with_limit).code, 2);
+  EXPECT_EQ(content_of(log), events);
+  EXPECT_EQ(content_of(out + "/summary.json"), summary);
+}
+
+TEST(ExactWorkOfRuns, RefusesLimitsThatAreNoNumbers) {
+  for (const std::string limit : {"", "-1", "many", "1e9"}) {
+    const ProgramRun run = run_program({"run", kWild, "--work", limit});
+    EXPECT_EQ(run.code, 2);
+    EXPECT_THAT(run.err, HasSubstr("--work"));
+  }
+}
+
+TEST(ExactWorkOfRuns, IsToldOfWhereItIsExtraordinary) {
+  const RunOptions options = parse_run_options({kWild, "--structures", "power"});
+  const auto warnings_of = [&](std::uint64_t extraordinary) {
+    const Scene scene = load_scene(options, [](const std::string&) {});
+    const auto session = open_session(options, scene, AuditMode::none);
+    std::vector<std::string> warnings;
+    watch_exact_work(
+        session->simulator(), scene, [&](const std::string& warning) { warnings.push_back(warning); },
+        extraordinary);
+    run_steps(*session, scene, options, [](std::size_t) {});
+    return warnings;
+  };
+  const std::vector<std::string> warnings = warnings_of(10'000);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_LT(warnings.size(), 20U);  // only where all work has doubled
+  for (const std::string& warning : warnings) {
+    EXPECT_THAT(warning, HasSubstr("step 0 (from frame 0 to frame 1)"));
+    EXPECT_THAT(warning, HasSubstr(" of beads "));
+    EXPECT_EQ(warning.find('\n'), std::string::npos);
+  }
+  EXPECT_TRUE(warnings_of(extraordinary_work).empty());
+}
+
+}  // namespace
+}  // namespace kds::test
