@@ -143,8 +143,8 @@ LongDigits& LongDigits::operator*=(const LongDigits& other) {
 
 void LongDigits::cut() {
   const std::size_t width = width_of(value_), of_error = static_cast<std::size_t>(std::bit_width(error_));
-  const std::size_t bits =
-      std::max(width > most_bits_ ? width - most_bits_ : 0, of_error > error_bits ? of_error - error_bits : 0);
+  const std::size_t bits = std::max(width > most_bits_ ? width - most_bits_ : 0,
+                                    of_error > error_bits ? of_error - error_bits : 0);
   if (bits > 0) shift_down(bits);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // A number by as many leading digits as are asked for, with a proved bound of what is left out; without a
-// limit it is exact. For what 126 bits (leading_digits.h) do not tell. Bits that the bound makes meaningless are
-// not kept.
+// limit it is exact. For what 126 bits (leading_digits.h) do not tell. Bits that the bound makes meaningless
+// are not kept.
 
 #include <cstddef>
 #include <cstdint>

@@ -50,18 +50,21 @@ Outcome run(const Scene& scene, const std::vector<std::string>& structures, Kern
 }
 
 // Scenes whose events are too close together are refused, those alike with both.
-void expect_kernels_agree(const Scene& scene, const std::vector<std::string>& structures, int& done) {
+void expect_kernels_agree(const Scene& scene, const std::vector<std::string>& structures, bool with_exact,
+                          int& done) {
   const Outcome filtered = run(scene, structures, Kernel::filtered);
-  EXPECT_EQ(run(scene, structures, Kernel::exact), filtered);
+  if (with_exact) {
+    EXPECT_EQ(run(scene, structures, Kernel::exact), filtered);
+  }
   done += filtered.ending == "done" ? 1 : 0;
 }
 
 TEST(HardScenes, OfWildRange) {
-  const std::uint64_t count = some_of(500, 40);
+  const std::uint64_t count = some_of(500, 25);
   int done = 0;
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     SCOPED_TRACE("wild scene of seed " + std::to_string(seed));
-    expect_kernels_agree(Scene(wild_instance(seed)), {"power"}, done);
+    expect_kernels_agree(Scene(wild_instance(seed)), {"power"}, true, done);
   }
   EXPECT_GT(done, static_cast<int>(count / 2));
 }
@@ -73,7 +76,9 @@ TEST(HardScenes, OfBallsOnALatticeInHermiteMotion) {
     const LatticeScene lattice = lattice_scene(seed);
     SCOPED_TRACE(lattice.necklace.file);
     const Scene scene(std::span(&lattice.necklace, 1), lattice.radii, FrameMotion::hermite);
-    expect_kernels_agree(scene, {seed % 2 == 0 ? "wrapped" : "power"}, done);
+    // Integers alone take a second for one of them.
+    const bool with_exact = count == 1000 || seed % 5 == 0;
+    expect_kernels_agree(scene, {seed % 2 == 0 ? "wrapped" : "power"}, with_exact, done);
   }
   EXPECT_EQ(done, static_cast<int>(count));
 }
