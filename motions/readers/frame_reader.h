@@ -46,8 +46,8 @@ struct FramesOpened {
   std::vector<ChainRead> chains;      ///< that the beads belong to, in order; empty: one without a name
   std::vector<double> element_radii;  ///< van der Waals radius of each bead; empty where elements are unknown
   std::vector<std::string> bead_names;  ///< "CA of ALA 12 in chain A"; empty where the file has no residues
-  std::vector<std::string> warnings;  ///< one line each
-  bool chain_like = true;             ///< beads that follow each other are meant to be bonded
+  std::vector<std::string> warnings;    ///< one line each
+  bool chain_like = true;               ///< beads that follow each other are meant to be bonded
   std::unique_ptr<FrameReader> frames;
 };
 
