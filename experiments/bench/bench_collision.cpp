@@ -4,11 +4,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numbers>
+#include <array>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "experiments/bench/bench_chains.h"
 #include "experiments/bench/collision_peers.h"
@@ -251,9 +253,11 @@ void bench_growth(std::string_view model, std::size_t beads, std::size_t rounds,
     }
   }
   const double nanoseconds = 1e9 / static_cast<double>(2 * beads);
+  // The goal is one of large scenes: small ones fit the caches.
+  const std::optional<double> goal = beads >= 100000 ? std::optional(1.5) : std::nullopt;
   rows.push_back({"static auto, ten times the beads", std::string(model), 10 * beads,
                   median_of(seconds[1]) * nanoseconds / 10, "ns/bead", fmt::format("the same of {}", beads),
-                  median_of(seconds[0]) * nanoseconds, 1.5});
+                  median_of(seconds[0]) * nanoseconds, goal});
 }
 
 }  // namespace

@@ -149,7 +149,10 @@ TEST(Bench, CollisionGivesARowForEachDetectorMotionAndInput) {
     peers.insert(row["peer"]);
     EXPECT_EQ(row["unit"], "ns/bead");
     EXPECT_GT(row["value"].get<double>(), 0);
-    EXPECT_EQ(row["holds"].get<bool>(), row["ratio"] <= row["goal"]);
+    ASSERT_EQ(row["goal"].is_null(), row["name"] == "static auto, ten times the beads");
+    if (!row["goal"].is_null()) {
+      EXPECT_EQ(row["holds"].get<bool>(), row["ratio"] <= row["goal"]);
+    }
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"frame auto, 0.003 r a frame", "frame auto, 0.03 r a frame",
                                             "frame auto, 0.3 r a frame", "frame auto, as simulated",
