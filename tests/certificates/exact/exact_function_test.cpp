@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "certificates/exact/modular_gcd.h"
 #include "tests/support/inputs/any_certificate.h"
 #include "tests/support/inputs/random_motion.h"
 
@@ -31,6 +32,15 @@ void expect_same(const C& certificate, const M& motion) {
   const auto expected = function_of(certificate, IntegerView<M, channels>(motion, certificate.beads));
   const CoefficientBits size = coefficient_bits(function_of(C{}, MagnitudeViewOf<M>()));
   const ExactPolynomial function = exact_function_of(certificate, motion, size);
+  if (function.wide() != nullptr) {  // what is known of it before its whole numbers are
+    EXPECT_EQ(function.wide()->residues(), image_of(ExactPolynomial(expected).scaled()));
+    const auto& leading = function.wide()->leading_digits();
+    for (std::size_t k = 0; k < leading.size(); ++k) {
+      if (leading[k].certain_sign() != 0) {
+        EXPECT_EQ(leading[k].certain_sign(), expected.scaled[k].sign());
+      }
+    }
+  }
   EXPECT_EQ(function.scaled(), ExactPolynomial(expected).scaled());
   // The same of the motion as curves of a degree known at run time.
   EXPECT_EQ(exact_function_of(certificate, Curves<M::dimension>(motion), size).scaled(), function.scaled());

@@ -64,7 +64,8 @@ TEST(HardScenes, OfWildRange) {
   int done = 0;
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     SCOPED_TRACE("wild scene of seed " + std::to_string(seed));
-    expect_kernels_agree(Scene(wild_instance(seed)), {"power"}, true, done);
+    const bool with_exact = count == 500 || seed % 5 == 0;
+    expect_kernels_agree(Scene(wild_instance(seed)), {"power"}, with_exact, done);
   }
   EXPECT_GT(done, static_cast<int>(count / 2));
 }
