@@ -2,6 +2,7 @@
 // same. A few dozen of them; all, 500 and 1000, where the environment has KDS_ALL_HARD_SCENES=1.
 
 #include "tests/support/inputs/hard_scenes.h"
+#include "tests/support/rounds.h"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +61,7 @@ void expect_kernels_agree(const Scene& scene, const std::vector<std::string>& st
 }
 
 TEST(HardScenes, OfWildRange) {
-  const std::uint64_t count = some_of(500, 25);
+  const std::uint64_t count = some_of(500, test::rounds(15U));
   int done = 0;
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     SCOPED_TRACE("wild scene of seed " + std::to_string(seed));
@@ -71,7 +72,7 @@ TEST(HardScenes, OfWildRange) {
 }
 
 TEST(HardScenes, OfBallsOnALatticeInHermiteMotion) {
-  const std::uint64_t count = some_of(1000, 40);
+  const std::uint64_t count = some_of(1000, test::rounds(40U));
   int done = 0;
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     const LatticeScene lattice = lattice_scene(seed);
