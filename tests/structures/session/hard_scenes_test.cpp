@@ -1,5 +1,6 @@
-// Small scenes that ask much of exact arithmetic: they end, and all kernels that promise anything tell the
-// same. A few dozen of them; all, 500 and 1000, where the environment has KDS_ALL_HARD_SCENES=1.
+// Small scenes that ask much of exact arithmetic: they end, at the latest where the work that is allowed is
+// done, and all kernels that promise anything tell the same. A few dozen of them; all, 500 and 1000, where
+// the environment has KDS_ALL_HARD_SCENES=1.
 
 #include "tests/support/inputs/hard_scenes.h"
 #include "tests/support/rounds.h"
@@ -22,8 +23,10 @@ std::uint64_t some_of(std::uint64_t all, std::uint64_t few) {
   return wanted != nullptr && std::string_view(wanted) == "1" ? all : few;
 }
 
+constexpr std::string_view limit = "limit";
+
 struct Outcome {
-  std::string ending;  // "done", or what refused it
+  std::string ending;  // "done", "limit", or what refused it
   std::uint64_t fingerprint = 0;
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
@@ -37,6 +40,7 @@ Outcome run(const Scene& scene, const std::vector<std::string>& structures, Kern
   options.kernel = kernel;
   try {
     Session session(scene, options);
+    session.simulator().exact_work().set_limit(100'000'000);
     session.load(0);
     session.simulator().build();
     for (std::size_t step = 0; step < scene.step_count(); ++step) {
@@ -47,6 +51,8 @@ Outcome run(const Scene& scene, const std::vector<std::string>& structures, Kern
     return {"done", session.simulator().fingerprint()};
   } catch (const InputError& refusal) {  // of what is beyond a stated limit
     return {refusal.what()};
+  } catch (const WorkLimitReached&) {
+    return {std::string(limit)};
   }
 }
 
@@ -54,8 +60,11 @@ Outcome run(const Scene& scene, const std::vector<std::string>& structures, Kern
 void expect_kernels_agree(const Scene& scene, const std::vector<std::string>& structures, bool with_exact,
                           int& done) {
   const Outcome filtered = run(scene, structures, Kernel::filtered);
-  if (with_exact) {
-    EXPECT_EQ(run(scene, structures, Kernel::exact), filtered);
+  if (with_exact && filtered.ending != limit) {
+    const Outcome exact = run(scene, structures, Kernel::exact);
+    if (exact.ending != limit) {
+      EXPECT_EQ(exact, filtered);
+    }
   }
   done += filtered.ending == "done" ? 1 : 0;
 }
