@@ -13,6 +13,18 @@ namespace kds {
 
 namespace {
 
+// Names what the last of the work that is allowed was spent on.
+template <class Work>
+void with_limit(Session& session, const RunOptions& options, Work work) {
+  try {
+    work();
+  } catch (const WorkLimitReached& limit) {
+    throw InputError(
+        fmt::format("--work {}: exact arithmetic takes more limb operations than that, the last on {}",
+                    options.work.value_or(0), session.simulator().name_of_work(limit.subject())));
+  }
+}
+
 // Structures count steps from 0: messages say which frames of the file these are.
 template <class Work>
 void in_step(Session& session, const Scene& scene, std::size_t step, const RunOptions& options, Work work) {
@@ -21,14 +33,10 @@ void in_step(Session& session, const Scene& scene, std::size_t step, const RunOp
                        scene.frame_number(step), scene.frame_number(step + 1));
   };
   try {
-    work();
+    with_limit(session, options, work);
   } catch (const AuditError& error) {
     throw AuditError(fmt::format("{}\nto see it again: kds run {}", named(error.what()),
                                  shell_words(option_arguments(options))));
-  } catch (const WorkLimitReached& limit) {
-    throw InputError(
-        named(fmt::format("--work {}: exact arithmetic takes more limb operations than that, the last on {}",
-                          options.work.value_or(0), session.simulator().name_of_work(limit.subject()))));
   } catch (const InputError& error) {
     throw InputError(named(error.what()));
   }
@@ -40,7 +48,7 @@ void run_steps(Session& session, const Scene& scene, const RunOptions& options,
                const std::function<void(std::size_t frame)>& at_frame) {
   if (options.work) session.simulator().exact_work().set_limit(*options.work);
   session.load(0);
-  session.simulator().build();
+  with_limit(session, options, [&] { session.simulator().build(); });
   at_frame(0);
   for (std::size_t step = 0; step < scene.step_count(); ++step) {
     session.load(step);

@@ -51,6 +51,15 @@ TEST(ExactWorkOfRuns, IsTheSameEachTimeAndLimitsTheRun) {
   }
 }
 
+// Before any step has begun.
+TEST(ExactWorkOfRuns, IsLimitedWhereTheFirstFrameIsBuilt) {
+  const ProgramRun run = run_program({"run", data_file("trajectories/villin_hp36_300K.dcd"), "--frames",
+                                      "0:2", "--structures", "wrapped", "--kernel", "exact", "--work", "10"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("--work 10: exact arithmetic takes more"));
+  EXPECT_THAT(run.err, HasSubstr("of beads "));
+}
+
 TEST(ExactWorkOfRuns, ThatEndAtTheirLimitLeaveEarlierResults) {
   const ScratchDirectory scratch;
   const std::string log = (scratch / "run.kdslog").string(), out = (scratch / "out").string();

@@ -40,7 +40,7 @@ Outcome run(const Scene& scene, const std::vector<std::string>& structures, Kern
   options.kernel = kernel;
   try {
     Session session(scene, options);
-    session.simulator().exact_work().set_limit(100'000'000);
+    session.simulator().exact_work().set_limit(30'000'000);
     session.load(0);
     session.simulator().build();
     for (std::size_t step = 0; step < scene.step_count(); ++step) {
@@ -70,7 +70,7 @@ void expect_kernels_agree(const Scene& scene, const std::vector<std::string>& st
 }
 
 TEST(HardScenes, OfWildRange) {
-  const std::uint64_t count = some_of(500, test::rounds(15U));
+  const std::uint64_t count = some_of(500, test::rounds(10U));
   int done = 0;
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     SCOPED_TRACE("wild scene of seed " + std::to_string(seed));
@@ -81,7 +81,7 @@ TEST(HardScenes, OfWildRange) {
 }
 
 TEST(HardScenes, OfBallsOnALatticeInHermiteMotion) {
-  const std::uint64_t count = some_of(1000, test::rounds(40U));
+  const std::uint64_t count = some_of(1000, test::rounds(25U));
   int done = 0;
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     const LatticeScene lattice = lattice_scene(seed);
