@@ -241,13 +241,14 @@ TEST(Contacts, HugeAndTinyLengths) {
 
 // One bead far out: floats do not tell the others apart any more.
 TEST(Contacts, OneBeadFarAway) {
+  constexpr std::size_t beads = 10 + rounds(30U);
   std::mt19937 random(8);
   for (const double far : {1e6, 1e12, 1e30, 1e150}) {
     SCOPED_TRACE(far);
-    std::vector<Space> steps = random_grid_steps(random, 40, 8, 2);
+    std::vector<Space> steps = random_grid_steps(random, beads, 8, 2);
     for (Space& step : steps)
       for (int k = 0; k <= 1; ++k) step.set_coordinate(7, k, 1, far);
-    expect_right(steps, all_pairs(40));
+    expect_right(steps, all_pairs(beads));
   }
 }
 
@@ -274,7 +275,7 @@ std::vector<Space> backbone_steps(const std::string& name, const std::string& to
 
 // Every pair's own quadratic, frame after frame.
 TEST(Contacts, OfProteins) {
-  const auto villin = backbone_steps("villin_hp36_300K.dcd", "villin_hp36_300K.pdb", 4, 3, 2.5);
+  const auto villin = backbone_steps("villin_hp36_300K.dcd", "villin_hp36_300K.pdb", rounds(4U), 3, 2.5);
   expect_right(villin, all_pairs(villin.front().bead_count(), 5));
   const auto chain = backbone_steps("random100_400K_first200.dcd", "random100_400K.pdb", 1, 8, 2.8);
   const PairsAsked asked = all_pairs(chain.front().bead_count(), 5);
