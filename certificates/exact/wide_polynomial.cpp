@@ -1,6 +1,7 @@
 #include "certificates/exact/wide_polynomial.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "certificates/exact/bernstein_parts.h"
 #include "certificates/exact/modular_gcd.h"
@@ -37,13 +38,15 @@ const std::vector<Integer>& WidePolynomial::whole() const {
 
 const std::vector<LeadingDigits>& WidePolynomial::leading_digits() const {
   if (leading_) return *leading_;
-  if (!whole_) {
-    leading_ = source_->leading_digits();
-    if (std::all_of(leading_->begin(), leading_->end(), is_precise)) return *leading_;
+  // Kept only when they are complete: forming them may end in an exception.
+  std::vector<LeadingDigits> digits;
+  if (!whole_) digits = source_->leading_digits();
+  if (whole_ || !std::all_of(digits.begin(), digits.end(), is_precise)) {
+    // What the coefficients are made from may cancel nearly all.
+    digits.clear();
+    for (const Integer& x : whole()) digits.push_back(LeadingDigits::of(x));
   }
-  // What the coefficients are made from may cancel nearly all.
-  leading_.emplace();
-  for (const Integer& x : whole()) leading_->push_back(LeadingDigits::of(x));
+  leading_ = std::move(digits);
   return *leading_;
 }
 

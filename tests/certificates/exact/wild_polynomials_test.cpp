@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <stdexcept>
 
 #include "certificates/exact/exact_time.h"
 #include "certificates/exact/precise_values.h"
@@ -192,6 +193,56 @@ TEST(WildPolynomials, AllDigitsAreAskedForOnlyWhereTheyCount) {
   EXPECT_EQ(asked, 0);
   EXPECT_EQ(p.sign_at(Dyadic(0.5)), 1);  // 2^3000 cancels
   EXPECT_EQ(asked, 1);
+}
+
+// One gains a bit a round, the other thousands: it must not run ahead without end.
+TEST(WildPolynomials, TimesOfWideAndOrdinaryFunctionsAreToldApartByFewDigits) {
+  const Integer scale = Integer(1) << 200U;
+  const Scaled outside = test::linear(9, 7);
+  const auto time_of = [](const ExactPolynomial& p) {
+    const auto roots = isolate_roots(p.square_free(), Dyadic(0.0), Dyadic(1.0));
+    EXPECT_EQ(roots.size(), 1U);
+    return ExactTime(p.square_free(), roots.at(0));
+  };
+  ExactTime plain = time_of(ExactPolynomial(test::product(test::linear(1, 3), outside)));
+  ExactTime later = time_of(wide(test::product(test::linear(scale + 3, 3 * scale), outside)));
+  EXPECT_EQ(ExactTime::compare(plain, later), -1);
+  EXPECT_LT(later.upper().exponent(), 12000U);
+  ExactTime again = time_of(ExactPolynomial(test::product(test::linear(1, 3), outside)));
+  const Dyadic between = dyadic_between(again, later);
+  EXPECT_LT(Rational(1) / 3, between.rational());
+  EXPECT_LT(between.rational(), Rational(scale + 3, 3 * scale));
+}
+
+// Cannot form its coefficients at first.
+class Failing final : public CoefficientSource {
+ public:
+  explicit Failing(const bool& fails) : fails_(fails) {}
+  [[nodiscard]] std::vector<LeadingDigits> leading_digits() const override {
+    LeadingDigits unknown = LeadingDigits::of(Integer(1));
+    unknown.error = 5;
+    return {unknown, unknown};
+  }
+  [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {
+    return {{2, fold}, {3, fold}};
+  }
+  [[nodiscard]] std::vector<Integer> whole() const override {
+    if (fails_) throw std::runtime_error("no more work");
+    return {2, 3};
+  }
+
+ private:
+  const bool& fails_;
+};
+
+TEST(WildPolynomials, AnExceptionLeavesNothingHalfKnown) {
+  bool fails = true;
+  const ExactPolynomial p(std::make_shared<const WidePolynomial>(std::make_unique<Failing>(fails)));
+  EXPECT_THROW(static_cast<void>(p.is_zero()), std::runtime_error);
+  EXPECT_THROW(static_cast<void>(p.is_zero()), std::runtime_error);
+  fails = false;
+  EXPECT_FALSE(p.is_zero());
+  EXPECT_EQ(p.sign_at(Dyadic(0.5)), 1);
 }
 
 TEST(RecentFunctions, KnowsAFunctionByAllItsNumbers) {
