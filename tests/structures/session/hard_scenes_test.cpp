@@ -40,7 +40,7 @@ Outcome run(const Scene& scene, const std::vector<std::string>& structures, Kern
   options.kernel = kernel;
   try {
     Session session(scene, options);
-    session.simulator().exact_work().set_limit(30'000'000);
+    session.simulator().exact_work().set_limit(100'000'000);
     session.load(0);
     session.simulator().build();
     for (std::size_t step = 0; step < scene.step_count(); ++step) {
