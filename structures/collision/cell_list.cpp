@@ -91,7 +91,7 @@ void CellList<Dimension>::sort_by_radix(const Balls<Dimension>& balls, const Gri
   constexpr int digit = 11;
   constexpr std::uint64_t mask = (1U << digit) - 1;
   std::array<std::uint32_t, mask + 2> places;
-  for (int shift = 0; grid.keys >> shift != 0; shift += digit) {
+  for (int shift = 0; shift < static_cast<int>(std::bit_width(grid.keys)); shift += digit) {
     places.fill(0);
     for (const auto& keyed : keyed_) ++places[(keyed[0] >> shift & mask) + 1];
     for (std::size_t k = 1; k < places.size(); ++k) places[k] += places[k - 1];
