@@ -42,6 +42,17 @@ class Simulator {
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 
+  /// What all computing of a run goes on under: rounding to nearest, and the run's account of exact work. A
+  /// structure opens one where it is called by others than the simulator.
+  class Entry {
+   public:
+    explicit Entry(Simulator& simulator) : account_(simulator.work_) {}
+
+   private:
+    FloatingPointGuard to_nearest_;
+    ExactWork::Open account_;
+  };
+
   /// Structures act in the order they are added. They must outlive the simulator's use. Throws
   /// std::logic_error once the structures are built.
   std::size_t add(KineticStructure& structure);
@@ -106,16 +117,6 @@ class Simulator {
   [[nodiscard]] double seconds_of(std::size_t structure) const { return watch_.seconds(structure + 1); }
 
  private:
-  /// What all computing here goes on under.
-  class Entry {
-   public:
-    explicit Entry(Simulator& simulator) : account_(simulator.work_) {}
-
-   private:
-    FloatingPointGuard to_nearest_;
-    ExactWork::Open account_;
-  };
-
   enum class Phase : std::uint8_t { new_run, between_steps, within_step };
   static constexpr std::size_t nobody = 0;  // the stopwatch's lane of the engine; structures follow
 

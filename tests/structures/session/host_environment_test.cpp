@@ -51,6 +51,26 @@ TEST_P(InHost, Power) {
   expect_same_history<PowerDiagram<3>>(std::vector{instance_motion<Space>("d3_n20_linear")});
 }
 
+// Edits are entries of their own.
+TEST_P(InHost, PowerWithEdits) {
+  expect_the_same([] {
+    Rig<PowerDiagram<3>, Space> rig(instance_motion<Space>("d3_n20_linear"), AuditMode::events);
+    rig.simulator.build();
+    rig.simulator.enter_step();
+    for (const double u : {0.25, 0.5, 0.75}) {
+      rig.simulator.run_until(Dyadic(u));
+      rig.structure.erase(3);
+      rig.structure.change_motion(5, [&] {
+        EXPECT_EQ(std::fegetround(), FE_TONEAREST);
+        rig.motion.set_coordinate(5, 1, 0, 1 / (3 * u));
+      });
+      rig.structure.insert(3);
+    }
+    rig.simulator.leave_step();
+    return std::pair(rig.history.events.size(), rig.simulator.fingerprint());
+  });
+}
+
 TEST_P(InHost, Wrapped) {
   const std::vector<BeadRange> twenty{{0, 19}};
   expect_same_history<WrappedHierarchy<3>>(std::vector{instance_motion<Space>("d3_n20_linear")}, twenty,
