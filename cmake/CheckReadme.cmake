@@ -1,5 +1,10 @@
-# The README shows examples/first_run.cpp as it is.
+# The README is a page or two: at most 150 lines. It shows examples/first_run.cpp as it is.
 file(READ "${ROOT}/README.md" readme)
+string(REGEX REPLACE "[^\n]" "" newlines "${readme}")
+string(LENGTH "${newlines}" lines)
+if(lines GREATER 150)
+  message(SEND_ERROR "README.md has ${lines} lines, expected at most 150: more belongs into docs/")
+endif()
 file(READ "${ROOT}/examples/first_run.cpp" example)
 string(FIND "${readme}" "```cpp\n${example}```" place)
 if(place EQUAL -1)
