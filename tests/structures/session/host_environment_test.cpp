@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "motions/numbers/exact_number.h"
 #include "structures/collision/closest_pair.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
 #include "structures/hierarchy/wrapped_hierarchy.h"
