@@ -7,6 +7,7 @@
 #include "certificates/exact/rounded_polynomial.h"
 #include "certificates/search/exact_search.h"
 #include "tests/support/judges/judged_failure.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -43,7 +44,7 @@ void follow(Scaled p, const std::string& what) {
 
 TEST(RoundedSearch, FindsWhatSturmSequencesFind) {
   test::Random random(1301);
-  for (int i = 0; i < 3000 && !testing::Test::HasFailure(); ++i)
+  for (int i = 0; i < test::rounds(3000) && !testing::Test::HasFailure(); ++i)
     follow(test::random_polynomial(random), "seed 1301, case " + std::to_string(i));
 }
 
@@ -61,7 +62,7 @@ Scaled nearly_zero_at_ends(test::Random& random) {
 TEST(RoundedSearch, NeedsNoLongNumbersWhereFunctionsAreNearlyZeroAtTheEnds) {
   test::Random random(1302);
   int decided = 0;
-  constexpr int all = 1000;
+  constexpr int all = test::rounds(1000);
   for (int i = 0; i < all && !testing::Test::HasFailure(); ++i) {
     const Scaled p = nearly_zero_at_ends(random);
     follow(p, "seed 1302, case " + std::to_string(i));

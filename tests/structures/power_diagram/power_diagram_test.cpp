@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <set>
+#include <span>
 
 #include "motions/base/input_error.h"
 #include "motions/numbers/exact_number.h"
@@ -97,7 +99,8 @@ INSTANTIATE_TEST_SUITE_P(Data, PowerInstance,
                          [](const auto& test) { return test.param.name; });
 
 TEST(PowerDiagram, AuditsPassBetweenAllEvents) {
-  for (const auto& [name, stride] : {std::pair("d3_n20_linear", 5), std::pair("d3_n50_linear", 200)}) {
+  const std::array instances{std::pair("d3_n20_linear", 5), std::pair("d3_n50_linear", 200)};
+  for (const auto& [name, stride] : std::span(instances).first(test::rounds(instances.size()))) {
     PowerRig rig(instance_motion<Space>(name), AuditMode::events);
     Witness witness(rig.simulator, definition(rig, stride));
     ASSERT_NO_THROW(rig.run()) << name;
@@ -333,7 +336,7 @@ TEST(PowerDiagram, CoplanarAtTheStart) {
 
 TEST(PowerDiagram, CoplanarAtTheStartThenFarFromIt) {
   std::mt19937 random(3);
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < test::rounds(30); ++round) {
     Points flat = random_grid_points(random, 7, 20);
     for (auto& p : flat) p[2] = p[0];
     const Points to = random_grid_points(random, 7, 20);
@@ -521,7 +524,7 @@ TEST(PowerDiagram, RandomFramesFullOfTies) {
 
 TEST(PowerDiagram, ExactAgreesOnMotionsFullOfTies) {
   std::mt19937 random(13);
-  for (int round = 0; round < 25; ++round) {
+  for (int round = 0; round < test::rounds(25); ++round) {
     const Points from = random_grid_points(random, 7, 4);
     const Points to = random_grid_points(random, 7, 4);
     SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));

@@ -205,7 +205,7 @@ TEST(HiddenBead, RefusesChangesThatCannotBe) {
 // Audits between all events on random motions, most of them degenerate, with weights that hide many.
 TEST(HiddenBead, RandomMotions) {
   int hidden = 0;
-  for (unsigned seed = 0; seed < 6; ++seed) {
+  for (unsigned seed = 0; seed < test::rounds(6U); ++seed) {
     for (const MotionKind kind : all_motion_kinds) {
       if (kind == MotionKind::mixed_scales) continue;
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", kind " << static_cast<int>(kind));
@@ -229,7 +229,7 @@ TEST(HiddenBead, RandomMotions) {
       hidden += static_cast<int>(count(rig, Diagram::hides));
     }
   }
-  EXPECT_GT(hidden, 20);
+  EXPECT_GT(hidden, test::rounds(20));
 }
 
 }  // namespace

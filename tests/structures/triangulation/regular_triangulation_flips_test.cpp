@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "tests/support/judges/triangulation_checks.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -119,7 +120,7 @@ TEST(RegularTriangulation, ReplacesCells) {
   RegularTriangulation<3> triangulation;
   static_cast<void>(triangulation.build(cloud.centers, cloud.weights));
   const auto cells = all_cells(triangulation);
-  for (BeadId bead = 0; bead < beads; ++bead) {
+  for (BeadId bead = 0; bead < test::rounds(beads); ++bead) {
     SCOPED_TRACE(bead);
     const std::vector<CellId> around = triangulation.cells_around(bead);
     std::vector<CellBeads<3>> star;
