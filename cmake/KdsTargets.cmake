@@ -17,7 +17,7 @@ endif()
 # bounds of the filters have it.
 add_library(kds_requirements INTERFACE)
 target_compile_features(kds_requirements INTERFACE cxx_std_20)
-target_include_directories(kds_requirements INTERFACE "${PROJECT_SOURCE_DIR}")
+target_include_directories(kds_requirements INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>")
 target_compile_options(kds_requirements INTERFACE -ffp-contract=off)
 # Vectors of four doubles are passed between inlined functions only (motions/numbers/lanes.h): that other compilers pass them
 # in other ways concerns nobody.

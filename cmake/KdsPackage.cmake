@@ -1,0 +1,55 @@
+# The package: what `cmake --install` installs, and find_package(kds) in the build tree. Each library is a component with a file
+# of targets of its own, so that who asks for the engine needs nothing of what only structures need.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# Headers include each other as "kds/simulator.h", "motions/curves/...": in a folder of their own they meet nobody else's.
+set(KDS_HEADER_FOLDER "${CMAKE_INSTALL_INCLUDEDIR}/kds")
+set(KDS_PACKAGE_FOLDER "${CMAKE_INSTALL_LIBDIR}/cmake/kds")
+set(KDS_PKGCONFIG_FOLDER "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+
+# kds_install_component(<component> TARGETS <target>... [REQUIRES <packages of pkg-config>...])
+function(kds_install_component component)
+  cmake_parse_arguments(ARG "" "" "TARGETS;REQUIRES" ${ARGN})
+  set(libraries "")
+  foreach(target IN LISTS ARG_TARGETS)
+    set(headers "")
+    get_target_property(sets ${target} INTERFACE_HEADER_SETS)
+    if(sets)
+      foreach(set IN LISTS sets)
+        list(APPEND headers FILE_SET ${set} DESTINATION "${KDS_HEADER_FOLDER}" COMPONENT ${component})
+      endforeach()
+      string(APPEND libraries " -l${target}")
+    endif()
+    install(TARGETS ${target} EXPORT kds_${component}
+            ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT ${component} ${headers})
+  endforeach()
+  install(EXPORT kds_${component} NAMESPACE kds:: FILE kds-${component}.cmake DESTINATION "${KDS_PACKAGE_FOLDER}"
+          COMPONENT ${component})
+  export(EXPORT kds_${component} NAMESPACE kds:: FILE "${PROJECT_BINARY_DIR}/kds-${component}.cmake")
+
+  # For pkg-config: kds-engine and so on, and kds for all of them.
+  set(name kds-${component})
+  if(component STREQUAL "kds")
+    set(name kds)
+  endif()
+  list(JOIN ARG_REQUIRES ", " requires)
+  file(RELATIVE_PATH prefix "/p/${KDS_PKGCONFIG_FOLDER}" "/p")
+  string(REGEX REPLACE "/$" "" prefix "${prefix}")
+  configure_file("${PROJECT_SOURCE_DIR}/cmake/kds.pc.in" "${PROJECT_BINARY_DIR}/${name}.pc" @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION "${KDS_PKGCONFIG_FOLDER}" COMPONENT ${component})
+endfunction()
+
+kds_install_component(motions TARGETS kds_requirements kds_options kds_motions REQUIRES eigen3 fmt zlib gmp)
+kds_install_component(certificates TARGETS kds_certificates REQUIRES kds-motions)
+kds_install_component(engine TARGETS kds_engine REQUIRES kds-certificates)
+kds_install_component(structures TARGETS kds_structures REQUIRES kds-engine tbb mpfr)
+kds_install_component(kds TARGETS kds_all REQUIRES kds-structures)
+install(TARGETS kds_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)
+
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/kdsConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+configure_file("${PROJECT_SOURCE_DIR}/cmake/kdsConfig.cmake" "${PROJECT_BINARY_DIR}/kdsConfig.cmake" COPYONLY)
+configure_file("${PROJECT_SOURCE_DIR}/cmake/KdsGmp.cmake" "${PROJECT_BINARY_DIR}/KdsGmp.cmake" COPYONLY)
+install(FILES "${PROJECT_BINARY_DIR}/kdsConfig.cmake" "${PROJECT_BINARY_DIR}/kdsConfigVersion.cmake"
+              "${PROJECT_BINARY_DIR}/KdsGmp.cmake"
+        DESTINATION "${KDS_PACKAGE_FOLDER}" COMPONENT motions)
