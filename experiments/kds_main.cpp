@@ -14,6 +14,7 @@
 #include "experiments/bench/bench_command.h"
 #include "experiments/collide/collide_command.h"
 #include "experiments/collide/families_command.h"
+#include "experiments/collide/missed_command.h"
 #include "experiments/output/destinations.h"
 #include "experiments/output/provenance.h"
 #include "experiments/output/text.h"
@@ -42,6 +43,7 @@ constexpr std::array kCommands{
     Command{"replay", "run a logged run again and compare", replay_command},
     Command{"update", "compare techniques that bring the power diagram from frame to frame", update_command},
     Command{"collide", "which beads collide in each frame, by several methods", collide_command},
+    Command{"missed", "which share of contacts is missed by looking at frames only", missed_command},
     Command{"families", "measure separating families of packed grids", families_command},
     Command{"bench", "measure ours beside what users would pick today", bench_command},
     Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "experiments/bench/bench_chains.h"
+#include "experiments/bench/bench_contacts.h"
 #include "experiments/bench/collision_peers.h"
 #include "experiments/program/timing.h"
 #include "motions/models/model.h"
@@ -188,6 +189,9 @@ void bench_protein(const std::filesystem::path& path, std::size_t rounds, std::v
   const Scenes frames = scenes_of(chain.frames, radii);
   measured.run_static(frames);
   measured.run_frames(frames, "as simulated", 1.0);
+  const bool has_goal = chain.name.starts_with("random100") || chain.name.starts_with("dhodh");
+  for (const double factor : {2.2, 2.5})
+    bench_contacts(chain, factor, has_goal ? std::optional(0.7) : std::nullopt, rounds, rows);
 }
 
 /// Two necklaces far from each other, which both turn about themselves, asked only whether they meet.
@@ -258,6 +262,7 @@ void bench_growth(std::string_view model, std::size_t beads, std::size_t rounds,
   rows.push_back({"static auto, ten times the beads", std::string(model), 10 * beads,
                   median_of(seconds[1]) * nanoseconds / 10, "ns/bead", fmt::format("the same of {}", beads),
                   median_of(seconds[0]) * nanoseconds, goal});
+  bench_contacts_growth(model, beads, goal, rounds, rows);
 }
 
 }  // namespace

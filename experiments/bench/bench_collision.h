@@ -1,7 +1,8 @@
 #pragma once
 // `kds bench collision`: the detector that users get beside what they would use otherwise, in one process: a
 // cell list on single scenes, a Verlet list from frame to frame, and the trees of FCL and Bullet where this
-// program was built with them. Frames are distinct, and what one detector sees the others see in turn.
+// program was built with them. Frames are distinct, and what one detector sees the others see in turn. And
+// the times at which contacts begin and end, beside the cell list.
 
 #include <cstddef>
 #include <filesystem>

@@ -39,7 +39,8 @@ Json settings_json(const CollideOptions& options) {
           {"radius", options.input.radius},
           {"method", options.methods},
           {"pairs", name_of(options.pairs)},
-          {"apart", options.apart}};
+          {"apart", options.apart},
+          {"within", options.within}};
 }
 
 std::string file_names(const CollideOptions& options) {
@@ -55,8 +56,9 @@ CollideTask task_of(const CollideOptions& options, const CollideFrames& frames) 
   for (const Method& method : collision_methods())
     if (std::find(options.methods.begin(), options.methods.end(), method.name) != options.methods.end())
       task.methods.push_back(&method);
-  task.asked = {frames.necklaces(), options.pairs != WhichPairs::between, options.apart,
-                options.pairs != WhichPairs::within};
+  task.query = {{frames.necklaces(), options.pairs != WhichPairs::between, options.apart,
+                 options.pairs != WhichPairs::within},
+                options.within};
   task.leave_out_refusing = options.all_methods;
   return task;
 }

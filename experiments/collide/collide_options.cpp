@@ -1,6 +1,7 @@
 #include "experiments/collide/collide_options.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "experiments/collide/methods.h"
 #include "experiments/output/text.h"
@@ -13,6 +14,8 @@ namespace {
 constexpr std::array kFurtherOptions{
     OptionSpec{"--pairs", "NAME", "of beads within a necklace, between two, or all (default: all)"},
     OptionSpec{"--apart", "K", "only beads at least so many apart along their necklace (default: 2)"},
+    OptionSpec{"--within", "X",
+               "pairs whose surfaces are at most so far apart (default: 0, those that meet)"},
     OptionSpec{
         "--out", "DIR",
         "write collide.json, collide.csv, pairs.csv, frames.csv and report.html there (default: none)"},
@@ -45,6 +48,7 @@ const CommandSpec& command() {
       options,
       "kds collide 1l2y.pdb --select all --radius element --apart 4\n"
       "kds collide a.xyz b.xyz --pairs between --method wrapped,layered --json -\n"
+      "kds collide 1l2y.pdb --radius 0.1 --within 4.5 --apart 9 --method auto\n"
       "kds collide villin.dcd --topology villin.pdb --radius 1.9 --apart 5 --out report"};
   return spec;
 }
@@ -76,6 +80,8 @@ CollideOptions parse_collide_options(const Arguments& arguments) {
   options.pairs = chosen<WhichPairs>(parsed, "--pairs", which_pairs_names).value_or(options.pairs);
   if (const auto text = parsed.value("--apart"))
     options.apart = static_cast<BeadId>(parse_whole_number("--apart", *text, 1, 1'000'000'000));
+  if (const auto text = parsed.value("--within"))
+    options.within = parse_real("--within", *text, {0, std::numeric_limits<double>::max()});
   options.destinations = {path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
   return options;
 }

@@ -27,6 +27,7 @@ struct CollideOptions {
   bool all_methods = true;           ///< nobody has named them
   WhichPairs pairs = WhichPairs::all;
   BeadId apart = 2;
+  double within = 0;  ///< pairs at most so far apart are looked for
   Destinations destinations;
 };
 

@@ -114,7 +114,7 @@ std::string collide_table(const CollideReport& report) {
 std::string collide_page(const CollideReport& report, const std::string& input, const std::string& map) {
   constexpr std::string_view words =
       "All methods decide exactly, and have found the same. <em>Pairs</em>: beads that have a point in "
-      "common, "
+      "common, or whose surfaces are at most as far apart as <code>--within</code> says, "
       "of all frames together; <em>family</em>: pairs of spheres of a hierarchy that prove all others "
       "disjoint, for the power diagram its edges; <em>seconds</em>: to find the pairs in all frames. The "
       "distance of two beads is that of their surfaces, below zero where they overlap.";

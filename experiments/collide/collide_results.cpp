@@ -25,8 +25,7 @@ void check_collide_destinations(const Destinations& destinations, TakenPaths tak
   check_table_destinations(destinations, "collide", taken);
   if (!destinations.out) return;
   check_directory(*destinations.out, "--out", {kFurtherFiles[0], kFurtherFiles[1], kFurtherFiles[2]});
-  refuse_page_beside(*destinations.out, "summary.json", "kds run");
-  refuse_page_beside(*destinations.out, "update.json", "kds update");
+  refuse_page_beside_others(*destinations.out, "collide.json");
 }
 
 void CollideResults::begin(const CollideFrames& scene) {

@@ -53,7 +53,7 @@ class Comparison {
  private:
   void make_detectors(const Balls<Dimension>& balls, const std::function<void(const std::string&)>& warn) {
     for (const Method* method : task_.methods) {
-      auto detector = method->make<Dimension>(task_.asked);
+      auto detector = method->make<Dimension>(task_.query);
       if (const auto refusal = detector->refusal(balls)) {
         if (!task_.leave_out_refusing)
           throw InputError(fmt::format("--method {}: {}", method->name, *refusal));

@@ -47,7 +47,7 @@ using PairsOfFrame = std::function<void(const FrameRead&, std::span<const BeadPa
 
 struct CollideTask {
   std::vector<const Method*> methods;
-  PairsAsked asked;
+  CollisionQuery query;
   bool leave_out_refusing = false;  ///< a method that cannot answer goes, with a warning
 };
 

@@ -12,6 +12,11 @@
 
 namespace kds {
 
+struct CollisionQuery {
+  PairsAsked asked;
+  double distance = 0;  ///< pairs at most so far apart collide, as it is called in what follows
+};
+
 /// What a method tells of one frame: all methods the same, where they tell it.
 struct Detection {
   bool collide = false;

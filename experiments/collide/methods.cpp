@@ -1,5 +1,7 @@
 #include "experiments/collide/methods.h"
 
+#include <fmt/format.h>
+
 #include <array>
 
 #include "structures/collision/auto_detector.h"
@@ -15,36 +17,42 @@ namespace {
 template <int Dimension>
 class BruteForce final : public Detector<Dimension> {
  public:
-  explicit BruteForce(const PairsAsked& asked) : asked_(asked) {}
+  explicit BruteForce(const CollisionQuery& query) : query_(query) {}
+  std::optional<std::string> refusal(const Balls<Dimension>& balls) const override {
+    constexpr std::size_t most_beads = 300'000;  // half a minute a frame
+    if (balls.size() <= most_beads) return std::nullopt;
+    return fmt::format("looks at all pairs of {} beads; expected {} beads or fewer", balls.size(),
+                       most_beads);
+  }
   void detect(const Balls<Dimension>& balls, Detection& found) override {
-    found.pairs = pairs_by_force(balls, asked_);
+    found.pairs = pairs_by_force(balls, query_.asked, query_.distance);
     found.collide = !found.pairs->empty();
   }
   void find_closest(const Balls<Dimension>& balls, Detection& found) override {
-    found.closest = closest_pair_by_force(balls, asked_);
+    found.closest = closest_pair_by_force(balls, query_.asked);
   }
 
  private:
-  PairsAsked asked_;
+  CollisionQuery query_;
 };
 
 template <int Dimension, Hierarchy kind>
 class BySpheres : public Detector<Dimension> {
  public:
-  explicit BySpheres(const PairsAsked& asked) : asked_(asked), tree_(kind, asked.necklaces) {}
+  explicit BySpheres(const CollisionQuery& query) : query_(query), tree_(kind, query.asked.necklaces) {}
   void detect(const Balls<Dimension>& balls, Detection& found) override {
     tree_.build(balls);
-    PairsFound result = find_pairs(tree_, asked_);
+    PairsFound result = find_pairs(tree_, query_.asked, query_.distance);
     found.collide = !result.pairs.empty();
     found.pairs = std::move(result.pairs);
     found.family = result.family;
   }
   void find_closest(const Balls<Dimension>& balls, Detection& found) override {
-    found.closest = find_closest_pair(tree_, balls, asked_);
+    found.closest = find_closest_pair(tree_, balls, query_.asked);
   }
 
  private:
-  PairsAsked asked_;
+  CollisionQuery query_;
   SphereTree<Dimension> tree_;
 };
 template <int Dimension>
@@ -55,39 +63,54 @@ using Layered = BySpheres<Dimension, Hierarchy::layered>;
 template <int Dimension>
 class ByDiagram final : public Detector<Dimension> {
  public:
-  explicit ByDiagram(const PairsAsked& asked) : asked_(asked) {}
+  explicit ByDiagram(const CollisionQuery& query) : query_(query) {}
   std::optional<std::string> refusal(const Balls<Dimension>& balls) const override {
-    return diagram_refusal(balls, asked_);
+    if (query_.distance > 0) return "the power diagram tells of beads that meet; expected --within 0";
+    return diagram_refusal(balls, query_.asked);
   }
   void detect(const Balls<Dimension>& balls, Detection& found) override {
-    DiagramCollision result = collide_by_diagram(balls, asked_);
+    DiagramCollision result = collide_by_diagram(balls, query_.asked);
     found = {result.collide, std::move(result.pairs), result.closest, result.edges};
   }
 
  private:
-  PairsAsked asked_;
+  CollisionQuery query_;
 };
 
-template <int Dimension, template <int> class Finder>
-class PairsOnly : public Detector<Dimension> {
+template <int Dimension>
+class Cells final : public Detector<Dimension> {
  public:
-  explicit PairsOnly(const PairsAsked& asked) : finder_(asked) {}
+  explicit Cells(const CollisionQuery& query) : distance_(query.distance), cells_(query.asked) {}
   void detect(const Balls<Dimension>& balls, Detection& found) override {
-    found.pairs = finder_.pairs(balls);
+    found.pairs = cells_.pairs_within(balls, distance_);
     found.collide = !found.pairs->empty();
   }
 
  private:
-  Finder<Dimension> finder_;
+  double distance_;
+  CellList<Dimension> cells_;
 };
+
 template <int Dimension>
-using Cells = PairsOnly<Dimension, CellList>;
-template <int Dimension>
-using Auto = PairsOnly<Dimension, AutoDetector>;
+class Auto final : public Detector<Dimension> {
+ public:
+  explicit Auto(const CollisionQuery& query) : distance_(query.distance), detector_(query.asked) {}
+  void detect(const Balls<Dimension>& balls, Detection& found) override {
+    found.pairs = distance_ > 0 ? detector_.pairs_within(balls, distance_) : detector_.pairs(balls);
+    found.collide = !found.pairs->empty();
+  }
+  void find_closest(const Balls<Dimension>& balls, Detection& found) override {
+    found.closest = detector_.closest_pair(balls);
+  }
+
+ private:
+  double distance_;
+  AutoDetector<Dimension> detector_;
+};
 
 template <int Dimension, template <int> class Made>
-std::unique_ptr<Detector<Dimension>> make(const PairsAsked& asked) {
-  return std::make_unique<Made<Dimension>>(asked);
+std::unique_ptr<Detector<Dimension>> make(const CollisionQuery& query) {
+  return std::make_unique<Made<Dimension>>(query);
 }
 template <template <int> class Made>
 constexpr Method method(std::string_view name, std::string_view about) {

@@ -12,15 +12,15 @@ namespace kds {
 struct Method {
   std::string_view name;
   std::string_view about;  ///< a few words
-  std::unique_ptr<Detector<2>> (*in_plane)(const PairsAsked&);
-  std::unique_ptr<Detector<3>> (*in_space)(const PairsAsked&);
+  std::unique_ptr<Detector<2>> (*in_plane)(const CollisionQuery&);
+  std::unique_ptr<Detector<3>> (*in_space)(const CollisionQuery&);
 
   template <int Dimension>
-  [[nodiscard]] std::unique_ptr<Detector<Dimension>> make(const PairsAsked& asked) const {
+  [[nodiscard]] std::unique_ptr<Detector<Dimension>> make(const CollisionQuery& query) const {
     if constexpr (Dimension == 2) {
-      return in_plane(asked);
+      return in_plane(query);
     } else {
-      return in_space(asked);
+      return in_space(query);
     }
   }
 };

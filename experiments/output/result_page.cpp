@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -18,14 +20,20 @@ std::exception_ptr add_page(StagedFiles& files, const std::function<std::string(
   }
 }
 
-void refuse_page_beside(const std::filesystem::path& directory, std::string_view file,
-                        std::string_view command) {
-  std::error_code ignored;
-  if (std::filesystem::exists(directory / file, ignored))
-    throw InputError(
-        fmt::format("--out {}: holds the result of {} ({}), whose report.html this one would replace; "
-                    "give another directory",
-                    directory.string(), command, file));
+void refuse_page_beside_others(const std::filesystem::path& directory, std::string_view own) {
+  struct Result {
+    std::string_view file, command;
+  };
+  constexpr std::array results{Result{"summary.json", "kds run"}, Result{"update.json", "kds update"},
+                               Result{"collide.json", "kds collide"}, Result{"missed.json", "kds missed"}};
+  for (const auto& [file, command] : results) {
+    std::error_code ignored;
+    if (file != own && std::filesystem::exists(directory / file, ignored))
+      throw InputError(
+          fmt::format("--out {}: holds the result of {} ({}), whose report.html this one would replace; "
+                      "give another directory",
+                      directory.string(), command, file));
+  }
 }
 
 }  // namespace kds

@@ -17,9 +17,9 @@ namespace kds {
 /// figures are to be safe first.
 [[nodiscard]] std::exception_ptr add_page(StagedFiles& files, const std::function<std::string()>& make);
 
-/// Throws InputError where the directory holds this file, of another command's result, whose page would be
-/// lost.
-void refuse_page_beside(const std::filesystem::path& directory, std::string_view file,
-                        std::string_view command);
+/// Throws InputError where the directory holds the result of another command that writes a page, which would
+/// be lost. `own` is the file by which the result to come is known: summary.json, of `kds run`, or another of
+/// those listed with it.
+void refuse_page_beside_others(const std::filesystem::path& directory, std::string_view own);
 
 }  // namespace kds

@@ -40,6 +40,18 @@ std::vector<Trajectory> read_necklaces(const InputOptions& options,
   return necklaces;
 }
 
+Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,
+                     const std::function<void(const std::string&)>& warn) {
+  std::vector<NecklaceStream> files;
+  for (std::size_t i = 0; i < input.inputs.size(); ++i)
+    files.emplace_back(input.inputs[i], reading_of(input, i));
+  auto frames = std::make_unique<SceneStream>(std::move(files));
+  const SceneSurvey survey = frames->survey(input.radius == "auto", warn);
+  std::vector<double> radii = bead_radii(input.radius, survey.necklaces, survey.bonds);
+  for (double& radius : radii) radius *= radius_factor;
+  return {std::move(frames), survey, std::move(radii), motion};
+}
+
 Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn) {
   const InputOptions input{options.inputs, options.reading, options.radius};
   if (std::optional<Instance> instance = read_lone_instance(input)) {
@@ -48,13 +60,7 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
           fmt::format("--motion: has no meaning for an instance file ({})", options.inputs.front().string()));
     return Scene(std::move(*instance));
   }
-  std::vector<NecklaceStream> files;
-  for (std::size_t i = 0; i < options.inputs.size(); ++i)
-    files.emplace_back(options.inputs[i], reading_of(input, i));
-  auto frames = std::make_unique<SceneStream>(std::move(files));
-  const SceneSurvey survey = frames->survey(options.radius == "auto", warn);
-  std::vector<double> radii = bead_radii(options.radius, survey.necklaces, survey.bonds);
-  return {std::move(frames), survey, std::move(radii), options.motion};
+  return load_necklaces(input, options.motion, 1, warn);
 }
 
 std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& scene, AuditMode audits) {

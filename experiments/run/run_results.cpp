@@ -25,8 +25,7 @@ void check_destinations(const Destinations& destinations) {
   if (!destinations.out) return;
   require_gnuplot("--out");
   check_directory(*destinations.out, "--out", {kFiles[0], kFiles[1], kFiles[2], kFiles[3]});
-  refuse_page_beside(*destinations.out, "update.json", "kds update");
-  refuse_page_beside(*destinations.out, "collide.json", "kds collide");
+  refuse_page_beside_others(*destinations.out, "summary.json");
 }
 
 void RunResults::begin(const Scene& scene, Session& session) {

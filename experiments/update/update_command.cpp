@@ -68,8 +68,7 @@ int update_command(const Arguments& arguments) {
   check_table_destinations(destinations, kName, taken);
   if (options.out) {
     check_directory(*options.out, "--out", {"report.html"});
-    refuse_page_beside(*options.out, "summary.json", "kds run");
-    refuse_page_beside(*options.out, "collide.json", "kds collide");
+    refuse_page_beside_others(*options.out, "update.json");
   }
 
   ProgressBar bar(!options.quiet);

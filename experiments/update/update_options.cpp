@@ -54,16 +54,6 @@ std::vector<std::string> parse_techniques(const std::string& list) {
   return ordered;
 }
 
-std::vector<std::size_t> parse_strides(const std::string& list) {
-  std::vector<std::size_t> strides;
-  for (const std::string& text : split(list, ','))
-    strides.push_back(parse_whole_number("--strides", text, 1, 1'000'000'000));
-  std::sort(strides.begin(), strides.end());
-  if (const auto twice = std::adjacent_find(strides.begin(), strides.end()); twice != strides.end())
-    throw InputError(fmt::format("--strides: {} is listed twice", *twice));
-  return strides;
-}
-
 }  // namespace
 
 UpdateOptions parse_update_options(const Arguments& arguments) {
@@ -71,7 +61,7 @@ UpdateOptions parse_update_options(const Arguments& arguments) {
   UpdateOptions options;
   options.input = parse_input_options(parsed, kCommand.name);
   if (const auto list = parsed.value("--techniques")) options.techniques = parse_techniques(*list);
-  if (const auto list = parsed.value("--strides")) options.strides = parse_strides(*list);
+  if (const auto list = parsed.value("--strides")) options.strides = parse_strides("--strides", *list);
   if (const auto text = parsed.value("--rounds"))
     options.rounds = parse_whole_number("--rounds", *text, 1, 1000);
   options.audit =

@@ -48,7 +48,15 @@ class FloatLanesIn {
 
   FloatLanesIn() {}  // left as it is: arrays of lanes are filled right away
   [[gnu::always_inline]] FloatLanesIn(Vector vector) : v(vector) {}
-  [[gnu::always_inline]] explicit FloatLanesIn(float all) : v(all - Vector{}) {}
+  /// By way of four: g++ 12 fills eight one by one in a function compiled for several targets.
+  [[gnu::always_inline]] explicit FloatLanesIn(float all) {
+    const Row four{all, all, all, all};
+    if constexpr (width == 4) {
+      v = four;
+    } else {
+      v = __builtin_shufflevector(four, four, 0, 1, 2, 3, 4, 5, 6, 7);
+    }
+  }
 
   [[gnu::always_inline]] FloatLanesIn& operator+=(const FloatLanesIn& o) {
     v += o.v;

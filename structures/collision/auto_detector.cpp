@@ -21,7 +21,7 @@ constexpr std::size_t most_pairs_a_bead = 4, most_kept_a_bead = 32;
 
 template <int Dimension>
 AutoDetector<Dimension>::AutoDetector(PairsAsked asked, std::optional<double> speed, VectorTarget target)
-    : tree_(std::move(asked), std::nullopt, target), speed_(speed) {
+    : target_(target), tree_(std::move(asked), std::nullopt, target), speed_(speed) {
   if (speed_ && !(*speed_ >= 0 && std::isfinite(*speed_)))
     throw std::invalid_argument("expected a finite speed, not negative");
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "structures/collision/block_tree.h"
+#include "structures/collision/distance_queries.h"
 #include "structures/collision/kept_pairs.h"
 #include "structures/collision/pairs_asked.h"
 
@@ -31,6 +32,14 @@ class AutoDetector {
   /// All pairs asked about that meet, in order. Valid until the next call. Radii may change between calls
   /// only without a declared speed.
   const std::vector<BeadPair>& pairs(const Balls<Dimension>& balls);
+
+  /// Distance queries (distance_queries.h). They begin with each scene anew, and cost memory once asked.
+  [[nodiscard]] std::optional<ClosestPair> closest_pair(const Balls<Dimension>& balls) {
+    return distances().closest_pair(balls);
+  }
+  const std::vector<BeadPair>& pairs_within(const Balls<Dimension>& balls, double distance) {
+    return distances().pairs_within(balls, distance);
+  }
 
   /// What comes next is another scene.
   void forget();
@@ -53,7 +62,12 @@ class AutoDetector {
   void widen_skin(const Balls<Dimension>& balls, double wanted);
   [[nodiscard]] bool same_radii(const Balls<Dimension>& balls) const;
   void measure_scene(const Balls<Dimension>& balls);
+  DistanceQueries<Dimension>& distances() {
+    if (!distances_) distances_.emplace(tree_.asked(), target_);
+    return *distances_;
+  }
 
+  VectorTarget target_;
   BlockTree<Dimension> tree_;
   KeptPairs<Dimension> kept_;
   std::optional<double> speed_;
@@ -65,6 +79,7 @@ class AutoDetector {
   std::uint64_t until_look_ = 0, look_every_ = 1;  // frames from scratch before motion is measured again
   std::vector<double> radii_;                      // that kept pairs are of; one where all are equal
   std::vector<BeadPair> pairs_;
+  std::optional<DistanceQueries<Dimension>> distances_;  // with a tree of its own: the other is of a frame
   Counts counts_;
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "structures/collision/pairs_asked.h"
+#include "structures/collision/separation.h"
 #include "structures/necklace/ball_distance.h"
 #include "structures/necklace/balls.h"
 
@@ -36,6 +37,13 @@ template <int Dimension>
     if (square * (1 + 0x1p-48) < limit) return true;
   }
   return detail::balls_meet_exactly(balls, a, b);
+}
+
+/// At most so far apart (finite, not negative). Exact.
+template <int Dimension>
+[[nodiscard]] bool balls_within(const Balls<Dimension>& balls, BeadId a, BeadId b, double distance) {
+  return within<Dimension>(detail::center_of(balls, a), detail::center_of(balls, b), balls.radius(a),
+                           balls.radius(b), distance);
 }
 
 /// By first bead, then by second. No pair twice.

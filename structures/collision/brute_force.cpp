@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "motions/base/floating_point_guard.h"
-#include "structures/collision/separation.h"
+#include "structures/collision/balls_meet.h"
 #include "structures/enclosing_sphere/scan_targets.h"
 #include "structures/enclosing_sphere/sphere_scan.h"
 
@@ -69,12 +69,6 @@ void visit_near(const Balls<Dimension>& balls, const PairsAsked& asked, const Di
   }
 }
 
-template <int Dimension>
-bool are_within(const Balls<Dimension>& balls, BeadId i, BeadId j, double distance) {
-  return within<Dimension>(detail::center_of(balls, i), detail::center_of(balls, j), balls.radius(i),
-                           balls.radius(j), distance);
-}
-
 }  // namespace
 
 template <int Dimension>
@@ -84,7 +78,7 @@ std::vector<BeadPair> pairs_by_force(const Balls<Dimension>& balls, const PairsA
   visit_near(
       balls, asked, [distance] { return distance; },
       [&](BeadId i, BeadId j) {
-        if (are_within(balls, i, j, distance)) pairs.push_back({i, j});
+        if (balls_within(balls, i, j, distance)) pairs.push_back({i, j});
         return true;
       });
   return pairs;
@@ -97,7 +91,7 @@ std::optional<BeadPair> first_pair_by_force(const Balls<Dimension>& balls, const
   visit_near(
       balls, asked, [distance] { return distance; },
       [&](BeadId i, BeadId j) {
-        if (are_within(balls, i, j, distance)) first = BeadPair{i, j};
+        if (balls_within(balls, i, j, distance)) first = BeadPair{i, j};
         return !first;
       });
   return first;

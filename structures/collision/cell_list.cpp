@@ -199,11 +199,14 @@ std::span<const BeadPair> CellList<Dimension>::near_pairs(const Balls<Dimension>
 }
 
 template <int Dimension>
-const std::vector<BeadPair>& CellList<Dimension>::pairs(const Balls<Dimension>& balls) {
+const std::vector<BeadPair>& CellList<Dimension>::pairs_within(const Balls<Dimension>& balls,
+                                                               double distance) {
   const FloatingPointGuard to_nearest;
   pairs_.clear();
-  for (const BeadPair& pair : near_pairs(balls, 0))
-    if (balls_meet(balls, pair.first, pair.second)) pairs_.push_back(pair);
+  for (const BeadPair& pair : near_pairs(balls, distance))
+    if (distance == 0 ? balls_meet(balls, pair.first, pair.second)
+                      : balls_within(balls, pair.first, pair.second, distance))
+      pairs_.push_back(pair);
   sorter_.sort(pairs_, balls.size());
   return pairs_;
 }

@@ -30,7 +30,9 @@ class CellList {
   explicit CellList(PairsAsked asked);
 
   /// All pairs asked about that meet, in order. Valid until the next call.
-  const std::vector<BeadPair>& pairs(const Balls<Dimension>& balls);
+  const std::vector<BeadPair>& pairs(const Balls<Dimension>& balls) { return pairs_within(balls, 0); }
+  /// The same of pairs that are at most so far apart (finite, not negative).
+  const std::vector<BeadPair>& pairs_within(const Balls<Dimension>& balls, double distance);
   /// All pairs asked about that are at most `gap` apart (finite, not negative), and some that are little
   /// farther, in no order.
   std::span<const BeadPair> near_pairs(const Balls<Dimension>& balls, double gap);

@@ -1,6 +1,6 @@
 #include "kds/seconds.h"
+#include "structures/collision/cell_list.h"
 #include "structures/contacts/contacts.h"
-#include "structures/contacts/static_contacts.h"
 #include "structures/session/own_structures.h"
 
 namespace kds {
@@ -12,7 +12,7 @@ class ContactsInRun final : public RunningStructure {
  public:
   ContactsInRun(Simulator& simulator, const Scene& scene, const MotionRef<Dimension>& motion,
                 const PairsAsked& asked)
-      : scene_(scene), asked_(asked), contacts_(simulator, motion, asked) {}
+      : scene_(scene), cells_(asked), contacts_(simulator, motion, asked) {}
 
   [[nodiscard]] KineticStructure& kinetic() override { return contacts_; }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override { return {}; }
@@ -23,13 +23,13 @@ class ContactsInRun final : public RunningStructure {
     return changes;
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
-    const Eigen::Matrix3Xd centers = scene_.centers(frame);
-    return seconds_of([&] { (void)contacts_of(centers, scene_.radii(), asked_); }).clock;
+    const Balls<Dimension> balls(scene_.centers(frame), scene_.radii());
+    return seconds_of([&] { (void)cells_.pairs(balls); }).clock;
   }
 
  private:
   const Scene& scene_;
-  PairsAsked asked_;
+  mutable CellList<Dimension> cells_;  // what it finds depends on nothing that was before
   Contacts<Dimension> contacts_;
 };
 

@@ -93,7 +93,7 @@ TEST(Collide, RowsOfAllMethodsAgree) {
   }
   EXPECT_EQ(methods.size(), collision_methods().size());
   EXPECT_THAT(methods, IsSupersetOf({"cells", "auto"}));
-  EXPECT_THAT(telling, ElementsAre("brute", "wrapped", "layered", "power"));
+  EXPECT_THAT(telling, ElementsAre("brute", "wrapped", "layered", "power", "auto"));
   ASSERT_EQ(json["frames"].size(), 3U);
   EXPECT_EQ(json["frames"][0]["pairs"], 1);
   EXPECT_EQ(json["frames"][0]["closest"]["distance"], 0);
@@ -118,6 +118,21 @@ TEST(Collide, InThePlaneAndBetweenTwo) {
   json = Json::parse(run.out);
   ASSERT_EQ(json["rows"].size(), collision_methods().size());
   for (const Json& row : json["rows"]) EXPECT_EQ(row["pairs"], 4) << row;  // beads of a touch
+}
+
+TEST(Collide, PairsWithinADistance) {
+  const ScratchDirectory directory;
+  const std::string square = opening_square(directory);
+  for (const auto& [within, pairs] : {std::pair("0.2", 2), {"0.25", 3}, {"0.99", 8}, {"1", 9}}) {
+    const ProgramRun run =
+        run_program({"collide", square, "--radius", "1", "--json", "-", "--within", within});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("--method power is left out: the power diagram tells of beads that meet"));
+    const Json json = Json::parse(run.out);
+    EXPECT_EQ(json["settings"]["within"], std::stod(within));
+    ASSERT_EQ(json["rows"].size(), collision_methods().size() - 1);
+    for (const Json& row : json["rows"]) EXPECT_EQ(row["pairs"], pairs) << within << ": " << row;
+  }
 }
 
 Json row_of(const Json& json, const std::string& method) {
@@ -178,6 +193,9 @@ TEST(Collide, BadInputIsOneLine) {
       {{"collide", a, two, "--radius", "1"}, "frame counts"},
       {{"collide", a, "--radius", "-1"}, "--radius"},
       {{"collide", a, "--apart", "two"}, "--apart"},
+      {{"collide", a, "--within", "-1"}, "--within"},
+      {{"collide", a, "--within", "inf"}, "--within"},
+      {{"collide", a, "--within", "1", "--method", "power", "--radius", "1"}, "--method power"},
       {{"collide", a, "--method", "cubes"}, "--method"},
       {{"collide", a, "--pairs", "between", "--radius", "1"}, "--pairs between"},
       {{"collide", a, a, "--pairs", "within", "--method", "power", "--radius", "1"}, "--method power"},
@@ -215,7 +233,7 @@ class Wrong final : public Detector<Dimension> {
   }
 };
 template <int Dimension>
-std::unique_ptr<Detector<Dimension>> make_wrong(const PairsAsked&) {
+std::unique_ptr<Detector<Dimension>> make_wrong(const CollisionQuery&) {
   return std::make_unique<Wrong<Dimension>>();
 }
 
@@ -227,7 +245,7 @@ TEST(Collide, MethodsThatDisagreeAreAnInternalFailure) {
   const auto ignore = [](const std::string&) {};
   CollideFrames frames(input, ignore);
   const Method wrong{"wrong", "", make_wrong<2>, make_wrong<3>};
-  CollideTask task{{&collision_methods().front(), &wrong}, {frames.necklaces(), true, 2, true}};
+  CollideTask task{{&collision_methods().front(), &wrong}, {{frames.necklaces(), true, 2, true}}};
   try {
     static_cast<void>(compare_detectors(
         frames, task, [](const FrameRead&, std::span<const BeadPair>) {}, ignore,

@@ -8,10 +8,10 @@
 #include <set>
 
 #include "motions/curves/positions.h"
-#include "structures/contacts/static_contacts.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/contact_events.h"
+#include "tests/support/judges/static_contacts.h"
 #include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
 

@@ -1,0 +1,157 @@
+#include "experiments/collide/missed_command.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "experiments/collide/missed_report.h"
+#include "experiments/output/gnuplot.h"
+#include "experiments/output/output_files.h"
+#include "experiments/output/result_page.h"
+#include "experiments/output/text.h"
+#include "experiments/program/option_names.h"
+#include "experiments/program/option_values.h"
+#include "experiments/program/progress_bar.h"
+#include "experiments/program/table_results.h"
+#include "experiments/program/warnings.h"
+#include "experiments/run/load_scene.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+namespace {
+
+constexpr const char* kName = "missed";
+
+constexpr std::array kMissedOptions{
+    OptionSpec{"--strides", "LIST",
+               "every how many frames beads are looked at (default: 1,2,4,8,16,32,64, as far as that is two "
+               "frames or more)"},
+    OptionSpec{"--factors", "LIST",
+               "radii are those of --radius times this, a run each; where beads of a chain just touch, those "
+               "that are no neighbours meet from 2.2 to 2.5 on (default: 1)"},
+    OptionSpec{
+        "--apart", "K",
+        "of beads of one chain, those at least K apart along it; with factors above 2 others are always "
+        "near, and 5 leaves those out (default: 2)"},
+    OptionSpec{"--motion", "NAME", "linear or hermite (default: linear)"},
+    OptionSpec{"--out", "DIR", "write missed.json, missed.csv and report.html there (default: none)"},
+    OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
+    OptionSpec{"--quiet", "", "no table, no progress bar"},
+};
+constexpr auto kOptions = joined(kInputOptions, kMissedOptions);
+
+constexpr CommandSpec kCommand{
+    "kds missed",
+    "Which share of contacts, whose times are exact, is missed by looking at every stride-th frame only.",
+    kInputOperand,
+    "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
+    kOptions,
+    "kds missed villin.dcd --topology villin.pdb --factors 2.2,2.5 --apart 5 --out report\n"
+    "kds missed a.xyz b.xyz --radius 1.9 --strides 1,10,100 --json -"};
+
+std::vector<double> parse_factors(const std::string& list) {
+  std::vector<double> factors;
+  for (const std::string& text : split(list, ','))
+    factors.push_back(parse_real("--factors", text, {0, 1e6, true}));
+  std::sort(factors.begin(), factors.end());
+  if (const auto twice = std::adjacent_find(factors.begin(), factors.end()); twice != factors.end())
+    throw InputError(fmt::format("--factors: {} is listed twice", *twice));
+  return factors;
+}
+
+Json input_json(const MissedTask& task, const MissedInput& input) {
+  Json files = Json::array();
+  for (const auto& file : task.input.inputs) files.push_back(file.string());
+  return {{"files", files},
+          {"beads", input.beads},
+          {"necklaces", input.necklaces},
+          {"frames", input.frames},
+          {"dimension", input.dimension},
+          {"radius_min", input.radius_min},
+          {"radius_max", input.radius_max}};
+}
+
+Json settings_json(const MissedTask& task) {
+  const ReadOptions& reading = task.input.reading;
+  return {{"topology", reading.topology ? reading.topology->string() : ""},
+          {"select", name_of(reading.selection)},
+          {"chain", reading.chain.value_or("")},
+          {"frames", name_of(reading.frames)},
+          {"radius", task.input.radius},
+          {"factors", task.factors},
+          {"apart", task.apart},
+          {"motion", name_of(task.motion)}};
+}
+
+std::string file_names(const MissedTask& task) {
+  std::vector<std::string> names;
+  for (const auto& input : task.input.inputs) names.push_back(input.filename().string());
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void check_destinations(const MissedOptions& options) {
+  const Destinations& destinations = options.destinations;
+  TakenPaths taken;
+  taken.read(options.task.input);
+  if (destinations.out) {
+    require_gnuplot("--out");
+    taken.write("--out", *destinations.out / "report.html");
+  }
+  check_table_destinations(destinations, kName, taken);
+  if (!destinations.out) return;
+  check_directory(*destinations.out, "--out", {"report.html"});
+  refuse_page_beside_others(*destinations.out, "missed.json");
+}
+
+}  // namespace
+
+MissedOptions parse_missed_options(const Arguments& arguments) {
+  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  MissedOptions options;
+  MissedTask& task = options.task;
+  task.input = parse_input_options(parsed, kCommand.name);
+  if (const auto list = parsed.value("--strides")) task.strides = parse_strides("--strides", *list);
+  if (const auto list = parsed.value("--factors")) task.factors = parse_factors(*list);
+  if (const auto text = parsed.value("--apart"))
+    task.apart = static_cast<BeadId>(parse_whole_number("--apart", *text, 1, 1'000'000'000));
+  // Lifted motion has no radii between frames.
+  task.motion =
+      chosen<FrameMotion>(parsed, "--motion", std::span(frame_motion_names).first(2)).value_or(task.motion);
+  options.destinations = {path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
+  return options;
+}
+
+int missed_command(const Arguments& arguments) {
+  const MissedOptions options = parse_missed_options(arguments);
+  const MissedTask& task = options.task;
+  check_inputs_exist(task.input);
+  check_destinations(options);
+
+  ProgressBar bar(!options.destinations.quiet);
+  if (const auto instance = read_lone_instance(task.input))
+    throw InputError(instance->file + ": an instance file has points, no balls; expected a trajectory");
+  Json warnings = Json::array();
+  HeldWarnings held;
+  const MissedReport report = count_missed(
+      task, held.hold(), [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
+  bar.erase();
+  held.release([&](const std::string& warning) {
+    warnings.push_back(warning);
+    print_warning(bar, warning);
+  });
+
+  Json json;
+  json["input"] = input_json(task, report.input);
+  json["settings"] = settings_json(task);
+  json["rows"] = missed_rows_json(report.rows);
+  json["warnings"] = warnings;
+  add_provenance(json);
+  deliver_table(options.destinations, kName,
+                {text_of(json), missed_csv(report.rows), missed_table(report.rows),
+                 [&] { return missed_page(report.rows, file_names(task)); }});
+  return 0;
+}
+
+}  // namespace kds

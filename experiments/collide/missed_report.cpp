@@ -1,0 +1,93 @@
+#include "experiments/collide/missed_report.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "experiments/output/html_page.h"
+#include "experiments/output/svg_plot.h"
+#include "experiments/output/text.h"
+
+namespace kds {
+
+namespace {
+
+/// None of no contacts.
+std::optional<double> missed_fraction(const MissedRow& row) {
+  if (row.contacts == 0) return std::nullopt;
+  return static_cast<double>(row.missed()) / static_cast<double>(row.contacts);
+}
+
+/// A curve over strides for each factor that has contacts.
+std::string plot_of(std::span<const MissedRow> rows) {
+  LinePlot plot{"missed", "stride", "% of contacts missed", false, {}};
+  for (const MissedRow& row : rows) {
+    const auto fraction = missed_fraction(row);
+    if (!fraction) continue;
+    const std::string name = fmt::format("radii times {}", row.factor);
+    if (plot.curves.empty() || plot.curves.back().name != name) plot.curves.push_back({name, {}});
+    plot.curves.back().points.emplace_back(static_cast<double>(row.stride), 100 * *fraction);
+  }
+  const bool has_line = !plot.curves.empty() && plot.curves.front().points.size() > 1;
+  return has_line ? svg_plot(plot) : "";
+}
+
+}  // namespace
+
+Json missed_rows_json(std::span<const MissedRow> rows) {
+  Json json = Json::array();
+  for (const MissedRow& row : rows) {
+    const auto fraction = missed_fraction(row);
+    json.push_back({{"factor", row.factor},
+                    {"stride", row.stride},
+                    {"frames", row.frames},
+                    {"contacts", row.contacts},
+                    {"found", row.found},
+                    {"missed", row.missed()},
+                    {"missed_fraction", fraction ? Json(*fraction) : Json(nullptr)}});
+  }
+  return json;
+}
+
+std::string missed_csv(std::span<const MissedRow> rows) {
+  std::string text = "factor,stride,frames,contacts,found,missed,missed_fraction\n";
+  for (const MissedRow& row : rows) {
+    const auto fraction = missed_fraction(row);
+    text += fmt::format("{},{},{},{},{},{},{}\n", row.factor, row.stride, row.frames, row.contacts, row.found,
+                        row.missed(), fraction ? fmt::format("{}", *fraction) : "");
+  }
+  return text;
+}
+
+std::string missed_table(std::span<const MissedRow> rows) {
+  std::string text = fmt::format("{:>12}{:>8}{:>8}{:>12}{:>12}{:>12}{:>10}\n", "radii times", "stride",
+                                 "frames", "contacts", "found", "missed", "missed %");
+  for (const MissedRow& row : rows) {
+    const auto fraction = missed_fraction(row);
+    text +=
+        fmt::format("{:>12}{:>8}{:>8}{:>12}{:>12}{:>12}{:>10}\n", row.factor, row.stride,
+                    with_thousands(row.frames), with_thousands(row.contacts), with_thousands(row.found),
+                    with_thousands(row.missed()), fraction ? fmt::format("{:.1f}", 100 * *fraction) : "-");
+  }
+  return text;
+}
+
+std::string missed_page(std::span<const MissedRow> rows, const std::string& input) {
+  constexpr std::string_view words =
+      "A <em>contact</em> of two beads goes from the moment at which their closed balls begin to meet to "
+      "that "
+      "at which they part, or is a touch; those that last at the first or the last frame count too. Their "
+      "times are exact for beads that move between frames as told. Of every <em>stride</em>-th frame "
+      "<em>frames</em> are looked at, the first among them: a contact is <em>found</em> if one of them lies "
+      "in "
+      "it, its ends included, and <em>missed</em> otherwise.";
+  std::string body;
+  if (const std::string plot = plot_of(rows); !plot.empty())
+    body += html_figure(plot, "Contacts that are missed by looking at every stride-th frame only.");
+  return html_page("kds missed: " + input,
+                   fmt::format("{}<h2>Figures</h2>\n<div class=\"scroll\"><pre>{}</pre></div>\n<h2>How to "
+                               "read this</h2>\n<p>{}</p>\n",
+                               body, html_escaped_lines(missed_table(rows)), words));
+}
+
+}  // namespace kds

@@ -1,0 +1,152 @@
+// `kds missed`: its options, what it counts and what it writes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "experiments/collide/missed_command.h"
+#include "motions/base/input_error.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::string refusal(const Arguments& arguments) {
+  try {
+    static_cast<void>(parse_missed_options(arguments));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(MissedOptions, DefaultsAndAll) {
+  const MissedTask plain = parse_missed_options({"a.pdb"}).task;
+  EXPECT_THAT(plain.strides, IsEmpty());
+  EXPECT_THAT(plain.factors, ElementsAre(1));
+  EXPECT_EQ(plain.apart, 2U);
+  EXPECT_EQ(plain.motion, FrameMotion::linear);
+  const MissedOptions all =
+      parse_missed_options({"a.xyz", "--strides", "8,1", "--factors", "2.5,2.2", "--apart", "5", "--motion",
+                            "hermite", "--out", "there", "--json", "-", "--quiet"});
+  EXPECT_THAT(all.task.strides, ElementsAre(1, 8));
+  EXPECT_THAT(all.task.factors, ElementsAre(2.2, 2.5));
+  EXPECT_EQ(all.task.apart, 5U);
+  EXPECT_EQ(all.task.motion, FrameMotion::hermite);
+  EXPECT_EQ(all.destinations.out, "there");
+  EXPECT_EQ(all.destinations.json, "-");
+  EXPECT_TRUE(all.destinations.quiet);
+}
+
+TEST(MissedOptions, RefusesWithTheOptionAndWhatItTakes) {
+  EXPECT_THAT(refusal({}), HasSubstr("kds missed needs at least one INPUT"));
+  EXPECT_THAT(refusal({"a.pdb", "--strides", "0"}), HasSubstr("--strides: '0' is not a whole number from 1"));
+  EXPECT_THAT(refusal({"a.pdb", "--strides", "2,2"}), HasSubstr("--strides: 2 is listed twice"));
+  EXPECT_THAT(refusal({"a.pdb", "--factors", "0"}), HasSubstr("--factors: '0' is not a number above 0"));
+  EXPECT_THAT(refusal({"a.pdb", "--factors", "nan"}), HasSubstr("--factors: 'nan'"));
+  EXPECT_THAT(refusal({"a.pdb", "--factors", "1,1.0"}), HasSubstr("--factors: 1 is listed twice"));
+  EXPECT_THAT(refusal({"a.pdb", "--motion", "lifted"}),
+              HasSubstr("--motion: 'lifted' is not one of linear, hermite"));
+}
+
+// A bead passes one that rests from x = -9 to 9, comes back for frames 2 and 3 and leaves.
+struct Passing {
+  ScratchDirectory directory;
+  std::string rests = directory.file("rests.xyz", "1\n\nC 0 0 0\n");
+  std::string passes =
+      directory.file("passes.xyz", "1\n\nC -9 0 0\n1\n\nC 9 0 0\n1\n\nC 0 0 0\n1\n\nC 0 0 0\n1\n\nC 9 0 0\n");
+
+  ProgramRun run(std::vector<std::string> options) const {
+    options.insert(options.begin(), {"missed", rests, passes, "--radius", "1"});
+    return run_program(options);
+  }
+};
+
+std::vector<int> column(const Json& rows, const char* name) {
+  std::vector<int> numbers;
+  for (const Json& row : rows) numbers.push_back(row[name]);
+  return numbers;
+}
+
+TEST(Missed, CountsContactsInWhichNoFrameLies) {
+  const Passing passing;
+  const ProgramRun run = passing.run({"--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["input"]["beads"], 2);
+  EXPECT_EQ(json["input"]["frames"], 5);
+  EXPECT_EQ(json["settings"]["apart"], 2);
+  EXPECT_TRUE(json.contains("machine") && json.contains("version"));
+  const Json& rows = json["rows"];
+  EXPECT_THAT(column(rows, "stride"), ElementsAre(1, 2, 4));  // 8 would look at one frame
+  EXPECT_THAT(column(rows, "frames"), ElementsAre(5, 3, 2));
+  EXPECT_THAT(column(rows, "contacts"), ElementsAre(2, 2, 2));
+  EXPECT_THAT(column(rows, "found"), ElementsAre(1, 1, 0));
+  EXPECT_THAT(column(rows, "missed"), ElementsAre(1, 1, 2));
+  EXPECT_EQ(rows[2]["missed_fraction"], 1.0);
+}
+
+TEST(Missed, ARunAFactor) {
+  const Passing passing;
+  const ProgramRun run = passing.run({"--json", "-", "--factors", "0.5,10", "--strides", "4"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["input"]["radius_max"], 1.0);
+  // Radii of 10 meet at all times.
+  EXPECT_THAT(column(json["rows"], "contacts"), ElementsAre(2, 1));
+  EXPECT_THAT(column(json["rows"], "found"), ElementsAre(0, 1));
+}
+
+TEST(Missed, WithoutContactsNoShare) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("two.xyz", "2\n\nC 0 0 0\nC 1 0 0\n2\n\nC 0 0 0\nC 1 0 1\n");
+  const ProgramRun run = run_program({"missed", path, "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  ASSERT_EQ(json["rows"].size(), 1U);
+  EXPECT_EQ(json["rows"][0]["contacts"], 0);
+  EXPECT_EQ(json["rows"][0]["missed_fraction"], nullptr);
+}
+
+TEST(Missed, RefusesInputsWithoutStepsOrBalls) {
+  const Passing passing;
+  ProgramRun run = passing.run({"--strides", "1,5"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("--strides: 5 looks at one of the 5 frames of"));
+  run = run_program({"missed", passing.rests, "--radius", "1"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("a run needs at least two frames, this input has 1"));
+  run = run_program({"missed", data_file("kinetic/d3_n20_linear.txt")});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("expected a trajectory"));
+  run = passing.run({"--factors", "1e6", "--radius", "1e305"});
+  EXPECT_EQ(run.code, 2);
+}
+
+TEST(Missed, WritesFilesAndAPage) {
+  const Passing passing;
+  const std::string out = (passing.directory / "report").string();
+  ProgramRun run = passing.run({"--out", out});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("missed %"));
+  EXPECT_THAT(
+      content_of(passing.directory / "report/missed.csv"),
+      testing::StartsWith("factor,stride,frames,contacts,found,missed,missed_fraction\n1,1,5,2,1,1,0.5\n"));
+  EXPECT_EQ(Json::parse(content_of(passing.directory / "report/missed.json"))["rows"].size(), 3U);
+  EXPECT_THAT(content_of(passing.directory / "report/report.html"), HasSubstr("<svg"));
+  // Its page is not lost to another command's.
+  run = run_program({"collide", passing.rests, "--radius", "1", "--out", out});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("holds the result of kds missed"));
+}
+
+}  // namespace
+}  // namespace kds::test
