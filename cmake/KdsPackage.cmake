@@ -46,6 +46,7 @@ kds_install_component(engine TARGETS kds_engine REQUIRES kds-certificates)
 kds_install_component(structures TARGETS kds_structures REQUIRES kds-engine tbb mpfr)
 kds_install_component(kds TARGETS kds_all REQUIRES kds-structures)
 install(TARGETS kds_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT motions)
 
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/kdsConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 configure_file("${PROJECT_SOURCE_DIR}/cmake/kdsConfig.cmake" "${PROJECT_BINARY_DIR}/kdsConfig.cmake" COPYONLY)
