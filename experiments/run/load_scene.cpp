@@ -63,15 +63,43 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
   return load_necklaces(input, options.motion, 1, warn);
 }
 
+namespace {
+
+// Between frames there is nothing to log or to audit.
+void refuse_events_of_chords(const RunOptions& options, const SessionOptions& session) {
+  const char* const asked = options.log                           ? "--log"
+                            : session.audits == AuditMode::events ? "--audit events"
+                                                                  : nullptr;
+  if (asked == nullptr) return;
+  for (const std::string& name : session.structures) {
+    const StructureSpec* const spec = structure_registry().find(name);
+    if (spec == nullptr || spec->has_events(session.settings)) continue;
+    throw InputError(fmt::format("{}: {} is of chord cages, which have no events; expected {}", asked, name,
+                                 name == "wrapped" ? "--between events" : "--structures without it"));
+  }
+}
+
+}  // namespace
+
 std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& scene, AuditMode audits) {
   SessionOptions session{options.structures, options.kernel, audits, {.nodes = options.nodes}};
   session.settings.apart = options.apart.value_or(session.settings.apart);
+  session.settings.between = options.between.value_or(session.settings.between);
+  session.settings.tightness = options.tightness;
   if (session.structures.empty()) session.structures = default_structures(scene);
   const auto& names = session.structures;
   if (options.apart && std::find(names.begin(), names.end(), "contacts") == names.end())
     throw InputError("--apart: it chooses pairs of contacts, which is not among the structures");
-  if (options.nodes.restricts() && std::find(names.begin(), names.end(), "wrapped") == names.end())
+  const auto has = [&names](const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (options.nodes.restricts() && !has("wrapped") && !has("layered"))
     throw InputError("--levels, --nodes: they choose nodes of wrapped, which is not among the structures");
+  if (options.between && !has("wrapped"))
+    throw InputError("--between: it is about wrapped, which is not among the structures");
+  if (options.tightness && session.settings.between != Between::chord)
+    throw InputError("--tightness: it bounds chord cages of wrapped; expected --between chord");
+  refuse_events_of_chords(options, session);
   if (options.nodes.restricts()) {
     const NecklaceTree tree(scene.necklaces());
     const std::vector<std::uint8_t> kept = select_nodes(tree, options.nodes);

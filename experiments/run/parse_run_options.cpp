@@ -20,15 +20,22 @@ namespace {
 
 constexpr std::array kRunOptions{
     OptionSpec{"--structures", "LIST",
-               "comma list of sorted, wrapped, power, contacts (default: wrapped,power;"
+               "comma list of sorted, layered, wrapped, power, contacts (default: wrapped,power;"
                " instances: sorted in 1D, else power)"},
     OptionSpec{"--motion", "NAME",
                "how beads move between frames: linear, hermite, lifted (default: linear)"},
     OptionSpec{"--kernel", "NAME", "fast, filtered or exact arithmetic (default: filtered)"},
     OptionSpec{"--levels", "RANGE",
-               "levels of wrapped to keep, FIRST:LAST, roots 0, LAST excluded (default: all)"},
-    OptionSpec{"--nodes", "RANGE",
-               "nodes of wrapped to keep, those over beads FIRST:LAST, LAST excluded (default: all)"},
+               "levels of wrapped and layered to keep, FIRST:LAST, roots 0, LAST excluded (default: all)"},
+    OptionSpec{
+        "--nodes", "RANGE",
+        "nodes of wrapped and layered to keep, those over beads FIRST:LAST, LAST excluded (default: all)"},
+    OptionSpec{"--between", "NAME",
+               "wrapped between frames: events, the smallest spheres at all times, or chord, chords of those "
+               "at the frames, without events (default: events)"},
+    OptionSpec{"--tightness", "EPS",
+               "with --between chord: radii proved to be within 1 + EPS of the smallest at all times, steps "
+               "of nodes being halved for it (default: none)"},
     OptionSpec{"--apart", "K",
                "contacts: of beads of one chain, those at least K apart along it (default: 2)"},
     OptionSpec{"--audit", "WHEN", "compare with static builds: none, frames or events (default: none)"},
@@ -103,6 +110,9 @@ RunOptions parse_run_options(const Arguments& arguments) {
   options.nodes = parse_nodes(parsed);
   if (const auto apart = parsed.value("--apart"))
     options.apart = static_cast<BeadId>(parse_whole_number("--apart", *apart, 1, no_bead));
+  options.between = chosen<Between>(parsed, "--between", between_names);
+  if (const auto tightness = parsed.value("--tightness"))
+    options.tightness = parse_real("--tightness", *tightness, {1e-6, 1});
   options.audit = chosen<AuditMode>(parsed, "--audit", audit_mode_names).value_or(options.audit);
   if (const auto limit = parsed.value("--work"))
     options.work = parse_whole_number("--work", *limit, 0, ExactWork::no_limit - 1);

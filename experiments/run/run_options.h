@@ -11,7 +11,7 @@
 #include "kds/audit.h"
 #include "motions/readers/read_trajectory.h"
 #include "motions/scene/scene.h"
-#include "structures/necklace/node_selection.h"
+#include "structures/session/structure_spec.h"
 
 namespace kds {
 
@@ -25,6 +25,8 @@ struct RunOptions {
   AuditMode audit = AuditMode::none;
   NodeSelection nodes;                        ///< --levels, --nodes
   std::optional<BeadId> apart;                ///< --apart; none: not given
+  std::optional<Between> between;             ///< --between; none: not given
+  std::optional<double> tightness;            ///< --tightness; none: not given
   std::optional<std::filesystem::path> dump;  ///< directory for the structures at every frame
   std::optional<std::filesystem::path> out;   ///< directory for summary.json, events.csv, report.html
   std::optional<std::filesystem::path> log;   ///< event log, for `kds replay`

@@ -37,7 +37,9 @@ std::vector<std::pair<std::string, std::string>> option_settings(const RunOption
           {"radius", options.radius},
           {"levels", levels_of(options.nodes)},
           {"nodes", beads_of(options.nodes)},
-          {"apart", options.apart ? std::to_string(*options.apart) : ""}};
+          {"apart", options.apart ? std::to_string(*options.apart) : ""},
+          {"between", options.between ? std::string(name_of(*options.between)) : ""},
+          {"tightness", options.tightness ? fmt::format("{}", *options.tightness) : ""}};
 }
 
 std::vector<std::string> option_arguments(const RunOptions& options) {
@@ -62,6 +64,8 @@ std::vector<std::string> option_arguments(const RunOptions& options) {
   if (const std::string levels = levels_of(options.nodes); !levels.empty()) add("--levels", levels);
   if (const std::string beads = beads_of(options.nodes); !beads.empty()) add("--nodes", beads);
   if (options.apart) add("--apart", std::to_string(*options.apart));
+  if (options.between) add("--between", std::string(name_of(*options.between)));
+  if (options.tightness) add("--tightness", fmt::format("{}", *options.tightness));
   return arguments;
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 // Layered hierarchy of a scene at one time: at every internal node of the balanced tree over a necklace the
 // smallest sphere around the spheres of its two children (the paper's section 2.2). A few nanoseconds a node.
-// Rounded: each radius errs by less than 2^-50 of its size for each level below it.
+//
+// A sphere as it stands, centre and radius doubles, holds those of its children as they stand, and so its
+// beads, exactly: radii are rounded up, by less than 2^-48 of the radius and 2^-50 of the centre's
+// coordinates for each level.
 
 #include <span>
 #include <vector>
@@ -17,10 +20,14 @@ namespace kds {
 template <int Dimension>
 class LayeredHierarchy {
  public:
+  static constexpr int dimension = Dimension;
+
   explicit LayeredHierarchy(std::span<const BeadRange> necklaces);
 
   [[nodiscard]] const NecklaceTree& tree() const { return tree_; }
   [[nodiscard]] Sphere sphere(NodeId node) const { return sphere_of(cages_[node], 0); }
+  /// As loops hold them.
+  [[nodiscard]] std::span<const Cage<Dimension>> cages() const { return cages_; }
 
   void build(const Balls<Dimension>& balls, Threads threads = Threads::one);
 

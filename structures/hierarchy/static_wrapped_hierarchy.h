@@ -60,11 +60,20 @@ struct Frontiers {
 template <int Dimension>
 class StaticWrappedHierarchy {
  public:
+  static constexpr int dimension = Dimension;
+
   explicit StaticWrappedHierarchy(std::span<const BeadRange> necklaces);
 
   [[nodiscard]] const NecklaceTree& tree() const { return tree_; }
   /// After Update::trust or lazy: of the last verified time.
   [[nodiscard]] const Basis& basis(NodeId node) const { return bases_[node]; }
+  [[nodiscard]] std::span<const Basis> bases() const { return bases_; }
+  /// As loops hold them; where radii are equal of centres, spheres being wider by `wider_than_cages`.
+  [[nodiscard]] std::span<const Cage<Dimension>> cages() const { return cages_; }
+  [[nodiscard]] double wider_than_cages() const { return wider_; }
+  /// Whether what doubles have proved of a cage does not bound by how much beads may be out of it: exact
+  /// arithmetic decided, or its centre has lost digits far from the origin.
+  [[nodiscard]] bool is_loose(NodeId node) const { return loose_[node] != 0; }
   /// The smallest sphere around the node's balls; after Update::trust or lazy around those of its basis.
   [[nodiscard]] Sphere sphere(NodeId node) const;
 

@@ -11,6 +11,7 @@
 
 #include "motions/base/bead.h"
 #include "motions/base/input_error.h"
+#include "motions/curves/curves.h"
 
 namespace kds {
 
@@ -38,6 +39,9 @@ class Balls {
     move_to(centers);
   }
 
+  /// Those of a motion at its k-th control points. Throws as the other.
+  Balls(const Curves<Dimension>& curves, int k) { move_to(curves, k); }
+
   /// Puts the same balls elsewhere. Throws as the constructor does.
   void move_to(const Eigen::Matrix3Xd& centers) {
     if (static_cast<std::size_t>(centers.cols()) != size())
@@ -54,6 +58,35 @@ class Balls {
     if (not_finite != 0) refuse(centers);
   }
 
+  /// Makes them those of a motion at its k-th control points, in the memory they have. Throws as the
+  /// constructor does.
+  void move_to(const Curves<Dimension>& curves, int k) {
+    const std::size_t beads = curves.bead_count();
+    radii_.resize(beads + padding);
+    for (auto& axis : centers_) axis.resize(radii_.size());
+    double not_finite = 0;
+    bool proper = true;
+    equal_radii_ = true;
+    for (BeadId b = 0; b < beads; ++b) {
+      const double* const point = curves.control_point(b, k);
+      for (std::size_t axis = 0; axis < Dimension; ++axis) {
+        centers_[axis][b] = point[axis];
+        not_finite += 0 * point[axis];
+      }
+      const double radius = curves.radii(b)[k];
+      radii_[b] = radius;
+      not_finite += 0 * radius;
+      proper &= radius >= 0;
+      equal_radii_ &= radius == radii_[0];
+    }
+    if (not_finite != 0 || !proper) refuse();
+  }
+
+  /// Puts one ball elsewhere; equal radii stay equal. All finite.
+  void place(BeadId bead, const std::array<double, static_cast<std::size_t>(Dimension)>& center) {
+    for (std::size_t axis = 0; axis < Dimension; ++axis) centers_[axis][bead] = center[axis];
+  }
+
   [[nodiscard]] std::size_t size() const { return radii_.empty() ? 0 : radii_.size() - padding; }
   [[nodiscard]] bool equal_radii() const { return equal_radii_; }
   [[nodiscard]] double radius(BeadId bead) const { return radii_[bead]; }
@@ -66,6 +99,17 @@ class Balls {
     Eigen::Index b = 0;
     while (centers.col(b).template head<Dimension>().allFinite()) ++b;
     throw InputError("bead " + std::to_string(b) + ": expected finite coordinates");
+  }
+
+  [[noreturn]] void refuse() const {
+    for (std::size_t b = 0; b < size(); ++b) {
+      for (const auto& axis : centers_)
+        if (axis[b] - axis[b] != 0)
+          throw InputError("bead " + std::to_string(b) + ": expected finite coordinates");
+      if (!(radii_[b] >= 0 && radii_[b] - radii_[b] == 0))
+        throw InputError("bead " + std::to_string(b) + ": expected a finite radius, not negative");
+    }
+    throw InputError("expected finite balls");
   }
 
   std::array<std::vector<double>, Dimension> centers_;

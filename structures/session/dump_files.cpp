@@ -35,6 +35,16 @@ DumpFile dump_wrapped(std::span<const WrappedNode> nodes) {
   return {"wrapped.csv", std::move(text)};
 }
 
+DumpFile dump_layered(std::span<const LayeredNode> nodes) {
+  std::string text = "first,last,x,y,z,radius\n";
+  for (const LayeredNode& node : nodes) {
+    const auto& c = node.sphere.center;
+    text += fmt::format("{},{},{},{},{},{}\n", node.range.first, node.range.last, c.x(), c.y(), c.z(),
+                        node.sphere.radius);
+  }
+  return {"layered.csv", std::move(text)};
+}
+
 DumpFile dump_cells(std::span<const CellBeads<2>> cells) { return {"power.csv", cell_lines("a,b,c", cells)}; }
 DumpFile dump_cells(std::span<const CellBeads<3>> cells) {
   return {"power.csv", cell_lines("a,b,c,d", cells)};

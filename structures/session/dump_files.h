@@ -12,6 +12,10 @@
 
 namespace kds {
 
+struct LayeredNode {
+  BeadRange range;
+  Sphere sphere;
+};
 struct WrappedNode {
   BeadRange range;
   Basis basis;
@@ -19,6 +23,7 @@ struct WrappedNode {
 };
 
 [[nodiscard]] DumpFile dump_wrapped(std::span<const WrappedNode> nodes);  ///< first,last,basis,x,y,z,radius
+[[nodiscard]] DumpFile dump_layered(std::span<const LayeredNode> nodes);  ///< first,last,x,y,z,radius
 [[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<2>> cells);   ///< a,b,c
 [[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<3>> cells);   ///< a,b,c,d
 [[nodiscard]] DumpFile dump_hidden(std::span<const BeadId> hidden);       ///< bead

@@ -13,7 +13,18 @@ inline constexpr const char* fictitious_radii =
          " coordinate";
 }
 
+/// Of hierarchies; nothing where scene and hierarchy go together.
+[[nodiscard]] inline std::optional<std::string> refusal_of_spheres(const Scene& scene) {
+  if (scene.is_lifted()) return fictitious_radii;
+  if (scene.dimension() < 2) return needs_plane_or_space(scene);
+  if (!scene.equal_radii() && !scene.has_radii())
+    return "the points of an instance have weights that differ, and those are no radii; expected equal "
+           "weights, or a trajectory";
+  return std::nullopt;
+}
+
 [[nodiscard]] StructureSpec sorted_structure();
+[[nodiscard]] StructureSpec layered_structure();
 [[nodiscard]] StructureSpec wrapped_structure();
 [[nodiscard]] StructureSpec power_structure();
 [[nodiscard]] StructureSpec contacts_structure();

@@ -29,6 +29,7 @@ StructureRegistry& structure_registry() {
     StructureRegistry own;
     own.add(sorted_structure());
     own.add(wrapped_structure());
+    own.add(layered_structure());
     own.add(power_structure());
     own.add(contacts_structure());
     return own;

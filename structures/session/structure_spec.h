@@ -2,6 +2,7 @@
 // What a run knows of a kinetic structure: one specification a structure, by which runs, dumps, reports and
 // replays know it.
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -37,9 +38,23 @@ class RunningStructure {
   [[nodiscard]] virtual double static_seconds(std::size_t frame) const = 0;
 };
 
+/// What a wrapped hierarchy is between frames.
+enum class Between {
+  events,  ///< the smallest spheres at all times: bases change at events
+  chord    ///< chords of the smallest spheres at both frames (chord_cages.h)
+};
+/// In the order of the enumerators.
+inline constexpr std::array<std::string_view, 2> between_names{"events", "chord"};
+[[nodiscard]] constexpr std::string_view name_of(Between between) {
+  return between_names[static_cast<std::size_t>(between)];
+}
+
 struct StructureSettings {
-  NodeSelection nodes;  ///< of hierarchies
-  BeadId apart = 2;     ///< contacts: of beads of one necklace, those at least so far apart along it
+  NodeSelection nodes;                ///< of hierarchies
+  Between between = Between::events;  ///< wrapped
+  /// Of chords: radii are within 1 + this of the smallest at all times; none: whatever they are.
+  std::optional<double> tightness{};
+  BeadId apart = 2;  ///< contacts: of beads of one necklace, those at least so far apart along it
 };
 
 struct StructureSpec {
@@ -53,6 +68,8 @@ struct StructureSpec {
   std::function<std::optional<std::string>(const Scene&)> refusal = [](const Scene&) {
     return std::optional<std::string>();
   };
+  /// Whether it has events at all, and can be logged, replayed and audited between them.
+  std::function<bool(const StructureSettings&)> has_events = [](const StructureSettings&) { return true; };
   /// Scene and motion outlive what is made.
   std::function<std::unique_ptr<RunningStructure>(Simulator&, const Scene&, const SceneMotion::Ref&,
                                                   const StructureSettings&)>

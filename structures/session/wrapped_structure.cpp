@@ -1,4 +1,5 @@
 #include "motions/numbers/exact_number.h"
+#include "structures/chord_cages/chord_hierarchy.h"
 #include "structures/enclosing_sphere/exact_sphere.h"
 #include "structures/hierarchy/wrapped_hierarchy.h"
 #include "structures/session/dump_files.h"
@@ -44,6 +45,40 @@ class WrappedInRun final : public RunningStructure {
   std::vector<BeadRange> kept_;
 };
 
+template <int Dimension>
+class WrappedChordsInRun final : public RunningStructure {
+ public:
+  WrappedChordsInRun(Simulator& simulator, const Scene& scene, const MotionRef<Dimension>& motion,
+                     const StructureSettings& settings)
+      : scene_(scene),
+        hierarchy_(simulator, motion, scene.necklaces(), settings.tightness),
+        keeps_(select_nodes(hierarchy_.cages().tree(), settings.nodes)) {}
+
+  [[nodiscard]] KineticStructure& kinetic() override { return hierarchy_; }
+  [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const override {
+    const StaticWrappedHierarchy<Dimension>& at_frame = hierarchy_.cages().hierarchy();
+    const Balls<Dimension> balls(scene_.centers(frame), scene_.radii());
+    std::vector<WrappedNode> nodes;
+    for (NodeId id = 0; id < keeps_.size(); ++id) {
+      if (keeps_[id] == 0) continue;
+      Sphere sphere = exact_sphere_of(at_frame.basis(id), balls);
+      sphere.center = scene_.in_input(sphere.center);
+      nodes.push_back({at_frame.tree().range(id), at_frame.basis(id), sphere});
+    }
+    return {dump_wrapped(nodes)};
+  }
+  [[nodiscard]] double static_seconds(std::size_t frame) const override {
+    return seconds_to_wrap<Dimension>(hierarchy_.cages().tree().ranges(), scene_.centers(frame),
+                                      scene_.radii())
+        .clock;
+  }
+
+ private:
+  const Scene& scene_;
+  ChordHierarchy<StaticWrappedHierarchy<Dimension>> hierarchy_;
+  std::vector<std::uint8_t> keeps_;
+};
+
 }  // namespace
 
 StructureSpec wrapped_structure() {
@@ -51,14 +86,8 @@ StructureSpec wrapped_structure() {
   spec.name = "wrapped";
   spec.order = 20;
   spec.by_default = [](const Scene& scene) { return scene.has_radii(); };
-  spec.refusal = [](const Scene& scene) -> std::optional<std::string> {
-    if (scene.is_lifted()) return fictitious_radii;
-    if (scene.dimension() < 2) return needs_plane_or_space(scene);
-    if (!scene.equal_radii() && !scene.has_radii())
-      return "the points of an instance have weights that differ, and those are no radii; expected equal "
-             "weights, or a trajectory";
-    return std::nullopt;
-  };
+  spec.refusal = refusal_of_spheres;
+  spec.has_events = [](const StructureSettings& settings) { return settings.between == Between::events; };
   spec.make = [](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,
                  const StructureSettings& settings) {
     return std::visit(
@@ -66,6 +95,8 @@ StructureSpec wrapped_structure() {
           if constexpr (D == 1) {
             return nullptr;
           } else {
+            if (settings.between == Between::chord)
+              return std::make_unique<WrappedChordsInRun<D>>(simulator, scene, ref, settings);
             return std::make_unique<WrappedInRun<D>>(simulator, scene, ref, settings.nodes);
           }
         },

@@ -1,0 +1,80 @@
+#include "structures/chord_cages/chord_cages.h"
+
+#include <utility>
+
+#include "motions/base/floating_point_guard.h"
+#include "structures/chord_cages/outward_cages.h"
+
+namespace kds {
+
+namespace {
+
+template <int D>
+void bring_to(StaticWrappedHierarchy<D>& hierarchy, const Balls<D>& balls) {
+  (void)hierarchy.update(balls);
+}
+template <int D>
+void bring_to(LayeredHierarchy<D>& hierarchy, const Balls<D>& balls) {
+  hierarchy.build(balls);
+}
+
+}  // namespace
+
+template <class Hierarchy>
+ChordCages<Hierarchy>::ChordCages(std::span<const BeadRange> necklaces, int degree, bool keep_bases)
+    : hierarchy_(necklaces),
+      balls_(static_cast<std::size_t>(degree) + 1),
+      cages_(static_cast<std::size_t>(degree) + 1),
+      keep_bases_(keep_bases) {}
+
+template <class Hierarchy>
+void ChordCages<Hierarchy>::take(int k, const Curves<dimension>& curves) {
+  const auto place = static_cast<std::size_t>(k);
+  balls_[place].move_to(curves, k);
+  bring_to(hierarchy_, balls_[place]);
+  take_outward(hierarchy_, balls_[place], cages_[place]);
+}
+
+template <class Hierarchy>
+void ChordCages<Hierarchy>::build(const Curves<dimension>& curves) {
+  const FloatingPointGuard to_nearest;
+  moved_ = false;
+  take(0, curves);
+}
+
+template <class Hierarchy>
+bool ChordCages<Hierarchy>::begins_where_it_ended(const Curves<dimension>& curves) const {
+  const Balls<dimension>& end = moved_ ? balls_.back() : balls_.front();
+  if (end.size() != curves.bead_count()) return false;
+  bool same = true;
+  for (BeadId b = 0; b < end.size(); ++b) {
+    const double* const point = curves.control_point(b, 0);
+    for (std::size_t axis = 0; axis < dimension; ++axis) same &= end.coordinates(axis)[b] == point[axis];
+    same &= end.radii()[b] == curves.radii(b)[0];
+  }
+  return same;
+}
+
+template <class Hierarchy>
+void ChordCages<Hierarchy>::move_to(const Curves<dimension>& curves) {
+  const FloatingPointGuard to_nearest;
+  if (!begins_where_it_ended(curves)) {
+    take(0, curves);
+  } else if (moved_) {
+    std::swap(balls_.front(), balls_.back());
+    std::swap(cages_.front(), cages_.back());
+  }
+  if constexpr (requires { hierarchy_.bases(); }) {
+    const auto bases = hierarchy_.bases();
+    if (keep_bases_) start_bases_.assign(bases.begin(), bases.end());
+  }
+  for (int k = 1; k <= degree(); ++k) take(k, curves);
+  moved_ = true;
+}
+
+template class ChordCages<StaticWrappedHierarchy<2>>;
+template class ChordCages<StaticWrappedHierarchy<3>>;
+template class ChordCages<LayeredHierarchy<2>>;
+template class ChordCages<LayeredHierarchy<3>>;
+
+}  // namespace kds

@@ -1,0 +1,126 @@
+#include "structures/chord_cages/chord_hierarchy.h"
+
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+#include "kds/simulator.h"
+#include "motions/base/floating_point_guard.h"
+#include "structures/chord_cages/cage_audit.h"
+#include "structures/enclosing_sphere/integer_balls.h"
+
+namespace kds {
+
+namespace {
+
+template <class Hierarchy>
+constexpr bool is_layered = std::is_same_v<Hierarchy, LayeredHierarchy<Hierarchy::dimension>>;
+
+template <int D>
+const MotionRef<D>& accepted(const MotionRef<D>& motion) {
+  if (motion.is_lifted()) throw std::invalid_argument("radii mean nothing in lifted motion");
+  return motion;
+}
+
+// A basis that encloses all beads and has none to spare is that of the minimum enclosing sphere: checking
+// both on integers is as good as building it.
+template <int D>
+std::optional<std::string> not_as_built(const StaticWrappedHierarchy<D>& hierarchy, const Curves<D>& curves,
+                                        const Dyadic& time) {
+  const IntegerBalls<D> whole = integer_balls_at(curves, time);
+  for (NodeId node = 0; node < hierarchy.tree().node_count(); ++node) {
+    const Basis& basis = hierarchy.basis(node);
+    const BeadRange& range = hierarchy.tree().range(node);
+    const auto name = [&range] {
+      return "node " + std::to_string(range.first) + "-" + std::to_string(range.last) + ": ";
+    };
+    if (const auto bead = bead_outside(proper_part(basis, whole), range, whole))
+      return name() + "bead " + std::to_string(*bead) + " is outside the sphere of the basis";
+  }
+  return std::nullopt;
+}
+
+template <int D>
+std::optional<std::string> not_as_built(const LayeredHierarchy<D>& hierarchy, const Curves<D>& curves,
+                                        const Dyadic& time) {
+  LayeredHierarchy<D> built = hierarchy;
+  built.build(Balls<D>(curves, time == Dyadic(0.0) ? 0 : curves.own_degree()));
+  for (NodeId node = 0; node < hierarchy.tree().node_count(); ++node) {
+    const Cage<D>&known = hierarchy.cages()[node], &fresh = built.cages()[node];
+    if (known.center != fresh.center || known.radius != fresh.radius) {
+      const BeadRange& range = hierarchy.tree().range(node);
+      return "node " + std::to_string(range.first) + "-" + std::to_string(range.last) +
+             ": the sphere is not that of its children";
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+template <class Hierarchy>
+ChordHierarchy<Hierarchy>::ChordHierarchy(Simulator& simulator, const MotionRef<dimension>& motion,
+                                          std::span<const BeadRange> necklaces,
+                                          std::optional<double> tightness)
+    : motion_(accepted(motion)), cages_(necklaces, motion.degree(), tightness.has_value()) {
+  if (tightness) {
+    if (is_layered<Hierarchy>) throw std::invalid_argument("layered spheres cannot be proved tight");
+    tight_.emplace(*tightness);
+  }
+  (void)simulator.add(*this);
+}
+
+template <class Hierarchy>
+std::span<const EventKind> ChordHierarchy<Hierarchy>::kinds() const {
+  static constexpr std::array<EventKind, 2> kinds{{{"bisection", false}, {"unproved", false}}};
+  return tight_ ? std::span<const EventKind>(kinds) : std::span<const EventKind>();
+}
+
+template <class Hierarchy>
+std::string_view ChordHierarchy<Hierarchy>::name() const {
+  return is_layered<Hierarchy> ? "layered" : "wrapped";
+}
+
+template <class Hierarchy>
+void ChordHierarchy<Hierarchy>::build() {
+  cages_.build(motion_.curves());
+}
+
+template <class Hierarchy>
+void ChordHierarchy<Hierarchy>::start_step() {
+  cages_.move_to(motion_.curves());
+  if constexpr (!is_layered<Hierarchy>) {
+    if (!tight_) return;
+    tight_->prove(cages_, motion_.curves());
+    statistics.events_by_kind[bisection] += tight_->bisections();
+    statistics.events_by_kind[unproved] += tight_->unproved();
+  }
+}
+
+template <class Hierarchy>
+void ChordHierarchy<Hierarchy>::apply(const Change&) {
+  throw std::invalid_argument("chord cages have no events");
+}
+
+template <class Hierarchy>
+std::optional<std::string> ChordHierarchy<Hierarchy>::audit(const Dyadic& time) {
+  const FloatingPointGuard to_nearest;
+  const Curves<dimension> curves = motion_.curves();
+  const bool at_start = time == Dyadic(0.0), at_end = time == Dyadic(1.0);
+  if (at_start || at_end) {
+    if (auto fault = not_as_built(cages_.hierarchy(), curves, time)) return fault;
+    for (int k = 0; k <= (at_start ? 0 : cages_.degree()); ++k)
+      if (auto fault = ball_outside(cages_.tree(), cages_.cages(k), curves, k)) return fault;
+    return std::nullopt;
+  }
+  std::vector<std::span<const Cage<dimension>>> all;
+  for (int k = 0; k <= cages_.degree(); ++k) all.push_back(cages_.cages(k));
+  return ball_outside_at<dimension>(cages_.tree(), all, curves, time);
+}
+
+template class ChordHierarchy<StaticWrappedHierarchy<2>>;
+template class ChordHierarchy<StaticWrappedHierarchy<3>>;
+template class ChordHierarchy<LayeredHierarchy<2>>;
+template class ChordHierarchy<LayeredHierarchy<3>>;
+
+}  // namespace kds

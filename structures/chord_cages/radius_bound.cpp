@@ -1,0 +1,355 @@
+#include "structures/chord_cages/radius_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "structures/enclosing_sphere/sphere_forms.h"
+#include "structures/enclosing_sphere/tangent_sphere.h"
+
+namespace kds {
+
+namespace {
+
+using detail::BasisBalls;
+using detail::dot;
+using detail::minus;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double rounding = 0x1p-42;  // of squares
+
+/// Weights of the centre of the sphere around a basis. Their sum is 1 up to rounding; where doubles make no
+/// sense of the basis they may be anything.
+template <bool of_points, class N, int D, std::size_t M>
+[[gnu::always_inline]] inline std::array<N, M + 1> weights_of(const BasisBalls<N, D, M>& balls) {
+  const detail::Span<N, D, M> span(balls);
+  if constexpr (of_points) {
+    std::array<N, M> y;
+    (void)span.circumcenter(y);
+    std::array<N, M + 1> weights;
+    weights[0] = N(1.0);
+    for (std::size_t i = 0; i < M; ++i) {
+      weights[i + 1] = y[i];
+      weights[0] = weights[0] - y[i];
+    }
+    return weights;
+  } else {
+    std::array<N, M> s;
+    for (std::size_t i = 0; i < M; ++i) s[i] = balls.radius[i + 1] - balls.radius[0];
+    return detail::tangent_sphere(span, s).weight;
+  }
+}
+
+/// How large G may be: of the least radius and the greatest mean of those of the balls.
+template <class N>
+[[gnu::always_inline]] inline N most_allowed(const N& radius, const N& mean, double tightness) {
+  using Is = NumberTraits<N>;
+  const N tau = radius * N(1 / (1 + tightness)) - mean + N(0x1p-48) * radius;
+  const N rho = radius - mean;
+  return Is::choose(tau > N(0.0), (rho - tau) * (rho + tau), N(infinity));
+}
+
+// One piece of any degree.
+
+/// Means, and the Bernstein coefficients of G.
+template <int D>
+struct Gap {
+  std::array<double, 2 * 61 + 1> coefficients;
+  double mean;  // the greatest of the means of radii
+};
+
+template <int D>
+using Vector = std::array<double, static_cast<std::size_t>(D)>;
+
+template <int D, std::size_t M>
+std::array<double, Basis::max_size> weights_at(const std::array<ControlBall<D>, Basis::max_size>& at_end,
+                                               bool equal) {
+  BasisBalls<double, D, M> balls;
+  for (std::size_t i = 0; i <= M; ++i) {
+    std::copy_n(at_end[i].begin(), D, balls.center[i].begin());
+    balls.radius[i] = at_end[i].back();
+  }
+  std::array<double, Basis::max_size> weights{};
+  const auto some = equal ? weights_of<true>(balls) : weights_of<false>(balls);
+  std::copy(some.begin(), some.end(), weights.begin());
+  return weights;
+}
+
+/// G by the weights of the basis at one end, or false.
+template <int D>
+bool find_gap(const Curves<D>& curves, const CagePiece<D>& piece, std::size_t which, Gap<D>& gap) {
+  const Basis& basis = piece.bases[which];
+  const int degree = curves.own_degree();
+  const auto controls = static_cast<std::size_t>(degree) + 1;
+  constexpr std::size_t most_controls = 62;
+  if (controls > most_controls) return false;
+  std::array<std::array<ControlBall<D>, Basis::max_size>, most_controls> balls;
+  for (std::size_t k = 0; k < controls; ++k)
+    for (std::size_t i = 0; i < basis.size; ++i)
+      balls[k][i] = control_ball(curves, basis.beads[i], piece.from, piece.to, static_cast<int>(k));
+  const auto& at_end = balls[which == 0 ? 0 : controls - 1];
+  std::array<double, Basis::max_size> weights{1};
+  if (basis.size > 1) {
+    bool equal = true;
+    for (std::size_t i = 1; i < basis.size; ++i) equal &= at_end[i].back() == at_end[0].back();
+    if (basis.size == 2) {
+      weights = weights_at<D, 1>(at_end, equal);
+    } else if (basis.size == 3) {
+      weights = weights_at<D, 2>(at_end, equal);
+    } else if constexpr (D == 3) {
+      weights = weights_at<D, 3>(at_end, equal);
+    }
+    double sum = 0;
+    for (double& weight : weights) sum += weight = std::max(weight, 0.0);
+    if (!(sum >= 0.5 && sum <= 2)) return false;
+    for (double& weight : weights) weight /= sum;
+  }
+  std::array<Vector<D>, most_controls> mean{};  // seen from the cage's centre
+  std::array<std::array<Vector<D>, Basis::max_size>, most_controls> seen;
+  std::array<double, most_controls> mean_radius{};
+  gap.mean = 0;
+  for (std::size_t k = 0; k < controls; ++k) {
+    for (std::size_t i = 0; i < basis.size; ++i) {
+      for (std::size_t axis = 0; axis < D; ++axis) {
+        seen[k][i][axis] = balls[k][i][axis] - piece.cages[k].center[axis];
+        mean[k][axis] += weights[i] * seen[k][i][axis];
+      }
+      mean_radius[k] += weights[i] * balls[k][i].back();
+    }
+    gap.mean = std::max(gap.mean, mean_radius[k]);
+  }
+  // The product of two control points' numbers belongs to the coefficient of the sum of their places.
+  std::fill_n(gap.coefficients.begin(), 2 * degree + 1, 0.0);
+  for (std::size_t k = 0; k < controls; ++k) {
+    for (std::size_t l = 0; l < controls; ++l) {
+      double product = (piece.cages[k].radius - mean_radius[k]) * (piece.cages[l].radius - mean_radius[l]);
+      for (std::size_t i = 0; i < basis.size; ++i)
+        product +=
+            weights[i] * ((balls[k][i].back() - mean_radius[k]) * (balls[l][i].back() - mean_radius[l]) -
+                          dot(seen[k][i], seen[l][i]));
+      product += dot(mean[k], mean[l]);
+      const auto share = static_cast<double>(binomial(degree, static_cast<int>(k))) *
+                         static_cast<double>(binomial(degree, static_cast<int>(l))) /
+                         static_cast<double>(binomial(2 * degree, static_cast<int>(k + l)));
+      gap.coefficients[k + l] += share * product;
+    }
+  }
+  return true;
+}
+
+/// Both halves of a polynomial in Bernstein form.
+using GapCoefficients = std::vector<double>;
+std::array<GapCoefficients, 2> halves_of(GapCoefficients p) {
+  std::array<GapCoefficients, 2> halves;
+  for (std::size_t left = p.size(); left > 0; --left) {
+    halves[0].push_back(p.front());
+    halves[1].push_back(p[left - 1]);
+    for (std::size_t k = 0; k + 1 < left; ++k) p[k] = 0.5 * (p[k] + p[k + 1]);
+  }
+  std::reverse(halves[1].begin(), halves[1].end());
+  return halves;
+}
+
+/// Everywhere one of two is not above its limit.
+bool one_is_below(const std::array<GapCoefficients, 2>& of, const std::array<double, 2>& limit,
+                  int halvings) {
+  for (std::size_t which = 0; which < 2; ++which)
+    if (std::all_of(of[which].begin(), of[which].end(), [&](double c) { return c <= limit[which]; }))
+      return true;
+  if (halvings == 0) return false;
+  const auto first = halves_of(of[0]), second = halves_of(of[1]);
+  return one_is_below({first[0], second[0]}, limit, halvings - 1) &&
+         one_is_below({first[1], second[1]}, limit, halvings - 1);
+}
+
+// Many nodes in linear motion.
+
+/// Four nodes whose bases have M + 1 beads: which are proved tight.
+template <bool of_points, int D, std::size_t M>
+[[gnu::always_inline]] inline Lanes::Mask are_tight(const LinearStep<D>& step,
+                                                    const std::array<NodeId, Lanes::width>& nodes,
+                                                    double tightness) {
+  using Numbers = std::array<Lanes, static_cast<std::size_t>(D)>;
+  std::array<const Basis*, Lanes::width> bases;
+  for (std::size_t lane = 0; lane < Lanes::width; ++lane) bases[lane] = &step.start_bases[nodes[lane]];
+  const auto gather = [&](const double* values, std::size_t j) __attribute__((always_inline)) {
+    return Lanes(Lanes::Vector{values[bases[0]->beads[j]], values[bases[1]->beads[j]],
+                               values[bases[2]->beads[j]], values[bases[3]->beads[j]]});
+  };
+  const auto of_cages = [&](std::span<const Cage<D>> cages, Numbers & center, Lanes & radius)
+      __attribute__((always_inline)) {
+    const Cage<D>&a = cages[nodes[0]], &b = cages[nodes[1]], &c = cages[nodes[2]], &d = cages[nodes[3]];
+    for (std::size_t axis = 0; axis < D; ++axis)
+      center[axis] = Lanes::Vector{a.center[axis], b.center[axis], c.center[axis], d.center[axis]};
+    radius = Lanes::Vector{a.radius, b.radius, c.radius, d.radius};
+  };
+  Numbers start_center, end_center;
+  Lanes start_radius, end_radius;
+  of_cages(step.start_cages, start_center, start_radius);
+  of_cages(step.end_cages, end_center, end_radius);
+  BasisBalls<Lanes, D, M> balls;
+  for (std::size_t j = 0; j <= M; ++j) {
+    for (std::size_t axis = 0; axis < D; ++axis)
+      balls.center[j][axis] = gather(step.start.coordinates(axis), j);
+    if (!of_points) balls.radius[j] = gather(step.start.radii(), j);
+  }
+  const std::array<Lanes, M + 1> weights = weights_of<of_points>(balls);
+  Lanes least = weights[0], of_start(0.0), of_end(0.0), mixed(0.0);  // variances
+  Numbers start_mean, end_mean;
+  start_mean.fill(Lanes(0.0));
+  end_mean.fill(Lanes(0.0));
+  Lanes start_mean_radius(0.0), end_mean_radius(0.0);
+  for (std::size_t j = 0; j <= M; ++j) {
+    least = Lanes::min(least, weights[j]);
+    Numbers at_start, at_end;
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      at_start[axis] = balls.center[j][axis] - start_center[axis];
+      at_end[axis] = gather(step.end.coordinates(axis), j) - end_center[axis];
+      start_mean[axis] += weights[j] * at_start[axis];
+      end_mean[axis] += weights[j] * at_end[axis];
+    }
+    of_start += weights[j] * dot(at_start, at_start);
+    of_end += weights[j] * dot(at_end, at_end);
+    mixed += weights[j] * dot(at_start, at_end);
+    if constexpr (!of_points) {
+      const Lanes r = balls.radius[j], s = gather(step.end.radii(), j);
+      start_mean_radius += weights[j] * r;
+      end_mean_radius += weights[j] * s;
+      of_start -= weights[j] * r * r;
+      of_end -= weights[j] * s * s;
+      mixed -= weights[j] * r * s;
+    }
+  }
+  of_start -= dot(start_mean, start_mean);
+  of_end -= dot(end_mean, end_mean);
+  mixed -= dot(start_mean, end_mean);
+  if constexpr (of_points) {
+    start_mean_radius = Lanes(step.start.radii()[0]);
+    end_mean_radius = Lanes(step.end.radii()[0]);
+  } else {
+    of_start += start_mean_radius * start_mean_radius;
+    of_end += end_mean_radius * end_mean_radius;
+    mixed += start_mean_radius * end_mean_radius;
+  }
+  const Lanes start_rho = start_radius - start_mean_radius, end_rho = end_radius - end_mean_radius;
+  const Lanes g0 = start_rho * start_rho - of_start, g2 = end_rho * end_rho - of_end,
+              g1 = start_rho * end_rho - mixed;
+  const Lanes bulge = Lanes(2.0) * g1 - g0 - g2;
+  const Lanes greatest = Lanes::max(start_radius, end_radius);
+  const Lanes most = Lanes::max(g0, g2) + Lanes::max(Lanes(0.25) * bulge, Lanes(0.0)) +
+                     Lanes(rounding) * (greatest * greatest);
+  const Lanes allowed = most_allowed(Lanes::min(start_radius, end_radius),
+                                     Lanes::max(start_mean_radius, end_mean_radius), tightness);
+  // A comparison with what is no number is false. Lengths whose squares lose digits prove nothing.
+  const auto sized = (greatest >= Lanes(0x1p-400)) & (greatest <= Lanes(0x1p400));
+  return (least >= Lanes(0.0)) & (bulge <= Lanes(infinity)) & (most <= allowed) & sized;
+}
+
+template <bool of_points, int D, std::size_t M>
+[[KDS_LANES_TARGETS]] void look_at(const LinearStep<D>& step, std::span<const NodeId> nodes, double tightness,
+                                   std::vector<NodeId>& loose) {
+  for (std::size_t i = 0; i < nodes.size(); i += Lanes::width) {
+    std::array<NodeId, Lanes::width> four;
+    for (std::size_t lane = 0; lane < Lanes::width; ++lane)
+      four[lane] = nodes[std::min(i + lane, nodes.size() - 1)];
+    const Lanes::Mask tight = are_tight<of_points, D, M>(step, four, tightness);
+    if (Lanes::all(tight)) continue;
+    for (std::size_t lane = 0; lane < Lanes::width && i + lane < nodes.size(); ++lane)
+      if (tight[lane] == 0) loose.push_back(four[lane]);
+  }
+}
+
+template <bool of_points, int D>
+void look_at_all(const LinearStep<D>& step, double tightness, std::vector<NodeId>& loose) {
+  constexpr std::size_t at_a_time = 512;
+  std::array<std::array<NodeId, at_a_time>, Basis::max_size> nodes;
+  for (std::size_t first = 0; first < step.start_bases.size(); first += at_a_time) {
+    std::array<std::size_t, Basis::max_size> count{};
+    const std::size_t end = std::min(step.start_bases.size(), first + at_a_time);
+    for (std::size_t node = first; node < end; ++node) {
+      const std::size_t m = step.start_bases[node].size - 1U;
+      nodes[m][count[m]++] = static_cast<NodeId>(node);
+    }
+    loose.insert(loose.end(), nodes[0].begin(), nodes[0].begin() + static_cast<std::ptrdiff_t>(count[0]));
+    look_at<of_points, D, 1>(step, {nodes[1].data(), count[1]}, tightness, loose);
+    look_at<of_points, D, 2>(step, {nodes[2].data(), count[2]}, tightness, loose);
+    if constexpr (D == 3) look_at<of_points, D, 3>(step, {nodes[3].data(), count[3]}, tightness, loose);
+  }
+}
+
+}  // namespace
+
+// A curve's part has for control points its blossom at the part's ends, some times each: de Casteljau's
+// scheme with another parameter at each level. Every level takes means of numbers that are no larger than
+// `size` of them, each rounded by less than 3 * 2^-53 of it.
+template <int D>
+ControlBall<D> control_ball(const Curves<D>& curves, BeadId bead, double from, double to, int k) {
+  const int degree = curves.own_degree();
+  ControlBall<D> ball;
+  const auto number = [&](int place, std::size_t which) {
+    return which == D ? curves.radius(bead, place) : curves.coordinate(bead, place, static_cast<int>(which));
+  };
+  if (from == 0 && to == 1) {
+    for (std::size_t which = 0; which <= D; ++which) ball[which] = number(k, which);
+    return ball;
+  }
+  std::array<double, 64> points;
+  for (std::size_t which = 0; which <= D; ++which) {
+    for (int place = 0; place <= degree; ++place)
+      points[static_cast<std::size_t>(place)] = number(place, which);
+    for (int level = 1; level <= degree; ++level) {
+      const double t = level <= k ? to : from;
+      for (std::size_t place = 0; place + static_cast<std::size_t>(level) <= static_cast<std::size_t>(degree);
+           ++place)
+        points[place] = (1 - t) * points[place] + t * points[place + 1];
+    }
+    ball[which] = points[0];
+  }
+  return ball;
+}
+
+template <int D>
+bool is_proved_tight(const Curves<D>& curves, const CagePiece<D>& piece, double tightness, double error) {
+  double least = infinity, greatest = 0;
+  for (const Cage<D>& cage : piece.cages) {
+    least = std::min(least, cage.radius);
+    greatest = std::max(greatest, cage.radius);
+  }
+  if (!(greatest >= 0x1p-400 && greatest <= 0x1p400)) return greatest == 0;
+  const double spare = rounding * (greatest * greatest) + 8 * error * (greatest + error);
+  const auto count = static_cast<std::size_t>(2 * curves.own_degree() + 1);
+  std::array<GapCoefficients, 2> gaps;
+  std::array<double, 2> limits{};
+  for (std::size_t which = 0; which < 2; ++which) {
+    Gap<D> gap;
+    if (find_gap(curves, piece, which, gap)) {
+      gaps[which].assign(gap.coefficients.begin(),
+                         gap.coefficients.begin() + static_cast<std::ptrdiff_t>(count));
+      limits[which] = most_allowed(least, gap.mean, tightness) - spare;
+    } else {
+      gaps[which].assign(count, infinity);
+    }
+  }
+  return one_is_below(gaps, limits, 4);
+}
+
+template <int D>
+void find_loose_nodes(const LinearStep<D>& step, double tightness, std::vector<NodeId>& loose) {
+  loose.clear();
+  if (step.start.equal_radii() && step.end.equal_radii()) {
+    look_at_all<true>(step, tightness, loose);
+  } else {
+    look_at_all<false>(step, tightness, loose);
+  }
+}
+
+template struct CagePiece<2>;
+template struct CagePiece<3>;
+template ControlBall<2> control_ball(const Curves<2>&, BeadId, double, double, int);
+template ControlBall<3> control_ball(const Curves<3>&, BeadId, double, double, int);
+template bool is_proved_tight(const Curves<2>&, const CagePiece<2>&, double, double);
+template bool is_proved_tight(const Curves<3>&, const CagePiece<3>&, double, double);
+template void find_loose_nodes(const LinearStep<2>&, double, std::vector<NodeId>&);
+template void find_loose_nodes(const LinearStep<3>&, double, std::vector<NodeId>&);
+
+}  // namespace kds
