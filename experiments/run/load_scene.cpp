@@ -60,11 +60,15 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
 std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& scene, AuditMode audits) {
   SessionOptions session{options.structures, options.kernel, audits, {.nodes = options.nodes}};
   session.settings.apart = options.apart.value_or(session.settings.apart);
+  session.settings.relax = Relaxation::of(options.relax.value_or(0));
   if (session.structures.empty()) session.structures = default_structures(scene);
   const auto& names = session.structures;
   if (options.apart && std::find(names.begin(), names.end(), "contacts") == names.end())
     throw InputError("--apart: it chooses pairs of contacts, which is not among the structures");
-  if (options.nodes.restricts() && std::find(names.begin(), names.end(), "wrapped") == names.end())
+  const bool wraps = std::find(names.begin(), names.end(), "wrapped") != names.end();
+  if (options.relax && !wraps)
+    throw InputError("--relax: it relaxes the spheres of wrapped, which is not among the structures");
+  if (options.nodes.restricts() && !wraps)
     throw InputError("--levels, --nodes: they choose nodes of wrapped, which is not among the structures");
   if (options.nodes.restricts()) {
     const NecklaceTree tree(scene.necklaces());

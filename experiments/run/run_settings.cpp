@@ -22,6 +22,9 @@ std::string levels_of(const NodeSelection& nodes) {
 std::string beads_of(const NodeSelection& nodes) {
   return nodes.beads ? fmt::format("{}:{}", nodes.beads->first, std::uint64_t{nodes.beads->last} + 1) : "";
 }
+std::string relax_of(const RunOptions& options) {
+  return options.relax ? fmt::format("{}", *options.relax) : "";
+}
 
 }  // namespace
 
@@ -37,7 +40,8 @@ std::vector<std::pair<std::string, std::string>> option_settings(const RunOption
           {"radius", options.radius},
           {"levels", levels_of(options.nodes)},
           {"nodes", beads_of(options.nodes)},
-          {"apart", options.apart ? std::to_string(*options.apart) : ""}};
+          {"apart", options.apart ? std::to_string(*options.apart) : ""},
+          {"relax", relax_of(options)}};
 }
 
 std::vector<std::string> option_arguments(const RunOptions& options) {
@@ -62,6 +66,7 @@ std::vector<std::string> option_arguments(const RunOptions& options) {
   if (const std::string levels = levels_of(options.nodes); !levels.empty()) add("--levels", levels);
   if (const std::string beads = beads_of(options.nodes); !beads.empty()) add("--nodes", beads);
   if (options.apart) add("--apart", std::to_string(*options.apart));
+  if (options.relax) add("--relax", relax_of(options));
   return arguments;
 }
 

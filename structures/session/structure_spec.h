@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "certificates/base/relaxation.h"
 #include "kds/simulator.h"
 #include "motions/scene/scene.h"
 #include "structures/necklace/node_selection.h"
@@ -40,6 +41,7 @@ class RunningStructure {
 struct StructureSettings {
   NodeSelection nodes;  ///< of hierarchies
   BeadId apart = 2;     ///< contacts: of beads of one necklace, those at least so far apart along it
+  Relaxation relax{};   ///< wrapped: by what share of a sphere's radius beads may stick out of it
 };
 
 struct StructureSpec {
