@@ -6,6 +6,9 @@
 //   equal radii    bases of 1, 2 and (in space) 3 beads: bead_in_sphere.h; full bases: a power test times the
 //                  basis' orientation, where the weights are equal too
 //   others         ball_in_sphere.h
+//
+// Of a relaxed sphere those of equal radii know (relaxed_bead_in_sphere.h), bases of two beads or more;
+// others are not relaxed.
 
 #include <algorithm>
 #include <array>
@@ -16,6 +19,7 @@
 #include "certificates/types/bead_in_sphere.h"
 #include "certificates/types/power_test.h"
 #include "certificates/types/radii.h"
+#include "certificates/types/relaxed_bead_in_sphere.h"
 
 namespace kds {
 
@@ -40,6 +44,15 @@ template <std::size_t N>
   return beads;
 }
 
+/// Whether the certificate for equal radii will do for these beads.
+template <Motion M>
+[[nodiscard]] bool of_equal_radii(Radii radii, const M& motion, std::span<const BeadId> beads, bool is_full) {
+  return radii == Radii::equal ||
+         (all_equal(beads, degree_of(motion), [&](BeadId b, int k) { return motion.radius(b, k); }) &&
+          (!is_full ||
+           all_equal(beads, degree_of(motion), [&](BeadId b, int k) { return motion.weight(b, k); })));
+}
+
 }  // namespace detail
 
 /// Calls `visit` with the certificate that `bead` lies inside (or, not `inside`, outside) the sphere of
@@ -52,21 +65,14 @@ decltype(auto) visit_membership(Radii radii, const M& motion, std::span<const Be
   std::array<BeadId, full + 1> all{};
   std::copy(basis.begin(), basis.end(), all.begin());
   all[basis.size()] = bead;
-  if (radii == Radii::any) {
-    const auto beads = std::span(all).first(basis.size() + 1);
-    const bool equal =
-        detail::all_equal(beads, degree_of(motion), [&](BeadId b, int k) { return motion.radius(b, k); }) &&
-        (!is_full ||
-         detail::all_equal(beads, degree_of(motion), [&](BeadId b, int k) { return motion.weight(b, k); }));
-    if (!equal) {
-      if (is_full) return visit(BallInSphere<M::dimension, full>{all, inside, orientation});
-      if (basis.size() == 1)
-        return visit(BallInSphere<M::dimension, 1>{detail::with_bead<1>(basis, bead), inside});
-      if constexpr (full == 4) {
-        if (basis.size() == 3) return visit(BallInSphere<3, 3>{detail::with_bead<3>(basis, bead), inside});
-      }
-      return visit(BallInSphere<M::dimension, 2>{detail::with_bead<2>(basis, bead), inside});
+  if (!detail::of_equal_radii(radii, motion, std::span(all).first(basis.size() + 1), is_full)) {
+    if (is_full) return visit(BallInSphere<M::dimension, full>{all, inside, orientation});
+    if (basis.size() == 1)
+      return visit(BallInSphere<M::dimension, 1>{detail::with_bead<1>(basis, bead), inside});
+    if constexpr (full == 4) {
+      if (basis.size() == 3) return visit(BallInSphere<3, 3>{detail::with_bead<3>(basis, bead), inside});
     }
+    return visit(BallInSphere<M::dimension, 2>{detail::with_bead<2>(basis, bead), inside});
   }
   if (is_full) return visit(PowerTest<M::dimension>(all, inside ? -orientation : orientation));
   if (basis.size() == 1) return visit(BeadInSphere<1>{detail::with_bead<1>(basis, bead), inside});
@@ -74,6 +80,25 @@ decltype(auto) visit_membership(Radii radii, const M& motion, std::span<const Be
     if (basis.size() == 3) return visit(BeadInSphere<3>{detail::with_bead<3>(basis, bead), inside});
   }
   return visit(BeadInSphere<2>{detail::with_bead<2>(basis, bead), inside});
+}
+
+/// The same of the sphere made larger by `relaxation`, which the bead stays inside.
+template <Motion M, class Visit>
+decltype(auto) visit_relaxed_membership(Radii radii, const M& motion, std::span<const BeadId> basis,
+                                        BeadId bead, int orientation, const Relaxation& relaxation,
+                                        Visit&& visit) {
+  constexpr std::size_t full = M::dimension + 1;
+  std::array<BeadId, full + 1> all{};
+  std::copy(basis.begin(), basis.end(), all.begin());
+  all[basis.size()] = bead;
+  const auto beads = std::span(all).first(basis.size() + 1);
+  if (!relaxation.any() || basis.size() < 2 || !detail::of_equal_radii(radii, motion, beads, false))
+    return visit_membership(radii, motion, basis, bead, true, orientation, visit);
+  if constexpr (full == 4) {
+    if (basis.size() == 4) return visit(RelaxedBeadInSphere<4>{all, relaxation});
+  }
+  if (basis.size() == 3) return visit(RelaxedBeadInSphere<3>{detail::with_bead<3>(basis, bead), relaxation});
+  return visit(RelaxedBeadInSphere<2>{detail::with_bead<2>(basis, bead), relaxation});
 }
 
 }  // namespace kds

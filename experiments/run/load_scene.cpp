@@ -86,6 +86,7 @@ std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& sc
   session.settings.apart = options.apart.value_or(session.settings.apart);
   session.settings.between = options.between.value_or(session.settings.between);
   session.settings.tightness = options.tightness;
+  session.settings.relax = Relaxation::of(options.relax.value_or(0));
   if (session.structures.empty()) session.structures = default_structures(scene);
   const auto& names = session.structures;
   if (options.apart && std::find(names.begin(), names.end(), "contacts") == names.end())
@@ -93,6 +94,10 @@ std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& sc
   const auto has = [&names](const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
+  if (options.relax && !has("wrapped"))
+    throw InputError("--relax: it relaxes the spheres of wrapped, which is not among the structures");
+  if (options.relax && session.settings.between != Between::events)
+    throw InputError("--relax: it is about events; expected --between events");
   if (options.nodes.restricts() && !has("wrapped") && !has("layered"))
     throw InputError("--levels, --nodes: they choose nodes of wrapped, which is not among the structures");
   if (options.between && !has("wrapped"))

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "certificates/base/relaxation.h"
 #include "certificates/exact/exact_work.h"
 #include "experiments/output/text.h"
 #include "experiments/program/input_options.h"
@@ -38,6 +39,9 @@ constexpr std::array kRunOptions{
                "of nodes being halved for it (default: none)"},
     OptionSpec{"--apart", "K",
                "contacts: of beads of one chain, those at least K apart along it (default: 2)"},
+    OptionSpec{
+        "--relax", "EPS",
+        "wrapped: a bead leaves a sphere when it is out by EPS of the radius, from 2^-20 to 1 (default: 0)"},
     OptionSpec{"--audit", "WHEN", "compare with static builds: none, frames or events (default: none)"},
     OptionSpec{"--work", "LIMIT",
                "end the run where exact arithmetic takes more limb operations than this (default: no limit)"},
@@ -113,6 +117,8 @@ RunOptions parse_run_options(const Arguments& arguments) {
   options.between = chosen<Between>(parsed, "--between", between_names);
   if (const auto tightness = parsed.value("--tightness"))
     options.tightness = parse_real("--tightness", *tightness, {1e-6, 1});
+  if (const auto relax = parsed.value("--relax"))
+    options.relax = parse_real("--relax", *relax, {Relaxation::least_share, 1});
   options.audit = chosen<AuditMode>(parsed, "--audit", audit_mode_names).value_or(options.audit);
   if (const auto limit = parsed.value("--work"))
     options.work = parse_whole_number("--work", *limit, 0, ExactWork::no_limit - 1);

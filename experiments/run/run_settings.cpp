@@ -22,6 +22,9 @@ std::string levels_of(const NodeSelection& nodes) {
 std::string beads_of(const NodeSelection& nodes) {
   return nodes.beads ? fmt::format("{}:{}", nodes.beads->first, std::uint64_t{nodes.beads->last} + 1) : "";
 }
+std::string relax_of(const RunOptions& options) {
+  return options.relax ? fmt::format("{}", *options.relax) : "";
+}
 
 }  // namespace
 
@@ -39,7 +42,8 @@ std::vector<std::pair<std::string, std::string>> option_settings(const RunOption
           {"nodes", beads_of(options.nodes)},
           {"apart", options.apart ? std::to_string(*options.apart) : ""},
           {"between", options.between ? std::string(name_of(*options.between)) : ""},
-          {"tightness", options.tightness ? fmt::format("{}", *options.tightness) : ""}};
+          {"tightness", options.tightness ? fmt::format("{}", *options.tightness) : ""},
+          {"relax", relax_of(options)}};
 }
 
 std::vector<std::string> option_arguments(const RunOptions& options) {
@@ -66,6 +70,7 @@ std::vector<std::string> option_arguments(const RunOptions& options) {
   if (options.apart) add("--apart", std::to_string(*options.apart));
   if (options.between) add("--between", std::string(name_of(*options.between)));
   if (options.tightness) add("--tightness", fmt::format("{}", *options.tightness));
+  if (options.relax) add("--relax", relax_of(options));
   return arguments;
 }
 

@@ -142,6 +142,33 @@ bool ExactSphere<Dimension>::holds(const Ball& ball) const {
   return radical_sign(w * c_ - f * b_, f, discriminant_) >= 0;
 }
 
+// |d - z| <= (1 + eps) R - r, where rho = c / (2 w), w = sqrt(D) - b, and z = (w Q A e + c Q A s) / (2 g w).
+template <int Dimension>
+bool ExactSphere<Dimension>::holds_when_larger(const Ball& ball, const Relaxation& by) const {
+  const Integer factor = Relaxation::most + by.units(), unit = Relaxation::most;
+  std::array<Integer, Dimension> d;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) d[axis] = ball.center[axis] - base_.center[axis];
+  const bool one_radius = ball.radius == base_.radius &&
+                          std::all_of(as_.begin(), as_.end(), [](const Integer& x) { return x.sign() == 0; });
+  const Integer first = one_radius ? Integer(0) : base_.radius, own = one_radius ? Integer(0) : ball.radius;
+  if (m_ == 0) {
+    const Integer room = factor * first - unit * own;
+    return room.sign() >= 0 && unit * unit * dot(d, d) <= room * room;
+  }
+  // Both sides times 2 g w units: t0 + t1 w, and the length of v0 + v1 w.
+  const Integer t0 = g_ * factor * c_, t1 = 2 * g_ * (factor * first - unit * own);
+  std::array<Integer, Dimension> v0, v1;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    v0[axis] = -unit * c_ * qas_[axis];
+    v1[axis] = unit * (2 * g_ * d[axis] - qae_[axis]);
+  }
+  if (radical_sign(t0 - t1 * b_, t1, discriminant_) < 0) return false;
+  const Integer constant = t0 * t0 - dot(v0, v0), linear = 2 * (t0 * t1 - dot(v0, v1));
+  const Integer square = t1 * t1 - dot(v1, v1);
+  return radical_sign(constant - linear * b_ + square * (discriminant_ + b_ * b_), linear - 2 * square * b_,
+                      discriminant_) >= 0;
+}
+
 template <int Dimension>
 Sphere ExactSphere<Dimension>::rounded(int unit) const {
   Sphere sphere;

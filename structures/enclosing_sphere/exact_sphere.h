@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "certificates/base/relaxation.h"
 #include "motions/numbers/exact_number.h"
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/necklace/balls.h"
@@ -44,6 +45,9 @@ class ExactSphere {
   [[nodiscard]] bool is_proper() const;
   /// Inside, or touching from inside.
   [[nodiscard]] bool holds(const Ball& ball) const;
+  /// The same of the sphere with its radius made larger by a share of itself; where the ball and the basis
+  /// are of one radius, by a share of the radius of the centres' sphere, which is less.
+  [[nodiscard]] bool holds_when_larger(const Ball& ball, const Relaxation& by) const;
   /// Each coordinate and the radius rounded to within 2^-52 of their size, where doubles reach.
   [[nodiscard]] Sphere rounded(int unit) const;
 

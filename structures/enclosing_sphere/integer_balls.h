@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "certificates/base/relaxation.h"
 #include "motions/base/bead_range.h"
 #include "motions/curves/curves.h"
 #include "structures/enclosing_sphere/basis.h"
@@ -32,9 +33,11 @@ template <int Dimension>
 template <int Dimension>
 [[nodiscard]] Basis proper_part(const Basis& basis, const IntegerBalls<Dimension>& whole);
 
-/// The first bead of a range that is not inside the sphere of a proper basis.
+/// The first bead of a range that is not inside the sphere of a proper basis, or, but for `members`, of that
+/// made larger (ExactSphere::holds_when_larger).
 template <int Dimension>
-[[nodiscard]] std::optional<BeadId> bead_outside(const Basis& basis, const BeadRange& range,
+[[nodiscard]] std::optional<BeadId> bead_outside(const Basis& basis, const Basis& members,
+                                                 const BeadRange& range, const Relaxation& relaxation,
                                                  const IntegerBalls<Dimension>& whole);
 
 }  // namespace kds

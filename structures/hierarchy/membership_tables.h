@@ -1,10 +1,11 @@
 #pragma once
 // The certificates of membership (certificates/types/membership.h), a table for each type: equal radii first,
-// by the size of the basis from 1 on.
+// by the size of the basis from 1 on; then those of relaxed spheres.
 
 #include <algorithm>
 
 #include "certificates/search/ball_in_sphere_search.h"
+#include "certificates/search/relaxed_bead_in_sphere_search.h"
 #include "certificates/types/membership.h"
 #include "kds/certificate_tables.h"
 #include "structures/enclosing_sphere/basis.h"
@@ -18,16 +19,24 @@ struct TablesOfMembership;
 template <>
 struct TablesOfMembership<2> {
   using Type = CertificateTables<BeadInSphere<1>, BeadInSphere<2>, PowerTest<2>, BallInSphere<2, 1>,
-                                 BallInSphere<2, 2>, BallInSphere<2, 3>>;
+                                 BallInSphere<2, 2>, BallInSphere<2, 3>, RelaxedBeadInSphere<2>,
+                                 RelaxedBeadInSphere<3>>;
 };
 template <>
 struct TablesOfMembership<3> {
   using Type =
       CertificateTables<BeadInSphere<1>, BeadInSphere<2>, BeadInSphere<3>, PowerTest<3>, BallInSphere<3, 1>,
-                        BallInSphere<3, 2>, BallInSphere<3, 3>, BallInSphere<3, 4>>;
+                        BallInSphere<3, 2>, BallInSphere<3, 3>, BallInSphere<3, 4>, RelaxedBeadInSphere<2>,
+                        RelaxedBeadInSphere<3>, RelaxedBeadInSphere<4>>;
 };
 
 }  // namespace detail
+
+/// Whether a certificate is one of a relaxed sphere, which none but a relaxed hierarchy holds.
+template <class Certificate>
+inline constexpr bool is_relaxed = requires(const Certificate& c) {
+  c.beads.relaxation;
+};
 
 /// Where radii are promised to be equal there are none of unequal radii.
 template <int Dimension>

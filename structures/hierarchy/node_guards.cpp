@@ -21,15 +21,19 @@ inline constexpr bool radical_of_two_or_more = RadicalCertificateFor<Certificate
 template <int Dimension>
 NodeGuards<Dimension>::NodeGuards(Simulator& simulator, KineticStructure& owner, std::size_t index,
                                   const MotionRef<Dimension>& motion, const Curves<Dimension>& curves,
-                                  Radii radii, std::size_t nodes, NodeProofs<Dimension>& proofs)
+                                  Radii radii, std::size_t nodes, NodeProofs<Dimension>& proofs,
+                                  const Relaxation& relaxation)
     : simulator_(simulator),
       owner_(owner),
       curves_(curves),
       radii_(radii),
+      relaxation_(relaxation),
       proofs_(proofs),
       tables_(simulator, owner, index, motion,
-              [radii]<class C>(std::type_identity<C>) -> std::optional<TouchPolicy> {
+              [radii, &relaxation]<class C>(std::type_identity<C>) -> std::optional<TouchPolicy> {
                 if (radii == Radii::equal && RadicalCertificateFor<C, Curves<Dimension>>) return std::nullopt;
+                if constexpr (is_relaxed<C>)
+                  return relaxation.any() ? std::optional(TouchPolicy::ignored) : std::nullopt;
                 return C{}.beads.size() == full ? TouchPolicy::reported : TouchPolicy::ignored;
               }),
       signs_(simulator, motion, curves, radii, tables_, owner.statistics.stages),
@@ -80,22 +84,27 @@ std::optional<Failure> NodeGuards<Dimension>::crossing_of(const Basis& basis, Be
 template <int Dimension>
 void NodeGuards<Dimension>::enqueue(NodeId id, const Basis& basis, BeadId bead, bool inside,
                                     int orientation) {
-  visit_membership(radii_, curves_, std::span(basis.begin(), basis.end()), bead, inside, orientation,
-                   [&]<class C>(const C& c) {
-                     const auto& present = signs_.present;
-                     const bool own_root = present && present->is_of(c);
-                     if (own_root && c.side() == present->side) failed_again_ = bead;
-                     const bool at_own_root = own_root || (simulator_.kernel() == Kernel::filtered &&
-                                                           present && present->shares_root_with(c));
-                     if (const auto known = crossing_of<C>(basis, bead, inside, at_own_root)) {
-                       tables_.template of<C>().enqueue_known(c, id, *known);
-                     } else {
-                       tables_.template of<C>().enqueue(
-                           c, id, at_own_root ? KnownAtStart::at_own_root : KnownAtStart::unknown);
-                     }
-                     watched_[Tables::template number_of<C>].push_back(bead);
-                     for (const BeadId b : c.beads) named_.push_back({id, b});
-                   });
+  const auto enqueue_it = [&]<class C>(const C& c) {
+    const auto& present = signs_.present;
+    const bool own_root = present && present->is_of(c);
+    if (own_root && c.side() == present->side) failed_again_ = bead;
+    const bool at_own_root =
+        own_root || (simulator_.kernel() == Kernel::filtered && present && present->shares_root_with(c));
+    if (const auto known = crossing_of<C>(basis, bead, inside, at_own_root)) {
+      tables_.template of<C>().enqueue_known(c, id, *known);
+    } else {
+      tables_.template of<C>().enqueue(c, id,
+                                       at_own_root ? KnownAtStart::at_own_root : KnownAtStart::unknown);
+    }
+    watched_[Tables::template number_of<C>].push_back(bead);
+    for (const BeadId b : c.beads) named_.push_back({id, b});
+  };
+  const std::span beads(basis.begin(), basis.end());
+  if (inside && relaxation_.any()) {
+    visit_relaxed_membership(radii_, curves_, beads, bead, orientation, relaxation_, enqueue_it);
+  } else {
+    visit_membership(radii_, curves_, beads, bead, inside, orientation, enqueue_it);
+  }
 }
 
 template <int Dimension>
@@ -179,6 +188,7 @@ typename NodeGuards<Dimension>::Failed NodeGuards<Dimension>::take_failed(unsign
     failed.touches = t.touches(slot);
     if (failed.touches) return;
     failed.bead = bead_of(certificate, bases[failed.node]);
+    failed.relaxed = is_relaxed<std::remove_cvref_t<decltype(certificate)>>;
     signs_.present.emplace(certificate);
   });
   for (std::uint32_t place = held_by_[failed.node].first; place != none; place = held_[place].next) {

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "certificates/base/relaxation.h"
 #include "kds/kinetic_structure.h"
 #include "structures/hierarchy/membership_tables.h"
 #include "structures/hierarchy/node_proofs.h"
@@ -30,7 +31,7 @@ class NodeGuards {
   /// Of the structure `owner`, number `index` of the simulator's. `curves`: of the present step.
   NodeGuards(Simulator& simulator, KineticStructure& owner, std::size_t index,
              const MotionRef<Dimension>& motion, const Curves<Dimension>& curves, Radii radii,
-             std::size_t nodes, NodeProofs<Dimension>& proofs);
+             std::size_t nodes, NodeProofs<Dimension>& proofs, const Relaxation& relaxation = {});
 
   [[nodiscard]] SignsJustAfter<Dimension>& signs() { return signs_; }
 
@@ -56,6 +57,7 @@ class NodeGuards {
     NodeId node = 0;
     BeadId bead = no_bead;  ///< that the certificate is about, unless
     bool touches = false;   ///< it does not fail, but touches zero
+    bool relaxed = false;   ///< the bead is as far outside as it may be, not on the sphere
   };
   /// What fails now, by table and slot, with all the certificates of its node dropped. Until `forget_failure`
   /// the failure is known to be the present one, unless it is a touch.
@@ -100,6 +102,7 @@ class NodeGuards {
   KineticStructure& owner_;
   const Curves<Dimension>& curves_;
   Radii radii_;
+  Relaxation relaxation_;
   NodeProofs<Dimension>& proofs_;
   Tables tables_;
   SignsJustAfter<Dimension> signs_;

@@ -13,14 +13,17 @@ namespace kds {
 
 template <int Dimension>
 NodeProofs<Dimension>::NodeProofs(const Simulator& simulator, const NecklaceTree& tree,
-                                  const Curves<Dimension>& curves, int degree, Radii radii)
+                                  const Curves<Dimension>& curves, int degree, Radii radii,
+                                  const Relaxation& relaxation)
     : simulator_(simulator),
       tree_(tree),
       curves_(curves),
       radii_(radii),
       any_(simulator.kernel() != Kernel::exact && degree >= 1 && degree <= BeadPaths<Dimension>::most_degree),
       proves_crossings_(any_ && simulator.kernel() == Kernel::filtered && degree == 1),
-      slack_(tree) {}
+      enlarged_by_(radii == Radii::equal ? 1 + relaxation.share() : 1),
+      slack_(tree),
+      chord_cache_(enlarged_by_) {}
 
 template <int Dimension>
 void NodeProofs<Dimension>::start_step() {
@@ -83,7 +86,7 @@ void NodeProofs<Dimension>::find_candidates(std::span<const NodeId> nodes, std::
   ChordFilterResult<Dimension> look;
   const auto look_at = [&](Waiting& w) {
     filter_nodes<Dimension>(paths_, std::span(w.ranges).first(w.count), std::span(w.bases).first(w.count),
-                            look, beyond_);
+                            look, beyond_, enlarged_by_);
     for (std::size_t i = 0; i < w.count; ++i)
       if (!look.steady[i]) candidates_.push_back({w.nodes[i], look.chords[i], look.ends[i]});
     w.count = 0;
@@ -167,8 +170,9 @@ unsigned NodeProofs<Dimension>::look_closely(const Basis& basis, double until, s
   }
   sphere_chords<Dimension>(paths_, bases, periods, chords);
   unsigned stays = all_of(basis);
-  for (const auto& chord : chords) {
+  for (auto& chord : chords) {
     if (!chord.proved) return 0;
+    chord.enlarge(enlarged_by_);
     stays &= chord.stays;
   }
   keep_beyond<Dimension>(paths_, basis, chords, periods, beyond);

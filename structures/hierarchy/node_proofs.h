@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "certificates/base/relaxation.h"
 #include "certificates/types/radii.h"
 #include "kds/simulator.h"
 #include "motions/curves/curves.h"
@@ -34,9 +35,9 @@ class NodeProofs {
  public:
   static constexpr std::size_t full = Dimension + 1;
 
-  /// `curves`: of the present step, of this degree.
+  /// `curves`: of the present step, of this degree. Beads stay inside spheres that are relaxed by so much.
   NodeProofs(const Simulator& simulator, const NecklaceTree& tree, const Curves<Dimension>& curves,
-             int degree, Radii radii);
+             int degree, Radii radii, const Relaxation& relaxation = {});
 
   /// The curves are those of the next step.
   void start_step();
@@ -108,6 +109,7 @@ class NodeProofs {
   const Curves<Dimension>& curves_;
   Radii radii_;
   bool any_, proves_crossings_;
+  double enlarged_by_;  // by which chords are
   BeadPaths<Dimension> paths_;
   NodeSlack<Dimension> slack_;
   ChordCache<Dimension> chord_cache_;

@@ -36,17 +36,19 @@ template <int Dimension>
 template <int Dimension>
 WrappedHierarchy<Dimension>::WrappedHierarchy(Simulator& simulator, const MotionRef<Dimension>& motion,
                                               std::span<const BeadRange> necklaces, Radii radii,
-                                              const NodeSelection& selection)
+                                              const NodeSelection& selection, const Relaxation& relaxation)
     : simulator_(simulator),
       motion_(accepted(motion)),
       radii_(radii),
+      relaxation_(relaxation),
       tree_(necklaces),
       bases_(tree_.node_count()),
       kept_(select_nodes(tree_, selection)),
       index_(simulator.add(*this)),
-      proofs_(std::make_unique<NodeProofs<Dimension>>(simulator, tree_, curves_, motion.degree(), radii)),
+      proofs_(std::make_unique<NodeProofs<Dimension>>(simulator, tree_, curves_, motion.degree(), radii,
+                                                      relaxation)),
       guards_(std::make_unique<NodeGuards<Dimension>>(simulator, *this, index_, motion, curves_, radii,
-                                                      tree_.node_count(), *proofs_)),
+                                                      tree_.node_count(), *proofs_, relaxation)),
       repair_(
           std::make_unique<BasisRepair<Dimension>>(simulator.kernel(), radii, *proofs_, guards_->signs())) {
   sort_kept_nodes();
@@ -305,12 +307,12 @@ void WrappedHierarchy<Dimension>::rebuild_roughly(NodeId id) {
 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::fail(unsigned table, std::uint32_t slot) {
-  const auto [id, bead, touches] = guards_->take_failed(table, slot, bases_);
+  const auto [id, bead, touches, relaxed] = guards_->take_failed(table, slot, bases_);
   const Basis before = bases_[id];
   BeadId risen = no_bead;
   if (!touches) {
     const bool repaired = repair(id, bead, true);
-    risen = proofs_->risen_bead(before, bases_[id], bead);
+    if (!relaxed) risen = proofs_->risen_bead(before, bases_[id], bead);
     if (!repaired && is_fast()) rebuild_roughly(id);
   } else if (radii_ == Radii::any) {
     // A full basis may turn over without one of its beads leaving: where all meet, or where each touches the
@@ -373,13 +375,14 @@ std::vector<Basis> WrappedHierarchy<Dimension>::bases_at(const Dyadic& time) con
 
 /// The sphere of a basis that encloses all beads and has no bead to spare is the minimum enclosing one, and
 /// the only one: checking both on integers is as good as building it. Nothing of it comes from certificates.
+/// A relaxed one encloses the basis, and all beads when it is made larger.
 template <int Dimension>
 std::optional<std::string> WrappedHierarchy<Dimension>::audit(const Dyadic& time) {
   const IntegerBalls<Dimension> whole = integer_balls_at(motion_.curves(), time);
   for (NodeId id = 0; id < bases_.size(); ++id) {
     if (!keeps(id)) continue;
     const Basis basis = proper_part(bases_[id], whole);
-    if (const auto bead = bead_outside(basis, tree_.range(id), whole)) {
+    if (const auto bead = bead_outside(basis, bases_[id], tree_.range(id), relaxation_, whole)) {
       return name_of(id) + " with basis " + bead_names(beads_of(bases_[id])) + ": bead " +
              std::to_string(*bead) + " sticks out";
     }

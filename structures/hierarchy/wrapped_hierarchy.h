@@ -4,7 +4,8 @@
 // dimension + 1 beads. Certificates of a node: each other bead stays inside the sphere of the basis; each
 // basis bead stays outside the sphere of its fellows. Those that a bound on the sphere's path proves at once
 // are not made. When one fails, the new basis is found among the basis and the bead: by such a bound on what
-// is next, or by signs just after the event. Exact with any kernel but `fast`.
+// is next, or by signs just after the event. Exact with any kernel but `fast`. Spheres may be relaxed: then
+// beads may be out by a share of the radius, and events are fewer.
 //
 // It is made of three parts, each with a file of its own: what is proved without certificates
 // (node_proofs.h), the certificates that are held (node_guards.h), the repair of a basis (basis_repair.h).
@@ -17,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "certificates/base/relaxation.h"
 #include "certificates/types/radii.h"
 #include "kds/kinetic_structure.h"
 #include "motions/base/bead_range.h"
@@ -45,9 +47,12 @@ class WrappedHierarchy final : public KineticStructure {
   static constexpr int dimension = Dimension;
 
   /// Keeps the selected nodes. `radii`: what is promised of them, for all steps; weights must be equal where
-  /// radii are. Throws std::invalid_argument where the motion is lifted.
+  /// radii are. Where `relaxation` is a share of the radius, a bead escapes when it is out by that: the
+  /// basis' minimum enclosing sphere, its radius times one plus that share, holds all beads of the node, and
+  /// theirs is no smaller than the basis'. Throws std::invalid_argument where the motion is lifted.
   WrappedHierarchy(Simulator& simulator, const MotionRef<Dimension>& motion,
-                   std::span<const BeadRange> necklaces, Radii radii, const NodeSelection& selection = {});
+                   std::span<const BeadRange> necklaces, Radii radii, const NodeSelection& selection = {},
+                   const Relaxation& relaxation = {});
   ~WrappedHierarchy() override;
 
   enum Kind : std::uint8_t { enter, leave, pivot };
@@ -60,6 +65,7 @@ class WrappedHierarchy final : public KineticStructure {
   /// Whether the node is kept in this step; nothing else is known of one that is not.
   [[nodiscard]] bool keeps(NodeId node) const { return kept_[node] != 0; }
   [[nodiscard]] const Basis& basis(NodeId node) const { return bases_[node]; }
+  [[nodiscard]] const Relaxation& relaxation() const { return relaxation_; }
 
   /// From the next step on the nodes that `query` asks for are kept, and no others. Which they are is not
   /// logged: such a run cannot be replayed.
@@ -111,6 +117,7 @@ class WrappedHierarchy final : public KineticStructure {
   Simulator& simulator_;
   MotionRef<Dimension> motion_;
   const Radii radii_;
+  const Relaxation relaxation_;
   Curves<Dimension> curves_;  // of the present step
   NecklaceTree tree_;
   std::vector<Basis> bases_;        // of nodes

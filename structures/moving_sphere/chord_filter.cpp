@@ -32,10 +32,11 @@ template <int D, int K, bool equal>
 
 template <int D, int K>
 void look_in_degree(const BeadPaths<D>& paths, std::span<const BeadRange> nodes, std::span<const Basis> bases,
-                    ChordFilterResult<D>& first, std::vector<BeadId>& beyond) {
+                    double enlarged_by, ChordFilterResult<D>& first, std::vector<BeadId>& beyond) {
   constexpr Period step;
   ChordLanes<D> chords;
   find_chords(paths, bases, PeriodLanes({&step, 1}), chords);
+  chords.enlarge(enlarged_by);
   if (paths.equal_radii()) {
     look<D, K, true>(paths, nodes, bases, chords, first.steady, first.ends, beyond);
   } else {
@@ -53,20 +54,20 @@ void look_in_degree(const BeadPaths<D>& paths, std::span<const BeadRange> nodes,
 template <int Dimension>
 void filter_nodes(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
                   std::span<const Basis> bases, ChordFilterResult<Dimension>& look,
-                  std::vector<BeadId>& beyond) {
+                  std::vector<BeadId>& beyond, double enlarged_by) {
   switch (paths.degree()) {
     case 1:
-      return look_in_degree<Dimension, 1>(paths, nodes, bases, look, beyond);
+      return look_in_degree<Dimension, 1>(paths, nodes, bases, enlarged_by, look, beyond);
     case 2:
-      return look_in_degree<Dimension, 2>(paths, nodes, bases, look, beyond);
+      return look_in_degree<Dimension, 2>(paths, nodes, bases, enlarged_by, look, beyond);
     default:
-      return look_in_degree<Dimension, 3>(paths, nodes, bases, look, beyond);
+      return look_in_degree<Dimension, 3>(paths, nodes, bases, enlarged_by, look, beyond);
   }
 }
 
 template void filter_nodes(const BeadPaths<2>&, std::span<const BeadRange>, std::span<const Basis>,
-                           ChordFilterResult<2>&, std::vector<BeadId>&);
+                           ChordFilterResult<2>&, std::vector<BeadId>&, double);
 template void filter_nodes(const BeadPaths<3>&, std::span<const BeadRange>, std::span<const Basis>,
-                           ChordFilterResult<3>&, std::vector<BeadId>&);
+                           ChordFilterResult<3>&, std::vector<BeadId>&, double);
 
 }  // namespace kds

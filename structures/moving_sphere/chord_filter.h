@@ -21,10 +21,10 @@ struct ChordFilterResult {
   std::array<std::size_t, 4> ends;
 };
 
-/// Appends to `beyond`.
+/// Appends to `beyond`. Chords are enlarged by that factor (SphereChord::enlarge).
 template <int Dimension>
 void filter_nodes(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
                   std::span<const Basis> bases, ChordFilterResult<Dimension>& look,
-                  std::vector<BeadId>& beyond);
+                  std::vector<BeadId>& beyond, double enlarged_by = 1);
 
 }  // namespace kds

@@ -18,6 +18,15 @@ struct ChordLanes {
   Lanes dip = Lanes(0.0);
   Lanes::Mask proved, stays, rises{};
 
+  /// As SphereChord::enlarge.
+  void enlarge(double factor) {
+    if (!(factor > 1)) return;
+    const Lanes by =
+        Lanes::choose((limit[0] > Lanes(0.0)) & (limit[1] > Lanes(0.0)), Lanes(factor), Lanes(1.0));
+    for (Lanes& l : limit) l = l * by;
+    dip = dip * by;
+  }
+
   /// In place: put together elsewhere it would be slow to copy.
   [[gnu::always_inline]] void give(std::size_t lane, SphereChord<Dimension>& chord) const {
     chord.proved = proved[lane] != 0;

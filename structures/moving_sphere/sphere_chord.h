@@ -42,6 +42,14 @@ struct SphereChord {
   std::array<double, 2> limit{};  ///< of a bead's distance plus its radius less the first bead's
   double dip = 0;                 ///< by which the limit is lower than it need be, but for 4 u (1-u) of that
   std::uint8_t rises = 0;  ///< a bit for each bead of the basis whose weight is positive from `sure` on
+
+  /// Of balls of equal radii: makes it the chord of the sphere made larger by a factor of its radius. Where
+  /// the limit is positive all the time it is below the radius, and so is what is gained below that of it.
+  void enlarge(double factor) {
+    if (!(factor > 1 && limit[0] > 0 && limit[1] > 0)) return;
+    for (double& l : limit) l *= factor;
+    dip *= factor;
+  }
 };
 
 struct Period {

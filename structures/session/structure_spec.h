@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "certificates/base/relaxation.h"
 #include "kds/simulator.h"
 #include "motions/scene/scene.h"
 #include "structures/necklace/node_selection.h"
@@ -54,7 +55,8 @@ struct StructureSettings {
   Between between = Between::events;  ///< wrapped
   /// Of chords: radii are within 1 + this of the smallest at all times; none: whatever they are.
   std::optional<double> tightness{};
-  BeadId apart = 2;  ///< contacts: of beads of one necklace, those at least so far apart along it
+  BeadId apart = 2;    ///< contacts: of beads of one necklace, those at least so far apart along it
+  Relaxation relax{};  ///< wrapped: by what share of a sphere's radius beads may stick out of it
 };
 
 struct StructureSpec {

@@ -14,10 +14,10 @@ template <int Dimension>
 class WrappedInRun final : public RunningStructure {
  public:
   WrappedInRun(Simulator& simulator, const Scene& scene, const MotionRef<Dimension>& motion,
-               const NodeSelection& nodes)
+               const NodeSelection& nodes, const Relaxation& relaxation)
       : scene_(scene),
         hierarchy_(simulator, motion, scene.necklaces(), scene.equal_radii() ? Radii::equal : Radii::any,
-                   nodes) {
+                   nodes, relaxation) {
     for (NodeId id = 0; id < hierarchy_.tree().node_count(); ++id)
       if (hierarchy_.keeps(id)) kept_.push_back(hierarchy_.tree().range(id));
   }
@@ -31,6 +31,7 @@ class WrappedInRun final : public RunningStructure {
       if (!hierarchy_.keeps(id)) continue;
       Sphere sphere = exact_sphere_of(bases[id], balls);
       sphere.center = scene_.in_input(sphere.center);
+      if (hierarchy_.relaxation().any()) enlarge(sphere);
       nodes.push_back({hierarchy_.tree().range(id), bases[id], sphere});
     }
     return {dump_wrapped(nodes)};
@@ -40,6 +41,13 @@ class WrappedInRun final : public RunningStructure {
   }
 
  private:
+  /// So that it holds all beads of the node, rounded as its numbers are: each by 2^-52 of itself.
+  void enlarge(Sphere& sphere) const {
+    constexpr double rounding = 0x1p-49;
+    sphere.radius = sphere.radius * (1 + hierarchy_.relaxation().share()) * (1 + rounding) +
+                    rounding * sphere.center.lpNorm<1>();
+  }
+
   const Scene& scene_;
   WrappedHierarchy<Dimension> hierarchy_;
   std::vector<BeadRange> kept_;
@@ -97,7 +105,7 @@ StructureSpec wrapped_structure() {
           } else {
             if (settings.between == Between::chord)
               return std::make_unique<WrappedChordsInRun<D>>(simulator, scene, ref, settings);
-            return std::make_unique<WrappedInRun<D>>(simulator, scene, ref, settings.nodes);
+            return std::make_unique<WrappedInRun<D>>(simulator, scene, ref, settings.nodes, settings.relax);
           }
         },
         motion);

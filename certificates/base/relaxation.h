@@ -1,0 +1,40 @@
+#pragma once
+// By how much the certificates of enclosing spheres may be exceeded before they fail: a share of the sphere's
+// radius. A whole number of 2^-20, so that its square is exact in double and a small whole number of 2^-40.
+
+#include <cmath>
+#include <cstdint>
+
+namespace kds {
+
+class Relaxation {
+ public:
+  static constexpr int digits = 20;
+  static constexpr std::int64_t most = std::int64_t{1} << digits;  ///< a share of 1
+  static constexpr double least_share = 0x1p-20;                   ///< but for none at all
+
+  constexpr Relaxation() = default;
+  /// The greatest that is no more than this share, which is from 0 to 1.
+  [[nodiscard]] static Relaxation of(double share) {
+    return Relaxation(static_cast<std::int64_t>(std::floor(std::ldexp(share, digits))));
+  }
+  [[nodiscard]] static constexpr Relaxation greatest() { return Relaxation(most); }
+
+  [[nodiscard]] constexpr bool any() const { return units_ > 0; }
+  /// Exact.
+  [[nodiscard]] constexpr double share() const { return static_cast<double>(units_) * 0x1p-20; }
+  /// The share in units of 2^-20.
+  [[nodiscard]] constexpr std::int64_t units() const { return units_; }
+  /// (1 + share)^2 - 1 in units of 2^-40.
+  [[nodiscard]] constexpr std::int64_t square_units() const { return units_ * (2 * most + units_); }
+  static constexpr std::int64_t one_squared = most * most;  ///< 1 in these units
+
+  friend constexpr bool operator==(const Relaxation&, const Relaxation&) = default;
+
+ private:
+  explicit constexpr Relaxation(std::int64_t units) : units_(units) {}
+
+  std::int64_t units_ = 0;
+};
+
+}  // namespace kds
