@@ -1,7 +1,10 @@
 #include "structures/chord_cages/chord_hierarchy.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "kds/simulator.h"
@@ -34,7 +37,7 @@ std::optional<std::string> not_as_built(const StaticWrappedHierarchy<D>& hierarc
     const auto name = [&range] {
       return "node " + std::to_string(range.first) + "-" + std::to_string(range.last) + ": ";
     };
-    if (const auto bead = bead_outside(proper_part(basis, whole), range, whole))
+    if (const auto bead = bead_outside(proper_part(basis, whole), basis, range, Relaxation(), whole))
       return name() + "bead " + std::to_string(*bead) + " is outside the sphere of the basis";
   }
   return std::nullopt;
@@ -56,7 +59,45 @@ std::optional<std::string> not_as_built(const LayeredHierarchy<D>& hierarchy, co
   return std::nullopt;
 }
 
+// Of the cages at all control points, by de Casteljau's steps: each rounds every number twice, by 2^-53 of
+// the largest of its kind.
+template <int D>
+Sphere blended(std::vector<Cage<D>> cages, double u) {
+  const double largest_radius =
+      std::max_element(cages.begin(), cages.end(), [](const Cage<D>& a, const Cage<D>& b) {
+        return a.radius < b.radius;
+      })->radius;
+  double largest = largest_radius;
+  for (const Cage<D>& cage : cages)
+    for (const double x : cage.center) largest = std::max(largest, std::abs(x));
+  const double rounding = static_cast<double>(2 * D * cages.size()) * 0x1p-51 * largest;
+  for (std::size_t rest = cages.size() - 1; rest > 0; --rest) {
+    for (std::size_t k = 0; k < rest; ++k) {
+      for (std::size_t axis = 0; axis < D; ++axis)
+        cages[k].center[axis] = (1 - u) * cages[k].center[axis] + u * cages[k + 1].center[axis];
+      cages[k].radius = (1 - u) * cages[k].radius + u * cages[k + 1].radius;
+    }
+  }
+  Sphere sphere = sphere_of(cages.front(), 0.0);
+  if (u > 0 && u < 1) sphere.radius += rounding;
+  return sphere;
+}
+
 }  // namespace
+
+template <class Hierarchy>
+Sphere ChordHierarchy<Hierarchy>::sphere_at(NodeId node, double u) const {
+  std::vector<Cage<dimension>> cages;
+  if constexpr (!is_layered<Hierarchy>) {
+    if (tight_) {
+      for (const CagePiece<dimension>& part : tight_->parts(node)) {
+        if (u <= part.to) return blended(part.cages, (u - part.from) / (part.to - part.from));
+      }
+    }
+  }
+  for (int k = 0; k <= cages_.degree(); ++k) cages.push_back(cages_.cages(k)[node]);
+  return blended(std::move(cages), u);
+}
 
 template <class Hierarchy>
 ChordHierarchy<Hierarchy>::ChordHierarchy(Simulator& simulator, const MotionRef<dimension>& motion,

@@ -38,6 +38,10 @@ class ChordHierarchy final : public KineticStructure {
   /// Null where no tightness is asked for.
   [[nodiscard]] const TightCages<dimension>* tight() const { return tight_ ? &*tight_ : nullptr; }
 
+  /// A node's sphere at time u of the present step, exactly a double: rounded up, so that it holds the true
+  /// one.
+  [[nodiscard]] Sphere sphere_at(NodeId node, double u) const;
+
   void build() override;
   void start_step() override;
   void fail(unsigned, std::uint32_t) override {}

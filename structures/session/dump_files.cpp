@@ -35,9 +35,9 @@ DumpFile dump_wrapped(std::span<const WrappedNode> nodes) {
   return {"wrapped.csv", std::move(text)};
 }
 
-DumpFile dump_layered(std::span<const LayeredNode> nodes) {
+DumpFile dump_layered(std::span<const NodeSphere> nodes) {
   std::string text = "first,last,x,y,z,radius\n";
-  for (const LayeredNode& node : nodes) {
+  for (const NodeSphere& node : nodes) {
     const auto& c = node.sphere.center;
     text += fmt::format("{},{},{},{},{},{}\n", node.range.first, node.range.last, c.x(), c.y(), c.z(),
                         node.sphere.radius);

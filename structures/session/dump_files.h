@@ -6,16 +6,12 @@
 
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/necklace/necklace_tree.h"
-#include "structures/necklace/sphere.h"
+#include "structures/necklace/node_sphere.h"
 #include "structures/session/structure_spec.h"
 #include "structures/triangulation/regular_triangulation.h"
 
 namespace kds {
 
-struct LayeredNode {
-  BeadRange range;
-  Sphere sphere;
-};
 struct WrappedNode {
   BeadRange range;
   Basis basis;
@@ -23,7 +19,7 @@ struct WrappedNode {
 };
 
 [[nodiscard]] DumpFile dump_wrapped(std::span<const WrappedNode> nodes);  ///< first,last,basis,x,y,z,radius
-[[nodiscard]] DumpFile dump_layered(std::span<const LayeredNode> nodes);  ///< first,last,x,y,z,radius
+[[nodiscard]] DumpFile dump_layered(std::span<const NodeSphere> nodes);   ///< first,last,x,y,z,radius
 [[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<2>> cells);   ///< a,b,c
 [[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<3>> cells);   ///< a,b,c,d
 [[nodiscard]] DumpFile dump_hidden(std::span<const BeadId> hidden);       ///< bead

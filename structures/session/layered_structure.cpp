@@ -1,5 +1,6 @@
 #include <vector>
 
+#include "motions/numbers/exact_number.h"
 #include "structures/chord_cages/chord_hierarchy.h"
 #include "structures/session/dump_files.h"
 #include "structures/session/own_structures.h"
@@ -21,7 +22,7 @@ class LayeredInRun final : public RunningStructure {
   [[nodiscard]] KineticStructure& kinetic() override { return hierarchy_; }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override {
     const LayeredHierarchy<Dimension>& at_frame = hierarchy_.cages().hierarchy();
-    std::vector<LayeredNode> nodes;
+    std::vector<NodeSphere> nodes;
     for (NodeId id = 0; id < keeps_.size(); ++id) {
       if (keeps_[id] == 0) continue;
       Sphere sphere = at_frame.sphere(id);
@@ -29,6 +30,14 @@ class LayeredInRun final : public RunningStructure {
       nodes.push_back({at_frame.tree().range(id), sphere});
     }
     return {dump_layered(nodes)};
+  }
+  [[nodiscard]] std::vector<NodeSphere> spheres_at(const Dyadic& u) const override {
+    std::vector<NodeSphere> nodes;
+    for (NodeId id = 0; id < keeps_.size(); ++id) {
+      if (keeps_[id] != 0)
+        nodes.push_back({hierarchy_.cages().tree().range(id), hierarchy_.sphere_at(id, u.round_down())});
+    }
+    return nodes;
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     return seconds_to_wrap<Dimension>(hierarchy_.cages().tree().ranges(), scene_.centers(frame),

@@ -57,6 +57,11 @@ std::vector<DumpFile> Session::dump(std::size_t frame) const {
   return files;
 }
 
+std::vector<NodeSphere> Session::spheres_at(std::size_t structure, const Dyadic& u) const {
+  const FloatingPointGuard to_nearest;
+  return running_[structure]->spheres_at(u);
+}
+
 void Session::time_static_builds(std::size_t frame, std::vector<double>& seconds) const {
   const FloatingPointGuard to_nearest;
   seconds.resize(running_.size(), 0);

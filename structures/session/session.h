@@ -43,6 +43,8 @@ class Session {
   [[nodiscard]] std::vector<Change> built(std::size_t structure) const {
     return running_[structure]->built();
   }
+  /// The spheres of a structure's nodes now, at time u of the step (RunningStructure::spheres_at).
+  [[nodiscard]] std::vector<NodeSphere> spheres_at(std::size_t structure, const Dyadic& u) const;
   /// Builds the same structures statically at a frame; adds the seconds, one entry a structure.
   void time_static_builds(std::size_t frame, std::vector<double>& seconds) const;
 

@@ -15,6 +15,7 @@
 #include "kds/simulator.h"
 #include "motions/scene/scene.h"
 #include "structures/necklace/node_selection.h"
+#include "structures/necklace/node_sphere.h"
 #include "structures/session/scene_motion.h"
 
 namespace kds {
@@ -35,6 +36,13 @@ class RunningStructure {
   [[nodiscard]] virtual std::vector<DumpFile> dump(std::size_t frame) const = 0;
   /// What it was built as, for logs of its events to begin with: the changes that would make it of nothing.
   [[nodiscard]] virtual std::vector<Change> built() const { return {}; }
+  /// The spheres of its nodes at time u of the step that is being run or has just been run, as the structure
+  /// has them then, in the scene's coordinates; none where it has no nodes. Rounded up: each holds the true
+  /// one.
+  [[nodiscard]] virtual std::vector<NodeSphere> spheres_at(const Dyadic& u) const {
+    static_cast<void>(u);
+    return {};
+  }
   /// Wall seconds to build the same structure statically at a frame, as a user would without this library.
   [[nodiscard]] virtual double static_seconds(std::size_t frame) const = 0;
 };

@@ -1,6 +1,7 @@
 #include "motions/numbers/exact_number.h"
 #include "structures/chord_cages/chord_hierarchy.h"
 #include "structures/enclosing_sphere/exact_sphere.h"
+#include "structures/enclosing_sphere/integer_balls.h"
 #include "structures/hierarchy/wrapped_hierarchy.h"
 #include "structures/session/dump_files.h"
 #include "structures/session/own_structures.h"
@@ -16,6 +17,7 @@ class WrappedInRun final : public RunningStructure {
   WrappedInRun(Simulator& simulator, const Scene& scene, const MotionRef<Dimension>& motion,
                const NodeSelection& nodes, const Relaxation& relaxation)
       : scene_(scene),
+        motion_(motion),
         hierarchy_(simulator, motion, scene.necklaces(), scene.equal_radii() ? Radii::equal : Radii::any,
                    nodes, relaxation) {
     for (NodeId id = 0; id < hierarchy_.tree().node_count(); ++id)
@@ -30,11 +32,24 @@ class WrappedInRun final : public RunningStructure {
     for (NodeId id = 0; id < bases.size(); ++id) {
       if (!hierarchy_.keeps(id)) continue;
       Sphere sphere = exact_sphere_of(bases[id], balls);
-      sphere.center = scene_.in_input(sphere.center);
       if (hierarchy_.relaxation().any()) enlarge(sphere);
+      sphere.center = scene_.in_input(sphere.center);
       nodes.push_back({hierarchy_.tree().range(id), bases[id], sphere});
     }
     return {dump_wrapped(nodes)};
+  }
+  [[nodiscard]] std::vector<NodeSphere> spheres_at(const Dyadic& u) const override {
+    const IntegerBalls<Dimension> whole = integer_balls_at(motion_.curves(), u);
+    std::vector<NodeSphere> nodes;
+    for (NodeId id = 0; id < hierarchy_.tree().node_count(); ++id) {
+      if (!hierarchy_.keeps(id)) continue;
+      const Basis basis = proper_part(hierarchy_.basis(id), whole);
+      const auto balls = whole.of(std::span(basis.begin(), basis.end()));
+      Sphere sphere = ExactSphere<Dimension>::touching(balls)->rounded(whole.unit);
+      enlarge(sphere);
+      nodes.push_back({hierarchy_.tree().range(id), sphere});
+    }
+    return nodes;
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     return seconds_to_wrap<Dimension>(kept_, scene_.centers(frame), scene_.radii()).clock;
@@ -49,6 +64,7 @@ class WrappedInRun final : public RunningStructure {
   }
 
   const Scene& scene_;
+  MotionRef<Dimension> motion_;
   WrappedHierarchy<Dimension> hierarchy_;
   std::vector<BeadRange> kept_;
 };
@@ -74,6 +90,14 @@ class WrappedChordsInRun final : public RunningStructure {
       nodes.push_back({at_frame.tree().range(id), at_frame.basis(id), sphere});
     }
     return {dump_wrapped(nodes)};
+  }
+  [[nodiscard]] std::vector<NodeSphere> spheres_at(const Dyadic& u) const override {
+    std::vector<NodeSphere> nodes;
+    for (NodeId id = 0; id < keeps_.size(); ++id) {
+      if (keeps_[id] != 0)
+        nodes.push_back({hierarchy_.cages().tree().range(id), hierarchy_.sphere_at(id, u.round_down())});
+    }
+    return nodes;
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     return seconds_to_wrap<Dimension>(hierarchy_.cages().tree().ranges(), scene_.centers(frame),
