@@ -1,7 +1,12 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "kds/seconds.h"
 #include "structures/collision/cell_list.h"
 #include "structures/contacts/contacts.h"
 #include "structures/session/own_structures.h"
+#include "structures/session/session.h"
 
 namespace kds {
 
@@ -33,6 +38,23 @@ class ContactsInRun final : public RunningStructure {
   Contacts<Dimension> contacts_;
 };
 
+// With `exact` pairs are listed, all of them.
+void check_exact_pairs(const PairsAsked& asked) {
+  constexpr double most = 1e8;  // 2.5 GB, and minutes a step
+  double before = 0, pairs = 0;
+  for (const BeadRange& range : asked.necklaces) {
+    const double beads = static_cast<double>(range.last) - range.first + 1;
+    const double starts = std::max(0.0, beads - asked.apart);
+    pairs += 0.5 * starts * (starts + 1) + before * beads;
+    before += beads;
+  }
+  if (pairs > most)
+    throw StructureRefusal("contacts",
+                           fmt::format("kernel exact looks at all {:.0f} pairs of beads, more than "
+                                       "{:.0f}; expected fewer beads, or kernel filtered",
+                                       pairs, most));
+}
+
 }  // namespace
 
 StructureSpec contacts_structure() {
@@ -53,8 +75,9 @@ StructureSpec contacts_structure() {
           if constexpr (D == 1) {
             return nullptr;
           } else {
-            return std::make_unique<ContactsInRun<D>>(
-                simulator, scene, ref, PairsAsked{scene.necklaces(), true, settings.apart, true});
+            const PairsAsked asked{scene.necklaces(), true, settings.apart, true};
+            if (simulator.kernel() == Kernel::exact) check_exact_pairs(asked);
+            return std::make_unique<ContactsInRun<D>>(simulator, scene, ref, asked);
           }
         },
         motion);

@@ -116,6 +116,13 @@ TEST(ContactsRun, Refusals) {
   expect_refused({kDcd, "--structures", "contacts", "--motion", "lifted"}, "fictitious");
   expect_refused({data_file("kinetic/d3_n20_linear.txt"), "--structures", "contacts"}, "no radii");
   expect_refused({data_file("kinetic/d1_n20_linear.txt"), "--structures", "contacts"}, "1 coordinate");
+  const ScratchDirectory directory;
+  std::vector<std::string> beads;
+  for (int b = 0; b < 15000; ++b) beads.push_back(std::to_string(b) + " 0");
+  const std::string many = directory.file("many.xyz", frames_at(beads, {0, 1}));
+  expect_refused(
+      {many, "--structures", "contacts", "--radius", "1", "--kernel", "exact"},
+      "--structures contacts: kernel exact looks at all 112477501 pairs of beads, more than 100000000");
 }
 
 }  // namespace
