@@ -40,13 +40,16 @@ template <bool of_points, class N, int D, std::size_t M>
   }
 }
 
-/// How large G may be: of the least radius and the greatest mean of those of the balls.
+/// How large G may be, given the extremes of R and of the mean radius.
 template <class N>
-[[gnu::always_inline]] inline N most_allowed(const N& radius, const N& mean, double tightness) {
+[[gnu::always_inline]] inline N most_allowed(const N& least_radius, const N& greatest_radius,
+                                             const N& least_mean, const N& greatest_mean, double tightness) {
   using Is = NumberTraits<N>;
-  const N tau = radius * N(1 / (1 + tightness)) - mean + N(0x1p-48) * radius;
-  const N rho = radius - mean;
-  return Is::choose(tau > N(0.0), (rho - tau) * (rho + tau), N(infinity));
+  const N share(1 / (1 + tightness)), rest(tightness / (1 + tightness));
+  const N tau = Is::max(least_radius * (share - N(0x1p-48)) - greatest_mean, N(0.0));
+  const N step = rest * least_radius;
+  return Is::choose(greatest_radius * (share + N(0x1p-48)) <= least_mean, N(infinity),
+                    step * (step + N(2.0) * tau));
 }
 
 // One piece of any degree.
@@ -55,7 +58,7 @@ template <class N>
 template <int D>
 struct Gap {
   std::array<double, 2 * 61 + 1> coefficients;
-  double mean;  // the greatest of the means of radii
+  double least_mean, greatest_mean;  // of radii, over the control points
 };
 
 template <int D>
@@ -107,7 +110,8 @@ bool find_gap(const Curves<D>& curves, const CagePiece<D>& piece, std::size_t wh
   std::array<Vector<D>, most_controls> mean{};  // seen from the cage's centre
   std::array<std::array<Vector<D>, Basis::max_size>, most_controls> seen;
   std::array<double, most_controls> mean_radius{};
-  gap.mean = 0;
+  gap.least_mean = infinity;
+  gap.greatest_mean = 0;
   for (std::size_t k = 0; k < controls; ++k) {
     for (std::size_t i = 0; i < basis.size; ++i) {
       for (std::size_t axis = 0; axis < D; ++axis) {
@@ -116,7 +120,8 @@ bool find_gap(const Curves<D>& curves, const CagePiece<D>& piece, std::size_t wh
       }
       mean_radius[k] += weights[i] * balls[k][i].back();
     }
-    gap.mean = std::max(gap.mean, mean_radius[k]);
+    gap.least_mean = std::min(gap.least_mean, mean_radius[k]);
+    gap.greatest_mean = std::max(gap.greatest_mean, mean_radius[k]);
   }
   // The product of two control points' numbers belongs to the coefficient of the sum of their places.
   std::fill_n(gap.coefficients.begin(), 2 * degree + 1, 0.0);
@@ -238,7 +243,8 @@ template <bool of_points, int D, std::size_t M>
   const Lanes greatest = Lanes::max(start_radius, end_radius);
   const Lanes most = Lanes::max(g0, g2) + Lanes::max(Lanes(0.25) * bulge, Lanes(0.0)) +
                      Lanes(rounding) * (greatest * greatest);
-  const Lanes allowed = most_allowed(Lanes::min(start_radius, end_radius),
+  const Lanes allowed = most_allowed(Lanes::min(start_radius, end_radius), greatest,
+                                     Lanes::min(start_mean_radius, end_mean_radius),
                                      Lanes::max(start_mean_radius, end_mean_radius), tightness);
   // A comparison with what is no number is false. Lengths whose squares lose digits prove nothing.
   const auto sized = (greatest >= Lanes(0x1p-400)) & (greatest <= Lanes(0x1p400));
@@ -293,7 +299,7 @@ ControlBall<D> control_ball(const Curves<D>& curves, BeadId bead, double from, d
     for (std::size_t which = 0; which <= D; ++which) ball[which] = number(k, which);
     return ball;
   }
-  std::array<double, 64> points;
+  std::array<double, 64> points{};
   for (std::size_t which = 0; which <= D; ++which) {
     for (int place = 0; place <= degree; ++place)
       points[static_cast<std::size_t>(place)] = number(place, which);
@@ -325,7 +331,7 @@ bool is_proved_tight(const Curves<D>& curves, const CagePiece<D>& piece, double 
     if (find_gap(curves, piece, which, gap)) {
       gaps[which].assign(gap.coefficients.begin(),
                          gap.coefficients.begin() + static_cast<std::ptrdiff_t>(count));
-      limits[which] = most_allowed(least, gap.mean, tightness) - spare;
+      limits[which] = most_allowed(least, greatest, gap.least_mean, gap.greatest_mean, tightness) - spare;
     } else {
       gaps[which].assign(count, infinity);
     }

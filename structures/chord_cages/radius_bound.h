@@ -14,10 +14,10 @@
 //   G(u) = rho^2 + v - V
 //
 // is a polynomial of twice the motion's degree, and R <= (1 + eps) R_opt wherever
-// G <= rho^2 - tau^2 or tau <= 0, with tau = R / (1 + eps) - r-bar: then r-bar + sqrt(rho^2 - G) >= R / (1 +
-// eps). The right hand side grows with R and falls with r-bar, so the least R and the greatest r-bar of the
-// control points are enough. In linear motion G = (1-u) G_0 + u G_2 + u (1-u) Q, at most max(G_0, G_2) +
-// max(Q, 0) / 4.
+// tau = R / (1 + eps) - r-bar <= 0, or G <= rho^2 - tau^2: then r-bar + sqrt(rho^2 - G) >= R / (1 + eps).
+// As rho - tau = eps / (1 + eps) R =: s, that is s (s + 2 tau), which is least where R is least and r-bar
+// greatest, as long as tau is positive there, and nowhere less than s^2 for the least R. In linear motion G =
+// (1-u) G_0 + u G_2 + u (1-u) Q, at most max(G_0, G_2) + max(Q, 0) / 4.
 //
 // Rounding: weights are what they are; positions are taken from the sphere's centres, so that all numbers are
 // of the size of R, and 2^-42 R^2 is far more than they err.
