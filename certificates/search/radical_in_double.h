@@ -47,10 +47,14 @@ enum class Errors : std::uint8_t { own_filter, tracked, none };
 /// The signs of a radical's polynomials during a short time, each when it is asked for.
 template <class Radical, MotionView View>
 class RadicalSigns {
+  using Beads = decltype(typename Radical::Norm{}.beads);
+
  public:
   /// Times `sign`, and the root by `root_sign` too.
-  RadicalSigns(const View& view, Errors errors, int sign, int root_sign)
-      : view_(view), errors_(errors), sign_(sign), root_sign_(root_sign) {}
+  RadicalSigns(const View& view, const Beads& beads, Errors errors, int sign, int root_sign)
+      : view_(view), places_(beads), errors_(errors), sign_(sign), root_sign_(root_sign) {
+    std::iota(places_.begin(), places_.end(), 0U);
+  }
 
   [[nodiscard]] int rational() const { return of<typename Radical::Rational>(sign_); }
   [[nodiscard]] int root() const { return of<typename Radical::Root>(sign_ * root_sign_); }
@@ -69,12 +73,11 @@ class RadicalSigns {
  private:
   template <class Polynomial>
   [[nodiscard, gnu::flatten, gnu::noinline]] int of(int sign) const {
-    auto places = Polynomial{}.beads;
-    std::iota(places.begin(), places.end(), 0U);
-    return sign * sign_of(Polynomial::formula(view_, places).scaled[0], errors_);
+    return sign * sign_of(Polynomial::formula(view_, places_).scaled[0], errors_);
   }
 
   const View& view_;
+  Beads places_;
   Errors errors_;
   int sign_, root_sign_;
 };
@@ -136,13 +139,16 @@ class CertificateInDouble final : public RadicalInDouble {
     return norm;
   }
   [[nodiscard]] auto wanted(const View& view) const {
-    return RadicalSigns<typename Certificate::Radical, View>(view, errors_, side_, certificate_.root_sign());
+    return RadicalSigns<typename Certificate::Radical, View>(view, certificate_.beads, errors_, side_,
+                                                             certificate_.root_sign());
   }
   /// The sign where the radical has this one.
   [[nodiscard]] int with_condition(int radical, const View& view) const {
     if constexpr (ConditionalFor<Certificate, C>) {
       if (conditional_ && radical >= 0) {
-        const int sign = RadicalSigns<typename Certificate::Condition, View>(view, errors_, 1, 1).whole();
+        const int sign =
+            RadicalSigns<typename Certificate::Condition, View>(view, certificate_.beads, errors_, 1, 1)
+                .whole();
         return sign < 0 ? -1 : sign > 0 ? radical : 0;
       }
     }

@@ -35,6 +35,17 @@
 // that sphere's rho, a rho^2 + 2 b rho + c = g (|Qy|^2 - rho^2) <= 0, since Qy is its centre seen in the
 // basis' span; hence b^2 - ac >= 0 and sqrt(b^2 - ac) - b > 0. That is why no sign of D is ever asked for.
 //
+// A relaxed certificate takes e_j - tau / 2 for e_j: it holds while |d_j - z|^2 <= (rho - s_j)^2 + tau, since
+// |z| = rho, and all above is linear in (d_j, s_j, e_j). With eps the relaxation, d = c_1 - c_0 and p = r_0 +
+// r_1 of the basis' first two balls, those farthest apart,
+//   tau = eps / 2 (|d|^2 + p^2 - 2 p r_j).
+// Asked of them all the while: p >= r_j and |d| >= r_j. So tau >= 0: who is inside the sphere is inside the
+// relaxed one. And R, the sphere's radius, is at least L = (|d| + p) / 2 >= r_j, hence
+//   2 R (R - r_j) >= 2 L (L - r_j) = (|d|^2 + 2 |d| (p - r_j) + p^2 - 2 p r_j) / 2 >= tau / eps,
+// so that (rho - s_j)^2 + tau = (R - r_j)^2 + tau <= (R - r_j + eps R)^2: ball j is inside the sphere of
+// radius (1 + eps) R. The radius condition holds. A relaxed basis of one takes s_j - eps r_0 for s_j. All is
+// in units of 2^-21, as relaxation.h has whole numbers.
+//
 // `inside` certificates guard a ball that must stay in, others a basis ball that must stay out of the sphere
 // of its fellows: it leaves the basis when it gets in. Exact.
 
@@ -45,6 +56,7 @@
 
 #include "certificates/base/determinant.h"
 #include "certificates/base/radical.h"
+#include "certificates/types/relaxed_beads.h"
 
 namespace kds {
 
@@ -60,11 +72,34 @@ struct BallsFromBase {
   std::array<Bernstein<Number, k>, Size> s;
   std::array<Bernstein<Number, 2 * k>, Size> e;  ///< twice e_i; all below is with these
 
-  BallsFromBase(const View& view, const std::array<BeadId, Size + 1>& beads) {
+  template <class Beads>
+  BallsFromBase(const View& view, const Beads& beads) {
     for (std::size_t i = 0; i < Size; ++i) {
       d[i] = view.difference(beads[i + 1], beads[0]);
       s[i] = view.radius_difference(beads[i + 1], beads[0]);
       e[i] = dot(d[i], d[i]) - s[i] * s[i];
+    }
+    if constexpr (requires { beads.relaxation; }) relax(view, beads);
+  }
+
+ private:
+  /// Ball j's d, s and e times 2^21, and of that e less what it may be less by.
+  template <class Beads>
+  void relax(const View& view, const Beads& beads) {
+    constexpr std::int64_t one = 2 * Relaxation::most;
+    const std::int64_t share = beads.relaxation.units();
+    auto &dj = d[Size - 1], &sj = s[Size - 1], &ej = e[Size - 1];
+    if constexpr (Size == 1) {
+      for (auto& axis : dj) axis = times(one, axis);
+      sj = times(one, sj) - times(share, view.radius_sum(beads[0], beads[0]));
+      ej = dot(dj, dj) - sj * sj;
+    } else {
+      const auto room =
+          view.radius_difference(beads[0], beads[Size]) + view.radius_difference(beads[1], beads[Size]);
+      const auto slack = dot(d[0], d[0]) + view.radius_sum(beads[0], beads[1]) * room;
+      for (auto& axis : dj) axis = times(one, axis);
+      sj = times(one, sj);
+      ej = times(one, ej) - times(share, slack);
     }
   }
 };
@@ -97,7 +132,8 @@ struct TriangleSphere : BallsFromBase<3, View> {
   P<4 * k> g;
   std::array<P<4 * k>, 2> ae;
 
-  TriangleSphere(const View& view, const std::array<BeadId, 4>& beads)
+  template <class Beads>
+  TriangleSphere(const View& view, const Beads& beads)
       : Base(view, beads),
         g11(dot(this->d[0], this->d[0])),
         g12(dot(this->d[0], this->d[1])),
@@ -129,7 +165,8 @@ struct SimplexSphere : BallsFromBase<Dimension + 1, View> {
   BernsteinVector<typename View::Number, (Dimension + 1) * k, Dimension> eps;
   BernsteinVector<typename View::Number, Dimension * k, Dimension> sig;
 
-  SimplexSphere(const View& view, const std::array<BeadId, Dimension + 2>& beads)
+  template <class Beads>
+  SimplexSphere(const View& view, const Beads& beads)
       : Base(view, beads),
         normals(normals_of(this->d)),
         q(dot(this->d[0], normals[0])),
@@ -156,15 +193,16 @@ struct SimplexSphere : BallsFromBase<Dimension + 1, View> {
 
 }  // namespace detail
 
-template <int Dimension, int Size>
+template <int Dimension, int Size, bool relaxed = false>
 struct BallInSphere {
   static_assert((Dimension == 2 || Dimension == 3) && Size >= 1 && Size <= Dimension + 1);
-  static constexpr CertificateType type{5, "ball_in_sphere"};
+  static constexpr CertificateType type =
+      relaxed ? CertificateType{9, "relaxed_ball_in_sphere"} : CertificateType{5, "ball_in_sphere"};
   static constexpr bool full = Size == Dimension + 1;
 
-  using Beads = std::array<BeadId, Size + 1>;
+  using Beads = std::conditional_t<relaxed, RelaxedBeads<Size + 1>, std::array<BeadId, Size + 1>>;
 
-  Beads beads{};  ///< the basis, ascending; then the ball
+  Beads beads{};  ///< the basis, ascending (but see below where it is relaxed); then the ball
   bool inside = true;
   int orientation = 1;  ///< of a full basis (orientation.h): the sign of q
 
@@ -172,7 +210,9 @@ struct BallInSphere {
   [[nodiscard]] Identity identity() const {
     Beads named = beads;
     if (full && orientation < 0) std::swap(named[0], named[1]);
-    return identity_of(type, named);
+    Identity identity = identity_of(type, named);
+    if constexpr (relaxed) identity.beads.back() = static_cast<BeadId>(beads.relaxation.units());
+    return identity;
   }
 
   [[nodiscard]] bool side() const { return inside; }
@@ -181,7 +221,7 @@ struct BallInSphere {
   /// Whether rho >= s_j has to be looked at.
   template <Motion M>
   [[nodiscard]] bool conditional(const M& motion) const {
-    if constexpr (Size == 1) return false;  // A and B say so themselves
+    if constexpr (Size == 1 || relaxed) return false;  // A and B say so themselves, or it is known
     for (std::size_t i = 0; i < Size; ++i) {
       bool smaller = false;
       for (int k = 0; k <= degree_of(motion); ++k)
@@ -223,7 +263,7 @@ struct BallInSphere {
       template <MotionView View>
       [[nodiscard]] static auto formula(const View& view, const Beads& beads) {
         if constexpr (Size == 1) {
-          const auto d = view.difference(beads[1], beads[0]);
+          const auto d = detail::BallsFromBase<1, View>(view, beads).d[0];
           return -dot(d, d);
         } else if constexpr (Size == 2) {
           const detail::BallsFromBase<2, View> balls(view, beads);
@@ -259,7 +299,7 @@ struct BallInSphere {
       template <MotionView View>
       [[nodiscard]] static auto formula(const View& view, const Beads& beads) {
         if constexpr (Size == 1) {
-          return view.radius_difference(beads[0], beads[1]);
+          return -detail::BallsFromBase<1, View>(view, beads).s[0];
         } else if constexpr (Size == 2) {
           const detail::BallsFromBase<2, View> balls(view, beads);
           return balls.e[1] * balls.s[0] - balls.s[1] * balls.e[0];
@@ -367,7 +407,7 @@ struct BallInSphere {
       }
     };
   };
-  using Condition = std::conditional_t<(Size > 1), RadiusCondition, void>;
+  using Condition = std::conditional_t<(Size > 1 && !relaxed), RadiusCondition, void>;
 
  private:
   template <MotionView View>

@@ -19,7 +19,6 @@
 #include "certificates/types/bead_in_sphere.h"
 #include "certificates/types/power_test.h"
 #include "certificates/types/radii.h"
-#include "certificates/types/relaxed_bead_in_sphere.h"
 
 namespace kds {
 
@@ -80,25 +79,6 @@ decltype(auto) visit_membership(Radii radii, const M& motion, std::span<const Be
     if (basis.size() == 3) return visit(BeadInSphere<3>{detail::with_bead<3>(basis, bead), inside});
   }
   return visit(BeadInSphere<2>{detail::with_bead<2>(basis, bead), inside});
-}
-
-/// The same of the sphere made larger by `relaxation`, which the bead stays inside.
-template <Motion M, class Visit>
-decltype(auto) visit_relaxed_membership(Radii radii, const M& motion, std::span<const BeadId> basis,
-                                        BeadId bead, int orientation, const Relaxation& relaxation,
-                                        Visit&& visit) {
-  constexpr std::size_t full = M::dimension + 1;
-  std::array<BeadId, full + 1> all{};
-  std::copy(basis.begin(), basis.end(), all.begin());
-  all[basis.size()] = bead;
-  const auto beads = std::span(all).first(basis.size() + 1);
-  if (!relaxation.any() || basis.size() < 2 || !detail::of_equal_radii(radii, motion, beads, false))
-    return visit_membership(radii, motion, basis, bead, true, orientation, visit);
-  if constexpr (full == 4) {
-    if (basis.size() == 4) return visit(RelaxedBeadInSphere<4>{all, relaxation});
-  }
-  if (basis.size() == 3) return visit(RelaxedBeadInSphere<3>{detail::with_bead<3>(basis, bead), relaxation});
-  return visit(RelaxedBeadInSphere<2>{detail::with_bead<2>(basis, bead), relaxation});
 }
 
 }  // namespace kds

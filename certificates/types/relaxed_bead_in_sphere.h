@@ -13,44 +13,11 @@
 // A bead of radius r that it holds for is inside the sphere of the balls of radius R + r, made larger by eps:
 // |x - c| + r <= (1 + eps) R + r. Exact; all is in units of 2^-40 (relaxation.h).
 
-#include <array>
-#include <cstddef>
-#include <tuple>
-#include <type_traits>
-
 #include "certificates/base/certificate.h"
 #include "certificates/base/determinant.h"
-#include "certificates/base/relaxation.h"
+#include "certificates/types/relaxed_beads.h"
 
 namespace kds {
-
-/// What the formula of a relaxed sphere is about. By default the greatest relaxation there is, so that bounds
-/// derived from the formula hold for all.
-template <std::size_t N>
-struct RelaxedBeads : std::array<BeadId, N> {
-  Relaxation relaxation = Relaxation::greatest();
-};
-
-namespace detail {
-
-/// A whole number of times a polynomial.
-template <class Number, int Degree>
-[[nodiscard]] Bernstein<Number, Degree> times(std::int64_t factor, Bernstein<Number, Degree> p) {
-  for (Number& c : p.scaled) {
-    if constexpr (std::is_floating_point_v<Number>) {
-      c *= static_cast<Number>(factor);
-    } else if constexpr (requires { Number::constant(1.0); }) {
-      c = Number::constant(static_cast<double>(factor)) * c;
-    } else if constexpr (requires { c *= static_cast<long long>(factor); }) {
-      c *= static_cast<long long>(factor);
-    } else {
-      c = Number{static_cast<double>(factor)} * c;
-    }
-  }
-  return p;
-}
-
-}  // namespace detail
 
 template <int Size>
 struct RelaxedBeadInSphere {
@@ -111,6 +78,3 @@ struct RelaxedBeadInSphere {
 };
 
 }  // namespace kds
-
-template <std::size_t N>
-struct std::tuple_size<kds::RelaxedBeads<N>> : std::integral_constant<std::size_t, N> {};

@@ -39,5 +39,11 @@ template <int Dimension>
 [[nodiscard]] std::optional<BeadId> bead_outside(const Basis& basis, const Basis& members,
                                                  const BeadRange& range, const Relaxation& relaxation,
                                                  const IntegerBalls<Dimension>& whole);
+/// The same of the sphere as it is.
+template <int Dimension>
+[[nodiscard]] std::optional<BeadId> bead_outside(const Basis& basis, const BeadRange& range,
+                                                 const IntegerBalls<Dimension>& whole) {
+  return bead_outside(basis, basis, range, {}, whole);
+}
 
 }  // namespace kds

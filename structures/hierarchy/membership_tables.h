@@ -5,8 +5,9 @@
 #include <algorithm>
 
 #include "certificates/search/ball_in_sphere_search.h"
+#include "certificates/search/relaxed_ball_in_sphere_search.h"
 #include "certificates/search/relaxed_bead_in_sphere_search.h"
-#include "certificates/types/membership.h"
+#include "certificates/types/relaxed_membership.h"
 #include "kds/certificate_tables.h"
 #include "structures/enclosing_sphere/basis.h"
 
@@ -20,14 +21,16 @@ template <>
 struct TablesOfMembership<2> {
   using Type = CertificateTables<BeadInSphere<1>, BeadInSphere<2>, PowerTest<2>, BallInSphere<2, 1>,
                                  BallInSphere<2, 2>, BallInSphere<2, 3>, RelaxedBeadInSphere<2>,
-                                 RelaxedBeadInSphere<3>>;
+                                 RelaxedBeadInSphere<3>, BallInSphere<2, 1, true>, BallInSphere<2, 2, true>,
+                                 BallInSphere<2, 3, true>>;
 };
 template <>
 struct TablesOfMembership<3> {
   using Type =
       CertificateTables<BeadInSphere<1>, BeadInSphere<2>, BeadInSphere<3>, PowerTest<3>, BallInSphere<3, 1>,
                         BallInSphere<3, 2>, BallInSphere<3, 3>, BallInSphere<3, 4>, RelaxedBeadInSphere<2>,
-                        RelaxedBeadInSphere<3>, RelaxedBeadInSphere<4>>;
+                        RelaxedBeadInSphere<3>, RelaxedBeadInSphere<4>, BallInSphere<3, 1, true>,
+                        BallInSphere<3, 2, true>, BallInSphere<3, 3, true>, BallInSphere<3, 4, true>>;
 };
 
 }  // namespace detail

@@ -11,8 +11,9 @@ namespace kds {
 namespace {
 
 template <class Certificate, int Dimension>
-inline constexpr bool radical_of_two_or_more = RadicalCertificateFor<Certificate, Curves<Dimension>>&&
-                                                   std::tuple_size_v<decltype(Certificate{}.beads)> >= 3;
+inline constexpr bool radical_of_two_or_more =
+    !is_relaxed<Certificate> && RadicalCertificateFor<Certificate, Curves<Dimension>> &&
+    std::tuple_size_v<decltype(Certificate{}.beads)> >= 3;
 
 }  // namespace
 
