@@ -28,8 +28,16 @@ enum class CertificateHandle : std::uint32_t {
   return static_cast<std::uint32_t>(guard);
 }
 
-template <NamedCertificate Certificate>
+/// Of a NamedCertificate: what it lacks is said here in a sentence, before the compiler says it at length.
+template <class Certificate>
 class CertificateTable final : public FailureSource {
+  static_assert(HasCertificateType<Certificate>,
+                "a certificate needs `static constexpr kds::CertificateType type{number, name};`");
+  static_assert(HasIdentity<Certificate>,
+                "a certificate needs `kds::Identity identity() const`: what names its function");
+  static_assert(HasSide<Certificate>,
+                "a certificate needs `bool side() const`: which sign of its function it wants");
+
  public:
   /// `number` tells the structure's tables apart in KineticStructure::fail. Throws std::logic_error where the
   /// run has certificates of another type with the same number.

@@ -43,13 +43,22 @@ template <std::size_t N>
   return identity;
 }
 
-/// What every certificate has, whatever its kind.
 template <class C>
-concept NamedCertificate = requires(const C& certificate) {
+concept HasCertificateType = requires {
   { C::type } -> std::same_as<const CertificateType&>;
+};
+template <class C>
+concept HasIdentity = requires(const C& certificate) {
   { certificate.identity() } -> std::same_as<Identity>;
-  // Differs between a function and its negative of one identity.
+};
+/// Differs between a function and its negative of one identity.
+template <class C>
+concept HasSide = requires(const C& certificate) {
   { certificate.side() } -> std::same_as<bool>;
 };
+
+/// What every certificate has, whatever its kind.
+template <class C>
+concept NamedCertificate = HasCertificateType<C> && HasIdentity<C> && HasSide<C>;
 
 }  // namespace kds

@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "certificates/base/formula_probe.h"
 #include "certificates/exact/exact_work.h"
 #include "certificates/filters/classify_lanes.h"
 #include "certificates/filters/moment_lanes.h"
@@ -328,6 +329,9 @@ template <class Certificate, int Dimension>
 /// In lanes for degrees 1 to 3 and lifted motion.
 template <class Certificate, int Dimension>
 std::unique_ptr<CertificateSearch<Certificate>> search_over(const MotionRef<Dimension>& motion) {
+  static_assert(HasStaticFormula<Certificate, Dimension>,
+                "a certificate needs `template <kds::MotionView View> static auto formula(const View& view, "
+                "const std::array<kds::BeadId, N>& beads)`");
   const auto in_lanes =
       [&]<class C>(std::type_identity<C>) -> std::unique_ptr<CertificateSearch<Certificate>> {
     return std::make_unique<detail::SearchInLanes<Certificate, C>>(motion);

@@ -1,0 +1,57 @@
+# Compiles mistakes.cpp as it is, and with each mistake; then the first ten lines of what the compiler says must name what is wrong.
+# user.h is compiled before, once for all: the compiler names it as it would name a source file that includes the same headers.
+# cmake -DSOURCE=<kds> -DINCLUDES=<folders> -DCOMPILER=<c++> -DPLACE=<folder> -P check_errors.cmake
+cmake_minimum_required(VERSION 3.25)
+file(REMOVE_RECURSE "${PLACE}")
+file(MAKE_DIRECTORY "${PLACE}")
+set(flags -std=c++20 -ffp-contract=off -Wno-psabi "-I${PLACE}" "-I${SOURCE}")
+foreach(folder IN LISTS INCLUDES)
+  list(APPEND flags -isystem "${folder}")
+endforeach()
+file(COPY "${CMAKE_CURRENT_LIST_DIR}/user.h" "${CMAKE_CURRENT_LIST_DIR}/mistakes.cpp" DESTINATION "${PLACE}")
+execute_process(COMMAND "${COMPILER}" ${flags} -x c++-header user.h -o user.h.gch WORKING_DIRECTORY "${PLACE}" RESULT_VARIABLE failed
+                ERROR_VARIABLE errors)
+if(failed)
+  message(FATAL_ERROR "what users include does not compile:\n${errors}")
+endif()
+
+# compile(<macro>): sets errors to what the compiler says, and failed
+function(compile macro)
+  execute_process(COMMAND "${COMPILER}" ${flags} -D${macro} -fsyntax-only mistakes.cpp WORKING_DIRECTORY "${PLACE}"
+                  RESULT_VARIABLE failed ERROR_VARIABLE errors)
+  set(failed "${failed}" PARENT_SCOPE)
+  set(errors "${errors}" PARENT_SCOPE)
+endfunction()
+
+# expect_error(<macro> <text>): the text stands in the first ten lines
+function(expect_error macro text)
+  compile(${macro})
+  if(failed EQUAL 0)
+    message(SEND_ERROR "${macro} compiles")
+    return()
+  endif()
+  set(first "")
+  set(rest "${errors}")
+  foreach(line RANGE 1 10)
+    string(FIND "${rest}" "\n" end)
+    math(EXPR end "${end} + 1")
+    string(SUBSTRING "${rest}" 0 ${end} this)
+    string(SUBSTRING "${rest}" ${end} -1 rest)
+    string(APPEND first "${this}")
+  endforeach()
+  string(FIND "${first}" "${text}" at)
+  if(at EQUAL -1)
+    message(SEND_ERROR "${macro}: the first ten lines do not say '${text}':\n${first}")
+  endif()
+endfunction()
+
+compile(NOTHING_WRONG)
+if(NOT failed EQUAL 0)
+  message(FATAL_ERROR "what is right does not compile:\n${errors}")
+endif()
+expect_error(NO_SIDE "a certificate needs `bool side() const`")
+expect_error(NO_IDENTITY "a certificate needs `kds::Identity identity() const`")
+expect_error(NO_APPLY "apply(const kds::Change&)")
+expect_error(FORMULA_NOT_STATIC "static auto formula(const View& view")
+expect_error(BARE_CONSTANT "the formula subtracts a bare constant")
+expect_error(RADII_UNSAID "the formula asks for radii: say so")
