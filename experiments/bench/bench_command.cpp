@@ -7,6 +7,7 @@
 #include <charconv>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "experiments/bench/bench_hierarchies.h"
 #include "experiments/bench/bench_power.h"
 #include "experiments/bench/bench_subjects.h"
+#include "experiments/bench/bench_trade.h"
 #include "experiments/bench/collision_peers.h"
 #include "experiments/output/text.h"
 #include "experiments/program/progress_bar.h"
@@ -34,7 +36,7 @@ constexpr std::array kOptions{
     OptionSpec{"--data", "DIR",
                "the folder that holds trajectories and kinetic (default: data beside the sources)"},
     OptionSpec{"--trajectories", "LIST",
-               "hierarchies, power, collision: trajectory files (default: DIR/trajectories/*.dcd)"},
+               "hierarchies, power, collision, trade: trajectory files (default: DIR/trajectories/*.dcd)"},
     OptionSpec{"--instances", "DIR",
                "certificates, engine: the folder of moving-point files (default: kinetic in that of --data)"},
     OptionSpec{"--rounds", "N", "interleaved runs of ours and the peer, at least 5 (default: 5)"},
@@ -51,7 +53,8 @@ constexpr CommandSpec kCommand{
     "whole "
     "runs of moving points, beside CGAL's static build; hierarchies: wrapped and layered hierarchies, beside "
     "CGAL at every node; power: the power diagram from frame to frame, beside CGAL's static build; "
-    "collision: the pairs of beads that meet, beside a cell list, a Verlet list, FCL and Bullet",
+    "collision: the pairs of beads that meet, beside a cell list, a Verlet list, FCL and Bullet; trade: "
+    "levers of speed against accuracy, beside exact runs",
     kOptions,
     "kds bench certificates\n"
     "kds bench hierarchies\n"
@@ -78,7 +81,8 @@ Rows on_instances(const BenchInputs& inputs, const Progress& progress) {
 template <class Options, auto bench>
 Rows on_chains(const BenchInputs& inputs, const Progress& progress) {
   Options options;
-  if (inputs.sizes) options.sizes = *inputs.sizes;
+  if constexpr (requires { options.sizes; })
+    if (inputs.sizes) options.sizes = *inputs.sizes;
   if constexpr (requires { options.regular; })
     if (inputs.sizes) options.regular = *inputs.sizes;
   options.trajectories = inputs.trajectories;
@@ -86,9 +90,11 @@ Rows on_chains(const BenchInputs& inputs, const Progress& progress) {
   return bench(options, progress);
 }
 
+constexpr std::size_t only_trajectories = std::numeric_limits<std::size_t>::max();
+
 struct Subject {
   std::string_view name;
-  std::size_t fewest_beads;  // of a generated chain; 0: it runs on instances
+  std::size_t fewest_beads;  // of a generated chain; 0: it runs on instances; or only_trajectories
   Rows (*bench)(const BenchInputs&, const Progress&);
   std::string_view (*what_is_missing)() = nullptr;  // a line about rows that this build cannot have
 };
@@ -100,6 +106,7 @@ constexpr std::array kSubjects{
     Subject{"collision", 2, on_chains<CollisionBenchOptions, bench_collision>, missing_collision_peers},
     // In space, where all beads should not lie in one plane.
     Subject{"power", 20, on_chains<PowerBenchOptions, bench_power>},
+    Subject{"trade", only_trajectories, on_chains<TradeBenchOptions, bench_trade>},
 };
 
 const Subject& subject_of(const std::vector<std::string>& operands) {
@@ -107,7 +114,8 @@ const Subject& subject_of(const std::vector<std::string>& operands) {
     for (const Subject& subject : kSubjects)
       if (subject.name == operands[0]) return subject;
   }
-  throw InputError("kds bench: expected one subject of certificates, collision, engine, hierarchies, power");
+  throw InputError(
+      "kds bench: expected one subject of certificates, collision, engine, hierarchies, power, trade");
 }
 
 std::size_t parse_count(std::string_view option, const std::string& text, std::size_t least) {
@@ -147,6 +155,8 @@ int bench_command(const Arguments& arguments) {
   for (const char* option : {"--sizes", "--trajectories"})
     if (!chains && parsed.has(option))
       throw InputError(fmt::format("{}: {} takes none", option, subject.name));
+  if (subject.fewest_beads == only_trajectories && parsed.has("--sizes"))
+    throw InputError(fmt::format("--sizes: {} takes none", subject.name));
   if (chains && parsed.has("--instances"))
     throw InputError(fmt::format("--instances: {} takes none", subject.name));
   BenchInputs inputs;

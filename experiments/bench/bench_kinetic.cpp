@@ -9,8 +9,6 @@
 
 namespace kds {
 
-namespace {
-
 Scene scene_of(const BenchChain& chain, FrameMotion motion) {
   Trajectory necklace;
   necklace.file = chain.name;
@@ -18,17 +16,12 @@ Scene scene_of(const BenchChain& chain, FrameMotion motion) {
   return {{&necklace, 1}, chain.radii, motion};
 }
 
-struct Run {
-  double seconds = 0;  ///< of all steps, by the processor
-  std::uint64_t events = 0;
-};
-
-Run run_all_steps(const Scene& scene) {
-  const auto session =
-      std::make_unique<Session>(scene, SessionOptions{{"wrapped"}, Kernel::filtered, AuditMode::none, {}});
+StepsRun run_all_steps(const Scene& scene, const std::string& structure, const StructureSettings& settings) {
+  const auto session = std::make_unique<Session>(
+      scene, SessionOptions{{structure}, Kernel::filtered, AuditMode::none, settings});
   session->load(0);
   session->simulator().build();
-  Run run;
+  StepsRun run;
   run.seconds = processor_seconds_of([&] {
     for (std::size_t step = 0; step < scene.step_count(); ++step) {
       session->load(step);
@@ -39,6 +32,8 @@ Run run_all_steps(const Scene& scene) {
   run.events = std::accumulate(per_step.begin(), per_step.end(), std::uint64_t{0});
   return run;
 }
+
+namespace {
 
 // From frame to frame, statically.
 template <int Dimension>
@@ -61,7 +56,7 @@ void bench_kinetic_steps(const BenchChain& chain, std::size_t rounds, std::optio
   const NecklaceTree tree(scene.necklaces());
   std::vector<double> ours, peer;
   for (std::size_t round = 0; round < rounds; ++round) {
-    ours.push_back(run_all_steps(scene).seconds);
+    ours.push_back(run_all_steps(scene, "wrapped", {}).seconds);
     peer.push_back(0);
     for (std::size_t k = 1; k < chain.frames.size(); ++k)
       peer.back() += (chain.dimension == 2 ? seconds_to_wrap<2>(tree.ranges(), chain.frames[k], chain.radii)
@@ -79,7 +74,7 @@ void bench_kinetic_events(const BenchChain& chain, std::vector<BenchRow>& rows) 
       chain.dimension == 2 ? bases_that_change<2>(chain) : bases_that_change<3>(chain);
   const auto steps = static_cast<double>(chain.frames.size() - 1);
   const auto row = [&](const char* name, FrameMotion motion) {
-    const Run run = run_all_steps(scene_of(chain, motion));
+    const StepsRun run = run_all_steps(scene_of(chain, motion), "wrapped", {});
     rows.push_back({name, chain.name, chain.radii.size(), static_cast<double>(run.events) / steps,
                     "events/step", "bases that differ", static_cast<double>(changed) / steps, std::nullopt});
   };

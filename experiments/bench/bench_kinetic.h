@@ -3,14 +3,29 @@
 // CGAL's Min_sphere_of_spheres_d at every node, and events beside the bases that differ from frame to frame.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "experiments/bench/bench_chains.h"
 #include "experiments/bench/bench_report.h"
+#include "motions/scene/scene.h"
+#include "structures/session/structure_spec.h"
 
 namespace kds {
+
+struct StepsRun {
+  double seconds = 0;  ///< of all steps, by the processor
+  std::uint64_t events = 0;
+};
+
+[[nodiscard]] Scene scene_of(const BenchChain& chain, FrameMotion motion);
+/// All steps of a scene by one structure; beads from frame to motion are part of them, the first build is
+/// not.
+[[nodiscard]] StepsRun run_all_steps(const Scene& scene, const std::string& structure,
+                                     const StructureSettings& settings);
 
 inline constexpr std::string_view sphere_peer = "CGAL Min_sphere_of_spheres_d";
 

@@ -50,11 +50,17 @@ struct Case {
   std::vector<double> radii;
 };
 
-Outcome outcome_of(const Case& one, const std::string& structure, Kernel kernel, AuditMode audits) {
+/// A structure as it is run.
+struct Settled {
+  std::string structure;
+  StructureSettings settings;
+};
+
+Outcome outcome_of(const Case& one, const Settled& what, Kernel kernel, AuditMode audits) {
   Outcome outcome;
   try {
     const Scene scene(one.instance, one.radii);
-    const auto session = std::make_unique<Session>(scene, SessionOptions{{structure}, kernel, audits, {}});
+    const auto session = std::make_unique<Session>(scene, SessionOptions{{what.structure}, kernel, audits, what.settings});
     Recorder recorder;
     Simulator& simulator = session->simulator();
     simulator.listen(recorder);
@@ -95,11 +101,11 @@ struct Times {
   std::vector<double> fast, filtered, exact;
 };
 
-void add_case(StabilityRow& row, Times& times, const std::string& structure, const Case& one) {
-  const Outcome fast = outcome_of(one, structure, Kernel::fast, AuditMode::none);
-  const Outcome filtered = outcome_of(one, structure, Kernel::filtered, AuditMode::none);
-  const Outcome audited = outcome_of(one, structure, Kernel::filtered, AuditMode::events);
-  const Outcome exact = outcome_of(one, structure, Kernel::exact, AuditMode::none);
+void add_case(StabilityRow& row, Times& times, const Settled& what, const Case& one) {
+  const Outcome fast = outcome_of(one, what, Kernel::fast, AuditMode::none);
+  const Outcome filtered = outcome_of(one, what, Kernel::filtered, AuditMode::none);
+  const Outcome audited = outcome_of(one, what, Kernel::filtered, AuditMode::events);
+  const Outcome exact = outcome_of(one, what, Kernel::exact, AuditMode::none);
   ++row.cases;
   row.audits_run += audited.statistics.audits_run;
   row.audits_failed += audited.failed_audit ? 1 : 0;
@@ -132,9 +138,10 @@ enum class Of { points, balls };
 
 // Weights are those of points in space (motions/readers/instance.h), and the sorted list asks for none.
 StabilitySubject structure_subject(const std::string& structure, Of of, int dimension, int degree,
-                                   std::size_t beads) {
+                                   std::size_t beads, const StructureSettings& settings = {}) {
   const std::size_t cases_a_run = degree == 1 ? 50 : 100;  // a run has many certificates
-  const std::string name = structure + (of == Of::balls ? ":balls" : "");
+  const std::string name = structure + (of == Of::balls ? ":balls" : "") +
+                           (settings.between == Between::chord ? ":chord" : "");
   StabilitySubject subject{name, true, dimension, degree, 0, dimension == 3 || of == Of::balls, {}};
   subject.run = [=](const Extreme& extreme, const StabilityCases& cases) {
     StabilityRow row;
@@ -151,7 +158,7 @@ StabilitySubject structure_subject(const std::string& structure, Of of, int dime
         give_radii(curves, random);
         for (std::size_t b = 0; b < beads; ++b) one.radii.push_back(curves.radius(b, 0));
       }
-      add_case(row, times, structure, one);
+      add_case(row, times, {structure, settings}, one);
     }
     row.seconds = {median(std::move(times.fast)), median(std::move(times.filtered)),
                    median(std::move(times.exact))};
@@ -171,6 +178,12 @@ std::vector<StabilitySubject> kinetic_structures() {
       subjects.push_back(structure_subject("wrapped", Of::points, dimension, degree, few));
       subjects.push_back(structure_subject("power", Of::points, dimension, degree, few));
       subjects.push_back(structure_subject("contacts", Of::balls, dimension, degree, few));
+      // Cages without events: audits in the middle of the step are what they are put to the test by.
+      StructureSettings chord;
+      chord.between = Between::chord;
+      subjects.push_back(structure_subject("wrapped", Of::points, dimension, degree, few, chord));
+      subjects.push_back(structure_subject("wrapped", Of::balls, dimension, degree, few, chord));
+      subjects.push_back(structure_subject("layered", Of::balls, dimension, degree, few));
     }
   }
   // In whole numbers curves take minutes: their functions have degree 36.

@@ -36,10 +36,10 @@ Rational blended(std::vector<Rational> points, const Rational& u) {
 }  // namespace
 
 template <int Dimension>
-std::optional<std::string> ball_outside(const NecklaceTree& tree, std::span<const Cage<Dimension>> cages,
+std::optional<std::string> ball_outside(const NecklaceTree& tree, OutwardCages<Dimension> cages,
                                         const Curves<Dimension>& curves, int k) {
   for (NodeId node = 0; node < cages.size(); ++node) {
-    const Cage<Dimension>& cage = cages[node];
+    const Cage<Dimension> cage = cages[node];
     if (std::isinf(cage.radius)) continue;
     const Eigen::Vector3d center = in_space<Dimension>(cage.center.data());
     const BeadRange& range = tree.range(node);
@@ -56,7 +56,7 @@ std::optional<std::string> ball_outside(const NecklaceTree& tree, std::span<cons
 
 template <int Dimension>
 std::optional<std::string> ball_outside_at(const NecklaceTree& tree,
-                                           std::span<const std::span<const Cage<Dimension>>> cages,
+                                           std::span<const OutwardCages<Dimension>> cages,
                                            const Curves<Dimension>& curves, const Dyadic& time) {
   const Rational u = time.rational();
   std::vector<ExactBall<Dimension>> balls(curves.bead_count());
@@ -91,15 +91,11 @@ std::optional<std::string> ball_outside_at(const NecklaceTree& tree,
   return std::nullopt;
 }
 
-template std::optional<std::string> ball_outside(const NecklaceTree&, std::span<const Cage<2>>,
-                                                 const Curves<2>&, int);
-template std::optional<std::string> ball_outside(const NecklaceTree&, std::span<const Cage<3>>,
-                                                 const Curves<3>&, int);
-template std::optional<std::string> ball_outside_at(const NecklaceTree&,
-                                                    std::span<const std::span<const Cage<2>>>,
+template std::optional<std::string> ball_outside(const NecklaceTree&, OutwardCages<2>, const Curves<2>&, int);
+template std::optional<std::string> ball_outside(const NecklaceTree&, OutwardCages<3>, const Curves<3>&, int);
+template std::optional<std::string> ball_outside_at(const NecklaceTree&, std::span<const OutwardCages<2>>,
                                                     const Curves<2>&, const Dyadic&);
-template std::optional<std::string> ball_outside_at(const NecklaceTree&,
-                                                    std::span<const std::span<const Cage<3>>>,
+template std::optional<std::string> ball_outside_at(const NecklaceTree&, std::span<const OutwardCages<3>>,
                                                     const Curves<3>&, const Dyadic&);
 
 }  // namespace kds

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "motions/base/floating_point_guard.h"
-#include "structures/chord_cages/outward_cages.h"
 
 namespace kds {
 
@@ -32,7 +31,7 @@ void ChordCages<Hierarchy>::take(int k, const Curves<dimension>& curves) {
   const auto place = static_cast<std::size_t>(k);
   balls_[place].move_to(curves, k);
   bring_to(hierarchy_, balls_[place]);
-  take_outward(hierarchy_, balls_[place], cages_[place]);
+  cages_[place].take(hierarchy_, balls_[place]);
 }
 
 template <class Hierarchy>
@@ -43,22 +42,9 @@ void ChordCages<Hierarchy>::build(const Curves<dimension>& curves) {
 }
 
 template <class Hierarchy>
-bool ChordCages<Hierarchy>::begins_where_it_ended(const Curves<dimension>& curves) const {
-  const Balls<dimension>& end = moved_ ? balls_.back() : balls_.front();
-  if (end.size() != curves.bead_count()) return false;
-  bool same = true;
-  for (BeadId b = 0; b < end.size(); ++b) {
-    const double* const point = curves.control_point(b, 0);
-    for (std::size_t axis = 0; axis < dimension; ++axis) same &= end.coordinates(axis)[b] == point[axis];
-    same &= end.radii()[b] == curves.radii(b)[0];
-  }
-  return same;
-}
-
-template <class Hierarchy>
 void ChordCages<Hierarchy>::move_to(const Curves<dimension>& curves) {
   const FloatingPointGuard to_nearest;
-  if (!begins_where_it_ended(curves)) {
+  if (!(moved_ ? balls_.back() : balls_.front()).are_at(curves, 0)) {
     take(0, curves);
   } else if (moved_) {
     std::swap(balls_.front(), balls_.back());

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "motions/curves/curves.h"
+#include "structures/chord_cages/outward_cages.h"
 #include "structures/enclosing_sphere/cage.h"
 #include "structures/hierarchy/layered_hierarchy.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
@@ -38,23 +39,25 @@ class ChordCages {
 
   [[nodiscard]] const NecklaceTree& tree() const { return hierarchy_.tree(); }
   [[nodiscard]] int degree() const { return static_cast<int>(cages_.size()) - 1; }
-  /// At a control point, in the order of nodes; radii rounded up.
-  [[nodiscard]] std::span<const Cage<dimension>> cages(int k) const {
-    return cages_[static_cast<std::size_t>(k)];
+  /// Of all nodes at a control point, radii rounded up.
+  [[nodiscard]] OutwardCages<dimension> cages(int k) const {
+    return cages_[static_cast<std::size_t>(k)].outward();
   }
   [[nodiscard]] const Balls<dimension>& balls(int k) const { return balls_[static_cast<std::size_t>(k)]; }
-  /// At the last control point: the step's end, or, before any step, where beads are built.
+  /// Its bases are of the last control point: the step's end, or, before any step, where beads are built.
+  /// The cages it had are those here.
   [[nodiscard]] const Hierarchy& hierarchy() const { return hierarchy_; }
+  /// That control point.
+  [[nodiscard]] int last() const { return moved_ ? degree() : 0; }
   /// The bases at the step's start, where they are kept.
   [[nodiscard]] std::span<const Basis> start_bases() const { return start_bases_; }
 
  private:
   void take(int k, const Curves<dimension>& curves);
-  [[nodiscard]] bool begins_where_it_ended(const Curves<dimension>& curves) const;
 
   Hierarchy hierarchy_;
-  std::vector<Balls<dimension>> balls_;              // of each control point
-  std::vector<std::vector<Cage<dimension>>> cages_;  // likewise
+  std::vector<Balls<dimension>> balls_;       // of each control point
+  std::vector<TakenCages<Hierarchy>> cages_;  // likewise
   std::vector<Basis> start_bases_;
   bool keep_bases_;
   bool moved_ = false;

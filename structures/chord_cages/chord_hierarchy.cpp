@@ -28,8 +28,9 @@ const MotionRef<D>& accepted(const MotionRef<D>& motion) {
 // A basis that encloses all beads and has none to spare is that of the minimum enclosing sphere: checking
 // both on integers is as good as building it.
 template <int D>
-std::optional<std::string> not_as_built(const StaticWrappedHierarchy<D>& hierarchy, const Curves<D>& curves,
-                                        const Dyadic& time) {
+std::optional<std::string> not_as_built(const ChordCages<StaticWrappedHierarchy<D>>& cages,
+                                        const Curves<D>& curves, const Dyadic& time) {
+  const StaticWrappedHierarchy<D>& hierarchy = cages.hierarchy();
   const IntegerBalls<D> whole = integer_balls_at(curves, time);
   for (NodeId node = 0; node < hierarchy.tree().node_count(); ++node) {
     const Basis& basis = hierarchy.basis(node);
@@ -44,14 +45,16 @@ std::optional<std::string> not_as_built(const StaticWrappedHierarchy<D>& hierarc
 }
 
 template <int D>
-std::optional<std::string> not_as_built(const LayeredHierarchy<D>& hierarchy, const Curves<D>& curves,
+std::optional<std::string> not_as_built(const ChordCages<LayeredHierarchy<D>>& cages, const Curves<D>& curves,
                                         const Dyadic& time) {
-  LayeredHierarchy<D> built = hierarchy;
+  LayeredHierarchy<D> built = cages.hierarchy();
   built.build(Balls<D>(curves, time == Dyadic(0.0) ? 0 : curves.own_degree()));
-  for (NodeId node = 0; node < hierarchy.tree().node_count(); ++node) {
-    const Cage<D>&known = hierarchy.cages()[node], &fresh = built.cages()[node];
+  TakenCages<LayeredHierarchy<D>> taken;
+  taken.take(built, {});
+  for (NodeId node = 0; node < cages.tree().node_count(); ++node) {
+    const Cage<D> known = cages.cages(cages.last())[node], fresh = taken.outward()[node];
     if (known.center != fresh.center || known.radius != fresh.radius) {
-      const BeadRange& range = hierarchy.tree().range(node);
+      const BeadRange& range = cages.tree().range(node);
       return "node " + std::to_string(range.first) + "-" + std::to_string(range.last) +
              ": the sphere is not that of its children";
     }
@@ -149,12 +152,12 @@ std::optional<std::string> ChordHierarchy<Hierarchy>::audit(const Dyadic& time) 
   const Curves<dimension> curves = motion_.curves();
   const bool at_start = time == Dyadic(0.0), at_end = time == Dyadic(1.0);
   if (at_start || at_end) {
-    if (auto fault = not_as_built(cages_.hierarchy(), curves, time)) return fault;
+    if (auto fault = not_as_built(cages_, curves, time)) return fault;
     for (int k = 0; k <= (at_start ? 0 : cages_.degree()); ++k)
       if (auto fault = ball_outside(cages_.tree(), cages_.cages(k), curves, k)) return fault;
     return std::nullopt;
   }
-  std::vector<std::span<const Cage<dimension>>> all;
+  std::vector<OutwardCages<dimension>> all;
   for (int k = 0; k <= cages_.degree(); ++k) all.push_back(cages_.cages(k));
   return ball_outside_at<dimension>(cages_.tree(), all, curves, time);
 }

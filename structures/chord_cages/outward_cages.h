@@ -1,7 +1,11 @@
 #pragma once
-// A hierarchy's cages with radii rounded up: as they stand, centres and radii doubles, they hold the balls of
-// their nodes exactly.
+// A hierarchy's cages with radii rounded up: as they are answered, centres and radii doubles, they hold the
+// balls of their nodes exactly. Rounded when they are asked for: a run that only brings cages along does not
+// pay for it.
 
+#include <cmath>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "structures/enclosing_sphere/cage.h"
@@ -11,16 +15,43 @@
 
 namespace kds {
 
-/// `balls` are those the hierarchy was built for or brought to. Radii grow by 2^-49 of themselves and 2^-51
-/// of the centre's coordinates, and less where exact arithmetic has decided.
+/// A view of all nodes' cages at one time.
 template <int Dimension>
-void take_outward(const StaticWrappedHierarchy<Dimension>& hierarchy, const Balls<Dimension>& balls,
-                  std::vector<Cage<Dimension>>& cages);
+class OutwardCages {
+ public:
+  OutwardCages() = default;
+  /// Radii are made wider by `wider`, then by these shares of themselves and of the centre's coordinates.
+  OutwardCages(std::span<const Cage<Dimension>> cages, double wider, double of_radius, double of_center)
+      : cages_(cages), wider_(wider), factor_(1 + of_radius), of_center_(of_center) {}
 
-/// As it is: a layered hierarchy rounds its radii up itself.
-template <int Dimension>
-void take_outward(const LayeredHierarchy<Dimension>& hierarchy, const Balls<Dimension>& balls,
-                  std::vector<Cage<Dimension>>& cages);
+  [[nodiscard]] std::size_t size() const { return cages_.size(); }
+  [[nodiscard]] Cage<Dimension> operator[](NodeId node) const {
+    Cage<Dimension> cage = cages_[node];
+    double size = 0;
+    for (const double x : cage.center) size += std::abs(x);
+    cage.radius = (cage.radius + wider_) * factor_ + of_center_ * size;
+    return cage;
+  }
+
+ private:
+  std::span<const Cage<Dimension>> cages_;
+  double wider_ = 0, factor_ = 1, of_center_ = 0;
+};
+
+/// Cages taken from a hierarchy at one time.
+template <class Hierarchy>
+class TakenCages {
+ public:
+  static constexpr int dimension = Hierarchy::dimension;
+
+  /// `balls` are those the hierarchy was just brought to; it makes its cages anew with the next.
+  void take(Hierarchy& hierarchy, const Balls<dimension>& balls);
+  [[nodiscard]] OutwardCages<dimension> outward() const;
+
+ private:
+  std::vector<Cage<dimension>> cages_;
+  double wider_ = 0;
+};
 
 /// The radius of a sphere of this centre around beads first..last.
 template <int Dimension>

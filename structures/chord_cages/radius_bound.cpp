@@ -181,9 +181,9 @@ template <bool of_points, int D, std::size_t M>
     return Lanes(Lanes::Vector{values[bases[0]->beads[j]], values[bases[1]->beads[j]],
                                values[bases[2]->beads[j]], values[bases[3]->beads[j]]});
   };
-  const auto of_cages = [&](std::span<const Cage<D>> cages, Numbers & center, Lanes & radius)
+  const auto of_cages = [&](const OutwardCages<D>& cages, Numbers& center, Lanes& radius)
       __attribute__((always_inline)) {
-    const Cage<D>&a = cages[nodes[0]], &b = cages[nodes[1]], &c = cages[nodes[2]], &d = cages[nodes[3]];
+    const Cage<D> a = cages[nodes[0]], b = cages[nodes[1]], c = cages[nodes[2]], d = cages[nodes[3]];
     for (std::size_t axis = 0; axis < D; ++axis)
       center[axis] = Lanes::Vector{a.center[axis], b.center[axis], c.center[axis], d.center[axis]};
     radius = Lanes::Vector{a.radius, b.radius, c.radius, d.radius};

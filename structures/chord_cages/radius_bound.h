@@ -27,8 +27,8 @@
 #include <vector>
 
 #include "motions/curves/curves.h"
+#include "structures/chord_cages/outward_cages.h"
 #include "structures/enclosing_sphere/basis.h"
-#include "structures/enclosing_sphere/cage.h"
 #include "structures/necklace/balls.h"
 #include "structures/necklace/necklace_tree.h"
 
@@ -66,7 +66,7 @@ template <int Dimension>
 struct LinearStep {
   const Balls<Dimension>& start;
   const Balls<Dimension>& end;
-  std::span<const Cage<Dimension>> start_cages, end_cages;
+  OutwardCages<Dimension> start_cages, end_cages;
   std::span<const Basis> start_bases;
 };
 

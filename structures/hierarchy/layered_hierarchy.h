@@ -26,8 +26,11 @@ class LayeredHierarchy {
 
   [[nodiscard]] const NecklaceTree& tree() const { return tree_; }
   [[nodiscard]] Sphere sphere(NodeId node) const { return sphere_of(cages_[node], 0); }
-  /// As loops hold them.
-  [[nodiscard]] std::span<const Cage<Dimension>> cages() const { return cages_; }
+  /// Gives its cages away for the memory of others, to make them anew with the next build.
+  void exchange_cages(std::vector<Cage<Dimension>>& others) {
+    others.resize(cages_.size());
+    cages_.swap(others);
+  }
 
   void build(const Balls<Dimension>& balls, Threads threads = Threads::one);
 

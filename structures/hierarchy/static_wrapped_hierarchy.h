@@ -7,6 +7,7 @@
 // bead tests at worst to build or update, a few a node where beads clearly inside are settled by the cages of
 // children.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -68,12 +69,21 @@ class StaticWrappedHierarchy {
   /// After Update::trust or lazy: of the last verified time.
   [[nodiscard]] const Basis& basis(NodeId node) const { return bases_[node]; }
   [[nodiscard]] std::span<const Basis> bases() const { return bases_; }
-  /// As loops hold them; where radii are equal of centres, spheres being wider by `wider_than_cages`.
-  [[nodiscard]] std::span<const Cage<Dimension>> cages() const { return cages_; }
+  /// Gives its cages away for the memory of others, to make them anew with the next build or update: until
+  /// then it has bases, and no spheres. They are of centres where radii are equal, spheres being wider by
+  /// `wider_than_cages`.
+  void exchange_cages(std::vector<Cage<Dimension>>& others) {
+    others.resize(cages_.size());
+    cages_.swap(others);
+  }
   [[nodiscard]] double wider_than_cages() const { return wider_; }
-  /// Whether what doubles have proved of a cage does not bound by how much beads may be out of it: exact
-  /// arithmetic decided, or its centre has lost digits far from the origin.
-  [[nodiscard]] bool is_loose(NodeId node) const { return loose_[node] != 0; }
+  /// Nodes of whose cages doubles have not proved how far beads may be out: exact arithmetic decided, or the
+  /// centre has lost digits far from the origin.
+  template <class Visit>
+  void visit_loose(const Visit& visit) const {
+    for (auto at = loose_.begin(); (at = std::find(at, loose_.end(), 1)) != loose_.end(); ++at)
+      visit(static_cast<NodeId>(at - loose_.begin()));
+  }
   /// The smallest sphere around the node's balls; after Update::trust or lazy around those of its basis.
   [[nodiscard]] Sphere sphere(NodeId node) const;
 

@@ -4,7 +4,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -62,29 +64,37 @@ class Balls {
   /// constructor does.
   void move_to(const Curves<Dimension>& curves, int k) {
     const std::size_t beads = curves.bead_count();
+    std::uint64_t wrong = 0, changed = radii_.size() == beads + padding ? 0 : 1;
     radii_.resize(beads + padding);
     for (auto& axis : centers_) axis.resize(radii_.size());
-    double not_finite = 0;
-    bool proper = true;
-    equal_radii_ = true;
     for (BeadId b = 0; b < beads; ++b) {
       const double* const point = curves.control_point(b, k);
       for (std::size_t axis = 0; axis < Dimension; ++axis) {
         centers_[axis][b] = point[axis];
-        not_finite += 0 * point[axis];
+        wrong |= bit_if_not_finite(point[axis]);
       }
       const double radius = curves.radii(b)[k];
+      changed |= std::bit_cast<std::uint64_t>(radius) ^ std::bit_cast<std::uint64_t>(radii_[b]);
       radii_[b] = radius;
-      not_finite += 0 * radius;
-      proper &= radius >= 0;
-      equal_radii_ &= radius == radii_[0];
     }
-    if (not_finite != 0 || !proper) refuse();
+    for (std::size_t b = 0; b < beads && changed != 0; ++b) {
+      equal_radii_ = (b == 0 || equal_radii_) && radii_[b] == radii_[0];
+      if (!(radii_[b] >= 0)) wrong |= sign_bit;
+      wrong |= bit_if_not_finite(radii_[b]);
+    }
+    if ((wrong & sign_bit) != 0) refuse();
   }
-
-  /// Puts one ball elsewhere; equal radii stay equal. All finite.
-  void place(BeadId bead, const std::array<double, static_cast<std::size_t>(Dimension)>& center) {
-    for (std::size_t axis = 0; axis < Dimension; ++axis) centers_[axis][bead] = center[axis];
+  /// Whether they are those of a motion at its k-th control points, bit for bit.
+  [[nodiscard]] bool are_at(const Curves<Dimension>& curves, int k) const {
+    if (size() != curves.bead_count()) return false;
+    std::uint64_t other = 0;
+    for (BeadId b = 0; b < size(); ++b) {
+      const double* const point = curves.control_point(b, k);
+      for (std::size_t axis = 0; axis < Dimension; ++axis)
+        other |= std::bit_cast<std::uint64_t>(point[axis]) ^ std::bit_cast<std::uint64_t>(centers_[axis][b]);
+      other |= std::bit_cast<std::uint64_t>(curves.radii(b)[k]) ^ std::bit_cast<std::uint64_t>(radii_[b]);
+    }
+    return other == 0;
   }
 
   [[nodiscard]] std::size_t size() const { return radii_.empty() ? 0 : radii_.size() - padding; }
@@ -101,6 +111,12 @@ class Balls {
     throw InputError("bead " + std::to_string(b) + ": expected finite coordinates");
   }
 
+  static constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63U;
+  /// The sign bit is set where x is not finite; others mean nothing. No branch, and no sum to wait for.
+  static std::uint64_t bit_if_not_finite(double x) {
+    constexpr std::uint64_t exponent = std::uint64_t{0x7ff} << 52U, one = std::uint64_t{1} << 52U;
+    return (std::bit_cast<std::uint64_t>(x) & exponent) + one;
+  }
   [[noreturn]] void refuse() const {
     for (std::size_t b = 0; b < size(); ++b) {
       for (const auto& axis : centers_)

@@ -21,13 +21,13 @@ class LayeredInRun final : public RunningStructure {
 
   [[nodiscard]] KineticStructure& kinetic() override { return hierarchy_; }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override {
-    const LayeredHierarchy<Dimension>& at_frame = hierarchy_.cages().hierarchy();
+    const ChordCages<LayeredHierarchy<Dimension>>& cages = hierarchy_.cages();
     std::vector<NodeSphere> nodes;
     for (NodeId id = 0; id < keeps_.size(); ++id) {
       if (keeps_[id] == 0) continue;
-      Sphere sphere = at_frame.sphere(id);
+      Sphere sphere = sphere_of(cages.cages(cages.last())[id], 0);
       sphere.center = scene_.in_input(sphere.center);
-      nodes.push_back({at_frame.tree().range(id), sphere});
+      nodes.push_back({cages.tree().range(id), sphere});
     }
     return {dump_layered(nodes)};
   }

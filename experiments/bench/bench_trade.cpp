@@ -1,0 +1,137 @@
+#include "experiments/bench/bench_trade.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "experiments/bench/bench_chains.h"
+#include "experiments/bench/bench_kinetic.h"
+#include "experiments/program/timing.h"
+#include "structures/chord_cages/chord_cages.h"
+#include "structures/contacts/moving_family.h"
+#include "structures/contacts/swept_contacts.h"
+
+namespace kds {
+
+namespace {
+
+/// How many times as fast as the exact run each lever is to be, by the start of a trajectory's name.
+struct Factors {
+  std::string_view name;
+  double chord, tight, layered;
+  double swept;  ///< static queries that a swept one may cost
+};
+constexpr std::array kFactors{Factors{"villin", 5, 3, 13, 1.1}, Factors{"random100", 3.4, 2, 13, 1.1},
+                              Factors{"dhodh", 6.5, 1.5, 13, 1.45}};
+
+const Factors* factors_of(std::string_view name) {
+  const auto* const found = std::ranges::find_if(
+      kFactors, [name](const Factors& factors) { return name.starts_with(factors.name); });
+  return found == kFactors.end() ? nullptr : found;
+}
+
+/// A lever of a structure: its settings in a run.
+struct Lever {
+  std::string name, structure;
+  StructureSettings settings;
+  std::optional<double> factor;
+};
+
+std::vector<Lever> levers_of(const Factors* factors) {
+  const auto factor = [factors](double Factors::*which) {
+    return factors == nullptr ? std::nullopt : std::optional(factors->*which);
+  };
+  std::vector<Lever> levers(3);
+  levers[0] = {"wrapped, chord cages", "wrapped", {}, factor(&Factors::chord)};
+  levers[1] = {"wrapped, chord cages within 0.01", "wrapped", {}, factor(&Factors::tight)};
+  levers[2] = {"layered, chord cages", "layered", {}, factor(&Factors::layered)};
+  levers[0].settings.between = levers[1].settings.between = Between::chord;
+  levers[1].settings.tightness = 0.01;
+  return levers;
+}
+
+// In turn with the exact run, beads from frame to motion being part of a step.
+void add_levers(const BenchChain& chain, std::size_t rounds, std::vector<BenchRow>& rows) {
+  const Scene scene = scene_of(chain, FrameMotion::linear);
+  const std::size_t nodes = NecklaceTree(scene.necklaces()).node_count();
+  const std::vector<Lever> levers = levers_of(factors_of(chain.name));
+  std::vector<std::vector<double>> ours(levers.size());
+  std::vector<double> exact;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    exact.push_back(run_all_steps(scene, "wrapped", {}).seconds);
+    for (std::size_t i = 0; i < levers.size(); ++i)
+      ours[i].push_back(run_all_steps(scene, levers[i].structure, levers[i].settings).seconds);
+  }
+  const double nanoseconds = 1e9 / static_cast<double>(nodes * scene.step_count());
+  for (std::size_t i = 0; i < levers.size(); ++i)
+    rows.push_back({levers[i].name, chain.name, chain.radii.size(), median_of(ours[i]) * nanoseconds,
+                    "ns/node", "wrapped, exact events", median_of(exact) * nanoseconds,
+                    levers[i].factor ? std::optional(1 / *levers[i].factor) : std::nullopt});
+}
+
+// Balls a quarter larger than those of `--radius auto`, so that some meet; no pairs within four beads.
+void add_swept_contacts(BenchChain chain, std::size_t rounds, std::vector<BenchRow>& rows) {
+  for (double& radius : chain.radii) radius *= 1.25;
+  const Scene scene = scene_of(chain, FrameMotion::linear);
+  std::vector<BezierMotion<3, 1>> steps(scene.step_count(), BezierMotion<3, 1>(scene.bead_count()));
+  std::vector<ChordCages<StaticWrappedHierarchy<3>>> cages;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    scene.load(k, steps[k]);
+    cages.emplace_back(scene.necklaces(), 1);
+    cages.back().move_to(Curves<3>(steps[k]));
+  }
+  const PairsAsked asked{scene.necklaces(), true, 5, true};
+  SweptContacts<3> query(NecklaceTree(scene.necklaces()), asked);
+  MovingFamily<3> family(asked, 1);
+  FoundPairs found;
+  PairsOfBlocks pairs;
+  std::size_t kept = 0;  // used, so that nothing can be left out
+  const auto seconds_over_steps = [&](auto&& of_step) {
+    return processor_seconds_of([&] {
+      for (std::size_t k = 0; k < steps.size(); ++k) {
+        of_step(k, Curves<3>(steps[k]));
+        kept += found.pairs.size() + pairs.unclear.size();
+      }
+    });
+  };
+  std::vector<double> swept, at_rest, boxes;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    swept.push_back(seconds_over_steps([&](std::size_t k, const Curves<3>& curves) {
+      query.find(cages[k].cages(0), cages[k].cages(1), curves, found);
+    }));
+    at_rest.push_back(seconds_over_steps([&](std::size_t k, const Curves<3>& curves) {
+      query.find_static(cages[k].cages(0), curves, 0, found);
+    }));
+    boxes.push_back(seconds_over_steps([&](std::size_t, const Curves<3>& curves) {
+      family.find_pairs(curves, MovingFamily<3>::Resting::left_out, false, pairs);
+    }));
+  }
+  const double nanoseconds = 1e9 / static_cast<double>(scene.bead_count() * steps.size());
+  const Factors* const factors = factors_of(chain.name);
+  const auto row = [&](const char* peer, const std::vector<double>& seconds, std::optional<double> goal) {
+    rows.push_back({"swept contacts of a step", chain.name, scene.bead_count(),
+                    median_of(swept) * nanoseconds, "ns/bead", kept > 0 ? peer : "",
+                    median_of(seconds) * nanoseconds, goal});
+  };
+  row("static query", at_rest, factors != nullptr ? std::optional(factors->swept) : std::nullopt);
+  row("moving boxes", boxes, std::nullopt);
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_trade(const TradeBenchOptions& options,
+                                  const std::function<void(std::size_t, std::size_t)>& progress) {
+  std::vector<BenchRow> rows;
+  std::size_t done = 0;
+  for (const std::filesystem::path& path : options.trajectories) {
+    const BenchChain chain = read_bench_chain(path);
+    const std::size_t rounds = std::max(options.rounds, 200000 / (chain.radii.size() * chain.frames.size()));
+    add_levers(chain, rounds, rows);
+    if (chain.dimension == 3) add_swept_contacts(chain, rounds, rows);
+    progress(++done, options.trajectories.size());
+  }
+  return rows;
+}
+
+}  // namespace kds

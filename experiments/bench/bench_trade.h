@@ -1,0 +1,22 @@
+#pragma once
+// `kds bench trade`: what levers of speed against accuracy cost, beside the exact run of the same structure
+// in the same process.
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "experiments/bench/bench_report.h"
+
+namespace kds {
+
+struct TradeBenchOptions {
+  std::vector<std::filesystem::path> trajectories;  ///< inputs, each as `kds run` reads it
+  std::size_t rounds = 5;                           ///< at least; more where rounds are short
+};
+
+[[nodiscard]] std::vector<BenchRow> bench_trade(
+    const TradeBenchOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
+
+}  // namespace kds
