@@ -96,6 +96,11 @@ std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& sc
   };
   if (options.relax && !has("wrapped"))
     throw InputError("--relax: it relaxes the spheres of wrapped, which is not among the structures");
+  if (options.relax && scene.degree() > highest_relaxed_degree)
+    throw InputError(
+        fmt::format("--relax: functions of relaxed spheres have too high a degree over motions of degree {}; "
+                    "expected {} at most",
+                    scene.degree(), highest_relaxed_degree));
   if (options.relax && session.settings.between != Between::events)
     throw InputError("--relax: it is about events; expected --between events");
   if (options.nodes.restricts() && !has("wrapped") && !has("layered"))

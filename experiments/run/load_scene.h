@@ -30,6 +30,8 @@ namespace kds {
 [[nodiscard]] Scene load_scene(const RunOptions& options,
                                const std::function<void(const std::string&)>& warn);
 
+/// Above this degree functions of relaxed spheres have too high a degree.
+inline constexpr int highest_relaxed_degree = 7;
 /// Above this degree nothing is compiled for lanes.
 inline constexpr int highest_fast_degree = 3;
 

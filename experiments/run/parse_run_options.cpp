@@ -13,6 +13,7 @@
 #include "experiments/output/text.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option_values.h"
+#include "experiments/run/certify_stride.h"
 #include "motions/base/input_error.h"
 #include "structures/session/structure_spec.h"
 
@@ -42,6 +43,8 @@ constexpr std::array kRunOptions{
     OptionSpec{
         "--relax", "EPS",
         "wrapped: a bead leaves a sphere when it is out by EPS of the radius, from 2^-20 to 1 (default: 0)"},
+    OptionSpec{"--certify", "",
+               "with a stride in --frames: read the frames in between, and bound what may have been missed"},
     OptionSpec{"--audit", "WHEN", "compare with static builds: none, frames or events (default: none)"},
     OptionSpec{"--work", "LIMIT",
                "end the run where exact arithmetic takes more limb operations than this (default: no limit)"},
@@ -119,6 +122,8 @@ RunOptions parse_run_options(const Arguments& arguments) {
     options.tightness = parse_real("--tightness", *tightness, {1e-6, 1});
   if (const auto relax = parsed.value("--relax"))
     options.relax = parse_real("--relax", *relax, {Relaxation::least_share, 1});
+  options.certify = parsed.has("--certify");
+  refuse_needless_certificate(options);
   options.audit = chosen<AuditMode>(parsed, "--audit", audit_mode_names).value_or(options.audit);
   if (const auto limit = parsed.value("--work"))
     options.work = parse_whole_number("--work", *limit, 0, ExactWork::no_limit - 1);

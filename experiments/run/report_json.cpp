@@ -32,6 +32,18 @@ Json structure_json(const StructureReport& structure) {
           {"audits", {{"run", structure.audits_run}, {"failed", structure.audits_failed}}}};
 }
 
+Json stride_json(const StrideCertificate& stride) {
+  const StrideDeviation& deviation = stride.deviation;
+  Json json{
+      {"skipped", deviation.skipped},
+      {"deviation", {{"largest", deviation.largest}, {"frame", deviation.frame}, {"bead", deviation.bead}}}};
+  if (stride.contacts)
+    json["contacts"] = {{"found", stride.contacts->found.size()},
+                        {"sure", stride.contacts->sure.size()},
+                        {"possible", stride.contacts->possible.size()}};
+  return json;
+}
+
 Json run_json(const RunReport& report) {
   Json json;
   json["input"] = {{"files", report.files},           {"beads", report.beads},
@@ -55,6 +67,7 @@ Json run_json(const RunReport& report) {
                     {"close_comparisons", comparisons},
                     {"exact_work", report.exact_work}};
   json["fingerprint"] = hex_digits(report.fingerprint);
+  if (report.stride) json["stride"] = stride_json(*report.stride);
   add_provenance(json);
   return json;
 }

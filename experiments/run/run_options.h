@@ -28,6 +28,7 @@ struct RunOptions {
   std::optional<Between> between;             ///< --between; none: not given
   std::optional<double> tightness;            ///< --tightness; none: not given
   std::optional<double> relax;                ///< --relax; none: not given
+  bool certify = false;                       ///< --certify
   std::optional<std::filesystem::path> dump;  ///< directory for the structures at every frame
   std::optional<std::filesystem::path> out;   ///< directory for summary.json, events.csv, report.html
   std::optional<std::filesystem::path> log;   ///< event log, for `kds replay`

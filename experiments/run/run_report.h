@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/run/certify_stride.h"
 #include "experiments/run/event_bins.h"
 #include "motions/readers/frame_reader.h"
 
@@ -38,10 +39,11 @@ struct RunReport {
   std::vector<std::pair<std::string, std::string>>
       settings;  ///< motion, kernel, audit, select, chain, frames, radius, ...
   std::vector<StructureReport> structures;
-  double engine_seconds = 0;      ///< queue and clock
-  NamedCounts comparisons;        ///< of failure times whose brackets overlap, by what settled them
-  std::uint64_t exact_work = 0;   ///< limb operations of exact arithmetic
-  std::uint64_t fingerprint = 0;  ///< printed as 16 hex digits
+  double engine_seconds = 0;                ///< queue and clock
+  NamedCounts comparisons;                  ///< of failure times whose brackets overlap, by what settled them
+  std::uint64_t exact_work = 0;             ///< limb operations of exact arithmetic
+  std::uint64_t fingerprint = 0;            ///< printed as 16 hex digits
+  std::optional<StrideCertificate> stride;  ///< of --certify
 };
 
 }  // namespace kds

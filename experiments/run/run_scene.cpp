@@ -1,6 +1,7 @@
 #include "experiments/run/run_scene.h"
 
 #include "experiments/program/warnings.h"
+#include "experiments/run/certify_stride.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/report_of_session.h"
 #include "experiments/run/watch_exact_work.h"
@@ -27,6 +28,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   });
 
   RunReport report = report_of(*session, scene, options, counts);
+  if (options.certify) report.stride = certify_stride(options, scene);
   std::vector<double> static_seconds;
   for (std::size_t frame = 0; frame < scene.frame_count(); ++frame)
     session->time_static_builds(frame, static_seconds);

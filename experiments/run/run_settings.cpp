@@ -43,7 +43,8 @@ std::vector<std::pair<std::string, std::string>> option_settings(const RunOption
           {"apart", options.apart ? std::to_string(*options.apart) : ""},
           {"between", options.between ? std::string(name_of(*options.between)) : ""},
           {"tightness", options.tightness ? fmt::format("{}", *options.tightness) : ""},
-          {"relax", relax_of(options)}};
+          {"relax", relax_of(options)},
+          {"certify", options.certify ? "yes" : ""}};
 }
 
 std::vector<std::string> option_arguments(const RunOptions& options) {

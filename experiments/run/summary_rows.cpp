@@ -101,6 +101,22 @@ std::string which_frames(const RunReport& report) {
   return text.empty() ? text : fmt::format(" ({})", text);
 }
 
+void add_stride(std::vector<std::pair<std::string, std::string>>& lines, const StrideCertificate& stride) {
+  const StrideDeviation& deviation = stride.deviation;
+  lines.emplace_back(
+      "stride",
+      fmt::format("{} frames left out, beads at most {:.6g} from where the run has them (bead {}, "
+                  "frame {}): spheres made larger by that hold them at all times",
+                  with_thousands(deviation.skipped), deviation.largest, deviation.bead, deviation.frame));
+  if (!stride.contacts) return;
+  const auto& [found, sure, possible] = *stride.contacts;
+  lines.emplace_back(
+      "contacts",
+      fmt::format("{} pairs found, {} of them sure; {} possible: {} at most may have been missed",
+                  with_thousands(found.size()), with_thousands(sure.size()), with_thousands(possible.size()),
+                  with_thousands(possible.size() - found.size())));
+}
+
 }  // namespace
 
 std::string kind_label(const std::string& kind) { return kind == "wander" ? kind + " (internal)" : kind; }
@@ -136,9 +152,12 @@ std::vector<std::pair<std::string, std::string>> input_lines(const RunReport& re
   std::vector<std::string> settings;
   for (const auto& [name, value] : report.settings)
     if (!value.empty()) settings.push_back(name + " " + value);
-  return {{"input", fmt::format("{}", fmt::join(report.files, ", "))},
-          {"scene", scene},
-          {"settings", fmt::format("{}", fmt::join(settings, ", "))}};
+  std::vector<std::pair<std::string, std::string>> lines{
+      {"input", fmt::format("{}", fmt::join(report.files, ", "))},
+      {"scene", scene},
+      {"settings", fmt::format("{}", fmt::join(settings, ", "))}};
+  if (report.stride) add_stride(lines, *report.stride);
+  return lines;
 }
 
 std::size_t step_count(const RunReport& report) {

@@ -1,0 +1,126 @@
+#include "motions/scene/stride_deviation.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "motions/base/floating_point_guard.h"
+#include "motions/base/input_error.h"
+#include "motions/curves/bezier_motion.h"
+
+namespace kds {
+
+namespace {
+
+constexpr int most_degree = 3;
+using ControlPoints = std::array<Eigen::Matrix3Xd, most_degree + 1>;
+
+template <class M>
+void load_control_points(const Scene& scene, std::size_t step, ControlPoints& points) {
+  M motion(scene.bead_count());
+  scene.load(step, motion);
+  for (int k = 0; k <= M::degree; ++k) {
+    Eigen::Matrix3Xd& of_degree = points[static_cast<std::size_t>(k)];
+    of_degree.resize(3, static_cast<Eigen::Index>(scene.bead_count()));
+    for (BeadId b = 0; b < scene.bead_count(); ++b) {
+      Eigen::Vector3d point = Eigen::Vector3d::Zero();
+      for (int axis = 0; axis < M::dimension; ++axis) point[axis] = motion.coordinate(b, k, axis);
+      of_degree.col(static_cast<Eigen::Index>(b)) = scene.in_input(point);
+    }
+  }
+}
+
+/// Of a step of the scene, where the files have the beads.
+void control_points_of(const Scene& scene, std::size_t step, ControlPoints& points) {
+  if (scene.dimension() == 2) {
+    return scene.degree() == 1 ? load_control_points<BezierMotion<2, 1>>(scene, step, points)
+                               : load_control_points<BezierMotion<2, 3>>(scene, step, points);
+  }
+  return scene.degree() == 1 ? load_control_points<BezierMotion<3, 1>>(scene, step, points)
+                             : load_control_points<BezierMotion<3, 3>>(scene, step, points);
+}
+
+/// The part of a curve between two times.
+void cut(std::array<Eigen::Vector3d, most_degree + 1>& curve, int degree, double from, double to) {
+  const auto size = static_cast<std::size_t>(degree);
+  for (std::size_t round = 0; round < size; ++round)  // what is before `to`
+    for (std::size_t k = size; k > round; --k) curve[k] = (1 - to) * curve[k - 1] + to * curve[k];
+  const double share = from / to;
+  for (std::size_t round = size; round > 0; --round)  // and behind `from`
+    for (std::size_t k = 0; k < round; ++k) curve[k] = (1 - share) * curve[k] + share * curve[k + 1];
+}
+
+class DeviationSearch {
+ public:
+  DeviationSearch(const Scene& scene, std::size_t stride) : scene_(scene), stride_(stride) {
+    found_.of_bead.assign(scene.bead_count(), 0);
+  }
+
+  /// Of the part of a step between two frames that follow each other in the files.
+  void add(const ControlPoints& points, std::size_t part, const FrameRead& before, const FrameRead& after) {
+    const int degree = scene_.degree();
+    const double from = static_cast<double>(part) / static_cast<double>(stride_);
+    const double to = static_cast<double>(part + 1) / static_cast<double>(stride_);
+    for (BeadId b = 0; b < scene_.bead_count(); ++b) {
+      const auto column = static_cast<Eigen::Index>(b);
+      const Eigen::Vector3d first = before.positions.col(column), last = after.positions.col(column);
+      std::array<Eigen::Vector3d, most_degree + 1> curve;
+      double extent = first.lpNorm<1>() + last.lpNorm<1>();
+      for (int k = 0; k <= degree; ++k) {
+        curve[static_cast<std::size_t>(k)] = points[static_cast<std::size_t>(k)].col(column);
+        extent += curve[static_cast<std::size_t>(k)].lpNorm<1>();
+      }
+      cut(curve, degree, from, to);
+      for (int k = 0; k <= degree; ++k) {
+        const double share = static_cast<double>(k) / degree;
+        const Eigen::Vector3d apart =
+            curve[static_cast<std::size_t>(k)] - ((1 - share) * first + share * last);
+        // A dozen roundings of lengths up to the extent, and those of the norm.
+        const double rounded = apart.stableNorm() * (1 + 0x1p-45) + 0x1p-45 * extent;
+        if (!(rounded > found_.of_bead[b])) continue;
+        found_.of_bead[b] = rounded;
+        if (!(rounded > found_.largest)) continue;
+        found_.largest = rounded;
+        found_.bead = b;
+        found_.frame = (2 * k < degree ? before : after).stamp.number;
+      }
+    }
+  }
+  void skip() { ++found_.skipped; }
+  [[nodiscard]] StrideDeviation take() { return std::move(found_); }
+
+ private:
+  const Scene& scene_;
+  std::size_t stride_;
+  StrideDeviation found_;
+};
+
+}  // namespace
+
+StrideDeviation deviation_of_stride(const Scene& scene, FrameReader& every, std::size_t stride) {
+  const FloatingPointGuard to_nearest;
+  DeviationSearch search(scene, stride);
+  ControlPoints points;
+  FrameRead before, after;
+  const auto read = [&](FrameRead& frame, std::size_t k) {
+    if (every.next(frame) && frame.positions.cols() == static_cast<Eigen::Index>(scene.bead_count())) return;
+    throw InputError(fmt::format("frame {} is gone since the input was first read", scene.frame_number(k)));
+  };
+  read(before, 0);
+  for (std::size_t step = 0; step < scene.step_count(); ++step) {
+    control_points_of(scene, step, points);
+    for (std::size_t part = 0; part < stride; ++part) {
+      read(after, step);
+      if (part + 1 < stride) search.skip();
+      search.add(points, part, before, after);
+      std::swap(before, after);
+    }
+    if (before.stamp.number != scene.frame_number(step + 1))
+      throw InputError(fmt::format("frame {} is not where it was when the input was first read",
+                                   scene.frame_number(step + 1)));
+  }
+  return search.take();
+}
+
+}  // namespace kds

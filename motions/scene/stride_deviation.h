@@ -1,0 +1,31 @@
+#pragma once
+// How far beads are, in frames that a scene leaves out, from where the scene has them: the scene takes every
+// so-manieth frame of its files, and moves beads over the others.
+//
+// Taken for the truth is linear motion between the files' frames. In one of their steps a bead of the scene
+// moves on a part of its Bezier curve, and the difference of the two is a Bezier curve again: it is no longer
+// than its longest control point. So what is found here bounds the deviation at all times, and in linear
+// motion it is the largest there is, reached at a frame. Rounded up.
+
+#include <cstddef>
+#include <vector>
+
+#include "motions/base/bead.h"
+#include "motions/readers/frame_reader.h"
+#include "motions/scene/scene.h"
+
+namespace kds {
+
+struct StrideDeviation {
+  std::size_t skipped = 0;      ///< frames between those of the scene
+  double largest = 0;           ///< of any bead
+  BeadId bead = 0;              ///< whose that is
+  std::size_t frame = 0;        ///< at which frame of the file, or in a curved motion next to it
+  std::vector<double> of_bead;  ///< the largest of each
+};
+
+/// `every`: all frames of the files from the scene's first on, of which it has each `stride`-th. Throws
+/// InputError where these are not the frames that the scene has.
+[[nodiscard]] StrideDeviation deviation_of_stride(const Scene& scene, FrameReader& every, std::size_t stride);
+
+}  // namespace kds

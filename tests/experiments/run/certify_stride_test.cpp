@@ -1,0 +1,103 @@
+#include "experiments/run/certify_stride.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "experiments/run/load_scene.h"
+#include "experiments/run/parse_run_options.h"
+#include "experiments/run/run_steps.h"
+#include "tests/experiments/run_program.h"
+
+namespace kds::test {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+const std::string kDcd = data_file("trajectories/villin_hp36_300K.dcd");
+const std::string kPdb = data_file("trajectories/villin_hp36_300K.pdb");
+
+Arguments arguments_with(const std::string& frames, std::vector<std::string> more) {
+  Arguments arguments{kDcd,  "--topology", kPdb, "--structures", "contacts", "--radius",
+                      "1.9", "--apart",    "5",  "--frames",     frames};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+struct Pairs final : EventListener {
+  PairsMet met;
+  void on_event(const KineticStructure&, const LoggedEvent& event) override {
+    met.emplace(event.change.ids[0], event.change.ids[1]);
+  }
+};
+
+/// By a run of all frames.
+PairsMet pairs_in_truth(const std::string& frames) {
+  const RunOptions options = parse_run_options(arguments_with(frames, {}));
+  const Scene scene = load_scene(options, [](const std::string&) {});
+  const auto session = open_session(options, scene, AuditMode::none);
+  Pairs pairs;
+  session->simulator().listen(pairs);
+  run_steps(*session, scene, options, [&](std::size_t frame) {
+    if (frame != 0) return;
+    for (const Change& change : session->built(0)) pairs.met.emplace(change.ids[0], change.ids[1]);
+  });
+  return pairs.met;
+}
+
+bool is_among(const PairsMet& some, const PairsMet& all) {
+  return std::includes(all.begin(), all.end(), some.begin(), some.end());
+}
+
+TEST(CertifyStride, SureContactsAreThereAndNoOthersThanPossibleOnes) {
+  for (const auto& [stride, motion] : {std::pair("2", "linear"), std::pair("4", "linear"),
+                                       std::pair("16", "linear"), std::pair("4", "hermite")}) {
+    SCOPED_TRACE(std::string(stride) + " " + motion);
+    const RunOptions options =
+        parse_run_options(arguments_with(std::string("0:161:") + stride, {"--certify", "--motion", motion}));
+    const Scene scene = load_scene(options, [](const std::string&) {});
+    const StrideCertificate certificate = certify_stride(options, scene);
+    ASSERT_TRUE(certificate.contacts);
+    const auto& [found, sure, possible] = *certificate.contacts;
+    const PairsMet truth = pairs_in_truth("0:161");
+    EXPECT_TRUE(is_among(sure, truth));
+    EXPECT_TRUE(is_among(truth, possible));
+    EXPECT_TRUE(is_among(sure, found));
+    EXPECT_TRUE(is_among(found, possible));
+    EXPECT_FALSE(truth.empty());
+    EXPECT_GT(certificate.deviation.largest, 0.1);
+    EXPECT_LT(certificate.deviation.frame, 161U);
+  }
+}
+
+TEST(CertifyStride, IsReported) {
+  Arguments arguments = arguments_with("0:41:4", {"--certify", "--json", "-"});
+  arguments.insert(arguments.begin(), "run");
+  const ProgramRun run = run_program(arguments);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json summary = Json::parse(run.out);
+  EXPECT_EQ(summary["settings"]["certify"], "yes");
+  const Json& stride = summary["stride"];
+  EXPECT_EQ(stride["skipped"], 30);
+  EXPECT_GT(stride["deviation"]["largest"], 0.1);
+  EXPECT_LE(stride["contacts"]["sure"], stride["contacts"]["found"]);
+  EXPECT_LE(stride["contacts"]["found"], stride["contacts"]["possible"]);
+  arguments.resize(arguments.size() - 2);
+  const ProgramRun shown = run_program(arguments);
+  EXPECT_THAT(shown.out, HasSubstr("30 frames left out, beads at most"));
+  EXPECT_THAT(shown.out, HasSubstr("of them sure"));
+}
+
+TEST(CertifyStride, NeedsAStride) {
+  Arguments arguments = arguments_with("0:41", {"--certify"});
+  arguments.insert(arguments.begin(), "run");
+  const ProgramRun run = run_program(arguments);
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("--certify: the run leaves out no frame"));
+}
+
+}  // namespace
+}  // namespace kds::test
