@@ -15,6 +15,7 @@
 #include "experiments/collide/collide_command.h"
 #include "experiments/collide/families_command.h"
 #include "experiments/collide/missed_command.h"
+#include "experiments/compare/compare_command.h"
 #include "experiments/output/destinations.h"
 #include "experiments/output/provenance.h"
 #include "experiments/output/text.h"
@@ -42,6 +43,7 @@ constexpr std::array kCommands{
     Command{"generate", "write a model necklace", generate_command},
     Command{"replay", "run a logged run again and compare", replay_command},
     Command{"update", "compare techniques that bring the power diagram from frame to frame", update_command},
+    Command{"compare", "compare how often structures change, by stride, motion and input", compare_command},
     Command{"collide", "which beads collide in each frame, by several methods", collide_command},
     Command{"missed", "which share of contacts is missed by looking at frames only", missed_command},
     Command{"families", "measure separating families of packed grids", families_command},

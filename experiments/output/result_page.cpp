@@ -25,7 +25,8 @@ void refuse_page_beside_others(const std::filesystem::path& directory, std::stri
     std::string_view file, command;
   };
   constexpr std::array results{Result{"summary.json", "kds run"}, Result{"update.json", "kds update"},
-                               Result{"collide.json", "kds collide"}, Result{"missed.json", "kds missed"}};
+                               Result{"compare.json", "kds compare"}, Result{"collide.json", "kds collide"},
+                               Result{"missed.json", "kds missed"}};
   for (const auto& [file, command] : results) {
     std::error_code ignored;
     if (file != own && std::filesystem::exists(directory / file, ignored))
