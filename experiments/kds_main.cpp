@@ -20,6 +20,7 @@
 #include "experiments/output/provenance.h"
 #include "experiments/output/text.h"
 #include "experiments/program/command_line.h"
+#include "experiments/reproduce/reproduce_command.h"
 #include "experiments/run/replay_command.h"
 #include "experiments/run/run_command.h"
 #include "experiments/scenes/generate_command.h"
@@ -47,6 +48,7 @@ constexpr std::array kCommands{
     Command{"collide", "which beads collide in each frame, by several methods", collide_command},
     Command{"missed", "which share of contacts is missed by looking at frames only", missed_command},
     Command{"families", "measure separating families of packed grids", families_command},
+    Command{"reproduce", "measure the paper's tables again, beside the paper's values", reproduce_command},
     Command{"bench", "measure ours beside what users would pick today", bench_command},
     Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},
 };
