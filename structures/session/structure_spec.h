@@ -84,9 +84,6 @@ struct StructureSettings {
 
 struct StructureSpec {
   std::string name;
-  /// Whether the first two ids of its events are the first and last bead of a node of the balanced tree over
-  /// the necklaces, and the others beads. Else all are beads.
-  bool of_nodes = false;
   /// In what order structures act at one time, and stand in reports: ascending, then by name. Those of the
   /// framework have 10, 20, 30, 40.
   int order = 100;
@@ -102,6 +99,9 @@ struct StructureSpec {
   std::function<std::unique_ptr<RunningStructure>(Simulator&, const Scene&, const SceneMotion::Ref&,
                                                   const StructureSettings&)>
       make;
+  /// Whether the first two ids of its events are the first and last bead of a node of the balanced tree over
+  /// the necklaces, and the others beads. Else all are beads.
+  bool of_nodes = false;
 };
 
 class StructureRegistry {
