@@ -15,10 +15,12 @@
 #include "experiments/collide/collide_command.h"
 #include "experiments/collide/families_command.h"
 #include "experiments/collide/missed_command.h"
+#include "experiments/compare/compare_command.h"
 #include "experiments/output/destinations.h"
 #include "experiments/output/provenance.h"
 #include "experiments/output/text.h"
 #include "experiments/program/command_line.h"
+#include "experiments/reproduce/reproduce_command.h"
 #include "experiments/run/replay_command.h"
 #include "experiments/run/run_command.h"
 #include "experiments/scenes/generate_command.h"
@@ -42,9 +44,11 @@ constexpr std::array kCommands{
     Command{"generate", "write a model necklace", generate_command},
     Command{"replay", "run a logged run again and compare", replay_command},
     Command{"update", "compare techniques that bring the power diagram from frame to frame", update_command},
+    Command{"compare", "compare how often structures change, by stride, motion and input", compare_command},
     Command{"collide", "which beads collide in each frame, by several methods", collide_command},
     Command{"missed", "which share of contacts is missed by looking at frames only", missed_command},
     Command{"families", "measure separating families of packed grids", families_command},
+    Command{"reproduce", "measure the paper's tables again, beside the paper's values", reproduce_command},
     Command{"bench", "measure ours beside what users would pick today", bench_command},
     Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},
 };

@@ -19,6 +19,7 @@
 #include "experiments/bench/bench_trade.h"
 #include "experiments/bench/collision_peers.h"
 #include "experiments/output/text.h"
+#include "experiments/program/data_folder.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/table_results.h"
 #include "experiments/program/warnings.h"
@@ -128,8 +129,8 @@ std::size_t parse_count(std::string_view option, const std::string& text, std::s
 }
 
 // A folder of the data that inputs are taken from unless they are named one by one.
-std::filesystem::path data_folder(const ParsedArguments& parsed, const char* name, const char* instead) {
-  const std::filesystem::path data = parsed.value("--data").value_or(KDS_SOURCE_DATA_DIR);
+std::filesystem::path folder_of_data(const ParsedArguments& parsed, const char* name, const char* instead) {
+  const std::filesystem::path data = data_folder(parsed);
   std::error_code none;
   if (std::filesystem::is_directory(data / name, none)) return data / name;
   throw InputError(
@@ -168,12 +169,12 @@ int bench_command(const Arguments& arguments) {
   if (const auto list = parsed.value("--trajectories")) {
     for (const std::string& path : split(*list, ',')) inputs.trajectories.emplace_back(path);
   } else if (chains) {
-    inputs.trajectories = trajectories_in(data_folder(parsed, "trajectories", "--trajectories"));
+    inputs.trajectories = trajectories_in(folder_of_data(parsed, "trajectories", "--trajectories"));
   }
   if (const auto folder = parsed.value("--instances")) {
     inputs.instances = *folder;
   } else if (!chains) {
-    inputs.instances = data_folder(parsed, "kinetic", "--instances");
+    inputs.instances = folder_of_data(parsed, "kinetic", "--instances");
   }
   if (const auto text = parsed.value("--rounds")) inputs.rounds = parse_count("--rounds", *text, 5);
   Destinations destinations;

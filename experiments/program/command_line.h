@@ -31,7 +31,7 @@ template <std::size_t n, std::size_t m>
 
 struct CommandSpec {
   std::string_view name;     ///< kds run
-  std::string_view summary;  ///< one sentence
+  std::string_view summary;  ///< one sentence; definitions may follow on lines of their own
   std::string_view operand;  ///< how help names what is not an option; empty: none is taken
   std::string_view operand_help;
   std::span<const OptionSpec> options;

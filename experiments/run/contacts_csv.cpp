@@ -3,21 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string>
+
+#include "experiments/output/text.h"
 
 namespace kds {
 
 namespace {
 
 constexpr std::string_view structure_name = "contacts";
-
-/// A field of CSV, between quotation marks where it must be.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 }  // namespace
 
@@ -57,8 +50,8 @@ void ContactsTable::add(const LoggedEvent& event, std::string_view kind) {
   const double u = 0.5 * (event.lower + event.upper);
   const FrameStamp from = scene_.stamp(event.step), to = scene_.stamp(event.step + 1);
   const auto between = [u](double a, double b) { return a + u * (b - a); };
-  stream_ << fmt::format("{},{},{},{},{},{:.12g}", kind, i, j, field(scene_.bead_name(i)),
-                         field(scene_.bead_name(j)),
+  stream_ << fmt::format("{},{},{},{},{},{:.12g}", kind, i, j, csv_field(scene_.bead_name(i)),
+                         csv_field(scene_.bead_name(j)),
                          between(static_cast<double>(from.number), static_cast<double>(to.number)));
   if (timed_)
     stream_ << fmt::format(",{:.12g}", between(from.picoseconds.value_or(0), to.picoseconds.value_or(0)));

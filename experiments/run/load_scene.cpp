@@ -68,6 +68,7 @@ namespace {
 // Between frames there is nothing to log or to audit.
 void refuse_events_of_chords(const RunOptions& options, const SessionOptions& session) {
   const char* const asked = options.log                           ? "--log"
+                            : options.events                      ? "--events"
                             : session.audits == AuditMode::events ? "--audit events"
                                                                   : nullptr;
   if (asked == nullptr) return;

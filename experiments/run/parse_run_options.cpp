@@ -1,21 +1,19 @@
 #include "experiments/run/parse_run_options.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
 
 #include "certificates/base/relaxation.h"
 #include "certificates/exact/exact_work.h"
-#include "experiments/output/text.h"
 #include "experiments/program/input_options.h"
+#include "experiments/program/option_lists.h"
 #include "experiments/program/option_values.h"
 #include "experiments/run/certify_stride.h"
+#include "experiments/run/event_table.h"
 #include "motions/base/input_error.h"
-#include "structures/session/structure_spec.h"
 
 namespace kds {
 namespace {
@@ -50,6 +48,7 @@ constexpr std::array kRunOptions{
                "end the run where exact arithmetic takes more limb operations than this (default: no limit)"},
     OptionSpec{"--dump", "DIR",
                "write the structures at every frame there, in place of an earlier dump (default: none)"},
+    kEventsOption,
     OptionSpec{"--log", "FILE", "write the event log there, for kds replay (default: none)"},
     OptionSpec{
         "--out", "DIR",
@@ -69,23 +68,6 @@ constexpr CommandSpec kCommand{
     "kds run villin.dcd --topology villin.pdb --frames 0:200 --structures wrapped,power --out report\n"
     "kds run models.pdb --kernel exact --audit events --json -",
 };
-
-// In the order of the registry whatever the order given, so that the same set gives the same run.
-std::vector<std::string> parse_structures(const std::string& list) {
-  const std::vector<std::string> names = split(list, ',');
-  std::vector<std::string> known, ordered;
-  for (const StructureSpec& spec : structure_registry().all()) {
-    known.push_back(spec.name);
-    if (std::find(names.begin(), names.end(), spec.name) != names.end()) ordered.push_back(spec.name);
-  }
-  for (const std::string& name : names) {
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(fmt::format("--structures: '{}' is not one of {}", name, fmt::join(known, ", ")));
-    if (std::count(names.begin(), names.end(), name) > 1)
-      throw InputError(fmt::format("--structures: {} is listed twice", name));
-  }
-  return ordered;
-}
 
 NodeSelection parse_nodes(const ParsedArguments& parsed) {
   constexpr std::uint64_t most = std::uint64_t{1} << 32U;
@@ -128,6 +110,7 @@ RunOptions parse_run_options(const Arguments& arguments) {
   if (const auto limit = parsed.value("--work"))
     options.work = parse_whole_number("--work", *limit, 0, ExactWork::no_limit - 1);
   options.dump = path_of(parsed, "--dump");
+  options.events = path_of(parsed, kEventsOption.name);
   options.log = path_of(parsed, "--log");
   options.out = path_of(parsed, "--out");
   options.json = parsed.value("--json");

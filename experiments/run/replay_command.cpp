@@ -5,11 +5,14 @@
 #include <array>
 #include <filesystem>
 
+#include "experiments/output/output_files.h"
 #include "experiments/output/text.h"
 #include "experiments/program/input_options.h"
+#include "experiments/program/option_values.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/taken_paths.h"
 #include "experiments/program/warnings.h"
+#include "experiments/run/event_table.h"
 #include "experiments/run/replay_log.h"
 #include "experiments/run/report_json.h"
 #include "experiments/run/run_results.h"
@@ -20,6 +23,7 @@ namespace kds {
 namespace {
 
 constexpr std::array kOptions{
+    kEventsOption,
     OptionSpec{
         "--out", "DIR",
         "write summary.json, events.csv, report.html and, of contacts, contacts.csv there (default: none)"},
@@ -57,9 +61,12 @@ int replay_command(const Arguments& arguments) {
   TakenPaths paths;
   paths.add("the log", log);
   paths.write(destinations);
+  const auto events = path_of(parsed, kEventsOption.name);
+  if (events) paths.write("--events", *events);
   check_destinations(destinations);
+  if (events) ensure_writable_file(*events, "--events");
 
-  RunResults results(destinations);
+  RunResults results(destinations, events);
   ProgressBar bar(!destinations.quiet);
   const ReplayReport replay = replay_log(
       log, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },

@@ -25,6 +25,7 @@ void check_apart(const RunOptions& options, const Destinations& destinations) {
   TakenPaths paths;
   paths.read({options.inputs, options.reading, options.radius});
   paths.write(destinations);
+  if (options.events) paths.write("--events", *options.events);
   if (options.log) paths.write("--log", *options.log);
 }
 
@@ -32,6 +33,7 @@ void check_before_run(const RunOptions& options, const Destinations& destination
   check_inputs_exist({options.inputs, options.reading, options.radius});
   check_apart(options, destinations);
   check_destinations(destinations);
+  if (options.events) ensure_writable_file(*options.events, "--events");
   if (options.log) ensure_writable_file(*options.log, "--log");
   if (options.dump) check_directory(*options.dump, "--dump");
 }
@@ -43,7 +45,7 @@ int run_command(const Arguments& arguments) {
   const Destinations destinations{options.out, options.json, options.quiet};
   check_before_run(options, destinations);
 
-  RunResults results(destinations);
+  RunResults results(destinations, options.events);
   ProgressBar bar(!options.quiet);
   const RunReport report = run_scene(
       options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },

@@ -23,17 +23,18 @@ struct RunOptions {
   ReadOptions reading;  ///< --topology, --select, --chain, --frames
   std::string radius = "auto";
   AuditMode audit = AuditMode::none;
-  NodeSelection nodes;                        ///< --levels, --nodes
-  std::optional<BeadId> apart;                ///< --apart; none: not given
-  std::optional<Between> between;             ///< --between; none: not given
-  std::optional<double> tightness;            ///< --tightness; none: not given
-  std::optional<double> relax;                ///< --relax; none: not given
-  bool certify = false;                       ///< --certify
-  std::optional<std::filesystem::path> dump;  ///< directory for the structures at every frame
-  std::optional<std::filesystem::path> out;   ///< directory for summary.json, events.csv, report.html
-  std::optional<std::filesystem::path> log;   ///< event log, for `kds replay`
-  std::optional<std::uint64_t> work;          ///< most limb operations of exact arithmetic
-  std::optional<std::string> json;            ///< file, or - for standard output
+  NodeSelection nodes;                          ///< --levels, --nodes
+  std::optional<BeadId> apart;                  ///< --apart; none: not given
+  std::optional<Between> between;               ///< --between; none: not given
+  std::optional<double> tightness;              ///< --tightness; none: not given
+  std::optional<double> relax;                  ///< --relax; none: not given
+  bool certify = false;                         ///< --certify
+  std::optional<std::filesystem::path> dump;    ///< directory for the structures at every frame
+  std::optional<std::filesystem::path> out;     ///< directory for summary.json, events.csv, report.html
+  std::optional<std::filesystem::path> events;  ///< file for every event
+  std::optional<std::filesystem::path> log;     ///< event log, for `kds replay`
+  std::optional<std::uint64_t> work;            ///< most limb operations of exact arithmetic
+  std::optional<std::string> json;              ///< file, or - for standard output
   bool quiet = false;
 };
 

@@ -29,6 +29,11 @@ void check_destinations(const Destinations& destinations) {
 }
 
 void RunResults::begin(const Scene& scene, Session& session) {
+  if (events_path_) {
+    every_event_file_.emplace(*events_path_);
+    every_event_.emplace(every_event_file_->stream(), scene);
+    session.simulator().listen(*every_event_);
+  }
   if (!destinations_.out) return;
   files_.emplace(*destinations_.out, "--out");
   events_.emplace(files_->open("events.csv"), scene.stamp(0).picoseconds.has_value());
@@ -60,6 +65,7 @@ void RunResults::add_frame(std::size_t frame, const Session& session) {
 }
 
 void RunResults::add_step(const FrameStamp& frame, std::string_view structure, std::uint64_t events) {
+  if (every_event_file_) every_event_file_->check();
   if (!events_) return;
   events_->add(frame, structure, events);
   files_->check();
@@ -76,9 +82,9 @@ void RunResults::deliver(const RunReport& report, const std::string& json, const
   std::optional<AtomicFile> json_file;
   if (destinations_.json && !json_on_stdout) json_file.emplace(*destinations_.json, json);
   if (log_) log_->end(report.fingerprint);
-  commit_together(std::array<Staged*, 4>{dumps_ ? &dumps_->staged() : nullptr,
-                                         log_ ? &log_->staged() : nullptr, files_ ? &*files_ : nullptr,
-                                         json_file ? &*json_file : nullptr});
+  commit_together(std::array<Staged*, 5>{
+      every_event_file_ ? &*every_event_file_ : nullptr, dumps_ ? &dumps_->staged() : nullptr,
+      log_ ? &log_->staged() : nullptr, files_ ? &*files_ : nullptr, json_file ? &*json_file : nullptr});
   if (json_on_stdout) print_to_stdout(json);
   if (table_on_stdout) print_to_stdout(table);
   if (no_page) std::rethrow_exception(no_page);

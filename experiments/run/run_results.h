@@ -1,16 +1,19 @@
 #pragma once
 // The results of a run: summary.json, events.csv, contacts.csv and report.html in --out, --json, --dump,
-// --log, standard output.
+// --events, --log, standard output.
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "experiments/output/destinations.h"
+#include "experiments/output/output_files.h"
 #include "experiments/output/staged_files.h"
 #include "experiments/run/contacts_csv.h"
 #include "experiments/run/dumped_frames.h"
 #include "experiments/run/event_log_file.h"
+#include "experiments/run/event_table.h"
 #include "experiments/run/events_csv.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
@@ -24,7 +27,9 @@ void check_destinations(const Destinations& destinations);
 
 class RunResults {
  public:
-  explicit RunResults(Destinations destinations) : destinations_(std::move(destinations)) {}
+  /// `events`: a file for every event, if there is to be one.
+  explicit RunResults(Destinations destinations, std::optional<std::filesystem::path> events = std::nullopt)
+      : destinations_(std::move(destinations)), events_path_(std::move(events)) {}
 
   /// The input is accepted: from now on there are files in the making. They listen to the session, which must
   /// not go on when this object has gone.
@@ -42,9 +47,12 @@ class RunResults {
 
  private:
   Destinations destinations_;
+  std::optional<std::filesystem::path> events_path_;
   std::optional<StagedFiles> files_;
   std::optional<EventsCsv> events_;
   std::optional<ContactsTable> contacts_;
+  std::optional<AtomicFile> every_event_file_;
+  std::optional<EventTable> every_event_;
   std::optional<DumpedFrames> dumps_;
   std::optional<ContactsDump> dumped_contacts_;
   std::optional<EventLogWriter> log_;

@@ -12,8 +12,10 @@
 #include "experiments/program/table_results.h"
 #include "experiments/program/warnings.h"
 #include "experiments/run/load_scene.h"
+#include "experiments/scenes/bead_rows.h"
 #include "experiments/scenes/info_options.h"
 #include "experiments/scenes/info_report.h"
+#include "motions/base/input_error.h"
 #include "motions/scene/radii.h"
 
 namespace kds {
@@ -34,7 +36,9 @@ Json settings_json(const InfoOptions& options) {
 }
 
 // Points with weights, not balls in a chain: there is nothing to judge.
-TableResults describe(const Instance& instance) {
+TableResults describe(const Instance& instance, bool beads) {
+  if (beads)
+    throw InputError(fmt::format("--beads: has no meaning for an instance file ({})", instance.file));
   Json json;
   json["input"] = {{"files", std::vector{instance.file}},
                    {"beads", instance.point_count()},
@@ -52,7 +56,26 @@ TableResults describe(const Instance& instance) {
                       instance.degree, instance.weighted() ? "weighted" : "without weights")};
 }
 
+TableResults describe_beads(const InfoOptions& options, ProgressBar& bar) {
+  HeldWarnings held;
+  const std::vector<Trajectory> necklaces = read_necklaces(options.input, held.hold());
+  const std::vector<BeadRow> rows = bead_rows(necklaces, bead_radii(options.input.radius, necklaces));
+  Json json, files = Json::array(), warnings = Json::array();
+  for (const auto& input : options.input.inputs) files.push_back(input.string());
+  held.release([&](const std::string& warning) {
+    warnings.push_back(warning);
+    print_warning(bar, warning);
+  });
+  json["input"] = {{"files", files}, {"beads", rows.size()}};
+  json["settings"] = settings_json(options);
+  json["rows"] = bead_rows_json(rows);
+  json["warnings"] = warnings;
+  add_provenance(json);
+  return {text_of(json), bead_rows_csv(rows), bead_rows_table(rows)};
+}
+
 TableResults describe(const InfoOptions& options, ProgressBar& bar) {
+  if (options.beads) return describe_beads(options, bar);
   Json warnings = Json::array();
   HeldWarnings held;
   const std::vector<Trajectory> necklaces = read_necklaces(options.input, held.hold());
@@ -85,7 +108,8 @@ int info_command(const Arguments& arguments) {
 
   ProgressBar bar(!options.quiet);
   const std::optional<Instance> instance = read_lone_instance(options.input);
-  deliver_table(destinations, std::string(kName), instance ? describe(*instance) : describe(options, bar));
+  deliver_table(destinations, std::string(kName),
+                instance ? describe(*instance, options.beads) : describe(options, bar));
   return 0;
 }
 

@@ -12,6 +12,7 @@ constexpr std::array kInfoOptions{
     OptionSpec{"--rho", "NUMBER",
                "the largest ratio of two radii, and of two bonds, that is uniform (default: any)"},
     OptionSpec{"--list", "N", "how many violations of a condition to list (default: 5)"},
+    OptionSpec{"--beads", "", "a row a bead instead: its necklace, chain, residue, atom and radius"},
     OptionSpec{"--out", "DIR", "write info.json and info.csv there (default: none)"},
     OptionSpec{"--json", "FILE", "write all of it there; - is standard output (default: none)"},
     OptionSpec{"--quiet", "", "no table, no progress bar"},
@@ -26,7 +27,8 @@ constexpr CommandSpec kCommand{
     kInputHelp,
     kOptions,
     "kds info villin.dcd --topology villin.pdb --frames ::10\n"
-    "kds info 1a4y.pdb --radius element:fit --rho 2 --json -",
+    "kds info 1a4y.pdb --radius element:fit --rho 2 --json -\n"
+    "kds info 1a4y.pdb --beads",
 };
 
 }  // namespace
@@ -39,6 +41,9 @@ InfoOptions parse_info_options(const Arguments& arguments) {
     options.validate.rho = parse_real("--rho", *text, {1, std::numeric_limits<double>::max()});
   if (const auto text = parsed.value("--list"))
     options.validate.most_listed = parse_whole_number("--list", *text, 0, 1'000'000);
+  options.beads = parsed.has("--beads");
+  if (options.beads && (parsed.has("--rho") || parsed.has("--list")))
+    throw InputError("--beads: it judges no conditions, which --rho and --list are about");
   options.out = path_of(parsed, "--out");
   options.json = parsed.value("--json");
   options.quiet = parsed.has("--quiet");

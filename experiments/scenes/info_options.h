@@ -14,6 +14,7 @@ namespace kds {
 struct InfoOptions {
   InputOptions input;
   ValidateOptions validate{.most_listed = 5};
+  bool beads = false;                        ///< which residue each bead is, and nothing else
   std::optional<std::filesystem::path> out;  ///< directory for info.json, info.csv
   std::optional<std::string> json;           ///< file, or - for standard output
   bool quiet = false;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "experiments/output/text.h"
+#include "experiments/program/option_lists.h"
 #include "experiments/program/option_values.h"
 
 namespace kds {

@@ -11,6 +11,7 @@
 
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
+#include "motions/readers/bead_name.h"
 #include "motions/readers/vdw_radii.h"
 
 namespace kds {
@@ -138,7 +139,7 @@ std::string element_of(const gemmi::Atom& atom) {
 }
 
 std::string describe(const gemmi::Atom& atom, const gemmi::Residue& residue, const std::string& chain) {
-  return fmt::format("{} of {} {} in chain {}", atom.name, residue.name, residue.seqid.str(), shown(chain));
+  return text_of({atom.name, residue.name, residue.seqid.str(), shown(chain)});
 }
 
 std::vector<SelectedAtom> atoms_of_chain(const gemmi::Model& model, Selection selection,

@@ -21,6 +21,16 @@ class ContactsInRun final : public RunningStructure {
 
   [[nodiscard]] KineticStructure& kinetic() override { return contacts_; }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override { return {}; }
+  [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t) const override {
+    CombinatorialElements elements{2, {}};
+    for (const BeadPair& pair : contacts_.pairs()) {
+      CombinatorialElement& element = elements.all.emplace_back();
+      element.fill(no_bead);
+      element[0] = pair.first;
+      element[1] = pair.second;
+    }
+    return elements;
+  }
   [[nodiscard]] std::vector<Change> built() const override {
     std::vector<Change> changes;
     for (const BeadPair& pair : contacts_.pairs())

@@ -18,6 +18,16 @@ class PowerInRun final : public RunningStructure {
     const auto at_frame = diagram_.at_frame(frame == 0);
     return {dump_cells(at_frame.cells), dump_hidden(at_frame.hidden)};
   }
+  [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t frame) const override {
+    CombinatorialElements elements{Dimension + 1, {}};
+    for (CellBeads<Dimension> cell : diagram_.at_frame(frame == 0).cells) {
+      std::sort(cell.begin(), cell.end());
+      CombinatorialElement& element = elements.all.emplace_back();
+      element.fill(no_bead);
+      std::copy(cell.begin(), cell.end(), element.begin());
+    }
+    return elements;
+  }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     return seconds_to_triangulate<Dimension>(scene_.centers(frame), scene_.weights(frame)).clock;
   }

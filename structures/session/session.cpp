@@ -62,6 +62,11 @@ std::vector<NodeSphere> Session::spheres_at(std::size_t structure, const Dyadic&
   return running_[structure]->spheres_at(u);
 }
 
+std::optional<CombinatorialElements> Session::elements(std::size_t structure, std::size_t frame) const {
+  const FloatingPointGuard to_nearest;
+  return running_[structure]->elements(frame);
+}
+
 void Session::time_static_builds(std::size_t frame, std::vector<double>& seconds) const {
   const FloatingPointGuard to_nearest;
   seconds.resize(running_.size(), 0);

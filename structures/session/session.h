@@ -45,6 +45,8 @@ class Session {
   }
   /// The spheres of a structure's nodes now, at time u of the step (RunningStructure::spheres_at).
   [[nodiscard]] std::vector<NodeSphere> spheres_at(std::size_t structure, const Dyadic& u) const;
+  /// What a structure is there, to be compared from frame to frame (RunningStructure::elements).
+  [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t structure, std::size_t frame) const;
   /// Builds the same structures statically at a frame; adds the seconds, one entry a structure.
   void time_static_builds(std::size_t frame, std::vector<double>& seconds) const;
 

@@ -17,6 +17,16 @@ class SortedInRun final : public RunningStructure {
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override {
     return {dump_sorted(list_.order())};
   }
+  [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t) const override {
+    CombinatorialElements elements{1, {}};
+    for (const BeadId bead : list_.order()) {
+      CombinatorialElement& element = elements.all.emplace_back();
+      element.fill(no_bead);
+      element[0] = static_cast<BeadId>(elements.all.size() - 1);
+      element[1] = bead;
+    }
+    return elements;
+  }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     return seconds_to_sort(scene_.centers(frame)).clock;
   }

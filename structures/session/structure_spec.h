@@ -26,6 +26,15 @@ struct DumpFile {
   std::string text;
 };
 
+/// What a structure is at a frame, as a set by which two frames can be compared.
+using CombinatorialElement = std::array<BeadId, 6>;  ///< no_bead where it has fewer
+struct CombinatorialElements {
+  /// So many ids say where the element is, and the others what is there: a hierarchy's node and its basis.
+  /// Places are all different.
+  std::size_t place_ids = 0;
+  std::vector<CombinatorialElement> all;  ///< in any order
+};
+
 /// A structure in a run, and what differs between structures outside the simulator.
 class RunningStructure {
  public:
@@ -34,6 +43,12 @@ class RunningStructure {
   [[nodiscard]] virtual KineticStructure& kinetic() = 0;
   /// The structure at a frame that has just been reached (or, frame 0, built).
   [[nodiscard]] virtual std::vector<DumpFile> dump(std::size_t frame) const = 0;
+  /// What it is at the frame that has just been reached (or, frame 0, built); none: such structures are not
+  /// compared from frame to frame.
+  [[nodiscard]] virtual std::optional<CombinatorialElements> elements(std::size_t frame) const {
+    static_cast<void>(frame);
+    return std::nullopt;
+  }
   /// What it was built as, for logs of its events to begin with: the changes that would make it of nothing.
   [[nodiscard]] virtual std::vector<Change> built() const { return {}; }
   /// The spheres of its nodes at time u of the step that is being run or has just been run, as the structure
@@ -84,6 +99,9 @@ struct StructureSpec {
   std::function<std::unique_ptr<RunningStructure>(Simulator&, const Scene&, const SceneMotion::Ref&,
                                                   const StructureSettings&)>
       make;
+  /// Whether the first two ids of its events are the first and last bead of a node of the balanced tree over
+  /// the necklaces, and the others beads. Else all are beads.
+  bool of_nodes = false;
 };
 
 class StructureRegistry {

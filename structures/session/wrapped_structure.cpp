@@ -51,6 +51,20 @@ class WrappedInRun final : public RunningStructure {
     }
     return nodes;
   }
+  [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t) const override {
+    CombinatorialElements elements{2, {}};
+    for (NodeId id = 0; id < hierarchy_.tree().node_count(); ++id) {
+      if (!hierarchy_.keeps(id)) continue;
+      const BeadRange& range = hierarchy_.tree().range(id);
+      const Basis& basis = hierarchy_.basis(id);
+      CombinatorialElement& element = elements.all.emplace_back();
+      element.fill(no_bead);
+      element[0] = range.first;
+      element[1] = range.last;
+      std::copy(basis.begin(), basis.end(), element.begin() + 2);
+    }
+    return elements;
+  }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     return seconds_to_wrap<Dimension>(kept_, scene_.centers(frame), scene_.radii()).clock;
   }
@@ -116,6 +130,7 @@ class WrappedChordsInRun final : public RunningStructure {
 StructureSpec wrapped_structure() {
   StructureSpec spec;
   spec.name = "wrapped";
+  spec.of_nodes = true;
   spec.order = 20;
   spec.by_default = [](const Scene& scene) { return scene.has_radii(); };
   spec.refusal = refusal_of_spheres;

@@ -54,6 +54,11 @@ TEST(Extension, AProgramRunsThemByName) {
   EXPECT_TRUE(std::filesystem::exists(scratch / "dump" / "frame-1.nearest.csv"));
   const auto replayed = kds::test::run_program({"replay", file("log")});
   EXPECT_EQ(replayed.code, 0) << replayed.err;
+  const auto compared =
+      kds::test::run_program({"compare", file("beads.table"), "--structures", "nearest", "--json", "-"});
+  EXPECT_EQ(compared.code, 0) << compared.err;
+  EXPECT_THAT(compared.out, HasSubstr("\"net_changes\": 1,"));
+  EXPECT_THAT(compared.out, HasSubstr("\"efficiency\": 2.0"));
   const auto refused = kds::test::run_program({"run", file("beads.table"), "--structures", "farthest"});
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.err, HasSubstr("nearest"));

@@ -83,6 +83,12 @@ class NearestInRun final : public kds::RunningStructure {
   [[nodiscard]] std::vector<kds::DumpFile> dump(std::size_t) const override {
     return {{"nearest.csv", "bead\n" + std::to_string(nearest_.nearest()) + "\n"}};
   }
+  [[nodiscard]] std::optional<kds::CombinatorialElements> elements(std::size_t) const override {
+    kds::CombinatorialElement element;
+    element.fill(kds::no_bead);
+    element[0] = nearest_.nearest();
+    return kds::CombinatorialElements{0, {element}};  // one place
+  }
   [[nodiscard]] double static_seconds(std::size_t) const override { return 0; }
 
  private:

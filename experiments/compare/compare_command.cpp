@@ -1,0 +1,80 @@
+#include "experiments/compare/compare_command.h"
+
+#include <fmt/format.h>
+
+#include "experiments/compare/compare_options.h"
+#include "experiments/compare/compare_page.h"
+#include "experiments/compare/compare_report.h"
+#include "experiments/compare/compare_runs.h"
+#include "experiments/output/gnuplot.h"
+#include "experiments/output/output_files.h"
+#include "experiments/output/result_page.h"
+#include "experiments/program/option_names.h"
+#include "experiments/program/progress_bar.h"
+#include "experiments/program/table_results.h"
+#include "experiments/program/warnings.h"
+
+namespace kds {
+
+namespace {
+
+constexpr const char* kName = "compare";
+
+Json settings_json(const CompareOptions& options) {
+  const ReadOptions& reading = options.input.reading;
+  std::vector<std::string_view> motions;
+  for (const FrameMotion motion : options.motions) motions.push_back(name_of(motion));
+  return {{"structures", options.structures},
+          {"strides", options.strides},
+          {"motions", motions},
+          {"topology", reading.topology ? reading.topology->string() : ""},
+          {"select", name_of(reading.selection)},
+          {"chain", reading.chain.value_or("")},
+          {"frames", name_of(reading.frames)},
+          {"radius", options.input.radius},
+          {"apart", options.apart ? std::to_string(*options.apart) : ""}};
+}
+
+void check_destinations(const CompareOptions& options, const Destinations& destinations) {
+  if (options.out) require_gnuplot("--out");
+  TakenPaths taken;
+  taken.read(options.input);
+  if (options.out) taken.write("--out", *options.out / "report.html");
+  check_table_destinations(destinations, kName, taken);
+  if (!options.out) return;
+  check_directory(*options.out, "--out", {"report.html"});
+  refuse_page_beside_others(*options.out, "compare.json");
+}
+
+}  // namespace
+
+int compare_command(const Arguments& arguments) {
+  const CompareOptions options = parse_compare_options(arguments);
+  const Destinations destinations{options.out, options.json, options.quiet};
+  check_inputs_exist(options.input);
+  check_destinations(options, destinations);
+
+  ProgressBar bar(!options.quiet);
+  HeldWarnings held;
+  const Comparison comparison = compare_runs(
+      options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); }, held.hold());
+  bar.erase();
+  std::vector<std::string> warnings;
+  held.release([&](const std::string& warning) {
+    warnings.push_back(warning);
+    print_warning(bar, warning);
+  });
+
+  Json json;
+  json["inputs"] = compared_inputs_json(comparison);
+  json["settings"] = settings_json(options);
+  json["rows"] = compare_rows_json(comparison);
+  json["warnings"] = warnings;
+  add_provenance(json);
+  deliver_table(destinations, kName, {text_of(json), compare_csv(comparison), compare_table(comparison), [&] {
+                                        return compare_page(comparison);
+                                      }});
+  return 0;
+}
+
+}  // namespace kds

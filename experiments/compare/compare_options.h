@@ -1,0 +1,31 @@
+#pragma once
+// `kds compare`: what it was asked to do, and how that is parsed.
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/program/command_line.h"
+#include "experiments/program/input_options.h"
+#include "motions/base/bead.h"
+#include "motions/scene/scene.h"
+
+namespace kds {
+
+struct CompareOptions {
+  InputOptions input;                   ///< each input is a run of its own
+  std::vector<std::string> structures;  ///< in their order; empty: the input's default
+  std::vector<std::size_t> strides{1};  ///< ascending
+  std::vector<FrameMotion> motions{FrameMotion::linear};
+  std::optional<BeadId> apart;               ///< --apart
+  std::optional<std::filesystem::path> out;  ///< directory for compare.json, compare.csv, report.html
+  std::optional<std::string> json;           ///< file, or - for standard output
+  bool quiet = false;
+};
+
+/// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.
+[[nodiscard]] CompareOptions parse_compare_options(const Arguments& arguments);
+
+}  // namespace kds

@@ -1,0 +1,143 @@
+#include "experiments/compare/compare_runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "experiments/compare/net_changes.h"
+#include "experiments/run/load_scene.h"
+#include "experiments/run/report_of_session.h"
+#include "experiments/run/run_steps.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+namespace {
+
+using Warn = std::function<void(const std::string&)>;
+
+double ratio(std::uint64_t count, double of) { return static_cast<double>(count) / of; }
+
+// A run of one input as `kds run` has it.
+RunOptions run_options(const CompareOptions& options, std::size_t input, FrameMotion motion) {
+  RunOptions run;
+  run.inputs = {options.input.inputs[input]};
+  run.structures = options.structures;
+  run.motion = motion;
+  run.reading = reading_of(options.input, input);
+  run.radius = options.input.radius;
+  run.apart = options.apart;
+  return run;
+}
+
+// Frames of each so many.
+std::size_t strided(std::size_t frames, std::size_t stride) { return (frames + stride - 1) / stride; }
+
+// Reads an input, and refuses it before anything has run.
+ComparedInput look_at(const CompareOptions& options, std::size_t input, const Warn& warn) {
+  ComparedInput found;
+  for (const FrameMotion motion : options.motions) {
+    const RunOptions run = run_options(options, input, motion);
+    const Scene scene = load_scene(
+        run, motion == options.motions.front() ? warn : [](const std::string&) {});
+    static_cast<void>(open_session(run, scene, AuditMode::none));
+    if (motion != options.motions.front()) continue;
+    const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
+    found = {run.inputs.front().string(),
+             scene.bead_count(),
+             scene.frame_count(),
+             scene.dimension(),
+             *least,
+             *most,
+             {}};
+    for (BeadId bead = 0; bead < scene.bead_count(); ++bead)
+      found.bead_names.push_back(scene.bead_name(bead));
+  }
+  if (strided(found.frames, options.strides.back()) < 2)
+    throw InputError(fmt::format("--strides: {} leaves one of the {} frames of {}; expected two or more",
+                                 options.strides.back(), found.frames, found.file));
+  return found;
+}
+
+std::vector<CompareRow> run_once(const RunOptions& options, std::size_t stride,
+                                 const std::function<void()>& step_done) {
+  const Scene scene = load_scene(options, [](const std::string&) {});
+  const auto session = open_session(options, scene, AuditMode::none);
+  StepCounts counts(*session, scene);
+  EventPlaces places(*session, scene);
+  session->simulator().listen(places);
+  std::vector<NetChanges> net(session->structures().size());
+  run_steps(*session, scene, options, [&](std::size_t frame) {
+    for (std::size_t s = 0; s < net.size(); ++s) net[s].add(session->elements(s, frame));
+    if (frame == 0) return;
+    counts.end_step(frame - 1, nullptr);
+    step_done();
+  });
+  const RunReport report = report_of(*session, scene, options, counts);
+  std::vector<CompareRow> rows;
+  for (std::size_t s = 0; s < net.size(); ++s) {
+    CompareRow& row = rows.emplace_back();
+    row.input = report.files.front();
+    row.stride = stride;
+    row.motion = options.motion;
+    row.steps = scene.step_count();
+    if (report.first_frame->picoseconds && report.last_frame->picoseconds)
+      row.picoseconds = *report.last_frame->picoseconds - *report.first_frame->picoseconds;
+    row.structure = report.structures[s];
+    row.net_changes = net[s].count();
+    row.places = places.places()[s];
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::uint64_t CompareRow::internal() const {
+  std::uint64_t all = 0;
+  for (const auto& [kind, count] : structure.events_by_kind) all += count;
+  return all - events();
+}
+
+std::optional<double> CompareRow::efficiency() const {
+  if (net_changes.value_or(0) == 0) return std::nullopt;
+  return ratio(events(), static_cast<double>(*net_changes));
+}
+
+double CompareRow::events_per_step() const { return ratio(events(), static_cast<double>(steps)); }
+
+std::optional<double> CompareRow::events_per_picosecond() const {
+  if (!(picoseconds.value_or(0) > 0)) return std::nullopt;
+  return ratio(events(), *picoseconds);
+}
+
+std::optional<double> CompareRow::seconds_per_event() const {
+  const std::uint64_t all = events() + internal();
+  if (all == 0) return std::nullopt;
+  return structure.seconds / static_cast<double>(all);
+}
+
+Comparison compare_runs(const CompareOptions& options,
+                        const std::function<void(std::size_t, std::size_t)>& progress, const Warn& warn) {
+  for (const auto& input : options.input.inputs)
+    if (is_instance_file(input))
+      throw InputError(input.string() + ": an instance file has no frames; expected a trajectory");
+  Comparison comparison;
+  std::size_t done = 0, total = 0;
+  for (std::size_t i = 0; i < options.input.inputs.size(); ++i) {
+    const ComparedInput& input = comparison.inputs.emplace_back(look_at(options, i, warn));
+    for (const std::size_t stride : options.strides)
+      total += options.motions.size() * (strided(input.frames, stride) - 1);
+  }
+  for (std::size_t i = 0; i < options.input.inputs.size(); ++i)
+    for (const FrameMotion motion : options.motions)
+      for (const std::size_t stride : options.strides) {
+        RunOptions run = run_options(options, i, motion);
+        run.reading.frames.stride *= stride;
+        if (run.radius == "auto") run.radius = fmt::format("{}", comparison.inputs[i].radius_min);
+        for (CompareRow& row : run_once(run, stride, [&] { progress(++done, total); }))
+          comparison.rows.push_back(std::move(row));
+      }
+  return comparison;
+}
+
+}  // namespace kds

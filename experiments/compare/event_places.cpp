@@ -1,0 +1,39 @@
+#include "experiments/compare/event_places.h"
+
+#include <algorithm>
+#include <span>
+
+#include "structures/session/structure_spec.h"
+
+namespace kds {
+
+EventPlaces::EventPlaces(const Session& session, const Scene& scene)
+    : tree_(scene.necklaces()), levels_(tree_.node_count(), 0) {
+  std::size_t level_count = 0;
+  for (NodeId node = 0; node < tree_.node_count(); ++node) {
+    for (const NodeId child : {tree_.left(node), tree_.right(node)})
+      if (child != NecklaceTree::leaf) levels_[child] = levels_[node] + 1;
+    level_count = std::max(level_count, levels_[node] + 1);
+  }
+  for (const KineticStructure* structure : session.structures()) {
+    PlacesOfEvents& places = places_.emplace_back();
+    places.by_bead.resize(scene.bead_count(), 0);
+    if (const StructureSpec* spec = structure_registry().find(structure->name()); spec && spec->of_nodes)
+      places.by_level.resize(level_count, 0);
+  }
+}
+
+void EventPlaces::on_event(const KineticStructure& structure, const LoggedEvent& event) {
+  const EventKind& kind = structure.kinds()[event.change.kind];
+  if (!kind.external || kind.counted_apart) return;
+  PlacesOfEvents& places = places_[event.structure];
+  std::span<const BeadId> ids(event.change.ids.data(), event.change.size);
+  if (!places.by_level.empty()) {
+    if (const auto node = tree_.find({ids[0], ids[1]})) ++places.by_level[levels_[*node]];
+    ids = ids.subspan(2);
+  }
+  for (const BeadId bead : ids)
+    if (bead < places.by_bead.size()) ++places.by_bead[bead];
+}
+
+}  // namespace kds

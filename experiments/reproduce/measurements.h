@@ -1,0 +1,48 @@
+#pragma once
+// What the paper's tables tell of one frame of a subject, or of the step between two.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "experiments/reproduce/subjects.h"
+#include "structures/hierarchy/tightness.h"
+
+namespace kds {
+
+/// Table 1. Seconds to build each structure.
+struct Construction {
+  double wrapped = 0, layered = 0, power = 0;
+  Tightness tightness;
+};
+[[nodiscard]] Construction construction_of(const Subject& subject, std::size_t frame, std::size_t rounds);
+
+/// Tables 3 and 4: collisions within the necklace, of beads that are no neighbours along it. Seconds of the
+/// searches alone, hierarchies being built.
+struct SelfCollision {
+  double quadratic = 0, wrapped = 0, layered = 0;
+  std::uint64_t wrapped_pairs = 0, layered_pairs = 0;  ///< of the separating sets
+  std::uint64_t edges = 0;                             ///< of the power diagram
+};
+[[nodiscard]] SelfCollision self_collision_of(const Subject& subject, std::size_t frame, std::size_t rounds);
+
+/// Tables 2, 5 and 6: from one frame to another, or to itself. Seconds to bring the wrapped hierarchy there.
+struct Step {
+  double lazy = 0, cascade = 0, naive = 0;
+  double cascade_tests = 0, naive_tests = 0;  ///< of beads and cages against spheres
+  double frontier = 0;                        ///< average over all nodes
+  std::uint64_t bases_changed = 0;
+  std::uint64_t cells_changed = 0;  ///< of the later diagram, that are not in the earlier one
+};
+[[nodiscard]] Step step_of(const Subject& subject, std::size_t from, std::size_t to, std::size_t rounds);
+
+/// Table 7: collisions between two necklaces, from one frame to the next. Seconds of updating the hierarchy
+/// and searching it.
+struct CollisionBetween {
+  double layered = 0, lazy = 0, full = 0;
+  std::uint64_t layered_pairs = 0, wrapped_pairs = 0;
+  double frontier = 0;  ///< average over all nodes
+};
+[[nodiscard]] CollisionBetween collision_between(const Subject& subject, std::size_t from, std::size_t to,
+                                                 std::size_t rounds);
+
+}  // namespace kds

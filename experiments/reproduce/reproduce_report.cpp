@@ -1,0 +1,148 @@
+#include "experiments/reproduce/reproduce_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/output/html_page.h"
+#include "experiments/output/svg_plot.h"
+#include "experiments/output/text.h"
+#include "experiments/reproduce/findings.h"
+
+namespace kds {
+
+namespace {
+
+using Value = std::optional<double>;
+
+Json value_or_null(const Value& value) { return value ? Json(*value) : Json(nullptr); }
+std::string value_or_empty(const Value& value) { return value ? fmt::format("{}", *value) : ""; }
+// Counts in full, ratios with four figures.
+std::string shown(const Value& value) {
+  if (!value) return "-";
+  const bool is_count = *value == std::floor(*value) && *value >= 2;
+  return is_count ? with_thousands(static_cast<std::uint64_t>(*value)) : short_decimal(*value);
+}
+
+std::string name_of(const PaperRow& row) {
+  return fmt::format("{}, {} beads{}{}", row.name, with_thousands(row.beads), row.at.empty() ? "" : ", ",
+                     row.at);
+}
+
+std::string html_table(const PaperTable& table) {
+  std::string html = "<div class=\"scroll\"><table>\n<thead><tr><th></th>";
+  for (const PaperColumn& column : table.columns)
+    html += fmt::format("<th scope=\"col\">{}</th><th scope=\"col\">paper</th>", html_escaped(column.title));
+  html += "</tr></thead>\n<tbody>\n";
+  for (const PaperRow& row : table.rows) {
+    html += fmt::format("<tr><th scope=\"row\">{}</th>", html_escaped(name_of(row)));
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+      html += fmt::format("<td>{}</td><td>{}</td>", shown(row.ours[c]), shown(row.paper[c]));
+    html += "</tr>\n";
+  }
+  html += "</tbody>\n</table></div>\n";
+  std::vector<std::string> notes;
+  for (const PaperRow& row : table.rows) {
+    if (row.note.empty()) continue;
+    std::string note = fmt::format("<p>{}: {}.</p>\n", html_escaped(row.name), html_escaped(row.note));
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
+  }
+  for (const std::string& note : notes) html += note;
+  return html;
+}
+
+// Table 6 is a course over frames.
+std::string stability_plot(const PaperTable& table) {
+  LinePlot plot{"table6", "frames", "changes", false, {}};
+  for (std::size_t c = 0; c < 2; ++c)
+    for (const bool paper : {false, true}) {
+      Curve curve{fmt::format("{}{}", table.columns[c].title, paper ? ", paper" : ""), {}};
+      for (const PaperRow& row : table.rows) {
+        const Value& value = paper ? row.paper[c] : row.ours[c];
+        if (value) curve.points.emplace_back(std::stod(row.at), *value);
+      }
+      plot.curves.push_back(std::move(curve));
+    }
+  return html_figure(svg_plot(plot), "Changes between two frames, by how many frames lie between them.");
+}
+
+}  // namespace
+
+Json paper_rows_json(std::span<const PaperTable> tables) {
+  Json json = Json::array();
+  for (const PaperTable& table : tables)
+    for (const PaperRow& row : table.rows) {
+      Json of_row{{"table", table.number}, {"name", row.name}, {"beads", row.beads}, {"at", row.at}};
+      for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        of_row[table.columns[c].name] = value_or_null(row.ours[c]);
+        of_row[fmt::format("{}_paper", table.columns[c].name)] = value_or_null(row.paper[c]);
+      }
+      of_row["note"] = row.note;
+      json.push_back(of_row);
+    }
+  return json;
+}
+
+Json paper_findings_json(std::span<const PaperTable> tables) {
+  Json json = Json::array();
+  for (const PaperTable& table : tables)
+    json.push_back({{"table", table.number}, {"title", table.title}, {"findings", findings_of(table)}});
+  return json;
+}
+
+std::string paper_csv(const PaperTable& table) {
+  std::string text = "name,beads,at";
+  for (const PaperColumn& column : table.columns) text += fmt::format(",{0},{0}_paper", column.name);
+  text += ",note\n";
+  for (const PaperRow& row : table.rows) {
+    text += fmt::format("{},{},{}", csv_field(row.name), row.beads, csv_field(row.at));
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+      text += fmt::format(",{},{}", value_or_empty(row.ours[c]), value_or_empty(row.paper[c]));
+    text += fmt::format(",{}\n", csv_field(row.note));
+  }
+  return text;
+}
+
+std::string paper_text(std::span<const PaperTable> tables) {
+  std::string text;
+  for (const PaperTable& table : tables) {
+    std::size_t width = 0;
+    for (const PaperRow& row : table.rows) width = std::max(width, name_of(row).size());
+    text += fmt::format("{}table {}: {}\n  {:<{}}", text.empty() ? "" : "\n", table.number, table.title, "",
+                        width);
+    for (const PaperColumn& column : table.columns)
+      text +=
+          fmt::format("  {:>{}}{:>11}", column.title, std::max<std::size_t>(9, column.title.size()), "paper");
+    text += "\n";
+    for (const PaperRow& row : table.rows) {
+      text += fmt::format("  {:<{}}", name_of(row), width);
+      for (std::size_t c = 0; c < table.columns.size(); ++c)
+        text += fmt::format("  {:>{}}{:>11}", shown(row.ours[c]),
+                            std::max<std::size_t>(9, table.columns[c].title.size()), shown(row.paper[c]));
+      text += (row.note.empty() ? "" : "  " + row.note) + "\n";
+    }
+    for (const std::string& finding : findings_of(table)) text += "  " + finding + "\n";
+  }
+  return text;
+}
+
+std::string paper_page(std::span<const PaperTable> tables, const std::string& command_line) {
+  std::string body =
+      "<p>Tables of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for deforming "
+      "necklaces</em> (2004), measured again; the paper's values stand beside ours. Times are ratios "
+      "within a row, for the paper's machine is of 2004.</p>\n<ul>\n";
+  for (const PaperTable& table : tables)
+    for (const std::string& finding : findings_of(table))
+      body += fmt::format("<li>Table {}: {}</li>\n", table.number, html_escaped(finding));
+  body += "</ul>\n";
+  for (const PaperTable& table : tables) {
+    body += fmt::format("<h2>Table {}: {}</h2>\n<p>{}</p>\n{}", table.number, html_escaped(table.title),
+                        html_escaped(table.words), html_table(table));
+    if (table.number == 6) body += stability_plot(table);
+  }
+  body += fmt::format("<p><code>{}</code></p>\n", html_escaped(command_line));
+  return html_page("kds reproduce", body);
+}
+
+}  // namespace kds

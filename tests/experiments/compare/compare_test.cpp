@@ -1,0 +1,275 @@
+// `kds compare`: its options, and its counts beside those of single runs and of their dumps.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "experiments/compare/compare_options.h"
+#include "experiments/compare/compare_report.h"
+#include "experiments/compare/net_changes.h"
+#include "motions/base/input_error.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+const std::string kDcd = data_file("trajectories/villin_hp36_300K.dcd");
+const std::string kPdb = data_file("trajectories/villin_hp36_300K.pdb");
+
+std::string refusal(const Arguments& arguments) {
+  try {
+    static_cast<void>(parse_compare_options(arguments));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(CompareOptions, DefaultsAndAll) {
+  const CompareOptions plain = parse_compare_options({"a.dcd"});
+  EXPECT_TRUE(plain.structures.empty());
+  EXPECT_THAT(plain.strides, ElementsAre(1U));
+  EXPECT_THAT(plain.motions, ElementsAre(FrameMotion::linear));
+  const CompareOptions all = parse_compare_options({"a.dcd", "--structures", "contacts,wrapped", "--strides",
+                                                    "8,1", "--motions", "hermite,linear", "--apart", "4",
+                                                    "--out", "there", "--json", "-", "--quiet", "b.dcd"});
+  EXPECT_THAT(all.input.inputs, ElementsAre("a.dcd", "b.dcd"));
+  EXPECT_THAT(all.structures, ElementsAre("wrapped", "contacts"));
+  EXPECT_THAT(all.strides, ElementsAre(1U, 8U));
+  EXPECT_THAT(all.motions, ElementsAre(FrameMotion::linear, FrameMotion::hermite));
+  EXPECT_EQ(all.apart, 4U);
+  EXPECT_EQ(all.out, "there");
+  EXPECT_EQ(all.json, "-");
+  EXPECT_TRUE(all.quiet);
+}
+
+TEST(CompareOptions, RefusesWithTheOptionAndWhatItTakes) {
+  EXPECT_THAT(refusal({}), HasSubstr("kds compare needs at least one INPUT"));
+  EXPECT_THAT(refusal({"a.dcd", "--structures", "tree"}), HasSubstr("--structures: 'tree' is not one of"));
+  EXPECT_THAT(refusal({"a.dcd", "--strides", "0"}), HasSubstr("--strides: '0'"));
+  EXPECT_THAT(refusal({"a.dcd", "--motions", "fast"}), HasSubstr("--motions: 'fast' is not one of"));
+  EXPECT_THAT(refusal({"a.dcd", "--motions", "linear,linear"}), HasSubstr("linear is listed twice"));
+}
+
+CombinatorialElement element(std::initializer_list<BeadId> ids) {
+  CombinatorialElement all;
+  all.fill(no_bead);
+  std::copy(ids.begin(), ids.end(), all.begin());
+  return all;
+}
+
+TEST(NetChanges, CountPlacesThatHoldSomethingElse) {
+  const CombinatorialElements nodes{2, {element({0, 3, 0, 3}), element({0, 1, 0, 1}), element({2, 3, 2, 3})}};
+  CombinatorialElements other = nodes;
+  EXPECT_EQ(net_changes(nodes, other), 0U);
+  std::swap(other.all[0], other.all[2]);  // the order is of no account
+  EXPECT_EQ(net_changes(nodes, other), 0U);
+  other.all[2] = element({0, 3, 0, 1, 3});
+  EXPECT_EQ(net_changes(nodes, other), 1U);
+  other.all.erase(other.all.begin());
+  EXPECT_EQ(net_changes(nodes, other), 2U);
+  EXPECT_EQ(net_changes(other, nodes), 2U);
+  const CombinatorialElements two{3, {element({0, 1, 2}), element({1, 2, 3})}},
+      three{3, {element({0, 1, 4}), element({0, 2, 4}), element({1, 2, 3})}};
+  EXPECT_EQ(net_changes(two, three), 3U);
+  NetChanges sum;
+  EXPECT_FALSE(sum.count());
+  for (const auto& frame : {two, three, two}) sum.add(frame);
+  EXPECT_EQ(sum.count(), 6U);
+  sum.add(std::nullopt);
+  EXPECT_FALSE(sum.count());
+}
+
+std::vector<std::string> lines_of(const std::filesystem::path& path) {
+  std::vector<std::string> lines;
+  std::istringstream text(content_of(path));
+  std::string line;
+  std::getline(text, line);  // the header
+  while (std::getline(text, line)) lines.push_back(line);
+  return lines;
+}
+
+// Net changes by the dumps of two frames, slowly.
+int cells_in_one_only(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const std::vector<std::string> x = lines_of(a), y = lines_of(b);
+  const std::set<std::string> before(x.begin(), x.end()), after(y.begin(), y.end());
+  std::vector<std::string> one_only;
+  std::set_symmetric_difference(before.begin(), before.end(), after.begin(), after.end(),
+                                std::back_inserter(one_only));
+  return static_cast<int>(one_only.size());
+}
+int bases_changed(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const auto bases = [](const std::filesystem::path& path) {
+    std::map<std::string, std::string> of_nodes;
+    for (const std::string& line : lines_of(path)) {
+      const std::size_t node = line.find(',', line.find(',') + 1);
+      of_nodes[line.substr(0, node)] = line.substr(node, line.find(',', node + 1) - node);
+    }
+    return of_nodes;
+  };
+  const auto before = bases(a), after = bases(b);
+  int changed = 0;
+  for (const auto& [node, basis] : before) changed += after.at(node) == basis ? 0 : 1;
+  return changed;
+}
+int ranks_changed(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const std::vector<std::string> before = lines_of(a), after = lines_of(b);
+  int changed = 0;
+  for (std::size_t rank = 0; rank < before.size(); ++rank) changed += before[rank] == after[rank] ? 0 : 1;
+  return changed;
+}
+// By the events: pairs that are in contact after a step and were not before it, or the other way round.
+int pairs_changed(const std::filesystem::path& contacts, int steps) {
+  std::vector<std::set<std::string>> after(static_cast<std::size_t>(steps) + 1);
+  std::set<std::string> pairs;
+  std::size_t reached = 0;
+  for (const std::string& line : lines_of(contacts)) {  // step,lower,upper,i,j,event
+    std::vector<std::string> fields;
+    std::istringstream text(line);
+    for (std::string field; std::getline(text, field, ',');) fields.push_back(field);
+    const bool at_start = fields[0] == "0" && fields[1] == "0" && fields[2] == "0";
+    const std::size_t frame = at_start ? 0 : std::stoul(fields[0]) + 1;
+    for (; reached < frame; ++reached) after[reached] = pairs;
+    const std::string pair = fields[3] + " " + fields[4];
+    if (fields[5] == "begin") pairs.insert(pair);
+    if (fields[5] == "end") pairs.erase(pair);
+  }
+  for (; reached < after.size(); ++reached) after[reached] = pairs;
+  int changed = 0;
+  for (std::size_t k = 1; k < after.size(); ++k) {
+    std::vector<std::string> one_only;
+    std::set_symmetric_difference(after[k - 1].begin(), after[k - 1].end(), after[k].begin(), after[k].end(),
+                                  std::back_inserter(one_only));
+    changed += static_cast<int>(one_only.size());
+  }
+  return changed;
+}
+
+void expect_as_in_a_run(const Json& rows, const std::string& stride, const std::string& motion,
+                        const ScratchDirectory& scratch) {
+  const std::filesystem::path dump = scratch / ("dump-" + motion + stride);
+  const ProgramRun run = run_program({"run", kDcd, "--topology", kPdb, "--frames", "100:140:" + stride,
+                                      "--radius", "1.9", "--structures", "sorted,wrapped,power,contacts",
+                                      "--motion", motion, "--dump", dump, "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json summary = Json::parse(run.out);
+  const int steps = summary["input"]["frames"].get<int>() - 1;
+  int found = 0;
+  for (const Json& row : rows) {
+    if (std::to_string(row["stride"].get<int>()) != stride || row["motion"] != motion) continue;
+    ++found;
+    const std::string name = row["structure"];
+    SCOPED_TRACE(name + " at stride " + stride + ", " + motion);
+    const Json& expected = summary["structures"][name];
+    EXPECT_EQ(row["steps"], steps);
+    EXPECT_EQ(row["events"], expected["events"]["total"]);
+    for (const auto& [kind, count] : expected["events"].items())
+      if (kind != "total") {
+        EXPECT_EQ(row[kind], count) << kind;
+      }
+    EXPECT_EQ(row["compactness"], expected["certificates"]["peak"]);
+    EXPECT_EQ(row["locality"], expected["certificates"]["per_bead_max"]);
+    int net = 0;
+    for (int k = 1; k <= steps; ++k) {
+      const auto of_frame = [&](int frame, const std::string& ending) {
+        return dump / ("frame-" + std::to_string(frame) + "." + ending);
+      };
+      if (name == "power") net += cells_in_one_only(of_frame(k - 1, "power.csv"), of_frame(k, "power.csv"));
+      if (name == "wrapped") net += bases_changed(of_frame(k - 1, "wrapped.csv"), of_frame(k, "wrapped.csv"));
+      if (name == "sorted") net += ranks_changed(of_frame(k - 1, "sorted.csv"), of_frame(k, "sorted.csv"));
+    }
+    if (name == "contacts") net = pairs_changed(dump / "contacts.csv", steps);
+    EXPECT_EQ(row["net_changes"], net);
+    EXPECT_GT(net, 0);
+    EXPECT_DOUBLE_EQ(row["efficiency"], row["events"].get<double>() / net);
+    EXPECT_DOUBLE_EQ(row["events_per_step"], row["events"].get<double>() / steps);
+    std::uint64_t at_levels = 0, at_beads = 0;
+    for (const Json& count : row["by_bead"]) at_beads += count.get<std::uint64_t>();
+    EXPECT_EQ(row["by_level"].is_null(), name != "wrapped");
+    for (const Json& count : row["by_level"]) at_levels += count.get<std::uint64_t>();
+    if (name == "wrapped") {
+      EXPECT_EQ(at_levels, row["events"]);
+    }
+    if (name == "sorted" || name == "contacts") {
+      EXPECT_EQ(at_beads, 2 * row["events"].get<std::uint64_t>());
+    }
+  }
+  EXPECT_EQ(found, 4);
+}
+
+TEST(Compare, CountsAsSingleRunsAndTheirDumpsDo) {
+  const ScratchDirectory scratch;
+  const ProgramRun run = run_program({"compare", kDcd, "--topology", kPdb, "--frames", "100:140", "--radius",
+                                      "1.9", "--structures", "sorted,wrapped,power,contacts", "--strides",
+                                      "1,3", "--motions", "linear,hermite", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json rows = Json::parse(run.out)["rows"];
+  EXPECT_EQ(rows.size(), 16U);
+  for (const std::string motion : {"linear", "hermite"})
+    for (const std::string stride : {"1", "3"}) expect_as_in_a_run(rows, stride, motion, scratch);
+}
+
+TEST(Compare, EventsOfVillinByStride) {
+  const ProgramRun run =
+      run_program({"compare", kDcd, "--topology", kPdb, "--strides", "1,2,4,8,16,32", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  std::vector<int> wrapped, power;
+  const Json rows = Json::parse(run.out)["rows"];
+  for (const Json& row : rows) (row["structure"] == "wrapped" ? wrapped : power).push_back(row["events"]);
+  EXPECT_THAT(wrapped, ElementsAre(8325, 4974, 3038, 1659, 881, 466));
+  EXPECT_THAT(power, ElementsAre(43140, 25995, 17581, 10638, 6018, 3276));
+}
+
+TEST(Compare, SeveralInputsWithAPage) {
+  const ScratchDirectory scratch;
+  const std::string other = scratch.file("ends.xyz",
+                                         "4\na\nC 0 0 0\nC 1 0 0\nC 2 1 0\nC 2 2 1\n"
+                                         "4\nb\nC 0 0 0\nC 1 0 0\nC 2 -1 0\nC 1 -1 1\n"
+                                         "4\nc\nC 0 0 0\nC 1 0 0\nC 2 1 0\nC 2 2 1\n");
+  const ProgramRun run = run_program({"compare", kPdb, other, "--structures", "sorted"});
+  EXPECT_EQ(run.code, 2);  // one frame
+  const ProgramRun both = run_program({"compare", kDcd, other, "--structures", "sorted,wrapped", "--strides",
+                                       "1,2", "--frames", ":3", "--out", scratch / "out"});
+  ASSERT_EQ(both.code, 0) << both.err;
+  EXPECT_THAT(both.out, HasSubstr("ends.xyz, linear motion"));
+  const std::string csv = content_of(scratch / "out/compare.csv");
+  EXPECT_THAT(
+      csv, testing::StartsWith("structure,input,stride,motion,steps,events,interchange,enter,leave,pivot,"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 9);
+  const std::string page = content_of(scratch / "out/report.html");
+  for (const char* part : {"<svg", "wrapped, ends.xyz", "How to read this", "Along the chain", "By level"})
+    EXPECT_THAT(page, HasSubstr(part));
+  EXPECT_EQ(Json::parse(content_of(scratch / "out/compare.json"))["inputs"][1]["frames"], 3);
+}
+
+TEST(Compare, RefusesBeforeAnythingHasRun) {
+  const auto refused = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "compare");
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 2) << run.out;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    return run.err;
+  };
+  EXPECT_THAT(refused({kDcd, "--frames", ":9", "--strides", "1,9"}),
+              HasSubstr("--strides: 9 leaves one of the 9"));
+  EXPECT_THAT(refused({data_file("kinetic/d3_n20_linear.txt")}), HasSubstr("has no frames"));
+  EXPECT_THAT(refused({kDcd, "--motions", "lifted"}), HasSubstr("lifted"));
+  EXPECT_THAT(refused({kDcd, "--apart", "3"}), HasSubstr("--apart"));
+  EXPECT_THAT(refused({kDcd, "nowhere.dcd"}), HasSubstr("nowhere.dcd: no such file"));
+}
+
+}  // namespace
+}  // namespace kds::test

@@ -1,0 +1,174 @@
+// kds run --events, and kds info --beads that tells whose residues its beads are.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+using Json = nlohmann::ordered_json;
+
+const std::string kDcd = data_file("trajectories/villin_hp36_300K.dcd");
+const std::string kPdb = data_file("trajectories/villin_hp36_300K.pdb");
+
+std::vector<std::string> parts(const std::string& line, char separator) {
+  std::vector<std::string> all;
+  std::istringstream text(line);
+  for (std::string part; std::getline(text, part, separator);) all.push_back(part);
+  if (!line.empty() && line.back() == separator) all.emplace_back();
+  return all;
+}
+
+std::vector<std::vector<std::string>> table_of(const std::filesystem::path& path) {
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& line : parts(content_of(path), '\n')) {
+    if (!line.empty()) rows.push_back(parts(line, ','));
+  }
+  return rows;
+}
+
+// Each bead's token, from kds info.
+std::vector<std::string> tokens_of_beads() {
+  const ProgramRun info =
+      run_program({"info", kDcd, "--topology", kPdb, "--frames", "0:2", "--beads", "--json", "-"});
+  EXPECT_EQ(info.code, 0) << info.err;
+  std::vector<std::string> tokens;
+  const Json rows = Json::parse(info.out)["rows"];
+  for (const Json& row : rows) {
+    EXPECT_EQ(row["bead"], tokens.size());
+    tokens.push_back(row["chain"].get<std::string>() + ":" + row["residue"].get<std::string>() + ":" +
+                     row["number"].get<std::string>() + ":" + row["atom"].get<std::string>());
+  }
+  return tokens;
+}
+
+// The log has the same events in its own words.
+TEST(EventTable, HoldsTheEventsOfTheLogAndNamesTheirBeads) {
+  const ScratchDirectory scratch;
+  const ProgramRun run = run_program({"run", kDcd, "--topology", kPdb, "--frames", "10:40:2", "--structures",
+                                      "wrapped,power,contacts", "--events", scratch / "events.csv", "--log",
+                                      scratch / "log", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const std::vector<std::string> tokens = tokens_of_beads();
+  ASSERT_EQ(tokens.size(), 108U);
+  auto rows = table_of(scratch / "events.csv");
+  const bool timed = rows[0].size() == 10;
+  EXPECT_THAT(content_of(scratch / "events.csv"),
+              StartsWith(timed ? "frame,lower,upper,picoseconds,structure,kind,external,node,beads,residues\n"
+                               : "frame,lower,upper,structure,kind,external,node,beads,residues\n"));
+  rows.erase(rows.begin());
+  std::map<std::string, std::map<std::string, int>> kinds;
+  std::size_t row = 0;
+  for (const std::string& line : parts(content_of(scratch / "log"), '\n')) {
+    const std::vector<std::string> logged = parts(line, ' ');
+    if (logged.size() < 6 || logged[0].find_first_not_of("0123456789") != std::string::npos) continue;
+    ASSERT_LT(row, rows.size());
+    std::vector<std::string> event = rows[row++];
+    if (timed) event.erase(event.begin() + 3);
+    EXPECT_EQ(event[0], std::to_string(10 + 2 * std::stoi(logged[0])));
+    EXPECT_EQ(event[1], logged[3]);
+    EXPECT_EQ(event[2], logged[4]);
+    EXPECT_EQ(event[3], logged[1]);
+    EXPECT_EQ(event[4], logged[2]);
+    std::size_t first = 5;
+    if (logged[1] == "wrapped") {
+      EXPECT_EQ(event[6], logged[5] + "-" + logged[6]);
+      first = 7;
+    } else {
+      EXPECT_EQ(event[6], "");
+    }
+    std::string beads, residues;
+    for (std::size_t i = first; i < logged.size(); ++i) {
+      const bool infinite = logged[i] == "4294967295";
+      const std::string space = i == first ? "" : " ";
+      beads += space + (infinite ? "infinity" : logged[i]);
+      residues += space + (infinite ? "-" : tokens.at(std::stoul(logged[i])));
+    }
+    EXPECT_EQ(event[7], beads);
+    EXPECT_EQ(event[8], residues);
+    ++kinds[event[3]][event[4]];
+  }
+  EXPECT_EQ(row, rows.size());
+  EXPECT_GT(row, 800U);
+  const Json structures = Json::parse(run.out)["structures"];
+  for (const auto& [name, structure] : structures.items())
+    for (const auto& [kind, count] : structure["events"].items())
+      if (kind != "total") {
+        EXPECT_EQ(kinds[name][kind], count) << name << " " << kind;
+      }
+
+  const ProgramRun replay =
+      run_program({"replay", scratch / "log", "--events", scratch / "replayed.csv", "--quiet"});
+  ASSERT_EQ(replay.code, 0) << replay.err;
+  EXPECT_EQ(content_of(scratch / "replayed.csv"), content_of(scratch / "events.csv"));
+}
+
+TEST(EventTable, SaysNothingOfResiduesWhereTheFileDoesNot) {
+  const ScratchDirectory scratch;
+  const std::string moving = scratch.file("moving.xyz", "2\na\nC 0 0 0\nC 9 1 2\n2\nb\nC 8 0 0\nC 1 1 2\n");
+  const ProgramRun run = run_program({"run", moving, "--structures", "sorted", "--radius", "1", "--events",
+                                      scratch / "events.csv", "--quiet"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto rows = table_of(scratch / "events.csv");
+  ASSERT_EQ(rows.size(), 2U);
+  const double lower = std::stod(rows[1][1]), upper = std::stod(rows[1][2]);
+  EXPECT_LT(lower, 9.0 / 16);
+  EXPECT_GT(upper, 9.0 / 16 - 1e-9);
+  EXPECT_THAT(std::vector<std::string>(rows[1].begin() + 3, rows[1].end()),
+              ElementsAre("sorted", "interchange", "1", "", "0 1", "- -"));
+}
+
+TEST(EventTable, IsRefusedWhereItWouldReplaceSomethingElse) {
+  const ScratchDirectory scratch;
+  const std::string moving = scratch.file("moving.xyz", "2\na\nC 0 0 0\nC 9 1 2\n2\nb\nC 8 0 0\nC 1 1 2\n");
+  const auto refused = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"run", moving, "--structures", "sorted", "--radius", "1", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 2);
+    return run.err;
+  };
+  EXPECT_THAT(refused({"--events", moving}), HasSubstr("is the file of an input"));
+  EXPECT_THAT(refused({"--events", scratch / "a", "--json", scratch / "a"}), HasSubstr("is the file of"));
+  EXPECT_THAT(refused({"--events", scratch / "out/events.csv", "--out", scratch / "out"}),
+              HasSubstr("is the file of"));
+  EXPECT_THAT(refused({"--events", scratch / "nowhere/a"}), HasSubstr("--events"));
+  EXPECT_THAT(refused({"--events", "-"}), HasSubstr("--events"));
+  EXPECT_EQ(scratch.entries(), 1U);
+}
+
+TEST(InfoBeads, IsATableOfItsOwn) {
+  const ScratchDirectory scratch;
+  const ProgramRun run = run_program({"info", kPdb, "--radius", "1.5", "--beads", "--out", scratch / "out"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto rows = table_of(scratch / "out/info.csv");
+  ASSERT_EQ(rows.size(), 109U);
+  EXPECT_THAT(rows[0], ElementsAre("bead", "necklace", "chain", "residue", "number", "atom", "radius"));
+  EXPECT_THAT(rows[42], ElementsAre("41", "0", "A", "THR", "54", "C", "1.5"));
+  EXPECT_THAT(run.out, HasSubstr("THR"));
+  const std::string file = scratch.file("one.xyz", "2\na\nC 0 0 0\nC 1 1 2\n");
+  const ProgramRun unnamed = run_program({"info", file, "--radius", "1", "--beads", "--json", "-"});
+  ASSERT_EQ(unnamed.code, 0) << unnamed.err;
+  EXPECT_EQ(Json::parse(unnamed.out)["rows"][1]["residue"], nullptr);
+  for (const std::vector<std::string>& bad : {std::vector<std::string>{"info", kPdb, "--beads", "--rho", "2"},
+                                              {"info", data_file("kinetic/d3_n20_linear.txt"), "--beads"}}) {
+    const ProgramRun refused = run_program(bad);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--beads"));
+  }
+}
+
+}  // namespace
+}  // namespace kds::test

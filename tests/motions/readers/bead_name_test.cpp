@@ -1,0 +1,38 @@
+#include "motions/readers/bead_name.h"
+
+#include <gtest/gtest.h>
+
+#include "motions/readers/read_trajectory.h"
+
+namespace kds {
+namespace {
+
+TEST(BeadName, GoesToTextAndBack) {
+  for (const BeadName& name : {BeadName{"CA", "ALA", "12", "A"}, BeadName{"O5'", "DG", "-3B", "' '"},
+                               BeadName{"N", "SEP", "52A", "AAA-2"}}) {
+    const auto again = bead_name_of(text_of(name));
+    ASSERT_TRUE(again) << text_of(name);
+    EXPECT_EQ(again->residue, name.residue);
+    EXPECT_EQ(again->number, name.number);
+  }
+  EXPECT_EQ(text_of({"CA", "ALA", "12", "A"}), "CA of ALA 12 in chain A");
+}
+
+TEST(BeadName, OtherTextsAreNone) {
+  for (const char* text : {"", "CA", "CA of ALA in chain A", " in chain A of ALA 12", "CA of ALA 12"})
+    EXPECT_FALSE(bead_name_of(text)) << text;
+}
+
+TEST(BeadName, OfAllBeadsOfAFile) {
+  const Trajectory villin = read_trajectory(KDS_DATA_DIR "/trajectories/villin_hp36_300K.pdb");
+  ASSERT_EQ(villin.bead_names.size(), 108U);
+  for (const std::string& name : villin.bead_names) {
+    const auto parts = bead_name_of(name);
+    ASSERT_TRUE(parts) << name;
+    EXPECT_EQ(parts->chain, "A");
+    EXPECT_EQ(text_of(*parts), name);
+  }
+}
+
+}  // namespace
+}  // namespace kds
