@@ -26,6 +26,7 @@
 #include "experiments/scenes/generate_command.h"
 #include "experiments/scenes/info_command.h"
 #include "experiments/stability/stability_command.h"
+#include "experiments/trade/trade_command.h"
 #include "experiments/update/update_command.h"
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
@@ -49,6 +50,7 @@ constexpr std::array kCommands{
     Command{"missed", "which share of contacts is missed by looking at frames only", missed_command},
     Command{"families", "measure separating families of packed grids", families_command},
     Command{"reproduce", "measure the paper's tables again, beside the paper's values", reproduce_command},
+    Command{"trade", "what speed can be had for what accuracy, measured on your trajectory", trade_command},
     Command{"bench", "measure ours beside what users would pick today", bench_command},
     Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},
 };

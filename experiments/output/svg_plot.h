@@ -1,6 +1,7 @@
 #pragma once
 // Curves, bars and maps as SVG elements that can stand side by side in one page.
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,19 @@ struct LinePlot {
   bool staircase = false;  ///< a value holds until the next point
   std::vector<Curve> curves;
   bool below_zero = false;  ///< values may be; else the axis begins at 0
+};
+
+/// Points with their names beside them; those of one series in its colour.
+struct PointPlot {
+  struct Point {
+    std::string name;
+    double x, y;
+    std::size_t series = 0;
+  };
+  std::string id;
+  std::string x_label, y_label;
+  std::vector<std::string> series;
+  std::vector<Point> points;
 };
 
 struct BarPlot {
@@ -41,6 +55,7 @@ struct MapPlot {
 };
 
 [[nodiscard]] std::string svg_plot(const LinePlot& plot);
+[[nodiscard]] std::string svg_plot(const PointPlot& plot);
 [[nodiscard]] std::string svg_plot(const BarPlot& plot);
 [[nodiscard]] std::string svg_plot(const MapPlot& plot);
 

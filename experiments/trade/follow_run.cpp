@@ -1,0 +1,281 @@
+#include "experiments/trade/follow_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <utility>
+
+#include "kds/event_log.h"
+#include "motions/numbers/exact_number.h"
+
+namespace kds {
+
+namespace {
+
+/// From a setting's steps to the times of the finest data.
+class Clock {
+ public:
+  Clock(const Scene& scene, std::size_t stride) : steps_(scene.step_count()), stride_(stride) {}
+
+  [[nodiscard]] std::size_t frame(std::size_t of_setting) const { return of_setting * stride_; }
+  /// In parts of a frame.
+  [[nodiscard]] std::size_t time(std::size_t step, std::size_t part) const {
+    return frame(step) * parts_of_frame + part * stride_;
+  }
+  [[nodiscard]] double time_of(const LoggedEvent& event) const {
+    return static_cast<double>(frame(event.step)) +
+           static_cast<double>(stride_) * (0.5 * event.lower + 0.5 * event.upper);
+  }
+  [[nodiscard]] std::size_t steps() const { return steps_; }
+
+ private:
+  std::size_t steps_, stride_;
+};
+
+class Recorder final : public EventListener {
+ public:
+  explicit Recorder(const Clock& clock) : clock_(clock) {}
+  void on_event(const KineticStructure& structure, const LoggedEvent& event) override {
+    if (structure.kinds()[event.change.kind].external)
+      events.push_back({clock_.time_of(event), event.change});
+  }
+  std::vector<TimedEvent> events;
+
+ private:
+  const Clock& clock_;
+};
+
+/// How many pairs of spheres a search for contacts within a hierarchy looks at: two nodes whose spheres meet
+/// are opened, the one of more beads first; beads next to each other are not asked about.
+class SearchCost {
+ public:
+  explicit SearchCost(std::span<const NodeSphere> nodes) {
+    for (const NodeSphere& node : nodes) spheres_[{node.range.first, node.range.last}] = node.sphere;
+  }
+  std::uint64_t of(const BeadRange& necklace) {
+    tests_ = 0;
+    within(necklace);
+    return tests_;
+  }
+
+ private:
+  void within(const BeadRange& range) {
+    if (range.last <= range.first) return;
+    const BeadId middle = range.first + (range.last - range.first) / 2;
+    within({range.first, middle});
+    within({middle + 1, range.last});
+    between({range.first, middle}, {middle + 1, range.last});
+  }
+  void between(const BeadRange& a, const BeadRange& b) {
+    const bool beads = a.first == a.last && b.first == b.last;
+    if (beads && b.first == a.first + 1) return;
+    ++tests_;
+    if (beads || !meet(a, b)) return;
+    if (a.last - a.first >= b.last - b.first) {
+      const BeadId middle = a.first + (a.last - a.first) / 2;
+      between({a.first, middle}, b);
+      between({middle + 1, a.last}, b);
+    } else {
+      const BeadId middle = b.first + (b.last - b.first) / 2;
+      between(a, {b.first, middle});
+      between(a, {middle + 1, b.last});
+    }
+  }
+  [[nodiscard]] bool meet(const BeadRange& a, const BeadRange& b) const {
+    const auto of_a = spheres_.find({a.first, a.last}), of_b = spheres_.find({b.first, b.last});
+    if (of_a == spheres_.end() || of_b == spheres_.end()) return true;  // a bead
+    return (of_a->second.center - of_b->second.center).norm() <= of_a->second.radius + of_b->second.radius;
+  }
+
+  std::map<std::pair<BeadId, BeadId>, Sphere> spheres_;
+  std::uint64_t tests_ = 0;
+};
+
+void raise(std::optional<double>& largest, double value) { largest = std::max(largest.value_or(0), value); }
+
+std::set<std::pair<BeadId, BeadId>> short_edges(const std::vector<std::vector<BeadId>>& cells,
+                                                const Eigen::Matrix3Xd& positions, double cutoff) {
+  std::set<std::pair<BeadId, BeadId>> edges;
+  for (const auto& cell : cells)
+    for (std::size_t i = 0; i < cell.size(); ++i)
+      for (std::size_t j = i + 1; j < cell.size(); ++j)
+        if ((positions.col(cell[i]) - positions.col(cell[j])).norm() < cutoff)
+          edges.insert({cell[i], cell[j]});
+  return edges;
+}
+
+class Follower {
+ public:
+  Follower(const Scene& scene, const TradeSetting& setting, Truth& truth, double cutoff)
+      : scene_(scene), setting_(setting), truth_(truth), motion_(scene), cutoff_(cutoff) {}
+
+  /// At a time of a step, the truth's in parts of a frame.
+  void look(const Session& session, std::size_t step, double u, std::size_t time) {
+    truth_.move_to(time);
+    const Eigen::Matrix3Xd here = motion_.positions(step, u);
+    raise(errors.displacement, (here - truth_.positions()).colwise().norm().maxCoeff());
+    if (setting_.structure == "contacts") look_at_distance(here);
+    if (setting_.structure == "power") look_at_cells(session);
+    look_at_spheres(session.spheres_at(0, Dyadic(u)));
+  }
+  void finish() {
+    if (nodes_ > 0) errors.radius_mean = sum_of_excess_ / static_cast<double>(nodes_);
+    if (cells_ > 0) errors.cells_wrong = static_cast<double>(wrong_cells_) / static_cast<double>(cells_);
+    if (setting_.structure == "power")
+      errors.edges_missed =
+          edges_ == 0 ? 0 : static_cast<double>(missed_edges_) / static_cast<double>(edges_);
+    if (looks_at_spheres_ > 0)
+      tests = static_cast<double>(search_tests_) / static_cast<double>(looks_at_spheres_);
+  }
+
+  TradeErrors errors;
+  std::optional<double> tests;
+
+ private:
+  void look_at_spheres(const std::vector<NodeSphere>& nodes) {
+    if (nodes.empty()) return;
+    for (const NodeSphere& node : nodes) {
+      const double smallest = truth_.smallest_radius(node.range);
+      const double excess = smallest > 0 ? node.sphere.radius / smallest - 1 : 0;
+      sum_of_excess_ += excess;
+      ++nodes_;
+      raise(errors.radius_max, excess);
+      errors.beads_outside =
+          errors.beads_outside.value_or(0) + static_cast<double>(truth_.balls_outside(node));
+    }
+    SearchCost cost(nodes);
+    for (const BeadRange& necklace : scene_.necklaces()) search_tests_ += cost.of(necklace);
+    ++looks_at_spheres_;
+  }
+  void look_at_cells(const Session& session) {
+    const auto elements = session.elements(0, 1);
+    std::vector<std::vector<BeadId>> found;
+    for (const CombinatorialElement& element : elements->all)
+      found.emplace_back(element.begin(),
+                         std::find(element.begin() + elements->place_ids, element.end(), no_bead));
+    std::sort(found.begin(), found.end());
+    const auto& expected = truth_.cells();
+    for (const auto& cell : found)
+      wrong_cells_ += std::binary_search(expected.begin(), expected.end(), cell) ? 0 : 1;
+    cells_ += found.size();
+    const auto edges = short_edges(expected, truth_.positions(), cutoff_);
+    const auto known = short_edges(found, truth_.positions(), cutoff_);
+    edges_ += edges.size();
+    for (const auto& edge : edges) missed_edges_ += known.contains(edge) ? 0 : 1;
+  }
+  void look_at_distance(const Eigen::Matrix3Xd& here) {
+    const auto expected = truth_.closest_distance(truth_.positions()), found = truth_.closest_distance(here);
+    if (expected && found) raise(errors.closest_distance, std::abs(*found - *expected));
+  }
+
+  const Scene& scene_;
+  const TradeSetting& setting_;
+  Truth& truth_;
+  FollowedMotion motion_;
+  double cutoff_;
+  double sum_of_excess_ = 0;
+  std::uint64_t nodes_ = 0, cells_ = 0, wrong_cells_ = 0, edges_ = 0, missed_edges_ = 0;
+  std::uint64_t search_tests_ = 0, looks_at_spheres_ = 0;
+};
+
+/// Which times are looked at: frames of the setting, and times within its steps.
+struct TimesToLook {
+  std::set<std::size_t> frames;                        ///< from 1 on
+  std::map<std::size_t, std::set<std::size_t>> parts;  ///< of a step
+};
+
+TimesToLook times_to_look(std::size_t steps, const SamplingOfTimes& sampling) {
+  TimesToLook look;
+  std::mt19937_64 random(sampling.seed);
+  for (std::size_t k = 0; k < sampling.times; ++k) {
+    look.frames.insert(1 + k * steps / sampling.times);
+    look.parts[random() % steps].insert(1 + random() % (parts_of_frame - 1));
+  }
+  return look;
+}
+
+std::vector<BeadPair> pairs_of(const std::vector<Change>& built) {
+  std::vector<BeadPair> pairs;
+  for (const Change& change : built) pairs.push_back({change.ids[0], change.ids[1]});
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::optional<double>>> by_name(const TradeErrors& errors) {
+  return {{"displacement", errors.displacement},
+          {"radius_mean", errors.radius_mean},
+          {"radius_max", errors.radius_max},
+          {"beads_outside", errors.beads_outside},
+          {"cells_wrong", errors.cells_wrong},
+          {"edges_missed", errors.edges_missed},
+          {"events_missed", errors.events_missed},
+          {"events_invented", errors.events_invented},
+          {"event_time_mean", errors.event_time_mean},
+          {"event_time_max", errors.event_time_max},
+          {"contacts_missed", errors.contacts_missed},
+          {"contacts_spurious", errors.contacts_spurious},
+          {"contact_time_mean", errors.contact_time_mean},
+          {"contact_time_max", errors.contact_time_max},
+          {"closest_distance", errors.closest_distance}};
+}
+
+FollowedRun follow_run(const TradeSetting& setting, const Scene& scene, Truth& truth,
+                       const SamplingOfTimes& sampling, double cutoff) {
+  const Clock clock(scene, setting.stride);
+  const TimesToLook look = times_to_look(clock.steps(), sampling);
+  Session session(scene, {{setting.structure}, setting.kernel, AuditMode::none, setting.settings});
+  Recorder recorder(clock);
+  session.simulator().listen(recorder);
+  Follower follower(scene, setting, truth, cutoff);
+  session.load(0);
+  session.simulator().build();
+  const std::vector<BeadPair> built = pairs_of(session.built(0));
+  for (std::size_t step = 0; step < clock.steps(); ++step) {
+    session.load(step);
+    session.simulator().enter_step();
+    if (const auto parts = look.parts.find(step); parts != look.parts.end()) {
+      for (const std::size_t part : parts->second) {
+        const double u = static_cast<double>(part) / parts_of_frame;
+        session.simulator().run_until(Dyadic(u));
+        follower.look(session, step, u, clock.time(step, part));
+      }
+    }
+    session.simulator().leave_step();
+    if (look.frames.contains(step + 1)) follower.look(session, step, 1, clock.time(step, parts_of_frame));
+  }
+  session.simulator().finish();
+  follower.finish();
+  FollowedRun run{{std::move(recorder.events), {}}, follower.errors, follower.tests};
+  if (setting.structure == "contacts")
+    run.history.contacts =
+        contact_times(built, run.history.events, 0, static_cast<double>(clock.frame(clock.steps())));
+  return run;
+}
+
+void compare_histories(const RunHistory& exact, FollowedRun& run, const TradeSetting& setting) {
+  const auto reach = static_cast<double>(setting.stride);
+  const auto share = [](std::uint64_t part, std::uint64_t of) {
+    return of == 0 ? (part == 0 ? 0.0 : HUGE_VAL) : static_cast<double>(part) / static_cast<double>(of);
+  };
+  const auto mean = [](double sum, std::uint64_t of) {
+    return of == 0 ? std::optional<double>() : std::optional(sum / static_cast<double>(of));
+  };
+  TradeErrors& errors = run.errors;
+  if (setting.structure == "contacts") {
+    const ContactMatch match = match_contacts(exact.contacts, run.history.contacts, reach);
+    errors.contacts_missed = share(match.missed, match.expected);
+    errors.contacts_spurious = share(match.spurious, match.expected);
+    errors.contact_time_mean = mean(match.time_error_sum, match.timed);
+    if (match.timed > 0) errors.contact_time_max = match.time_error_max;
+  }
+  const EventMatch match = match_events(exact.events, run.history.events, reach);
+  errors.events_missed = share(match.missed, match.expected);
+  errors.events_invented = share(match.invented, match.expected);
+  errors.event_time_mean = mean(match.time_error_sum, match.matched);
+  if (match.matched > 0) errors.event_time_max = match.time_error_max;
+}
+
+}  // namespace kds

@@ -1,0 +1,81 @@
+#include "experiments/trade/match_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "structures/contacts/contacts.h"
+
+namespace kds {
+
+std::vector<ContactTime> contact_times(std::span<const BeadPair> built, std::span<const TimedEvent> events,
+                                       double first, double last) {
+  using Kind = Contacts<3>::Kind;  // the same in the plane
+  std::vector<ContactTime> times;
+  std::map<BeadPair, double> since;
+  for (const BeadPair& pair : built) since[pair] = first;
+  for (const TimedEvent& event : events) {
+    const BeadPair pair{event.change.ids[0], event.change.ids[1]};
+    switch (event.change.kind) {
+      case Kind::begin:
+        since.emplace(pair, event.time);
+        break;
+      case Kind::end:
+        if (const auto begun = since.find(pair); begun != since.end()) {
+          times.push_back({pair, begun->second, event.time});
+          since.erase(begun);
+        }
+        break;
+      default:
+        times.push_back({pair, event.time, event.time});
+    }
+  }
+  for (const auto& [pair, begun] : since) times.push_back({pair, begun, last});
+  std::sort(times.begin(), times.end(), [](const ContactTime& a, const ContactTime& b) {
+    return std::tie(a.pair, a.from) < std::tie(b.pair, b.from);
+  });
+  return times;
+}
+
+namespace {
+
+bool share_time(const ContactTime& a, const ContactTime& b, double slack) {
+  return a.from <= b.to + slack && b.from <= a.to + slack;
+}
+
+std::span<const ContactTime> of_pair(std::span<const ContactTime> contacts, const BeadPair& pair) {
+  const auto found = std::ranges::equal_range(contacts, pair, {}, &ContactTime::pair);
+  return {found.begin(), found.end()};
+}
+
+}  // namespace
+
+ContactMatch match_contacts(std::span<const ContactTime> expected, std::span<const ContactTime> found,
+                            double slack) {
+  ContactMatch match;
+  match.expected = expected.size();
+  for (const ContactTime& contact : expected) {
+    const auto same = of_pair(found, contact.pair);
+    const auto shares = std::ranges::find_if(
+        same, [&](const ContactTime& other) { return share_time(contact, other, slack); });
+    if (shares == same.end()) {
+      ++match.missed;
+      continue;
+    }
+    ++match.timed;
+    for (const double error : {std::abs(shares->from - contact.from), std::abs(shares->to - contact.to)}) {
+      match.time_error_sum += 0.5 * error;
+      match.time_error_max = std::max(match.time_error_max, error);
+    }
+  }
+  for (const ContactTime& contact : found) {
+    const auto same = of_pair(expected, contact.pair);
+    if (std::ranges::none_of(same,
+                             [&](const ContactTime& other) { return share_time(contact, other, slack); }))
+      ++match.spurious;
+  }
+  return match;
+}
+
+}  // namespace kds

@@ -1,0 +1,191 @@
+#include "experiments/trade/trade_command.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "experiments/output/gnuplot.h"
+#include "experiments/output/output_files.h"
+#include "experiments/output/result_page.h"
+#include "experiments/output/text.h"
+#include "experiments/program/option_names.h"
+#include "experiments/program/option_values.h"
+#include "experiments/program/progress_bar.h"
+#include "experiments/program/table_results.h"
+#include "experiments/program/warnings.h"
+#include "experiments/run/load_scene.h"
+#include "experiments/trade/recommend.h"
+#include "experiments/trade/trade_report.h"
+#include "kds/seconds.h"
+#include "motions/base/input_error.h"
+#include "motions/scene/radii.h"
+
+namespace kds {
+
+namespace {
+
+constexpr const char* kName = "trade";
+
+constexpr std::array kTradeOptions{
+    OptionSpec{"--want", "LIST",
+               "comma list of contacts, cages, diagram, events (default: contacts,cages,diagram)"},
+    OptionSpec{"--apart", "K",
+               "contacts: of beads of one chain, those at least K apart along it (default: 2)"},
+    OptionSpec{
+        "--cutoff", "LENGTH",
+        "diagram: edges shorter than this are counted where they are missed (default: 4 times the largest "
+        "radius)"},
+    OptionSpec{"--rounds", "N", "runs of each setting in turn, of which the median counts (default: 5)"},
+    OptionSpec{"--times", "N", "random times at which errors are taken, and as many frames (default: 200)"},
+    OptionSpec{"--seed", "N", "of the random times (default: 1)"},
+    OptionSpec{"--out", "DIR", "write trade.json, trade.csv and report.html there (default: none)"},
+    OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
+    OptionSpec{"--quiet", "", "no table, no progress bar"},
+};
+
+constexpr auto kOptions = joined(kInputOptions, kTradeOptions);
+
+constexpr CommandSpec kCommand{
+    "kds trade",
+    "Measures what speed can be had for what accuracy: every lever on this trajectory, beside the exact run.",
+    kInputOperand,
+    "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
+    kOptions,
+    "kds trade villin.dcd --topology villin.pdb --frames 0:200 --out report\n"
+    "kds trade villin.dcd --topology villin.pdb --want contacts --radius 2 --apart 5",
+};
+
+std::vector<Want> parse_wants(const std::string& list) {
+  std::vector<Want> wants;
+  for (const std::string& word : split(list, ',')) {
+    wants.push_back(choice_of<Want>("--want", word, want_names));
+    if (std::count(wants.begin(), wants.end(), wants.back()) > 1)
+      throw InputError(fmt::format("--want: {} is listed twice", word));
+  }
+  std::sort(wants.begin(), wants.end());
+  return wants;
+}
+
+Json settings_json(const TradeOptions& options) {
+  const ReadOptions& reading = options.input.reading;
+  Json wants = Json::array();
+  for (const Want want : options.task.wants) wants.push_back(name_of(want));
+  return {{"topology", reading.topology ? reading.topology->string() : ""},
+          {"select", name_of(reading.selection)},
+          {"chain", reading.chain.value_or("")},
+          {"frames", name_of(reading.frames)},
+          {"radius", options.input.radius},
+          {"want", wants},
+          {"apart", options.task.apart},
+          {"rounds", options.task.rounds},
+          {"times", options.task.sampling.times},
+          {"seed", options.task.sampling.seed}};
+}
+
+Json input_json(const TradeOptions& options, const FinestData& finest) {
+  Json files = Json::array();
+  for (const auto& input : options.input.inputs) files.push_back(input.string());
+  const auto [least, most] = std::minmax_element(finest.radii().begin(), finest.radii().end());
+  return {{"files", files},
+          {"beads", finest.radii().size()},
+          {"frames", finest.frame_count()},
+          {"dimension", finest.scene().dimension()},
+          {"radius_min", *least},
+          {"radius_max", *most}};
+}
+
+// All of it over the first frames tells how long all frames will take.
+double foretold_seconds(const FinestData& finest, const TradeTask& task) {
+  constexpr std::size_t few = 9;
+  if (finest.frame_count() <= 2 * few) return 0;
+  TradeTask pilot = task;
+  pilot.rounds = 1;
+  pilot.sampling.times = 4;
+  const FinestData first = finest.first_frames(few);
+  // Twice: what a look costs is told apart from what a run costs.
+  const double with_few =
+      seconds_of([&] { static_cast<void>(measure_trade(first, pilot, [](auto, auto) {})); }).clock;
+  pilot.sampling.times = 8;
+  const double with_more =
+      seconds_of([&] { static_cast<void>(measure_trade(first, pilot, [](auto, auto) {})); }).clock;
+  const double a_look = std::max(0.0, with_more - with_few) / 4;
+  const double a_round = std::max(0.0, with_few - 4 * a_look) / 2;
+  const double steps = static_cast<double>(finest.frame_count() - 1) / (few - 1);
+  return a_look * static_cast<double>(std::min(task.sampling.times, finest.frame_count())) +
+         a_round * steps * static_cast<double>(task.rounds + 1);
+}
+
+void foretell(double seconds) {
+  if (seconds < 5) return;
+  std::fputs(seconds < 120 ? fmt::format("kds: about {:.0f} seconds\n", seconds).c_str()
+                           : fmt::format("kds: about {:.0f} minutes\n", seconds / 60).c_str(),
+             stderr);
+}
+
+}  // namespace
+
+TradeOptions parse_trade_options(const Arguments& arguments) {
+  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  TradeOptions options;
+  options.input = parse_input_options(parsed, kCommand.name);
+  TradeTask& task = options.task;
+  if (const auto list = parsed.value("--want")) task.wants = parse_wants(*list);
+  if (const auto apart = parsed.value("--apart"))
+    task.apart = static_cast<BeadId>(parse_whole_number("--apart", *apart, 1, no_bead));
+  if (const auto length = parsed.value("--cutoff"))
+    task.cutoff = parse_real("--cutoff", *length, {0, 1e300, true});
+  if (const auto text = parsed.value("--rounds"))
+    task.rounds = parse_whole_number("--rounds", *text, 1, 1000);
+  if (const auto text = parsed.value("--times"))
+    task.sampling.times = parse_whole_number("--times", *text, 1, 1'000'000);
+  if (const auto text = parsed.value("--seed"))
+    task.sampling.seed = parse_whole_number("--seed", *text, 0, ~std::uint64_t{0});
+  options.destinations = {path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
+  return options;
+}
+
+int trade_command(const Arguments& arguments) {
+  const TradeOptions options = parse_trade_options(arguments);
+  const Destinations& destinations = options.destinations;
+  check_inputs_exist(options.input);
+  if (destinations.out) require_gnuplot("--out");
+  TakenPaths taken;
+  taken.read(options.input);
+  if (destinations.out) taken.write("--out", *destinations.out / "report.html");
+  check_table_destinations(destinations, kName, taken);
+  if (destinations.out) check_directory(*destinations.out, "--out", {"report.html"});
+
+  ProgressBar bar(!destinations.quiet);
+  if (const auto instance = read_lone_instance(options.input))
+    throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
+  HeldWarnings held;
+  std::vector<Trajectory> necklaces = read_necklaces(options.input, held.hold());
+  std::vector<double> radii = bead_radii(options.input.radius, necklaces);
+  const FinestData finest(std::move(necklaces), std::move(radii));
+  if (!destinations.quiet) foretell(foretold_seconds(finest, options.task));
+  const std::vector<TradeRow> rows = measure_trade(
+      finest, options.task, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
+  bar.erase();
+  Json warnings = Json::array();
+  held.release([&](const std::string& warning) {
+    warnings.push_back(warning);
+    print_warning(bar, warning);
+  });
+
+  std::vector<std::string> names;
+  for (const auto& input : options.input.inputs) names.push_back(input.filename().string());
+  Json json;
+  json["input"] = input_json(options, finest);
+  json["settings"] = settings_json(options);
+  json["rows"] = trade_rows_json(rows);
+  json["recommendation"] = recommendation(rows);
+  json["warnings"] = warnings;
+  add_provenance(json);
+  deliver_table(destinations, kName, {text_of(json), trade_csv(rows), trade_table(rows), [&] {
+                                        return trade_page(rows, fmt::format("{}", fmt::join(names, ", ")));
+                                      }});
+  return 0;
+}
+
+}  // namespace kds

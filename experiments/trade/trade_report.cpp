@@ -1,0 +1,203 @@
+#include "experiments/trade/trade_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "experiments/output/html_page.h"
+#include "experiments/output/svg_plot.h"
+#include "experiments/output/text.h"
+#include "experiments/trade/recommend.h"
+
+namespace kds {
+
+namespace {
+
+/// The groups, each of which begins with an exact run.
+std::vector<std::span<const TradeRow>> groups_of(std::span<const TradeRow> rows) {
+  std::vector<std::span<const TradeRow>> groups;
+  for (std::size_t first = 0; first < rows.size();) {
+    std::size_t end = first + 1;
+    while (end < rows.size() && !rows[end].is_exact) ++end;
+    groups.push_back(rows.subspan(first, end - first));
+    first = end;
+  }
+  return groups;
+}
+
+std::string title_of(std::span<const TradeRow> group) {
+  const TradeRow& exact = group.front();
+  return exact.want == Want::events ? "events of " + exact.setting.structure
+                                    : std::string(name_of(exact.want));
+}
+
+struct ErrorColumn {
+  const char* title;
+  std::optional<double> TradeErrors::*value;
+  bool share;
+};
+std::vector<ErrorColumn> columns_for(Want want) {
+  using E = TradeErrors;
+  const ErrorColumn missed{"missed", &E::events_missed, true},
+      invented{"invented", &E::events_invented, true};
+  switch (want) {
+    case Want::cages:
+      return {{"radius", &E::radius_mean, true},
+              {"at most", &E::radius_max, true},
+              {"outside", &E::beads_outside, false},
+              missed,
+              invented,
+              {"moved", &E::displacement, false}};
+    case Want::diagram:
+      return {{"wrong", &E::cells_wrong, true},
+              {"edges", &E::edges_missed, true},
+              missed,
+              invented,
+              {"moved", &E::displacement, false}};
+    case Want::contacts:
+      return {{"missed", &E::contacts_missed, true},
+              {"spurious", &E::contacts_spurious, true},
+              {"time", &E::contact_time_mean, false},
+              {"closest", &E::closest_distance, false},
+              {"moved", &E::displacement, false}};
+    case Want::events:
+      return {missed,
+              invented,
+              {"time", &E::event_time_mean, false},
+              {"at most", &E::event_time_max, false},
+              {"moved", &E::displacement, false}};
+  }
+  return {};
+}
+
+std::string shown(const std::optional<double>& value, bool share) {
+  if (!value) return "-";
+  if (*value == 0) return "0";
+  if (std::isinf(*value)) return "all";
+  return share ? fmt::format("{:.3g}%", 100 * *value) : fmt::format("{:.3g}", *value);
+}
+
+Json number_or_null(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+std::string table_of(std::span<const TradeRow> group) {
+  const std::vector<ErrorColumn> columns = columns_for(group.front().want);
+  std::string text = fmt::format("{:<44}{:>11}{:>8}{:>12}{:>10}{:>9}", title_of(group), "seconds", "ratio",
+                                 "certificates", "events", "MB");
+  for (const ErrorColumn& column : columns) text += fmt::format("{:>10}", column.title);
+  text += "\n";
+  for (const TradeRow& row : group) {
+    text += fmt::format("{} {:<42}{:>11}{:>8.3f}{:>12}{:>10}{:>9.2f}", row.on_front ? '*' : ' ',
+                        words_of(row.setting), short_decimal(row.cost.seconds), row.cost.ratio,
+                        with_thousands(row.cost.certificates), with_thousands(row.cost.events),
+                        1e-6 * static_cast<double>(row.cost.memory));
+    for (const ErrorColumn& column : columns)
+      text += fmt::format("{:>10}", shown(row.errors.*column.value, column.share));
+    text += "\n";
+  }
+  return text;
+}
+
+std::string plots_of(std::span<const TradeRow> group, std::size_t number) {
+  std::string html;
+  std::size_t k = 0;
+  for (const ErrorColumn& column : columns_for(group.front().want)) {
+    PointPlot plot{fmt::format("trade{}-{}", number, k++),
+                   "processor time / exact run",
+                   column.share ? fmt::format("{}, %", column.title) : column.title,
+                   {"quickest of its error", "others"},
+                   {}};
+    for (const TradeRow& row : group) {
+      const std::optional<double>& error = row.errors.*column.value;
+      if (error && std::isfinite(*error))
+        plot.points.push_back({words_of(row.setting), row.cost.ratio, (column.share ? 100 : 1) * *error,
+                               row.on_front ? std::size_t{0} : std::size_t{1}});
+    }
+    const bool errs = std::any_of(plot.points.begin(), plot.points.end(),
+                                  [](const PointPlot::Point& point) { return point.y > 0; });
+    const auto of_series = [&](std::size_t series) {
+      return std::any_of(plot.points.begin(), plot.points.end(),
+                         [&](const PointPlot::Point& point) { return point.series == series; });
+    };
+    if (!errs) continue;
+    if (!of_series(1)) plot.series.pop_back();
+    html += html_figure(svg_plot(plot),
+                        fmt::format("Cost against error of {}: {}.", title_of(group), column.title));
+  }
+  return html;
+}
+
+constexpr const char* words_of_columns =
+    "Each row is a setting of `kds run`; a stride is the third part of --frames. Seconds: of the processor, "
+    "median of "
+    "the rounds, without reading and the first build. Errors are against beads on straight lines between all "
+    "frames, "
+    "at frames and at random times between: radius, of spheres above the smallest, on average and at most; "
+    "outside, "
+    "beads outside their spheres; wrong, cells that are not in the true diagram; edges, short ones missed; "
+    "missed and "
+    "invented, events or contacts beside the exact run; time, in frames; closest, of the closest distance; "
+    "moved, a "
+    "bead from its place. *: no other row of the group is as quick and as right.";
+
+}  // namespace
+
+Json trade_rows_json(std::span<const TradeRow> rows) {
+  Json json = Json::array();
+  for (const TradeRow& row : rows) {
+    Json setting = Json::object(), errors = Json::object();
+    for (const auto& [name, value] : options_of(row.setting)) setting[name] = value;
+    for (const auto& [name, value] : by_name(row.errors)) errors[name] = number_or_null(value);
+    json.push_back({{"want", name_of(row.want)},
+                    {"setting", setting},
+                    {"cost",
+                     {{"seconds", row.cost.seconds},
+                      {"seconds_least", row.cost.quickest},
+                      {"seconds_most", row.cost.slowest},
+                      {"ratio", row.cost.ratio},
+                      {"events", row.cost.events},
+                      {"certificates", row.cost.certificates},
+                      {"tests", number_or_null(row.cost.tests)},
+                      {"memory", row.cost.memory}}},
+                    {"error", errors},
+                    {"pareto", row.on_front}});
+  }
+  return json;
+}
+
+std::string trade_csv(std::span<const TradeRow> rows) {
+  std::string text = "want,setting,seconds,seconds_least,seconds_most,ratio,events,certificates,tests,memory";
+  for (const auto& [name, value] : by_name({})) text += "," + name;
+  text += ",pareto\n";
+  for (const TradeRow& row : rows) {
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{}", name_of(row.want), words_of(row.setting),
+                        row.cost.seconds, row.cost.quickest, row.cost.slowest, row.cost.ratio,
+                        row.cost.events, row.cost.certificates,
+                        row.cost.tests ? fmt::format("{}", *row.cost.tests) : "", row.cost.memory);
+    for (const auto& [name, value] : by_name(row.errors)) text += value ? fmt::format(",{}", *value) : ",";
+    text += fmt::format(",{}\n", row.on_front ? 1 : 0);
+  }
+  return text;
+}
+
+std::string trade_table(std::span<const TradeRow> rows) {
+  std::string text;
+  for (const auto& group : groups_of(rows)) text += table_of(group) + "\n";
+  return text + recommendation(rows) + "\n";
+}
+
+std::string trade_page(std::span<const TradeRow> rows, const std::string& input) {
+  std::string plots;
+  std::size_t number = 0;
+  for (const auto& group : groups_of(rows)) plots += plots_of(group, number++);
+  std::string tables;
+  for (const auto& group : groups_of(rows)) tables += table_of(group) + "\n";
+  return html_page(
+      "kds trade: " + input,
+      fmt::format("<p>{}</p>\n{}<h2>Figures</h2>\n<div class=\"scroll\"><pre>{}</pre></div>\n<h2>How to "
+                  "read this</h2>\n<p>{}</p>\n",
+                  html_escaped(recommendation(rows)), plots, html_escaped_lines(tables), words_of_columns));
+}
+
+}  // namespace kds

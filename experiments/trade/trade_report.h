@@ -1,0 +1,20 @@
+#pragma once
+// What `kds trade` found, for programs and for people.
+
+#include <span>
+#include <string>
+
+#include "experiments/output/result_json.h"
+#include "experiments/trade/measure_trade.h"
+
+namespace kds {
+
+[[nodiscard]] Json trade_rows_json(std::span<const TradeRow> rows);
+/// A header and one line a row.
+[[nodiscard]] std::string trade_csv(std::span<const TradeRow> rows);
+/// A block a group; what is on the front is marked.
+[[nodiscard]] std::string trade_table(std::span<const TradeRow> rows);
+/// One page with what to do, plots of cost against error, and the tables.
+[[nodiscard]] std::string trade_page(std::span<const TradeRow> rows, const std::string& input);
+
+}  // namespace kds

@@ -1,0 +1,182 @@
+// What `kds trade` measures, against the truth computed another way, and the command.
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/trade/measure_trade.h"
+#include "experiments/trade/recommend.h"
+#include "motions/readers/read_trajectory.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+FinestData villin(std::size_t frames, double radius) {
+  ReadOptions options;
+  options.frames = {0, frames, 1};
+  options.topology = data_file("trajectories/villin_hp36_300K.pdb");
+  Trajectory trajectory = read_trajectory(data_file("trajectories/villin_hp36_300K.dcd"), options);
+  std::vector<double> radii(trajectory.bead_count(), radius);
+  std::vector<Trajectory> necklaces;
+  necklaces.push_back(std::move(trajectory));
+  return {std::move(necklaces), std::move(radii)};
+}
+
+std::vector<TradeRow> measured(const FinestData& finest, std::vector<Want> wants) {
+  TradeTask task;
+  task.wants = std::move(wants);
+  task.rounds = 1;
+  task.sampling.times = 20;
+  task.apart = 5;
+  return measure_trade(finest, task, [](auto, auto) {});
+}
+
+const TradeRow& row_of(const std::vector<TradeRow>& rows, const std::string& words) {
+  const auto found = std::find_if(rows.begin(), rows.end(),
+                                  [&](const TradeRow& row) { return words_of(row.setting) == words; });
+  if (found == rows.end()) throw std::logic_error("no row " + words);
+  return *found;
+}
+
+TEST(Trade, TheExactRunErrsNowhere) {
+  const std::vector<TradeRow> rows =
+      measured(villin(13, 2.0), {Want::contacts, Want::cages, Want::diagram, Want::events});
+  std::size_t exact = 0;
+  for (const TradeRow& row : rows) {
+    SCOPED_TRACE(words_of(row.setting));
+    EXPECT_GT(row.cost.seconds, 0);
+    EXPECT_GT(row.cost.memory, 1000U);
+    if (!row.is_exact) continue;
+    ++exact;
+    EXPECT_EQ(row.cost.ratio, 1.0);
+    EXPECT_GT(row.cost.events, 0U);
+    for (const auto& [name, value] : by_name(row.errors)) {
+      if (value) EXPECT_NEAR(*value, 0, 1e-9) << name;
+      if (name == "beads_outside" && value) EXPECT_EQ(*value, 0.0);
+    }
+  }
+  EXPECT_EQ(exact, 6U);
+}
+
+TEST(Trade, ContainmentIsKeptWhereItIsPromised) {
+  const std::vector<TradeRow> rows = measured(villin(17, 1.0), {Want::cages});
+  for (const char* words :
+       {"wrapped --between chord", "wrapped --between chord --tightness 0.01", "layered"}) {
+    const TradeErrors& errors = row_of(rows, words).errors;
+    EXPECT_EQ(errors.beads_outside, 0.0) << words;
+    EXPECT_EQ(errors.displacement, 0.0) << words;
+    EXPECT_GT(errors.radius_max.value(), 1e-6) << words;
+    EXPECT_FALSE(errors.events_missed) << words;
+  }
+  EXPECT_LE(row_of(rows, "wrapped --between chord --tightness 0.003").errors.radius_max.value(),
+            0.003 + 1e-9);
+  const TradeErrors& relaxed = row_of(rows, "wrapped --relax 0.03").errors;
+  EXPECT_EQ(relaxed.beads_outside, 0.0);
+  EXPECT_LE(relaxed.radius_max.value(), 0.03 + 1e-9);
+  EXPECT_GT(row_of(rows, "wrapped --stride 4").errors.beads_outside.value(), 0);
+  for (const TradeRow& row : rows) {
+    for (const TradeRow& other : rows) {
+      if (!row.on_front) continue;
+      EXPECT_FALSE(other.cost.seconds < row.cost.seconds &&
+                   other.errors.radius_mean.value() < row.errors.radius_mean.value() &&
+                   other.errors.beads_outside.value() < row.errors.beads_outside.value())
+          << words_of(other.setting) << " is better than " << words_of(row.setting);
+    }
+  }
+}
+
+TEST(Trade, AStrideIsWrongByWhatItLeavesOut) {
+  const FinestData finest = villin(17, 1.0);
+  const Scene scene = finest.scene();
+  // At the frames left out, by hand; random times between may add a little, looks at frames alone miss some.
+  double farthest = 0;
+  for (std::size_t k = 0; k < 17; ++k) {
+    const std::size_t from = k / 8 * 8, to = std::min<std::size_t>(16, from + 8);
+    const double u = to == from ? 0 : static_cast<double>(k - from) / static_cast<double>(to - from);
+    const Eigen::Matrix3Xd between = (1 - u) * scene.centers(from) + u * scene.centers(to);
+    farthest = std::max(farthest, (between - scene.centers(k)).colwise().norm().maxCoeff());
+  }
+  TradeTask task;
+  task.wants = {Want::diagram};
+  task.rounds = 1;
+  task.sampling.times = 500;
+  const std::vector<TradeRow> rows = measure_trade(finest, task, [](auto, auto) {});
+  const TradeErrors& errors = row_of(rows, "power --stride 8").errors;
+  EXPECT_NEAR(errors.displacement.value(), farthest, 1e-9);
+  EXPECT_GT(errors.cells_wrong.value(), 0.01);
+  EXPECT_GT(errors.events_missed.value(), 0.1);
+  EXPECT_LT(row_of(rows, "power --stride 2").errors.cells_wrong.value(), errors.cells_wrong.value());
+}
+
+TEST(Trade, RecommendsWhatHasSmallErrors) {
+  TradeRow exact{Want::cages, {"wrapped"}, {}, {}, true};
+  exact.errors.radius_mean = exact.errors.radius_max = exact.errors.beads_outside = 0;
+  TradeRow chord = exact, stride = exact;
+  chord.is_exact = stride.is_exact = false;
+  chord.setting.settings.between = Between::chord;
+  chord.cost.ratio = 0.2, chord.cost.seconds = 0.2;
+  chord.errors.radius_mean = 0.0002;
+  stride.setting.stride = 8;
+  stride.cost.ratio = 0.1, stride.cost.seconds = 0.1;
+  stride.errors.beads_outside = 3;
+  EXPECT_THAT(
+      recommendation(std::vector{exact, stride, chord}),
+      testing::AllOf(HasSubstr("For cages, `wrapped --between chord` is 5 times as fast"),
+                     HasSubstr("0.02% above the smallest on average"), HasSubstr("no bead is outside")));
+  EXPECT_THAT(recommendation(std::vector{exact, stride}), HasSubstr("stay with the exact run"));
+  EXPECT_THAT(recommendation(std::vector{exact}), HasSubstr("nothing is quicker than the exact run"));
+}
+
+TEST(TradeCommand, WritesRowsAndAPage) {
+  const ScratchDirectory directory;
+  const std::vector<std::string> arguments{"trade",      data_file("trajectories/villin_hp36_300K.dcd"),
+                                           "--topology", data_file("trajectories/villin_hp36_300K.pdb"),
+                                           "--frames",   "0:9",
+                                           "--rounds",   "1",
+                                           "--times",    "5",
+                                           "--want",     "cages",
+                                           "--out",      (directory.path() / "result").string(),
+                                           "--json",     "-"};
+  const ProgramRun run = run_program(arguments);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_FALSE(json.at("recommendation").get<std::string>().empty());
+  ASSERT_FALSE(json.at("rows").empty());
+  for (const auto& row : json.at("rows")) {
+    EXPECT_EQ(row.at("want"), "cages");
+    EXPECT_TRUE(row.at("setting").contains("structures"));
+    EXPECT_GT(row.at("cost").at("seconds").get<double>(), 0);
+    EXPECT_TRUE(row.at("cost").contains("tests"));
+    EXPECT_TRUE(row.at("error").at("cells_wrong").is_null());
+    EXPECT_TRUE(row.at("error").at("radius_mean").is_number());
+  }
+  EXPECT_TRUE(std::filesystem::exists(directory.path() / "result" / "trade.csv"));
+  EXPECT_TRUE(std::filesystem::exists(directory.path() / "result" / "report.html"));
+}
+
+TEST(TradeCommand, RefusesWhatItDoesNotKnow) {
+  const std::string trajectory = data_file("trajectories/villin_hp36_300K.dcd");
+  const auto expect_refused = [&](std::vector<std::string> options, const char* why) {
+    options.insert(options.begin(), {"trade", trajectory});
+    const ProgramRun run = run_program(options);
+    EXPECT_EQ(run.code, 2);
+    EXPECT_THAT(run.err, HasSubstr(why));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1);
+  };
+  expect_refused({"--want", "speed"}, "--want");
+  expect_refused({"--want", "cages,cages"}, "listed twice");
+  expect_refused({"--times", "0"}, "--times");
+  expect_refused({"--cutoff", "0"}, "--cutoff");
+  EXPECT_EQ(run_program({"trade"}).code, 2);
+  EXPECT_EQ(run_program({"trade", data_file("kinetic/d3_n20_linear.txt")}).code, 2);
+}
+
+}  // namespace
+}  // namespace kds
