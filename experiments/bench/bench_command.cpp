@@ -54,8 +54,9 @@ constexpr CommandSpec kCommand{
     "whole "
     "runs of moving points, beside CGAL's static build; hierarchies: wrapped and layered hierarchies, beside "
     "CGAL at every node; power: the power diagram from frame to frame, beside CGAL's static build; "
-    "collision: the pairs of beads that meet, beside a cell list, a Verlet list, FCL and Bullet; trade: "
-    "levers of speed against accuracy, beside exact runs",
+    "collision: the pairs of beads that meet, beside a cell list, a Verlet list, FCL and Bullet, and all "
+    "times at which they begin and end to, beside the cell list; trade: levers of speed against accuracy, "
+    "beside exact runs",
     kOptions,
     "kds bench certificates\n"
     "kds bench hierarchies\n"

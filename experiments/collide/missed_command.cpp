@@ -10,6 +10,7 @@
 #include "experiments/output/output_files.h"
 #include "experiments/output/result_page.h"
 #include "experiments/output/text.h"
+#include "experiments/program/option_lists.h"
 #include "experiments/program/option_names.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/progress_bar.h"
@@ -112,7 +113,7 @@ MissedOptions parse_missed_options(const Arguments& arguments) {
   MissedOptions options;
   MissedTask& task = options.task;
   task.input = parse_input_options(parsed, kCommand.name);
-  if (const auto list = parsed.value("--strides")) task.strides = parse_strides("--strides", *list);
+  if (const auto list = parsed.value("--strides")) task.strides = parse_strides(*list);
   if (const auto list = parsed.value("--factors")) task.factors = parse_factors(*list);
   if (const auto text = parsed.value("--apart"))
     task.apart = static_cast<BeadId>(parse_whole_number("--apart", *text, 1, 1'000'000'000));

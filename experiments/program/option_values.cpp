@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "experiments/output/text.h"
-
 namespace kds {
 
 namespace {
@@ -39,16 +37,6 @@ std::uint64_t parse_whole_number(std::string_view option, std::string_view text,
   const auto number = number_in<std::uint64_t>(text);
   if (number && *number >= least && *number <= most) return *number;
   throw InputError(fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, least, most));
-}
-
-std::vector<std::size_t> parse_strides(std::string_view option, std::string_view list) {
-  std::vector<std::size_t> strides;
-  for (const std::string& text : split(list, ','))
-    strides.push_back(parse_whole_number(option, text, 1, 1'000'000'000));
-  std::sort(strides.begin(), strides.end());
-  if (const auto twice = std::adjacent_find(strides.begin(), strides.end()); twice != strides.end())
-    throw InputError(fmt::format("{}: {} is listed twice", option, *twice));
-  return strides;
 }
 
 std::pair<std::uint64_t, std::uint64_t> parse_range(std::string_view option, std::string_view text,

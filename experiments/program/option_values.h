@@ -45,9 +45,6 @@ template <class Enum>
 [[nodiscard]] std::uint64_t parse_whole_number(std::string_view option, std::string_view text,
                                                std::uint64_t least, std::uint64_t most);
 
-/// A comma list of numbers from 1 on, each once; ascending.
-[[nodiscard]] std::vector<std::size_t> parse_strides(std::string_view option, std::string_view list);
-
 /// FIRST:LAST, LAST excluded, at most `most`; either may be left out. At least one number is in it.
 [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> parse_range(std::string_view option,
                                                                   std::string_view text, std::uint64_t most);

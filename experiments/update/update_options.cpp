@@ -62,7 +62,7 @@ UpdateOptions parse_update_options(const Arguments& arguments) {
   UpdateOptions options;
   options.input = parse_input_options(parsed, kCommand.name);
   if (const auto list = parsed.value("--techniques")) options.techniques = parse_techniques(*list);
-  if (const auto list = parsed.value("--strides")) options.strides = parse_strides("--strides", *list);
+  if (const auto list = parsed.value("--strides")) options.strides = parse_strides(*list);
   if (const auto text = parsed.value("--rounds"))
     options.rounds = parse_whole_number("--rounds", *text, 1, 1000);
   options.audit =

@@ -237,6 +237,19 @@ std::unique_ptr<Detector<Dimension>> make_wrong(const CollisionQuery&) {
   return std::make_unique<Wrong<Dimension>>();
 }
 
+TEST(Collide, BruteForceRefusesWhatTakesMinutes) {
+  const auto refusal_of = [](std::size_t beads) {
+    const CollisionQuery query{{{{0, static_cast<BeadId>(beads - 1)}}, true, 2, true}};
+    const Balls<3> balls(Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(beads)),
+                         std::vector<double>(beads, 1.0));
+    return collision_methods().front().make<3>(query)->refusal(balls);
+  };
+  EXPECT_FALSE(refusal_of(300'000));
+  ASSERT_TRUE(refusal_of(300'001));
+  EXPECT_THAT(*refusal_of(300'001),
+              HasSubstr("looks at all pairs of 300001 beads; expected 300000 beads or fewer"));
+}
+
 TEST(Collide, MethodsThatDisagreeAreAnInternalFailure) {
   const ScratchDirectory directory;
   InputOptions input;
