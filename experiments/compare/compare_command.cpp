@@ -9,6 +9,7 @@
 #include "experiments/output/gnuplot.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/result_page.h"
+#include "experiments/output/text.h"
 #include "experiments/program/option_names.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/table_results.h"
@@ -65,6 +66,7 @@ int compare_command(const Arguments& arguments) {
     print_warning(bar, warning);
   });
 
+  const std::string command_line = "kds compare " + shell_words(arguments);
   Json json;
   json["inputs"] = compared_inputs_json(comparison);
   json["settings"] = settings_json(options);
@@ -72,7 +74,7 @@ int compare_command(const Arguments& arguments) {
   json["warnings"] = warnings;
   add_provenance(json);
   deliver_table(destinations, kName, {text_of(json), compare_csv(comparison), compare_table(comparison), [&] {
-                                        return compare_page(comparison);
+                                        return compare_page(comparison, command_line);
                                       }});
   return 0;
 }

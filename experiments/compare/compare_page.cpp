@@ -19,10 +19,10 @@ constexpr std::string_view kWords =
     "changes</em> are what is not the same at one frame and the next, whatever happened in between: nodes of "
     "the wrapped hierarchy with another basis, cells of one power diagram that are not in the other, pairs "
     "that meet in one frame only, ranks of the sorted list with another bead. <em>Efficiency</em> is events "
-    "a net change: 1 where nothing is undone on the way and an event changes one thing. <em>Peak</em>, the "
-    "most certificates at once, is compactness; <em>on bead</em>, the most on one bead, is locality; the "
-    "time "
-    "an event takes, certificates that never fail included, is responsiveness.";
+    "a net change. Where all that changes changes once it is 1 for nodes and pairs, 0.2 for flips in space, "
+    "which exchange five cells, and 0.5 for interchanges. <em>Peak</em>, the most certificates at once, is "
+    "compactness; <em>on bead</em>, the most on one bead, is locality; the time an event takes, certificates "
+    "that never fail included, is responsiveness.";
 
 std::size_t least_stride(const Comparison& comparison) { return comparison.rows.front().stride; }
 std::size_t most_stride(const Comparison& comparison) { return comparison.rows.back().stride; }
@@ -137,8 +137,7 @@ std::string findings(const Comparison& comparison) {
                  other.input == row.input && other.motion == row.motion;
         });
     if (last->stride != row.stride && row.events() > 0)
-      html += fmt::format("; at {} times the stride a step has {} times as many events",
-                          short_decimal(static_cast<double>(last->stride) / static_cast<double>(row.stride)),
+      html += fmt::format("; at stride {} a step has {} times as many events", with_thousands(last->stride),
                           short_decimal(last->events_per_step() / row.events_per_step()));
     if (const auto efficiency = row.efficiency())
       html += fmt::format("; {} events a net change", short_decimal(*efficiency));
@@ -173,7 +172,7 @@ std::string title(const Comparison& comparison) {
 
 }  // namespace
 
-std::string compare_page(const Comparison& comparison) {
+std::string compare_page(const Comparison& comparison, const std::string& command_line) {
   std::string body = findings(comparison) + plots_over_strides(comparison);
   body += "<h2>Along the chain</h2>\n" +
           by_place(
@@ -186,8 +185,8 @@ std::string compare_page(const Comparison& comparison) {
   if (!levels.empty()) body += "<h2>By level</h2>\n" + levels;
   if (const std::string kinds = plots_by_kind(comparison); !kinds.empty())
     body += "<h2>By kind</h2>\n" + kinds;
-  body +=
-      fmt::format("<h2>Figures</h2>\n{}<h2>How to read this</h2>\n<p>{}</p>\n", figures(comparison), kWords);
+  body += fmt::format("<h2>Figures</h2>\n{}<h2>How to read this</h2>\n<p>{}</p>\n<p><code>{}</code></p>\n",
+                      figures(comparison), kWords, html_escaped(command_line));
   return html_page(title(comparison), body);
 }
 

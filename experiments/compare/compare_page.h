@@ -8,6 +8,6 @@
 namespace kds {
 
 /// Plots are drawn by gnuplot.
-[[nodiscard]] std::string compare_page(const Comparison& comparison);
+[[nodiscard]] std::string compare_page(const Comparison& comparison, const std::string& command_line);
 
 }  // namespace kds

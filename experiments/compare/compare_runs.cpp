@@ -33,6 +33,14 @@ RunOptions run_options(const CompareOptions& options, std::size_t input, FrameMo
 // Frames of each so many.
 std::size_t strided(std::size_t frames, std::size_t stride) { return (frames + stride - 1) / stride; }
 
+void refuse_without_events(const Session& session) {
+  for (const KineticStructure* structure : session.structures()) {
+    const StructureSpec* const spec = structure_registry().find(structure->name());
+    if (spec != nullptr && !spec->has_events({}))
+      throw InputError(fmt::format("--structures: {} has no events to compare", spec->name));
+  }
+}
+
 // Reads an input, and refuses it before anything has run.
 ComparedInput look_at(const CompareOptions& options, std::size_t input, const Warn& warn) {
   ComparedInput found;
@@ -40,7 +48,7 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const Wa
     const RunOptions run = run_options(options, input, motion);
     const Scene scene = load_scene(
         run, motion == options.motions.front() ? warn : [](const std::string&) {});
-    static_cast<void>(open_session(run, scene, AuditMode::none));
+    refuse_without_events(*open_session(run, scene, AuditMode::none));
     if (motion != options.motions.front()) continue;
     const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
     found = {run.inputs.front().string(),

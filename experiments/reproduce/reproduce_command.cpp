@@ -111,6 +111,13 @@ void deliver(const Destinations& destinations, const std::vector<PaperTable>& ta
     files.emplace(*destinations.out, "--out");
     for (const PaperTable& table : tables) files->write(file_of(table.number), paper_csv(table));
     files->write(kResult, json);
+    files->replace([&tables](std::string_view name) {  // tables of an earlier result
+      for (int number = 1; number <= paper_table_count; ++number)
+        if (name == file_of(number))
+          return std::none_of(tables.begin(), tables.end(),
+                              [&](const PaperTable& table) { return table.number == number; });
+      return false;
+    });
     no_page = add_page(*files, [&] { return paper_page(tables, command_line); });
   }
   const bool json_on_stdout = destinations.json == "-";

@@ -267,6 +267,7 @@ TEST(Compare, RefusesBeforeAnythingHasRun) {
               HasSubstr("--strides: 9 leaves one of the 9"));
   EXPECT_THAT(refused({data_file("kinetic/d3_n20_linear.txt")}), HasSubstr("has no frames"));
   EXPECT_THAT(refused({kDcd, "--motions", "lifted"}), HasSubstr("lifted"));
+  EXPECT_THAT(refused({kDcd, "--structures", "layered"}), HasSubstr("layered has no events to compare"));
   EXPECT_THAT(refused({kDcd, "--apart", "3"}), HasSubstr("--apart"));
   EXPECT_THAT(refused({kDcd, "nowhere.dcd"}), HasSubstr("nowhere.dcd: no such file"));
 }

@@ -146,6 +146,8 @@ TEST(PaperReport, SaysTheSameInAllForms) {
 // One step of kds compare is a row of table 6.
 TEST(Reproduce, StabilityAsCompareHasIt) {
   const ScratchDirectory scratch;
+  std::filesystem::create_directory(scratch / "out");
+  scratch.file("out/table1.csv", "of an earlier result");
   const ProgramRun run =
       run_program({"reproduce", "table6", "--rounds", "1", "--out", scratch / "out", "--data", kData});
   ASSERT_EQ(run.code, 0) << run.err;
@@ -158,6 +160,7 @@ TEST(Reproduce, StabilityAsCompareHasIt) {
                                           "--structures", "wrapped", "--strides", "32", "--json", "-"});
   ASSERT_EQ(compare.code, 0) << compare.err;
   EXPECT_EQ(rows[4]["bases_changed"], Json::parse(compare.out)["rows"][0]["net_changes"]);
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/table1.csv"));
   EXPECT_THAT(content_of(scratch / "out/table6.csv"), StartsWith("name,beads,at,bases_changed,"));
   const std::string page = content_of(scratch / "out/report.html");
   for (const char* part : {"<svg", "Table 6", "kds reproduce table6 --rounds 1"})

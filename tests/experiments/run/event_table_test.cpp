@@ -146,6 +146,10 @@ TEST(EventTable, IsRefusedWhereItWouldReplaceSomethingElse) {
               HasSubstr("is the file of"));
   EXPECT_THAT(refused({"--events", scratch / "nowhere/a"}), HasSubstr("--events"));
   EXPECT_THAT(refused({"--events", "-"}), HasSubstr("--events"));
+  const ProgramRun chords =
+      run_program({"run", kDcd, "--structures", "wrapped", "--between", "chord", "--events", scratch / "a"});
+  EXPECT_EQ(chords.code, 2);
+  EXPECT_THAT(chords.err, HasSubstr("--events: wrapped is of chord cages, which have no events"));
   EXPECT_EQ(scratch.entries(), 1U);
 }
 
