@@ -36,9 +36,11 @@ class PairsListener final : public EventListener {
 };
 
 /// All pairs in contact at some time of the run, with these radii.
-PairsMet pairs_met(const RunOptions& options, const SceneSurvey& survey, std::vector<double> radii) {
-  const Scene scene(open_frames(options, options.reading.frames.stride), survey, std::move(radii),
-                    options.motion);
+PairsMet pairs_met(const RunOptions& options, const SceneSurvey& survey, std::vector<double> radii,
+                   const std::optional<double>& tolerance) {
+  auto frames = open_frames(options, options.reading.frames.stride);
+  if (tolerance) frames->straighten(*tolerance);
+  const Scene scene(std::move(frames), survey, std::move(radii), options.motion);
   RunOptions contacts;
   contacts.structures = {"contacts"};
   contacts.kernel =
@@ -69,10 +71,12 @@ ContactBounds bound_contacts(const RunOptions& options, const Scene& scene,
     smaller[b] = 0;  // more than what is left of it: no pair with it is sure
     has_a_ball[b] = 0;
   }
+  std::optional<double> tolerance;
+  if (options.tolerance) tolerance = options.tolerance->length(scene.radii());
   ContactBounds bounds;
-  bounds.found = pairs_met(options, survey, scene.radii());
-  bounds.possible = pairs_met(options, survey, std::move(larger));
-  bounds.sure = pairs_met(options, survey, std::move(smaller));
+  bounds.found = pairs_met(options, survey, scene.radii(), tolerance);
+  bounds.possible = pairs_met(options, survey, std::move(larger), tolerance);
+  bounds.sure = pairs_met(options, survey, std::move(smaller), tolerance);
   std::erase_if(bounds.sure, [&](const std::pair<BeadId, BeadId>& pair) {
     return has_a_ball[pair.first] == 0 || has_a_ball[pair.second] == 0;
   });
@@ -82,9 +86,11 @@ ContactBounds bound_contacts(const RunOptions& options, const Scene& scene,
 }  // namespace
 
 void refuse_needless_certificate(const RunOptions& options) {
-  if (options.certify && options.reading.frames.stride == 1)
+  if (options.certify && options.reading.frames.stride == 1 && !options.tolerance)
     throw InputError(
-        "--certify: the run leaves out no frame; expected --frames FIRST:LAST:STRIDE with a stride above 1");
+        "--certify: the run leaves out no frame; expected --frames FIRST:LAST:STRIDE with a stride above 1, "
+        "or "
+        "--tolerance");
 }
 
 StrideCertificate certify_stride(const RunOptions& options, const Scene& scene) {

@@ -41,7 +41,8 @@ std::vector<Trajectory> read_necklaces(const InputOptions& options,
 }
 
 Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,
-                     const std::function<void(const std::string&)>& warn) {
+                     const std::function<void(const std::string&)>& warn,
+                     const std::optional<MotionTolerance>& tolerance) {
   std::vector<NecklaceStream> files;
   for (std::size_t i = 0; i < input.inputs.size(); ++i)
     files.emplace_back(input.inputs[i], reading_of(input, i));
@@ -49,6 +50,7 @@ Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radiu
   const SceneSurvey survey = frames->survey(input.radius == "auto", warn);
   std::vector<double> radii = bead_radii(input.radius, survey.necklaces, survey.bonds);
   for (double& radius : radii) radius *= radius_factor;
+  if (tolerance) frames->straighten(tolerance->length(radii));
   return {std::move(frames), survey, std::move(radii), motion};
 }
 
@@ -58,9 +60,12 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
     if (options.motion != FrameMotion::linear)
       throw InputError(
           fmt::format("--motion: has no meaning for an instance file ({})", options.inputs.front().string()));
+    if (options.tolerance)
+      throw InputError(fmt::format("--tolerance: has no meaning for an instance file ({})",
+                                   options.inputs.front().string()));
     return Scene(std::move(*instance));
   }
-  return load_necklaces(input, options.motion, 1, warn);
+  return load_necklaces(input, options.motion, 1, warn, options.tolerance);
 }
 
 namespace {

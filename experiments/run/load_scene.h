@@ -25,7 +25,8 @@ namespace kds {
 /// Reads all inputs once, and opens them for the run: frames are read as it goes on. Warnings, one line each,
 /// go to `warn`. Throws InputError for whatever is wrong with an input.
 [[nodiscard]] Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,
-                                   const std::function<void(const std::string&)>& warn);
+                                   const std::function<void(const std::string&)>& warn,
+                                   const std::optional<MotionTolerance>& tolerance = {});
 /// The same as `kds run` has it, of an instance file too.
 [[nodiscard]] Scene load_scene(const RunOptions& options,
                                const std::function<void(const std::string&)>& warn);

@@ -41,8 +41,12 @@ constexpr std::array kRunOptions{
     OptionSpec{
         "--relax", "EPS",
         "wrapped: a bead leaves a sphere when it is out by EPS of the radius, from 2^-20 to 1 (default: 0)"},
-    OptionSpec{"--certify", "",
-               "with a stride in --frames: read the frames in between, and bound what may have been missed"},
+    OptionSpec{"--tolerance", "DELTA",
+               "beads go straight on while that stays within DELTA of the frames, a length or, as in 0.2r, a"
+               " multiple of the smallest radius (default: 0)"},
+    OptionSpec{
+        "--certify", "",
+        "with a stride in --frames or --tolerance: read all frames, and bound what may have been missed"},
     OptionSpec{"--audit", "WHEN", "compare with static builds: none, frames or events (default: none)"},
     OptionSpec{"--work", "LIMIT",
                "end the run where exact arithmetic takes more limb operations than this (default: no limit)"},
@@ -84,6 +88,17 @@ NodeSelection parse_nodes(const ParsedArguments& parsed) {
   return nodes;
 }
 
+MotionTolerance parse_tolerance(std::string text, FrameMotion motion) {
+  if (motion != FrameMotion::linear)
+    throw InputError(
+        fmt::format("--tolerance: beads go straight on; expected --motion linear, not {}", name_of(motion)));
+  MotionTolerance tolerance;
+  tolerance.of_radius = text.ends_with('r');
+  if (tolerance.of_radius) text.pop_back();
+  tolerance.amount = parse_real("--tolerance", text, {0, 1e300, true});
+  return tolerance;
+}
+
 }  // namespace
 
 RunOptions parse_run_options(const Arguments& arguments) {
@@ -104,6 +119,8 @@ RunOptions parse_run_options(const Arguments& arguments) {
     options.tightness = parse_real("--tightness", *tightness, {1e-6, 1});
   if (const auto relax = parsed.value("--relax"))
     options.relax = parse_real("--relax", *relax, {Relaxation::least_share, 1});
+  if (const auto tolerance = parsed.value("--tolerance"))
+    options.tolerance = parse_tolerance(*tolerance, options.motion);
   options.certify = parsed.has("--certify");
   refuse_needless_certificate(options);
   options.audit = chosen<AuditMode>(parsed, "--audit", audit_mode_names).value_or(options.audit);

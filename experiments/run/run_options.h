@@ -1,9 +1,11 @@
 #pragma once
 // What `kds run` was asked to do. Parsed and checked by parse_run_options; see docs of each option there.
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,16 @@
 #include "structures/session/structure_spec.h"
 
 namespace kds {
+
+/// How far from where the frames have them beads may be: a length, or a multiple of the smallest radius.
+struct MotionTolerance {
+  double amount = 0;
+  bool of_radius = false;
+
+  [[nodiscard]] double length(std::span<const double> radii) const {
+    return of_radius ? amount * *std::min_element(radii.begin(), radii.end()) : amount;
+  }
+};
 
 struct RunOptions {
   std::vector<std::filesystem::path> inputs;
@@ -28,6 +40,7 @@ struct RunOptions {
   std::optional<Between> between;               ///< --between; none: not given
   std::optional<double> tightness;              ///< --tightness; none: not given
   std::optional<double> relax;                  ///< --relax; none: not given
+  std::optional<MotionTolerance> tolerance;     ///< --tolerance; none: not given
   bool certify = false;                         ///< --certify
   std::optional<std::filesystem::path> dump;    ///< directory for the structures at every frame
   std::optional<std::filesystem::path> out;     ///< directory for summary.json, events.csv, report.html

@@ -22,6 +22,11 @@ std::string levels_of(const NodeSelection& nodes) {
 std::string beads_of(const NodeSelection& nodes) {
   return nodes.beads ? fmt::format("{}:{}", nodes.beads->first, std::uint64_t{nodes.beads->last} + 1) : "";
 }
+std::string tolerance_of(const RunOptions& options) {
+  return options.tolerance
+             ? fmt::format("{}{}", options.tolerance->amount, options.tolerance->of_radius ? "r" : "")
+             : "";
+}
 std::string relax_of(const RunOptions& options) {
   return options.relax ? fmt::format("{}", *options.relax) : "";
 }
@@ -44,6 +49,7 @@ std::vector<std::pair<std::string, std::string>> option_settings(const RunOption
           {"between", options.between ? std::string(name_of(*options.between)) : ""},
           {"tightness", options.tightness ? fmt::format("{}", *options.tightness) : ""},
           {"relax", relax_of(options)},
+          {"tolerance", tolerance_of(options)},
           {"certify", options.certify ? "yes" : ""}};
 }
 
@@ -72,6 +78,7 @@ std::vector<std::string> option_arguments(const RunOptions& options) {
   if (options.between) add("--between", std::string(name_of(*options.between)));
   if (options.tightness) add("--tightness", fmt::format("{}", *options.tightness));
   if (options.relax) add("--relax", relax_of(options));
+  if (options.tolerance) add("--tolerance", tolerance_of(options));
   return arguments;
 }
 

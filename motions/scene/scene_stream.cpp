@@ -62,6 +62,11 @@ SceneSurvey SceneStream::survey(bool with_bonds, const std::function<void(const 
 }
 
 bool SceneStream::next(FrameRead& frame) {
+  return straight_ ? straight_->next(frame, [this](FrameRead& of_files) { return read(of_files); })
+                   : read(frame);
+}
+
+bool SceneStream::read(FrameRead& frame) {
   present_.resize(files_.size());
   frames_.resize(files_.size(), 0);
   bool more = false;
@@ -89,6 +94,7 @@ bool SceneStream::next(FrameRead& frame) {
 
 void SceneStream::rewind() {
   for (NecklaceStream& file : files_) file.rewind();
+  if (straight_) straight_->rewind();
   std::fill(frames_.begin(), frames_.end(), 0);
 }
 

@@ -12,6 +12,7 @@
 
 #include "motions/readers/necklace_stream.h"
 #include "motions/scene/radii.h"
+#include "motions/scene/straightened_frames.h"
 
 namespace kds {
 
@@ -51,13 +52,20 @@ class SceneStream final : public FrameReader {
   /// frame counts differ. Each necklace's warnings go to `warn`.
   [[nodiscard]] SceneSurvey survey(bool with_bonds, const std::function<void(const std::string&)>& warn);
 
+  /// From now on, and after a rewind, beads go straight on within a tolerance (straightened_frames.h).
+  void straighten(double tolerance) { straight_.emplace(tolerance); }
+
   [[nodiscard]] bool next(FrameRead& frame) override;
   void rewind() override;
 
  private:
+  /// The next frame as the files have it.
+  [[nodiscard]] bool read(FrameRead& frame);
+
   std::vector<NecklaceStream> files_;
   std::vector<FrameRead> present_;   ///< of each file
   std::vector<std::size_t> frames_;  ///< read so far of each file
+  std::optional<StraightenedFrames> straight_;
 };
 
 }  // namespace kds

@@ -22,13 +22,14 @@ NodeProofs<Dimension>::NodeProofs(const Simulator& simulator, const NecklaceTree
       any_(simulator.kernel() != Kernel::exact && degree >= 1 && degree <= BeadPaths<Dimension>::most_degree),
       proves_crossings_(any_ && simulator.kernel() == Kernel::filtered && degree == 1),
       enlarged_by_(radii == Radii::equal ? 1 + relaxation.share() : 1),
-      slack_(tree),
-      chord_cache_(enlarged_by_) {}
+      slack_of_relaxed_(radii == Radii::any ? relaxation : Relaxation{}),
+      slack_(tree) {}
 
 template <int Dimension>
 void NodeProofs<Dimension>::start_step() {
   if (!any_) return;
   paths_.set(curves_, radii_ == Radii::equal);
+  slack_of_relaxed_.start_step(curves_);
   gap_roots_.forget();
   chord_cache_.forget();
 }
@@ -80,13 +81,15 @@ void NodeProofs<Dimension>::find_candidates(std::span<const NodeId> nodes, std::
     std::array<NodeId, Lanes::width> nodes;
     std::array<BeadRange, Lanes::width> ranges;
     std::array<Basis, Lanes::width> bases;
+    std::array<double, Lanes::width> raised_by;
     std::size_t count = 0;
   };
   std::array<Waiting, full + 1> of_size;
   ChordFilterResult<Dimension> look;
   const auto look_at = [&](Waiting& w) {
     filter_nodes<Dimension>(paths_, std::span(w.ranges).first(w.count), std::span(w.bases).first(w.count),
-                            look, beyond_, enlarged_by_);
+                            look, beyond_, enlarged_by_,
+                            std::span(w.raised_by).first(slack_of_relaxed_.any() ? w.count : 0));
     for (std::size_t i = 0; i < w.count; ++i)
       if (!look.steady[i]) candidates_.push_back({w.nodes[i], look.chords[i], look.ends[i]});
     w.count = 0;
@@ -96,6 +99,7 @@ void NodeProofs<Dimension>::find_candidates(std::span<const NodeId> nodes, std::
     w.nodes[w.count] = id;
     w.ranges[w.count] = tree_.range(id);
     w.bases[w.count] = bases[id];
+    if (slack_of_relaxed_.any()) w.raised_by[w.count] = slack_of_relaxed_.of(curves_, bases[id]);
     if (++w.count == Lanes::width) look_at(w);
   }
   for (Waiting& w : of_size)
@@ -128,7 +132,8 @@ unsigned NodeProofs<Dimension>::find_beads_to_watch(const Basis& basis, const Be
   const Period rest = rest_of_step();
   const SphereChord<Dimension>* chord = nullptr;
   if (any_) {
-    chord = &chord_cache_.of(paths_, basis, rest);
+    chord = &chord_cache_.of(paths_, basis, rest,
+                             [this](const Basis& of, SphereChord<Dimension>& one) { relax(of, one); });
     if (chord->proved) find_beyond(paths_, range, basis, *chord, rest.from, beyond);
   }
   return take_out_staying(basis, range, chord, rest, risen, beyond);
@@ -172,7 +177,7 @@ unsigned NodeProofs<Dimension>::look_closely(const Basis& basis, double until, s
   unsigned stays = all_of(basis);
   for (auto& chord : chords) {
     if (!chord.proved) return 0;
-    chord.enlarge(enlarged_by_);
+    relax(basis, chord);
     stays &= chord.stays;
   }
   keep_beyond<Dimension>(paths_, basis, chords, periods, beyond);
@@ -206,7 +211,10 @@ unsigned NodeProofs<Dimension>::proved_bases(std::span<const Basis> bases, BeadI
   const bool alone = bases.size() == 1;
   if (alone) periods[1] = rest_of_step();
   sphere_chords<Dimension>(paths_, asked, periods, chords);
-  if (alone) chord_cache_.keep(bases.front(), periods[1], chords[1]);
+  if (alone) {
+    relax(bases.front(), chords[1]);
+    chord_cache_.keep(bases.front(), periods[1], chords[1]);
+  }
   unsigned proved = 0;
   for (std::size_t i = 0; i < bases.size(); ++i) {
     unsigned stay = chords[i].stays;

@@ -14,6 +14,7 @@
 #include "motions/curves/curves.h"
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/hierarchy/node_slack.h"
+#include "structures/hierarchy/relaxed_slack.h"
 #include "structures/moving_sphere/bead_paths.h"
 #include "structures/moving_sphere/chord_cache.h"
 #include "structures/moving_sphere/gap_root.h"
@@ -104,12 +105,20 @@ class NodeProofs {
                                           BeadId risen, std::vector<BeadId>& beyond);
   [[nodiscard]] unsigned look_closely(const Basis& basis, double until, std::vector<BeadId>& beyond);
 
+  void relax(const Basis& basis, SphereChord<Dimension>& chord) const {
+    chord.enlarge(enlarged_by_);
+    if (!slack_of_relaxed_.any()) return;
+    const double raised_by = slack_of_relaxed_.of(curves_, basis);
+    for (double& limit : chord.limit) limit += raised_by;
+  }
+
   const Simulator& simulator_;
   const NecklaceTree& tree_;
   const Curves<Dimension>& curves_;
   Radii radii_;
   bool any_, proves_crossings_;
-  double enlarged_by_;  // by which chords are
+  double enlarged_by_;             // by which chords are, of equal radii
+  RelaxedSlack slack_of_relaxed_;  // by which limits are raised, of others
   BeadPaths<Dimension> paths_;
   NodeSlack<Dimension> slack_;
   ChordCache<Dimension> chord_cache_;

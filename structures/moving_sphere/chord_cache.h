@@ -8,30 +8,29 @@ namespace kds {
 template <int Dimension>
 class ChordCache {
  public:
-  /// Chords are enlarged by this factor (SphereChord::enlarge).
-  explicit ChordCache(double enlarged_by) : enlarged_by_(enlarged_by) {}
-
   /// `chord` is that of `basis` in a period that ends with the step.
   void keep(const Basis& basis, const Period& period, const SphereChord<Dimension>& chord) {
     basis_ = basis;
     from_ = period.from;
     sure_ = period.sure;
     chord_ = chord;
-    chord_.enlarge(enlarged_by_);
   }
   void forget() { from_ = none; }
 
+  /// `relax(basis, chord)` does to a new one what was done to those that were given to `keep`.
+  template <class Relax>
   [[nodiscard]] const SphereChord<Dimension>& of(const BeadPaths<Dimension>& paths, const Basis& basis,
-                                                 const Period& period) {
-    if (!(from_ == period.from && sure_ == period.sure && basis_ == basis))
+                                                 const Period& period, Relax relax) {
+    if (!(from_ == period.from && sure_ == period.sure && basis_ == basis)) {
       keep(basis, period, sphere_chord(paths, basis, period));
+      relax(basis, chord_);
+    }
     return chord_;
   }
 
  private:
   static constexpr double none = -1;  // no time
 
-  double enlarged_by_;
   Basis basis_;
   double from_ = none, sure_ = 0;
   SphereChord<Dimension> chord_;

@@ -32,11 +32,14 @@ template <int D, int K, bool equal>
 
 template <int D, int K>
 void look_in_degree(const BeadPaths<D>& paths, std::span<const BeadRange> nodes, std::span<const Basis> bases,
-                    double enlarged_by, ChordFilterResult<D>& first, std::vector<BeadId>& beyond) {
+                    double enlarged_by, std::span<const double> raised_by, ChordFilterResult<D>& first,
+                    std::vector<BeadId>& beyond) {
   constexpr Period step;
   ChordLanes<D> chords;
   find_chords(paths, bases, PeriodLanes({&step, 1}), chords);
   chords.enlarge(enlarged_by);
+  for (std::size_t lane = 0; lane < raised_by.size(); ++lane)
+    for (Lanes& limit : chords.limit) limit.v[lane] += raised_by[lane];
   if (paths.equal_radii()) {
     look<D, K, true>(paths, nodes, bases, chords, first.steady, first.ends, beyond);
   } else {
@@ -54,20 +57,20 @@ void look_in_degree(const BeadPaths<D>& paths, std::span<const BeadRange> nodes,
 template <int Dimension>
 void filter_nodes(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
                   std::span<const Basis> bases, ChordFilterResult<Dimension>& look,
-                  std::vector<BeadId>& beyond, double enlarged_by) {
+                  std::vector<BeadId>& beyond, double enlarged_by, std::span<const double> raised_by) {
   switch (paths.degree()) {
     case 1:
-      return look_in_degree<Dimension, 1>(paths, nodes, bases, enlarged_by, look, beyond);
+      return look_in_degree<Dimension, 1>(paths, nodes, bases, enlarged_by, raised_by, look, beyond);
     case 2:
-      return look_in_degree<Dimension, 2>(paths, nodes, bases, enlarged_by, look, beyond);
+      return look_in_degree<Dimension, 2>(paths, nodes, bases, enlarged_by, raised_by, look, beyond);
     default:
-      return look_in_degree<Dimension, 3>(paths, nodes, bases, enlarged_by, look, beyond);
+      return look_in_degree<Dimension, 3>(paths, nodes, bases, enlarged_by, raised_by, look, beyond);
   }
 }
 
 template void filter_nodes(const BeadPaths<2>&, std::span<const BeadRange>, std::span<const Basis>,
-                           ChordFilterResult<2>&, std::vector<BeadId>&, double);
+                           ChordFilterResult<2>&, std::vector<BeadId>&, double, std::span<const double>);
 template void filter_nodes(const BeadPaths<3>&, std::span<const BeadRange>, std::span<const Basis>,
-                           ChordFilterResult<3>&, std::vector<BeadId>&, double);
+                           ChordFilterResult<3>&, std::vector<BeadId>&, double, std::span<const double>);
 
 }  // namespace kds

@@ -21,10 +21,12 @@ struct ChordFilterResult {
   std::array<std::size_t, 4> ends;
 };
 
-/// Appends to `beyond`. Chords are enlarged by that factor (SphereChord::enlarge).
+/// Appends to `beyond`. Chords are enlarged by that factor (SphereChord::enlarge), and the limits of each
+/// node's raised by a length, if any are given.
 template <int Dimension>
 void filter_nodes(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
                   std::span<const Basis> bases, ChordFilterResult<Dimension>& look,
-                  std::vector<BeadId>& beyond, double enlarged_by = 1);
+                  std::vector<BeadId>& beyond, double enlarged_by = 1,
+                  std::span<const double> raised_by = {});
 
 }  // namespace kds

@@ -73,6 +73,63 @@ TEST(CertifyStride, SureContactsAreThereAndNoOthersThanPossibleOnes) {
   }
 }
 
+// Of beads that go straight on within a tolerance, with and without a stride.
+TEST(CertifyStride, BoundsWhatAToleranceMayMiss) {
+  for (const auto& [stride, tolerance] :
+       {std::pair("1", "0.1"), std::pair("1", "0.2r"), std::pair("2", "0.4")}) {
+    SCOPED_TRACE(std::string(stride) + " " + tolerance);
+    const RunOptions options = parse_run_options(
+        arguments_with(std::string("0:161:") + stride, {"--certify", "--tolerance", tolerance}));
+    const Scene scene = load_scene(options, [](const std::string&) {});
+    const StrideCertificate certificate = certify_stride(options, scene);
+    const auto& [found, sure, possible] = *certificate.contacts;
+    const PairsMet truth = pairs_in_truth("0:161");
+    EXPECT_TRUE(is_among(sure, truth));
+    EXPECT_TRUE(is_among(truth, possible));
+    EXPECT_TRUE(is_among(sure, found));
+    EXPECT_TRUE(is_among(found, possible));
+    if (options.reading.frames.stride == 1) {
+      const double most = options.tolerance->length(scene.radii());
+      EXPECT_NEAR(most, std::string(tolerance) == "0.1" ? 0.1 : 0.38, 1e-12);
+      EXPECT_LE(certificate.deviation.largest, most * (1 + 1e-9));
+      EXPECT_GT(certificate.deviation.largest, 0.9 * most);
+    }
+  }
+}
+
+TEST(MotionTolerance, MakesEventsFewer) {
+  const auto events = [](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"run",           kDcd,       "--topology", kPdb,      "--structures",
+                                       "wrapped,power", "--frames", "0:33",       "--audit", "frames",
+                                       "--json",        "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    const Json summary = Json::parse(run.out);
+    EXPECT_EQ(summary["settings"]["tolerance"], more.empty() ? "" : more[1]);
+    return std::pair(summary["structures"]["wrapped"]["events"]["total"].get<int>(),
+                     summary["structures"]["power"]["events"]["total"].get<int>());
+  };
+  const auto [wrapped, power] = events({});
+  const auto [fewer_wrapped, fewer_power] = events({"--tolerance", "0.3r"});
+  EXPECT_LT(fewer_wrapped * 4, wrapped * 3);
+  EXPECT_LT(fewer_power * 3, power * 2);
+}
+
+TEST(MotionTolerance, Refusals) {
+  for (const auto& [more, reason] :
+       {std::pair(std::vector<std::string>{"--tolerance", "0.1", "--motion", "hermite"},
+                  "expected --motion linear"),
+        std::pair(std::vector<std::string>{"--tolerance", "0"}, "--tolerance: '0'"),
+        std::pair(std::vector<std::string>{"--tolerance", "r"}, "--tolerance: ''")}) {
+    Arguments arguments = arguments_with("0:41", more);
+    arguments.insert(arguments.begin(), "run");
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 2);
+    EXPECT_THAT(run.err, HasSubstr(reason));
+  }
+}
+
 TEST(CertifyStride, IsReported) {
   Arguments arguments = arguments_with("0:41:4", {"--certify", "--json", "-"});
   arguments.insert(arguments.begin(), "run");

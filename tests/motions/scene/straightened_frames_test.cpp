@@ -1,0 +1,106 @@
+#include "motions/scene/straightened_frames.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "motions/numbers/exact_number.h"
+
+namespace kds {
+namespace {
+
+using Frames = std::vector<Eigen::Matrix3Xd>;
+
+Frames straightened(const Frames& frames, double tolerance, int passes = 1) {
+  StraightenedFrames straight(tolerance);
+  Frames all;
+  for (int pass = 0; pass < passes; ++pass) {
+    all.clear();
+    straight.rewind();
+    std::size_t place = 0;
+    const auto read = [&](FrameRead& frame) {
+      if (place == frames.size()) return false;
+      frame.stamp.number = place;
+      frame.positions = frames[place++];
+      return true;
+    };
+    for (FrameRead frame; straight.next(frame, read);) {
+      EXPECT_EQ(frame.stamp.number, all.size());
+      all.push_back(frame.positions);
+    }
+  }
+  return all;
+}
+
+Rational square_of_deviation(const Frames& a, const Frames& b, std::size_t frame, Eigen::Index bead) {
+  Rational square = 0;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Rational apart = Rational(a[frame](axis, bead)) - Rational(b[frame](axis, bead));
+    square += apart * apart;
+  }
+  return square;
+}
+
+/// Of the frames in between: where a bead turns by more than what is rounded.
+std::size_t turns(const Frames& frames) {
+  std::size_t count = 0;
+  for (std::size_t k = 1; k + 1 < frames.size(); ++k)
+    for (Eigen::Index b = 0; b < frames[k].cols(); ++b)
+      count += (frames[k - 1].col(b) - 2 * frames[k].col(b) + frames[k + 1].col(b)).norm() > 1e-9 ? 1 : 0;
+  return count;
+}
+
+// Walks of any kind, of any number of frames: no exact deviation exceeds the tolerance, the ends of blocks
+// are where they were, and beads turn less.
+TEST(StraightenedFrames, NeverExceedTheTolerance) {
+  std::mt19937 random(61);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int round = 0; round < 60; ++round) {
+    SCOPED_TRACE(round);
+    const std::size_t count = 1 + random() % 70;
+    const double tolerance = std::array{0.0, 0.05, 0.3, 2.0}[static_cast<std::size_t>(round) % 4];
+    const double scale = round % 3 == 0 ? 0x1p40 : 1;  // doubles are coarse there
+    Frames frames;
+    Eigen::Matrix3Xd now = Eigen::Matrix3Xd::NullaryExpr(3, 4, [&] { return scale + uniform(random); });
+    for (std::size_t k = 0; k < count; ++k) {
+      frames.push_back(now);
+      now += 0.1 * Eigen::Matrix3Xd::NullaryExpr(3, 4, [&] { return uniform(random); });
+      if (round % 5 == 0) now.col(0) = frames.front().col(0);
+    }
+    const Frames straight = straightened(frames, tolerance, 1 + round % 2);
+    ASSERT_EQ(straight.size(), frames.size());
+    const Rational most = Rational(tolerance) * Rational(tolerance);
+    for (std::size_t k = 0; k < count; ++k) {
+      for (Eigen::Index b = 0; b < 4; ++b) {
+        const Rational square = square_of_deviation(frames, straight, k, b);
+        ASSERT_LE(square, most);
+        const bool is_end = k % StraightenedFrames::block == 0 || k + 1 == count;
+        ASSERT_TRUE(square == 0 || !is_end);
+      }
+    }
+    if (tolerance == 2.0 && scale == 1 && count > 20) {
+      EXPECT_LT(turns(straight) * 4, turns(frames));
+    }
+  }
+}
+
+// A bead on a circle that only halves of halves of a block come near enough to.
+TEST(StraightenedFrames, HalveABlockForTheBeadsThatTurn) {
+  Frames frames;
+  for (int k = 0; k <= 16; ++k) {
+    const double angle = std::numbers::pi * k / 16;
+    frames.emplace_back(3, 2);
+    frames.back() << std::cos(angle), 0.25 * k, std::sin(angle), 0, 0, 0;
+  }
+  // The sagitta of an eighth of a circle is 0.076, of a quarter 0.29.
+  const Frames straight = straightened(frames, 0.1);
+  EXPECT_EQ(turns(straight), 3U);
+  for (const std::size_t k : {0U, 4U, 8U, 12U, 16U}) EXPECT_EQ(straight[k], frames[k]);
+  EXPECT_EQ(turns(straightened(frames, 0.3)), 1U);
+  EXPECT_EQ(turns(straightened(frames, 1.01)), 0U);
+}
+
+}  // namespace
+}  // namespace kds
