@@ -8,6 +8,7 @@
 
 #include "motions/base/input_error.h"
 #include "motions/curves/positions.h"
+#include "motions/scene/straightened_frames.h"
 #include "structures/collision/auto_detector.h"
 #include "structures/enclosing_sphere/integer_balls.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
@@ -15,6 +16,25 @@
 #include "structures/triangulation/regular_triangulation.h"
 
 namespace kds {
+
+namespace {
+
+void straighten(Trajectory& necklace, double tolerance) {
+  StraightenedFrames straight(tolerance);
+  std::size_t read = 0;
+  const std::vector<Eigen::Matrix3Xd> frames = std::move(necklace.frames);
+  necklace.frames.clear();
+  const auto read_next = [&](FrameRead& frame) {
+    if (read == frames.size()) return false;
+    frame.stamp = {necklace.frame_number(read), std::nullopt};
+    frame.positions = frames[read++];
+    return true;
+  };
+  for (FrameRead frame; straight.next(frame, read_next);)
+    necklace.frames.push_back(std::move(frame.positions));
+}
+
+}  // namespace
 
 FinestData::FinestData(std::vector<Trajectory> necklaces, std::vector<double> radii)
     : necklaces_(std::move(necklaces)), radii_(std::move(radii)) {
@@ -31,7 +51,10 @@ FinestData FinestData::first_frames(std::size_t frames) const {
 Scene FinestData::scene(const TradeSetting& setting) const {
   std::vector<Trajectory> some = necklaces_;
   for (Trajectory& necklace : some) {
-    if (setting.stride == 1 || necklace.frames.size() == 1) continue;  // at rest
+    if (necklace.frames.size() == 1) continue;  // at rest
+    if (setting.tolerance > 0)
+      straighten(necklace, setting.tolerance * *std::min_element(radii_.begin(), radii_.end()));
+    if (setting.stride == 1) continue;
     std::vector<Eigen::Matrix3Xd> kept;
     std::vector<std::size_t> numbers;
     for (std::size_t k = 0; k < necklace.frames.size(); k += setting.stride) {

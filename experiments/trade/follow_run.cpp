@@ -256,7 +256,6 @@ FollowedRun follow_run(const TradeSetting& setting, const Scene& scene, Truth& t
 }
 
 void compare_histories(const RunHistory& exact, FollowedRun& run, const TradeSetting& setting) {
-  const auto reach = static_cast<double>(setting.stride);
   const auto share = [](std::uint64_t part, std::uint64_t of) {
     return of == 0 ? (part == 0 ? 0.0 : HUGE_VAL) : static_cast<double>(part) / static_cast<double>(of);
   };
@@ -265,13 +264,13 @@ void compare_histories(const RunHistory& exact, FollowedRun& run, const TradeSet
   };
   TradeErrors& errors = run.errors;
   if (setting.structure == "contacts") {
-    const ContactMatch match = match_contacts(exact.contacts, run.history.contacts, reach);
+    const ContactMatch match = match_contacts(exact.contacts, run.history.contacts, setting.reach());
     errors.contacts_missed = share(match.missed, match.expected);
     errors.contacts_spurious = share(match.spurious, match.expected);
     errors.contact_time_mean = mean(match.time_error_sum, match.timed);
     if (match.timed > 0) errors.contact_time_max = match.time_error_max;
   }
-  const EventMatch match = match_events(exact.events, run.history.events, reach);
+  const EventMatch match = match_events(exact.events, run.history.events, setting.reach());
   errors.events_missed = share(match.missed, match.expected);
   errors.events_invented = share(match.invented, match.expected);
   errors.event_time_mean = mean(match.time_error_sum, match.matched);

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "motions/scene/straightened_frames.h"
+
 namespace kds {
 
 bool TradeSetting::has_events() const {
@@ -9,11 +13,16 @@ bool TradeSetting::has_events() const {
   return spec != nullptr && spec->has_events(settings);
 }
 
+double TradeSetting::reach() const {
+  return static_cast<double>(tolerance > 0 ? std::max(stride, StraightenedFrames::block) : stride);
+}
+
 std::vector<std::pair<std::string, std::string>> options_of(const TradeSetting& setting) {
   std::vector<std::pair<std::string, std::string>> options{{"structures", setting.structure}};
   if (setting.kernel != Kernel::filtered) options.emplace_back("kernel", name_of(setting.kernel));
   if (setting.motion != FrameMotion::linear) options.emplace_back("motion", name_of(setting.motion));
   if (setting.stride > 1) options.emplace_back("stride", std::to_string(setting.stride));
+  if (setting.tolerance > 0) options.emplace_back("tolerance", fmt::format("{}r", setting.tolerance));
   if (setting.settings.between != Between::events)
     options.emplace_back("between", name_of(setting.settings.between));
   if (setting.settings.tightness)
@@ -56,6 +65,9 @@ class Settings {
   void add_strides() {
     for (const std::size_t stride : {2, 4, 8, 16, 32}) add([=](TradeSetting& s) { s.stride = stride; });
   }
+  void add_tolerances() {
+    for (const double tolerance : {0.1, 0.2, 0.3}) add([=](TradeSetting& s) { s.tolerance = tolerance; });
+  }
   void add_relaxed() {
     for (const double share : {0.01, 0.03, 0.1})
       add([=](TradeSetting& s) { s.settings.relax = Relaxation::of(share); });
@@ -73,6 +85,7 @@ std::vector<TradeSetting> cages(std::size_t frames, BeadId apart) {
   settings.add_kernel();
   settings.add_motion(FrameMotion::hermite);
   settings.add_strides();
+  settings.add_tolerances();
   settings.add_relaxed();
   const auto chord = [](TradeSetting& s) { s.settings.between = Between::chord; };
   settings.add(chord);
@@ -105,6 +118,7 @@ std::vector<TradeSetting> with_events(const char* structure, std::size_t frames,
   settings.add_kernel();
   settings.add_motion(FrameMotion::hermite);
   settings.add_strides();
+  settings.add_tolerances();
   return settings.all;
 }
 

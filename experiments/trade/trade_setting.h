@@ -25,11 +25,14 @@ struct TradeSetting {
   std::string structure;
   std::size_t stride = 1;
   FrameMotion motion = FrameMotion::linear;
+  double tolerance = 0;  ///< of the motion, in smallest radii
   Kernel kernel = Kernel::filtered;
   StructureSettings settings{};
 
   /// Whether it tells when something changes.
   [[nodiscard]] bool has_events() const;
+  /// Over how many frames a bead may go straight on: events are looked for so far from where they truly are.
+  [[nodiscard]] double reach() const;
 };
 
 /// Its options as `kds run` takes them, the structure first; those that are as in the exact run are left out.
