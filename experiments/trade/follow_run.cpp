@@ -248,10 +248,10 @@ FollowedRun follow_run(const TradeSetting& setting, const Scene& scene, Truth& t
   }
   session.simulator().finish();
   follower.finish();
-  FollowedRun run{{std::move(recorder.events), {}}, follower.errors, follower.tests};
+  const auto end = static_cast<double>(clock.frame(clock.steps()));
+  FollowedRun run{{end, std::move(recorder.events), {}}, follower.errors, follower.tests};
   if (setting.structure == "contacts")
-    run.history.contacts =
-        contact_times(built, run.history.events, 0, static_cast<double>(clock.frame(clock.steps())));
+    run.history.contacts = contact_times(built, run.history.events, 0, end);
   return run;
 }
 
@@ -262,15 +262,22 @@ void compare_histories(const RunHistory& exact, FollowedRun& run, const TradeSet
   const auto mean = [](double sum, std::uint64_t of) {
     return of == 0 ? std::optional<double>() : std::optional(sum / static_cast<double>(of));
   };
+  // A stride may stop before the last frame.
+  RunHistory expected{run.history.end, {}, {}};
+  for (const TimedEvent& event : exact.events)
+    if (event.time <= expected.end) expected.events.push_back(event);
+  for (const ContactTime& contact : exact.contacts)
+    if (contact.from <= expected.end)
+      expected.contacts.push_back({contact.pair, contact.from, std::min(contact.to, expected.end)});
   TradeErrors& errors = run.errors;
   if (setting.structure == "contacts") {
-    const ContactMatch match = match_contacts(exact.contacts, run.history.contacts, setting.reach());
+    const ContactMatch match = match_contacts(expected.contacts, run.history.contacts, setting.reach());
     errors.contacts_missed = share(match.missed, match.expected);
     errors.contacts_spurious = share(match.spurious, match.expected);
     errors.contact_time_mean = mean(match.time_error_sum, match.timed);
     if (match.timed > 0) errors.contact_time_max = match.time_error_max;
   }
-  const EventMatch match = match_events(exact.events, run.history.events, setting.reach());
+  const EventMatch match = match_events(expected.events, run.history.events, setting.reach());
   errors.events_missed = share(match.missed, match.expected);
   errors.events_invented = share(match.invented, match.expected);
   errors.event_time_mean = mean(match.time_error_sum, match.matched);

@@ -33,6 +33,7 @@ struct TradeErrors {
 
 /// What a run gave out.
 struct RunHistory {
+  double end = 0;  ///< in frames of the finest data, where the run stops
   std::vector<TimedEvent> events;
   std::vector<ContactTime> contacts;  ///< of the structure contacts
 };

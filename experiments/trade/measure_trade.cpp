@@ -40,8 +40,8 @@ double seconds_to_run(const Scene& scene, const TradeSetting& setting, TradeCost
 
 bool is_as_good(const TradeRow& a, const TradeRow& b) {
   const std::vector<double> of_a = main_errors(a), of_b = main_errors(b);
-  bool better = a.cost.seconds < b.cost.seconds;
-  if (a.cost.seconds > b.cost.seconds) return false;
+  bool better = a.cost.ratio < b.cost.ratio;
+  if (a.cost.ratio > b.cost.ratio) return false;
   for (std::size_t k = 0; k < of_a.size(); ++k) {
     if (of_a[k] > of_b[k]) return false;
     better |= of_a[k] < of_b[k];
@@ -89,9 +89,11 @@ std::vector<TradeRow> measure_trade(const FinestData& finest, const TradeTask& t
   for (const TradeGroup& group : groups) {
     std::vector<TradeRow> rows;
     RunHistory exact;
+    std::vector<double> ends;
     for (const TradeSetting& setting : group.settings) {
       const Scene scene = finest.scene(setting);
       FollowedRun run = follow_run(setting, scene, *truth, task.sampling, task.cutoff.value_or(4 * largest));
+      ends.push_back(run.history.end);
       if (rows.empty()) exact = run.history;
       if (setting.has_events()) compare_histories(exact, run, setting);
       rows.push_back({group.want, setting, {}, run.errors, rows.empty()});
@@ -110,7 +112,9 @@ std::vector<TradeRow> measure_trade(const FinestData& finest, const TradeTask& t
       cost.seconds = median_of(seconds[k]);
       cost.quickest = *std::min_element(seconds[k].begin(), seconds[k].end());
       cost.slowest = *std::max_element(seconds[k].begin(), seconds[k].end());
-      cost.ratio = cost.seconds / rows.front().cost.seconds;
+      // A stride may stop before the last frame.
+      const double share = ends[k] / ends.front();
+      cost.ratio = cost.seconds / (share * rows.front().cost.seconds);
     }
     mark_front(rows);
     std::move(rows.begin(), rows.end(), std::back_inserter(all));

@@ -24,7 +24,7 @@ struct TradeTask {
 struct TradeCost {
   double seconds = 0;                ///< of the processor, after the first build: median of the rounds
   double quickest = 0, slowest = 0;  ///< of them
-  double ratio = 1;                  ///< to the exact run's median
+  double ratio = 1;                  ///< to the exact run's, for as many frames
   std::uint64_t certificates = 0, events = 0;
   std::optional<double> tests;  ///< FollowedRun::tests
   std::uint64_t memory = 0;     ///< bytes that the run holds at its end

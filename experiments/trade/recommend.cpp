@@ -45,10 +45,12 @@ std::string sentence_for(std::span<const TradeRow> group) {
   const TradeRow* best = nullptr;
   for (const TradeRow& row : group.subspan(1)) {
     if (is_small(row) && row.cost.ratio < hardly_quicker &&
-        (best == nullptr || row.cost.seconds < best->cost.seconds))
+        (best == nullptr || row.cost.ratio < best->cost.ratio))
       best = &row;
   }
   const std::string subject = subject_of(group.front());
+  if (group.front().setting.has_events() && group.front().cost.events == 0)
+    return fmt::format("{}, there is nothing to tell: the exact run has no event.", subject);
   if (best != nullptr)
     return fmt::format("{}, `{}` is {}: {}.", subject, words_of(best->setting),
                        times_as_fast(best->cost.ratio), losses_of(*best));

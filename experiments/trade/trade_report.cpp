@@ -83,17 +83,17 @@ Json number_or_null(const std::optional<double>& value) {
 
 std::string table_of(std::span<const TradeRow> group) {
   const std::vector<ErrorColumn> columns = columns_for(group.front().want);
-  std::string text = fmt::format("{:<44}{:>11}{:>8}{:>12}{:>10}{:>9}", title_of(group), "seconds", "ratio",
+  std::string text = fmt::format("{:<46}{:>11}{:>9}{:>14}{:>10}{:>8}", title_of(group), "seconds", "ratio",
                                  "certificates", "events", "MB");
-  for (const ErrorColumn& column : columns) text += fmt::format("{:>10}", column.title);
+  for (const ErrorColumn& column : columns) text += fmt::format("{:>11}", column.title);
   text += "\n";
   for (const TradeRow& row : group) {
-    text += fmt::format("{} {:<42}{:>11}{:>8.3f}{:>12}{:>10}{:>9.2f}", row.on_front ? '*' : ' ',
+    text += fmt::format("{} {:<44}{:>11}{:>9.3f}{:>14}{:>10}{:>8.2f}", row.on_front ? '*' : ' ',
                         words_of(row.setting), short_decimal(row.cost.seconds), row.cost.ratio,
                         with_thousands(row.cost.certificates), with_thousands(row.cost.events),
                         1e-6 * static_cast<double>(row.cost.memory));
     for (const ErrorColumn& column : columns)
-      text += fmt::format("{:>10}", shown(row.errors.*column.value, column.share));
+      text += fmt::format("{:>11}", shown(row.errors.*column.value, column.share));
     text += "\n";
   }
   return text;
@@ -131,7 +131,8 @@ std::string plots_of(std::span<const TradeRow> group, std::size_t number) {
 constexpr const char* words_of_columns =
     "Each row is a setting of `kds run`; a stride is the third part of --frames. Seconds: of the processor, "
     "median of "
-    "the rounds, without reading and the first build. Errors are against beads on straight lines between all "
+    "the rounds, without reading and the first build; their ratio to the exact run is for as many frames. "
+    "Errors are against beads on straight lines between all "
     "frames, "
     "at frames and at random times between: radius, of spheres above the smallest, on average and at most; "
     "outside, "

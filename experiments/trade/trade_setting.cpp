@@ -28,7 +28,7 @@ std::vector<std::pair<std::string, std::string>> options_of(const TradeSetting& 
   if (setting.settings.tightness)
     options.emplace_back("tightness", fmt::format("{}", *setting.settings.tightness));
   if (setting.settings.relax.any())
-    options.emplace_back("relax", fmt::format("{:.4g}", setting.settings.relax.share()));
+    options.emplace_back("relax", fmt::format("{:.3g}", setting.settings.relax.share()));
   return options;
 }
 

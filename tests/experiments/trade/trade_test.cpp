@@ -84,7 +84,7 @@ TEST(Trade, ContainmentIsKeptWhereItIsPromised) {
   for (const TradeRow& row : rows) {
     for (const TradeRow& other : rows) {
       if (!row.on_front) continue;
-      EXPECT_FALSE(other.cost.seconds < row.cost.seconds &&
+      EXPECT_FALSE(other.cost.ratio < row.cost.ratio &&
                    other.errors.radius_mean.value() < row.errors.radius_mean.value() &&
                    other.errors.beads_outside.value() < row.errors.beads_outside.value())
           << words_of(other.setting) << " is better than " << words_of(row.setting);
@@ -121,10 +121,11 @@ TEST(Trade, RecommendsWhatHasSmallErrors) {
   TradeRow chord = exact, stride = exact;
   chord.is_exact = stride.is_exact = false;
   chord.setting.settings.between = Between::chord;
-  chord.cost.ratio = 0.2, chord.cost.seconds = 0.2;
+  exact.cost.events = 9;
+  chord.cost.ratio = 0.2;
   chord.errors.radius_mean = 0.0002;
   stride.setting.stride = 8;
-  stride.cost.ratio = 0.1, stride.cost.seconds = 0.1;
+  stride.cost.ratio = 0.1;
   stride.errors.beads_outside = 3;
   EXPECT_THAT(
       recommendation(std::vector{exact, stride, chord}),
