@@ -96,26 +96,32 @@ void add_swept_contacts(BenchChain chain, std::size_t rounds, std::vector<BenchR
     });
   };
   std::vector<double> swept, at_rest, boxes;
+  double swept_tests = 0, static_tests = 0;
   for (std::size_t round = 0; round < rounds; ++round) {
+    swept_tests = static_tests = 0;
     swept.push_back(seconds_over_steps([&](std::size_t k, const Curves<3>& curves) {
       query.find(cages[k].cages(0), cages[k].cages(1), curves, found);
+      swept_tests += static_cast<double>(found.tests);
     }));
     at_rest.push_back(seconds_over_steps([&](std::size_t k, const Curves<3>& curves) {
       query.find_static(cages[k].cages(0), curves, 0, found);
+      static_tests += static_cast<double>(found.tests);
     }));
     boxes.push_back(seconds_over_steps([&](std::size_t, const Curves<3>& curves) {
       family.find_pairs(curves, MovingFamily<3>::Resting::left_out, false, pairs);
     }));
   }
-  const double nanoseconds = 1e9 / static_cast<double>(scene.bead_count() * steps.size());
+  const auto beads = static_cast<double>(scene.bead_count() * steps.size());
   const Factors* const factors = factors_of(chain.name);
-  const auto row = [&](const char* peer, const std::vector<double>& seconds, std::optional<double> goal) {
-    rows.push_back({"swept contacts of a step", chain.name, scene.bead_count(),
-                    median_of(swept) * nanoseconds, "ns/bead", kept > 0 ? peer : "",
-                    median_of(seconds) * nanoseconds, goal});
+  const std::optional<double> goal = factors != nullptr ? std::optional(factors->swept) : std::nullopt;
+  const auto row = [&](const char* unit, double value, const char* peer, double of_peer,
+                       std::optional<double> most) {
+    rows.push_back({"swept contacts of a step", chain.name, scene.bead_count(), value / beads, unit,
+                    kept > 0 ? peer : "", of_peer / beads, most});
   };
-  row("static query", at_rest, factors != nullptr ? std::optional(factors->swept) : std::nullopt);
-  row("moving boxes", boxes, std::nullopt);
+  row("tests/bead", swept_tests, "static query", static_tests, goal);
+  row("ns/bead", median_of(swept) * 1e9, "static query", median_of(at_rest) * 1e9, std::nullopt);
+  row("ns/bead", median_of(swept) * 1e9, "moving boxes", median_of(boxes) * 1e9, std::nullopt);
 }
 
 }  // namespace

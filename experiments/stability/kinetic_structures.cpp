@@ -60,7 +60,8 @@ Outcome outcome_of(const Case& one, const Settled& what, Kernel kernel, AuditMod
   Outcome outcome;
   try {
     const Scene scene(one.instance, one.radii);
-    const auto session = std::make_unique<Session>(scene, SessionOptions{{what.structure}, kernel, audits, what.settings});
+    const auto session =
+        std::make_unique<Session>(scene, SessionOptions{{what.structure}, kernel, audits, what.settings});
     Recorder recorder;
     Simulator& simulator = session->simulator();
     simulator.listen(recorder);
@@ -140,8 +141,8 @@ enum class Of { points, balls };
 StabilitySubject structure_subject(const std::string& structure, Of of, int dimension, int degree,
                                    std::size_t beads, const StructureSettings& settings = {}) {
   const std::size_t cases_a_run = degree == 1 ? 50 : 100;  // a run has many certificates
-  const std::string name = structure + (of == Of::balls ? ":balls" : "") +
-                           (settings.between == Between::chord ? ":chord" : "");
+  const std::string name =
+      structure + (of == Of::balls ? ":balls" : "") + (settings.between == Between::chord ? ":chord" : "");
   StabilitySubject subject{name, true, dimension, degree, 0, dimension == 3 || of == Of::balls, {}};
   subject.run = [=](const Extreme& extreme, const StabilityCases& cases) {
     StabilityRow row;

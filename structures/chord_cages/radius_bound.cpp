@@ -142,29 +142,33 @@ bool find_gap(const Curves<D>& curves, const CagePiece<D>& piece, std::size_t wh
   return true;
 }
 
-/// Both halves of a polynomial in Bernstein form.
-using GapCoefficients = std::vector<double>;
-std::array<GapCoefficients, 2> halves_of(GapCoefficients p) {
-  std::array<GapCoefficients, 2> halves;
-  for (std::size_t left = p.size(); left > 0; --left) {
-    halves[0].push_back(p.front());
-    halves[1].push_back(p[left - 1]);
-    for (std::size_t k = 0; k + 1 < left; ++k) p[k] = 0.5 * (p[k] + p[k + 1]);
+/// A polynomial in Bernstein form, without memory of its own.
+struct GapCoefficients {
+  std::size_t count;
+  std::array<double, 2 * 61 + 1> of;
+};
+void halve(const GapCoefficients& p, GapCoefficients& left, GapCoefficients& right) {
+  left.count = right.count = p.count;
+  std::copy_n(p.of.begin(), p.count, right.of.begin());
+  for (std::size_t last = p.count; last > 0; --last) {
+    left.of[p.count - last] = right.of[0];
+    for (std::size_t k = 0; k + 1 < last; ++k) right.of[k] = 0.5 * (right.of[k] + right.of[k + 1]);
   }
-  std::reverse(halves[1].begin(), halves[1].end());
-  return halves;
 }
 
 /// Everywhere one of two is not above its limit.
 bool one_is_below(const std::array<GapCoefficients, 2>& of, const std::array<double, 2>& limit,
                   int halvings) {
-  for (std::size_t which = 0; which < 2; ++which)
-    if (std::all_of(of[which].begin(), of[which].end(), [&](double c) { return c <= limit[which]; }))
-      return true;
+  for (std::size_t which = 0; which < 2; ++which) {
+    const auto* const begin = of[which].of.begin();
+    if (std::all_of(begin, begin + of[which].count, [&](double c) { return c <= limit[which]; })) return true;
+  }
   if (halvings == 0) return false;
-  const auto first = halves_of(of[0]), second = halves_of(of[1]);
-  return one_is_below({first[0], second[0]}, limit, halvings - 1) &&
-         one_is_below({first[1], second[1]}, limit, halvings - 1);
+  std::array<GapCoefficients, 2> left, right;
+  for (std::size_t which = 0; which < 2; ++which) halve(of[which], left[which], right[which]);
+  // In the middle both are above.
+  if (!(right[0].of[0] <= limit[0]) && !(right[1].of[0] <= limit[1])) return false;
+  return one_is_below(left, limit, halvings - 1) && one_is_below(right, limit, halvings - 1);
 }
 
 // Many nodes in linear motion.
@@ -287,7 +291,7 @@ void look_at_all(const LinearStep<D>& step, double tightness, std::vector<NodeId
 
 // A curve's part has for control points its blossom at the part's ends, some times each: de Casteljau's
 // scheme with another parameter at each level. Every level takes means of numbers that are no larger than
-// `size` of them, each rounded by less than 3 * 2^-53 of it.
+// `size`, each with less than 5 * 2^-53 of it in roundings.
 template <int D>
 ControlBall<D> control_ball(const Curves<D>& curves, BeadId bead, double from, double to, int k) {
   const int degree = curves.own_degree();
@@ -299,6 +303,12 @@ ControlBall<D> control_ball(const Curves<D>& curves, BeadId bead, double from, d
     for (std::size_t which = 0; which <= D; ++which) ball[which] = number(k, which);
     return ball;
   }
+  if (degree == 1) {
+    const double t = k == 1 ? to : from;
+    for (std::size_t which = 0; which <= D; ++which)
+      ball[which] = number(0, which) + t * (number(1, which) - number(0, which));
+    return ball;
+  }
   std::array<double, 64> points{};
   for (std::size_t which = 0; which <= D; ++which) {
     for (int place = 0; place <= degree; ++place)
@@ -307,7 +317,7 @@ ControlBall<D> control_ball(const Curves<D>& curves, BeadId bead, double from, d
       const double t = level <= k ? to : from;
       for (std::size_t place = 0; place + static_cast<std::size_t>(level) <= static_cast<std::size_t>(degree);
            ++place)
-        points[place] = (1 - t) * points[place] + t * points[place + 1];
+        points[place] += t * (points[place + 1] - points[place]);
     }
     ball[which] = points[0];
   }
@@ -321,19 +331,20 @@ bool is_proved_tight(const Curves<D>& curves, const CagePiece<D>& piece, double 
     least = std::min(least, cage.radius);
     greatest = std::max(greatest, cage.radius);
   }
-  if (!(greatest >= 0x1p-400 && greatest <= 0x1p400)) return greatest == 0;
+  if (!is_judged(greatest)) return greatest == 0;
   const double spare = rounding * (greatest * greatest) + 8 * error * (greatest + error);
+  if (curves.own_degree() > 61) return false;
   const auto count = static_cast<std::size_t>(2 * curves.own_degree() + 1);
   std::array<GapCoefficients, 2> gaps;
   std::array<double, 2> limits{};
   for (std::size_t which = 0; which < 2; ++which) {
     Gap<D> gap;
+    gaps[which].count = count;
     if (find_gap(curves, piece, which, gap)) {
-      gaps[which].assign(gap.coefficients.begin(),
-                         gap.coefficients.begin() + static_cast<std::ptrdiff_t>(count));
+      std::copy_n(gap.coefficients.begin(), count, gaps[which].of.begin());
       limits[which] = most_allowed(least, greatest, gap.least_mean, gap.greatest_mean, tightness) - spare;
     } else {
-      gaps[which].assign(count, infinity);
+      std::fill_n(gaps[which].of.begin(), count, infinity);
     }
   }
   return one_is_below(gaps, limits, 4);

@@ -55,6 +55,9 @@ template <int Dimension>
   return degree * (0x1p-49 * size + 0x1p-1060);
 }
 
+/// Whether lengths of this size have squares that keep their digits: others prove nothing.
+[[nodiscard]] inline bool is_judged(double radius) { return radius >= 0x1p-400 && radius <= 0x1p400; }
+
 /// Whether the radius is proved to be within 1 + tightness of the smallest at all times of the piece.
 /// `error`: of control balls.
 template <int Dimension>

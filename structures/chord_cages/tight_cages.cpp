@@ -27,6 +27,7 @@ void TightCages<D>::prove(const ChordCages<StaticWrappedHierarchy<D>>& cages, co
   }
   CagePiece<D> whole;
   whole.cages.resize(static_cast<std::size_t>(cages.degree()) + 1);
+  there_ = cages.balls(0);
   for (const NodeId node : loose_) {
     whole.bases = {cages.start_bases()[node], cages.hierarchy().basis(node)};
     for (int k = 0; k <= cages.degree(); ++k) whole.cages[static_cast<std::size_t>(k)] = cages.cages(k)[node];
@@ -45,6 +46,12 @@ void TightCages<D>::bisect(NodeId node, const BeadRange& range, const CagePiece<
       for (int axis = 0; axis < D; ++axis) size = std::max(size, std::abs(curves.coordinate(b, k, axis)));
       size = std::max(size, curves.radius(b, k));
     }
+  }
+  double greatest = 0;
+  for (const Cage<D>& cage : whole.cages) greatest = std::max(greatest, cage.radius);
+  if (!is_judged(greatest) || size > 0x1p900) {  // no part would be proved
+    ++unproved_;
+    return;
   }
   const double error = control_ball_error(degree, size);
   const std::size_t first = parts_.size();
@@ -87,25 +94,19 @@ void TightCages<D>::bisect(NodeId node, const BeadRange& range, const CagePiece<
 template <int D>
 Cage<D> TightCages<D>::cage_at(const BeadRange& range, const Curves<D>& curves, double from, double to, int k,
                                double error, Basis& basis) {
-  const std::size_t beads = range.last - range.first + 1;
-  Eigen::Matrix3Xd centers = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(beads));
-  std::vector<double> radii(beads);
-  for (std::size_t i = 0; i < beads; ++i) {
-    const ControlBall<D> ball = control_ball(curves, range.first + static_cast<BeadId>(i), from, to, k);
-    for (std::size_t axis = 0; axis < D; ++axis)
-      centers(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(i)) = ball[axis];
-    radii[i] = ball[D];
+  for (BeadId b = range.first; b <= range.last; ++b) {
+    const ControlBall<D> ball = control_ball(curves, b, from, to, k);
+    Point<D> center;
+    std::copy_n(ball.begin(), D, center.begin());
+    there_.place(b, center, ball[D]);
   }
-  const Balls<D> balls(centers, radii);
-  for (std::size_t i = 0; i < basis.size; ++i) basis.beads[i] -= range.first;
-  const auto last = static_cast<BeadId>(beads - 1);
-  const SmallestSphere smallest = smallest_sphere(balls, 0, last, {basis.begin(), basis.end()});
+  const SmallestSphere smallest =
+      smallest_sphere(there_, range.first, range.last, {basis.begin(), basis.end()});
   basis = smallest.basis;
-  for (std::size_t i = 0; i < basis.size; ++i) basis.beads[i] += range.first;
   Cage<D> cage;
   for (std::size_t axis = 0; axis < D; ++axis)
     cage.center[axis] = smallest.sphere.center[static_cast<Eigen::Index>(axis)];
-  cage.radius = (outward_radius(balls, 0, last, cage.center) + error) * (1 + 0x1p-51);
+  cage.radius = (outward_radius(there_, range.first, range.last, cage.center) + error) * (1 + 0x1p-51);
   return cage;
 }
 

@@ -17,7 +17,7 @@ template <int Dimension>
 class TightCages {
  public:
   /// A part of a step is halved at most so often in a row: only where the smallest radius comes near 0, or
-  /// the bound near the rounding, that is not enough.
+  /// the bound near the rounding, that is not enough. Lengths beyond 2^400 or below 2^-400 are not judged.
   static constexpr int most_halvings = 24;
 
   explicit TightCages(double tightness) : tightness_(tightness) {}
@@ -45,6 +45,7 @@ class TightCages {
   double tightness_;
   std::uint64_t bisections_ = 0, unproved_ = 0;
   std::vector<NodeId> loose_;
+  Balls<Dimension> there_;       // of the node that is looked at, in the middle of a part
   std::vector<Parts> bisected_;  // ascending
   std::vector<CagePiece<Dimension>> parts_;
 };

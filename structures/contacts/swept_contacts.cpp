@@ -7,7 +7,6 @@
 
 #include "motions/base/floating_point_guard.h"
 #include "motions/numbers/exact_number.h"
-#include "structures/enclosing_sphere/rounded_up.h"
 
 namespace kds {
 
@@ -77,19 +76,18 @@ bool meet_exactly(const Curves<D>& curves, const BeadPair& pair, const std::arra
   return !Quadratic<Rational>{product(0, 0), product(0, 1), product(1, 1)}.is_positive();
 }
 
-/// A sphere at rest that holds one moving linearly from one place to another.
+/// A sphere at rest that holds one moving linearly from one place to another: half the way is at most half
+/// the sum of its coordinates, which needs no root. Rounded up, the middle's own rounding included.
 template <int D>
 [[gnu::always_inline]] inline Cage<D> around_way(const Cage<D>& start, const Cage<D>& end) {
   Cage<D> cage;
-  for (std::size_t axis = 0; axis < D; ++axis)
+  double way = 0, size = 0;
+  for (std::size_t axis = 0; axis < D; ++axis) {
     cage.center[axis] = 0.5 * start.center[axis] + 0.5 * end.center[axis];
-  const Point<D> from = minus(start.center, cage.center), to = minus(end.center, cage.center);
-  const double square = std::max(dot(from, from), dot(to, to));
-  const double way = square >= 0x1p-900 && square <= 0x1p900
-                         ? std::sqrt(square) * (1 + 0x1p-49)
-                         : std::max(distance_rounded_up<D>(start.center, cage.center),
-                                    distance_rounded_up<D>(end.center, cage.center));
-  cage.radius = (way + std::max(start.radius, end.radius)) * (1 + 0x1p-51);
+    way += std::abs(end.center[axis] - start.center[axis]);
+    size += std::abs(cage.center[axis]);
+  }
+  cage.radius = (std::max(start.radius, end.radius) + 0.5 * way) * (1 + 0x1p-48) + 0x1p-50 * size + 0x1p-1060;
   return cage;
 }
 

@@ -97,6 +97,14 @@ class Balls {
     return other == 0;
   }
 
+  /// Puts one ball elsewhere, or another in its place. All finite.
+  void place(BeadId bead, const std::array<double, static_cast<std::size_t>(Dimension)>& center,
+             double radius) {
+    for (std::size_t axis = 0; axis < Dimension; ++axis) centers_[axis][bead] = center[axis];
+    equal_radii_ = equal_radii_ && radius == radii_[bead];
+    radii_[bead] = radius;
+  }
+
   [[nodiscard]] std::size_t size() const { return radii_.empty() ? 0 : radii_.size() - padding; }
   [[nodiscard]] bool equal_radii() const { return equal_radii_; }
   [[nodiscard]] double radius(BeadId bead) const { return radii_[bead]; }
