@@ -1,8 +1,8 @@
 #include "motions/numbers/exact_number.h"
-#include "structures/chord_cages/chord_hierarchy.h"
 #include "structures/enclosing_sphere/exact_sphere.h"
 #include "structures/enclosing_sphere/integer_balls.h"
 #include "structures/hierarchy/wrapped_hierarchy.h"
+#include "structures/session/chords_in_run.h"
 #include "structures/session/dump_files.h"
 #include "structures/session/own_structures.h"
 #include "structures/triangulation/static_build.h"
@@ -84,45 +84,27 @@ class WrappedInRun final : public RunningStructure {
 };
 
 template <int Dimension>
-class WrappedChordsInRun final : public RunningStructure {
+class WrappedChordsInRun final : public ChordsInRun<StaticWrappedHierarchy<Dimension>> {
  public:
-  WrappedChordsInRun(Simulator& simulator, const Scene& scene, const MotionRef<Dimension>& motion,
-                     const StructureSettings& settings)
-      : scene_(scene),
-        hierarchy_(simulator, motion, scene.necklaces(), settings.tightness),
-        keeps_(select_nodes(hierarchy_.cages().tree(), settings.nodes)) {}
+  using ChordsInRun<StaticWrappedHierarchy<Dimension>>::ChordsInRun;
 
-  [[nodiscard]] KineticStructure& kinetic() override { return hierarchy_; }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const override {
-    const StaticWrappedHierarchy<Dimension>& at_frame = hierarchy_.cages().hierarchy();
-    const Balls<Dimension> balls(scene_.centers(frame), scene_.radii());
+    const StaticWrappedHierarchy<Dimension>& at_frame = this->cages().hierarchy();
+    const Balls<Dimension> balls(this->scene().centers(frame), this->scene().radii());
     std::vector<WrappedNode> nodes;
-    for (NodeId id = 0; id < keeps_.size(); ++id) {
-      if (keeps_[id] == 0) continue;
+    for (NodeId id = 0; id < at_frame.tree().node_count(); ++id) {
+      if (!this->keeps(id)) continue;
       Sphere sphere = exact_sphere_of(at_frame.basis(id), balls);
-      sphere.center = scene_.in_input(sphere.center);
+      sphere.center = this->scene().in_input(sphere.center);
       nodes.push_back({at_frame.tree().range(id), at_frame.basis(id), sphere});
     }
     return {dump_wrapped(nodes)};
   }
-  [[nodiscard]] std::vector<NodeSphere> spheres_at(const Dyadic& u) const override {
-    std::vector<NodeSphere> nodes;
-    for (NodeId id = 0; id < keeps_.size(); ++id) {
-      if (keeps_[id] != 0)
-        nodes.push_back({hierarchy_.cages().tree().range(id), hierarchy_.sphere_at(id, u.round_down())});
-    }
-    return nodes;
-  }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
-    return seconds_to_wrap<Dimension>(hierarchy_.cages().tree().ranges(), scene_.centers(frame),
-                                      scene_.radii())
+    return seconds_to_wrap<Dimension>(this->cages().tree().ranges(), this->scene().centers(frame),
+                                      this->scene().radii())
         .clock;
   }
-
- private:
-  const Scene& scene_;
-  ChordHierarchy<StaticWrappedHierarchy<Dimension>> hierarchy_;
-  std::vector<std::uint8_t> keeps_;
 };
 
 }  // namespace
@@ -143,7 +125,8 @@ StructureSpec wrapped_structure() {
             return nullptr;
           } else {
             if (settings.between == Between::chord)
-              return std::make_unique<WrappedChordsInRun<D>>(simulator, scene, ref, settings);
+              return std::make_unique<WrappedChordsInRun<D>>(simulator, scene, ref, settings.nodes,
+                                                             settings.tightness);
             return std::make_unique<WrappedInRun<D>>(simulator, scene, ref, settings.nodes, settings.relax);
           }
         },

@@ -58,8 +58,7 @@ TEST(Trade, TheExactRunErrsNowhere) {
     EXPECT_EQ(row.cost.ratio, 1.0);
     EXPECT_GT(row.cost.events, 0U);
     for (const auto& [name, value] : by_name(row.errors)) {
-      if (value) EXPECT_NEAR(*value, 0, 1e-9) << name;
-      if (name == "beads_outside" && value) EXPECT_EQ(*value, 0.0);
+      EXPECT_NEAR(value.value_or(0), 0, name == "beads_outside" ? 0 : 1e-9) << name;
     }
   }
   EXPECT_EQ(exact, 6U);
