@@ -57,14 +57,20 @@ ContactMatch match_contacts(std::span<const ContactTime> expected, std::span<con
   match.expected = expected.size();
   for (const ContactTime& contact : expected) {
     const auto same = of_pair(found, contact.pair);
-    const auto shares = std::ranges::find_if(
-        same, [&](const ContactTime& other) { return share_time(contact, other, slack); });
-    if (shares == same.end()) {
+    const auto apart = [&](const ContactTime& other) {
+      return std::abs(other.from - contact.from) + std::abs(other.to - contact.to);
+    };
+    const ContactTime* nearest = nullptr;
+    for (const ContactTime& other : same) {
+      if (share_time(contact, other, slack) && (nearest == nullptr || apart(other) < apart(*nearest)))
+        nearest = &other;
+    }
+    if (nearest == nullptr) {
       ++match.missed;
       continue;
     }
     ++match.timed;
-    for (const double error : {std::abs(shares->from - contact.from), std::abs(shares->to - contact.to)}) {
+    for (const double error : {std::abs(nearest->from - contact.from), std::abs(nearest->to - contact.to)}) {
       match.time_error_sum += 0.5 * error;
       match.time_error_max = std::max(match.time_error_max, error);
     }
