@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
@@ -71,21 +73,29 @@ std::string svg_plot(const LinePlot& plot) {
 }
 
 std::string svg_plot(const PointPlot& plot) {
+  double least = HUGE_VAL, most = 0;
+  for (const PointPlot::Point& point : plot.points) {
+    if (point.y > 0) least = std::min(least, point.y);
+    most = std::max(most, point.y);
+  }
+  const double bottom = most > 0 ? std::max(least / 10, 1e-6 * most) : 1;
   std::string script = preamble(plot.y_label, 3.6);
   script += fmt::format(
-      "set xlabel {} textcolor '#4a525c'\nset xrange [0:*]\nset format x '%.12g'\nset offsets graph 0, graph "
-      "0.2, graph 0.08, 0\nset key outside top left horizontal textcolor '#1f2933' samplen 1\n",
-      gnuplot_text(plot.x_label));
+      "set xlabel {} textcolor '#4a525c'\nset logscale xy\nset xrange [*:*]\nset yrange [{:.10g}:*]\n"
+      "set format x '%.12g'\nset offsets graph 0.02, graph 0.1, graph 0.08, 0\n"
+      "set key outside top left horizontal textcolor '#1f2933' samplen 1\n",
+      gnuplot_text(plot.x_label), bottom / 2);
   std::string series;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     script += fmt::format("$series{} << EOD\n", i);
     for (const PointPlot::Point& point : plot.points)
       if (point.series == i)
-        script += fmt::format("{:.10g} {:.10g} \"{}\"\n", point.x, point.y, one_line(point.name));
+        script +=
+            fmt::format("{:.10g} {:.10g} \"{}\"\n", point.x, std::max(point.y, bottom), one_line(point.name));
     script += "EOD\n";
     series += fmt::format(
         "{0}$series{1} using 1:2 with points pointtype 7 pointsize 0.6 linecolor '{2}' title {3}, $series{1} "
-        "using 1:2:3 with labels left offset 0.7,0.3 font ',10' textcolor '#4a525c' notitle",
+        "using 1:2:3 with labels left rotate by 20 offset 0.7,0.3 font ',10' textcolor '#4a525c' notitle",
         i == 0 ? "" : ", ", i, kColours[i % kColours.size()], gnuplot_text(plot.series[i]));
   }
   return embeddable_svg(run_gnuplot(script + "plot " + series + "\n"), plot.id);

@@ -21,11 +21,11 @@ struct LinePlot {
   bool below_zero = false;  ///< values may be; else the axis begins at 0
 };
 
-/// Points with their names beside them; those of one series in its colour.
+/// Points with their names beside them, those of one series in its colour; both axes logarithmic.
 struct PointPlot {
   struct Point {
-    std::string name;
-    double x, y;
+    std::string name;  ///< empty: none is shown
+    double x, y;       ///< x above 0; what is 0 or but a millionth of the largest stands at the bottom
     std::size_t series = 0;
   };
   std::string id;

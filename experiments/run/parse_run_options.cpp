@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::array kRunOptions{
     OptionSpec{"--structures", "LIST",
-               "comma list of sorted, layered, wrapped, power, contacts (default: wrapped,power;"
+               "comma list of sorted, wrapped, layered, power, contacts (default: wrapped,power;"
                " instances: sorted in 1D, else power)"},
     OptionSpec{"--motion", "NAME",
                "how beads move between frames: linear, hermite, lifted (default: linear)"},

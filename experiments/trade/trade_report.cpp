@@ -111,7 +111,8 @@ std::string plots_of(std::span<const TradeRow> group, std::size_t number) {
     for (const TradeRow& row : group) {
       const std::optional<double>& error = row.errors.*column.value;
       if (error && std::isfinite(*error))
-        plot.points.push_back({words_of(row.setting), row.cost.ratio, (column.share ? 100 : 1) * *error,
+        plot.points.push_back({row.on_front ? words_of(row.setting) : "", row.cost.ratio,
+                               (column.share ? 100 : 1) * *error,
                                row.on_front ? std::size_t{0} : std::size_t{1}});
     }
     const bool errs = std::any_of(plot.points.begin(), plot.points.end(),
@@ -123,7 +124,8 @@ std::string plots_of(std::span<const TradeRow> group, std::size_t number) {
     if (!errs) continue;
     if (!of_series(1)) plot.series.pop_back();
     html += html_figure(svg_plot(plot),
-                        fmt::format("Cost against error of {}: {}.", title_of(group), column.title));
+                        fmt::format("Cost against error of {}: {}. No error stands at the bottom.",
+                                    title_of(group), column.title));
   }
   return html;
 }

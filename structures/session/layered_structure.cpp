@@ -36,7 +36,7 @@ class LayeredInRun final : public ChordsInRun<LayeredHierarchy<Dimension>> {
 StructureSpec layered_structure() {
   StructureSpec spec;
   spec.name = "layered";
-  spec.order = 20;
+  spec.order = 25;
   spec.refusal = refusal_of_spheres;
   spec.has_events = [](const StructureSettings&) { return false; };
   spec.make = [](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,

@@ -149,7 +149,10 @@ TEST(Bench, CollisionGivesARowForEachDetectorMotionAndInput) {
     peers.insert(row["peer"]);
     EXPECT_EQ(row["unit"], "ns/bead");
     EXPECT_GT(row["value"].get<double>(), 0);
-    ASSERT_EQ(row["goal"].is_null(), row["name"] == "static auto, ten times the beads");
+    // Contacts have a goal on other trajectories, growth has one from 100,000 beads on.
+    const std::string name = row["name"];
+    ASSERT_EQ(row["goal"].is_null(),
+              name.starts_with("contacts, ") || name.ends_with(", ten times the beads"));
     if (!row["goal"].is_null()) {
       EXPECT_EQ(row["holds"].get<bool>(), row["ratio"] <= row["goal"]);
     }

@@ -114,8 +114,8 @@ TEST(Tightness, RatiosOfKnownCages) {
   wrapped.build(balls);
   layered.build(balls);
   const Tightness ratios = tightness_of(wrapped, layered);
-  EXPECT_DOUBLE_EQ(ratios.least, std::sqrt(0.5));  // a half diagonal in a circle of radius 1
-  EXPECT_DOUBLE_EQ(ratios.average, (2 + std::sqrt(0.5)) / 3);
+  EXPECT_NEAR(ratios.least, std::sqrt(0.5), 1e-14);  // a half diagonal in a circle of radius 1, rounded up
+  EXPECT_NEAR(ratios.average, (2 + std::sqrt(0.5)) / 3, 1e-14);
 }
 
 }  // namespace
