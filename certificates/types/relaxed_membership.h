@@ -38,7 +38,7 @@ template <std::size_t N>
 }
 
 /// No more than the distance of two centres at any time of the step: their difference along the sum of those
-/// at both ends, less what is rounded.
+/// at both ends, less what is rounded; minus infinity where doubles do not tell.
 template <Motion M>
 [[nodiscard]] double least_distance(const M& motion, BeadId a, BeadId b) {
   const int degree = degree_of(motion);
@@ -49,9 +49,11 @@ template <Motion M>
   double least = HUGE_VAL;
   for (int k = 0; k <= degree; ++k) {
     const auto d = control_difference(motion, a, b, k);
-    least = std::min(least, product(d, along) / length - 0x1p-40 * std::sqrt(product(d, d)));
+    const double distance = product(d, along) / length - 0x1p-40 * std::sqrt(product(d, d));
+    if (!std::isfinite(distance)) return -HUGE_VAL;  // they trade places, or are too near or far for squares
+    least = std::min(least, distance);
   }
-  return least;  // a NaN where they meet at both ends
+  return least;
 }
 
 /// The basis with its two balls that are farthest apart at both ends of the step first.

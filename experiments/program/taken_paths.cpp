@@ -16,8 +16,13 @@ bool same_file(const fs::path& a, const fs::path& b) {
   // Files that do not exist yet; where a path cannot be followed, opening it will tell.
   const auto place = [](const fs::path& path) {
     std::error_code lost;
-    const fs::path found = fs::weakly_canonical(path, lost);
-    return (lost ? fs::absolute(path, lost) : found).lexically_normal();
+    fs::path whole = fs::absolute(path, lost);
+    constexpr int most_links = 40;
+    for (int links = 0; links < most_links && fs::is_symlink(whole, lost);
+         ++links)  // to what is not there yet
+      whole = whole.parent_path() / fs::read_symlink(whole, lost);
+    const fs::path found = fs::weakly_canonical(whole, lost);
+    return (lost ? whole : found).lexically_normal();
   };
   return place(a) == place(b);
 }
@@ -42,7 +47,7 @@ void TakenPaths::write(const std::string& option, const fs::path& path) {
 
 void TakenPaths::write(const Destinations& destinations) {
   if (destinations.out) {
-    for (const char* name : {"summary.json", "events.csv", "report.html"})
+    for (const char* name : {"summary.json", "events.csv", "contacts.csv", "report.html"})
       write("--out", *destinations.out / name);
   }
   if (destinations.json && *destinations.json != "-") write("--json", *destinations.json);

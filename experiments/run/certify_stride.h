@@ -3,11 +3,11 @@
 // alone (motions/scene/stride_deviation.h), and contacts are looked for again with balls made larger and
 // smaller by each bead's own.
 //
-// Taken for the truth are the beads of all frames, in linear motion between them. At any time a bead is
-// within its deviation of where the run has it, so that the distance of two changes by at most the sum of
-// theirs. A pair that comes within the sum of its radii there is in contact in the run with balls so much
-// larger: it is *possible*. A pair in contact in the run with balls so much smaller is in contact there, at
-// that time: it is *sure*. Deviations are rounded up, radii outward.
+// Taken for the truth are the beads of all frames up to the run's last one, in linear motion between them. At
+// any time a bead is within its deviation of where the run has it, so that the distance of two changes by at
+// most the sum of theirs. A pair that comes within the sum of its radii there is in contact in the run with
+// balls so much larger: it is *possible*. A pair in contact in the run with balls so much smaller is in
+// contact there, at that time: it is *sure*. Deviations are rounded up, radii outward.
 
 #include <optional>
 #include <set>
@@ -24,7 +24,7 @@ using PairsMet = std::set<std::pair<BeadId, BeadId>>;
 struct ContactBounds {
   PairsMet found;     ///< by the run; all sure ones are among them, and they among the possible
   PairsMet sure;      ///< in contact in truth
-  PairsMet possible;  ///< no other pair is in contact in truth
+  PairsMet possible;  ///< no other pair is in contact in truth, up to the run's last frame
 };
 
 struct StrideCertificate {

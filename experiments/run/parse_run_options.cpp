@@ -40,10 +40,10 @@ constexpr std::array kRunOptions{
                "contacts: of beads of one chain, those at least K apart along it (default: 2)"},
     OptionSpec{
         "--relax", "EPS",
-        "wrapped: a bead leaves a sphere when it is out by EPS of the radius, from 2^-20 to 1 (default: 0)"},
+        "wrapped: a bead leaves a sphere when it is out by EPS of the radius, from 2^-20 to 1 (default: none)"},
     OptionSpec{"--tolerance", "DELTA",
                "beads go straight on while that stays within DELTA of the frames, a length or, as in 0.2r, a"
-               " multiple of the smallest radius (default: 0)"},
+               " multiple of the smallest radius (default: none)"},
     OptionSpec{
         "--certify", "",
         "with a stride in --frames or --tolerance: read all frames, and bound what may have been missed"},

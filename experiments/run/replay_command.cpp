@@ -60,6 +60,8 @@ int replay_command(const Arguments& arguments) {
   if (const auto out = parsed.value("--out")) destinations.out = *out;
   TakenPaths paths;
   paths.add("the log", log);
+  const RunOptions run = logged_run(log);
+  paths.read({run.inputs, run.reading, run.radius});
   paths.write(destinations);
   const auto events = path_of(parsed, kEventsOption.name);
   if (events) paths.write("--events", *events);

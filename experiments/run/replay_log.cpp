@@ -100,6 +100,10 @@ class LogComparison final : public EventListener {
 
 }  // namespace
 
+RunOptions logged_run(const std::filesystem::path& log) {
+  return options_of(EventLogReader(log).header(), log);
+}
+
 ReplayReport replay_log(const std::filesystem::path& path, const Progress& progress,
                         const std::function<void(const std::string&)>& warn, RunResults* results) {
   const std::string name = path.string();

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
 #include "experiments/run/run_results.h"
 #include "experiments/run/run_steps.h"
@@ -22,6 +23,9 @@ struct ReplayReport {
 
   [[nodiscard]] bool same() const { return !difference && run.fingerprint == logged_fingerprint; }
 };
+
+/// What the logged run was asked for. Throws InputError naming the log where it is none.
+[[nodiscard]] RunOptions logged_run(const std::filesystem::path& log);
 
 /// Throws InputError naming the log, or the inputs it names, where they cannot be used, and where a line is
 /// not one that the run wrote.

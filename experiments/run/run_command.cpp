@@ -21,12 +21,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What a dump leaves in its folder is its own; it replaces frames and contacts.csv of an earlier one.
+void refuse_file_in(const std::filesystem::path& dump, const RunOptions& options) {
+  const auto refuse = [&](const char* option, const std::filesystem::path& file) {
+    const std::string name = file.filename().string();
+    std::error_code error;
+    const bool inside =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path(), error) ==
+        std::filesystem::weakly_canonical(std::filesystem::absolute(dump), error);
+    if (inside && (name.starts_with("frame-") || name == "contacts.csv"))
+      throw InputError(fmt::format("{} {}: is a file of --dump", option, file.string()));
+  };
+  if (options.events) refuse("--events", *options.events);
+  if (options.log) refuse("--log", *options.log);
+  if (options.json && *options.json != "-") refuse("--json", *options.json);
+}
+
 void check_apart(const RunOptions& options, const Destinations& destinations) {
   TakenPaths paths;
   paths.read({options.inputs, options.reading, options.radius});
   paths.write(destinations);
   if (options.events) paths.write("--events", *options.events);
   if (options.log) paths.write("--log", *options.log);
+  if (options.dump) refuse_file_in(*options.dump, options);
 }
 
 void check_before_run(const RunOptions& options, const Destinations& destinations) {

@@ -68,7 +68,13 @@ Scene FinestData::scene(const TradeSetting& setting) const {
     necklace.frame_numbers = std::move(numbers);
     necklace.times.clear();
   }
-  return {some, radii_, setting.motion};
+  Scene scene(some, radii_, setting.motion);
+  if (const int dimension = this->scene().dimension(); scene.dimension() != dimension)
+    throw InputError(
+        fmt::format("frames of a stride of {} lie in a plane, as others do not; expected frames of {} "
+                    "dimensions",
+                    setting.stride, dimension));
+  return scene;
 }
 
 namespace {

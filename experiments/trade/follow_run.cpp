@@ -21,8 +21,10 @@ class Clock {
 
   [[nodiscard]] std::size_t frame(std::size_t of_setting) const { return of_setting * stride_; }
   /// In parts of a frame.
-  [[nodiscard]] std::size_t time(std::size_t step, std::size_t part) const {
-    return frame(step) * parts_of_frame + part * stride_;
+  [[nodiscard]] std::size_t start_of(std::size_t step) const { return frame(step) * parts_of_frame; }
+  /// Of such a time in its step, from 0 to 1: exact, as strides are powers of two.
+  [[nodiscard]] double place_in(std::size_t step, std::size_t time) const {
+    return static_cast<double>(time - start_of(step)) / static_cast<double>(stride_ * parts_of_frame);
   }
   [[nodiscard]] double time_of(const LoggedEvent& event) const {
     return static_cast<double>(frame(event.step)) +
@@ -121,7 +123,10 @@ class Follower {
     look_at_spheres(session.spheres_at(0, Dyadic(u)));
   }
   void finish() {
-    if (nodes_ > 0) errors.radius_mean = sum_of_excess_ / static_cast<double>(nodes_);
+    if (nodes_ > 0) {
+      errors.radius_mean = sum_of_excess_ / static_cast<double>(nodes_);
+      errors.beads_outside = static_cast<double>(beads_outside_) / static_cast<double>(looks_at_spheres_);
+    }
     if (cells_ > 0) errors.cells_wrong = static_cast<double>(wrong_cells_) / static_cast<double>(cells_);
     if (setting_.structure == "power")
       errors.edges_missed =
@@ -138,12 +143,11 @@ class Follower {
     if (nodes.empty()) return;
     for (const NodeSphere& node : nodes) {
       const double smallest = truth_.smallest_radius(node.range);
-      const double excess = smallest > 0 ? node.sphere.radius / smallest - 1 : 0;
+      const double excess = smallest > 0 ? std::abs(node.sphere.radius / smallest - 1) : 0;
       sum_of_excess_ += excess;
       ++nodes_;
       raise(errors.radius_max, excess);
-      errors.beads_outside =
-          errors.beads_outside.value_or(0) + static_cast<double>(truth_.balls_outside(node));
+      beads_outside_ += truth_.balls_outside(node);
     }
     SearchCost cost(nodes);
     for (const BeadRange& necklace : scene_.necklaces()) search_tests_ += cost.of(necklace);
@@ -176,24 +180,21 @@ class Follower {
   FollowedMotion motion_;
   double cutoff_;
   double sum_of_excess_ = 0;
-  std::uint64_t nodes_ = 0, cells_ = 0, wrong_cells_ = 0, edges_ = 0, missed_edges_ = 0;
+  std::uint64_t nodes_ = 0, beads_outside_ = 0, cells_ = 0, wrong_cells_ = 0, edges_ = 0, missed_edges_ = 0;
   std::uint64_t search_tests_ = 0, looks_at_spheres_ = 0;
 };
 
-/// Which times are looked at: frames of the setting, and times within its steps.
-struct TimesToLook {
-  std::set<std::size_t> frames;                        ///< from 1 on
-  std::map<std::size_t, std::set<std::size_t>> parts;  ///< of a step
-};
-
-TimesToLook times_to_look(std::size_t steps, const SamplingOfTimes& sampling) {
-  TimesToLook look;
+/// The times that all settings are looked at, in parts of a frame: frames of the finest data, and random
+/// times between them.
+std::set<std::size_t> times_to_look(std::size_t frames, const SamplingOfTimes& sampling) {
+  std::set<std::size_t> times;
   std::mt19937_64 random(sampling.seed);
+  const std::size_t steps = frames - 1;
   for (std::size_t k = 0; k < sampling.times; ++k) {
-    look.frames.insert(1 + k * steps / sampling.times);
-    look.parts[random() % steps].insert(1 + random() % (parts_of_frame - 1));
+    times.insert((1 + k * steps / sampling.times) * parts_of_frame);
+    times.insert(random() % steps * parts_of_frame + 1 + random() % (parts_of_frame - 1));
   }
-  return look;
+  return times;
 }
 
 std::vector<BeadPair> pairs_of(const std::vector<Change>& built) {
@@ -222,10 +223,10 @@ std::vector<std::pair<std::string, std::optional<double>>> by_name(const TradeEr
           {"closest_distance", errors.closest_distance}};
 }
 
-FollowedRun follow_run(const TradeSetting& setting, const Scene& scene, Truth& truth,
+FollowedRun follow_run(const TradeSetting& setting, const Scene& scene, std::size_t frames, Truth& truth,
                        const SamplingOfTimes& sampling, double cutoff) {
   const Clock clock(scene, setting.stride);
-  const TimesToLook look = times_to_look(clock.steps(), sampling);
+  const std::set<std::size_t> times = times_to_look(frames, sampling);
   Session session(scene, {{setting.structure}, setting.kernel, AuditMode::none, setting.settings});
   Recorder recorder(clock);
   session.simulator().listen(recorder);
@@ -233,18 +234,17 @@ FollowedRun follow_run(const TradeSetting& setting, const Scene& scene, Truth& t
   session.load(0);
   session.simulator().build();
   const std::vector<BeadPair> built = pairs_of(session.built(0));
+  auto next = times.begin();
   for (std::size_t step = 0; step < clock.steps(); ++step) {
     session.load(step);
     session.simulator().enter_step();
-    if (const auto parts = look.parts.find(step); parts != look.parts.end()) {
-      for (const std::size_t part : parts->second) {
-        const double u = static_cast<double>(part) / parts_of_frame;
-        session.simulator().run_until(Dyadic(u));
-        follower.look(session, step, u, clock.time(step, part));
-      }
+    for (; next != times.end() && *next < clock.start_of(step + 1); ++next) {
+      const double u = clock.place_in(step, *next);
+      session.simulator().run_until(Dyadic(u));
+      follower.look(session, step, u, *next);
     }
     session.simulator().leave_step();
-    if (look.frames.contains(step + 1)) follower.look(session, step, 1, clock.time(step, parts_of_frame));
+    if (next != times.end() && *next == clock.start_of(step + 1)) follower.look(session, step, 1, *next++);
   }
   session.simulator().finish();
   follower.finish();

@@ -17,11 +17,11 @@ namespace kds {
 
 /// Errors of a run; none where one does not apply. Lengths are in the input's unit, times in finest frames.
 struct TradeErrors {
-  std::optional<double> displacement;                    ///< largest, of a bead from where it truly is
-  std::optional<double> radius_mean, radius_max;         ///< of a node over the smallest, less 1
-  std::optional<double> beads_outside;                   ///< of a node's sphere, in all times looked at
-  std::optional<double> cells_wrong;                     ///< share of cells that are not in the true diagram
-  std::optional<double> edges_missed;                    ///< share of the true edges shorter than the cutoff
+  std::optional<double> displacement;             ///< largest, of a bead from where it truly is
+  std::optional<double> radius_mean, radius_max;  ///< of a node from the smallest, as a share of it
+  std::optional<double> beads_outside;            ///< of their nodes' spheres, mean of the times looked at
+  std::optional<double> cells_wrong;              ///< share of cells that are not in the true diagram
+  std::optional<double> edges_missed;             ///< share of the true edges shorter than the cutoff
   std::optional<double> events_missed, events_invented;  ///< shares of the exact run's events
   std::optional<double> event_time_mean, event_time_max;
   std::optional<double> contacts_missed, contacts_spurious;   ///< shares of the true contacts
@@ -50,8 +50,9 @@ struct FollowedRun {
 };
 
 /// `cutoff`: for edges_missed.
-[[nodiscard]] FollowedRun follow_run(const TradeSetting& setting, const Scene& scene, Truth& truth,
-                                     const SamplingOfTimes& sampling, double cutoff);
+/// `frames`: of the finest data.
+[[nodiscard]] FollowedRun follow_run(const TradeSetting& setting, const Scene& scene, std::size_t frames,
+                                     Truth& truth, const SamplingOfTimes& sampling, double cutoff);
 
 /// Adds the errors of events and contacts, by the history of the exact run.
 void compare_histories(const RunHistory& exact, FollowedRun& run, const TradeSetting& setting);

@@ -49,7 +49,8 @@ std::string sentence_for(std::span<const TradeRow> group) {
       best = &row;
   }
   const std::string subject = subject_of(group.front());
-  if (group.front().setting.has_events() && group.front().cost.events == 0)
+  const Want want = group.front().want;
+  if ((want == Want::contacts || want == Want::events) && group.front().cost.events == 0)
     return fmt::format("{}, there is nothing to tell: the exact run has no event.", subject);
   if (best != nullptr)
     return fmt::format("{}, `{}` is {}: {}.", subject, words_of(best->setting),
@@ -79,9 +80,9 @@ std::string losses_of(const TradeRow& row) {
   std::vector<std::string> losses;
   const auto add = [&losses](std::string words) { losses.push_back(std::move(words)); };
   if (row.want == Want::cages) {
-    add(fmt::format("radii are {} above the smallest on average, {} at most",
+    add(fmt::format("radii are {} from the smallest on average, {} at most",
                     percent(e.radius_mean.value_or(0)), percent(e.radius_max.value_or(0))));
-    add(e.beads_outside.value_or(0) > 0 ? fmt::format("beads stick out {} times", *e.beads_outside)
+    add(e.beads_outside.value_or(0) > 0 ? fmt::format("{:.3g} beads stick out on average", *e.beads_outside)
                                         : "no bead is outside");
     if (!row.setting.has_events()) add("it does not tell when bases change");
   }

@@ -15,7 +15,7 @@ void straighten_bead(const std::vector<FrameRead>& samples, Eigen::Index bead, s
   const Eigen::Vector3d from = samples[first].positions.col(bead), to = samples[last].positions.col(bead);
   const auto point_at = [&](std::size_t k) -> Eigen::Vector3d {
     const double share = static_cast<double>(k - first) / static_cast<double>(last - first);
-    return (1 - share) * from + share * to;
+    return from + share * (to - from);  // at rest where it is
   };
   for (std::size_t k = first + 1; k < last; ++k) {
     // A difference is rounded by 2^-53 of itself in each coordinate, its length by little more.

@@ -62,10 +62,11 @@ std::optional<std::string> not_as_built(const ChordCages<LayeredHierarchy<D>>& c
   return std::nullopt;
 }
 
-// Of the cages at all control points, by de Casteljau's steps: each rounds every number twice, by 2^-53 of
-// the largest of its kind.
+// Of the cages at all control points, by de Casteljau's steps: each rounds every number four times, by 2^-53
+// of the largest of its kind.
 template <int D>
 Sphere blended(std::vector<Cage<D>> cages, double u) {
+  if (u == 0 || u == 1) return sphere_of(u == 0 ? cages.front() : cages.back(), 0.0);
   const double largest_radius =
       std::max_element(cages.begin(), cages.end(), [](const Cage<D>& a, const Cage<D>& b) {
         return a.radius < b.radius;
@@ -73,7 +74,7 @@ Sphere blended(std::vector<Cage<D>> cages, double u) {
   double largest = largest_radius;
   for (const Cage<D>& cage : cages)
     for (const double x : cage.center) largest = std::max(largest, std::abs(x));
-  const double rounding = static_cast<double>(2 * D * cages.size()) * 0x1p-51 * largest;
+  const double rounding = static_cast<double>(2 * D * cages.size()) * 0x1p-51 * largest + 0x1p-1060;
   for (std::size_t rest = cages.size() - 1; rest > 0; --rest) {
     for (std::size_t k = 0; k < rest; ++k) {
       for (std::size_t axis = 0; axis < D; ++axis)
@@ -82,7 +83,7 @@ Sphere blended(std::vector<Cage<D>> cages, double u) {
     }
   }
   Sphere sphere = sphere_of(cages.front(), 0.0);
-  if (u > 0 && u < 1) sphere.radius += rounding;
+  sphere.radius += rounding;
   return sphere;
 }
 

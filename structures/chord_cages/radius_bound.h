@@ -55,8 +55,8 @@ template <int Dimension>
   return degree * (0x1p-49 * size + 0x1p-1060);
 }
 
-/// Whether lengths of this size have squares that keep their digits: others prove nothing.
-[[nodiscard]] inline bool is_judged(double radius) { return radius >= 0x1p-400 && radius <= 0x1p400; }
+/// Whether lengths of this size have sixth powers that keep their digits: others prove nothing.
+[[nodiscard]] inline bool is_judged(double radius) { return radius >= 0x1p-150 && radius <= 0x1p150; }
 
 /// Whether the radius is proved to be within 1 + tightness of the smallest at all times of the piece.
 /// `error`: of control balls.

@@ -49,11 +49,11 @@ void TightCages<D>::bisect(NodeId node, const BeadRange& range, const CagePiece<
   }
   double greatest = 0;
   for (const Cage<D>& cage : whole.cages) greatest = std::max(greatest, cage.radius);
-  if (!is_judged(greatest) || size > 0x1p900) {  // no part would be proved
+  const double error = control_ball_error(degree, size);
+  if (!is_judged(greatest) || error > 0x1p-3 * tightness_ * greatest) {  // no part would be proved
     ++unproved_;
     return;
   }
-  const double error = control_ball_error(degree, size);
   const std::size_t first = parts_.size();
   std::vector<std::pair<CagePiece<D>, int>> stack{{whole, 0}};
   while (!stack.empty()) {
@@ -63,7 +63,8 @@ void TightCages<D>::bisect(NodeId node, const BeadRange& range, const CagePiece<
       parts_.push_back(part);
       continue;
     }
-    if (halvings == most_halvings) {
+    const std::size_t parts = parts_.size() - first + stack.size() + 1;
+    if (halvings == most_halvings || parts == most_parts) {
       ++unproved_;
       parts_.push_back(part);
       continue;

@@ -19,6 +19,8 @@ class TightCages {
   /// A part of a step is halved at most so often in a row: only where the smallest radius comes near 0, or
   /// the bound near the rounding, that is not enough. Lengths beyond 2^400 or below 2^-400 are not judged.
   static constexpr int most_halvings = 24;
+  /// Nor has a node more parts than this.
+  static constexpr std::size_t most_parts = 1024;
 
   explicit TightCages(double tightness) : tightness_(tightness) {}
 

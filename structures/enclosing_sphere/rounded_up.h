@@ -7,7 +7,7 @@
 
 namespace kds {
 
-/// At least |a - b|, by less than 2^-48 of it; infinite where it overflows.
+/// At least |a - b|, by less than 2^-48 of it or of the least normal number; infinite where it overflows.
 template <int Dimension>
 [[nodiscard]] double distance_rounded_up(const Point<Dimension>& a, const Point<Dimension>& b);
 

@@ -12,7 +12,8 @@ namespace kds {
 namespace {
 
 // The bound. With u = 2^-53, `distance` errs by less than 4u of itself, where its square neither over- nor
-// underflows. One sphere lies in the other only if that is true in spite of it. Else the centre, each of its
+// underflows. One sphere lies in the other only if that is true in spite of it. Where it all but does the
+// centre is its own, and the radius no less. Else the centre, each of its
 // coordinates rounded once or twice, is where it should be up to 6u of the distance and u of itself, and the
 // radius, rounded four times, is larger than all that needs by 2^-49 of itself and 2^-51 of the coordinates.
 template <int Dimension>
@@ -25,14 +26,15 @@ Cage<Dimension> around(const Cage<Dimension>& a, const Cage<Dimension>& b) {
   if (distance * (1 + 0x1p-48) <= std::abs(wider)) return wider > 0 ? b : a;
   if (!(std::abs(wider) >= 0)) return a;  // both radii have overflowed
   // On the line of centres: both far ends on the sphere.
-  const double share = 0.5 * (1 + wider / distance);
+  const double share = std::clamp(0.5 * (1 + wider / distance), 0.0, 1.0);
   Cage<Dimension> cage;
   double size = 0;
   for (std::size_t axis = 0; axis < Dimension; ++axis) {
     cage.center[axis] = a.center[axis] + share * d[axis];
     size += std::abs(cage.center[axis]);
   }
-  cage.radius = 0.5 * (distance + (a.radius + b.radius)) * (1 + 0x1p-49) + 0x1p-51 * size;
+  const double reach = std::max(0.5 * (distance + (a.radius + b.radius)), std::max(a.radius, b.radius));
+  cage.radius = reach * (1 + 0x1p-49) + 0x1p-51 * size;
   if (sized) return cage;
   for (std::size_t axis = 0; axis < Dimension; ++axis)
     cage.center[axis] = (1 - share) * a.center[axis] + share * b.center[axis];

@@ -129,7 +129,7 @@ TEST(Trade, RecommendsWhatHasSmallErrors) {
   EXPECT_THAT(
       recommendation(std::vector{exact, stride, chord}),
       testing::AllOf(HasSubstr("For cages, `wrapped --between chord` is 5 times as fast"),
-                     HasSubstr("0.02% above the smallest on average"), HasSubstr("no bead is outside")));
+                     HasSubstr("0.02% from the smallest on average"), HasSubstr("no bead is outside")));
   EXPECT_THAT(recommendation(std::vector{exact, stride}), HasSubstr("stay with the exact run"));
   EXPECT_THAT(recommendation(std::vector{exact}), HasSubstr("nothing is quicker than the exact run"));
 }

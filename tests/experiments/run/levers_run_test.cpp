@@ -1,0 +1,133 @@
+// Runs with levers on what is hard for them, found by attack.
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+using Beads = std::vector<std::array<double, 3>>;
+
+std::string xyz(const std::vector<Beads>& frames) {
+  std::ostringstream text;
+  text.precision(17);
+  for (const Beads& frame : frames) {
+    text << frame.size() << "\nbeads\n";
+    for (const auto& [x, y, z] : frame) text << "C " << x << ' ' << y << ' ' << z << '\n';
+  }
+  return text.str();
+}
+
+void expect_runs(const std::string& file, std::vector<std::string> options) {
+  options.insert(options.begin(), {"run", file, "--quiet"});
+  const ProgramRun run = run_program(options);
+  EXPECT_EQ(run.code, 0) << run.err;
+}
+
+// Two beads trade places: how far apart they stay is not known, so that the third's certificate is not
+// relaxed.
+TEST(LeversRun, RelaxedSpheresOfBeadsThatTradePlaces) {
+  const ScratchDirectory directory;
+  const std::string file = directory.file("swap.xyz", xyz({{{-3, 0, 0}, {3, 0, 0}, {0, 0, 0}},
+                                                           {{3, 0, 0}, {-3, 0, 0}, {0, 0, 0}}})),
+                    radii = directory.file("radii.txt", "1\n1\n1.9\n");
+  for (const char* share : {"0.5", "0.1"})
+    for (const char* kernel : {"filtered", "exact"})
+      expect_runs(file, {"--radius", "file:" + radii, "--structures", "wrapped", "--relax", share, "--kernel",
+                         kernel, "--audit", "events"});
+}
+
+// A ball that all but holds its neighbour.
+TEST(LeversRun, LayeredSpheresOfBallsThatNearlyHoldEachOther) {
+  const ScratchDirectory directory;
+  for (const int ulps : {1, 5, 15, 40}) {
+    const std::string file = directory.file("lay.xyz", xyz({{{0, 0, 0}, {1, 0, 0}, {0, 5, 0}, {1, 5, 2}},
+                                                            {{0, 0, 0}, {1, 0, 0}, {0, 6, 0}, {1, 6, 2}}}));
+    std::ostringstream radii;
+    radii.precision(17);
+    radii << 1 + ulps * 0x1p-52 << "\n1e-20\n0.5\n0.5\n";
+    expect_runs(file, {"--radius", "file:" + directory.file("radii.txt", radii.str()), "--structures",
+                       "layered", "--audit", "frames"});
+  }
+}
+
+// No part of a step could be proved tight: that ends at once, and is counted.
+TEST(LeversRun, TightnessThatCannotBeProved) {
+  const ScratchDirectory directory;
+  const auto unproved = [](const std::string& file, const std::string& radius) {
+    const ProgramRun run = run_program({"run", file, "--radius", radius, "--structures", "wrapped",
+                                        "--between", "chord", "--tightness", "0.003", "--json", "-"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    return nlohmann::json::parse(run.out)["structures"]["wrapped"]["events"]["unproved"].get<int>();
+  };
+  const auto moved = [](double far, double size) {
+    return xyz({{{far, 0, 0}, {far + size, 0, 0}, {far, size, 0}, {far, 0, size}},
+                {{far, size, 0}, {far + size, 0, size}, {far, 0, 0}, {far + size, 0, size}}});
+  };
+  EXPECT_GT(unproved(directory.file("far.xyz", moved(1e12, 1)), "0.5"), 0);
+  EXPECT_GT(unproved(directory.file("large.xyz", moved(0, 1e100)), "1e99"), 0);
+  EXPECT_GT(unproved(directory.file("small.xyz", moved(0, 1e-100)), "1e-101"), 0);
+  // Points that are one.
+  const std::string one = directory.file("one.xyz", xyz({{{0, 0, 0}, {0, 0, 0}, {1, 1, 0}, {0, 0, 1}},
+                                                         {{1, 1, 1}, {1, 1, 1}, {0, 0, 1}, {1, 1, 0}}}));
+  EXPECT_GE(unproved(one, "file:" + directory.file("points.txt", "0\n")), 0);
+}
+
+// Beads at rest stay where they are, so that what lies in a plane does.
+TEST(LeversRun, ATolerancePutsNobodyOutOfAPlane) {
+  const ScratchDirectory directory;
+  std::vector<Beads> frames;
+  for (int k = 0; k < 18; ++k) {
+    Beads beads;
+    for (int b = 0; b < 8; ++b)
+      beads.push_back({b + 0.3 * ((7 * k + 3 * b) % 5), 0.1 * ((5 * k + b) % 7), 0.7});
+    frames.push_back(beads);
+  }
+  const std::string file = directory.file("plane.xyz", xyz(frames));
+  expect_runs(file, {"--radius", "0.5", "--tolerance", "0.4", "--structures", "power", "--audit", "frames"});
+  const ProgramRun trade = run_program(
+      {"trade", file, "--radius", "0.5", "--rounds", "1", "--times", "10", "--json", "-", "--quiet"});
+  ASSERT_EQ(trade.code, 0) << trade.err;
+  const auto json = nlohmann::json::parse(trade.out);
+  for (const auto& row : json["rows"]) {
+    if (row["setting"].contains("tolerance")) {
+      EXPECT_LE(row["error"]["displacement"].get<double>(), 0.5 * 0.3 * (1 + 1e-9)) << row["setting"];
+    }
+  }
+}
+
+TEST(LeversRun, NoResultReplacesWhatARunIsReadFrom) {
+  const ScratchDirectory directory;
+  const std::string content = xyz({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}},
+                                   {{0, 0, 0.5}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 2}}});
+  const std::string file = directory.file("a.xyz", content), log = (directory / "log").string();
+  expect_runs(file, {"--log", log});
+  for (const char* option : {"--events", "--json"}) {
+    const ProgramRun replay = run_program({"replay", log, option, file});
+    EXPECT_EQ(replay.code, 2);
+    EXPECT_THAT(replay.err, HasSubstr("is the file of an input"));
+  }
+  // One file by two names, none of them there yet.
+  const ProgramRun twice =
+      run_shell("cd \"$1\" && \"$0\" run a.xyz --events ./b.csv --log b.csv", {directory.path().string()});
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_THAT(twice.err, HasSubstr("is the file of"));
+  const std::string dump = (directory / "dump").string();
+  const ProgramRun inside =
+      run_program({"run", file, "--dump", dump, "--events", dump + "/frame-0.power.csv"});
+  EXPECT_EQ(inside.code, 2);
+  EXPECT_THAT(inside.err, HasSubstr("is a file of --dump"));
+  std::ifstream stream(file);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), content);
+}
+
+}  // namespace
+}  // namespace kds
