@@ -38,9 +38,9 @@ constexpr std::array kRunOptions{
                "of nodes being halved for it (default: none)"},
     OptionSpec{"--apart", "K",
                "contacts: of beads of one chain, those at least K apart along it (default: 2)"},
-    OptionSpec{
-        "--relax", "EPS",
-        "wrapped: a bead leaves a sphere when it is out by EPS of the radius, from 2^-20 to 1 (default: none)"},
+    OptionSpec{"--relax", "EPS",
+               "wrapped: a bead leaves a sphere when it is out by EPS of the radius, from 2^-20 to 1 "
+               "(default: none)"},
     OptionSpec{"--tolerance", "DELTA",
                "beads go straight on while that stays within DELTA of the frames, a length or, as in 0.2r, a"
                " multiple of the smallest radius (default: none)"},
