@@ -8,6 +8,7 @@
 
 #include "motions/base/input_error.h"
 #include "motions/curves/positions.h"
+#include "motions/readers/every_nth.h"
 #include "motions/scene/straightened_frames.h"
 #include "structures/collision/auto_detector.h"
 #include "structures/enclosing_sphere/integer_balls.h"
@@ -39,6 +40,7 @@ void straighten(Trajectory& necklace, double tolerance) {
 FinestData::FinestData(std::vector<Trajectory> necklaces, std::vector<double> radii)
     : necklaces_(std::move(necklaces)), radii_(std::move(radii)) {
   for (const Trajectory& necklace : necklaces_) frames_ = std::max(frames_, necklace.frames.size());
+  dimension_ = scene().dimension();
 }
 
 FinestData FinestData::first_frames(std::size_t frames) const {
@@ -54,26 +56,14 @@ Scene FinestData::scene(const TradeSetting& setting) const {
     if (necklace.frames.size() == 1) continue;  // at rest
     if (setting.tolerance > 0)
       straighten(necklace, setting.tolerance * *std::min_element(radii_.begin(), radii_.end()));
-    if (setting.stride == 1) continue;
-    std::vector<Eigen::Matrix3Xd> kept;
-    std::vector<std::size_t> numbers;
-    for (std::size_t k = 0; k < necklace.frames.size(); k += setting.stride) {
-      kept.push_back(necklace.frames[k]);
-      numbers.push_back(necklace.frame_number(k));
-    }
-    if (kept.size() < 2)
-      throw InputError(fmt::format("a stride of {} leaves one of the {} frames of {}; expected two or more",
-                                   setting.stride, necklace.frames.size(), necklace.file));
-    necklace.frames = std::move(kept);
-    necklace.frame_numbers = std::move(numbers);
-    necklace.times.clear();
+    necklace = every_nth(necklace, setting.stride);
   }
   Scene scene(some, radii_, setting.motion);
-  if (const int dimension = this->scene().dimension(); scene.dimension() != dimension)
+  if (scene.dimension() != dimension_)
     throw InputError(
         fmt::format("frames of a stride of {} lie in a plane, as others do not; expected frames of {} "
                     "dimensions",
-                    setting.stride, dimension));
+                    setting.stride, dimension_));
   return scene;
 }
 

@@ -30,13 +30,15 @@ class FinestData {
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   /// All frames, linear motion between them.
   [[nodiscard]] Scene scene() const { return {necklaces_, radii_, FrameMotion::linear}; }
-  /// As the setting has it. Throws InputError naming the stride where it leaves one frame.
+  /// As the setting has it, which leaves two frames. Throws InputError naming the stride where they lie in a
+  /// plane and others do not.
   [[nodiscard]] Scene scene(const TradeSetting& setting) const;
 
  private:
   std::vector<Trajectory> necklaces_;
   std::vector<double> radii_;
   std::size_t frames_ = 1;
+  int dimension_ = 3;
 };
 
 /// Where the beads truly are at a time, that is on straight lines between the finest frames, and what is

@@ -112,7 +112,8 @@ double foretold_seconds(const FinestData& finest, const TradeTask& task) {
   const double a_look = std::max(0.0, with_more - with_few) / 4;
   const double a_round = std::max(0.0, with_few - 4 * a_look) / 2;
   const double steps = static_cast<double>(finest.frame_count() - 1) / (few - 1);
-  return a_look * static_cast<double>(std::min(task.sampling.times, finest.frame_count())) +
+  const std::size_t times = task.sampling.times;  // of frames and random ones: the same number, if there are
+  return a_look * 0.5 * static_cast<double>(times + std::min(times, finest.frame_count())) +
          a_round * steps * static_cast<double>(task.rounds + 1);
 }
 

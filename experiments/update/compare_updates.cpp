@@ -9,6 +9,7 @@
 
 #include "experiments/program/timing.h"
 #include "motions/base/input_error.h"
+#include "motions/readers/every_nth.h"
 #include "structures/power_diagram/diagram_update.h"
 #include "structures/session/session.h"
 #include "structures/triangulation/snapshot_faults.h"
@@ -61,21 +62,12 @@ struct Frames {
 };
 
 std::vector<Trajectory> strided(const std::vector<Trajectory>& necklaces, std::size_t stride) {
-  std::vector<Trajectory> some = necklaces;
-  for (Trajectory& necklace : some) {
-    if (necklace.frames.size() == 1) continue;  // at rest
-    std::vector<Eigen::Matrix3Xd> kept;
-    std::vector<std::size_t> numbers;
-    for (std::size_t k = 0; k < necklace.frames.size(); k += stride) {
-      kept.push_back(necklace.frames[k]);
-      numbers.push_back(necklace.frame_number(k));
-    }
-    if (kept.size() < 2)
+  std::vector<Trajectory> some;
+  for (const Trajectory& necklace : necklaces) {
+    some.push_back(every_nth(necklace, stride));
+    if (necklace.frames.size() > 1 && some.back().frames.size() < 2)
       throw InputError(fmt::format("--strides: {} leaves one of the {} frames of {}; expected two or more",
                                    stride, necklace.frames.size(), necklace.file));
-    necklace.frames = std::move(kept);
-    necklace.frame_numbers = std::move(numbers);
-    necklace.times.clear();
   }
   return some;
 }
