@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 3> kFurtherFiles{"pairs.csv", "frames.csv
 void check_collide_destinations(const Destinations& destinations, TakenPaths taken) {
   if (destinations.out) {
     require_gnuplot("--out");
-    for (const std::string_view file : kFurtherFiles) taken.write("--out", *destinations.out / file);
+    taken.write_into("--out", *destinations.out, {kFurtherFiles[0], kFurtherFiles[1], kFurtherFiles[2]});
   }
   check_table_destinations(destinations, "collide", taken);
   if (!destinations.out) return;

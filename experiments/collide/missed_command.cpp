@@ -98,7 +98,7 @@ void check_destinations(const MissedOptions& options) {
   taken.read(options.task.input);
   if (destinations.out) {
     require_gnuplot("--out");
-    taken.write("--out", *destinations.out / "report.html");
+    taken.write_into("--out", *destinations.out, {"report.html"});
   }
   check_table_destinations(destinations, kName, taken);
   if (!destinations.out) return;

@@ -1,6 +1,5 @@
 #include "experiments/output/output_files.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,6 +10,7 @@
 
 #include "experiments/output/output_error.h"
 #include "experiments/output/replace_file.h"
+#include "experiments/output/straight_output.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -20,13 +20,6 @@ namespace fs = std::filesystem;
 
 fs::path directory_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
-// Renaming onto /dev/null or a pipe would replace it by a file.
-bool is_device(const fs::path& path) {
-  std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
-  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
 // The deepest part of the path that exists.
@@ -56,17 +49,19 @@ void check_directory(const fs::path& path, std::string_view option,
     throw InputError(fmt::format("{}: {}is a file, expected a directory", place,
                                  there == path ? "" : there.string() + " "));
   probe(there, fmt::format("{}: cannot write {}", place, there == path ? "there" : "in " + there.string()));
-  for (const std::string_view name : names)
+  for (const std::string_view name : names) {
     if (fs::is_directory(path / name, error))
       throw InputError(fmt::format("{} {}: is a directory, expected a file", option, (path / name).string()));
+    if (fs::exists(path / name, error)) check_replaceable(path / name);
+  }
 }
 
 void ensure_writable_file(const fs::path& path, std::string_view option) {
   std::error_code error;
-  const fs::path directory = directory_of(link_target(path));
   if (fs::is_directory(path, error) || !path.has_filename())
     throw InputError(fmt::format("{} {}: is a directory, expected a file", option, path.string()));
-  if (is_device(path)) return;
+  if (is_straight_output(path, fmt::format("{} {}", option, path.string()))) return;
+  const fs::path directory = directory_of(link_target(path));
   if (!fs::is_directory(directory, error))
     throw InputError(
         fmt::format("{} {}: there is no directory {}", option, path.string(), directory.string()));
@@ -74,14 +69,14 @@ void ensure_writable_file(const fs::path& path, std::string_view option) {
   probe(directory, fmt::format("{} {}: cannot write", option, path.string()));
 }
 
-AtomicFile::AtomicFile(fs::path path) : path_(link_target(path)), stream_(nullptr) {
+AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)), stream_(nullptr) {
   std::error_code ignored;
   if (fs::is_directory(path_, ignored))
     throw InputError(fmt::format("{}: is a directory, expected a file", path_.string()));
-  if (is_device(path_)) {
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor_ < 0) fail_to_write(subject(), errno);
+  if (is_straight_output(path_, path_.string())) {
+    descriptor_ = open_straight_output(path_, subject());
   } else {
+    path_ = link_target(path_);
     clear_stale_parts(directory_of(path_));
     part_.emplace(directory_of(path_), Part::Kind::file, subject());
   }

@@ -43,7 +43,7 @@ class AtomicFile final : public Staged {
   [[nodiscard]] std::string subject() const { return path_.string() + ": cannot write"; }
 
   std::filesystem::path path_;
-  std::optional<Part> part_;  ///< none: a device or pipe, written straight
+  std::optional<Part> part_;  ///< none: an output that is written straight
   int descriptor_ = -1;
   std::optional<DescriptorBuffer> buffer_;
   std::ostream stream_;

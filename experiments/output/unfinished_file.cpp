@@ -58,7 +58,12 @@ extern "C" void remove_unfinished_and_end(int signal) {
       if (path != nullptr && ::rmdir(path) == 0) removed = true;
     }
   }
-  ::raise(signal);  // its default action, restored by SA_RESETHAND, once this has returned
+  // Its default action, once this has returned. Until all is cleared the handler is there: had the system
+  // taken it away before it (SA_RESETHAND), a second signal of that kind could end the program at once.
+  struct sigaction action {};
+  action.sa_handler = SIG_DFL;
+  ::sigaction(signal, &action, nullptr);
+  ::raise(signal);
 }
 
 // Those that no handler is for, that stop the program, and that do nothing unless it asks.
@@ -80,7 +85,7 @@ void handle_signals() {
     struct sigaction action {};
     if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;  // as of nohup
     action.sa_handler = remove_unfinished_and_end;
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_ONSTACK);
+    action.sa_flags = SA_ONSTACK;
     ::sigfillset(&action.sa_mask);  // another one waits until all is cleared
     ::sigaction(signal, &action, nullptr);
   }

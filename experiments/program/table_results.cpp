@@ -15,8 +15,7 @@ namespace kds {
 void check_table_destinations(const Destinations& destinations, const std::string& name, TakenPaths paths) {
   const bool json_file = destinations.json && *destinations.json != "-";
   const std::array<std::string, 2> files{name + ".json", name + ".csv"};
-  if (destinations.out)
-    for (const std::string& file : files) paths.write("--out", *destinations.out / file);
+  if (destinations.out) paths.write_into("--out", *destinations.out, {files[0], files[1]});
   if (json_file) paths.write("--json", *destinations.json);
 
   if (json_file) ensure_writable_file(*destinations.json, "--json");

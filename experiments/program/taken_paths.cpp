@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -10,21 +12,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Also of what does not exist yet; where a path cannot be followed, opening it will tell.
+fs::path place_of(const fs::path& path) {
+  std::error_code lost;
+  fs::path whole = fs::absolute(path, lost);
+  constexpr int most_links = 40;
+  for (int links = 0; links < most_links && fs::is_symlink(whole, lost); ++links)  // to what is not there yet
+    whole = whole.parent_path() / fs::read_symlink(whole, lost);
+  const fs::path found = fs::weakly_canonical(whole, lost);
+  const fs::path place = (lost ? whole : found).lexically_normal();
+  return place.has_filename() ? place : place.parent_path();  // a/ is a
+}
+
 bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
-  if (fs::equivalent(a, b, error)) return true;
-  // Files that do not exist yet; where a path cannot be followed, opening it will tell.
-  const auto place = [](const fs::path& path) {
-    std::error_code lost;
-    fs::path whole = fs::absolute(path, lost);
-    constexpr int most_links = 40;
-    for (int links = 0; links < most_links && fs::is_symlink(whole, lost);
-         ++links)  // to what is not there yet
-      whole = whole.parent_path() / fs::read_symlink(whole, lost);
-    const fs::path found = fs::weakly_canonical(whole, lost);
-    return (lost ? whole : found).lexically_normal();
-  };
-  return place(a) == place(b);
+  return fs::equivalent(a, b, error) || place_of(a) == place_of(b);
+}
+
+// Whether one path is the other, or that of a directory above it.
+bool leads_to(const fs::path& path, const fs::path& directory) {
+  const fs::path start = place_of(path), whole = place_of(directory);
+  return std::mismatch(start.begin(), start.end(), whole.begin(), whole.end()).first == start.end();
 }
 
 }  // namespace
@@ -42,14 +50,27 @@ void TakenPaths::write(const std::string& option, const fs::path& path) {
   for (const auto& [owner, other] : taken_)
     if (same_file(path, other))
       throw InputError(fmt::format("{} {}: is the file of {}", option, path.string(), owner));
+  for (const auto& [owner, directory] : directories_)
+    if (leads_to(path, directory))
+      throw InputError(
+          fmt::format("{} {}: is to be a directory, for {} {}, expected another place for the file", option,
+                      path.string(), owner, directory.string()));
   add(option, path);
 }
 
+void TakenPaths::write_into(const std::string& option, const fs::path& directory,
+                            std::initializer_list<std::string_view> names) {
+  for (const auto& [owner, file] : taken_)
+    if (leads_to(file, directory))
+      throw InputError(fmt::format("{} {}: {} is the file of {}, expected a directory", option,
+                                   directory.string(), file.string(), owner));
+  directories_.emplace_back(option, directory);
+  for (const std::string_view name : names) write(option, directory / name);
+}
+
 void TakenPaths::write(const Destinations& destinations) {
-  if (destinations.out) {
-    for (const char* name : {"summary.json", "events.csv", "contacts.csv", "report.html"})
-      write("--out", *destinations.out / name);
-  }
+  if (destinations.out)
+    write_into("--out", *destinations.out, {"summary.json", "events.csv", "contacts.csv", "report.html"});
   if (destinations.json && *destinations.json != "-") write("--json", *destinations.json);
 }
 

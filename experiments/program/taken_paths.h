@@ -2,7 +2,9 @@
 // A result must not replace what it was computed from, nor another result.
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,13 +21,18 @@ class TakenPaths {
   }
   /// The files that are read.
   void read(const InputOptions& options);
-  /// A file to be written. Throws InputError where it is another's; devices are for all.
+  /// A file to be written. Throws InputError where it is another's, or is to be a directory; devices are for
+  /// all.
   void write(const std::string& option, const std::filesystem::path& path);
+  /// A directory, and files of these names to be written there. Throws InputError likewise, and where the
+  /// directory, or one that it is to be made in, is to be a file.
+  void write_into(const std::string& option, const std::filesystem::path& directory,
+                  std::initializer_list<std::string_view> names = {});
   /// The files that `deliver` writes.
   void write(const Destinations& destinations);
 
  private:
-  std::vector<std::pair<std::string, std::filesystem::path>> taken_;
+  std::vector<std::pair<std::string, std::filesystem::path>> taken_, directories_;
 };
 
 }  // namespace kds

@@ -59,7 +59,9 @@ std::vector<int> tables_asked_for(const ParsedArguments& parsed) {
     for (int table = 1; table <= paper_table_count; ++table) {
       if (name != "all" && name != fmt::format("table{}", table)) continue;
       known = true;
-      if (std::find(tables.begin(), tables.end(), table) == tables.end()) tables.push_back(table);
+      if (std::find(tables.begin(), tables.end(), table) != tables.end())
+        throw InputError(fmt::format("TABLE: table{} is listed twice", table));
+      tables.push_back(table);
     }
     if (!known) throw InputError(fmt::format("TABLE: '{}' is not one of table1 ... table7, all", name));
   }
@@ -72,8 +74,8 @@ void check_destinations(const Destinations& destinations, const std::vector<int>
   if (destinations.out) {
     require_gnuplot("--out");
     check_directory(*destinations.out, "--out", {kResult, "report.html"});
+    taken.write_into("--out", *destinations.out, {kResult, "report.html"});
     for (const int table : tables) taken.write("--out", *destinations.out / file_of(table));
-    for (const char* name : {kResult, "report.html"}) taken.write("--out", *destinations.out / name);
     refuse_page_beside_others(*destinations.out, kResult);
   }
   if (destinations.json && *destinations.json != "-") {

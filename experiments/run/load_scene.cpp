@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 #include "motions/base/input_error.h"
 #include "motions/scene/radii.h"
@@ -85,6 +87,16 @@ void refuse_events_of_chords(const RunOptions& options, const SessionOptions& se
   }
 }
 
+// The end that --nodes FIRST: leaves open is the largest number. Where no bead is left, no node is.
+void refuse_nodes_behind_the_beads(const RunOptions& options, const Scene& scene) {
+  if (!options.nodes.beads) return;
+  const auto [first, last] = *options.nodes.beads;
+  const std::size_t beads = scene.bead_count();
+  if (last == std::numeric_limits<BeadId>::max() || last < beads || first >= beads) return;
+  throw InputError(fmt::format("--nodes {}:{}: expected beads of the input, which has {} beads", first,
+                               std::uint64_t{last} + 1, beads));
+}
+
 }  // namespace
 
 std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& scene, AuditMode audits) {
@@ -116,6 +128,7 @@ std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& sc
   if (options.tightness && session.settings.between != Between::chord)
     throw InputError("--tightness: it bounds chord cages of wrapped; expected --between chord");
   refuse_events_of_chords(options, session);
+  refuse_nodes_behind_the_beads(options, scene);
   if (options.nodes.restricts()) {
     const NecklaceTree tree(scene.necklaces());
     const std::vector<std::uint8_t> kept = select_nodes(tree, options.nodes);

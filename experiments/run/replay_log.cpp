@@ -8,6 +8,7 @@
 #include "certificates/exact/exact_time.h"
 #include "experiments/output/provenance.h"
 #include "experiments/program/warnings.h"
+#include "experiments/run/certify_stride.h"
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/parse_run_options.h"
@@ -131,6 +132,7 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
   ReplayReport replay;
   replay.difference = comparison.finish();
   replay.run = report_of(*session, scene, options, counts);
+  if (options.certify) replay.run.stride = certify_stride(options, scene);
   replay.logged_fingerprint = log.fingerprint();
   replay.events = log.events();
   return replay;

@@ -43,7 +43,9 @@ void check_apart(const RunOptions& options, const Destinations& destinations) {
   paths.write(destinations);
   if (options.events) paths.write("--events", *options.events);
   if (options.log) paths.write("--log", *options.log);
-  if (options.dump) refuse_file_in(*options.dump, options);
+  if (!options.dump) return;
+  paths.write_into("--dump", *options.dump);
+  refuse_file_in(*options.dump, options);
 }
 
 void check_before_run(const RunOptions& options, const Destinations& destinations) {

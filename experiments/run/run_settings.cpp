@@ -79,6 +79,7 @@ std::vector<std::string> option_arguments(const RunOptions& options) {
   if (options.tightness) add("--tightness", fmt::format("{}", *options.tightness));
   if (options.relax) add("--relax", relax_of(options));
   if (options.tolerance) add("--tolerance", tolerance_of(options));
+  if (options.certify) arguments.emplace_back("--certify");
   return arguments;
 }
 

@@ -153,7 +153,7 @@ int trade_command(const Arguments& arguments) {
   if (destinations.out) require_gnuplot("--out");
   TakenPaths taken;
   taken.read(options.input);
-  if (destinations.out) taken.write("--out", *destinations.out / "report.html");
+  if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
   check_table_destinations(destinations, kName, taken);
   if (destinations.out) check_directory(*destinations.out, "--out", {"report.html"});
 

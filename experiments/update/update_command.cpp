@@ -64,7 +64,7 @@ int update_command(const Arguments& arguments) {
   if (options.out) require_gnuplot("--out");
   TakenPaths taken;
   taken.read(options.input);
-  if (options.out) taken.write("--out", *options.out / "report.html");
+  if (options.out) taken.write_into("--out", *options.out, {"report.html"});
   check_table_destinations(destinations, kName, taken);
   if (options.out) {
     check_directory(*options.out, "--out", {"report.html"});

@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "experiments/output/output_files.h"
@@ -201,6 +203,29 @@ TEST(UnfinishedFile, EverySignalThatCanBeCaughtClearsTheFolder) {
         testing::KilledBySignal(signal), "");
     EXPECT_EQ(directory.entries(), 0U) << signal;
   }
+}
+
+// Two of one kind: the second comes while the first is cleared up after. In a program of one thread that is
+// so for a moment alone, and another thread has it for as long as clearing takes.
+TEST(UnfinishedFile, ASecondSignalEndsNothingBeforeAllIsCleared) {
+  const ScratchDirectory directory;
+  EXPECT_EXIT(
+      {
+        constexpr int files = 3000;
+        StagedFiles staged(directory / "made", "--dump");
+        for (int k = 0; k < files; ++k) staged.write("frame-" + std::to_string(k), "x");
+        const auto part = *fs::directory_iterator(directory / "made");
+        const fs::path last = part.path() / std::to_string(files);  // the first to go
+        std::thread other([&last] {
+          while (::access(last.c_str(), F_OK) == 0) {
+          }
+          ::raise(SIGTERM);
+        });
+        ::raise(SIGTERM);
+        other.join();
+      },
+      testing::KilledBySignal(SIGTERM), "");
+  EXPECT_EQ(directory.entries(), 0U);
 }
 
 TEST(UnfinishedFile, SignalsThatDoNotEndAProgramDoNot) {

@@ -176,6 +176,8 @@ TEST(Reproduce, Refusals) {
   };
   EXPECT_THAT(refused({}), HasSubstr("needs at least one TABLE"));
   EXPECT_THAT(refused({"table8"}), HasSubstr("'table8' is not one of table1 ... table7, all"));
+  for (const char* other : {"table5", "all"})
+    EXPECT_THAT(refused({"table5", other}), HasSubstr("TABLE: table5 is listed twice"));
   EXPECT_THAT(refused({"table1", "--rounds", "0"}), HasSubstr("--rounds"));
   EXPECT_THAT(refused({"table1", "--data", "nowhere"}), HasSubstr("--data: there is no folder nowhere"));
 }

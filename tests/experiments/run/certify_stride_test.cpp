@@ -10,6 +10,7 @@
 #include "experiments/run/parse_run_options.h"
 #include "experiments/run/run_steps.h"
 #include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
 
 namespace kds::test {
 namespace {
@@ -146,6 +147,20 @@ TEST(CertifyStride, IsReported) {
   const ProgramRun shown = run_program(arguments);
   EXPECT_THAT(shown.out, HasSubstr("30 frames left out, beads at most"));
   EXPECT_THAT(shown.out, HasSubstr("of them sure"));
+}
+
+TEST(CertifyStride, ALoggedRunIsCertifiedWhenItIsReplayed) {
+  const ScratchDirectory directory;
+  const std::string log = (directory / "log").string();
+  Arguments arguments = arguments_with("0:41:4", {"--certify", "--log", log, "--json", "-"});
+  arguments.insert(arguments.begin(), "run");
+  const ProgramRun run = run_program(arguments), replay = run_program({"replay", log, "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  ASSERT_EQ(replay.code, 0) << replay.err;
+  const Json first = Json::parse(run.out), again = Json::parse(replay.out);
+  EXPECT_EQ(again["settings"], first["settings"]);
+  EXPECT_EQ(again["stride"], first["stride"]);
+  EXPECT_TRUE(first["stride"].is_object());
 }
 
 TEST(CertifyStride, NeedsAStride) {

@@ -156,6 +156,61 @@ TEST(Program, ResultsDoNotReplaceEachOther) {
   expect_refused({"replay", log, "--json", log}, {"--json", "the log"});
 }
 
+// None of them is there yet, and one is to be a file and a directory.
+TEST(Program, AnOutputIsAFileOrADirectory) {
+  const ScratchDirectory directory;
+  const std::string both = (directory / "both").string();
+  const std::vector<std::pair<std::string, std::string>> places{
+      {both, both}, {both, both + "/"}, {both, both + "/below"}, {both, both + "/../both/below/more"}};
+  for (const auto& [file, folder] : places) {
+    for (const char* option : {"--log", "--events", "--json"})
+      for (const char* of : {"--out", "--dump"})
+        expect_refused({"run", kSmall, option, file, of, folder}, {option, of, "directory"});
+    expect_refused({"info", kTrajectory, "--json", file, "--out", folder}, {"--json", "--out", "directory"});
+  }
+  for (const char* below : {"", "/below"})
+    expect_refused({"generate", "grid", "--beads", "8", "-o", both + ".xyz", "--out", both + ".xyz" + below},
+                   {"--out", "both.xyz is the file of -o, expected a directory"});
+  EXPECT_EQ(directory.entries(), 0U);
+  ASSERT_EQ(
+      run_program({"run", kSmall, "--quiet", "--dump", both, "--out", both, "--log", both + ".log"}).code, 0);
+  EXPECT_TRUE(std::filesystem::is_regular_file(directory / "both/summary.json"));
+}
+
+TEST(Program, StandardOutputIsAnOutputByItsPath) {
+  const ScratchDirectory directory;
+  const std::string here = directory.path().string();
+  ASSERT_EQ(run_program({"run", kSmall, "--quiet", "--log", here + "/log"}).code, 0);
+  const std::string log = content_of(directory / "log");
+  for (const char* name : {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
+    const ProgramRun piped =
+        run_shell("\"$0\" run \"$1\" --quiet --log " + std::string(name) + " | cat", {kSmall});
+    EXPECT_EQ(piped.out, log) << name << piped.err;
+    // A file behind it is written on, not anew: what comes behind the log does not replace its beginning.
+    const ProgramRun appended = run_shell("{ echo before; \"$0\" run \"$1\" --quiet --log " +
+                                              std::string(name) + "; echo after; } > \"$2/file\"",
+                                          {kSmall, here});
+    EXPECT_EQ(appended.err, "");
+    EXPECT_EQ(content_of(directory / "file"), "before\n" + log + "after\n") << name;
+  }
+  EXPECT_EQ(run_shell("\"$0\" run \"$1\" --quiet --events /dev/fd/3 3>\"$2/third\"", {kSmall, here}).code, 0);
+  EXPECT_THAT(content_of(directory / "third"), testing::StartsWith("frame,"));
+  for (const char* closed : {"/dev/fd/7", "/dev/stdin"})
+    expect_refused({"run", kSmall, "--log", closed}, {"--log", closed, "not open for writing"});
+}
+
+// They would wait for a reader, at the end of a run at the latest.
+TEST(Program, NamedPipesAreNoOutputs) {
+  const ScratchDirectory directory;
+  const std::string pipe = (directory / "pipe").string(), out = (directory / "out").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const char* option : {"--events", "--log", "--json"})
+    expect_refused({"run", kSmall, option, pipe}, {option, "pipe: is a named pipe, expected a file"});
+  std::filesystem::create_directory(out);
+  ASSERT_EQ(::mkfifo((out + "/summary.json").c_str(), 0600), 0);
+  expect_refused({"run", kSmall, "--out", out}, {"out/summary.json: is no regular file"});
+}
+
 TEST(Program, RefusesBrokenFiles) {
   const ScratchDirectory directory;
   const std::string good = xyz({"0 0 0", "1 0 0", "2 0.5 0"});
@@ -375,6 +430,12 @@ TEST(Program, KeepsOnlyTheNodesAskedFor) {
     expect_refused(
         {"run", data_file("kinetic/d3_n50_linear.txt"), "--structures", "wrapped", option, "60:70"},
         {option, "no node", "50 beads"});
+  const std::string fifty = data_file("kinetic/d3_n50_linear.txt");
+  expect_refused({"run", fifty, "--structures", "wrapped", "--nodes", "0:51"},
+                 {"--nodes 0:51: expected beads of the input, which has 50 beads"});
+  for (const char* range : {"0:50", "3:", ":50"})
+    EXPECT_EQ(run_program({"run", fifty, "--structures", "wrapped", "--nodes", range, "--quiet"}).code, 0)
+        << range;
 }
 
 TEST(Program, RunsSeveralNecklacesOnOneClock) {
