@@ -88,7 +88,9 @@ struct BallsFromBase {
   void relax(const View& view, const Beads& beads) {
     constexpr std::int64_t one = 2 * Relaxation::most;
     const std::int64_t share = beads.relaxation.units();
-    auto &dj = d[Size - 1], &sj = s[Size - 1], &ej = e[Size - 1];
+    auto& dj = d[Size - 1];
+    auto& sj = s[Size - 1];
+    auto& ej = e[Size - 1];
     if constexpr (Size == 1) {
       for (auto& axis : dj) axis = times(one, axis);
       sj = times(one, sj) - times(share, view.radius_sum(beads[0], beads[0]));

@@ -19,7 +19,7 @@ inline std::uint64_t from_environment(const char* name, std::uint64_t otherwise)
   return text == nullptr ? otherwise : std::stoull(text);
 }
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef KDS_SANITIZED
 inline constexpr std::uint64_t default_property_cases = 5000;
 #else
 inline constexpr std::uint64_t default_property_cases = 100000;

@@ -7,7 +7,7 @@ namespace kds::test {
 /// of geometry.
 template <class Count>
 [[nodiscard]] constexpr Count rounds(Count all) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef KDS_SANITIZED
   return all < 5 ? 1 : all / 5;
 #else
   return all;

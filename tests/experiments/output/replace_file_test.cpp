@@ -188,7 +188,7 @@ TEST(StagedFiles, AFileMayGrowUntilTheEnd) {
 TEST(UnfinishedFile, EverySignalThatCanBeCaughtClearsTheFolder) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1,
                            SIGUSR2, SIGXCPU, SIGABRT, SIGSEGV, SIGFPE, SIGRTMIN, SIGRTMAX}) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef KDS_SANITIZED
     if (signal == SIGSEGV || signal == SIGFPE) continue;  // the sanitizer's own
 #endif
     const ScratchDirectory directory;

@@ -33,7 +33,7 @@ std::vector<std::string> history(std::vector<std::string> arguments) {
 }
 
 TEST(HostEnvironment, LeavesTheHistoryAndStays) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef KDS_SANITIZED
   GTEST_SKIP() << "the sanitizer's own library has to be loaded first";
 #endif
   const std::vector<std::vector<std::string>> runs{

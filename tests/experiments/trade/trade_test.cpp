@@ -52,7 +52,7 @@ TEST(Trade, TheExactRunErrsNowhere) {
   for (const TradeRow& row : rows) {
     SCOPED_TRACE(words_of(row.setting));
     EXPECT_GT(row.cost.seconds, 0);
-#ifndef __SANITIZE_ADDRESS__  // which has memory of its own
+#ifndef KDS_SANITIZED  // which has memory of its own
     EXPECT_GT(row.cost.memory, 1000U);
 #endif
     if (!row.is_exact) continue;

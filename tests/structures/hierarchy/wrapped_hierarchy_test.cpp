@@ -375,7 +375,7 @@ TEST(WrappedHierarchy, ExactAgreesOnMotionsFullOfTies) {
 }
 
 TEST(WrappedHierarchy, FastAlwaysEnds) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef KDS_SANITIZED
   constexpr int rounds = 10;
 #else
   constexpr int rounds = 100;
