@@ -8,6 +8,9 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <stdexcept>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "certificates/search/certificate_search.h"
@@ -28,6 +31,24 @@ enum class CertificateHandle : std::uint32_t {
   return static_cast<std::uint32_t>(guard);
 }
 
+namespace detail {
+
+/// In the identity of a certificate with constants the last place names the table, after one that is unused.
+template <class Certificate>
+concept IdentityHasRoom = !HasConstants<Certificate> ||
+                          (std::tuple_size_v<decltype(Certificate{}.beads)> + 2 <= Identity::most_beads);
+
+/// Whether a table's constants are in use: a certificate was searched in this step. Nothing where it has
+/// none.
+template <class Certificate>
+struct ConstantsInUse {};
+template <HasConstants Certificate>
+struct ConstantsInUse<Certificate> {
+  bool value = false;
+};
+
+}  // namespace detail
+
 /// Of a NamedCertificate: what it lacks is said here in a sentence, before the compiler says it at length.
 template <class Certificate>
 class CertificateTable final : public FailureSource {
@@ -37,6 +58,10 @@ class CertificateTable final : public FailureSource {
                 "a certificate needs `kds::Identity identity() const`: what names its function");
   static_assert(HasSide<Certificate>,
                 "a certificate needs `bool side() const`: which sign of its function it wants");
+  static_assert(DeclaresItsConstants<Certificate>,
+                "a member of a certificate's `struct Constants` needs a declared power of length: it is a "
+                "kds::Constant<1>, a kds::ConstantVector, ..., not a number");
+  static_assert(detail::IdentityHasRoom<Certificate>, "a certificate with constants has at most 6 beads");
 
  public:
   /// `number` tells the structure's tables apart in KineticStructure::fail. Throws std::logic_error where the
@@ -52,6 +77,16 @@ class CertificateTable final : public FailureSource {
         touches_(touches),
         most_in_step_(most_in_step(motion.bead_count())) {
     simulator.add_table(*this, Certificate::type);
+  }
+
+  /// For all certificates from now to the end of the step, or until they are set again: the first ones before
+  /// the structure is built. Throws std::invalid_argument where one cannot be a constant over the motion, and
+  /// std::logic_error where there have been certificates in this step, which are about those before.
+  void set_constants(const ConstantsOf<Certificate>& constants) requires(HasConstants<Certificate>) {
+    if (constants_in_use_.value)
+      throw std::logic_error(std::string(Certificate::type.name) +
+                             ": constants are set in the midst of a step, expected before its certificates");
+    search_->set_constants(constants);
   }
 
   /// With `fast`, looks at so much fewer certificates in a step than it does otherwise.
@@ -150,7 +185,10 @@ class CertificateTable final : public FailureSource {
     return search_->exact_function(entries_[slot].certificate);
   }
   [[nodiscard]] Identity identity(std::uint32_t slot) const override {
-    return entries_[slot].certificate.identity();
+    Identity identity = entries_[slot].certificate.identity();
+    // Tables with other constants have other functions of the same beads.
+    if constexpr (HasConstants<Certificate>) identity.beads.back() = structure_and_table();
+    return identity;
   }
   [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override {
     return (static_cast<std::uint64_t>(structure_) << 36U) | (static_cast<std::uint64_t>(number_) << 32U) |
@@ -179,6 +217,7 @@ class CertificateTable final : public FailureSource {
     entries_.clear();
     free_.clear();
     created_in_step_ = 0;
+    constants_in_use_ = {};
     owner_.statistics.certificates.alive = 0;
   }
 
@@ -235,6 +274,7 @@ class CertificateTable final : public FailureSource {
 
   void find_failures(std::span<const Certificate> certificates, std::span<const KnownAtStart> births,
                      std::span<Failure> failures) {
+    if constexpr (HasConstants<Certificate>) constants_in_use_.value = true;
     if (simulator_.kernel() == Kernel::fast) {
       // Doubles may contradict themselves without end: after so many certificates in a step none is looked at
       // any more, and all are taken to hold.
@@ -277,6 +317,8 @@ class CertificateTable final : public FailureSource {
     return static_cast<CertificateHandle>(slot);
   }
 
+  [[nodiscard]] BeadId structure_and_table() const { return static_cast<BeadId>(structure_ << 4U | number_); }
+
   /// More than true motions ask for, and about what `filtered` takes for as much time.
   [[nodiscard]] static std::uint64_t most_in_step(std::uint64_t beads) {
     return 20'000 + 4'000 * beads + 4 * beads * beads;
@@ -301,6 +343,7 @@ class CertificateTable final : public FailureSource {
   std::size_t waiting_count_ = 0;
   std::vector<SearchedCertificate> settled_;  // of many
   std::uint64_t created_in_step_ = 0;
+  [[no_unique_address]] detail::ConstantsInUse<Certificate> constants_in_use_;
 };
 
 }  // namespace kds

@@ -3,78 +3,201 @@
 // wrong with it is said in a sentence and at once: the formula's other views come to light deep within
 // searches.
 
+#include <algorithm>
+#include <concepts>
 #include <type_traits>
 
 #include "certificates/base/certificate.h"
+#include "certificates/base/constants.h"
 
 namespace kds {
 
-template <int DimensionValue, Channels channels>
-class FormulaProbe {
- public:
-  using Number = Magnitude;
-  static constexpr int dimension = DimensionValue;
-  static constexpr int degree = 1;
+/// A quantity known by its power of length alone; zero has any.
+struct LengthPower {
+  static constexpr int any = -1;
 
-  // Never called: a formula's type is all that is asked for.
-  BernsteinVector<Magnitude, degree, dimension> difference(BeadId, BeadId) const;
-  auto weight_difference(BeadId, BeadId) const {
-    static_assert(channels.weights,
-                  "the formula asks for weights: say so, `static constexpr bool uses_weights = true;`");
-    return Bernstein<Magnitude, degree>();
+  int power = any;
+  bool unlike = false;  ///< unlike powers were added on the way
+
+  constexpr LengthPower& operator+=(const LengthPower& other) {
+    unlike |= other.unlike || (power != any && other.power != any && power != other.power);
+    power = std::max(power, other.power);
+    return *this;
   }
-  auto radius_difference(BeadId, BeadId) const {
-    static_assert(channels.radii,
-                  "the formula asks for radii: say so, `static constexpr bool uses_radii = true;`");
-    return Bernstein<Magnitude, degree>();
-  }
-  auto radius_sum(BeadId, BeadId) const {
-    static_assert(channels.radii,
-                  "the formula asks for radii: say so, `static constexpr bool uses_radii = true;`");
-    return Bernstein<Magnitude, degree>();
+  constexpr LengthPower& operator-=(const LengthPower& other) { return *this += other; }
+  friend constexpr LengthPower operator+(LengthPower a, const LengthPower& b) { return a += b; }
+  friend constexpr LengthPower operator-(LengthPower a, const LengthPower& b) { return a += b; }
+  friend constexpr LengthPower operator-(const LengthPower& a) { return a; }
+  friend constexpr LengthPower operator*(const LengthPower& a, const LengthPower& b) {
+    return {a.power == any || b.power == any ? any : a.power + b.power, a.unlike || b.unlike};
   }
 };
 
-static_assert(MotionView<FormulaProbe<3, Channels{}>>);
+template <int DimensionValue, class Certificate>
+class FormulaProbe {
+  using Constants = ConstantsOf<Certificate>;
+  static constexpr Channels channels = channels_of<Certificate>;
+  template <class>
+  static constexpr bool never = false;
+
+ public:
+  using Number = LengthPower;
+  static constexpr int dimension = DimensionValue;
+  static constexpr int degree = 1;
+
+  constexpr BernsteinVector<LengthPower, degree, dimension> difference(BeadId, BeadId) const {
+    return lengths<dimension>();
+  }
+  constexpr auto weight_difference(BeadId, BeadId) const {
+    static_assert(channels.weights,
+                  "the formula asks for weights: say so, `static constexpr bool uses_weights = true;`");
+    return polynomial(2);
+  }
+  constexpr auto radius_difference(BeadId, BeadId) const {
+    static_assert(channels.radii,
+                  "the formula asks for radii: say so, `static constexpr bool uses_radii = true;`");
+    return polynomial(1);
+  }
+  constexpr auto radius_sum(BeadId, BeadId) const {
+    static_assert(channels.radii,
+                  "the formula asks for radii: say so, `static constexpr bool uses_radii = true;`");
+    return polynomial(1);
+  }
+
+  constexpr auto position(BeadId) const {
+    static_assert(uses_positions<Certificate>,
+                  "the formula asks for positions: say so, `static constexpr bool uses_positions = true;`");
+    return lengths<dimension>();
+  }
+  template <int Power>
+  constexpr auto constant(Constant<Power> Constants::*) const {
+    return polynomial(Power);
+  }
+  template <int Dimension>
+  constexpr auto constant(ConstantVector<Dimension> Constants::*) const {
+    static_assert(Dimension == dimension, "a ConstantVector of other dimension than the motion's");
+    return lengths<Dimension>();
+  }
+  template <class Other>
+  constexpr auto constant(const Other&) const {
+    static_assert(never<Other>,
+                  "the formula asks for a constant that is none: `view.constant(&Constants::name)` takes a "
+                  "kds::Constant or a kds::ConstantVector of the certificate's `struct Constants`");
+    return polynomial(1);
+  }
+  template <int Dimension>
+  constexpr BeadId place(ConstantPoint<Dimension> Constants::*) const {
+    static_assert(Dimension == dimension, "a ConstantPoint of other dimension than the motion's");
+    return 0;
+  }
+  constexpr BeadId place(ConstantBead Constants::*) const { return 0; }
+  template <class Other>
+  constexpr BeadId place(const Other&) const {
+    static_assert(never<Other>,
+                  "the formula asks for the place of what has none: `view.place(&Constants::name)` takes a "
+                  "kds::ConstantPoint or a kds::ConstantBead of the certificate's `struct Constants`");
+    return 0;
+  }
+
+ private:
+  static constexpr Bernstein<LengthPower, degree> polynomial(int power) { return {{{{power}, {power}}}}; }
+  template <int Dimension>
+  static constexpr BernsteinVector<LengthPower, degree, Dimension> lengths() {
+    BernsteinVector<LengthPower, degree, Dimension> vector;
+    vector.fill(polynomial(1));
+    return vector;
+  }
+};
 
 template <class Certificate, int Dimension>
-concept HasStaticFormula = requires(const FormulaProbe<Dimension, channels_of<Certificate>>& view,
+concept HasStaticFormula = requires(const FormulaProbe<Dimension, Certificate>& view,
                                     const Certificate& certificate) {
   Certificate::formula(view, certificate.beads);
 };
 
+namespace detail {
+
+template <class Certificate, int Dimension>
+[[nodiscard]] constexpr bool adds_unlike_powers() {
+  const auto value =
+      Certificate::formula(FormulaProbe<Dimension, Certificate>{}, decltype(Certificate{}.beads){});
+  return std::any_of(value.scaled.begin(), value.scaled.end(),
+                     [](const LengthPower& coefficient) { return coefficient.unlike; });
+}
+
+}  // namespace detail
+
+/// As far as the compiler can tell: of a formula that is constexpr. Of others it comes to light when their
+/// error bound is derived.
+template <class Certificate, int Dimension>
+concept AddsUnlikePowers = requires {
+  requires std::bool_constant < detail::adds_unlike_powers<Certificate, Dimension>()
+  > ::value;
+};
+
+/// Terms of unlike degrees: refused in a sentence.
+template <int A, int B>
+requires(A != B) constexpr auto operator+(const Bernstein<LengthPower, A>& a,
+                                          const Bernstein<LengthPower, B>&) {
+  static_assert(A == B,
+                "the formula adds terms of unlike degrees: their powers of length are unlike, or one is a "
+                "square to be elevated, `elevate<2 * View::degree>(...)`");
+  return a;
+}
+template <int A, int B>
+requires(A != B) constexpr auto operator-(const Bernstein<LengthPower, A>& a,
+                                          const Bernstein<LengthPower, B>&) {
+  static_assert(A == B,
+                "the formula subtracts terms of unlike degrees: their powers of length are unlike, or one is "
+                "a square to be elevated, `elevate<2 * View::degree>(...)`");
+  return a;
+}
+
 /// A bare number added to a polynomial of lengths: refused in a sentence.
-template <int Degree, class Constant>
-requires(std::is_arithmetic_v<Constant>) auto operator+(const Bernstein<Magnitude, Degree>& lengths,
-                                                        Constant) {
-  static_assert(
-      !std::is_arithmetic_v<Constant>,
-      "the formula adds a bare constant: terms need the same power of length, and a number has none");
+template <int Degree, class Bare>
+requires(std::is_arithmetic_v<Bare>) constexpr auto operator+(const Bernstein<LengthPower, Degree>& lengths,
+                                                              Bare) {
+  static_assert(!std::is_arithmetic_v<Bare>,
+                "the formula adds a bare constant: a number has no power of length; declare it in `struct "
+                "Constants`, as a kds::Constant<1> if it is a length");
   return lengths;
 }
-template <int Degree, class Constant>
-requires(std::is_arithmetic_v<Constant>) auto operator-(const Bernstein<Magnitude, Degree>& lengths,
-                                                        Constant) {
-  static_assert(
-      !std::is_arithmetic_v<Constant>,
-      "the formula subtracts a bare constant: terms need the same power of length, and a number has none");
+template <int Degree, class Bare>
+requires(std::is_arithmetic_v<Bare>) constexpr auto operator-(const Bernstein<LengthPower, Degree>& lengths,
+                                                              Bare) {
+  static_assert(!std::is_arithmetic_v<Bare>,
+                "the formula subtracts a bare constant: a number has no power of length; declare it in "
+                "`struct Constants`, as a kds::Constant<1> if it is a length");
   return lengths;
 }
-template <int Degree, class Constant>
-requires(std::is_arithmetic_v<Constant>) auto operator+(Constant,
-                                                        const Bernstein<Magnitude, Degree>& lengths) {
-  static_assert(
-      !std::is_arithmetic_v<Constant>,
-      "the formula adds to a bare constant: terms need the same power of length, and a number has none");
+template <int Degree, class Bare>
+requires(std::is_arithmetic_v<Bare>) constexpr auto operator+(Bare,
+                                                              const Bernstein<LengthPower, Degree>& lengths) {
+  static_assert(!std::is_arithmetic_v<Bare>,
+                "the formula adds to a bare constant: a number has no power of length; declare it in `struct "
+                "Constants`, as a kds::Constant<1> if it is a length");
   return lengths;
 }
-template <int Degree, class Constant>
-requires(std::is_arithmetic_v<Constant>) auto operator-(Constant,
-                                                        const Bernstein<Magnitude, Degree>& lengths) {
-  static_assert(!std::is_arithmetic_v<Constant>,
-                "the formula subtracts from a bare constant: terms need the same power of length, and a "
-                "number has none");
+template <int Degree, class Bare>
+requires(std::is_arithmetic_v<Bare>) constexpr auto operator-(Bare,
+                                                              const Bernstein<LengthPower, Degree>& lengths) {
+  static_assert(!std::is_arithmetic_v<Bare>,
+                "the formula subtracts from a bare constant: a number has no power of length; declare it in "
+                "`struct Constants`, as a kds::Constant<1> if it is a length");
   return lengths;
+}
+template <int Degree, class Bare>
+requires(std::is_arithmetic_v<Bare>) constexpr auto operator*(Bare,
+                                                              const Bernstein<LengthPower, Degree>& lengths) {
+  static_assert(!std::is_arithmetic_v<Bare>,
+                "the formula multiplies by a bare constant: a ratio is said by two lengths, each a "
+                "kds::Constant<1> in `struct Constants`, one on either side");
+  return lengths;
+}
+template <int Degree, class Bare>
+requires(std::is_arithmetic_v<Bare>) constexpr auto operator*(const Bernstein<LengthPower, Degree>& lengths,
+                                                              Bare number) {
+  return number * lengths;
 }
 
 }  // namespace kds

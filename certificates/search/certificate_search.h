@@ -9,6 +9,7 @@
 #include <span>
 
 #include "certificates/base/certificate.h"
+#include "certificates/base/constants.h"
 #include "certificates/base/failure_time.h"
 #include "certificates/base/kernel.h"
 #include "certificates/base/stage_counts.h"
@@ -26,8 +27,26 @@ enum class KnownAtStart : std::uint8_t {
   at_own_root,
 };
 
+namespace detail {
+
 template <class Certificate>
-class CertificateSearch {
+class TakesConstants {};
+template <NeedsAnchors Certificate>
+class TakesConstants<Certificate> {
+ public:
+  /// Of all certificates from now on. Throws std::invalid_argument where one cannot be a constant over the
+  /// motion; what is asked before they are set throws std::logic_error.
+  virtual void set_constants(const ConstantsOf<Certificate>& constants) = 0;
+
+ protected:
+  ~TakesConstants() = default;
+};
+
+}  // namespace detail
+
+/// Of a type with constants or positions, used by one thread at a time.
+template <class Certificate>
+class CertificateSearch : public detail::TakesConstants<Certificate> {
  public:
   virtual ~CertificateSearch() = default;
 

@@ -17,6 +17,7 @@
 #include "certificates/filters/moment_lanes.h"
 #include "certificates/search/careful_search.h"
 #include "certificates/search/certificate_search.h"
+#include "certificates/search/define_anchored_search.h"
 #include "certificates/search/define_function_values.h"
 #include "certificates/search/degree_limit.h"
 #include "certificates/search/exact_search.h"
@@ -324,20 +325,13 @@ template <class Certificate, int Dimension>
   return std::make_unique<SearchOneByOne<Certificate, Curves<Dimension>>>(motion);
 }
 
-}  // namespace detail
-
 /// In lanes for degrees 1 to 3 and lifted motion.
 template <class Certificate, int Dimension>
-std::unique_ptr<CertificateSearch<Certificate>> search_over(const MotionRef<Dimension>& motion) {
-  static_assert(HasStaticFormula<Certificate, Dimension>,
-                "a certificate needs `template <kds::MotionView View> static auto formula(const View& view, "
-                "const std::array<kds::BeadId, N>& beads)`");
+std::unique_ptr<CertificateSearch<Certificate>> filtered_search(const MotionRef<Dimension>& motion) {
   const auto in_lanes =
       [&]<class C>(std::type_identity<C>) -> std::unique_ptr<CertificateSearch<Certificate>> {
-    return std::make_unique<detail::SearchInLanes<Certificate, C>>(motion);
+    return std::make_unique<SearchInLanes<Certificate, C>>(motion);
   };
-  if (motion.is_lifted() && channels_of<Certificate>.radii)
-    throw std::invalid_argument("radii mean nothing in lifted motion");
   if constexpr (Dimension > 1 && channels_of<Certificate>.weights && !channels_of<Certificate>.radii) {
     if (motion.is_lifted()) return in_lanes(std::type_identity<LiftedCurves<Dimension>>{});
   }
@@ -349,7 +343,25 @@ std::unique_ptr<CertificateSearch<Certificate>> search_over(const MotionRef<Dime
     case 3:
       return in_lanes(std::type_identity<FixedCurves<Dimension, 3>>{});
     default:
-      return detail::search_one_by_one<Certificate>(motion);
+      return search_one_by_one<Certificate>(motion);
+  }
+}
+
+}  // namespace detail
+
+template <class Certificate, int Dimension>
+std::unique_ptr<CertificateSearch<Certificate>> search_over(const MotionRef<Dimension>& motion) {
+  static_assert(HasStaticFormula<Certificate, Dimension>,
+                "a certificate needs `template <kds::MotionView View> static auto formula(const View& view, "
+                "const std::array<kds::BeadId, N>& beads)`");
+  static_assert(!AddsUnlikePowers<Certificate, Dimension>,
+                "the formula adds unlike powers of length: all terms of a sum need the same");
+  if (motion.is_lifted() && channels_of<Certificate>.radii)
+    throw std::invalid_argument("radii mean nothing in lifted motion");
+  if constexpr (NeedsAnchors<Certificate>) {
+    return std::make_unique<detail::AnchoredSearch<Certificate, Dimension>>(motion);
+  } else {
+    return detail::filtered_search<Certificate>(motion);
   }
 }
 

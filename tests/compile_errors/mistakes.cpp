@@ -4,6 +4,15 @@
 
 struct Near {
   static constexpr kds::CertificateType type{1001, "near"};
+  struct Constants {
+#ifdef BARE_MEMBER
+    double cutoff = 4;
+#else
+    kds::Constant<1> cutoff;
+    kds::Constant<2> square;
+#endif
+  };
+  double bare = 4;
   std::array<kds::BeadId, 2> beads{};
 #ifndef NO_IDENTITY
   [[nodiscard]] kds::Identity identity() const { return kds::identity_of(type, beads); }
@@ -17,15 +26,26 @@ struct Near {
 #define STATIC static
 #endif
   template <kds::MotionView View>
-  STATIC auto formula(const View& view, const std::array<kds::BeadId, 2>& b) {
+  STATIC constexpr auto formula(const View& view, const std::array<kds::BeadId, 2>& b) {
     const auto d = view.difference(b[0], b[1]);
 #if defined(BARE_CONSTANT)
     return dot(d, d) - 4.0;
+#elif defined(BARE_FACTOR)
+    return 4 * dot(d, d);
+#elif defined(UNDECLARED)
+    return dot(d, d) - view.constant(&Near::bare) * view.constant(&Near::bare);
+#elif defined(UNLIKE_POWERS)
+    return dot(d, d) - view.constant(&Constants::cutoff) * view.constant(&Constants::square);
+#elif defined(UNLIKE_DEGREES)
+    return dot(d, d) - view.constant(&Constants::cutoff);
+#elif defined(POSITIONS_UNSAID)
+    return dot(d, view.position(b[0]));
 #elif defined(RADII_UNSAID)
     const auto reach = view.radius_sum(b[0], b[1]);
     return dot(d, d) - reach * reach;
 #else
-    return dot(d, d);
+    const auto cutoff = view.constant(&Constants::cutoff);
+    return dot(d, d) - cutoff * cutoff;
 #endif
   }
 };
@@ -36,8 +56,8 @@ class Watch final : public kds::KineticStructure {
       : table_(simulator, *this, simulator.add(*this), 0, motion) {}
   [[nodiscard]] std::string_view name() const override { return "watch"; }
   [[nodiscard]] std::span<const kds::EventKind> kinds() const override { return {}; }
-  void build() override {}
-  void start_step() override { static_cast<void>(table_.watch({{0, 1}}, 0)); }
+  void build() override { table_.set_constants({.cutoff = {4, 5}, .square = 9}); }
+  void start_step() override { static_cast<void>(table_.watch({.beads = {0, 1}}, 0)); }
   void fail(unsigned, std::uint32_t) override {}
 #ifndef NO_APPLY
   void apply(const kds::Change&) override {}

@@ -1,0 +1,253 @@
+#pragma once
+// The search of certificates with constants or positions (certificates/base/constants.h): their beads' curves
+// are gathered beside the anchors, and searched there by the search of AnchoredFunction. Part of
+// define_certificate_search.h.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "certificates/base/anchored_function.h"
+#include "certificates/search/certificate_search.h"
+#include "certificates/search/define_function_values.h"
+
+namespace kds::detail {
+
+template <class Certificate, int Dimension>
+[[nodiscard]] std::unique_ptr<CertificateSearch<Certificate>> filtered_search(
+    const MotionRef<Dimension>& motion);
+
+/// A motion of beads whose curves are copied in.
+template <int DimensionValue>
+class GatheredCurves {
+ public:
+  static constexpr int dimension = DimensionValue;
+  static constexpr int degree = any_degree;
+
+  explicit GatheredCurves(int own_degree) : own_degree_(own_degree) {}
+
+  [[nodiscard]] int own_degree() const { return own_degree_; }
+  [[nodiscard]] std::size_t bead_count() const { return beads_; }
+  [[nodiscard]] const double* control_point(BeadId bead, int k) const {
+    return control_.data() + place(bead, k) * (dimension + 1);
+  }
+  [[nodiscard]] double coordinate(BeadId bead, int k, int axis) const { return control_point(bead, k)[axis]; }
+  [[nodiscard]] double weight(BeadId bead, int k) const { return control_point(bead, k)[dimension]; }
+  [[nodiscard]] const double* radii(BeadId bead) const { return radii_.data() + place(bead, 0); }
+  [[nodiscard]] double radius(BeadId bead, int k) const { return radii(bead)[k]; }
+
+  /// Keeps the first beads; new ones are zero.
+  void resize(std::size_t beads) {
+    beads_ = beads;
+    control_.resize(place(beads, 0) * (dimension + 1));
+    radii_.resize(place(beads, 0));
+  }
+  void set_coordinate(BeadId bead, int k, int axis, double value) {
+    control_[place(bead, k) * (dimension + 1) + static_cast<std::size_t>(axis)] = value;
+  }
+  void set_weight(BeadId bead, int k, double value) { set_coordinate(bead, k, dimension, value); }
+  void set_radius(BeadId bead, int k, double value) { radii_[place(bead, k)] = value; }
+
+  /// Of a motion's bead what these channels say; the rest is zero.
+  template <Channels channels>
+  void copy(BeadId to, const Curves<dimension>& from, BeadId bead) {
+    const std::size_t row = place(1, 0);
+    double* const points = control_.data() + place(to, 0) * (dimension + 1);
+    std::copy_n(from.control_point(bead, 0), row * (dimension + 1), points);
+    if constexpr (!channels.weights)
+      for (int k = 0; k <= own_degree_; ++k) set_weight(to, k, 0);
+    if constexpr (channels.radii) {
+      std::copy_n(from.radii(bead), row, radii_.data() + place(to, 0));
+    } else {
+      std::fill_n(radii_.data() + place(to, 0), row, 0.0);
+    }
+  }
+
+ private:
+  [[nodiscard]] std::size_t place(std::size_t bead, int k) const {
+    return bead * (static_cast<std::size_t>(own_degree_) + 1) + static_cast<std::size_t>(k);
+  }
+
+  int own_degree_;
+  std::size_t beads_ = 0;
+  std::vector<double> control_, radii_;
+};
+
+/// The anchors of a certificate type's constants.
+template <class Certificate, int Dimension>
+class Anchors {
+ public:
+  static constexpr std::size_t count = AnchoredFunction<Certificate>::anchors;
+
+  explicit Anchors(int degree) : curves_(degree) { curves_.resize(count); }
+
+  /// Throws std::invalid_argument where a constant cannot be one over a motion of so many beads.
+  void set(const ConstantsOf<Certificate>& constants, std::size_t bead_count) {
+    Anchors anchors(curves_.own_degree());
+    BeadId anchor = 0;
+    std::apply([&](const auto&... constant) { (anchors.set(++anchor, constant, bead_count), ...); },
+               members_of(constants));
+    *this = std::move(anchors);
+  }
+  /// As the first beads of others, those of constants that are beads as they are now.
+  void copy_to(GatheredCurves<Dimension>& gathered, const Curves<Dimension>& motion) const {
+    constexpr Channels all{true, true};
+    const Curves<Dimension> own(curves_);
+    for (BeadId anchor = 0; anchor < count; ++anchor) gathered.template copy<all>(anchor, own, anchor);
+    for (const auto& [anchor, bead] : beads_)
+      gathered.template copy<channels_of<Certificate>>(anchor, motion, bead);
+  }
+
+ private:
+  [[noreturn]] static void refuse(BeadId anchor, const std::string& why) {
+    throw std::invalid_argument(std::string(Certificate::type.name) + ": constant " + std::to_string(anchor) +
+                                " of " + std::to_string(count - 1) + " " + why);
+  }
+
+  /// Calls `set_number(k, axis, value)` for each number of the control points.
+  template <class SetNumber>
+  void set_curve(BeadId anchor, const ConstantCurve& constant, std::size_t width, SetNumber set_number) {
+    const int degree = curves_.own_degree();
+    const std::vector<double>& numbers = constant.numbers();
+    const std::size_t points = numbers.size() / width, wanted = static_cast<std::size_t>(degree) + 1;
+    if (points != 1 && points != wanted)
+      refuse(anchor, "has " + std::to_string(points) + " control points: expected 1, or " +
+                         std::to_string(wanted) + " as the motion's curves have");
+    for (int k = 0; k <= degree; ++k) {
+      for (std::size_t axis = 0; axis < width; ++axis) {
+        const double number = numbers[(points == 1 ? 0 : static_cast<std::size_t>(k)) * width + axis];
+        if (!std::isfinite(number)) refuse(anchor, "is not finite");
+        set_number(k, static_cast<int>(axis), number);
+      }
+    }
+  }
+  void set(BeadId anchor, const Constant<1>& length, std::size_t) {
+    set_curve(anchor, length, 1, [&](int k, int, double number) { curves_.set_radius(anchor, k, number); });
+  }
+  void set(BeadId anchor, const Constant<2>& square, std::size_t) {
+    double largest = 0;
+    set_curve(anchor, square, 1, [&](int k, int, double number) {
+      curves_.set_weight(anchor, k, number);
+      largest = std::max(largest, std::abs(number));
+    });
+    if (largest == 0) return;
+    // A length that is not below the root, and has one digit.
+    const int exponent = std::ilogb(largest) + 1;
+    const double length = std::ldexp(1.0, exponent > 0 ? (exponent + 1) / 2 : exponent / 2);
+    for (int k = 0; k <= curves_.own_degree(); ++k) curves_.set_radius(anchor, k, length);
+  }
+  void set(BeadId anchor, const ConstantVectorCurve<Dimension>& vector, std::size_t) {
+    set_curve(anchor, vector, static_cast<std::size_t>(Dimension),
+              [&](int k, int axis, double number) { curves_.set_coordinate(anchor, k, axis, number); });
+  }
+  void set(BeadId anchor, const ConstantBead& constant, std::size_t bead_count) {
+    if (constant.bead() >= bead_count)
+      refuse(anchor, "is no bead: expected one of " + std::to_string(bead_count));
+    beads_.emplace_back(anchor, constant.bead());
+  }
+
+  GatheredCurves<Dimension> curves_;
+  std::vector<std::pair<BeadId, BeadId>> beads_;  // anchors that are beads of the motion, and which
+};
+
+template <class Certificate, int Dimension>
+class AnchoredSearch final : public CertificateSearch<Certificate> {
+  using Function = AnchoredFunction<Certificate>;
+  using Values = FunctionValues<Function, Curves<Dimension>>;
+
+ public:
+  explicit AnchoredSearch(const MotionRef<Dimension>& motion)
+      : motion_(motion),
+        anchors_(motion.degree()),
+        gathered_(motion.degree()),
+        search_(filtered_search<Function>(MotionRef<Dimension>(gathered_))) {
+    if (motion.is_lifted() && channels_of<Certificate>.weights)
+      throw std::invalid_argument(
+          std::string(Certificate::type.name) +
+          ": weights are no curves in lifted motion, and it has constants or asks for "
+          "positions");
+  }
+
+  void set_constants(const ConstantsOf<Certificate>& constants) override {
+    anchors_.set(constants, motion_.bead_count());
+    are_set_ = true;
+  }
+
+  void first_failures(Kernel kernel, std::span<const Certificate> certificates, const Instant& now,
+                      std::span<const KnownAtStart> known, StageCounts& stages, TouchPolicy touches,
+                      std::span<Failure> failures) const override {
+    search_->first_failures(kernel, gather(certificates), now, known, stages, touches, failures);
+  }
+  [[nodiscard]] int sign_now(Kernel kernel, const Certificate& certificate, const Instant& now,
+                             StageCounts& stages) const override {
+    return search_->sign_now(kernel, gather({&certificate, 1})[0], now, stages);
+  }
+  [[nodiscard]] int sign_just_after(Kernel kernel, const Certificate& certificate, const Instant& now,
+                                    StageCounts& stages) const override {
+    return search_->sign_just_after(kernel, gather({&certificate, 1})[0], now, stages);
+  }
+  [[nodiscard]] bool all_positive_now(Kernel kernel, std::span<const Certificate> certificates,
+                                      const Instant& now, StageCounts& stages) const override {
+    return search_->all_positive_now(kernel, gather(certificates), now, stages);
+  }
+  [[nodiscard]] int sign_at(const Certificate& certificate, const Dyadic& time) const override {
+    return alone(certificate,
+                 [&](const Function& f, const Curves<Dimension>& c) { return Values::sign_at(f, c, time); });
+  }
+  [[nodiscard]] ExactFunction exact_function(const Certificate& certificate) const override {
+    return alone(certificate, [](const Function& f, const Curves<Dimension>& c) -> ExactFunction {
+      return std::make_shared<const ExactPolynomial>(Values::exact(f, c));
+    });
+  }
+
+ private:
+  void gather(std::span<const Certificate> certificates, GatheredCurves<Dimension>& gathered,
+              std::vector<Function>& functions) const {
+    if constexpr (HasConstants<Certificate>) {
+      if (!are_set_)
+        throw std::logic_error(std::string(Certificate::type.name) + ": its constants are not set");
+    }
+    const Curves<Dimension> motion = motion_.curves();
+    gathered.resize(Function::anchors + certificates.size() * Function::own_beads);
+    anchors_.copy_to(gathered, motion);
+    functions.resize(certificates.size());
+    BeadId next = Function::anchors;
+    for (std::size_t i = 0; i < certificates.size(); ++i) {
+      Function& function = functions[i];
+      function.wanted_side = certificates[i].side();
+      function.certificate = &certificates[i];
+      for (std::size_t place = 0; place < Function::own_beads; ++place) {
+        gathered.template copy<channels_of<Certificate>>(next, motion, certificates[i].beads[place]);
+        function.beads[place] = next++;
+      }
+      for (std::size_t anchor = 0; anchor < Function::anchors; ++anchor)
+        function.beads[Function::own_beads + anchor] = static_cast<BeadId>(anchor);
+    }
+  }
+  [[nodiscard]] std::span<const Function> gather(std::span<const Certificate> certificates) const {
+    gather(certificates, gathered_, functions_);
+    return functions_;
+  }
+  /// In room of its own: while a search goes on, it may ask for the exact function of the present failure.
+  template <class Ask>
+  [[nodiscard]] auto alone(const Certificate& certificate, Ask ask) const {
+    GatheredCurves<Dimension> gathered(motion_.degree());
+    std::vector<Function> functions;
+    gather({&certificate, 1}, gathered, functions);
+    return ask(functions[0], Curves<Dimension>(gathered));
+  }
+
+  MotionRef<Dimension> motion_;
+  Anchors<Certificate, Dimension> anchors_;
+  bool are_set_ = false;
+  mutable GatheredCurves<Dimension> gathered_;  // room that is used again and again, as the next is
+  mutable std::vector<Function> functions_;
+  std::unique_ptr<CertificateSearch<Function>> search_;
+};
+
+}  // namespace kds::detail

@@ -1,0 +1,174 @@
+// Tables of certificates with constants in a run: the pairs within a cutoff of examples/new_structure.h.
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "certificates/search/define_certificate_search.h"
+#include "examples/new_structure.h"
+#include "tests/support/inputs/random_motion.h"
+#include "tests/support/searches.h"
+
+namespace kds {
+namespace {
+
+using test::MotionKind;
+using test::Random;
+
+/// The slow obvious twin: by rational distances at the end of the step.
+template <Motion M>
+std::vector<std::array<BeadId, 2>> pairs_at_end(const M& motion, double cutoff) {
+  std::vector<std::array<BeadId, 2>> pairs;
+  for (BeadId b = 1; b < motion.bead_count(); ++b) {
+    for (BeadId a = 0; a < b; ++a) {
+      Rational left = Rational(cutoff) * Rational(cutoff);
+      for (int axis = 0; axis < M::dimension; ++axis) {
+        const Rational d =
+            Rational(motion.coordinate(a, M::degree, axis)) - Rational(motion.coordinate(b, M::degree, axis));
+        left -= d * d;
+      }
+      if (left > 0) pairs.push_back({a, b});
+    }
+  }
+  return pairs;
+}
+
+/// Cutoffs at the step's control points, of frame after frame.
+std::vector<double> cutoffs(int degree, int step) {
+  std::vector<double> cutoff(static_cast<std::size_t>(degree) + 1, 1.25);
+  cutoff.front() = step % 2 == 0 ? 0.5 : 2;
+  cutoff.back() = step % 2 == 0 ? 2 : 0.5;
+  return cutoff;
+}
+
+/// Steps that go on where the one before ended.
+template <Motion M>
+std::vector<M> steps_of(Random& random, std::size_t beads, MotionKind kind, int count) {
+  std::vector<M> steps;
+  for (int step = 0; step < count; ++step) {
+    steps.push_back(test::random_motion<M>(random, beads, kind));
+    if (step == 0) continue;
+    for (BeadId b = 0; b < beads; ++b)
+      for (int axis = 0; axis < M::dimension; ++axis)
+        steps.back().set_coordinate(b, 0, axis, steps[steps.size() - 2].coordinate(b, M::degree, axis));
+  }
+  return steps;
+}
+
+template <Motion M>
+std::uint64_t fingerprint(Kernel kernel, const std::vector<M>& steps) {
+  M motion = steps[0];
+  Simulator simulator(kernel == Kernel::fast ? AuditMode::none : AuditMode::events, kernel);
+  NeighborPairs<M::dimension> neighbors(simulator, motion);
+  for (std::size_t step = 0; step < steps.size(); ++step) {
+    motion = steps[step];
+    const auto cutoff = cutoffs(M::degree, static_cast<int>(step));
+    neighbors.set_cutoff(Constant<1>(cutoff));
+    if (step == 0) simulator.build();
+    simulator.run_step();
+    if (kernel != Kernel::fast) {
+      // What is right at the cutoff at the end changes in the next step, if it does.
+      auto expected = pairs_at_end(motion, cutoff.back());
+      std::vector<std::array<BeadId, 2>> missing;
+      const auto found = neighbors.pairs();
+      for (const auto& pair : expected)
+        if (std::find(found.begin(), found.end(), pair) == found.end()) missing.push_back(pair);
+      EXPECT_THAT(missing, testing::IsEmpty());
+      const auto reached = pairs_at_end(motion, std::nextafter(cutoff.back(), 3));
+      for (const auto& pair : found) EXPECT_THAT(reached, testing::Contains(pair));
+    }
+  }
+  simulator.finish();
+  EXPECT_GT(neighbors.statistics.certificates.created, 0U);
+  return simulator.fingerprint();
+}
+
+template <Motion M>
+void expect_one_history(MotionKind kind, std::size_t beads) {
+  Random random(2121);
+  const auto steps = steps_of<M>(random, beads, kind, 3);
+  const std::uint64_t history = fingerprint(Kernel::filtered, steps);
+  EXPECT_EQ(fingerprint(Kernel::exact, steps), history);
+  if (kind == MotionKind::generic) {
+    EXPECT_EQ(fingerprint(Kernel::fast, steps), history);
+  }
+}
+
+TEST(TableConstants, KernelsHaveOneHistory) {
+  expect_one_history<BezierMotion<3, 1>>(MotionKind::generic, 12);
+  expect_one_history<BezierMotion<2, 1>>(MotionKind::generic, 12);
+  expect_one_history<BezierMotion<3, 3>>(MotionKind::generic, 8);
+  expect_one_history<BezierMotion<2, 3>>(MotionKind::generic, 8);
+}
+
+TEST(TableConstants, DegenerateMotionIsAuditedToo) {
+  for (const MotionKind kind : {MotionKind::grid, MotionKind::coincident, MotionKind::at_rest}) {
+    expect_one_history<BezierMotion<2, 1>>(kind, 8);
+    expect_one_history<BezierMotion<3, 3>>(kind, 5);
+  }
+}
+
+TEST(TableConstants, OneBeadHasNoPairs) {
+  const std::vector<BezierMotion<3, 1>> steps(2, BezierMotion<3, 1>(1));
+  BezierMotion<3, 1> motion(1);
+  Simulator simulator(AuditMode::events);
+  NeighborPairs<3> neighbors(simulator, motion);
+  neighbors.set_cutoff(1);
+  simulator.build();
+  simulator.run_step();
+  EXPECT_THAT(neighbors.pairs(), testing::IsEmpty());
+}
+
+/// Structures of one type with cutoffs of their own.
+TEST(TableConstants, OtherConstantsAreOtherFunctions) {
+  BezierMotion<2, 1> motion(2);
+  motion.set_coordinate(1, 0, 0, 4);
+  Simulator simulator(AuditMode::events);
+  NeighborPairs<2> wide(simulator, motion), narrow(simulator, motion), nearly(simulator, motion),
+      same(simulator, motion);
+  wide.set_cutoff(3);
+  narrow.set_cutoff(1);
+  nearly.set_cutoff(std::nextafter(1.0, 2));  // reached before, if only by a trifle
+  same.set_cutoff(1);
+  struct Listener final : EventListener {
+    void on_event(const KineticStructure&, const LoggedEvent& event) override {
+      order.push_back(event.structure);
+      times.push_back(event.lower);
+    }
+    std::vector<std::size_t> order;
+    std::vector<double> times;
+  } listener;
+  simulator.listen(listener);
+  simulator.build();
+  simulator.run_step();
+  EXPECT_THAT(listener.order, testing::ElementsAre(0, 2, 1, 3));
+  EXPECT_NEAR(listener.times[0], 0.25, 1e-9);
+  EXPECT_NEAR(listener.times[1], 0.75, 1e-9);
+  EXPECT_NEAR(listener.times[3], 0.75, 1e-9);
+  EXPECT_EQ(simulator.comparisons().ties, 1U);
+}
+
+TEST(TableConstants, InTheMidstOfAStepTheyAreRefused) {
+  BezierMotion<2, 1> motion(2);
+  motion.set_coordinate(1, 0, 0, 4);
+  Simulator simulator;
+  NeighborPairs<2> neighbors(simulator, motion);
+  EXPECT_THROW(simulator.build(), std::logic_error);  // there are none
+  neighbors.set_cutoff(3);
+  simulator.build();
+  simulator.enter_step();
+  try {
+    neighbors.set_cutoff(2);
+    ADD_FAILURE();
+  } catch (const std::logic_error& reason) {
+    EXPECT_STREQ(reason.what(),
+                 "near: constants are set in the midst of a step, expected before its certificates");
+  }
+  simulator.leave_step();
+  neighbors.set_cutoff(2);
+}
+
+}  // namespace
+}  // namespace kds
