@@ -157,14 +157,19 @@ Scenes scenes_of(const std::vector<Eigen::Matrix3Xd>& frames, const std::vector<
   return scenes;
 }
 
-/// Every bead goes on in a direction of its own.
+/// Every bead goes on in a direction of its own; `shaking` of them, the last, shake about where they were.
 Scenes moving_on(const Eigen::Matrix3Xd& start, double step, std::size_t frames,
-                 const std::vector<double>& radii) {
+                 const std::vector<double>& radii, Eigen::Index shaking = 0) {
   models::Random random(1);
   Eigen::Matrix3Xd along(3, start.cols());
   for (Eigen::Index b = 0; b < start.cols(); ++b) along.col(b) = step * random.direction(3);
   Scenes scenes;
-  for (std::size_t k = 0; k < frames; ++k) scenes.emplace_back(start + static_cast<double>(k) * along, radii);
+  for (std::size_t k = 0; k < frames; ++k) {
+    Eigen::Matrix3Xd centers = start + static_cast<double>(k) * along;
+    for (Eigen::Index b = start.cols() - shaking; b < start.cols(); ++b)
+      centers.col(b) = start.col(b) + 0.3 * random.direction(3);
+    scenes.emplace_back(centers, radii);
+  }
   return scenes;
 }
 
@@ -177,6 +182,8 @@ void bench_generated(const Input& input, std::size_t rounds, std::vector<BenchRo
   for (const double step : {0.003, 0.03, 0.3})
     measured.run_frames(moving_on(input.start, step, frames, radii), fmt::format("{} r a frame", step),
                         step < 0.1 ? input.fastest_frame : 1.0);
+  measured.run_frames(moving_on(input.start, 0.003, frames, radii, input.start.cols() / 16),
+                      "a sixteenth by 0.3 r", 1.0);
 }
 
 // Radii 1.6 times those of beads that meet along the chain: contacts that mean something begin there.

@@ -16,6 +16,9 @@ constexpr double fewest_frames = 4;    // keeping pairs for fewer costs more tha
 constexpr std::uint64_t longest_wait = 16;
 // More, and the next skin is shorter; many more, and none are kept.
 constexpr std::size_t most_pairs_a_bead = 4, most_kept_a_bead = 32;
+// Blocks that have gone so far are looked at again alone while they are at most a fourth of all.
+constexpr double far_in_skins = 0.25;
+constexpr std::size_t share_of_few = 4;
 
 }  // namespace
 
@@ -89,12 +92,55 @@ const std::vector<BeadPair>& AutoDetector<Dimension>::rebuild(const Balls<Dimens
   return pairs_;
 }
 
+// How far all blocks but a few have gone at most.
+template <int Dimension>
+double AutoDetector<Dimension>::most_stray(std::span<const double> strays) {
+  strays_.assign(strays.begin(), strays.end());
+  const std::size_t few = strays_.size() / share_of_few;
+  const auto most = strays_.end() - 1 - static_cast<std::ptrdiff_t>(few);
+  std::nth_element(strays_.begin(), most, strays_.end());
+  return *most;
+}
+
+// How far beads have gone since the frame before, and where that is too far for keeping pairs, how far all
+// but those of a few blocks: repairs take care of these.
+template <int Dimension>
+double AutoDetector<Dimension>::usual_step(const Balls<Dimension>& balls) {
+  if (speed_) return *speed_;
+  const double step = tree_.strayed(balls);
+  return 2 * fewest_frames * step < longest_skin_ ? step : most_stray(tree_.strayed_by_block(balls));
+}
+
+// Finds the pairs of blocks anew that have gone far; false where there are too many. The others keep theirs:
+// two beads that meet now were at most the skin apart where their pairs were found, each bead where it was
+// looked at last, since none is farther from there than half the skin.
+template <int Dimension>
+bool AutoDetector<Dimension>::repair(const Balls<Dimension>& balls, std::span<const double> strays) {
+  const double near_enough = far_in_skins * kept_.skin();
+  far_blocks_.clear();
+  moved_ = 0;
+  for (std::uint32_t block = 0; block < strays.size(); ++block) {
+    if (strays[block] <= near_enough) {
+      moved_ = std::max(moved_, strays[block]);
+    } else {
+      far_blocks_.push_back(block);
+    }
+  }
+  const std::size_t most = most_kept_a_bead * balls.size();
+  const auto near = tree_.near_pairs_of(balls, far_blocks_, most - std::min(most, kept_.size()));
+  if (!near) return false;
+  kept_.replace(balls, tree_.looked_at_again(), *near, moved_);
+  ++counts_.repairs;
+  return true;
+}
+
 // Where next to nothing is near, a skin may be wider. Each try is twice as wide, and ends when it finds more.
 template <int Dimension>
 void AutoDetector<Dimension>::widen_skin(const Balls<Dimension>& balls, double wanted) {
   constexpr int most_tries = 4;
   const std::size_t few = balls.size() / 64;
   const auto& counts = tree_.counts();
+  if (mode_ == Mode::kept && kept_.size() > few) return;  // counts may be those of a repair
   for (int k = 0; k < most_tries && longest_skin_ <= wanted && longest_skin_ < 0x1p900; ++k) {
     const double wider = 2 * longest_skin_;
     if (wider >= too_wide_ || counts.group_pairs + counts.candidates > few) return;
@@ -123,7 +169,7 @@ const std::vector<BeadPair>& AutoDetector<Dimension>::pairs(const Balls<Dimensio
     }
     if (radii_.empty()) measure_scene(balls);
     // The tree has the positions of the frame before.
-    const double step = speed_ ? *speed_ : tree_.strayed(balls);
+    const double step = usual_step(balls);
     widen_skin(balls, 2 * frames_to_keep * step);
     if (longest_skin_ > 2 * fewest_frames * step) return rebuild(balls, step);
     look_every_ = std::min(2 * look_every_, longest_wait);
@@ -135,19 +181,22 @@ const std::vector<BeadPair>& AutoDetector<Dimension>::pairs(const Balls<Dimensio
   const double most = 0.5 * kept_.skin();
   if (speed_ && moved_ <= most) {
     ++counts_.unread;
+  } else if (const double strayed = tree_.strayed(balls); strayed <= most) {
+    look_every_ = 1;
+    moved_ = strayed;
+    ++counts_.read;
   } else {
-    const double strayed = tree_.strayed(balls);
-    if (!(strayed <= most)) {
+    const auto strays = tree_.strayed_by_block(balls);
+    const double usual = most_stray(strays);
+    if (!(usual <= far_in_skins * kept_.skin() && repair(balls, strays))) {
       const auto frames = static_cast<double>(frames_kept_);
-      const double step = speed_ ? *speed_ : strayed / frames;
+      const double step = speed_ ? *speed_ : usual / frames;
       widen_skin(balls, 2 * frames_to_keep * step);
       if (frames >= fewest_frames && step < longest_skin_) return rebuild(balls, step);
       until_look_ = look_every_ = std::min(2 * look_every_, longest_wait);
       return from_scratch(balls);
     }
     look_every_ = 1;
-    moved_ = strayed;
-    ++counts_.read;
   }
   kept_.find_meeting(balls, moved_, pairs_);
   return pairs_;

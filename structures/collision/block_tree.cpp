@@ -24,6 +24,7 @@ double work_of(const Counts& counts) {
 // What sorting and a search of sorted beads cost a block.
 constexpr double work_of_sorted_block = 230;
 constexpr std::size_t fewest_beads_to_sort = 2000;
+constexpr std::size_t gathered_blocks = 64;  // at most, are copied at once
 // Then the sequence is tried again.
 constexpr std::uint64_t most_searches_in_space = 64;
 
@@ -98,50 +99,75 @@ BlockSource<Dimension> BlockTree<Dimension>::source_of(double gap, double radius
 }
 
 template <int Dimension>
+std::size_t BlockTree<Dimension>::beads_of(std::size_t block) const {
+  const std::size_t behind =
+      order_ == BlockOrder::spatial
+          ? beads_ - beads_in_block * block
+          : std::size_t{asked_.necklaces[necklace_of_block_[block]].last} + 1 - first_bead_[block];
+  return std::min(behind, beads_in_block);
+}
+
+// Blocks whose beads do not lie one after the other, or are too few, are copied; a bead in want stands for
+// the last.
+template <int Dimension>
+template <class Bead>
+BlockSource<Dimension> BlockTree<Dimension>::gather(const Balls<Dimension>& balls,
+                                                    BlockSource<Dimension> source, std::size_t count,
+                                                    const Bead& bead) {
+  const std::size_t lanes = (count + beads_in_block - 1) / beads_in_block * beads_in_block;
+  for (std::size_t i = 0; i < gathered_.size(); ++i) {
+    const bool are_radii = i == Dimension;
+    if (are_radii && equal_) continue;
+    const double* numbers = are_radii ? balls.radii() : balls.coordinates(i);
+    std::vector<double>& copy = gathered_[i];
+    copy.resize(gathered_blocks * beads_in_block);
+    for (std::size_t k = 0; k < count; ++k) copy[k] = numbers[bead(k)];
+    for (std::size_t k = count; k < lanes; ++k) copy[k] = copy[count - 1];
+    (are_radii ? source.radii : source.centers[i]) = copy.data();
+  }
+  return source;
+}
+
+template <int Dimension>
 template <class Visit>
 void BlockTree<Dimension>::with_sources(const Balls<Dimension>& balls, BlockSource<Dimension> source,
                                         const Visit& visit) {
-  constexpr std::size_t gathered_blocks = 64;
-  std::array<const double*, static_cast<std::size_t>(Dimension) + 1> numbers;
-  for (std::size_t axis = 0; axis < Dimension; ++axis) numbers[axis] = balls.coordinates(axis);
-  numbers[Dimension] = balls.radii();
-  const auto from = [&source](std::size_t i, const double* first) {
-    (i < Dimension ? source.centers[i] : source.radii) = first;
-  };
-  // Blocks whose beads do not lie one after the other, or are too few, are copied; a bead in want stands for
-  // the last.
-  const auto gathered = [&](std::size_t first_block, std::size_t count, const auto& bead) {
-    const std::size_t blocks = (count + beads_in_block - 1) / beads_in_block;
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      std::vector<double>& copy = gathered_[i];
-      copy.resize(gathered_blocks * beads_in_block);
-      if (i == Dimension && equal_) continue;
-      for (std::size_t k = 0; k < count; ++k) copy[k] = numbers[i][bead(k)];
-      for (std::size_t k = count; k < blocks * beads_in_block; ++k) copy[k] = copy[count - 1];
-      from(i, copy.data());
-    }
-    visit(source, first_block, first_block + blocks);
-  };
   if (order_ == BlockOrder::spatial) {
-    constexpr std::size_t step = gathered_blocks * beads_in_block;
-    for (std::size_t first = 0; first < beads_; first += step)
-      gathered(first / beads_in_block, std::min(step, beads_ - first),
-               [&](std::size_t k) { return sorted_[first + k]; });
+    for (std::size_t first = 0; first < boxes_.size(); first += gathered_blocks) {
+      const std::size_t bead = first * beads_in_block,
+                        last = std::min(first + gathered_blocks, boxes_.size());
+      visit(gather(balls, source, std::min(last * beads_in_block, beads_) - bead,
+                   [&](std::size_t k) { return sorted_[bead + k]; }),
+            first, last);
+    }
     return;
   }
   std::size_t block = 0;
   for (const BeadRange& range : asked_.necklaces) {
     const std::size_t count = std::size_t{range.last} - range.first + 1, whole = count / beads_in_block;
     if (whole > 0) {
-      for (std::size_t i = 0; i < numbers.size(); ++i) from(i, numbers[i] + range.first);
+      for (std::size_t axis = 0; axis < Dimension; ++axis)
+        source.centers[axis] = balls.coordinates(axis) + range.first;
+      source.radii = balls.radii() + range.first;
       visit(source, block, block + whole);
       block += whole;
     }
     if (const std::size_t rest = count % beads_in_block; rest > 0) {
-      gathered(block, rest, [&](std::size_t k) { return range.first + whole * beads_in_block + k; });
+      visit(gather(balls, source, rest,
+                   [&](std::size_t k) { return range.first + whole * beads_in_block + k; }),
+            block, block + 1);
       ++block;
     }
   }
+}
+
+// Only the last of several blocks may have lanes without a bead.
+template <int Dimension>
+void BlockTree<Dimension>::clear_lanes_behind(std::size_t block) {
+  const std::size_t beads = beads_of(block);
+  for (auto& axis : centers_)
+    std::fill_n(axis.begin() + static_cast<std::ptrdiff_t>(beads_in_block * block + beads),
+                beads_in_block - beads, std::numeric_limits<float>::quiet_NaN());
 }
 
 template <int Dimension>
@@ -154,24 +180,25 @@ BlockExtent BlockTree<Dimension>::fill(const Balls<Dimension>& balls, double gap
     const BlockExtent e = kernel(some, first, last, blocks(), levels_[0].data());
     extent.coordinate = std::max(extent.coordinate, e.coordinate);
     extent.radius = std::max(extent.radius, e.radius);
+    clear_lanes_behind(last - 1);
   });
-  const auto clear_from = [&](std::size_t block, std::size_t lane) {
-    for (auto& axis : centers_)
-      std::fill_n(axis.begin() + static_cast<std::ptrdiff_t>(beads_in_block * block + lane),
-                  beads_in_block - lane, std::numeric_limits<float>::quiet_NaN());
-  };
-  if (order_ == BlockOrder::spatial) {
-    if (beads_ % beads_in_block != 0) clear_from(boxes_.size() - 1, beads_ % beads_in_block);
-    return extent;
-  }
-  std::size_t blocks_before = 0;
-  for (const BeadRange& range : asked_.necklaces) {
-    const std::size_t count = std::size_t{range.last} - range.first + 1;
-    if (count % beads_in_block != 0)
-      clear_from(blocks_before + count / beads_in_block, count % beads_in_block);
-    blocks_before += (count + beads_in_block - 1) / beads_in_block;
-  }
   return extent;
+}
+
+// False where the frame does not hold them.
+template <int Dimension>
+bool BlockTree<Dimension>::fill_again(const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks) {
+  const auto kernel = equal_ ? kernels_.fill_equal : kernels_.fill_unequal;
+  const BlockSource<Dimension> source = source_of(gap_, balls.radius(0));
+  bool fits = true;
+  for (const std::uint32_t block : blocks) {
+    const BlockSource<Dimension> its =
+        gather(balls, source, beads_of(block), [&](std::size_t k) { return bead_at(block, k); });
+    const BlockExtent extent = kernel(its, block, block + 1, this->blocks(), levels_[0].data());
+    clear_lanes_behind(block);
+    fits = fits && extent.coordinate <= frame_.bound;
+  }
+  return fits;
 }
 
 template <int Dimension>
@@ -191,6 +218,7 @@ void BlockTree<Dimension>::build(const Balls<Dimension>& balls, double gap) {
     extent = fill(balls, gap);
     if (!fits(extent)) throw std::logic_error("a frame of floats does not hold its own scene");
   }
+  gap_ = gap;
   for (std::size_t level = 0; level + 1 < levels_.size(); ++level)
     kernels_.unite(levels_[level].data(), 0, levels_[level].size(), levels_[level + 1].data());
 }
@@ -247,6 +275,20 @@ bool BlockTree<Dimension>::asks(std::uint32_t a, std::uint32_t b, std::size_t le
   return asked_.within && (last - first + 1) * beads_in_block > asked_.apart;
 }
 
+// Marks of what is below levels_[level]: blocks or nodes.
+template <int Dimension>
+void BlockTree<Dimension>::keep_marked(PairList& pairs, std::size_t from, std::size_t level) const {
+  const std::vector<unsigned char>& marks = marks_[level];
+  std::size_t kept = from;
+  for (std::size_t k = from; k < pairs.count; ++k) {
+    const std::uint32_t a = pairs.first[k], b = pairs.second[k];
+    pairs.first[kept] = a;
+    pairs.second[kept] = b;
+    kept += (marks[a] | marks[b]) != 0 ? 1 : 0;
+  }
+  pairs.count = kept;
+}
+
 template <int Dimension>
 void BlockTree<Dimension>::expand_levels() {
   nodes_.count = 0;
@@ -259,7 +301,9 @@ void BlockTree<Dimension>::expand_levels() {
       const std::uint32_t a = nodes_.first[k], b = nodes_.second[k];
       if (!asks(a, b, level)) continue;
       more_nodes_.reserve(children_of_node * children_of_node);
+      const std::size_t before = more_nodes_.count;
       more_nodes_.count += kernels_.expand(levels_[level].data(), a, b, more_nodes_.end());
+      if (only_marked_) keep_marked(more_nodes_, before, level);
       ++counts_.node_pairs;
     }
     std::swap(nodes_, more_nodes_);
@@ -277,7 +321,9 @@ bool BlockTree<Dimension>::search(bool may_give_up) {
     const std::uint32_t a = nodes_.first[k], b = nodes_.second[k];
     if (candidate_count_ > most_candidates_ || !asks(a, b, 0)) return;
     block_pairs_.reserve(children_of_node * children_of_node);
+    const std::size_t before = block_pairs_.count;
     block_pairs_.count += kernels_.expand(levels_[0].data(), a, b, block_pairs_.end());
+    if (only_marked_) keep_marked(block_pairs_, before, 0);
     ++counts_.node_pairs;
     if (block_pairs_.count >= block_pairs_at_once) compare_blocks();
   };
@@ -315,18 +361,30 @@ bool BlockTree<Dimension>::goes_along() const {
 template <int Dimension>
 void BlockTree<Dimension>::compare_along() {
   if (!goes_along()) return;
+  if (!only_marked_) return compare_along(0, boxes_.size());
+  // A block's beads are also the second of pairs that begin in the block before.
+  std::size_t done = 0;
+  for (const std::uint32_t block : marked_blocks_) {
+    compare_along(std::max<std::size_t>(done, block > 0 ? block - 1 : 0), block + 1);
+    done = block + 1;
+  }
+}
+
+template <int Dimension>
+void BlockTree<Dimension>::compare_along(std::size_t first, std::size_t last) {
   const auto kernel = equal_ ? kernels_.along_equal : kernels_.along_unequal;
   constexpr std::size_t at_once = 2 * block_pairs_at_once;  // eight found a block at most
-  for (std::size_t first = 0; first < boxes_.size(); first += at_once) {
-    const std::size_t near = kernel(blocks(), first, std::min(first + at_once, boxes_.size()), asked_.apart,
-                                    limit_, {near_groups_.data(), near_beads_.data()});
+  for (; first < last; first += at_once) {
+    const std::size_t near = kernel(blocks(), first, std::min(first + at_once, last), asked_.apart, limit_,
+                                    {near_groups_.data(), near_beads_.data()});
     reserve_candidates(near);
     for (std::size_t k = 0; k < near; ++k) {
       const std::uint32_t block = near_groups_[k] / 8, along = near_groups_[k] % 8;
-      const BeadId last = asked_.necklaces[necklace_of_block_[block]].last;
+      const BeadId end = asked_.necklaces[necklace_of_block_[block]].last;
       for (unsigned bits = near_beads_[k]; bits != 0; bits &= bits - 1) {
         const BeadId bead = first_bead_[block] + static_cast<BeadId>(std::countr_zero(bits));
-        if (last - bead < along) continue;  // the next necklace's
+        if (end - bead < along) continue;  // the next necklace's
+        if (only_marked_ && (marked_beads_[bead] | marked_beads_[bead + along]) == 0) continue;
         candidates_[candidate_count_++] = {bead, bead + along};
       }
     }
@@ -406,6 +464,58 @@ std::optional<std::span<const BeadPair>> BlockTree<Dimension>::near_pairs(const 
   find_candidates(balls, gap, most);
   if (candidate_count_ > most) return std::nullopt;
   return std::span<const BeadPair>(candidates_.data(), candidate_count_);
+}
+
+template <int Dimension>
+void BlockTree<Dimension>::mark(std::span<const std::uint32_t> blocks) {
+  marked_blocks_.assign(blocks.begin(), blocks.end());
+  marks_.resize(levels_.size());
+  marks_[0].assign(boxes_.size(), 0);
+  for (std::size_t level = 1; level < marks_.size(); ++level)
+    marks_[level].assign(levels_[level - 1].size(), 0);
+  marked_beads_.assign(beads_, 0);
+  for (const std::uint32_t block : blocks) {
+    for (std::size_t k = 0, count = beads_of(block); k < count; ++k) marked_beads_[bead_at(block, k)] = 1;
+    std::size_t node = block;
+    for (auto& marks : marks_) {
+      marks[node] = 1;
+      node /= children_of_node;
+    }
+  }
+}
+
+template <int Dimension>
+std::optional<std::span<const BeadPair>> BlockTree<Dimension>::near_pairs_of(
+    const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks, std::size_t most) {
+  const FloatingPointGuard to_nearest;
+  if (balls.size() != beads_) throw std::invalid_argument("balls and necklaces must be of the same beads");
+  mark(blocks);
+  if (!fill_again(balls, blocks)) return std::nullopt;
+  for (std::size_t level = 0; level + 1 < levels_.size(); ++level)
+    for (std::size_t node = 0; node < levels_[level].size(); ++node)
+      if (marks_[level + 1][node] != 0)
+        kernels_.unite(levels_[level].data(), node, node + 1, levels_[level + 1].data());
+  most_candidates_ = most;
+  only_marked_ = true;
+  (void)search(false);
+  only_marked_ = false;
+  counts_.candidates = candidate_count_;
+  if (candidate_count_ > most) return std::nullopt;
+  return std::span<const BeadPair>(candidates_.data(), candidate_count_);
+}
+
+template <int Dimension>
+std::span<const double> BlockTree<Dimension>::strayed_by_block(const Balls<Dimension>& balls) {
+  const FloatingPointGuard to_nearest;
+  if (balls.size() != beads_) throw std::invalid_argument("balls and necklaces must be of the same beads");
+  strays_.resize(boxes_.size());
+  with_sources(balls, source_of(0, 0), [&](BlockSource<Dimension> some, std::size_t first, std::size_t last) {
+    for (std::size_t block = first; block < last; ++block) {
+      strays_[block] = frame_.farthest(kernels_.stray(some, block, block + 1, blocks()));
+      for (const double*& axis : some.centers) axis += beads_in_block;
+    }
+  });
+  return strays_;
 }
 
 template <int Dimension>

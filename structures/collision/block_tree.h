@@ -57,9 +57,21 @@ class BlockTree {
   std::optional<std::span<const BeadPair>> near_pairs(const Balls<Dimension>& balls, double gap,
                                                       std::size_t most);
 
-  /// How far a bead is at most from where the last search found it, rounded up; NaN and infinity are no
-  /// bounds. As many balls as then.
+  /// How far a bead is at most from where it was looked at last, rounded up; NaN and infinity are no bounds.
+  /// As many balls as then.
   [[nodiscard]] double strayed(const Balls<Dimension>& balls);
+  /// The same of each block's beads.
+  [[nodiscard]] std::span<const double> strayed_by_block(const Balls<Dimension>& balls);
+
+  /// After near_pairs: looks again where the beads of these blocks are (ascending) and at no others. All
+  /// pairs asked about with such a bead that are at most the same gap apart, the others being where they were
+  /// looked at last, and some that are little farther; none where there are more than `most` or beads have
+  /// left the frame, and then all must be searched anew. The same radii as then.
+  std::optional<std::span<const BeadPair>> near_pairs_of(const Balls<Dimension>& balls,
+                                                         std::span<const std::uint32_t> blocks,
+                                                         std::size_t most);
+  /// Not zero for the beads of these blocks.
+  [[nodiscard]] std::span<const unsigned char> looked_at_again() const { return marked_beads_; }
 
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] BlockOrder order() const { return order_; }
@@ -86,7 +98,16 @@ class BlockTree {
   void sort_in_space(const Balls<Dimension>& balls);
   void build(const Balls<Dimension>& balls, double gap);
   BlockExtent fill(const Balls<Dimension>& balls, double gap);
+  [[nodiscard]] bool fill_again(const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks);
+  void clear_lanes_behind(std::size_t block);
+  [[nodiscard]] std::size_t beads_of(std::size_t block) const;
+  void mark(std::span<const std::uint32_t> blocks);
+  void keep_marked(PairList& pairs, std::size_t from, std::size_t level) const;
   [[nodiscard]] BlockSource<Dimension> source_of(double gap, double radius) const;
+  /// The beads bead(0) to bead(count - 1), copied one after the other.
+  template <class Bead>
+  [[nodiscard]] BlockSource<Dimension> gather(const Balls<Dimension>& balls, BlockSource<Dimension> source,
+                                              std::size_t count, const Bead& bead);
   /// Calls visit(source, first block, last block) with sources for all blocks.
   template <class Visit>
   void with_sources(const Balls<Dimension>& balls, BlockSource<Dimension> source, const Visit& visit);
@@ -98,6 +119,7 @@ class BlockTree {
   [[nodiscard]] bool asks(std::uint32_t a, std::uint32_t b, std::size_t level) const;
   void compare_blocks();
   void compare_along();
+  void compare_along(std::size_t first, std::size_t last);
   void reserve_candidates(std::size_t groups);
   [[nodiscard]] bool goes_along() const;
   [[nodiscard]] BeadId bead_at(std::uint32_t block, std::size_t lane) const {
@@ -114,6 +136,7 @@ class BlockTree {
 
   FloatFrame<Dimension> frame_;
   bool equal_ = true;
+  double gap_ = 0;   // of the last search
   float limit_ = 0;  // the greatest square of a distance that is near
 
   // Blocks: their first beads in sequence, or all their beads in spatial order.
@@ -124,6 +147,13 @@ class BlockTree {
   std::vector<float> radii_;
   std::vector<GroupBoxes<Dimension>> boxes_;
   std::vector<std::vector<BlockNode<Dimension>>> levels_;  // from those above the blocks up to one root
+
+  // Of blocks that are looked at again, of the nodes above them level by level, and of their beads.
+  bool only_marked_ = false;
+  std::vector<std::vector<unsigned char>> marks_;
+  std::vector<unsigned char> marked_beads_;
+  std::vector<std::uint32_t> marked_blocks_;
+  std::vector<double> strays_;
 
   PairList nodes_, more_nodes_, block_pairs_;
   std::vector<std::uint32_t> groups_, near_groups_;

@@ -9,33 +9,62 @@ template <int Dimension>
 void KeptPairs<Dimension>::keep(const Balls<Dimension>& balls, std::span<const BeadPair> near, double skin,
                                 const FloatFrame<Dimension>& frame) {
   skin_ = skin;
-  const double scale = frame.scale, of_skin = classes / (skin * scale);
+  scale_ = frame.scale;
+  pairs_.clear();
   starts_.fill(0);
+  replace(balls, {}, near, 0);
+}
+
+// A bead without a mark may have been nearer to a marked one, by `moved`, where it was than where it is: so
+// much less counts the gap that they have now.
+template <int Dimension>
+void KeptPairs<Dimension>::replace(const Balls<Dimension>& balls, std::span<const unsigned char> marks,
+                                   std::span<const BeadPair> near, double moved) {
+  const double of_skin = classes / (skin_ * scale_), moved_since = moved * scale_;
+  std::array<std::size_t, classes> added{};
   class_of_.resize(near.size());
   for (std::size_t k = 0; k < near.size(); ++k) {
     const auto [a, b] = near[k];
     double square = 0;
     for (std::size_t axis = 0; axis < Dimension; ++axis) {
-      const double d = balls.coordinates(axis)[a] * scale - balls.coordinates(axis)[b] * scale;
+      const double d = balls.coordinates(axis)[a] * scale_ - balls.coordinates(axis)[b] * scale_;
       square += d * d;
     }
-    const double distance = std::sqrt(square), reach = balls.radii()[a] * scale + balls.radii()[b] * scale;
-    const double gap = distance - reach - (distance + reach) * 0x1p-46;
+    const double distance = std::sqrt(square), reach = balls.radii()[a] * scale_ + balls.radii()[b] * scale_;
+    const double gap = distance - reach - (distance + reach) * 0x1p-46 - moved_since;
     // Of no skin all pairs are in the first.
     const double share = gap * of_skin * (1 - 0x1p-40);
     const auto its = share > 0 && of_skin < 0x1p1000
                          ? static_cast<std::size_t>(std::min(share, classes - 1.0))
                          : std::size_t{0};
     class_of_[k] = static_cast<unsigned char>(its);
-    ++starts_[its + 1];
+    ++added[its];
   }
-  for (std::size_t c = 0; c < classes; ++c) starts_[c + 1] += starts_[c];
-  pairs_.resize(near.size());
-  auto places = starts_;
-  for (std::size_t k = 0; k < near.size(); ++k) pairs_[places[class_of_[k]]++] = near[k];
-  first_class_.assign(pairs_.begin(), pairs_.begin() + static_cast<std::ptrdiff_t>(starts_[1]));
+  // Of each class first what stays, in its order, then what is new.
+  more_pairs_.resize(pairs_.size() + near.size() + 1);
+  std::array<std::size_t, classes> places;
+  std::size_t out = 0;
+  for (std::size_t c = 0; c < classes; ++c) {
+    const std::size_t begin = out;
+    for (std::size_t k = starts_[c]; k < starts_[c + 1]; ++k) {
+      const BeadPair pair = pairs_[k];
+      more_pairs_[out] = pair;
+      out += (marks[pair.first] | marks[pair.second]) == 0 ? 1 : 0;
+    }
+    starts_[c] = begin;
+    places[c] = out;
+    out += added[c];
+  }
+  starts_[classes] = out;
+  for (std::size_t k = 0; k < near.size(); ++k) more_pairs_[places[class_of_[k]]++] = near[k];
+  more_pairs_.resize(out);
+  pairs_.swap(more_pairs_);
+  const auto first = pairs_.begin(), last = first + static_cast<std::ptrdiff_t>(starts_[1]),
+             middle = last - static_cast<std::ptrdiff_t>(added[0]);
+  first_class_.assign(middle, last);
   sorter_.sort(first_class_, balls.size());
-  std::copy(first_class_.begin(), first_class_.end(), pairs_.begin());
+  std::copy(first_class_.begin(), first_class_.end(), middle);
+  if (middle != first) std::inplace_merge(first, middle, last);
 }
 
 template <int Dimension>
