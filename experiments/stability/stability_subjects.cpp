@@ -13,6 +13,7 @@ std::vector<StabilitySubject> all_subjects() {
   for (const int degree : {1, 3}) add(bead_certificates(degree));
   for (const int degree : {1, 3}) add(ball_certificates(degree));
   add(kinetic_structures());
+  add(motion_levers());
   // Those of one name together, in the order of first appearance; then by dimension and degree.
   std::vector<std::string> names;
   for (const StabilitySubject& subject : subjects)

@@ -1,6 +1,6 @@
 #pragma once
-// What `kds stability` puts to the test: certificate types and structures, each for motions of one dimension
-// and degree.
+// What `kds stability` puts to the test: certificate types, structures and what changes their motion, each
+// for motions of one dimension and degree.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +20,7 @@ struct StabilityCases {
 
 struct StabilitySubject {
   std::string name;
-  bool structure = false;
+  bool structure = false;         ///< or what changes the motion of one; else a certificate type
   int dimension = 0, degree = 0;  ///< of the motion
   int function_degree = 0;        ///< of a certificate
   bool weighted = false;  ///< asks for weights or radii; others are spared the extremes of unequal ones
@@ -34,9 +34,11 @@ struct StabilitySubject {
 /// Certificate types first, then structures; those of one name stand together.
 [[nodiscard]] std::vector<StabilitySubject> all_subjects();
 
-/// Parts of it: certificate types of beads and of balls under motions of a degree, structures.
+/// Parts of it: certificate types of beads and of balls under motions of a degree, structures, tolerances and
+/// strides.
 [[nodiscard]] std::vector<StabilitySubject> bead_certificates(int degree);
 [[nodiscard]] std::vector<StabilitySubject> ball_certificates(int degree);
 [[nodiscard]] std::vector<StabilitySubject> kinetic_structures();
+[[nodiscard]] std::vector<StabilitySubject> motion_levers();
 
 }  // namespace kds

@@ -1,5 +1,6 @@
 #include "motions/scene/straightened_frames.h"
 
+#include <limits>
 #include <utility>
 
 #include "motions/base/floating_point_guard.h"
@@ -7,6 +8,8 @@
 namespace kds {
 
 namespace {
+
+constexpr double smallest = std::numeric_limits<double>::denorm_min();
 
 /// Puts a bead's frames between two onto the chord, or halves.
 void straighten_bead(const std::vector<FrameRead>& samples, Eigen::Index bead, std::size_t first,
@@ -18,9 +21,10 @@ void straighten_bead(const std::vector<FrameRead>& samples, Eigen::Index bead, s
     return from + share * (to - from);  // at rest where it is
   };
   for (std::size_t k = first + 1; k < last; ++k) {
-    // A difference is rounded by 2^-53 of itself in each coordinate, its length by little more.
+    // A difference is rounded by 2^-53 of itself in each coordinate, its length by little more, and near the
+    // smallest doubles by one of these.
     const double apart = (point_at(k) - samples[k].positions.col(bead)).stableNorm();
-    if (apart * (1 + 0x1p-45) <= tolerance) continue;
+    if (apart == 0 || apart * (1 + 0x1p-45) + smallest <= tolerance) continue;
     const std::size_t middle = first + (last - first) / 2;
     straighten_bead(samples, bead, first, middle, tolerance, straight);
     straighten_bead(samples, bead, middle, last, tolerance, straight);

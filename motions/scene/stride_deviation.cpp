@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
@@ -14,6 +15,7 @@ namespace kds {
 namespace {
 
 constexpr int most_degree = 3;
+constexpr double smallest = std::numeric_limits<double>::denorm_min();
 using ControlPoints = std::array<Eigen::Matrix3Xd, most_degree + 1>;
 
 template <class M>
@@ -76,12 +78,14 @@ class DeviationSearch {
         const double share = static_cast<double>(k) / degree;
         const Eigen::Vector3d apart =
             curve[static_cast<std::size_t>(k)] - ((1 - share) * first + share * last);
-        // A dozen roundings of lengths up to the extent, and those of the norm.
-        const double rounded = apart.stableNorm() * (1 + 0x1p-45) + 0x1p-45 * extent;
-        if (!(rounded > found_.of_bead[b])) continue;
-        found_.of_bead[b] = rounded;
-        if (!(rounded > found_.largest)) continue;
-        found_.largest = rounded;
+        // A dozen roundings of lengths up to the extent in each coordinate, and those of the norm; near the
+        // smallest doubles each is by up to one of these.
+        const double rounded = apart.stableNorm() * (1 + 0x1p-45) + 0x1p-45 * extent + 64 * smallest;
+        const double bound = std::isnan(rounded) ? std::numeric_limits<double>::infinity() : rounded;
+        if (bound <= found_.of_bead[b]) continue;
+        found_.of_bead[b] = bound;
+        if (bound <= found_.largest) continue;
+        found_.largest = bound;
         found_.bead = b;
         found_.frame = (2 * k < degree ? before : after).stamp.number;
       }

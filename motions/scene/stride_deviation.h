@@ -6,7 +6,7 @@
 // moves on a part of its Bezier curve, and the difference of the two is a Bezier curve again: it is no longer
 // than its longest control point. So what is found here bounds the deviation at all times, and in linear
 // motion it is the largest there is, reached at a frame, but for being rounded up by up to 2^-44 of the
-// coordinates. Frames behind the scene's last one are not looked at.
+// coordinates; infinity where doubles overflow. Frames behind the scene's last one are not looked at.
 
 #include <cstddef>
 #include <vector>

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -83,6 +84,23 @@ TEST(StraightenedFrames, NeverExceedTheTolerance) {
     if (tolerance == 2.0 && scale == 1 && count > 20) {
       EXPECT_LT(turns(straight) * 4, turns(frames));
     }
+  }
+}
+
+// Among the smallest doubles a length is rounded by as much as it is.
+TEST(StraightenedFrames, NeverExceedAToleranceOfTheSmallestDoubles) {
+  constexpr double smallest = std::numeric_limits<double>::denorm_min();
+  std::mt19937 random(62);
+  for (int round = 0; round < 200; ++round) {
+    Frames frames;
+    for (int k = 0; k < 9; ++k)
+      frames.push_back(
+          Eigen::Matrix3Xd::NullaryExpr(3, 2, [&] { return static_cast<double>(random() % 3) * smallest; }));
+    const double tolerance = (1 + round % 3) * smallest;
+    const Frames straight = straightened(frames, tolerance);
+    for (std::size_t k = 0; k < frames.size(); ++k)
+      for (const Eigen::Index bead : {0, 1})
+        ASSERT_LE(square_of_deviation(frames, straight, k, bead), Rational(tolerance) * Rational(tolerance));
   }
 }
 

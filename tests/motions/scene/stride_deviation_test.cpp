@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 #include <string>
 
@@ -131,6 +132,18 @@ TEST(StrideDeviation, IsNothingWhereTheMotionIsTheSame) {
   const Scene scene = every_so_many(frames, 2, FrameMotion::linear);
   Frames every(frames);
   EXPECT_LT(deviation_of_stride(scene, every, 2).largest, 1e-11);
+}
+
+TEST(StrideDeviation, IsInfiniteWhereDoublesOverflow) {
+  std::vector<Eigen::Matrix3Xd> frames;
+  for (int k = 0; k <= 4; ++k)
+    frames.push_back(Eigen::Matrix3Xd::Constant(3, 5, k % 2 == 0 ? 1e308 : -1e308));
+  for (std::size_t k = 0; k < frames.size(); ++k) frames[k].col(1).setConstant(static_cast<double>(k));
+  const Scene scene = every_so_many(frames, 4, FrameMotion::linear);
+  Frames every(frames);
+  const StrideDeviation found = deviation_of_stride(scene, every, 4);
+  EXPECT_EQ(found.of_bead[0], std::numeric_limits<double>::infinity());
+  EXPECT_LT(found.of_bead[1], 1e-11);
 }
 
 TEST(StrideDeviation, RefusesOtherFrames) {

@@ -1,0 +1,219 @@
+// What changes the motion itself as a subject of `kds stability`: a tolerance, which must never be exceeded
+// at a frame, and the deviation of a stride, which must never be found too small. Both by exact numbers. That
+// contacts of such a run are sure or possible follows from the deviation alone
+// (experiments/run/certify_stride.h).
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "experiments/stability/stability_subjects.h"
+#include "motions/base/input_error.h"
+#include "motions/curves/positions.h"
+#include "motions/numbers/exact_number.h"
+#include "motions/scene/scene.h"
+#include "motions/scene/straightened_frames.h"
+#include "motions/scene/stride_deviation.h"
+
+namespace kds {
+namespace {
+
+constexpr std::size_t beads = 5;
+using Frames = std::vector<Eigen::Matrix3Xd>;
+using ExactPoint = std::array<Rational, 3>;
+
+/// Both ends of so many scenes of an extreme, one after the other.
+Frames frames_of(const Extreme& extreme, int dimension, std::size_t scenes, SceneRandom& random) {
+  Frames frames;
+  for (std::size_t scene = 0; scene < scenes; ++scene) {
+    const BeadCurves curves = extreme.make({dimension, 1, beads}, random);
+    for (const int end : {0, 1}) {
+      frames.emplace_back(Eigen::Matrix3Xd::Zero(3, beads));
+      for (std::size_t b = 0; b < beads; ++b)
+        for (int axis = 0; axis < dimension; ++axis)
+          frames.back()(axis, static_cast<Eigen::Index>(b)) = curves.coordinate(b, end, axis);
+    }
+  }
+  return frames;
+}
+
+Scene scene_of(const Frames& frames, std::size_t stride, FrameMotion motion) {
+  Trajectory some;
+  some.file = "frames";
+  for (std::size_t k = 0; k < frames.size(); k += stride) {
+    some.frames.push_back(frames[k]);
+    some.frame_numbers.push_back(k);
+  }
+  return Scene(std::span(&some, 1), std::vector<double>(beads, 0.0), motion);
+}
+
+class FramesInMemory final : public FrameReader {
+ public:
+  explicit FramesInMemory(const Frames& frames) : frames_(frames) {}
+  [[nodiscard]] bool next(FrameRead& frame) override {
+    if (next_ == frames_.size()) return false;
+    frame.stamp.number = next_;
+    frame.positions = frames_[next_++];
+    return true;
+  }
+  void rewind() override { next_ = 0; }
+
+ private:
+  const Frames& frames_;
+  std::size_t next_ = 0;
+};
+
+ExactPoint exact_point(const Eigen::Matrix3Xd& frame, std::size_t bead) {
+  const auto column = static_cast<Eigen::Index>(bead);
+  return {Rational(frame(0, column)), Rational(frame(1, column)), Rational(frame(2, column))};
+}
+
+bool is_within(const ExactPoint& a, const ExactPoint& b, double distance) {
+  if (std::isinf(distance)) return true;
+  Rational square = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) square += (a[axis] - b[axis]) * (a[axis] - b[axis]);
+  return square <= Rational(distance) * Rational(distance);
+}
+
+/// Counts what is looked at, and what is not as it was promised.
+struct Looks {
+  std::uint64_t all = 0, failed = 0;
+  void look(bool holds) {
+    ++all;
+    failed += holds ? 0 : 1;
+  }
+};
+
+/// Any, from far below the last digits of coordinates to their size; none now and then.
+double any_tolerance(const Frames& frames, SceneRandom& random) {
+  double size = 0;
+  for (const Eigen::Matrix3Xd& frame : frames) size = std::max(size, frame.cwiseAbs().maxCoeff());
+  if (random() % 8 == 0 || size == 0) return 0;
+  const int exponent = std::ilogb(size) - static_cast<int>(random() % 56);
+  return std::ldexp(1 + static_cast<double>(random() >> 11U) * 0x1p-53, exponent);
+}
+
+Looks look_at_tolerance(const Extreme& extreme, int dimension, SceneRandom& random) {
+  const Frames frames = frames_of(extreme, dimension, 12, random);
+  static_cast<void>(scene_of(frames, 1, FrameMotion::linear));  // refuses what readers do
+  const double tolerance = any_tolerance(frames, random);
+  StraightenedFrames straight(tolerance);
+  FramesInMemory every(frames);
+  Looks looks;
+  std::size_t place = 0;
+  const auto read = [&](FrameRead& frame) { return every.next(frame); };
+  for (FrameRead frame; straight.next(frame, read); ++place)
+    for (std::size_t b = 0; b < beads; ++b)
+      looks.look(is_within(exact_point(frame.positions, b), exact_point(frames[place], b), tolerance));
+  looks.look(place == frames.size());
+  return looks;
+}
+
+/// Where the scene has a bead at a time of a step it has loaded, in the input's coordinates.
+template <class M>
+ExactPoint exact_in_input(const Scene& scene, const M& motion, std::size_t bead, const Dyadic& time,
+                          const Eigen::Matrix3Xd& frame) {
+  const auto position = exact_position(motion, static_cast<BeadId>(bead), time);
+  if constexpr (M::dimension == 3) return {position[0], position[1], position[2]};
+  // The axis that a plane is at right angles to is where both others change.
+  ExactPoint point = exact_point(frame, bead);
+  std::size_t next = 0;
+  const Eigen::Vector3d zero = scene.in_input({0, 0, 0}), one = scene.in_input({1, 1, 0});
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto row = static_cast<Eigen::Index>(axis);
+    if (zero[row] != one[row]) point[axis] = position[next++];
+  }
+  return point;
+}
+
+template <class M>
+void look_at_steps(const Scene& scene, const Frames& frames, std::size_t stride, const StrideDeviation& found,
+                   Looks& looks) {
+  constexpr std::size_t times = 4;  // of a part of a step
+  M motion(beads);
+  for (std::size_t step = 0; step < scene.step_count(); ++step) {
+    scene.load(step, motion);
+    for (std::size_t i = 0; i < stride * times; ++i) {
+      const std::size_t before = step * stride + i / times;
+      const Rational share(i % times, times);
+      const Dyadic time(static_cast<double>(i) / static_cast<double>(stride * times));
+      for (std::size_t b = 0; b < beads; ++b) {
+        ExactPoint truth = exact_point(frames[before], b);
+        const ExactPoint after = exact_point(frames[before + 1], b);
+        for (std::size_t axis = 0; axis < 3; ++axis) truth[axis] += share * (after[axis] - truth[axis]);
+        const ExactPoint there = exact_in_input(scene, motion, b, time, frames[before]);
+        looks.look(is_within(there, truth, found.of_bead[b]));
+      }
+    }
+  }
+}
+
+Looks look_at_stride(const Extreme& extreme, int dimension, int degree, SceneRandom& random) {
+  constexpr std::size_t stride = 4;
+  Frames frames = frames_of(extreme, dimension, 7, random);
+  frames.resize(3 * stride + 1);
+  const FrameMotion kind = degree == 1 ? FrameMotion::linear : FrameMotion::hermite;
+  static_cast<void>(scene_of(frames, 1, kind));
+  const Scene scene = scene_of(frames, stride, kind);
+  FramesInMemory every(frames);
+  const StrideDeviation found = deviation_of_stride(scene, every, stride);
+  Looks looks;
+  if (scene.dimension() == 2) {
+    degree == 1 ? look_at_steps<BezierMotion<2, 1>>(scene, frames, stride, found, looks)
+                : look_at_steps<BezierMotion<2, 3>>(scene, frames, stride, found, looks);
+  } else {
+    degree == 1 ? look_at_steps<BezierMotion<3, 1>>(scene, frames, stride, found, looks)
+                : look_at_steps<BezierMotion<3, 3>>(scene, frames, stride, found, looks);
+  }
+  return looks;
+}
+
+template <class Look>
+StabilitySubject lever(const std::string& name, int dimension, int degree, Look look) {
+  StabilitySubject subject{name, true, dimension, degree, 0, false, {}};
+  subject.run = [=](const Extreme& extreme, const StabilityCases& cases) {
+    constexpr std::size_t cases_a_run = 20;
+    StabilityRow row;
+    row.extreme = extreme.name;
+    row.must_refuse = extreme.refused;
+    const std::size_t runs = (cases.cases + cases_a_run - 1) / cases_a_run;
+    for (std::size_t number = 0; number < runs; ++number) {
+      SceneRandom random = scene_random(cases.seed, extreme.name, number);
+      ++row.cases;
+      try {
+        const Looks looks = look(extreme, random);
+        row.audits_run += looks.all;
+        row.audits_failed += looks.failed;
+        if (looks.failed > 0)
+          note_trouble(row, number, fmt::format("{} of {} positions too far off", looks.failed, looks.all),
+                       "");
+      } catch (const InputError& error) {
+        if (row.refused++ == 0 && row.reason.empty()) row.reason = error.what();
+      }
+    }
+    return row;
+  };
+  return subject;
+}
+
+}  // namespace
+
+std::vector<StabilitySubject> motion_levers() {
+  std::vector<StabilitySubject> subjects;
+  for (const int dimension : {2, 3}) {
+    subjects.push_back(lever("tolerance", dimension, 1, [=](const Extreme& extreme, SceneRandom& random) {
+      return look_at_tolerance(extreme, dimension, random);
+    }));
+    for (const int degree : {1, 3}) {
+      subjects.push_back(lever("stride", dimension, degree, [=](const Extreme& extreme, SceneRandom& random) {
+        return look_at_stride(extreme, dimension, degree, random);
+      }));
+    }
+  }
+  return subjects;
+}
+
+}  // namespace kds
