@@ -158,6 +158,27 @@ TEST(ConstantPlaces, ABeadThatTouchesAPlaneStaysAbove) {
   expect_all_along(*search, Above{{0}}, {0, 0, 0, 0});
 }
 
+TEST(ConstantPlaces, AllArePositiveWhereEachIs) {
+  Random random(2114);
+  const auto motion = test::random_motion<BezierMotion<3, 1>>(random, 20, MotionKind::generic);
+  const auto search = search_over<Above>(MotionRef<3>(motion));
+  search->set_constants({.foot = {{0, 0, 0.25}, {0.5, 0, -0.25}}, .normal = {{0, 0, 1}, {0.5, 0, 1}}});
+  for (const Kernel kernel : {Kernel::filtered, Kernel::exact}) {
+    StageCounts stages;
+    for (const double time : {0.0, 0.375, 0.75}) {
+      const Instant now(time);
+      std::vector<Above> above, below;
+      for (BeadId b = 0; b < 20; ++b)
+        (search->sign_now(kernel, Above{{b}}, now, stages) > 0 ? above : below).push_back({{b}});
+      ASSERT_GT(above.size(), 3U);
+      ASSERT_GT(below.size(), 0U);
+      EXPECT_TRUE(search->all_positive_now(kernel, above, now, stages));
+      above.insert(above.begin() + 1, below[0]);
+      EXPECT_FALSE(search->all_positive_now(kernel, above, now, stages));
+    }
+  }
+}
+
 template <Motion M>
 void expect_left_of_as_judged(int rounds) {
   Random random(2112);
