@@ -92,8 +92,18 @@ template <class Function, Motion M>
   return scaled;
 }
 
-/// The coefficients of a wide function, from its beads' curves as they were when it was made. `C`: Curves or
-/// LiftedCurves.
+/// Whether a function is the negative of its formula.
+template <class Function>
+[[nodiscard]] bool is_negative(const Function& function) {
+  if constexpr (requires { function.side(); }) {
+    return !function.side();
+  } else {
+    return false;
+  }
+}
+
+/// The coefficients of a wide function's formula, from its beads' curves as they were when it was made. `C`:
+/// Curves or LiftedCurves.
 template <class Function, class C>
 class WideFunction final : public CoefficientSource {
   static constexpr Channels channels = channels_of<Function>;
@@ -106,25 +116,25 @@ class WideFunction final : public CoefficientSource {
     for (std::size_t i = 0; i < function_.beads.size(); ++i) function_.beads[i] = static_cast<BeadId>(i);
   }
 
-  /// All that the function is made from.
-  [[nodiscard]] std::vector<double> numbers() const {
-    std::vector<double> all = curves_.numbers();
-    if constexpr (requires { function_.side(); }) all.push_back(function_.side() ? 1 : -1);
-    return all;
-  }
+  /// All that the formula is of.
+  [[nodiscard]] const std::vector<double>& numbers() const { return curves_.numbers(); }
 
   [[nodiscard]] std::vector<LeadingDigits> leading_digits() const override {
-    const auto p = function_of(function_, DigitsView<C, channels>(curves_.curves(), scale_));
+    const auto p = Function::formula(DigitsView<C, channels>(curves_.curves(), scale_), function_.beads);
     spend_on_forming(p.scaled.size(), LeadingDigits::most_bits);
     return {p.scaled.begin(), p.scaled.end()};
   }
   [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {
-    const auto p = function_of(function_, ResidueView<C, channels>(curves_.curves(), scale_, {fold}));
+    const auto p =
+        Function::formula(ResidueView<C, channels>(curves_.curves(), scale_, {fold}), function_.beads);
     spend_on_forming(p.scaled.size(), Residue::bits);
     return {p.scaled.begin(), p.scaled.end()};
   }
   [[nodiscard]] std::vector<Integer> whole() const override {
-    return whole_coefficients(function_, curves_.curves(), size_, scale_);
+    std::vector<Integer> scaled = whole_coefficients(function_, curves_.curves(), size_, scale_);
+    if (is_negative(function_))
+      for (Integer& x : scaled) x = -x;
+    return scaled;
   }
 
  private:
@@ -145,7 +155,8 @@ template <class Function, Motion M>
   static const char formula = 0;  // its place is the formula's name
   auto source = std::make_unique<detail::WideFunction<Function, CurvesOf<M>>>(function, motion, size, scale);
   const std::vector<double> numbers = source->numbers();
-  return ExactPolynomial(ExactWork::current().recent_functions().of(&formula, numbers, std::move(source)));
+  return ExactPolynomial(ExactWork::current().recent_functions().of(&formula, numbers, std::move(source),
+                                                                    detail::is_negative(function)));
 }
 
 }  // namespace kds

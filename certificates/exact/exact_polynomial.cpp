@@ -104,7 +104,10 @@ int ExactPolynomial::sign_variations() const {
 
 int ExactPolynomial::sign_between(const Dyadic& lower, const Dyadic& upper, bool exactly) const {
   if (wide_) {
-    const int sign = wide_->sign_on(lower, upper);
+    if (const int sign = wide_->sign_on(lower, upper)) return sign;
+    // Fewer digits than a few are no more than the leading ones.
+    const bool closely = exactly || has_digits({lower, upper}, LeadingDigits::most_bits / 2);
+    const int sign = closely ? sign_closely(*wide_, lower, upper) : 0;
     if (sign != 0 || !exactly) return sign;
     // Ends of unlike sign have a root between.
     const int at_upper = sign_at(upper);
@@ -135,10 +138,14 @@ ExactPolynomial ExactPolynomial::restricted(const Dyadic& lower, const Dyadic& u
 
 ExactPolynomial ExactPolynomial::square_free() const {
   if (!wide_) return ExactPolynomial(square_free_part(scaled_));
-  if (certainly_square_free(wide_->residues())) return *this;
-  std::shared_ptr<const WidePolynomial>& known = wide_->found().square_free;
-  if (!known) known = std::make_shared<const WidePolynomial>(square_free_part(wide_->whole()));
-  return ExactPolynomial(known);
+  // One for a function and its negative, so that a look at the place tells that roots are the same.
+  const std::shared_ptr<const WidePolynomial>& own = wide_->opposite() ? wide_->opposite() : wide_;
+  auto& known = own->found().square_free;
+  if (!known)
+    known = certainly_square_free(own->residues())
+                ? nullptr
+                : std::make_shared<const WidePolynomial>(square_free_part(own->whole()));
+  return ExactPolynomial(*known ? *known : own);
 }
 
 ExactPolynomial ExactPolynomial::gcd(const ExactPolynomial& a, const ExactPolynomial& b) {

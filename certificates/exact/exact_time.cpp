@@ -22,16 +22,29 @@ bool wants_gcd(const ExactTime& time, int bisections) {
                                              : has_digits({time.lower(), time.upper()}, digits_before_gcd);
 }
 
+// Whether the time is a root of this polynomial, and the only one in its interval, because it was made from
+// it. A look at the place: false proves nothing.
+bool is_made_from(const ExactTime& time, const ExactPolynomial& square_free) {
+  return !time.is_dyadic() && square_free.wide() != nullptr && square_free.wide() == time.polynomial().wide();
+}
+
 bool disjoint(const ExactTime& a, const ExactTime& b) {
   if (a.is_dyadic() && b.is_dyadic()) return !(a.lower() == b.lower());
   return a.upper() <= b.lower() || b.upper() <= a.lower();
+}
+
+const Dyadic& later_of(const Dyadic& a, const Dyadic& b) { return a < b ? b : a; }
+const Dyadic& earlier_of(const Dyadic& a, const Dyadic& b) { return a < b ? a : b; }
+
+bool changes_sign_between(const ExactPolynomial& p, const Dyadic& lower, const Dyadic& upper) {
+  return p.sign_at(lower) * p.sign_at(upper) < 0;
 }
 
 // Whether the time is a root of g, which divides a polynomial that has no other root in the interval.
 bool is_root(const ExactPolynomial& g, const ExactTime& time) {
   if (g.is_constant()) return false;
   if (time.is_dyadic()) return g.sign_at(time.lower()) == 0;
-  return g.sign_at(time.lower()) * g.sign_at(time.upper()) < 0;
+  return changes_sign_between(g, time.lower(), time.upper());
 }
 
 // The sign of `function` in the time's interval if it is known to have no root there, else 0.
@@ -78,7 +91,7 @@ ExactTime::ExactTime(ExactPolynomial square_free, RootInterval interval)
 
 void ExactTime::refine() {
   if (is_dyadic()) return;
-  if (polynomial_.wide() != nullptr) return narrow_root(*polynomial_.wide(), root_, sign_lower_, digits_);
+  if (polynomial_.wide() != nullptr) return narrow_root(*polynomial_.wide(), root_, sign_lower_);
   Dyadic middle = Dyadic::midpoint(root_.lower, root_.upper);
   const int sign = polynomial_.sign_at(middle);
   if (sign == 0) {
@@ -138,6 +151,11 @@ void refine_both(ExactTime& a, ExactTime& b) {
 }  // namespace
 
 int ExactTime::compare(ExactTime& a, ExactTime& b) {
+  if (is_made_from(a, b.polynomial_) && !b.is_dyadic() && !disjoint(a, b)) {
+    if (changes_sign_between(a.polynomial_, later_of(a.lower(), b.lower()), earlier_of(a.upper(), b.upper())))
+      return 0;
+    while (!disjoint(a, b)) refine_both(a, b);
+  }
   for (int i = 0; !disjoint(a, b) && !(wants_gcd(a, i) && wants_gcd(b, i)); ++i) {
     if (!wants_gcd(a, i)) a.refine();
     if (!wants_gcd(b, i)) b.refine();
@@ -150,9 +168,9 @@ int ExactTime::compare(ExactTime& a, ExactTime& b) {
       // Common roots are the roots of g; the times are equal iff one lies in the overlap, where each has one
       // root.
       const ExactPolynomial g = ExactPolynomial::gcd(a.polynomial_, b.polynomial_).square_free();
-      const Dyadic& lower = a.root_.lower < b.root_.lower ? b.root_.lower : a.root_.lower;
-      const Dyadic& upper = a.root_.upper < b.root_.upper ? a.root_.upper : b.root_.upper;
-      if (!g.is_constant() && g.sign_at(lower) * g.sign_at(upper) < 0) return 0;
+      if (!g.is_constant() &&
+          changes_sign_between(g, later_of(a.lower(), b.lower()), earlier_of(a.upper(), b.upper())))
+        return 0;
     }
     while (!disjoint(a, b)) refine_both(a, b);
   }
@@ -162,6 +180,7 @@ int ExactTime::compare(ExactTime& a, ExactTime& b) {
 
 int sign_at(const ExactPolynomial& function, ExactTime& time) {
   if (function.is_zero()) return 0;
+  if (function.wide() != nullptr && is_made_from(time, function.square_free())) return 0;
   for (int i = 0; !wants_gcd(time, i); ++i) {
     if (const int sign = sign_all_over(function, time)) return sign;
     time.refine();
@@ -174,6 +193,14 @@ int sign_at(const ExactPolynomial& function, ExactTime& time) {
 int sign_after(const ExactPolynomial& function, ExactTime& time) {
   if (function.is_zero()) return 0;
   if (time.is_dyadic()) return function.sign_after(time.lower());
+  if (function.wide() != nullptr && is_made_from(time, function.square_free())) {
+    // No other root is around but, perhaps, the end of the step.
+    while (true) {
+      if (const int sign = function.sign_at(time.upper())) return sign;
+      time.refine();
+      if (time.is_dyadic()) return function.sign_after(time.lower());
+    }
+  }
   for (int i = 0; !wants_gcd(time, i); ++i) {
     if (const int sign = sign_all_over(function, time)) return sign;
     time.refine();
@@ -190,8 +217,12 @@ int sign_after(const ExactPolynomial& function, ExactTime& time) {
       if (time.is_dyadic()) return function.sign_after(time.lower());
     }
   }
+  // Digits of the time are cheaper than a look at the function on its interval, as long as they are few.
+  constexpr unsigned few_digits = 1024;
   while (true) {
-    if (const int sign = sign_all_over(function, time, true)) return sign;
+    const bool exactly =
+        time.polynomial().wide() == nullptr || has_digits({time.lower(), time.upper()}, few_digits);
+    if (const int sign = sign_all_over(function, time, exactly)) return sign;
     time.refine();
     if (time.is_dyadic()) return function.sign_after(time.lower());
   }

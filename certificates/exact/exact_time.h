@@ -37,7 +37,6 @@ class ExactTime {
   ExactPolynomial polynomial_;
   RootInterval root_;
   int sign_lower_ = 0;
-  unsigned digits_ = 1;  // for narrow_root
 };
 
 /// Sign of `function` at the time itself. Narrows `time`.

@@ -57,6 +57,20 @@ LongDigits value_at(const WidePolynomial& polynomial, const Dyadic& u, std::size
   return value;
 }
 
+int sign_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper) {
+  const detail::Ends ends(lower, upper);
+  const auto width_of = [](const Integer& x) { return mpz_sizeinbase(x.backend().data(), 2); };
+  const std::size_t places = std::min(width_of(ends.upper), width_of(ends.above_lower));
+  const std::size_t digits = places - std::min(places, width_of(ends.upper - ends.lower));
+  // Bits far below what the interval leaves open tell nothing.
+  constexpr std::size_t spare_bits = 128;
+  const std::size_t bits = digits + spare_bits;
+  return detail::value_of(cut(polynomial.whole(), bits), LongDigits(1, bits),
+                          LongDigits::between(ends.lower, ends.upper, bits),
+                          LongDigits::between(ends.above_upper, ends.above_lower, bits))
+      .certain_sign();
+}
+
 Halves seen_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper,
                     std::size_t bits) {
   const detail::Ends ends(lower, upper);

@@ -11,6 +11,9 @@ namespace kds {
 /// The value at u, to at least so many leading binary digits, or exact.
 [[nodiscard]] LongDigits value_at(const WidePolynomial& polynomial, const Dyadic& u, std::size_t digits);
 
+/// The sign all over [lower, upper] if as many digits tell as the interval has, else 0.
+[[nodiscard]] int sign_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper);
+
 /// The polynomial as seen on [lower, upper], ends of one scale, by so many leading digits.
 [[nodiscard]] Halves seen_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper,
                                   std::size_t bits);

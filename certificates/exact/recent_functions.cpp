@@ -28,15 +28,18 @@ std::uint64_t hash_of(const std::vector<double>& numbers) {
 
 std::shared_ptr<const WidePolynomial> RecentFunctions::of(const void* formula,
                                                           const std::vector<double>& numbers,
-                                                          std::unique_ptr<const CoefficientSource> source) {
+                                                          std::unique_ptr<const CoefficientSource> source,
+                                                          bool negative) {
   Shelf& shelf = shelves_[hash_of(numbers) % shelves_.size()];
   for (const Known& known : shelf.known) {
-    if (known.formula == formula && same(known.numbers, numbers)) return known.function;
+    if (known.formula == formula && same(known.numbers, numbers))
+      return negative ? known.negative : known.function;
   }
   Known& place = shelf.known[shelf.oldest];
   shelf.oldest = (shelf.oldest + 1) % shelf.known.size();
-  place = {formula, numbers, std::make_shared<const WidePolynomial>(std::move(source))};
-  return place.function;
+  const auto function = std::make_shared<const WidePolynomial>(std::move(source));
+  place = {formula, numbers, function, std::make_shared<const WidePolynomial>(function)};
+  return negative ? place.negative : place.function;
 }
 
 }  // namespace kds

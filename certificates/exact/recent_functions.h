@@ -15,16 +15,18 @@ namespace kds {
 
 class RecentFunctions {
  public:
-  /// `formula` names the function's formula, `numbers` are all that go into it.
+  /// `formula` names the function's formula, `numbers` are all that go into it. Or the `negative` of what
+  /// these make, which shares what is found out with it.
   [[nodiscard]] std::shared_ptr<const WidePolynomial> of(const void* formula,
                                                          const std::vector<double>& numbers,
-                                                         std::unique_ptr<const CoefficientSource> source);
+                                                         std::unique_ptr<const CoefficientSource> source,
+                                                         bool negative = false);
 
  private:
   struct Known {
     const void* formula = nullptr;
     std::vector<double> numbers;
-    std::shared_ptr<const WidePolynomial> function;
+    std::shared_ptr<const WidePolynomial> function, negative;
   };
   /// Those of one hash, which is that of the numbers: the same in every run. A few formulas share them.
   struct Shelf {

@@ -10,6 +10,7 @@ namespace kds {
 /// An interval with one root and no root at its ends; or, where lower == upper, the root itself.
 struct RootInterval {
   Dyadic lower, upper;
+  unsigned digits = 1;  ///< what the next step of narrowing it is worth (narrow_root)
 };
 
 /// Takes one root; returns whether the next one is wanted.

@@ -29,15 +29,24 @@ LeadingDigits between(const Integer& low, const Integer& high) {
   return all;
 }
 
+template <class Number>
+std::vector<Number> negatives_of(const std::vector<Number>& numbers) {
+  std::vector<Number> negatives;
+  negatives.reserve(numbers.size());
+  for (const Number& x : numbers) negatives.push_back(-x);
+  return negatives;
+}
+
 }  // namespace
 
 const std::vector<Integer>& WidePolynomial::whole() const {
-  if (!whole_) whole_ = source_->whole();
+  if (!whole_) whole_ = opposite_ ? negatives_of(opposite_->whole()) : source_->whole();
   return *whole_;
 }
 
 const std::vector<LeadingDigits>& WidePolynomial::leading_digits() const {
   if (leading_) return *leading_;
+  if (opposite_) return leading_.emplace(negatives_of(opposite_->leading_digits()));
   // Kept only when they are complete: forming them may end in an exception.
   std::vector<LeadingDigits> digits;
   if (!whole_) digits = source_->leading_digits();
@@ -50,8 +59,12 @@ const std::vector<LeadingDigits>& WidePolynomial::leading_digits() const {
   return *leading_;
 }
 
-std::vector<Residue> WidePolynomial::residues() const {
-  return whole_ ? image_of(*whole_) : source_->residues(residue_folds[0]);
+const std::vector<Residue>& WidePolynomial::residues() const {
+  if (!residues_)
+    residues_ = opposite_ ? negatives_of(opposite_->residues())
+                : whole_  ? image_of(*whole_)
+                          : source_->residues(residue_folds[0]);
+  return *residues_;
 }
 
 std::size_t WidePolynomial::largest_bit_length() const {

@@ -40,11 +40,16 @@ class WidePolynomial {
  public:
   explicit WidePolynomial(std::vector<Integer> scaled) : whole_(std::move(scaled)) {}
   explicit WidePolynomial(std::unique_ptr<const CoefficientSource> source) : source_(std::move(source)) {}
+  /// The negative of another, which is nobody's negative. What is found out about the roots is both's.
+  explicit WidePolynomial(std::shared_ptr<const WidePolynomial> opposite) : opposite_(std::move(opposite)) {}
+
+  /// Null where it was not made as the negative of another.
+  [[nodiscard]] const std::shared_ptr<const WidePolynomial>& opposite() const { return opposite_; }
 
   [[nodiscard]] const std::vector<Integer>& whole() const;
   [[nodiscard]] const std::vector<LeadingDigits>& leading_digits() const;
   /// Modulo the first of the primes.
-  [[nodiscard]] std::vector<Residue> residues() const;
+  [[nodiscard]] const std::vector<Residue>& residues() const;
   /// The degree that it is written with, plus 1.
   [[nodiscard]] std::size_t size() const { return leading_digits().size(); }
   /// Of the longest coefficient: by its leading digits, one more than it is at the most.
@@ -65,16 +70,18 @@ class WidePolynomial {
 
   /// What others have found out about it.
   struct Found {
-    std::optional<std::vector<RootInterval>> roots;  ///< in [0,1], isolated (wide_roots.h)
-    std::shared_ptr<const WidePolynomial>
-        square_free;  ///< its part without multiple roots, unless it is that
+    std::optional<std::vector<RootInterval>> roots;  ///< in [0,1], isolated and narrowed (wide_roots.h)
+    /// Its part without multiple roots; null where it is that itself.
+    std::optional<std::shared_ptr<const WidePolynomial>> square_free;
   };
-  [[nodiscard]] Found& found() const { return found_; }
+  [[nodiscard]] Found& found() const { return opposite_ ? opposite_->found_ : found_; }
 
  private:
   std::unique_ptr<const CoefficientSource> source_;
+  std::shared_ptr<const WidePolynomial> opposite_;
   mutable std::optional<std::vector<Integer>> whole_;
   mutable std::optional<std::vector<LeadingDigits>> leading_;
+  mutable std::optional<std::vector<Residue>> residues_;
   mutable Found found_;
 };
 

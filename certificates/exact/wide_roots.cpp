@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -213,7 +214,7 @@ void cut(RootInterval& root, const Dyadic& point, const WidePolynomial& square_f
   if (!(root.lower < point && point < root.upper)) return;
   const int sign = square_free.sign_at(point);
   if (sign == 0) {
-    root = {point, point};
+    root.lower = root.upper = point;
   } else {
     (sign == square_free.sign_at(root.lower) ? root.lower : root.upper) = point;
   }
@@ -238,11 +239,26 @@ bool has_digits(const RootInterval& root, unsigned digits) {
          std::min(length_of(ends.upper), length_of(ends.above_lower));
 }
 
-void narrow_root(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lower, unsigned& digits) {
+namespace {
+
+/// The known root that lies in this interval, which is of the same polynomial, is known as well from now on.
+void keep(const RootInterval& narrowed, const WidePolynomial& polynomial) {
+  auto& roots = polynomial.found().roots;
+  if (!roots) return;
+  const auto next =
+      std::upper_bound(roots->begin(), roots->end(), narrowed.lower,
+                       [](const Dyadic& at, const RootInterval& root) { return at < root.lower; });
+  if (next == roots->begin()) return;
+  RootInterval& known = *std::prev(next);
+  if (known.lower <= narrowed.lower && narrowed.upper <= known.upper) known = narrowed;
+}
+
+void narrow(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lower) {
+  unsigned& digits = root.digits;
   const auto take = [&](Dyadic point) {  // whether the root is after it
     const int sign = polynomial.sign_at(point);
     if (sign == 0) {
-      root = {point, point};
+      root.lower = root.upper = std::move(point);
       return false;
     }
     const bool after = sign == sign_at_lower;
@@ -264,6 +280,13 @@ void narrow_root(const WidePolynomial& polynomial, RootInterval& root, int sign_
   const bool before =
       !(root.lower == root.upper) && after && (cell + 1 == cells || !take(parts.border(cell + 1)));
   digits = after && before ? std::min(2 * digits, most_digits) : std::max(1U, digits / 2);
+}
+
+}  // namespace
+
+void narrow_root(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lower) {
+  narrow(polynomial, root, sign_at_lower);
+  keep(root, polynomial);
 }
 
 }  // namespace kds

@@ -42,6 +42,13 @@ Widest product(Wide a, Wide b) {
   return sum;
 }
 
+Widest product(Wide a, std::uint64_t b) {
+  Widest sum{0, Wide{static_cast<std::uint64_t>(a)} * b};
+  const Wide upper = (a >> 64U) * b;
+  sum.add(upper >> 64U, upper << 64U);
+  return sum;
+}
+
 }  // namespace
 
 LeadingDigits LeadingDigits::of(long long x) {

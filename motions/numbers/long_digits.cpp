@@ -9,7 +9,24 @@ namespace {
 
 constexpr std::size_t error_bits = 61;
 
-std::size_t width_of(const Integer& x) { return x == 0 ? 0 : mpz_sizeinbase(x.backend().data(), 2); }
+std::size_t width_of(const Integer& x) {
+  mpz_srcptr whole = x.backend().data();
+  const std::size_t limbs = mpz_size(whole);
+  return limbs == 0
+             ? 0
+             : 64 * (limbs - 1) +
+                   static_cast<std::size_t>(std::bit_width(std::uint64_t{mpz_limbs_read(whole)[limbs - 1]}));
+}
+
+/// x / 2^bits, less than 2^64, without what is below 1.
+std::uint64_t top_of(const Integer& x, std::size_t bits) {
+  mpz_srcptr whole = x.backend().data();
+  const auto limb = [&](std::size_t i) {
+    return std::uint64_t{mpz_getlimbn(whole, static_cast<mp_size_t>(i))};
+  };
+  const std::size_t first = bits / 64, rest = bits % 64;
+  return rest == 0 ? limb(first) : (limb(first) >> rest) | (limb(first + 1) << (64 - rest));
+}
 
 std::size_t width_of(Wide x) {
   const auto high = static_cast<std::uint64_t>(x >> 64U);
@@ -31,10 +48,7 @@ struct Bound {
     const std::size_t width = width_of(x);
     if (width == 0) return;
     shift = width > 60 ? width - 60 : 0;
-    Integer top;
-    mpz_tdiv_q_2exp(top.backend().data(), x.backend().data(), shift);
-    mantissa = mpz_get_ui(top.backend().data());
-    mantissa += shift > 0 ? 1 : 0;
+    mantissa = Wide{top_of(x, shift)} + (shift > 0 ? 1 : 0);
   }
   [[nodiscard]] std::size_t width() const { return mantissa == 0 ? 0 : width_of(mantissa) + shift; }
   /// Not less than the bound / 2^bits, which must fit.
@@ -47,6 +61,19 @@ struct Bound {
 
 }  // namespace
 
+// No copy of digits that are left out.
+LongDigits::LongDigits(const Integer& value, std::size_t most_bits) : most_bits_(most_bits) {
+  const std::size_t width = width_of(value);
+  if (width <= most_bits) {
+    value_ = value;
+    return;
+  }
+  const std::size_t below = width - most_bits;
+  mpz_tdiv_q_2exp(value_.backend().data(), value.backend().data(), below);
+  error_ = mpz_scan1(value.backend().data(), 0) >= below ? 0 : 1;
+  exponent_ = static_cast<std::int64_t>(below);
+}
+
 LongDigits::LongDigits(const LeadingDigits& number)
     : value_(static_cast<std::uint64_t>(number.magnitude >> 64U)),
       error_(number.error),
@@ -55,6 +82,17 @@ LongDigits::LongDigits(const LeadingDigits& number)
   value_ = (value_ << 64U) + static_cast<std::uint64_t>(number.magnitude);
   if (number.negative) value_ = -value_;
   cut();
+}
+
+LongDigits LongDigits::between(const Integer& low, const Integer& high, std::size_t most_bits) {
+  constexpr std::size_t length_bits = error_bits - 1;
+  LongDigits all(high, most_bits);
+  const Integer length = high - low;
+  const std::size_t width = width_of(length), below = static_cast<std::size_t>(all.exponent_);
+  if (width > below + length_bits) all.shift_down(width - below - length_bits);
+  const Integer units = length >> static_cast<std::size_t>(all.exponent_);
+  all.error_ += mpz_get_ui(units.backend().data()) + 1;
+  return all;
 }
 
 int LongDigits::certain_sign() const {

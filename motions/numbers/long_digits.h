@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "motions/numbers/exact_number.h"
 #include "motions/numbers/leading_digits.h"
@@ -18,10 +17,10 @@ class LongDigits {
 
   /// Zero.
   explicit LongDigits(std::size_t most_bits = unlimited) : most_bits_(most_bits) {}
-  LongDigits(Integer value, std::size_t most_bits) : value_(std::move(value)), most_bits_(most_bits) {
-    cut();
-  }
+  LongDigits(const Integer& value, std::size_t most_bits);
   explicit LongDigits(const LeadingDigits& number);
+  /// All numbers between two, from 0 on.
+  [[nodiscard]] static LongDigits between(const Integer& low, const Integer& high, std::size_t most_bits);
 
   /// 1 or -1 if that is the sign for certain, else 0.
   [[nodiscard]] int certain_sign() const;

@@ -68,7 +68,8 @@ TEST(WildPolynomials, RootsAreThoseThatSturmCounts) {
     for (const Dyadic& upper : {Dyadic(0.75), Dyadic(1.0), Dyadic(Integer(1), 600)}) {
       const auto roots = isolate_roots(p.square_free(), lower, upper);
       EXPECT_EQ(static_cast<int>(roots.size()), judge.roots_on(0, upper.rational()));
-      for (const auto& [low, high] : roots) {
+      for (const RootInterval& root : roots) {
+        const Dyadic &low = root.lower, &high = root.upper;
         ++found_any;
         if (low == high) {
           EXPECT_TRUE(judge.is_root(low.rational()));
@@ -106,6 +107,7 @@ TEST(WildPolynomials, NarrowingKeepsTheRootAndTellsRootsApart) {
 
 TEST(WildPolynomials, SignsAreThoseOfWholeNumbers) {
   Random random(1203);
+  int signs_closely = 0;
   for (int i = 0; i < 120 && !testing::Test::HasFailure(); ++i) {
     const Scaled scaled = some(random);
     const ExactPolynomial p = wide(scaled);
@@ -115,11 +117,68 @@ TEST(WildPolynomials, SignsAreThoseOfWholeNumbers) {
     const Integer third = (Integer(1) << bits) / 3;
     for (const Dyadic& u : {Dyadic(1, bits), Dyadic((Integer(1) << bits) - 1, bits), Dyadic(third, bits)})
       EXPECT_EQ(p.sign_at(u), sturm::sign_at(power, u.rational()));
+    const Integer far = third + (Integer(1) << static_cast<unsigned>(test::pick(random, 0, 900)) % bits);
+    if (const int sign = sign_closely(*p.wide(), Dyadic(third, bits), Dyadic(far, bits))) {
+      ++signs_closely;
+      EXPECT_EQ(sign, p.sign_at(Dyadic(third, bits)));
+      EXPECT_EQ(judge_of(scaled).roots_on(Dyadic(third, bits).rational(), Dyadic(far, bits).rational()), 0);
+    }
     const Variations v = exact_variations(*p.wide(), Dyadic(1, bits), Dyadic(third + 1, bits));
     const int exact = p.restricted(Dyadic(1, bits), Dyadic(third + 1, bits)).sign_variations();
     EXPECT_TRUE(v.least <= exact && exact <= v.most);
     EXPECT_TRUE(v.least == v.most || v.least >= 2);
   }
+  EXPECT_GT(signs_closely, 30);
+}
+
+// A function and its negative share what is found out about their roots, and no sign of theirs.
+TEST(WildPolynomials, TheNegativeHasTheSameRootsAndTheOtherSigns) {
+  Random random(1205);
+  int roots_seen = 0;
+  for (int i = 0; i < 60 && !testing::Test::HasFailure(); ++i) {
+    Scaled scaled = some(random);
+    if (i % 4 == 0) scaled = test::product(scaled, test::linear(1, 1));  // zero at the end of the step
+    SCOPED_TRACE("seed 1205, case " + std::to_string(i) + ": " + test::describe(scaled));
+    const auto own = std::make_shared<const WidePolynomial>(scaled);
+    const ExactPolynomial p(own), negative(std::make_shared<const WidePolynomial>(own)), plain(scaled);
+    Scaled other_signs = scaled;
+    for (Integer& x : other_signs) x = -x;
+    EXPECT_EQ(negative.scaled(), other_signs);
+    if (p.is_zero()) continue;
+    for (const Dyadic& u : {Dyadic(0.0), Dyadic(0.3), Dyadic(1.0)}) {
+      EXPECT_EQ(negative.sign_at(u), -plain.sign_at(u));
+      EXPECT_EQ(negative.sign_after(u), -plain.sign_after(u));
+    }
+    EXPECT_EQ(negative.square_free().wide(), p.square_free().wide());
+    for (RootInterval& root : isolate_roots(negative.square_free(), Dyadic(0.0), Dyadic(1.0))) {
+      ++roots_seen;
+      ExactTime time(negative.square_free(), root);
+      const int after = sign_after(p, time);
+      EXPECT_EQ(sign_after(negative, time), -after);
+      EXPECT_EQ(sign_at(negative, time), 0);
+      ExactTime judged(plain.square_free(), root);  // not wide: by other ways
+      EXPECT_EQ(after, sign_after(plain, judged));
+      EXPECT_EQ(ExactTime::compare(time, judged), 0);
+    }
+  }
+  EXPECT_GT(roots_seen, 50);
+}
+
+// Who looks for it again finds a root as narrow as it was left.
+TEST(WildPolynomials, RootsStayNarrow) {
+  const Integer scale = Integer(1) << 200U;
+  const ExactPolynomial p =
+      wide(test::product(test::linear(scale + 3, 3 * scale), test::linear(2 * scale + 5, 3 * scale)));
+  const auto roots = [&] { return isolate_roots(p.square_free(), Dyadic(0.0), Dyadic(1.0)); };
+  ASSERT_EQ(roots().size(), 2U);
+  EXPECT_FALSE(has_digits(roots()[0], 64));
+  ExactTime first(p.square_free(), roots()[0]);
+  while (!has_digits({first.lower(), first.upper()}, 64)) first.refine();
+  EXPECT_TRUE(has_digits(roots()[0], 64));
+  EXPECT_FALSE(has_digits(roots()[1], 64));
+  ExactTime again(p.square_free(), roots()[0]), second(p.square_free(), roots()[1]);
+  EXPECT_EQ(ExactTime::compare(first, again), 0);
+  EXPECT_EQ(ExactTime::compare(first, second), -1);
 }
 
 // The same answers as of polynomials that are not wide.
@@ -258,6 +317,10 @@ TEST(RecentFunctions, KnowsAFunctionByAllItsNumbers) {
   EXPECT_EQ(of(a, {1, 3}, 30), 30);
   EXPECT_EQ(of(b, {1, 2}, 40), 40);
   EXPECT_EQ(of(a, {1}, 50), 50);
+  EXPECT_EQ(asked, 4);
+  const auto negative = recent.of(&a, {1, 2}, std::make_unique<Source>(Scaled{Integer(60), 1}, asked), true);
+  EXPECT_EQ(negative->whole(), (Scaled{-10, -1}));
+  EXPECT_EQ(negative->residues()[1].value, (-Residue{1, residue_folds[0]}).value);
   EXPECT_EQ(asked, 4);
 }
 

@@ -102,6 +102,21 @@ TEST(LongDigits, HoldsTheExactNumberWhateverTheBits) {
       1103, [](const Integer& x) { return LongDigits(x, LongDigits::unlimited); });
 }
 
+TEST(LongDigits, HoldsAllNumbersBetweenTwo) {
+  Random random(1104);
+  for (int i = 0; i < 3000 && !testing::Test::HasFailure(); ++i) {
+    const Integer low = abs(random_integer(random)), high = low + abs(random_integer(random));
+    const std::size_t bits = random() % 3 == 0 ? LongDigits::unlimited : 1U << (6 + random() % 6);
+    const LongDigits all = LongDigits::between(low, high, bits);
+    SCOPED_TRACE("seed 1104, case " + std::to_string(i));
+    for (const Integer& x : {low, high, Integer((low + high) / 2)}) expect_encloses(all, x);
+    EXPECT_LT(all.error(), std::uint64_t{1} << 61U);
+    if (low == high && bits == LongDigits::unlimited) {
+      EXPECT_LE(all.error(), 1U);
+    }
+  }
+}
+
 TEST(LongDigits, IsExactWithoutALimit) {
   LongDigits x(Integer(3), LongDigits::unlimited);
   x *= LongDigits(Integer(1) << 5000, LongDigits::unlimited);
