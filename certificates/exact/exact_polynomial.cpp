@@ -148,8 +148,32 @@ ExactPolynomial ExactPolynomial::square_free() const {
   return ExactPolynomial(*known ? *known : own);
 }
 
+namespace {
+
+using Shared = std::shared_ptr<const WidePolynomial>;
+
+// Null where it is not known.
+Shared known_gcd(const Shared& a, const Shared& b) {
+  for (const auto& [one, two] : {std::pair(&a, &b), std::pair(&b, &a)})
+    for (const auto& common : (*one)->found().common)
+      if (common.other.lock() == *two) return common.factor;
+  return nullptr;
+}
+
+void keep_gcd(const Shared& a, const Shared& b, Shared factor) {
+  constexpr std::size_t few = 16;
+  auto& known = a->found().common;
+  if (known.size() == few) known.erase(known.begin());
+  known.push_back({b, std::move(factor)});
+}
+
+}  // namespace
+
 ExactPolynomial ExactPolynomial::gcd(const ExactPolynomial& a, const ExactPolynomial& b) {
   if (a.wide_ && a.wide_ == b.wide_) return a;
+  const bool both_wide = a.wide_ && b.wide_;
+  if (both_wide)
+    if (const Shared known = known_gcd(a.wide_, b.wide_)) return ExactPolynomial(known);
   const auto coefficients = [](const ExactPolynomial& p) {
     Integers c = p.scaled();
     drop_leading_zeros(c);
@@ -163,7 +187,9 @@ ExactPolynomial ExactPolynomial::gcd(const ExactPolynomial& a, const ExactPolyno
   Integers of_a = coefficients(a), of_b = coefficients(b);
   drop_elevation(of_a);
   drop_elevation(of_b);
-  return (a.wide_ ? a : b).alike(polynomial_gcd(std::move(of_a), std::move(of_b)));
+  const ExactPolynomial common = (a.wide_ ? a : b).alike(polynomial_gcd(std::move(of_a), std::move(of_b)));
+  if (both_wide) keep_gcd(a.wide_, b.wide_, common.wide_);
+  return common;
 }
 
 namespace {

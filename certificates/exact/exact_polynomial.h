@@ -44,7 +44,7 @@ class ExactPolynomial {
   /// and of the same parity; 0 and 1 are the number itself.
   [[nodiscard]] int sign_variations() const;
   /// The sign on (lower, upper) where Descartes' rule tells that there is no root between, else 0. If it is
-  /// wide, as far as as many digits tell as the interval has; or `exactly`.
+  /// wide, as far as digits tell that are as many as the interval has; or `exactly`.
   [[nodiscard]] int sign_between(const Dyadic& lower, const Dyadic& upper, bool exactly = false) const;
   /// Descartes' rule tells that there is one root between at most.
   [[nodiscard]] bool has_few_roots_between(const Dyadic& lower, const Dyadic& upper) const;

@@ -73,6 +73,12 @@ class WidePolynomial {
     std::optional<std::vector<RootInterval>> roots;  ///< in [0,1], isolated and narrowed (wide_roots.h)
     /// Its part without multiple roots; null where it is that itself.
     std::optional<std::shared_ptr<const WidePolynomial>> square_free;
+    /// What it has in common with others: the last few of those that it has something in common with.
+    struct Common {
+      std::weak_ptr<const WidePolynomial> other;
+      std::shared_ptr<const WidePolynomial> factor;
+    };
+    std::vector<Common> common;
   };
   [[nodiscard]] Found& found() const { return opposite_ ? opposite_->found_ : found_; }
 

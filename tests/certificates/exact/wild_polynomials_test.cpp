@@ -164,6 +164,27 @@ TEST(WildPolynomials, TheNegativeHasTheSameRootsAndTheOtherSigns) {
   EXPECT_GT(roots_seen, 50);
 }
 
+// Asked for twice, in either order, it is found once.
+TEST(WildPolynomials, WhatTwoHaveInCommonIsKept) {
+  const Integer scale = Integer(1) << 200U;
+  const Scaled shared = test::linear(scale + 3, 3 * scale);
+  const auto times = [&](Integer p) { return test::product(shared, test::linear(std::move(p), 3 * scale)); };
+  const ExactPolynomial a = wide(times(2 * scale + 5)), b = wide(times(scale + 9)), c = wide(times(7));
+  const ExactPolynomial ab = ExactPolynomial::gcd(a, b);
+  EXPECT_EQ(ab.scaled().size(), 2U);
+  EXPECT_EQ(ExactPolynomial::gcd(b, a).wide(), ab.wide());
+  const ExactPolynomial ac = ExactPolynomial::gcd(c, a);
+  EXPECT_NE(ac.wide(), ab.wide());
+  EXPECT_EQ(abs(ac.scaled()[0]), abs(ab.scaled()[0]));
+  EXPECT_EQ(ExactPolynomial::gcd(a, b).wide(), ab.wide());
+  // Another one at the place of one that has gone is another one.
+  const ExactPolynomial other =
+      wide(test::product(test::linear(2 * scale + 5, 3 * scale), test::linear(1, 5)));
+  EXPECT_EQ(sturm::sign_at(sturm::from_scaled(ExactPolynomial::gcd(a, other).scaled()),
+                           Rational(2 * scale + 5, 3 * scale)),
+            0);
+}
+
 // Who looks for it again finds a root as narrow as it was left.
 TEST(WildPolynomials, RootsStayNarrow) {
   const Integer scale = Integer(1) << 200U;
