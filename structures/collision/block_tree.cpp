@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "motions/base/floating_point_guard.h"
+#include "structures/collision/bond_axes.h"
 
 namespace kds {
 
@@ -21,12 +22,10 @@ double work_of(const Counts& counts) {
   return 10.0 * static_cast<double>(counts.node_pairs) + 1.5 * static_cast<double>(counts.block_pairs) +
          static_cast<double>(counts.group_pairs);
 }
-// What sorting and a search of sorted beads cost a block.
-constexpr double work_of_sorted_block = 230;
-constexpr std::size_t fewest_beads_to_sort = 2000;
+// What sorting and a search of sorted beads cost a block, and turning boxes and a search in them.
+constexpr double work_of_sorted_block = 230, work_of_turned_block = 45;
+constexpr std::size_t fewest_beads_to_choose = 2000;
 constexpr std::size_t gathered_blocks = 64;  // at most, are copied at once
-// Then the sequence is tried again.
-constexpr std::uint64_t most_searches_in_space = 64;
 
 // Every `spread`-th bit from the lowest.
 std::uint64_t spread_bits(std::uint64_t bits, int spread) {
@@ -107,8 +106,8 @@ std::size_t BlockTree<Dimension>::beads_of(std::size_t block) const {
   return std::min(behind, beads_in_block);
 }
 
-// Blocks whose beads do not lie one after the other, or are too few, are copied; a bead in want stands for
-// the last.
+// Blocks whose beads do not lie one after the other, or are too few, or are turned, are copied; a bead in
+// want stands for the last.
 template <int Dimension>
 template <class Bead>
 BlockSource<Dimension> BlockTree<Dimension>::gather(const Balls<Dimension>& balls,
@@ -125,6 +124,21 @@ BlockSource<Dimension> BlockTree<Dimension>::gather(const Balls<Dimension>& ball
     for (std::size_t k = count; k < lanes; ++k) copy[k] = copy[count - 1];
     (are_radii ? source.radii : source.centers[i]) = copy.data();
   }
+  return frame_.axes ? placed(source, lanes) : source;
+}
+
+// The same in a frame with axes.
+template <int Dimension>
+BlockSource<Dimension> BlockTree<Dimension>::placed(BlockSource<Dimension> source, std::size_t lanes) {
+  std::array<double*, static_cast<std::size_t>(Dimension)> places;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    gathered_[axis].resize(gathered_blocks * beads_in_block);
+    places[axis] = gathered_[axis].data();
+  }
+  place_along_axes(frame_, source.centers, places, lanes);
+  std::copy(places.begin(), places.end(), source.centers.begin());
+  source.shift = {};
+  source.scale = 1;
   return source;
 }
 
@@ -145,13 +159,16 @@ void BlockTree<Dimension>::with_sources(const Balls<Dimension>& balls, BlockSour
   std::size_t block = 0;
   for (const BeadRange& range : asked_.necklaces) {
     const std::size_t count = std::size_t{range.last} - range.first + 1, whole = count / beads_in_block;
-    if (whole > 0) {
+    const std::size_t at_once = frame_.axes ? gathered_blocks : std::max<std::size_t>(whole, 1);
+    for (std::size_t first = 0; first < whole; first += at_once) {
+      const std::size_t bead = range.first + first * beads_in_block, some = std::min(at_once, whole - first);
       for (std::size_t axis = 0; axis < Dimension; ++axis)
-        source.centers[axis] = balls.coordinates(axis) + range.first;
-      source.radii = balls.radii() + range.first;
-      visit(source, block, block + whole);
-      block += whole;
+        source.centers[axis] = balls.coordinates(axis) + bead;
+      source.radii = balls.radii() + bead;
+      visit(frame_.axes ? placed(source, some * beads_in_block) : source, block + first,
+            block + first + some);
     }
+    block += whole;
     if (const std::size_t rest = count % beads_in_block; rest > 0) {
       visit(gather(balls, source, rest,
                    [&](std::size_t k) { return range.first + whole * beads_in_block + k; }),
@@ -214,7 +231,7 @@ void BlockTree<Dimension>::build(const Balls<Dimension>& balls, double gap) {
   BlockExtent extent;
   if (frame_.bound > 0) extent = fill(balls, gap);
   if (frame_.bound == 0 || !fits(extent) || blunt(extent)) {
-    frame_ = fit_float_frame(scene_box(balls), gap);
+    frame_ = fit_float_frame(scene_box(balls), gap, frame_.axes);
     extent = fill(balls, gap);
     if (!fits(extent)) throw std::logic_error("a frame of floats does not hold its own scene");
   }
@@ -311,11 +328,10 @@ void BlockTree<Dimension>::expand_levels() {
 }
 
 template <int Dimension>
-bool BlockTree<Dimension>::search(bool may_give_up) {
+auto BlockTree<Dimension>::search(const Balls<Dimension>& balls, bool may_give_up) -> Outcome {
   counts_ = {};
   candidate_count_ = 0;
   expand_levels();
-  const double most_work = work_of_sorted_block * static_cast<double>(boxes_.size());
   block_pairs_.count = 0;
   const auto expand = [&](std::size_t k) {
     const std::uint32_t a = nodes_.first[k], b = nodes_.second[k];
@@ -333,16 +349,22 @@ bool BlockTree<Dimension>::search(bool may_give_up) {
     const double before = work_of(counts_);
     for (std::size_t k = 0; k < nodes_.count; k += sample_stride) expand(k);
     compare_blocks();
-    if (candidate_count_ > most_candidates_) return true;
+    if (candidate_count_ > most_candidates_) return Outcome::found;
     const double sampled = static_cast<double>((nodes_.count + sample_stride - 1) / sample_stride);
-    if (before + (work_of(counts_) - before) * static_cast<double>(nodes_.count) / sampled > most_work)
-      return false;
+    const double work = before + (work_of(counts_) - before) * static_cast<double>(nodes_.count) / sampled;
+    const double work_a_block = work / static_cast<double>(boxes_.size());
+    if (may_turn_ && work_a_block > work_of_turned_block) {
+      may_turn_ = false;
+      bond_axes_ = bond_axes(balls, frame_.scale);
+      if (bond_axes_) return Outcome::better_turned;
+    }
+    if (work_a_block > work_of_sorted_block) return Outcome::better_sorted;
     for (std::size_t k = 0; k < nodes_.count; ++k)
       if (k % sample_stride != 0) expand(k);
   }
   compare_blocks();
   compare_along();
-  return true;
+  return Outcome::found;
 }
 
 template <int Dimension>
@@ -426,23 +448,41 @@ void BlockTree<Dimension>::compare_blocks() {
 }
 
 template <int Dimension>
+void BlockTree<Dimension>::turn(const std::optional<Axes<Dimension>>& axes) {
+  // A coordinate along another axis is less than twice as large.
+  if (axes.has_value() != frame_.axes.has_value()) frame_.bound *= axes ? 2 : 0.5;
+  frame_.axes = axes;
+}
+
+template <int Dimension>
+void BlockTree<Dimension>::choose_anew() {
+  searches_since_choice_ = 0;
+  may_turn_ = true;
+  turn(std::nullopt);
+  if (!wanted_ && order_ == BlockOrder::spatial) make_blocks(BlockOrder::sequence);
+}
+
+template <int Dimension>
 void BlockTree<Dimension>::find_candidates(const Balls<Dimension>& balls, double gap, std::size_t most) {
   most_candidates_ = most;
   if (balls.size() != beads_) throw std::invalid_argument("balls and necklaces must be of the same beads");
   counts_ = {};
   candidate_count_ = 0;
   if (beads_ == 0) return;
-  if (!wanted_ && order_ == BlockOrder::spatial && searches_in_space_ >= most_searches_in_space)
-    make_blocks(BlockOrder::sequence);
-  build(balls, gap);
-  const bool may_give_up = !wanted_ && order_ == BlockOrder::sequence && beads_ >= fewest_beads_to_sort;
-  if (!search(may_give_up)) {
-    make_blocks(BlockOrder::spatial);
-    searches_in_space_ = 0;
+  if (searches_since_choice_++ >= most_searches_as_chosen) choose_anew();
+  const bool may_choose = !wanted_ && beads_ >= fewest_beads_to_choose;
+  while (true) {
     build(balls, gap);
-    (void)search(false);
+    const Outcome outcome = search(balls, may_choose && order_ == BlockOrder::sequence);
+    if (outcome == Outcome::found) break;
+    searches_since_choice_ = 0;
+    if (outcome == Outcome::better_turned) {
+      turn(*bond_axes_);
+    } else {
+      turn(std::nullopt);
+      make_blocks(BlockOrder::spatial);
+    }
   }
-  if (order_ == BlockOrder::spatial) ++searches_in_space_;
   counts_.candidates = candidate_count_;
 }
 
@@ -497,7 +537,7 @@ std::optional<std::span<const BeadPair>> BlockTree<Dimension>::near_pairs_of(
         kernels_.unite(levels_[level].data(), node, node + 1, levels_[level + 1].data());
   most_candidates_ = most;
   only_marked_ = true;
-  (void)search(false);
+  (void)search(balls, false);
   only_marked_ = false;
   counts_.candidates = candidate_count_;
   if (candidate_count_ > most) return std::nullopt;

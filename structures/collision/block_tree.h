@@ -5,9 +5,10 @@
 // once; of two boxes the 16 pairs of beads. Floats only rule out (float_frame.h has the proof); what is left
 // is decided exactly. Built anew for every scene, 1 to 2 ns a bead.
 //
-// Where a chain is packed so densely that blocks of consecutive beads meet many others, the beads are put in
-// spatial order first, along a Morton curve, and blocks are made of these: that costs sorting. It is found
-// out on an eighth of the work.
+// Where blocks of consecutive beads meet many others, boxes are turned to the chain's bonds (bond_axes.h) if
+// these lie along few directions. Where a chain is packed so densely that they still do, or has no such
+// directions, the beads are put in spatial order first, along a Morton curve, and blocks are made of these:
+// that costs sorting. Both are found out on an eighth of the work.
 //
 // Exact for all finite input. Time: coordinates that are huge beside distances and radii (10^5 times and
 // more) blunt the filter, radii that differ widely the boxes; in the worst case all pairs are looked at.
@@ -77,8 +78,10 @@ class BlockTree {
   [[nodiscard]] BlockOrder order() const { return order_; }
   /// Of the last scene.
   [[nodiscard]] const FloatFrame<Dimension>& frame() const { return frame_; }
-  /// A new scene: the sequence is tried first again.
-  void forget_order() { searches_in_space_ = ~std::uint64_t{0}; }
+  /// The next searches are made in boxes along these axes, or the coordinates', until all is chosen anew.
+  void turn(const std::optional<Axes<Dimension>>& axes);
+  /// A new scene: the sequence, in boxes along the coordinates' axes, is tried first again.
+  void forget_order() { searches_since_choice_ = most_searches_as_chosen; }
 
  private:
   struct PairList {
@@ -108,13 +111,18 @@ class BlockTree {
   template <class Bead>
   [[nodiscard]] BlockSource<Dimension> gather(const Balls<Dimension>& balls, BlockSource<Dimension> source,
                                               std::size_t count, const Bead& bead);
+  [[nodiscard]] BlockSource<Dimension> placed(BlockSource<Dimension> source, std::size_t lanes);
   /// Calls visit(source, first block, last block) with sources for all blocks.
   template <class Visit>
   void with_sources(const Balls<Dimension>& balls, BlockSource<Dimension> source, const Visit& visit);
   [[nodiscard]] Blocks<Dimension> blocks();
 
   void find_candidates(const Balls<Dimension>& balls, double gap, std::size_t most);
-  [[nodiscard]] bool search(bool may_give_up);
+  // Then the sequence is tried again.
+  static constexpr std::uint64_t most_searches_as_chosen = 64;
+  enum class Outcome { found, better_turned, better_sorted };
+  [[nodiscard]] Outcome search(const Balls<Dimension>& balls, bool may_give_up);
+  void choose_anew();
   void expand_levels();
   [[nodiscard]] bool asks(std::uint32_t a, std::uint32_t b, std::size_t level) const;
   void compare_blocks();
@@ -132,7 +140,9 @@ class BlockTree {
   const BlockKernels<Dimension>& kernels_;
   std::size_t beads_;
   BlockOrder order_ = BlockOrder::sequence;
-  std::uint64_t searches_in_space_ = 0;
+  bool may_turn_ = true;                      // it has not been asked yet whether bonds have axes
+  std::optional<Axes<Dimension>> bond_axes_;  // of a frame that is to be turned
+  std::uint64_t searches_since_choice_ = 0;
 
   FloatFrame<Dimension> frame_;
   bool equal_ = true;

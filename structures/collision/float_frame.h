@@ -19,9 +19,13 @@
 //      f' + R' in floats: the difference f - f' is at most S + 3.48 u M, and R + R' - u (2 M + R + R') at
 //      least (1 + 13 u) S + 13 u M. Boxes of beads' f - R and f + R, minimum and maximum, meet.
 //
-//   3. A bead with f then and f' now, |f| <= M, |f'| <= M + |f' - f|: its X has moved by at most |f' - f| (1
-//   +
-//      1.8 u) + 3.48 u M, and the root of the sum of squares has lost less than 2.6 u.
+//   3. A bead with f then and f' now, |f| <= M, |f'| <= M + |f' - f|: its X has moved by at most
+//      |f' - f| (1 + 1.8 u) + 3.48 u M, and the root of the sum of squares has lost less than 2.6 u.
+//
+// A frame may have axes of its own, of length one and across each other up to 2^-40. Its X are sums of
+// products with them: all roundings of these come to less than 2^-49 M, or of |f' - f| where that is larger,
+// and lengths differ by less than 2^-39 of themselves. Both are below 2^-14 u, which 2^-19 u M above and what
+// 1 to 3 leave of S and |f' - f|, several u, have room for.
 //
 // Balls up to a gap g apart are those that meet with radii g / 2 larger.
 
@@ -30,16 +34,23 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 
 #include "structures/necklace/balls.h"
 
 namespace kds {
 
+/// Of a frame, one a row.
+template <int Dimension>
+using Axes =
+    std::array<std::array<double, static_cast<std::size_t>(Dimension)>, static_cast<std::size_t>(Dimension)>;
+
 template <int Dimension>
 struct FloatFrame {
   std::array<double, static_cast<std::size_t>(Dimension)> shift{};
   double scale = 1;
-  double bound = 0;  ///< M; 0: a frame of no scene
+  double bound = 0;                     ///< M; 0: a frame of no scene
+  std::optional<Axes<Dimension>> axes;  ///< none: those of the coordinates
 
   /// R before it is rounded to float.
   [[nodiscard]] double float_radius(double radius) const {
@@ -55,6 +66,14 @@ struct FloatFrame {
 
 /// The largest float radius that squares do not overflow of, by far.
 inline constexpr float largest_float_radius = 0x1p40F;
+
+/// From coordinates of beads to X in a frame with axes, in doubles; `count` is a multiple of four. The two
+/// may be the same arrays.
+template <int Dimension>
+void place_along_axes(const FloatFrame<Dimension>& frame,
+                      const std::array<const double*, static_cast<std::size_t>(Dimension)>& coordinates,
+                      const std::array<double*, static_cast<std::size_t>(Dimension)>& places,
+                      std::size_t count);
 
 /// The scene's box and its largest radius.
 template <int Dimension>
@@ -111,11 +130,13 @@ template <int Dimension>
   return box;
 }
 
-/// With room for beads that move on: `bound` is twice the largest of the scene's coordinates, which are below
-/// 1 as are the radii and half the gap. Radii and gap finite.
+/// With room for beads that move on: `bound` is twice the largest that the scene's coordinates can be. Along
+/// the coordinates' axes these are below 1, as are the radii and half the gap. Radii and gap finite.
 template <int Dimension>
-[[nodiscard]] FloatFrame<Dimension> fit_float_frame(const SceneBox<Dimension>& box, double gap) {
+[[nodiscard]] FloatFrame<Dimension> fit_float_frame(
+    const SceneBox<Dimension>& box, double gap, const std::optional<Axes<Dimension>>& axes = std::nullopt) {
   FloatFrame<Dimension> frame;
+  frame.axes = axes;
   double largest = std::max(0.5 * gap, box.largest_radius);
   double size = largest;  // half the longest side of the box, or the largest radius
   for (std::size_t axis = 0; axis < Dimension; ++axis) {
@@ -132,7 +153,8 @@ template <int Dimension>
     farthest = std::max({farthest, std::abs(box.low[axis] * frame.scale - frame.shift[axis]),
                          std::abs(box.high[axis] * frame.scale - frame.shift[axis])});
   }
-  frame.bound = 2 * farthest;
+  // Turned, a corner of the box may lie on an axis.
+  frame.bound = axes ? 4 * farthest : 2 * farthest;
   return frame;
 }
 

@@ -35,7 +35,7 @@ void expect_all_right(const CollisionScene& scene) {
                            std::to_string(Dimension);
   ASSERT_EQ(CellList<Dimension>(scene.asked).pairs(balls), expected) << "cell list, " << what;
   ASSERT_EQ(VerletList<Dimension>(scene.asked, 1.0).pairs(balls), expected) << "Verlet list, " << what;
-  std::optional<typename BlockTree<Dimension>::Counts> counts;
+  std::optional<typename BlockTree<Dimension>::Counts> counts, turned_counts;
   for (const VectorTarget target : targets()) {
     const std::string with = std::string(vector_target_names[static_cast<std::size_t>(target)]) + ", " + what;
     BlockTree<Dimension> sequence(scene.asked, BlockOrder::sequence, target);
@@ -45,6 +45,13 @@ void expect_all_right(const CollisionScene& scene) {
     if (!counts) counts = sequence.counts();
     EXPECT_EQ(counts->group_pairs, sequence.counts().group_pairs) << with;
     EXPECT_EQ(counts->candidates, sequence.counts().candidates) << with;
+    Chance chance(scene.radii.size());
+    sequence.turn(random_axes<Dimension>(chance));
+    ASSERT_EQ(sequence.pairs(balls), expected) << "blocks in sequence, turned, " << with;
+    ASSERT_TRUE(balls.size() == 0 || sequence.frame().axes) << with;
+    if (!turned_counts) turned_counts = sequence.counts();
+    EXPECT_EQ(turned_counts->group_pairs, sequence.counts().group_pairs) << "turned, " << with;
+    EXPECT_EQ(turned_counts->candidates, sequence.counts().candidates) << "turned, " << with;
     BlockTree<Dimension> spatial(scene.asked, BlockOrder::spatial, target);
     ASSERT_EQ(spatial.pairs(balls), expected) << "blocks in space, " << with;
     ASSERT_EQ(AutoDetector<Dimension>(scene.asked, std::nullopt, target).pairs(balls), expected)
@@ -115,6 +122,72 @@ TEST(CollisionDetectors, SequenceIsGivenUpWhereItCostsTooMuch) {
   tree.forget_order();
   EXPECT_TRUE(tree.pairs(straight).empty());
   EXPECT_EQ(tree.order(), BlockOrder::sequence);
+}
+
+/// A chain through a grid of beads that touch exactly, row after row to and fro, turned about its first bead.
+template <int Dimension>
+CollisionScene packed_chain(Eigen::Index side, double angle) {
+  const Eigen::Index beads = Dimension == 3 ? side * side * side : side * side;
+  CollisionScene scene{
+      "packed", Eigen::Matrix3Xd(3, beads), std::vector<double>(static_cast<std::size_t>(beads), 0.5), {}};
+  scene.asked.necklaces = {{0, static_cast<BeadId>(beads - 1)}};
+  const auto to_and_fro = [side](Eigen::Index k) {
+    return k / side % 2 == 0 ? k % side : side - 1 - k % side;
+  };
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  if (Dimension == 3) {
+    Eigen::Matrix3d other = Eigen::Matrix3d::Identity();
+    other.bottomRightCorner<2, 2>() = turn.topLeftCorner<2, 2>();
+    turn = turn * other;
+  }
+  for (Eigen::Index b = 0; b < beads; ++b)
+    scene.centers.col(b) =
+        turn * Eigen::Vector3d(static_cast<double>(to_and_fro(b)), static_cast<double>(to_and_fro(b / side)),
+                               static_cast<double>(b / (side * side)));
+  return scene;
+}
+
+template <int Dimension>
+void expect_turned(Eigen::Index side) {
+  CollisionScene scene = packed_chain<Dimension>(side, 0.6);
+  BlockTree<Dimension> tree(scene.asked);
+  CellList<Dimension> cells(scene.asked);
+  for (const double spread : {1.0, 0.999, 1.001}) {  // about half meet, all, none
+    const Balls<Dimension> balls(spread * scene.centers, scene.radii);
+    EXPECT_EQ(tree.pairs(balls), cells.pairs(balls));
+    ASSERT_TRUE(tree.frame().axes);
+    EXPECT_EQ(tree.order(), BlockOrder::sequence);
+  }
+  const auto turned = tree.counts();
+  // Near pairs of some blocks in a turned frame: those of all near pairs that have a bead in them.
+  const Balls<Dimension> balls(scene.centers, scene.radii);
+  const auto near = tree.near_pairs(balls, 0.1, 100 * scene.radii.size());
+  std::vector<BeadPair> all(near->begin(), near->end()), some;
+  for (const BeadPair& pair : all)
+    if (pair.first / 16 == 3 || pair.second / 16 == 3) some.push_back(pair);
+  const std::vector<std::uint32_t> third{3};
+  const auto again = tree.near_pairs_of(balls, third, all.size());
+  std::vector<BeadPair> found(again->begin(), again->end());
+  std::sort(some.begin(), some.end());
+  std::sort(found.begin(), found.end());
+  EXPECT_FALSE(some.empty());
+  EXPECT_EQ(found, some);
+  // Along the coordinates' axes it is more work; another scene begins with them.
+  BlockTree<Dimension> plain(scene.asked, BlockOrder::sequence);
+  (void)plain.pairs(Balls<Dimension>(1.001 * scene.centers, scene.radii));
+  EXPECT_GT(plain.counts().block_pairs + plain.counts().group_pairs,
+            2 * (turned.block_pairs + turned.group_pairs));
+  tree.forget_order();
+  const CollisionScene straight = packed_chain<Dimension>(side, 0);
+  const Balls<Dimension> along_axes(straight.centers, straight.radii);
+  EXPECT_EQ(tree.pairs(along_axes), cells.pairs(along_axes));
+  EXPECT_FALSE(tree.frame().axes);
+}
+
+TEST(CollisionDetectors, BoxesAreTurnedToTheBonds) {
+  expect_turned<3>(24);
+  expect_turned<2>(128);
 }
 
 TEST(CollisionDetectors, WrongUseIsRefused) {

@@ -2,6 +2,7 @@
 // Scenes for tests of collision detectors, and what an obvious loop over all pairs finds in them.
 
 #include <Eigen/Core>
+#include <Eigen/QR>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "structures/collision/float_frame.h"
 #include "structures/collision/pairs_asked.h"
 #include "structures/necklace/ball_distance.h"
 #include "structures/necklace/balls.h"
@@ -57,6 +59,19 @@ inline PairsAsked some_pairs(Chance& chance, std::size_t beads) {
   asked.within = chance() % 4 != 0;
   asked.between = chance() % 4 != 0;
   return asked;
+}
+
+/// Any orthonormal axes.
+template <int Dimension>
+Axes<Dimension> random_axes(Chance& chance) {
+  const Eigen::Matrix<double, Dimension, Dimension> m =
+      Eigen::Matrix<double, Dimension, Dimension>::NullaryExpr([&chance] { return uniform(chance, -1, 1); });
+  const Eigen::Matrix<double, Dimension, Dimension> q = m.householderQr().householderQ();
+  Axes<Dimension> axes;
+  for (Eigen::Index i = 0; i < Dimension; ++i)
+    for (Eigen::Index j = 0; j < Dimension; ++j)
+      axes[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = q(i, j);
+  return axes;
 }
 
 /// A chain of random steps or points anywhere, of any size and place, radii equal, mixed or partly zero,

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "motions/numbers/exact_number.h"
@@ -48,32 +51,52 @@ Pair touching_pair(Chance& chance) {
   return pair;
 }
 
+/// The coordinates of all beads in the frame, as floats of doubles; one row an axis.
+std::array<std::vector<float>, 3> places_in(const FloatFrame<3>& frame, const Balls<3>& balls) {
+  std::array<std::vector<double>, 3> copies;
+  std::array<double*, 3> doubles{};
+  std::array<const double*, 3> coordinates{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    copies[axis].resize((balls.size() + 15) / 16 * 16);
+    std::copy_n(balls.coordinates(axis), balls.size(), copies[axis].begin());
+    coordinates[axis] = doubles[axis] = copies[axis].data();
+  }
+  if (frame.axes) place_along_axes(frame, coordinates, doubles, copies[0].size());
+  std::array<std::vector<float>, 3> places;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (BeadId b = 0; b < balls.size(); ++b)
+      places[axis].push_back(static_cast<float>(
+          frame.axes ? copies[axis][b] : copies[axis][b] * frame.scale - frame.shift[axis]));
+  return places;
+}
+
 TEST(FloatFrame, BallsThatTouchAreNearInFloats) {
   Chance chance(1);
-  double tightest = 1;
+  double tightest = 1, tightest_turned = 1;
   for (unsigned k = 0; k < rounds(100000U); ++k) {
     const Pair pair = touching_pair(chance);
     const Balls<3> balls(pair.centers, pair.radii);
-    const FloatFrame<3> frame = fit_float_frame(scene_box(balls), 0);
+    std::optional<Axes<3>> axes;
+    if (k % 2 == 1) axes = random_axes<3>(chance);
+    const FloatFrame<3> frame = fit_float_frame(scene_box(balls), 0, axes);
+    const auto places = places_in(frame, balls);
+    const auto r = static_cast<float>(frame.float_radius(pair.radii[0]));
+    const auto s = static_cast<float>(frame.float_radius(pair.radii[1]));
     float square = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto place = [&](BeadId b) {
-        return static_cast<float>(balls.coordinate(b, axis) * frame.scale - frame.shift[axis]);
-      };
-      const auto r = static_cast<float>(frame.float_radius(pair.radii[0]));
-      const auto s = static_cast<float>(frame.float_radius(pair.radii[1]));
-      const float f = place(0), g = place(1);
+      const float f = places[axis][0], g = places[axis][1];
       ASSERT_LE(std::abs(f), frame.bound);
       ASSERT_LE(f - r, g + s);
       ASSERT_LE(g - s, f + r);
       square += (f - g) * (f - g);
     }
-    const float reach = static_cast<float>(frame.float_radius(pair.radii[0])) +
-                        static_cast<float>(frame.float_radius(pair.radii[1]));
+    const float reach = r + s;
     ASSERT_LE(square, reach * reach);
-    tightest = std::min(tightest, 1 - static_cast<double>(std::sqrt(square) / reach));
+    double& least = axes ? tightest_turned : tightest;
+    least = std::min(least, 1 - static_cast<double>(std::sqrt(square) / reach));
   }
   EXPECT_LT(tightest, 0x1p-17);  // the cases come close
+  EXPECT_LT(tightest_turned, 0x1p-16);
 }
 
 TEST(FloatFrame, CoordinatesErrByLessThanClaimed) {
@@ -81,14 +104,24 @@ TEST(FloatFrame, CoordinatesErrByLessThanClaimed) {
   for (unsigned k = 0; k < rounds(3000U); ++k) {
     const CollisionScene scene = random_scene(chance, 5);
     const Balls<3> balls(scene.centers, scene.radii);
-    const FloatFrame<3> frame = fit_float_frame(scene_box(balls), 0);
+    std::optional<Axes<3>> axes;
+    if (k % 2 == 1) axes = random_axes<3>(chance);
+    const FloatFrame<3> frame = fit_float_frame(scene_box(balls), 0, axes);
     ASSERT_GE(frame.bound, 0x1p-30);
+    const auto places = places_in(frame, balls);
     for (BeadId b = 0; b < balls.size(); ++b) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double f = static_cast<float>(balls.coordinate(b, axis) * frame.scale - frame.shift[axis]);
-        const Rational exact =
+      std::array<Rational, 3> exact;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        exact[axis] =
             Rational(balls.coordinate(b, axis)) * Rational(frame.scale) - Rational(frame.shift[axis]);
-        ASSERT_LE(abs(Rational(f) - exact), Rational(0x1p-24) * Rational(1 + 0x1p-19) * Rational(frame.bound))
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        Rational along = exact[axis];
+        if (axes) {
+          along = 0;
+          for (std::size_t j = 0; j < 3; ++j) along += Rational((*axes)[axis][j]) * exact[j];
+        }
+        const float f = places[axis][b];
+        ASSERT_LE(abs(Rational(f) - along), Rational(0x1p-24) * Rational(1 + 0x1p-19) * Rational(frame.bound))
             << scene.name;
         ASSERT_LE(std::abs(f), frame.bound);
       }
@@ -102,6 +135,7 @@ TEST(FloatFrame, StrayedIsNoLessThanExactly) {
   for (unsigned k = 0; k < rounds(2000U); ++k) {
     const CollisionScene scene = random_scene(chance, 40);
     BlockTree<3> tree(scene.asked);
+    if (k % 2 == 1) tree.turn(random_axes<3>(chance));
     (void)tree.pairs(Balls<3>(scene.centers, scene.radii));
     Eigen::Matrix3Xd moved = scene.centers;
     const double size = moved.cwiseAbs().maxCoeff() * std::exp2(uniform(chance, -60, 1));
