@@ -25,9 +25,10 @@ void refuse_page_beside_others(const std::filesystem::path& directory, std::stri
     std::string_view file, command;
   };
   constexpr std::array results{
-      Result{"summary.json", "kds run"},     Result{"update.json", "kds update"},
-      Result{"compare.json", "kds compare"}, Result{"collide.json", "kds collide"},
-      Result{"missed.json", "kds missed"},   Result{"reproduce.json", "kds reproduce"}};
+      Result{"summary.json", "kds run"},      Result{"update.json", "kds update"},
+      Result{"compare.json", "kds compare"},  Result{"collide.json", "kds collide"},
+      Result{"missed.json", "kds missed"},    Result{"reproduce.json", "kds reproduce"},
+      Result{"theorems.json", "kds theorems"}};
   for (const auto& [file, command] : results) {
     std::error_code ignored;
     if (file != own && std::filesystem::exists(directory / file, ignored))
