@@ -69,8 +69,9 @@ class Planner {
   using Made = std::function<Centers(std::size_t beads)>;
 
   void plan_tightness() {
-    const auto add = [&](std::string_view model, int dimension, double radius, const Made& made) {
-      const std::size_t series = add_series(Theorem::tightness, model, dimension, "", 0.5);
+    const auto add = [&](std::string_view model, int dimension, double radius, const Made& made,
+                         std::optional<double> expected = std::nullopt) {
+      const std::size_t series = add_series(Theorem::tightness, model, dimension, "", expected);
       for (const std::size_t beads : powers_of_two(16, options_.most_beads))
         plan_.work.emplace_back([=](std::vector<TheoremSeries>& all) {
           const double ratio = root_ratio(made(beads), std::vector<double>(beads, radius), dimension);
@@ -78,8 +79,10 @@ class Planner {
           all[series].points.push_back({beads, ratio, bound, std::nullopt, ratio <= bound});
         });
     };
-    add("points of Lemma 2.5", 2, 0,
-        [](std::size_t beads) { return models::tightness_points(static_cast<int>(tree_height(beads))); });
+    add(
+        "points of Lemma 2.5", 2, 0,
+        [](std::size_t beads) { return models::tightness_points(static_cast<int>(tree_height(beads))); },
+        0.5);
     for (const int dimension : {2, 3})
       add("grid", dimension, models::radius,
           [=, gap = options_.gap](std::size_t beads) { return models::packed_grid(beads, dimension, gap); });
@@ -102,8 +105,10 @@ class Planner {
           for (const std::size_t s : series) {
             const double value =
                 all[s].theorem == Theorem::family ? static_cast<double>(size.family) : size.seconds.median;
-            all[s].points.push_back(
-                {beads, value, family_bound(dimension, beads), size.seconds, std::nullopt});
+            const auto bound = all[s].theorem == Theorem::family
+                                   ? std::optional(family_bound(dimension, beads))
+                                   : std::nullopt;  // seconds know no constant
+            all[s].points.push_back({beads, value, bound, size.seconds, std::nullopt});
           }
         });
     };

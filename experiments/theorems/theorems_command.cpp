@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "experiments/output/gnuplot.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/result_page.h"
 #include "experiments/output/text.h"
@@ -101,10 +100,7 @@ int theorems_command(const Arguments& arguments) {
   const Asked asked = parse(arguments);
   const Destinations& destinations = asked.destinations;
   TakenPaths taken;
-  if (destinations.out) {
-    require_gnuplot("--out");
-    taken.write("--out", *destinations.out / "report.html");
-  }
+  if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
   check_table_destinations(destinations, kName, taken);
   if (destinations.out) {
     check_directory(*destinations.out, "--out", {"report.html"});
@@ -119,9 +115,10 @@ int theorems_command(const Arguments& arguments) {
   json["rows"] = theorem_rows_json(series);
   json["fits"] = theorem_fits_json(series);
   add_provenance(json);
-  deliver_table(destinations, kName, {text_of(json), theorems_csv(series), theorems_table(series), [&] {
-                                        return theorems_page(series, command_line);
-                                      }});
+  deliver_table(destinations, kName,
+                {text_of(json), theorems_csv(series), theorems_table(series), [&] {
+                   return theorems_page(series, made_by(kName, command_line, settings_json(asked.measured)));
+                 }});
   return 0;
 }
 

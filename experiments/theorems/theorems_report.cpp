@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/output/html_page.h"
 #include "experiments/output/svg_plot.h"
 #include "experiments/output/text.h"
 
@@ -72,8 +71,7 @@ std::string_view theorem_says(Theorem theorem) {
   switch (theorem) {
     case Theorem::tightness:
       return "the layered root is at most sqrt(h + 1) times the wrapped one, h the height of the tree, and "
-             "on "
-             "some points sqrt(h) times";
+             "on some points sqrt(h) times";
     case Theorem::family:
       return "the wrapped hierarchy has a separating family of O(n log n) pairs in the plane, O(n^(4/3)) in "
              "space; tight on grids";
@@ -86,15 +84,24 @@ std::string_view theorem_says(Theorem theorem) {
   return "";
 }
 
+// Necklaces that can tell whether a theorem holds.
+struct Judged {
+  std::size_t all = 0, held = 0;
+};
+Judged judged_of(std::span<const TheoremSeries> some) {
+  Judged judged;
+  for (const TheoremSeries& series : some)
+    for (const TheoremPoint& point : series.points) {
+      judged.all += point.holds ? 1 : 0;
+      judged.held += point.holds.value_or(false) ? 1 : 0;
+    }
+  return judged;
+}
+
 // Sentences.
 std::vector<std::string> findings_of(std::span<const TheoremSeries> group) {
   std::vector<std::string> findings;
-  std::size_t judged = 0, held = 0;
   for (const TheoremSeries& series : group) {
-    for (const TheoremPoint& point : series.points) {
-      judged += point.holds ? 1 : 0;
-      held += point.holds.value_or(false) ? 1 : 0;
-    }
     if (series.points.empty()) continue;
     const TheoremPoint& last = series.points.back();
     std::string text = fmt::format("{}: {} at {} beads", name_of(series),
@@ -104,28 +111,22 @@ std::vector<std::string> findings_of(std::span<const TheoremSeries> group) {
       text += fmt::format(", {} of the bound", short_decimal(*ratio));
     if (const auto fit = series.fit()) {
       text += fmt::format("; {}{}", growing(series), exponent_text(*fit));
-      if (series.expected)
-        text += fmt::format(", theorem {}{:.3f}", series.theorem == Theorem::tightness ? "at most " : "",
-                            *series.expected);
+      if (series.expected) text += fmt::format(", theorem {:.3f}", *series.expected);
     }
     findings.push_back(text + ".");
   }
-  if (judged > 0)
+  if (const Judged judged = judged_of(group); judged.all > 0)
     findings.insert(findings.begin(), fmt::format("{} in {} of {} necklaces.",
                                                   group.front().theorem == Theorem::tightness
                                                       ? "The bound holds"
                                                       : "The closest pair is among them",
-                                                  held, judged));
+                                                  judged.held, judged.all));
   return findings;
 }
 
 PointPlot plot_of(std::span<const TheoremSeries> group) {
   const Theorem theorem = group.front().theorem;
-  PointPlot plot{fmt::format("theorem{}", static_cast<int>(theorem)),
-                 "beads n",
-                 std::string(quantity_of(theorem)),
-                 {},
-                 {}};
+  PointPlot plot{"beads n", std::string(quantity_of(theorem)), {}, {}};
   for (const TheoremSeries& series : group) {
     for (const TheoremPoint& point : series.points)
       plot.points.push_back({"", static_cast<double>(point.beads), point.value, plot.series.size()});
@@ -134,21 +135,31 @@ PointPlot plot_of(std::span<const TheoremSeries> group) {
   return plot;
 }
 
-std::string html_table(std::span<const TheoremSeries> group) {
-  std::string html =
-      "<div class=\"scroll\"><table>\n<thead><tr><th></th><th scope=\"col\">n</th><th "
-      "scope=\"col\">value</th>"
-      "<th scope=\"col\">bound</th><th scope=\"col\">value / bound</th><th scope=\"col\">seconds</th>"
-      "<th scope=\"col\">holds</th></tr></thead>\n<tbody>\n";
+std::string table_of(std::span<const TheoremSeries> group) {
+  std::vector<HtmlRow> rows;
   for (const TheoremSeries& series : group)
     for (const TheoremPoint& point : series.points)
-      html += fmt::format(
-          "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
-          "</tr>\n",
-          html_escaped(name_of(series)), with_thousands(point.beads), value_text(series.theorem, point.value),
-          decimal_or_dash(point.bound), decimal_or_dash(ratio_to_bound(point)), seconds_text(point),
-          holds_text(point));
-  return html + "</tbody>\n</table></div>\n";
+      rows.push_back({{name_of(series), with_thousands(point.beads), value_text(series.theorem, point.value),
+                       decimal_or_dash(point.bound), decimal_or_dash(ratio_to_bound(point)),
+                       seconds_text(point), holds_text(point)}});
+  return html_table({"", "n", "value", "bound", "ratio", "seconds", "holds"}, rows);
+}
+
+std::string findings_html(std::span<const TheoremSeries> series) {
+  const Judged judged = judged_of(series);
+  std::string html = "<p>";
+  if (judged.all > 0)
+    html +=
+        fmt::format("What theorems 2.3 and 3.5 say of single necklaces held in <strong>{} of {}</strong>. ",
+                    judged.held, judged.all);
+  html += "What the theorems bound grows with these exponents:</p>\n";
+  std::vector<HtmlRow> rows;
+  for (const TheoremSeries& one : series)
+    if (const auto fit = one.fit(); fit && one.expected)
+      rows.push_back(
+          {{fmt::format("{}, {}", name_of(one.theorem), name_of(one)), fmt::format("{:.3f}", fit->exponent),
+            fmt::format("{:.3f} to {:.3f}", fit->lower, fit->upper), fmt::format("{:.3f}", *one.expected)}});
+  return html + html_table({"", "exponent", "95%", "theorem"}, rows);
 }
 
 }  // namespace
@@ -213,12 +224,12 @@ std::string theorems_table(std::span<const TheoremSeries> series) {
   std::string text;
   for (const auto& group : by_theorem(series)) {
     const Theorem theorem = group.front().theorem;
-    text += fmt::format("{}theorem {}: {}\n  {:<40}{:>11}{:>36}{:>16}{:>9}{:>28}{:>7}\n",
+    text += fmt::format("{}theorem {}: {}\n  {:<40}{:>11}{:>38}{:>14}{:>8}{:>34}{:>7}\n",
                         text.empty() ? "" : "\n", name_of(theorem), theorem_says(theorem), "", "n",
                         quantity_of(theorem), "bound", "ratio", "seconds", "holds");
     for (const TheoremSeries& one : group)
       for (const TheoremPoint& point : one.points)
-        text += fmt::format("  {:<40}{:>11}{:>36}{:>16}{:>9}{:>28}{:>7}\n", name_of(one),
+        text += fmt::format("  {:<40}{:>11}{:>38}{:>14}{:>8}{:>34}{:>7}\n", name_of(one),
                             with_thousands(point.beads), value_text(theorem, point.value),
                             decimal_or_dash(point.bound), decimal_or_dash(ratio_to_bound(point)),
                             seconds_text(point), holds_text(point));
@@ -227,25 +238,27 @@ std::string theorems_table(std::span<const TheoremSeries> series) {
   return text;
 }
 
-std::string theorems_page(std::span<const TheoremSeries> series, const std::string& command_line) {
-  std::string body =
-      "<p>What the theorems of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for "
-      "deforming necklaces</em> (2004), bound, measured: powers are fitted by least squares of logarithms, "
-      "with intervals of 95% confidence. A measurement proves no theorem.</p>\n";
+std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
+  page.title = "kds theorems";
+  page.found = findings_html(series);
   for (const auto& group : by_theorem(series)) {
     const Theorem theorem = group.front().theorem;
-    body += fmt::format("<h2>Theorem {}</h2>\n<p>It says: {}.</p>\n<ul>\n", name_of(theorem),
-                        html_escaped(theorem_says(theorem)));
+    std::string section = fmt::format("<p>It says: {}.</p>\n<ul>\n", html_escaped(theorem_says(theorem)));
     for (const std::string& finding : findings_of(group))
-      body += fmt::format("<li>{}</li>\n", html_escaped(finding));
-    body += "</ul>\n" +
-            html_figure(svg_plot(plot_of(group)),
-                        fmt::format("Theorem {}: {} by the number of beads, both axes logarithmic.",
-                                    name_of(theorem), quantity_of(theorem))) +
-            html_table(group);
+      section += fmt::format("<li>{}</li>\n", html_escaped(finding));
+    section += "</ul>\n" +
+               html_figure(svg_plot(plot_of(group)),
+                           fmt::format("Theorem {}: {} by the number of beads, both axes logarithmic.",
+                                       name_of(theorem), quantity_of(theorem))) +
+               table_of(group);
+    page.body += html_section(fmt::format("Theorem {}", name_of(theorem)), section);
   }
-  body += fmt::format("<p><code>{}</code></p>\n", html_escaped(command_line));
-  return html_page("kds theorems", body);
+  page.words =
+      "Theorems are those of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for "
+      "deforming necklaces</em> (2004). Powers are fitted by least squares of logarithms, with intervals of "
+      "95% confidence as if errors were normal: a measurement proves no theorem. Seconds are of the "
+      "processor, the median of the rounds, and in brackets the least and the most.";
+  return html_page(page);
 }
 
 }  // namespace kds

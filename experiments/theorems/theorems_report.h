@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "experiments/output/html_page.h"
 #include "experiments/output/result_json.h"
 #include "experiments/theorems/theorem_series.h"
 
@@ -13,7 +14,7 @@ namespace kds {
 [[nodiscard]] Json theorem_fits_json(std::span<const TheoremSeries> series);
 [[nodiscard]] std::string theorems_csv(std::span<const TheoremSeries> series);
 [[nodiscard]] std::string theorems_table(std::span<const TheoremSeries> series);
-[[nodiscard]] std::string theorems_page(std::span<const TheoremSeries> series,
-                                        const std::string& command_line);
+/// `page` says how it was made.
+[[nodiscard]] std::string theorems_page(std::span<const TheoremSeries> series, Page page);
 
 }  // namespace kds

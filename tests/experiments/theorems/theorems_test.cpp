@@ -14,6 +14,7 @@
 #include "motions/models/tightness_points.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
+#include "tests/experiments/sound_page.h"
 
 namespace kds::test {
 namespace {
@@ -68,7 +69,7 @@ TEST(RootRatio, OfThePointsOfLemma25IsTheRootOfTheHeight) {
 }
 
 TEST(ClosestByDiagram, IsThatOfASearchAndTellsWhatItLookedAt) {
-  const TheoremPlan plan = plan_theorems({{Theorem::closest_pair}, 1000});
+  const TheoremPlan plan = plan_theorems({{Theorem::closest_pair}, 2000});
   std::vector<TheoremSeries> series = plan.series;
   plan.work.front()(series);  // the smallest grid in the plane
   const TheoremPoint& point = series.front().points.front();
@@ -120,6 +121,7 @@ TEST(Theorems, RowsFitsAndPage) {
   const std::string csv = content_of(scratch / "out/theorems.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), json["rows"].size() + 1);
   const std::string page = content_of(scratch / "out/report.html");
+  expect_sound(page);
   for (const char* part : {"Theorem 2.3", "Theorem 3.5", "<svg", "kds theorems --beads 4096"})
     EXPECT_THAT(page, HasSubstr(part));
 
