@@ -19,6 +19,7 @@
 #include "experiments/output/provenance.h"
 #include "experiments/output/text.h"
 #include "experiments/program/command_line.h"
+#include "experiments/questions/questions_command.h"
 #include "experiments/reproduce/reproduce_command.h"
 #include "experiments/run/replay_command.h"
 #include "experiments/run/run_command.h"
@@ -50,6 +51,7 @@ constexpr std::array kCommands{
     Command{"missed", "which share of contacts is missed by looking at frames only", missed_command},
     Command{"reproduce", "measure the paper's tables again, beside the paper's values", reproduce_command},
     Command{"theorems", "measure what the paper's theorems bound, over sizes", theorems_command},
+    Command{"questions", "measure what the paper leaves open", questions_command},
     Command{"trade", "what speed can be had for what accuracy, measured on your trajectory", trade_command},
     Command{"bench", "measure ours beside what users would pick today", bench_command},
     Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},

@@ -13,11 +13,11 @@ void refuse_page_beside_others(const std::filesystem::path& directory, std::stri
     std::string_view file, command;
   };
   constexpr std::array results{
-      Result{"summary.json", "kds run"},        Result{"update.json", "kds update"},
-      Result{"compare.json", "kds compare"},    Result{"collide.json", "kds collide"},
-      Result{"missed.json", "kds missed"},      Result{"reproduce.json", "kds reproduce"},
-      Result{"theorems.json", "kds theorems"},  Result{"trade.json", "kds trade"},
-      Result{"stability.json", "kds stability"}};
+      Result{"summary.json", "kds run"},         Result{"update.json", "kds update"},
+      Result{"compare.json", "kds compare"},     Result{"collide.json", "kds collide"},
+      Result{"missed.json", "kds missed"},       Result{"reproduce.json", "kds reproduce"},
+      Result{"theorems.json", "kds theorems"},   Result{"trade.json", "kds trade"},
+      Result{"questions.json", "kds questions"}, Result{"stability.json", "kds stability"}};
   for (const auto& [file, command] : results) {
     std::error_code ignored;
     if (file != own && std::filesystem::exists(directory / file, ignored))
