@@ -25,15 +25,16 @@ std::string superscript(int exponent) {
 }  // namespace
 
 Axis::Axis(double least, double most, bool logarithmic) : from_(least), to_(most), logarithmic_(logarithmic) {
+  constexpr double least_share = 1e-9;  // of the values: steps must be wider than what doubles tell apart
   if (logarithmic_) {
     if (!(to_ > 0)) to_ = 1;
     if (!(from_ > 0)) from_ = to_ / 10;
-    if (from_ < to_) return;
+    if (from_ * (1 + least_share) < to_) return;
     from_ /= 2;
     to_ *= 2;
     return;
   }
-  if (from_ < to_) return;
+  if (from_ + least_share * std::max(std::abs(from_), std::abs(to_)) < to_) return;
   const double around = from_ == 0 ? 1 : std::abs(from_) / 2;
   from_ -= around;
   to_ += around;

@@ -14,8 +14,8 @@ struct Tick {
 
 class Axis {
  public:
-  /// From `least` to `most`, finite; where they are equal, or on a logarithmic axis not above 0, a range
-  /// around them.
+  /// From `least` to `most`, finite; where they are as good as equal, or on a logarithmic axis not above 0, a
+  /// range around them.
   Axis(double least, double most, bool logarithmic);
 
   /// 0 at its start, 1 at its end.

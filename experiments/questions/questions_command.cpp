@@ -75,7 +75,7 @@ Asked parse(const Arguments& arguments) {
 
 void check_destinations(const Destinations& destinations) {
   TakenPaths taken;
-  if (destinations.out) taken.write("--out", *destinations.out / "report.html");
+  if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
   check_table_destinations(destinations, kName, taken);
   if (!destinations.out) return;
   check_directory(*destinations.out, "--out", {"report.html"});

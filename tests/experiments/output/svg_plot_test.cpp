@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ TEST(Axis, OneValueOrNoneHasARangeAroundIt) {
   EXPECT_DOUBLE_EQ(Axis(0, 0, false).share(0), 0.5);
   EXPECT_NEAR(Axis(7, 7, true).share(7), 0.5, 1e-12);
   EXPECT_DOUBLE_EQ(Axis(0, 0, true).share(1), 1);
+  const double next = std::nextafter(0.6, 1);  // steps of less than a last place would never arrive
+  EXPECT_LE(Axis(0.6, next, false).ticks(5).size(), 7U);
+  EXPECT_LE(Axis(0.6, next, true).ticks(5).size(), 7U);
 }
 
 TEST(TickLabel, ShowsSizesLegibly) {
