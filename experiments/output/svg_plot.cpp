@@ -14,7 +14,7 @@
 namespace kds {
 namespace {
 
-constexpr SvgCanvas::Margins kMargins{64, 16, 26, 48};
+constexpr SvgCanvas::Margins kMargins{64, 32, 26, 48};
 constexpr double kHeight = 320;
 
 // Twice, and the names of the series above: outside, so that they find room on narrow pages.

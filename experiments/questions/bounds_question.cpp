@@ -87,6 +87,7 @@ std::size_t trust_steps() { return moving_subject_count * kFramesTrusted.size();
 Question ask_about_bounds(const std::filesystem::path& data, std::uint64_t seed,
                           const std::function<void()>& step_done) {
   Question question;
+  std::vector<double> gains;
   question.name = "bounds";
   question.title = "Which bounds on motion make updates rarer?";
   question.columns = {{"skin", "skin, radii"},        {"frames", "frames"},
@@ -106,7 +107,7 @@ Question ask_about_bounds(const std::filesystem::path& data, std::uint64_t seed,
     const auto [name, subject] = moving_subject(which, data, seed);
     const double speed = speed_of(subject), radius = subject.radii.front();
     const auto frames = static_cast<double>(subject.frames.size());
-    QuestionCurve by_speed{name + ", by speed", {}}, best{name + ", two largest without drift", {}};
+    QuestionCurve by_speed{"", name + ", by speed", {}}, best{"", name + ", two largest without drift", {}};
     double gain = 0;
     for (const double skin : kSkins) {
       const auto found = [&](const auto& nearer) { return times_found(subject, skin * radius, nearer); };
@@ -124,6 +125,7 @@ Question ask_about_bounds(const std::filesystem::path& data, std::uint64_t seed,
       best.points.emplace_back(skin, frames / no_drift);
       if (skin == 1) gain = with_speed / no_drift;
     }
+    gains.push_back(gain);
     question.findings.push_back(
         fmt::format("{}: at a skin of one radius measured displacements, the two largest without drift, make "
                     "searches {} times rarer than a bound on speed.",
@@ -132,12 +134,19 @@ Question ask_about_bounds(const std::filesystem::path& data, std::uint64_t seed,
     question.curves.push_back(std::move(best));
     step_done();
   }
+  const Spread rarer = spread_of(gains);
+  question.answer = fmt::format(
+      "Measured displacements make searches for near pairs {} to {} times rarer than a bound on speed, at a "
+      "skin "
+      "of one radius.",
+      short_decimal(rarer.least), short_decimal(rarer.most));
   return question;
 }
 
 Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, std::size_t rounds,
                          const std::function<void()>& step_done) {
   Question question;
+  std::vector<double> savings, slack;
   question.name = "trust";
   question.title = "What does it save to trust bases for some frames?";
   question.columns = {{"frames_trusted", "frames trusted"},
@@ -162,8 +171,8 @@ Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, 
   for (std::size_t which = 0; which < moving_subject_count; ++which) {
     const auto [name, subject] = moving_subject(which, data, seed);
     const double speed = speed_of(subject);
-    QuestionCurve by_speed{name + ", by speed", {}}, by_displacement{name + ", by displacement", {}},
-        really{name + ", really", {}};
+    QuestionCurve by_speed{name, "by speed", {}}, by_displacement{name, "by displacement", {}},
+        really{name, "really", {}};
     double saved = 0;
     for (const std::size_t trusted : kFramesTrusted) {
       Trusted sum;
@@ -207,6 +216,8 @@ Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, 
       if (trusted == 1) saved = 1 / ratio.median;
       step_done();
     }
+    savings.push_back(saved);
+    slack.push_back(by_displacement.points.front().second / really.points.front().second);
     question.findings.push_back(fmt::format(
         "{}: trusting for one frame is {} times as fast as verifying; beads may stick out by {} of a radius "
         "as a "
@@ -215,10 +226,18 @@ Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, 
         short_decimal(by_displacement.points.front().second), short_decimal(really.points.front().second)));
     for (QuestionCurve* curve : {&by_speed, &by_displacement, &really}) {
       if (const auto fit = curve->fit())
-        question.findings.push_back(fmt::format("{}: grows as frames^{}.", curve->name, exponent_text(*fit)));
+        question.findings.push_back(
+            fmt::format("{}, {}: grows as frames^{}.", name, curve->name, exponent_text(*fit)));
       question.curves.push_back(std::move(*curve));
     }
   }
+  const Spread faster = spread_of(savings), beyond = spread_of(slack);
+  question.answer = fmt::format(
+      "Spheres of trusted bases are {} to {} times as fast as verified ones; how far beads stick out of them "
+      "after "
+      "a frame is proved no better than {} to {} times what it is.",
+      short_decimal(faster.least), short_decimal(faster.most), short_decimal(beyond.least),
+      short_decimal(beyond.most));
   return question;
 }
 

@@ -151,6 +151,7 @@ Question ask_about_combination(const std::filesystem::path& data, std::uint64_t 
       "3.5 "
       "holds of any set of balls). Above 1 the two together look at fewer pairs than the better of both "
       "alone.";
+  std::vector<double> costs;
   for (std::size_t which = 0; which < kSubjects; ++which) {
     const Chain one = chain(which, data, seed);
     const std::vector<BeadRange> necklaces{{0, static_cast<BeadId>(one.radii.size() - 1)}};
@@ -160,7 +161,7 @@ Question ask_about_combination(const std::filesystem::path& data, std::uint64_t 
     whole.visit(tree.roots().front());
     const double diagram = edges_of(one, std::vector<bool>(one.radii.size(), true));
     const double alone = std::min(whole.pairs(), diagram);
-    QuestionCurve gains{one.name, {}};
+    QuestionCurve gains{"", one.name, {}};
     for (const std::size_t block : kBlocks) {
       Search search(tree.spheres(), block);
       search.visit(tree.roots().front());
@@ -174,13 +175,19 @@ Question ask_about_combination(const std::filesystem::path& data, std::uint64_t 
     }
     const auto best =
         *std::ranges::max_element(gains.points, {}, [](const auto& point) { return point.second; });
+    costs.push_back(1 / best.second);
     question.findings.push_back(fmt::format(
-        "{}: hierarchy {}, diagram {} pairs; together at best {} of the better (blocks of {}).", one.name,
-        with_thousands(static_cast<std::uint64_t>(whole.pairs())),
+        "{}: hierarchy {}, diagram {} pairs; together at best {} times as many as the better alone (blocks "
+        "of {}).",
+        one.name, with_thousands(static_cast<std::uint64_t>(whole.pairs())),
         with_thousands(static_cast<std::uint64_t>(diagram)), short_decimal(1 / best.second), best.first));
     question.curves.push_back(std::move(gains));
     step_done();
   }
+  const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
+  question.answer = fmt::format(
+      "Hierarchy and diagram together look at {} to {} times as many pairs as the better of both alone.",
+      short_decimal(*least), short_decimal(*most));
   return question;
 }
 

@@ -25,6 +25,8 @@ constexpr std::size_t kConformations = 16, kChainBeads = 128;
 
 constexpr std::size_t kProteins = 2;  // the first of the moving subjects
 
+constexpr const char *kBases = "basis changes", *kFlips = "flips";
+
 enum class Angles { bending, torsion, both };
 constexpr std::array kAngles{Angles::bending, Angles::torsion, Angles::both};
 constexpr std::array<std::string_view, 3> kAngleNames{"bending", "torsion", "both"};
@@ -116,10 +118,22 @@ class Measurement {
         kStrides.back(), kChainBeads, kConformations);
     for (std::size_t which = 0; which < kProteins; ++which) ask(moving_subject(which, data_, seed_));
     for (const Angles angles : kAngles) ask(angles);
+    question_.answer = answer();
     return std::move(question_);
   }
 
  private:
+  // Of chains all of whose angles change: the last two curves.
+  [[nodiscard]] std::string answer() const {
+    const std::size_t count = question_.curves.size();
+    const auto bases = question_.curves[count - 2].fit(), flips = question_.curves[count - 1].fit();
+    if (!bases || !flips) return "";
+    return fmt::format(
+        "On random chains basis changes grow as energy^{} and flips as energy^{}: an exponent of 0.5 "
+        "is growth in proportion to how far angles change.",
+        exponent_text(*bases), exponent_text(*flips));
+  }
+
   void add(const std::string& subject, double step, std::span<const Step> steps, QuestionCurve& bases,
            QuestionCurve& flips) {
     const Step mean = mean_of(steps);
@@ -133,15 +147,15 @@ class Measurement {
   void keep(QuestionCurve bases, QuestionCurve flips, std::string_view over) {
     for (QuestionCurve* curve : {&bases, &flips}) {
       if (const auto fit = curve->fit())
-        question_.findings.push_back(
-            fmt::format("{}: grow as energy^{} over {}", curve->name, exponent_text(*fit), over));
+        question_.findings.push_back(fmt::format("{}, {}: grow as energy^{} over {}.", curve->name,
+                                                 curve->plot, exponent_text(*fit), over));
       question_.curves.push_back(std::move(*curve));
     }
   }
 
   void ask(const NamedSubject& one) {
     const auto& [name, subject] = one;
-    QuestionCurve bases{name + ", basis changes", {}}, flips{name + ", flips", {}};
+    QuestionCurve bases{kBases, name, {}}, flips{kFlips, name, {}};
     std::vector<Step> finest;
     for (const std::size_t stride : kStrides) {
       std::vector<Eigen::Matrix3Xd> frames;
@@ -159,7 +173,7 @@ class Measurement {
   void in_groups(const std::string& name, std::vector<Step> steps) {
     constexpr std::size_t groups = 8;
     std::ranges::sort(steps, {}, [](const Step& step) { return step.deformation.energy(); });
-    QuestionCurve bases{name + " by step, basis changes", {}}, flips{name + " by step, flips", {}};
+    QuestionCurve bases{kBases, name + " by step", {}}, flips{kFlips, name + " by step", {}};
     for (std::size_t g = 0; g < groups; ++g) {
       const std::size_t first = g * steps.size() / groups, end = (g + 1) * steps.size() / groups;
       const Step mean = mean_of(std::span(steps).subspan(first, end - first));
@@ -171,7 +185,7 @@ class Measurement {
 
   void ask(Angles angles) {
     const std::string name = fmt::format("random chain, {}", kAngleNames[static_cast<std::size_t>(angles)]);
-    QuestionCurve bases{name + ", basis changes", {}}, flips{name + ", flips", {}};
+    QuestionCurve bases{kBases, name, {}}, flips{kFlips, name, {}};
     const std::vector<double> radii(kChainBeads, models::radius);
     for (int a = 0; a < kAmplitudes; ++a) {
       const double amplitude = std::ldexp(1, a - kAmplitudes - 1);

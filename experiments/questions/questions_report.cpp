@@ -21,16 +21,29 @@ std::string shown(const std::optional<double>& value) {
   return fmt::format("{:.4g}", *value);
 }
 
-std::string plots_of(const Question& question) {
+// One of the curves that belong together.
+PointPlot plot_of(const Question& question, const std::string& name) {
   PointPlot plot{question.x_label, question.y_label, {}, {}};
   for (const QuestionCurve& curve : question.curves) {
+    if (curve.plot != name) continue;
     for (const auto& [x, y] : curve.points)
       if (x > 0 && y >= 0) plot.points.push_back({"", x, y, plot.series.size()});
     plot.series.push_back(curve.name);
   }
-  return html_figure(svg_plot(plot),
-                     fmt::format("{} by {}; both axes are logarithmic.", html_escaped(question.y_label),
-                                 html_escaped(question.x_label)));
+  return plot;
+}
+
+std::string plots_of(const Question& question) {
+  std::vector<std::string> names;
+  for (const QuestionCurve& curve : question.curves)
+    if (std::ranges::find(names, curve.plot) == names.end()) names.push_back(curve.plot);
+  std::string html;
+  for (const std::string& name : names)
+    html += html_figure(
+        svg_plot(plot_of(question, name)),
+        fmt::format("{}{}{} by {}; both axes are logarithmic.", html_escaped(name), name.empty() ? "" : ": ",
+                    html_escaped(question.y_label), html_escaped(question.x_label)));
+  return html;
 }
 
 std::string table_of(const Question& question) {
@@ -64,7 +77,7 @@ Json questions_json(std::span<const Question> questions) {
     Json fits = Json::array();
     for (const QuestionCurve& curve : question.curves)
       if (const auto fit = curve.fit())
-        fits.push_back({{"curve", curve.name},
+        fits.push_back({{"curve", curve.plot.empty() ? curve.name : curve.plot + ", " + curve.name},
                         {"points", fit->points},
                         {"exponent", fit->exponent},
                         {"lower", fit->lower},
@@ -72,6 +85,7 @@ Json questions_json(std::span<const Question> questions) {
                         {"factor", fit->factor}});
     json.push_back({{"question", question.name},
                     {"title", question.title},
+                    {"answer", question.answer},
                     {"fits", fits},
                     {"findings", question.findings}});
   }
@@ -115,6 +129,7 @@ std::string questions_text(std::span<const Question> questions) {
                             std::max<std::size_t>(9, question.columns[c].title.size()));
       text += "\n";
     }
+    text += "  " + question.answer + "\n";
     for (const std::string& finding : question.findings) text += "  " + finding + "\n";
   }
   return text;
@@ -122,10 +137,11 @@ std::string questions_text(std::span<const Question> questions) {
 
 std::string questions_page(std::span<const Question> questions, Page page) {
   page.title = "kds questions";
-  page.found =
-      "<p>What the paper leaves open, measured on the subjects below. <strong>No theorem is "
-      "claimed</strong>: "
-      "exponents are of these chains, with intervals of 95% confidence as if errors were normal.</p>\n";
+  for (const Question& question : questions)
+    page.found += fmt::format("<p>{}</p>\n", html_escaped(question.answer));
+  page.found +=
+      "<p><strong>No theorem is claimed</strong>: exponents are of these chains, with intervals of 95% "
+      "confidence as if errors were normal.</p>\n";
   for (const Question& question : questions) {
     std::string section = fmt::format("<p>{}</p>\n<ul>\n", html_escaped(question.words));
     for (const std::string& finding : question.findings)
