@@ -13,19 +13,20 @@
 
 #include "experiments/bench/bench_command.h"
 #include "experiments/collide/collide_command.h"
-#include "experiments/collide/families_command.h"
 #include "experiments/collide/missed_command.h"
 #include "experiments/compare/compare_command.h"
 #include "experiments/output/destinations.h"
 #include "experiments/output/provenance.h"
 #include "experiments/output/text.h"
 #include "experiments/program/command_line.h"
+#include "experiments/questions/questions_command.h"
 #include "experiments/reproduce/reproduce_command.h"
 #include "experiments/run/replay_command.h"
 #include "experiments/run/run_command.h"
 #include "experiments/scenes/generate_command.h"
 #include "experiments/scenes/info_command.h"
 #include "experiments/stability/stability_command.h"
+#include "experiments/theorems/theorems_command.h"
 #include "experiments/trade/trade_command.h"
 #include "experiments/update/update_command.h"
 #include "motions/base/floating_point_guard.h"
@@ -48,8 +49,9 @@ constexpr std::array kCommands{
     Command{"compare", "compare how often structures change, by stride, motion and input", compare_command},
     Command{"collide", "which beads collide in each frame, by several methods", collide_command},
     Command{"missed", "which share of contacts is missed by looking at frames only", missed_command},
-    Command{"families", "measure separating families of packed grids", families_command},
     Command{"reproduce", "measure the paper's tables again, beside the paper's values", reproduce_command},
+    Command{"theorems", "measure what the paper's theorems bound, over sizes", theorems_command},
+    Command{"questions", "measure what the paper leaves open", questions_command},
     Command{"trade", "what speed can be had for what accuracy, measured on your trajectory", trade_command},
     Command{"bench", "measure ours beside what users would pick today", bench_command},
     Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},

@@ -7,8 +7,10 @@
 
 #include "experiments/collide/collide_options.h"
 #include "experiments/collide/collide_results.h"
+#include "experiments/output/text.h"
 #include "experiments/program/option_names.h"
 #include "experiments/program/progress_bar.h"
+#include "experiments/program/table_results.h"
 #include "experiments/program/warnings.h"
 #include "experiments/run/load_scene.h"
 #include "motions/base/input_error.h"
@@ -92,14 +94,17 @@ int collide_command(const Arguments& arguments) {
     print_warning(bar, warning);
   });
 
+  const std::string command_line = "kds collide " + shell_words(arguments);
   Json json;
+  json["command"] = command_line;
   json["input"] = input_json(options, frames);
   json["settings"] = settings_json(options);
   json["rows"] = collide_rows_json(report);
   json["frames"] = collide_frames_json(report);
   json["warnings"] = warnings;
   add_provenance(json);
-  results.deliver(report, text_of(json), file_names(options));
+  results.deliver(report, text_of(json), file_names(options),
+                  made_by("collide", command_line, settings_json(options)));
   return 0;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "experiments/output/html_page.h"
 #include "experiments/output/svg_plot.h"
 #include "experiments/output/text.h"
 
@@ -39,12 +38,48 @@ std::string closest_line(const CollideReport& report) {
 }
 
 std::string distance_plot(const CollideReport& report) {
-  LinePlot plot{"closest", "frame", "closest distance", false, {{"closest pair", {}}}, true};
+  LinePlot plot{"frame", "closest distance", Drawn::line, {{"closest pair", {}}}, true};
   for (const FrameFound& frame : report.frames)
     if (frame.closest)
       plot.curves.front().points.emplace_back(static_cast<double>(frame.stamp.number),
                                               frame.closest->distance);
   return plot.curves.front().points.size() < 2 ? "" : svg_plot(plot);
+}
+
+std::string findings(const CollideReport& report) {
+  const auto colliding = static_cast<std::size_t>(
+      std::ranges::count_if(report.frames, [](const FrameFound& frame) { return frame.collide; }));
+  std::string html =
+      fmt::format("<p>Beads collide in <strong>{}</strong> of {} {}", with_thousands(colliding),
+                  with_thousands(report.frames.size()), report.frames.size() == 1 ? "frame" : "frames");
+  const auto telling =
+      std::ranges::find_if(report.rows, [](const auto& row) { return row.pairs.has_value(); });
+  if (telling != report.rows.end())
+    html += fmt::format(", in {} pairs of all frames", with_thousands(*telling->pairs));
+  html += ".";
+  const auto closest =
+      std::ranges::find_if(report.rows, [](const auto& row) { return row.closest.has_value(); });
+  if (closest != report.rows.end()) {
+    const ClosestPair& pair = closest->closest->pair;
+    html += fmt::format(" The closest pair, beads {} and {} in frame {}, is {} apart.", pair.first,
+                        pair.second, closest->closest->frame.number, short_decimal(pair.distance));
+  }
+  html += "</p>\n";
+  if (report.rows.size() > 1) {
+    const auto& quickest = *std::ranges::min_element(report.rows, {}, &CollideRow::seconds);
+    html += fmt::format("<p>{} was the fastest of the methods in this one run.</p>\n",
+                        html_escaped(quickest.method));
+  }
+  return html;
+}
+
+std::string table(const CollideReport& report) {
+  std::vector<HtmlRow> rows;
+  for (const CollideRow& row : report.rows)
+    rows.push_back(
+        {{std::string(row.method), count_or_dash(row.pairs), with_thousands(row.colliding_frames),
+          count_or_dash(row.family), short_decimal(row.seconds), short_decimal(row.closest_seconds)}});
+  return html_table({"method", "pairs", "colliding frames", "family", "seconds", "and for closest"}, rows);
 }
 
 }  // namespace
@@ -111,21 +146,23 @@ std::string collide_table(const CollideReport& report) {
   return text;
 }
 
-std::string collide_page(const CollideReport& report, const std::string& input, const std::string& map) {
-  constexpr std::string_view words =
+std::string collide_page(const CollideReport& report, const std::string& input, const std::string& map,
+                         Page page) {
+  page.title = "kds collide: " + input;
+  page.found = findings(report);
+  page.words =
       "All methods decide exactly, and have found the same. <em>Pairs</em>: beads that have a point in "
-      "common, or whose surfaces are at most as far apart as <code>--within</code> says, "
-      "of all frames together; <em>family</em>: pairs of spheres of a hierarchy that prove all others "
-      "disjoint, for the power diagram its edges; <em>seconds</em>: to find the pairs in all frames. The "
-      "distance of two beads is that of their surfaces, below zero where they overlap.";
-  std::string body;
-  if (!map.empty()) body += html_figure(map, "Which beads collide.");
+      "common, or whose surfaces are at most as far apart as <code>--within</code> says, of all frames "
+      "together; <em>family</em>: pairs of spheres of a hierarchy that prove all others disjoint, for the "
+      "power diagram its edges; <em>seconds</em>: to find the pairs in all frames, in this one run; "
+      "<code>kds bench collision</code> repeats its own. The distance of two beads is that of their "
+      "surfaces, below zero where they overlap.";
+  std::string plots;
+  if (!map.empty()) plots += html_figure(map, "Which beads collide.");
   if (const std::string distance = distance_plot(report); !distance.empty())
-    body += html_figure(distance, "The closest distance of all pairs asked for, frame by frame.");
-  return html_page("kds collide: " + input,
-                   fmt::format("{}<h2>Figures</h2>\n<div class=\"scroll\"><pre>{}</pre></div>\n<h2>How to "
-                               "read this</h2>\n<p>{}</p>\n",
-                               body, html_escaped_lines(collide_table(report)), words));
+    plots += html_figure(distance, "The closest distance of all pairs asked for, frame by frame.");
+  page.body = html_section("Plots", plots) + html_section("Figures", table(report));
+  return html_page(page);
 }
 
 }  // namespace kds

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "experiments/collide/compare_detectors.h"
+#include "experiments/output/html_page.h"
 #include "experiments/output/result_json.h"
 
 namespace kds {
@@ -16,8 +17,8 @@ namespace kds {
 /// A header and one line a frame.
 [[nodiscard]] std::string collide_frames_csv(const CollideReport& report);
 [[nodiscard]] std::string collide_table(const CollideReport& report);
-/// One page with the table and plots, drawn by gnuplot. `map`: of contacts, empty where there are none.
+/// `map`: of contacts, empty where there are none; `page` says how it was made.
 [[nodiscard]] std::string collide_page(const CollideReport& report, const std::string& input,
-                                       const std::string& map);
+                                       const std::string& map, Page page);
 
 }  // namespace kds

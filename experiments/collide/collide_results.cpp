@@ -1,9 +1,7 @@
 #include "experiments/collide/collide_results.h"
 
 #include <array>
-#include <exception>
 
-#include "experiments/output/gnuplot.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/result_page.h"
 #include "experiments/output/staged.h"
@@ -19,7 +17,6 @@ constexpr std::array<std::string_view, 3> kFurtherFiles{"pairs.csv", "frames.csv
 
 void check_collide_destinations(const Destinations& destinations, TakenPaths taken) {
   if (destinations.out) {
-    require_gnuplot("--out");
     taken.write_into("--out", *destinations.out, {kFurtherFiles[0], kFurtherFiles[1], kFurtherFiles[2]});
   }
   check_table_destinations(destinations, "collide", taken);
@@ -42,23 +39,23 @@ void CollideResults::add_frame(const FrameRead& frame, std::span<const BeadPair>
   files_->check();
 }
 
-void CollideResults::deliver(const CollideReport& report, const std::string& json, const std::string& input) {
+void CollideResults::deliver(const CollideReport& report, const std::string& json, const std::string& input,
+                             Page page) {
   const bool json_on_stdout = destinations_.json == "-";
   const bool table_on_stdout = !destinations_.quiet && !json_on_stdout;
-  std::exception_ptr no_page;
   if (files_) {
     files_->write("collide.json", json);
     files_->write("collide.csv", collide_csv(report));
     files_->write("frames.csv", collide_frames_csv(report));
-    no_page = add_page(
-        *files_, [&] { return collide_page(report, input, contacts_->empty() ? "" : contacts_->plot()); });
+    page.data = {"collide.json", "collide.csv", "pairs.csv", "frames.csv"};
+    files_->write("report.html",
+                  collide_page(report, input, contacts_->empty() ? "" : contacts_->plot(), page));
   }
   std::optional<AtomicFile> json_file;
   if (destinations_.json && !json_on_stdout) json_file.emplace(*destinations_.json, json);
   commit_together(std::array<Staged*, 2>{files_ ? &*files_ : nullptr, json_file ? &*json_file : nullptr});
   if (json_on_stdout) print_to_stdout(json);
   if (table_on_stdout) print_to_stdout(collide_table(report));
-  if (no_page) std::rethrow_exception(no_page);
   if (files_ && table_on_stdout)
     print_to_stdout("report " + (*destinations_.out / "report.html").string() + "\n");
 }

@@ -16,7 +16,7 @@
 namespace kds {
 
 /// Throws InputError where something could not be written later, or would replace another result or one of
-/// the files that are taken, and where gnuplot is missing for --out.
+/// the files that are taken.
 void check_collide_destinations(const Destinations& destinations, TakenPaths taken);
 
 class CollideResults {
@@ -26,9 +26,8 @@ class CollideResults {
   /// The input is accepted: from now on there are files in the making. `scene` must outlive this.
   void begin(const CollideFrames& scene);
   void add_frame(const FrameRead& frame, std::span<const BeadPair> pairs);
-  /// The files of --out appear together, in place of those of an earlier result. Where the plots fail the
-  /// figures are safe, and the page of an earlier result goes.
-  void deliver(const CollideReport& report, const std::string& json, const std::string& input);
+  /// The files of --out appear together, in place of those of an earlier result.
+  void deliver(const CollideReport& report, const std::string& json, const std::string& input, Page page);
 
  private:
   Destinations destinations_;

@@ -20,13 +20,10 @@ void ContactMap::add_frame(std::span<const BeadPair> pairs) {
 
 std::string ContactMap::plot() const {
   const auto side = static_cast<double>(in_group_);
-  MapPlot map{"contacts",
-              "bead",
-              in_group_ == 1 ? "share of frames" : fmt::format("pairs a frame of {} beads each", in_group_),
-              -0.5,
-              static_cast<double>(beads_) - 0.5,
-              side,
-              {}};
+  MapPlot map{
+      "bead", in_group_ == 1 ? "share of frames" : fmt::format("pairs a frame of {} beads each", in_group_),
+      -0.5,   static_cast<double>(beads_) - 0.5,
+      side,   {}};
   const auto middle = [&](std::size_t group) { return side * (static_cast<double>(group) + 0.5) - 0.5; };
   for (std::size_t i = 0; i < groups_; ++i) {
     for (std::size_t j = i; j < groups_; ++j) {

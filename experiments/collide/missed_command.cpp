@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "experiments/collide/missed_report.h"
-#include "experiments/output/gnuplot.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/result_page.h"
 #include "experiments/output/text.h"
@@ -97,7 +96,6 @@ void check_destinations(const MissedOptions& options) {
   TakenPaths taken;
   taken.read(options.task.input);
   if (destinations.out) {
-    require_gnuplot("--out");
     taken.write_into("--out", *destinations.out, {"report.html"});
   }
   check_table_destinations(destinations, kName, taken);
@@ -143,15 +141,19 @@ int missed_command(const Arguments& arguments) {
     print_warning(bar, warning);
   });
 
+  const std::string command_line = "kds missed " + shell_words(arguments);
   Json json;
+  json["command"] = command_line;
   json["input"] = input_json(task, report.input);
   json["settings"] = settings_json(task);
   json["rows"] = missed_rows_json(report.rows);
   json["warnings"] = warnings;
   add_provenance(json);
   deliver_table(options.destinations, kName,
-                {text_of(json), missed_csv(report.rows), missed_table(report.rows),
-                 [&] { return missed_page(report.rows, file_names(task)); }});
+                {text_of(json), missed_csv(report.rows), missed_table(report.rows), [&] {
+                   return missed_page(report.rows, file_names(task),
+                                      made_by(kName, command_line, settings_json(task)));
+                 }});
   return 0;
 }
 

@@ -4,7 +4,6 @@
 
 #include <optional>
 
-#include "experiments/output/html_page.h"
 #include "experiments/output/svg_plot.h"
 #include "experiments/output/text.h"
 
@@ -20,7 +19,7 @@ std::optional<double> missed_fraction(const MissedRow& row) {
 
 /// A curve over strides for each factor that has contacts.
 std::string plot_of(std::span<const MissedRow> rows) {
-  LinePlot plot{"missed", "stride", "% of contacts missed", false, {}};
+  LinePlot plot{"stride", "% of contacts missed", Drawn::points, {}};
   for (const MissedRow& row : rows) {
     const auto fraction = missed_fraction(row);
     if (!fraction) continue;
@@ -30,6 +29,38 @@ std::string plot_of(std::span<const MissedRow> rows) {
   }
   const bool has_line = !plot.curves.empty() && plot.curves.front().points.size() > 1;
   return has_line ? svg_plot(plot) : "";
+}
+
+std::string percent_text(const MissedRow& row) {
+  const auto fraction = missed_fraction(row);
+  return fraction ? fmt::format("{:.1f}%", 100 * *fraction) : "-";
+}
+
+// Of each factor, at the least stride above one that misses some, and at the largest.
+std::string findings(std::span<const MissedRow> rows) {
+  std::string html;
+  for (std::size_t first = 0; first < rows.size();) {
+    std::size_t end = first;
+    while (end < rows.size() && rows[end].factor == rows[first].factor) ++end;
+    const MissedRow &least = rows[first], &most = rows[end - 1];
+    html += fmt::format(
+        "<p>With radii times {}, of {} contacts <strong>{}</strong> are missed by looking at every {}. frame",
+        least.factor, with_thousands(least.contacts), percent_text(least), least.stride);
+    if (end - first > 1)
+      html += fmt::format(", <strong>{}</strong> at every {}.", percent_text(most), most.stride);
+    html += "</p>\n";
+    first = end;
+  }
+  return html;
+}
+
+std::string table(std::span<const MissedRow> rows) {
+  std::vector<HtmlRow> lines;
+  for (const MissedRow& row : rows)
+    lines.push_back({{fmt::format("{}", row.factor), with_thousands(row.stride), with_thousands(row.frames),
+                      with_thousands(row.contacts), with_thousands(row.found), with_thousands(row.missed()),
+                      percent_text(row)}});
+  return html_table({"radii times", "stride", "frames", "contacts", "found", "missed", "missed %"}, lines);
 }
 
 }  // namespace
@@ -72,22 +103,20 @@ std::string missed_table(std::span<const MissedRow> rows) {
   return text;
 }
 
-std::string missed_page(std::span<const MissedRow> rows, const std::string& input) {
-  constexpr std::string_view words =
+std::string missed_page(std::span<const MissedRow> rows, const std::string& input, Page page) {
+  page.title = "kds missed: " + input;
+  page.found = findings(rows);
+  page.words =
       "A <em>contact</em> of two beads goes from the moment at which their closed balls begin to meet to "
-      "that "
-      "at which they part, or is a touch; those that last at the first or the last frame count too. Their "
-      "times are exact for beads that move between frames as told. Of every <em>stride</em>-th frame "
+      "that at which they part, or is a touch; those that last at the first or the last frame count too. "
+      "Their times are exact for beads that move between frames as told. Of every <em>stride</em>-th frame "
       "<em>frames</em> are looked at, the first among them: a contact is <em>found</em> if one of them lies "
-      "in "
-      "it, its ends included, and <em>missed</em> otherwise.";
-  std::string body;
+      "in it, its ends included, and <em>missed</em> otherwise.";
   if (const std::string plot = plot_of(rows); !plot.empty())
-    body += html_figure(plot, "Contacts that are missed by looking at every stride-th frame only.");
-  return html_page("kds missed: " + input,
-                   fmt::format("{}<h2>Figures</h2>\n<div class=\"scroll\"><pre>{}</pre></div>\n<h2>How to "
-                               "read this</h2>\n<p>{}</p>\n",
-                               body, html_escaped_lines(missed_table(rows)), words));
+    page.body = html_section(
+        "By stride", html_figure(plot, "Contacts that are missed by looking at every stride-th frame only."));
+  page.body += html_section("Figures", table(rows));
+  return html_page(page);
 }
 
 }  // namespace kds

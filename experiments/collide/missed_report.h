@@ -5,6 +5,7 @@
 #include <string>
 
 #include "experiments/collide/missed_contacts.h"
+#include "experiments/output/html_page.h"
 #include "experiments/output/result_json.h"
 
 namespace kds {
@@ -13,7 +14,7 @@ namespace kds {
 /// A header and one line a row.
 [[nodiscard]] std::string missed_csv(std::span<const MissedRow> rows);
 [[nodiscard]] std::string missed_table(std::span<const MissedRow> rows);
-/// One page with the table and a plot, drawn by gnuplot.
-[[nodiscard]] std::string missed_page(std::span<const MissedRow> rows, const std::string& input);
+/// `page` says how it was made.
+[[nodiscard]] std::string missed_page(std::span<const MissedRow> rows, const std::string& input, Page page);
 
 }  // namespace kds

@@ -6,7 +6,6 @@
 #include "experiments/compare/compare_page.h"
 #include "experiments/compare/compare_report.h"
 #include "experiments/compare/compare_runs.h"
-#include "experiments/output/gnuplot.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/result_page.h"
 #include "experiments/output/text.h"
@@ -33,11 +32,11 @@ Json settings_json(const CompareOptions& options) {
           {"chain", reading.chain.value_or("")},
           {"frames", name_of(reading.frames)},
           {"radius", options.input.radius},
+          {"rounds", options.rounds},
           {"apart", options.apart ? std::to_string(*options.apart) : ""}};
 }
 
 void check_destinations(const CompareOptions& options, const Destinations& destinations) {
-  if (options.out) require_gnuplot("--out");
   TakenPaths taken;
   taken.read(options.input);
   if (options.out) taken.write_into("--out", *options.out, {"report.html"});
@@ -68,13 +67,15 @@ int compare_command(const Arguments& arguments) {
 
   const std::string command_line = "kds compare " + shell_words(arguments);
   Json json;
+  json["command"] = command_line;
   json["inputs"] = compared_inputs_json(comparison);
   json["settings"] = settings_json(options);
   json["rows"] = compare_rows_json(comparison);
   json["warnings"] = warnings;
   add_provenance(json);
   deliver_table(destinations, kName, {text_of(json), compare_csv(comparison), compare_table(comparison), [&] {
-                                        return compare_page(comparison, command_line);
+                                        return compare_page(
+                                            comparison, made_by(kName, command_line, settings_json(options)));
                                       }});
   return 0;
 }

@@ -20,6 +20,8 @@ constexpr std::array kCompareOptions{
                "how beads move between frames: comma list of linear, hermite, lifted (default: linear)"},
     OptionSpec{"--apart", "K",
                "contacts: of beads of one chain, those at least K apart along it (default: 2)"},
+    OptionSpec{"--rounds", "N",
+               "each run so often: times are the median, with the least and most (default: 3)"},
     OptionSpec{"--out", "DIR", "write compare.json, compare.csv and report.html there (default: none)"},
     OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
     OptionSpec{"--quiet", "", "no table, no progress bar"},
@@ -65,6 +67,8 @@ CompareOptions parse_compare_options(const Arguments& arguments) {
   if (const auto list = parsed.value("--motions")) options.motions = parse_motions(*list);
   if (const auto apart = parsed.value("--apart"))
     options.apart = static_cast<BeadId>(parse_whole_number("--apart", *apart, 1, no_bead));
+  if (const auto text = parsed.value("--rounds"))
+    options.rounds = parse_whole_number("--rounds", *text, 1, 1000);
   options.out = path_of(parsed, "--out");
   options.json = parsed.value("--json");
   options.quiet = parsed.has("--quiet");

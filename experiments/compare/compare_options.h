@@ -19,6 +19,7 @@ struct CompareOptions {
   std::vector<std::string> structures;  ///< in their order; empty: the input's default
   std::vector<std::size_t> strides{1};  ///< ascending
   std::vector<FrameMotion> motions{FrameMotion::linear};
+  std::size_t rounds = 3;                    ///< each run so often, for its time
   std::optional<BeadId> apart;               ///< --apart
   std::optional<std::filesystem::path> out;  ///< directory for compare.json, compare.csv, report.html
   std::optional<std::string> json;           ///< file, or - for standard output

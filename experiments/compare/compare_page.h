@@ -4,10 +4,11 @@
 #include <string>
 
 #include "experiments/compare/compare_runs.h"
+#include "experiments/output/html_page.h"
 
 namespace kds {
 
-/// Plots are drawn by gnuplot.
-[[nodiscard]] std::string compare_page(const Comparison& comparison, const std::string& command_line);
+/// `page` says how it was made.
+[[nodiscard]] std::string compare_page(const Comparison& comparison, Page page);
 
 }  // namespace kds

@@ -48,11 +48,12 @@ std::string csv_line(const CompareRow& row, const std::vector<std::string>& kind
         std::find_if(counts.begin(), counts.end(), [&](const auto& c) { return c.first == kind; });
     line += count == counts.end() ? "," : fmt::format(",{}", count->second);
   }
-  return line + fmt::format(",{},{},{},{},{},{},{},{},{}\n", row.internal(), value_or_empty(row.net_changes),
-                            value_or_empty(row.efficiency()), row.events_per_step(),
-                            value_or_empty(row.events_per_picosecond()), row.structure.peak,
-                            row.structure.per_bead_max, value_or_empty(row.seconds_per_event()),
-                            row.structure.seconds);
+  return line + fmt::format(",{},{},{},{},{},{},{},{},{},{},{}\n", row.internal(),
+                            value_or_empty(row.net_changes), value_or_empty(row.efficiency()),
+                            row.events_per_step(), value_or_empty(row.events_per_picosecond()),
+                            row.structure.peak, row.structure.per_bead_max,
+                            value_or_empty(row.seconds_per_event()), row.seconds.median, row.seconds.least,
+                            row.seconds.most);
 }
 
 }  // namespace
@@ -83,9 +84,12 @@ Json compare_rows_json(const Comparison& comparison) {
     of_row["compactness"] = row.structure.peak;
     of_row["locality"] = row.structure.per_bead_max;
     of_row["responsiveness"] = value_or_null(row.seconds_per_event());
-    of_row["seconds"] = row.structure.seconds;
-    of_row["by_level"] = row.places.by_level.empty() ? Json(nullptr) : Json(row.places.by_level);
-    of_row["by_bead"] = row.places.by_bead;
+    of_row["seconds"] = row.seconds.median;
+    of_row["seconds_least"] = row.seconds.least;
+    of_row["seconds_most"] = row.seconds.most;
+    of_row["by_level"] =
+        row.structure.places.by_level.empty() ? Json(nullptr) : Json(row.structure.places.by_level);
+    of_row["by_bead"] = row.structure.places.by_bead;
     json.push_back(of_row);
   }
   return json;
@@ -97,14 +101,14 @@ std::string compare_csv(const Comparison& comparison) {
   for (const std::string& kind : kinds) text += "," + csv_field(kind);
   text +=
       ",internal,net_changes,efficiency,events_per_step,events_per_ps,compactness,locality,responsiveness,"
-      "seconds\n";
+      "seconds,seconds_least,seconds_most\n";
   for (const CompareRow& row : comparison.rows) text += csv_line(row, kinds);
   return text;
 }
 
 std::vector<std::string> compare_columns() {
-  return {"structure", "stride",       "steps", "events",  "a step",      "a ps",   "net changes",
-          "internal",  "a net change", "peak",  "on bead", "us an event", "by kind"};
+  return {"structure", "stride",       "steps", "events",  "a step",      "a ps",    "net changes",
+          "internal",  "a net change", "peak",  "on bead", "us an event", "seconds", "by kind"};
 }
 
 std::vector<std::string> compare_cells(const CompareRow& row) {
@@ -121,6 +125,8 @@ std::vector<std::string> compare_cells(const CompareRow& row) {
           with_thousands(row.structure.peak),
           with_thousands(row.structure.per_bead_max),
           seconds ? short_decimal(1e6 * *seconds) : "-",
+          fmt::format("{} ({} to {})", short_decimal(row.seconds.median), short_decimal(row.seconds.least),
+                      short_decimal(row.seconds.most)),
           kinds_text(row)};
 }
 

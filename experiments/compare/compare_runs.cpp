@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "experiments/compare/net_changes.h"
+#include "experiments/run/event_places.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/report_of_session.h"
 #include "experiments/run/run_steps.h"
@@ -93,7 +94,7 @@ std::vector<CompareRow> run_once(const RunOptions& options, std::size_t stride,
       row.picoseconds = *report.last_frame->picoseconds - *report.first_frame->picoseconds;
     row.structure = report.structures[s];
     row.net_changes = net[s].count();
-    row.places = places.places()[s];
+    row.structure.places = places.places()[s];
   }
   return rows;
 }
@@ -121,7 +122,7 @@ std::optional<double> CompareRow::events_per_picosecond() const {
 std::optional<double> CompareRow::seconds_per_event() const {
   const std::uint64_t all = events() + internal();
   if (all == 0) return std::nullopt;
-  return structure.seconds / static_cast<double>(all);
+  return seconds.median / static_cast<double>(all);
 }
 
 Comparison compare_runs(const CompareOptions& options,
@@ -134,7 +135,7 @@ Comparison compare_runs(const CompareOptions& options,
   for (std::size_t i = 0; i < options.input.inputs.size(); ++i) {
     const ComparedInput& input = comparison.inputs.emplace_back(look_at(options, i, warn));
     for (const std::size_t stride : options.strides)
-      total += options.motions.size() * (strided(input.frames, stride) - 1);
+      total += options.rounds * options.motions.size() * (strided(input.frames, stride) - 1);
   }
   for (std::size_t i = 0; i < options.input.inputs.size(); ++i)
     for (const FrameMotion motion : options.motions)
@@ -142,8 +143,18 @@ Comparison compare_runs(const CompareOptions& options,
         RunOptions run = run_options(options, i, motion);
         run.reading.frames.stride *= stride;
         if (run.radius == "auto") run.radius = fmt::format("{}", comparison.inputs[i].radius_min);
-        for (CompareRow& row : run_once(run, stride, [&] { progress(++done, total); }))
-          comparison.rows.push_back(std::move(row));
+        const std::function<void()> step_done = [&] { progress(++done, total); };
+        std::vector<CompareRow> rows = run_once(run, stride, step_done);
+        std::vector<std::vector<double>> seconds(rows.size());
+        for (std::size_t round = 0;; ++round) {
+          for (std::size_t s = 0; s < rows.size(); ++s) seconds[s].push_back(rows[s].structure.seconds);
+          if (round + 1 == options.rounds) break;
+          rows = run_once(run, stride, step_done);
+        }
+        for (std::size_t s = 0; s < rows.size(); ++s) {
+          rows[s].seconds = spread_of(seconds[s]);
+          comparison.rows.push_back(std::move(rows[s]));
+        }
       }
   return comparison;
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "experiments/compare/compare_options.h"
-#include "experiments/compare/event_places.h"
+#include "experiments/program/timing.h"
 #include "experiments/run/run_report.h"
 
 namespace kds {
@@ -23,7 +23,7 @@ struct CompareRow {
   std::optional<double> picoseconds;  ///< from the first frame to the last, where the file has times
   StructureReport structure;
   std::optional<std::uint64_t> net_changes;  ///< none where the structure is not compared from frame to frame
-  PlacesOfEvents places;
+  Spread seconds;                            ///< of the rounds, on this structure
 
   [[nodiscard]] std::uint64_t events() const { return structure.events_total; }
   [[nodiscard]] std::uint64_t internal() const;

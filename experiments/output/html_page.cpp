@@ -1,6 +1,10 @@
 #include "experiments/output/html_page.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string_view>
+#include <utility>
 
 #include "experiments/output/provenance.h"
 #include "experiments/output/text.h"
@@ -9,83 +13,159 @@ namespace kds {
 
 namespace {
 
+// Colours of series are told apart by the colour-blind too.
 constexpr std::string_view kStyle = R"(
-:root { --ink: #1f2933; --soft: #5b6570; --line: #dfe4ea; --tint: #f6f8fa; }
+:root { color-scheme: light dark;
+  --page: #ffffff; --ink: #1f2933; --soft: #5b6570; --line: #dfe4ea; --tint: #f4f6f8; --link: #1d5fa8;
+  --s0: #2563a8; --s1: #c2600a; --s2: #2b7a4b; --s3: #8a3f8f; --s4: #c0392b; --s5: #5b6570; --s6: #0b7f92; --s7: #8a6d00; }
+@media (prefers-color-scheme: dark) { :root {
+  --page: #14181d; --ink: #e4e8ec; --soft: #9aa5b1; --line: #313a44; --tint: #1d232a; --link: #7db4f0;
+  --s0: #6aa8ee; --s1: #f0a04b; --s2: #63c08a; --s3: #cf92d6; --s4: #f0857a; --s5: #a7b1bc; --s6: #52c7d8; --s7: #d6b73a; } }
 * { box-sizing: border-box; }
-body { margin: 0; background: #fff; color: var(--ink);
+html { -webkit-text-size-adjust: 100%; }
+body { margin: 0; background: var(--page); color: var(--ink);
        font: 16px/1.55 system-ui, "Segoe UI", "Helvetica Neue", "DejaVu Sans", sans-serif; }
-main { max-width: 58rem; margin: 0 auto; padding: 2.5rem 1.5rem 3rem; }
-h1 { font-size: 1.65rem; line-height: 1.25; margin: 0 0 1.1rem; overflow-wrap: anywhere; }
-h2 { font-size: 1.12rem; margin: 2.4rem 0 .7rem; }
-p { margin: .4rem 0; max-width: 52rem; }
-dl { margin: 0 0 1.2rem; display: grid; grid-template-columns: max-content 1fr; gap: .25rem 1.4rem;
-     padding: 1rem 1.2rem; background: var(--tint); border-radius: .5rem; }
+main { max-width: 58rem; margin: 0 auto; padding: 2.2rem 1.5rem 3rem; }
+h1 { font-size: 1.6rem; line-height: 1.25; margin: 0 0 1rem; overflow-wrap: anywhere; }
+h2 { font-size: 1.15rem; margin: 2.4rem 0 .7rem; }
+p { margin: .45rem 0; max-width: 46rem; }
+ul { margin: .45rem 0; padding-left: 1.3rem; max-width: 46rem; }
+li { margin: .2rem 0; }
+a { color: var(--link); }
+.found > p:first-child { font-size: 1.12rem; line-height: 1.5; }
+dl { margin: .8rem 0 1.2rem; display: grid; grid-template-columns: max-content 1fr; gap: .25rem 1.4rem;
+     padding: .9rem 1.1rem; background: var(--tint); border-radius: .5rem; }
 dt { color: var(--soft); }
 dd { margin: 0; overflow-wrap: anywhere; }
-.scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-size: .94rem; font-variant-numeric: tabular-nums; }
-th, td { padding: .24rem 0 .24rem 2.6rem; text-align: right; white-space: nowrap; }
-th:first-child { padding-left: 0; text-align: left; font-weight: 600; }
-thead th { border-bottom: 2px solid var(--ink); }
-tbody tr { border-top: 1px solid var(--line); }
-tbody tr.detail { border-top: 0; }
-tbody tr.detail th { font-weight: 400; padding-left: 1.2rem; color: var(--soft); }
-figure { margin: 0 0 1.4rem; }
-figure svg { display: block; width: 100%; height: auto; }
+.scroll { overflow-x: auto; margin: .6rem 0 1.2rem; }
+table { border-collapse: separate; border-spacing: 0; font-size: .92rem; font-variant-numeric: tabular-nums; }
+th, td { padding: .26rem 0 .26rem 1.5rem; text-align: right; vertical-align: top; white-space: nowrap; }
+thead th { border-bottom: 2px solid var(--ink); vertical-align: bottom; font-weight: 600; }
+th:first-child { position: sticky; left: 0; background: var(--page); padding-left: 0; padding-right: .6rem;
+                 text-align: left; font-weight: 600; white-space: normal; min-width: 7rem; max-width: 19rem; }
+tbody th, tbody td { border-top: 1px solid var(--line); }
+tbody tr:first-child > * { border-top: 0; }
+tbody tr.detail > * { border-top: 0; }
+tbody tr.detail th:first-child { font-weight: 400; padding-left: 1.1rem; color: var(--soft); }
+figure { margin: .6rem 0 1.6rem; }
+figure svg { width: 100%; height: auto; }
+svg.wide { display: block; }
+svg.narrow { display: none; }
+svg text { font-size: 12.5px; fill: var(--soft); }
+svg .axis { stroke: var(--soft); fill: none; }
+svg .grid { stroke: var(--line); fill: none; }
+svg .curve { fill: none; stroke: currentColor; stroke-width: 1.6; stroke-linejoin: round; }
+svg .mark, svg .bar { fill: currentColor; }
+svg .mark:hover { stroke: var(--ink); stroke-width: 2; }
+svg .hot { fill: var(--ink); fill-opacity: 0; }
+svg .hot:hover { fill-opacity: .08; }
+.s0 { color: var(--s0); } .s1 { color: var(--s1); } .s2 { color: var(--s2); } .s3 { color: var(--s3); }
+.s4 { color: var(--s4); } .s5 { color: var(--s5); } .s6 { color: var(--s6); } .s7 { color: var(--s7); }
+.key { display: flex; flex-wrap: wrap; gap: .1rem 1.3rem; font-size: .92rem; max-width: none; }
+.key span::before { content: ""; display: inline-block; width: .75em; height: .75em; margin-right: .4em;
+                    border-radius: 50%; background: currentColor; }
 figcaption, footer { color: var(--soft); font-size: .9rem; }
-code { font-family: ui-monospace, "DejaVu Sans Mono", monospace; font-size: .92em; }
-footer { margin-top: 2.8rem; padding-top: .8rem; border-top: 1px solid var(--line); }
+code, pre { font-family: ui-monospace, "DejaVu Sans Mono", monospace; font-size: .9em; }
+pre { margin: .5rem 0; padding: .7rem .9rem; background: var(--tint); border-radius: .5rem; white-space: pre-wrap;
+      overflow-wrap: anywhere; }
+footer { margin-top: 2.4rem; padding-top: .8rem; border-top: 1px solid var(--line); }
+@media (max-width: 40rem) {
+  body { font-size: 15px; }
+  main { padding: 1.3rem 1rem 2rem; }
+  h1 { font-size: 1.3rem; }
+  dl { grid-template-columns: 1fr; gap: 0; padding: .7rem .9rem; }
+  dd { margin-bottom: .45rem; }
+  th:first-child { max-width: 9.5rem; }
+  tbody th:first-child { min-width: 8rem; }
+  th, td { padding-left: 1.1rem; }
+  svg.wide { display: none; }
+  svg.narrow { display: block; } }
+@media print { svg .hot { display: none; } }
 )";
 
-}  // namespace
-
-std::string html_escaped(std::string_view text) {
-  std::string html;
-  for (const char c : one_line(text)) {
-    switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      case '\'':
-        html += "&#39;";
-        break;
-      default:
-        html += c;
-    }
+std::string value_text(const Json& value) {
+  if (const std::string* text = value.text()) return *text;
+  if (const Json::Items* items = value.items()) {
+    std::vector<std::string> parts;
+    for (const Json& item : *items) parts.push_back(value_text(item));
+    return fmt::format("{}", fmt::join(parts, ", "));
   }
-  return html;
+  return value.is_null() ? "" : line_of(value).value_or("");
 }
 
-std::string html_escaped_lines(std::string_view text) {
-  std::string html;
-  for (const std::string& line : split(text, '\n')) html += html_escaped(line) + "\n";
-  return html;
+// What was not asked for is left out.
+std::string settings_of(const Json& settings) {
+  std::vector<std::pair<std::string, std::string>> terms;
+  if (settings.members() != nullptr)
+    for (const auto& [name, value] : *settings.members())
+      if (std::string text = value_text(value); !text.empty()) terms.emplace_back(name, std::move(text));
+  return html_terms(terms);
 }
+
+std::string links_to(const std::vector<std::string>& files) {
+  std::vector<std::string> links;
+  for (const std::string& file : files)
+    links.push_back(fmt::format("<a href=\"{0}\">{0}</a>", html_escaped(file)));
+  return links.empty() ? "" : fmt::format("<p>Data: {}.</p>\n", fmt::join(links, ", "));
+}
+
+std::string how_it_was_made(const Page& page) {
+  const Machine machine = this_machine();
+  std::string html;
+  if (!page.command_line.empty())
+    html += fmt::format("<pre><code>{}</code></pre>\n", html_escaped(page.command_line));
+  html += links_to(page.data) + settings_of(page.settings);
+  return html + fmt::format("<p>kds {} on {}, {} {}, {}; built with {}.</p>\n",
+                            html_escaped(program_version()), html_escaped(machine.cpu), machine.cores,
+                            machine.cores == 1 ? "core" : "cores", html_escaped(machine.os),
+                            html_escaped(machine.compiler));
+}
+
+}  // namespace
 
 std::string html_figure(const std::string& svg, const std::string& caption) {
   return fmt::format("<figure>\n{}<figcaption>{}</figcaption>\n</figure>\n", svg, caption);
 }
 
-std::string html_page(const std::string& name, const std::string& body) {
-  const Machine machine = this_machine();
-  const std::string footer = html_escaped(
-      fmt::format("kds {} on {}, {} {}, {}; built with {}.", program_version(), machine.cpu, machine.cores,
-                  machine.cores == 1 ? "core" : "cores", machine.os, machine.compiler));
+std::string html_section(const std::string& heading, const std::string& content) {
+  return content.empty() ? "" : fmt::format("<h2>{}</h2>\n{}", html_escaped(heading), content);
+}
+
+std::string html_table(const std::vector<std::string>& columns, const std::vector<HtmlRow>& rows) {
+  std::string html = "<div class=\"scroll\"><table>\n<thead><tr>";
+  for (const std::string& column : columns)
+    html += fmt::format("<th scope=\"col\">{}</th>", html_escaped(column));
+  html += "</tr></thead>\n<tbody>\n";
+  for (const HtmlRow& row : rows) {
+    html += row.detail ? "<tr class=\"detail\">" : "<tr>";
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const std::string cell = c < row.cells.size() ? html_escaped(row.cells[c]) : "";
+      html += c == 0 ? fmt::format("<th scope=\"row\">{}</th>", cell) : fmt::format("<td>{}</td>", cell);
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody>\n</table></div>\n";
+}
+
+std::string html_terms(const std::vector<std::pair<std::string, std::string>>& terms) {
+  if (terms.empty()) return "";
+  std::string html = "<dl>\n";
+  for (const auto& [term, value] : terms)
+    html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", html_escaped(term), html_escaped(value));
+  return html + "</dl>\n";
+}
+
+std::string html_page(const Page& page) {
+  std::string body = fmt::format("<div class=\"found\">\n{}</div>\n{}", page.found, page.body);
+  if (!page.words.empty()) body += html_section("How to read this", "<p>" + page.words + "</p>\n");
+  body += html_section("How it was made", how_it_was_made(page));
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n{2}"
-      "<footer>{3}</footer>\n</main>\n</body>\n</html>\n",
-      html_escaped(name), kStyle, body, footer);
+      "<meta name=\"color-scheme\" content=\"light dark\">\n"
+      "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n{2}</main>\n</body>\n"
+      "</html>\n",
+      html_escaped(page.title), kStyle, body);
 }
 
 }  // namespace kds

@@ -12,11 +12,6 @@
 
 namespace kds {
 
-/// Writes the page that `make` makes, if there is such a function. Where it throws, the page of an earlier
-/// result will go, as it would be taken for that of these files; returns what was thrown, for later: the
-/// figures are to be safe first.
-[[nodiscard]] std::exception_ptr add_page(StagedFiles& files, const std::function<std::string()>& make);
-
 /// Throws InputError where the directory holds the result of another command that writes a page, which would
 /// be lost. `own` is the file by which the result to come is known: summary.json, of `kds run`, or another of
 /// those listed with it.

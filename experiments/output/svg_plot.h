@@ -1,5 +1,7 @@
 #pragma once
-// Curves, bars and maps as SVG elements that can stand side by side in one page.
+// Curves, points, bars and maps for a page, without a script: drawn twice, for wide pages and for narrow
+// ones, of which the page's style shows one. Colours are those of the page, light or dark. A value is shown
+// where the pointer rests.
 
 #include <cstddef>
 #include <string>
@@ -10,13 +12,19 @@ namespace kds {
 
 struct Curve {
   std::string name;
-  std::vector<std::pair<double, double>> points;  ///< by increasing first coordinate
+  std::vector<std::pair<double, double>> points;  ///< by ascending first coordinate, finite
+};
+
+/// How a curve's points are drawn.
+enum class Drawn {
+  line,       ///< joined
+  staircase,  ///< a value holds until the next point
+  points      ///< marks alone: nothing is known in between
 };
 
 struct LinePlot {
-  std::string id;  ///< a word, its own within the page
   std::string x_label, y_label;
-  bool staircase = false;  ///< a value holds until the next point
+  Drawn drawn = Drawn::line;
   std::vector<Curve> curves;
   bool below_zero = false;  ///< values may be; else the axis begins at 0
 };
@@ -28,15 +36,14 @@ struct PointPlot {
     double x, y;       ///< x above 0; what is 0 or but a millionth of the largest stands at the bottom
     std::size_t series = 0;
   };
-  std::string id;
   std::string x_label, y_label;
   std::vector<std::string> series;
   std::vector<Point> points;
 };
 
+/// Bars from left to right, one below the other, each with its value.
 struct BarPlot {
-  std::string id;
-  std::string y_label;
+  std::string x_label;
   std::vector<std::pair<std::string, double>> bars;
 };
 
@@ -46,7 +53,6 @@ struct MapPlot {
     double x, y;  ///< its middle
     double value;
   };
-  std::string id;
   std::string label;        ///< of both axes
   std::string value_label;  ///< of the colours
   double from = 0, to = 1;  ///< both axes
@@ -58,9 +64,5 @@ struct MapPlot {
 [[nodiscard]] std::string svg_plot(const PointPlot& plot);
 [[nodiscard]] std::string svg_plot(const BarPlot& plot);
 [[nodiscard]] std::string svg_plot(const MapPlot& plot);
-
-/// The <svg> element alone, its ids and the references to them prefixed: two plots of one page must not share
-/// any.
-[[nodiscard]] std::string embeddable_svg(const std::string& document, const std::string& id);
 
 }  // namespace kds

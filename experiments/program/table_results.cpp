@@ -1,9 +1,9 @@
 #include "experiments/program/table_results.h"
 
 #include <array>
-#include <exception>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/result_page.h"
@@ -11,6 +11,14 @@
 #include "experiments/program/taken_paths.h"
 
 namespace kds {
+
+Page made_by(const std::string& name, std::string command_line, Json settings) {
+  Page page;
+  page.command_line = std::move(command_line);
+  page.settings = std::move(settings);
+  page.data = {name + ".json", name + ".csv"};
+  return page;
+}
 
 void check_table_destinations(const Destinations& destinations, const std::string& name, TakenPaths paths) {
   const bool json_file = destinations.json && *destinations.json != "-";
@@ -25,20 +33,18 @@ void check_table_destinations(const Destinations& destinations, const std::strin
 
 void deliver_table(const Destinations& destinations, const std::string& name, const TableResults& results) {
   const bool json_on_stdout = destinations.json == "-";
-  std::exception_ptr no_page;
   std::optional<StagedFiles> files;
   if (destinations.out) {
     files.emplace(*destinations.out, "--out");
     files->write(name + ".json", results.json);
     files->write(name + ".csv", results.csv);
-    no_page = add_page(*files, results.page);
+    if (results.page) files->write("report.html", results.page());
   }
   std::optional<AtomicFile> json;
   if (destinations.json && !json_on_stdout) json.emplace(*destinations.json, results.json);
   commit_together(std::array<Staged*, 2>{files ? &*files : nullptr, json ? &*json : nullptr});
   if (json_on_stdout) print_to_stdout(results.json);
   if (!destinations.quiet && !json_on_stdout) print_to_stdout(results.table);
-  if (no_page) std::rethrow_exception(no_page);
 }
 
 }  // namespace kds

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "experiments/output/destinations.h"
+#include "experiments/output/html_page.h"
+#include "experiments/output/result_json.h"
 #include "experiments/program/taken_paths.h"
 
 namespace kds {
@@ -14,6 +16,9 @@ struct TableResults {
   std::string json, csv, table;
   std::function<std::string()> page = {};  ///< makes report.html for --out; none: there is no page
 };
+
+/// A page that is yet to be filled: how it was made, and the files that deliver_table writes beside it.
+[[nodiscard]] Page made_by(const std::string& name, std::string command_line, Json settings);
 
 /// Throws InputError where something could not be written later, or would replace another result or one of
 /// the files that are taken.

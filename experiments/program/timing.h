@@ -21,4 +21,31 @@ inline double median_of(std::vector<double> values) {
   return *middle;
 }
 
+/// What several rounds gave.
+struct Spread {
+  double median = 0, least = 0, most = 0;
+};
+inline Spread spread_of(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return {median_of(values), *least, *most};
+}
+
+/// Of the seconds that `work` reports of a call. Short work is called often enough in a round to be measured;
+/// work that takes more than `enough` seconds is called once in all.
+template <class Work>
+Spread repeated_seconds(std::size_t rounds, const Work& work, double enough = 1) {
+  constexpr double least = 1e-3;
+  double once = work();
+  if (once > enough) return spread_of({once});
+  if (once < least) once = work();  // caches are warm
+  const auto calls = static_cast<std::size_t>(std::max(1.0, least / std::max(once, 1e-9)));
+  std::vector<double> seconds;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    double sum = 0;
+    for (std::size_t call = 0; call < calls; ++call) sum += work();
+    seconds.push_back(sum / static_cast<double>(calls));
+  }
+  return spread_of(seconds);
+}
+
 }  // namespace kds

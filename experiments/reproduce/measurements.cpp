@@ -15,21 +15,9 @@ namespace kds {
 
 namespace {
 
-// Processor seconds of what `work` reports of a call; short work is called often enough to be measured.
 template <class Work>
 double median_seconds(std::size_t rounds, const Work& work) {
-  constexpr double least = 1e-3, enough = 1;
-  double once = work();
-  if (once > enough) return once;
-  once = work();  // caches are warm
-  const auto calls = static_cast<std::size_t>(std::max(1.0, least / std::max(once, 1e-9)));
-  std::vector<double> seconds;
-  for (std::size_t round = 0; round < rounds; ++round) {
-    double sum = 0;
-    for (std::size_t call = 0; call < calls; ++call) sum += work();
-    seconds.push_back(sum / static_cast<double>(calls));
-  }
-  return median_of(seconds);
+  return repeated_seconds(rounds, work).median;
 }
 
 std::vector<double> weights_of(const Subject& subject) {

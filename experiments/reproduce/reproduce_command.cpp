@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <filesystem>
 #include <optional>
 
 #include "experiments/output/destinations.h"
-#include "experiments/output/gnuplot.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/result_page.h"
 #include "experiments/output/staged.h"
@@ -72,7 +70,6 @@ std::vector<int> tables_asked_for(const ParsedArguments& parsed) {
 void check_destinations(const Destinations& destinations, const std::vector<int>& tables) {
   TakenPaths taken;
   if (destinations.out) {
-    require_gnuplot("--out");
     check_directory(*destinations.out, "--out", {kResult, "report.html"});
     taken.write_into("--out", *destinations.out, {kResult, "report.html"});
     for (const int table : tables) taken.write("--out", *destinations.out / file_of(table));
@@ -105,10 +102,9 @@ std::vector<PaperTable> measure(const std::vector<int>& numbers, const std::file
 }
 
 void deliver(const Destinations& destinations, const std::vector<PaperTable>& tables, const std::string& json,
-             const std::string& command_line) {
+             Page page) {
   std::optional<StagedFiles> files;
   std::optional<AtomicFile> json_file;
-  std::exception_ptr no_page;
   if (destinations.out) {
     files.emplace(*destinations.out, "--out");
     for (const PaperTable& table : tables) files->write(file_of(table.number), paper_csv(table));
@@ -120,14 +116,15 @@ void deliver(const Destinations& destinations, const std::vector<PaperTable>& ta
                               [&](const PaperTable& table) { return table.number == number; });
       return false;
     });
-    no_page = add_page(*files, [&] { return paper_page(tables, command_line); });
+    page.data = {kResult};
+    for (const PaperTable& table : tables) page.data.push_back(file_of(table.number));
+    files->write("report.html", paper_page(tables, page));
   }
   const bool json_on_stdout = destinations.json == "-";
   if (destinations.json && !json_on_stdout) json_file.emplace(*destinations.json, json);
   commit_together(std::array<Staged*, 2>{files ? &*files : nullptr, json_file ? &*json_file : nullptr});
   if (json_on_stdout) print_to_stdout(json);
   if (!destinations.quiet && !json_on_stdout) print_to_stdout(paper_text(tables));
-  if (no_page) std::rethrow_exception(no_page);
 }
 
 }  // namespace
@@ -151,11 +148,16 @@ int reproduce_command(const Arguments& arguments) {
   for (const int number : numbers) names.push_back(fmt::format("table{}", number));
   const std::string command_line = fmt::format("kds reproduce {} --rounds {}", shell_words(names), rounds);
   Json json;
-  json["settings"] = {{"tables", names}, {"rounds", rounds}};
+  const Json settings{{"tables", names}, {"rounds", rounds}};
+  json["command"] = command_line;
+  json["settings"] = settings;
   json["rows"] = paper_rows_json(tables);
   json["tables"] = paper_findings_json(tables);
   add_provenance(json);
-  deliver(destinations, tables, text_of(json), command_line);
+  Page page;
+  page.command_line = command_line;
+  page.settings = settings;
+  deliver(destinations, tables, text_of(json), std::move(page));
   return 0;
 }
 

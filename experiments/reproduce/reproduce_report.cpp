@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/output/html_page.h"
 #include "experiments/output/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/reproduce/findings.h"
@@ -30,18 +29,21 @@ std::string name_of(const PaperRow& row) {
                      row.at);
 }
 
-std::string html_table(const PaperTable& table) {
-  std::string html = "<div class=\"scroll\"><table>\n<thead><tr><th></th>";
-  for (const PaperColumn& column : table.columns)
-    html += fmt::format("<th scope=\"col\">{}</th><th scope=\"col\">paper</th>", html_escaped(column.title));
-  html += "</tr></thead>\n<tbody>\n";
-  for (const PaperRow& row : table.rows) {
-    html += fmt::format("<tr><th scope=\"row\">{}</th>", html_escaped(name_of(row)));
-    for (std::size_t c = 0; c < table.columns.size(); ++c)
-      html += fmt::format("<td>{}</td><td>{}</td>", shown(row.ours[c]), shown(row.paper[c]));
-    html += "</tr>\n";
+std::string table_with_notes(const PaperTable& table) {
+  std::vector<std::string> columns{""};
+  for (const PaperColumn& column : table.columns) {
+    columns.emplace_back(column.title);
+    columns.emplace_back("paper");
   }
-  html += "</tbody>\n</table></div>\n";
+  std::vector<HtmlRow> rows;
+  for (const PaperRow& row : table.rows) {
+    HtmlRow& line = rows.emplace_back(HtmlRow{{name_of(row)}});
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      line.cells.push_back(shown(row.ours[c]));
+      line.cells.push_back(shown(row.paper[c]));
+    }
+  }
+  std::string html = html_table(columns, rows);
   std::vector<std::string> notes;
   for (const PaperRow& row : table.rows) {
     if (row.note.empty()) continue;
@@ -54,7 +56,7 @@ std::string html_table(const PaperTable& table) {
 
 // Table 6 is a course over frames.
 std::string stability_plot(const PaperTable& table) {
-  LinePlot plot{"table6", "frames", "changes", false, {}};
+  LinePlot plot{"frames", "changes", Drawn::points, {}};
   for (std::size_t c = 0; c < 2; ++c)
     for (const bool paper : {false, true}) {
       Curve curve{fmt::format("{}{}", table.columns[c].title, paper ? ", paper" : ""), {}};
@@ -127,22 +129,29 @@ std::string paper_text(std::span<const PaperTable> tables) {
   return text;
 }
 
-std::string paper_page(std::span<const PaperTable> tables, const std::string& command_line) {
-  std::string body =
-      "<p>Tables of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for deforming "
-      "necklaces</em> (2004), measured again; the paper's values stand beside ours. Times are ratios "
-      "within a row, for the paper's machine is of 2004.</p>\n<ul>\n";
+std::string paper_page(std::span<const PaperTable> tables, Page page) {
+  std::size_t claims = 0, hold = 0;
+  std::string list = "<ul>\n";
   for (const PaperTable& table : tables)
-    for (const std::string& finding : findings_of(table))
-      body += fmt::format("<li>Table {}: {}</li>\n", table.number, html_escaped(finding));
-  body += "</ul>\n";
-  for (const PaperTable& table : tables) {
-    body += fmt::format("<h2>Table {}: {}</h2>\n<p>{}</p>\n{}", table.number, html_escaped(table.title),
-                        html_escaped(table.words), html_table(table));
-    if (table.number == 6) body += stability_plot(table);
-  }
-  body += fmt::format("<p><code>{}</code></p>\n", html_escaped(command_line));
-  return html_page("kds reproduce", body);
+    for (const std::string& finding : findings_of(table)) {
+      ++claims;
+      hold += finding.find(": yes") != std::string::npos ? 1 : 0;
+      list += fmt::format("<li>Table {}: {}</li>\n", table.number, html_escaped(finding));
+    }
+  page.title = "kds reproduce";
+  page.found = fmt::format(
+      "<p>Of {} claims of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for deforming "
+      "necklaces</em> (2004), that these tables can tell of, <strong>{}</strong> hold here.</p>\n{}</ul>\n",
+      claims, hold, list);
+  page.words =
+      "The paper's values stand beside ours. Times are ratios within a row, of medians of the rounds, for "
+      "the paper's machine is of 2004.";
+  for (const PaperTable& table : tables)
+    page.body +=
+        html_section(fmt::format("Table {}: {}", table.number, table.title),
+                     fmt::format("<p>{}</p>\n{}{}", html_escaped(table.words), table_with_notes(table),
+                                 table.number == 6 ? stability_plot(table) : ""));
+  return html_page(page);
 }
 
 }  // namespace kds

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "experiments/output/html_page.h"
 #include "experiments/output/result_json.h"
 #include "experiments/reproduce/paper_table.h"
 
@@ -17,7 +18,7 @@ namespace kds {
 [[nodiscard]] std::string paper_csv(const PaperTable& table);
 /// For the terminal.
 [[nodiscard]] std::string paper_text(std::span<const PaperTable> tables);
-/// One page, plots drawn by gnuplot.
-[[nodiscard]] std::string paper_page(std::span<const PaperTable> tables, const std::string& command_line);
+/// `page` says how it was made.
+[[nodiscard]] std::string paper_page(std::span<const PaperTable> tables, Page page);
 
 }  // namespace kds

@@ -11,6 +11,7 @@
 #include "experiments/output/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/run/event_bins.h"
+#include "experiments/run/event_places.h"
 #include "experiments/run/summary_rows.h"
 
 namespace kds {
@@ -18,13 +19,13 @@ namespace {
 
 constexpr std::string_view kWords =
     "An <em>event</em> is a change of the structure itself, found at the exact time at which one of its "
-    "<em>certificates</em> fails: sign conditions on a few beads that, while they hold, prove the structure "
-    "right. "
-    "Between two frames every bead moves by a known polynomial, so nothing that happens in between is "
-    "missed; "
-    "internal events are bookkeeping and not in the total. The last rows compare the time with building the "
-    "same "
-    "structure from nothing at every frame.";
+    "<em>certificates</em> fails: sign conditions on a few beads that, while they hold, prove the "
+    "structure "
+    "right. Between two frames every bead moves by a known polynomial, so nothing that happens in between "
+    "is "
+    "missed; internal events are bookkeeping and not in the total. <em>Kinetic / static</em> compares the "
+    "time with building the same structure from nothing at every frame. Times are of this one run, and "
+    "wander; <code>kds compare</code> and <code>kds bench</code> repeat theirs.";
 
 std::string title(const RunReport& report) {
   std::string names;
@@ -33,108 +34,147 @@ std::string title(const RunReport& report) {
   return "kds run: " + names;
 }
 
+double a_step(std::uint64_t events, std::size_t steps) {
+  return static_cast<double>(events) / static_cast<double>(std::max<std::size_t>(1, steps));
+}
+
 std::string findings(const RunReport& report) {
   const std::size_t steps = step_count(report);
-  std::string html;
+  std::string html = fmt::format("<p>In {} {} of {} beads", with_thousands(steps),
+                                 steps == 1 ? "motion step" : "motion steps", with_thousands(report.beads));
+  const StructureReport* first = nullptr;
   for (const StructureReport& structure : report.structures) {
-    html += fmt::format("<p>The <strong>{}</strong> structure changed {} times in {} {}",
-                        html_escaped(structure.name), with_thousands(structure.events_total),
-                        with_thousands(steps), steps == 1 ? "motion step" : "motion steps");
-    if (structure.static_seconds > 0)
-      html += fmt::format("; keeping it took {} times as long as rebuilding it at every frame",
-                          short_decimal(structure.seconds / structure.static_seconds));
-    html += ".</p>\n";
+    html += fmt::format("{} the <strong>{}</strong> structure changed {} times ({} a step{})",
+                        first == nullptr ? "" : ",", html_escaped(structure.name),
+                        with_thousands(structure.events_total),
+                        short_decimal(a_step(structure.events_total, steps)),
+                        first == nullptr || first->events_total == 0 || structure.events_total == 0
+                            ? ""
+                            : fmt::format(", {} times as often as {}",
+                                          short_decimal(static_cast<double>(structure.events_total) /
+                                                        static_cast<double>(first->events_total)),
+                                          html_escaped(first->name)));
+    if (first == nullptr) first = &structure;
   }
+  html += report.structures.empty() ? " nothing was maintained.</p>\n" : ".</p>\n";
+  for (const StructureReport& structure : report.structures)
+    if (structure.static_seconds > 0)
+      html += fmt::format(
+          "<p>Keeping the {} structure took {} times as long as building it anew at every frame.</p>\n",
+          html_escaped(structure.name), short_decimal(structure.seconds / structure.static_seconds));
   return html;
 }
 
-std::string inputs(const RunReport& report) {
-  std::string html = "<dl>\n";
-  for (const auto& [label, value] : input_lines(report))
-    html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", html_escaped(label), html_escaped(value));
-  return html +
-         fmt::format("<dt>fingerprint</dt><dd><code>{}</code></dd>\n</dl>\n", hex_digits(report.fingerprint));
+std::string table(const RunReport& report) {
+  std::vector<std::string> columns{""};
+  for (const StructureReport& structure : report.structures) columns.push_back(structure.name);
+  std::vector<HtmlRow> rows;
+  for (const SummaryRow& row : summary_rows(report)) {
+    HtmlRow& line = rows.emplace_back(HtmlRow{{row.label}, row.detail});
+    line.cells.insert(line.cells.end(), row.cells.begin(), row.cells.end());
+  }
+  return html_table(columns, rows);
 }
 
-std::string table(const RunReport& report) {
-  std::string html = "<div class=\"scroll\"><table>\n<thead><tr><th></th>";
-  for (const StructureReport& structure : report.structures)
-    html += fmt::format("<th scope=\"col\">{}</th>", html_escaped(structure.name));
-  html += "</tr></thead>\n<tbody>\n";
-  for (const SummaryRow& row : summary_rows(report)) {
-    html += fmt::format("<tr{}><th scope=\"row\">{}</th>", row.detail ? " class=\"detail\"" : "",
-                        html_escaped(row.label));
-    for (std::size_t i = 0; i < report.structures.size(); ++i)
-      html += fmt::format("<td>{}</td>", row.cells.empty() ? "" : html_escaped(row.cells[i]));
-    html += "</tr>\n";
-  }
-  return html + "</tbody>\n</table></div>\n";
+// The frame at which a bin ends.
+double end_of(const RunReport& report, const std::vector<EventBin>& bins, std::size_t b) {
+  if (b + 1 < bins.size()) return static_cast<double>(bins[b + 1].first_frame);
+  return static_cast<double>(report.last_frame ? report.last_frame->number
+                                               : bins[b].first_frame + bins[b].steps);
+}
+
+std::string over_steps(std::size_t width) {
+  return width > 1 ? fmt::format(" Each value is the mean over {} steps.", width) : "";
 }
 
 std::string plots_over_time(const RunReport& report) {
   std::size_t width = 1;
-  LinePlot rate{"rate", "frame", "events per step", true, {}};
-  LinePlot sum{"sum", "frame", "events so far", false, {}};
+  LinePlot rate{"frame", "events per step", Drawn::staircase, {}};
+  LinePlot sum{"frame", "events so far", Drawn::line, {}};
   for (const StructureReport& structure : report.structures) {
     const std::vector<EventBin>& bins = structure.course.bins();
     width = std::max(width, structure.course.width());
     Curve per_step{structure.name, {}}, so_far{structure.name, {}};
     so_far.points.emplace_back(bins.empty() ? 0.0 : static_cast<double>(bins.front().first_frame), 0.0);
     for (std::size_t b = 0; b < bins.size(); ++b) {
-      const EventBin& bin = bins[b];
-      const double first = static_cast<double>(bin.first_frame);
-      const double end = static_cast<double>(b + 1 < bins.size() ? bins[b + 1].first_frame
-                                             : report.last_frame ? report.last_frame->number
-                                                                 : bin.first_frame + bin.steps);
-      const double mean = static_cast<double>(bin.events) / static_cast<double>(bin.steps);
-      if (!per_step.points.empty()) per_step.points.pop_back();
-      per_step.points.insert(per_step.points.end(), {{first, mean}, {end, mean}});
-      so_far.points.emplace_back(end, static_cast<double>(bin.cumulative));
+      const double mean = static_cast<double>(bins[b].events) / static_cast<double>(bins[b].steps);
+      const double end = end_of(report, bins, b);
+      per_step.points.emplace_back(static_cast<double>(bins[b].first_frame), mean);
+      if (b + 1 == bins.size()) per_step.points.emplace_back(end, mean);
+      so_far.points.emplace_back(end, static_cast<double>(bins[b].cumulative));
     }
     rate.curves.push_back(std::move(per_step));
     sum.curves.push_back(std::move(so_far));
   }
-  std::string rate_caption = "Events between each frame and the next.",
-              sum_caption = "Events since the first frame.";
-  if (width > 1) {
-    rate_caption =
-        fmt::format("Events between a frame and the next, each point the mean over {} steps.", width);
-    sum_caption += fmt::format(" One point for {} steps.", width);
-  }
+  std::string span;
   if (report.first_frame && report.first_frame->picoseconds && report.last_frame &&
       report.last_frame->picoseconds)
-    sum_caption += fmt::format(" The frames are those from {:.6g} to {:.6g} ps.",
-                               *report.first_frame->picoseconds, *report.last_frame->picoseconds);
-  return html_figure(svg_plot(rate), rate_caption) + html_figure(svg_plot(sum), sum_caption);
+    span = fmt::format(" The frames are those from {:.6g} to {:.6g} ps.", *report.first_frame->picoseconds,
+                       *report.last_frame->picoseconds);
+  return html_figure(svg_plot(rate), "Events between each frame and the next." + over_steps(width)) +
+         html_figure(svg_plot(sum), "Events since the first frame." + span);
 }
 
-// One motion step has no course over frames: what happened is drawn instead of when.
+std::string plot_of_displacement(const RunReport& report) {
+  const auto& bins = report.displacement.bins();
+  if (bins.size() < 2) return "";
+  LinePlot plot{
+      "frame", "displacement", Drawn::staircase, {{"mean of the beads", {}}, {"farthest bead", {}}}};
+  for (const Displacements::Bin& bin : bins) {
+    const auto x = static_cast<double>(bin.first_frame);
+    plot.curves[0].points.emplace_back(x, bin.mean());
+    plot.curves[1].points.emplace_back(x, bin.most);
+  }
+  return html_figure(
+      svg_plot(plot),
+      fmt::format("How far beads are from where they were a frame before, in the file's unit of length; the "
+                  "largest radius is {}.{}",
+                  short_decimal(report.radius_max), over_steps(report.displacement.width())));
+}
+
 std::string plots_by_kind(const RunReport& report) {
   std::string html;
-  for (std::size_t i = 0; i < report.structures.size(); ++i) {
-    const StructureReport& structure = report.structures[i];
-    BarPlot plot{fmt::format("kinds{}", i), "events", {}};
+  for (const StructureReport& structure : report.structures) {
+    BarPlot plot{"events", {}};
     for (const auto& [kind, count] : structure.events_by_kind)
-      plot.bars.emplace_back(kind_label(kind), static_cast<double>(count));
-    if (plot.bars.empty()) plot.bars.emplace_back("all", static_cast<double>(structure.events_total));
-    html += html_figure(svg_plot(plot), fmt::format("Events of the {} structure by kind, in one motion step.",
-                                                    html_escaped(structure.name)));
+      if (count > 0) plot.bars.emplace_back(kind_label(kind), static_cast<double>(count));
+    if (!plot.bars.empty())
+      html += html_figure(svg_plot(plot),
+                          fmt::format("Events of the {} structure by kind.", html_escaped(structure.name)));
   }
   return html;
 }
 
-std::string plots(const RunReport& report) {
-  if (report.structures.empty()) return "";
-  return step_count(report) > 1 ? plots_over_time(report) : plots_by_kind(report);
+std::string plot_along_chain(const RunReport& report) {
+  LinePlot plot{"bead", "events that name it", Drawn::staircase, {}};
+  for (const StructureReport& structure : report.structures) {
+    if (structure.places.by_bead.empty()) continue;
+    plot.curves.push_back({structure.name, means_along_chain(structure.places.by_bead)});
+  }
+  if (plot.curves.empty()) return "";
+  return html_figure(svg_plot(plot),
+                     "Events along the chain, an event at each bead that it names: of a node of the wrapped "
+                     "hierarchy, those of its new basis. Which residues beads are, kds info --beads tells.");
 }
 
 }  // namespace
 
-std::string html_report(const RunReport& report) {
-  return html_page(title(report),
-                   fmt::format("{}{}<h2>Events</h2>\n{}<h2>Comparison</h2>\n{}<h2>How to read "
-                               "this</h2>\n<p>{}</p>\n",
-                               inputs(report), findings(report), plots(report), table(report), kWords));
+std::string html_report(const RunReport& report, const std::vector<std::string>& data) {
+  Page page;
+  page.title = title(report);
+  page.found = findings(report);
+  page.command_line = report.command_line;
+  page.data = data;
+  page.words = kWords;
+  page.body = html_section("By kind", plots_by_kind(report));
+  if (step_count(report) > 1 && !report.structures.empty())
+    page.body += html_section("Over time", plots_over_time(report) + plot_of_displacement(report));
+  page.body += html_section("Along the chain", plot_along_chain(report));
+  page.body += html_section("Figures", table(report));
+  auto inputs = input_lines(report);
+  inputs.emplace_back("fingerprint", hex_digits(report.fingerprint));
+  page.body += html_section("Input", html_terms(inputs));
+  return html_page(page);
 }
 
 }  // namespace kds

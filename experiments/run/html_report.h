@@ -2,12 +2,13 @@
 // report.html: one page with the table and the plots, complete in itself.
 
 #include <string>
+#include <vector>
 
 #include "experiments/run/run_report.h"
 
 namespace kds {
 
-/// Draws the plots with gnuplot; throws std::runtime_error where it fails.
-[[nodiscard]] std::string html_report(const RunReport& report);
+/// `data`: names of the files beside it.
+[[nodiscard]] std::string html_report(const RunReport& report, const std::vector<std::string>& data = {});
 
 }  // namespace kds

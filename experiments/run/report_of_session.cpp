@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "experiments/output/text.h"
 #include "experiments/run/run_settings.h"
 
 namespace kds {
@@ -55,6 +56,7 @@ RunReport report_of(Session& session, const Scene& scene, const RunOptions& opti
   report.radius_min = *least;
   report.radius_max = *most;
   report.settings = option_settings(options);
+  report.command_line = "kds run " + shell_words(option_arguments(options));
   for (std::size_t s = 0; s < session.structures().size(); ++s) {
     report.structures.push_back(
         report_of(*session.structures()[s], session.simulator().seconds_of(s), counts.courses()[s]));

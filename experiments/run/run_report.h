@@ -8,12 +8,21 @@
 #include <vector>
 
 #include "experiments/run/certify_stride.h"
+#include "experiments/run/displacements.h"
 #include "experiments/run/event_bins.h"
 #include "motions/readers/frame_reader.h"
 
 namespace kds {
 
 using NamedCounts = std::vector<std::pair<std::string, std::uint64_t>>;  ///< in the order to print
+
+/// Where along the chain, and how deep in its tree, a structure changes: its external events.
+struct PlacesOfEvents {
+  /// That name this bead: of nodes, in the basis that is new. An event counts at each of its beads.
+  std::vector<std::uint64_t> by_bead;
+  /// At nodes of this level of the tree, roots 0; empty where events are not at nodes.
+  std::vector<std::uint64_t> by_level;
+};
 
 struct StructureReport {
   std::string name;                ///< sorted, wrapped, power
@@ -28,6 +37,7 @@ struct StructureReport {
   double static_seconds = 0;  ///< building the same structure statically at every frame (CGAL)
   std::uint64_t rebuilds = 0;
   std::uint64_t audits_run = 0, audits_failed = 0;
+  PlacesOfEvents places;  ///< where these are looked at, else empty
 };
 
 struct RunReport {
@@ -44,6 +54,8 @@ struct RunReport {
   std::uint64_t exact_work = 0;             ///< limb operations of exact arithmetic
   std::uint64_t fingerprint = 0;            ///< printed as 16 hex digits
   std::optional<StrideCertificate> stride;  ///< of --certify
+  std::string command_line;                 ///< that asks for the same run, without outputs
+  Displacements displacement;               ///< where it is looked at, else empty
 };
 
 }  // namespace kds

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <filesystem>
 
-#include "experiments/output/gnuplot.h"
 #include "experiments/output/output_error.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/result_page.h"
@@ -23,7 +21,6 @@ constexpr std::array<std::string_view, 4> kFiles{"summary.json", "events.csv", "
 void check_destinations(const Destinations& destinations) {
   if (destinations.json && *destinations.json != "-") ensure_writable_file(*destinations.json, "--json");
   if (!destinations.out) return;
-  require_gnuplot("--out");
   check_directory(*destinations.out, "--out", {kFiles[0], kFiles[1], kFiles[2], kFiles[3]});
   refuse_page_beside_others(*destinations.out, "summary.json");
 }
@@ -37,6 +34,10 @@ void RunResults::begin(const Scene& scene, Session& session) {
   if (!destinations_.out) return;
   files_.emplace(*destinations_.out, "--out");
   events_.emplace(files_->open("events.csv"), scene.stamp(0).picoseconds.has_value());
+  scene_ = &scene;
+  displacement_ = Displacements(bin_width(scene.step_count(), EventCourse::most_bins));
+  places_.emplace(session, scene);
+  session.simulator().listen(*places_);
   if (!has_contacts(session))
     return files_->replace([](std::string_view name) { return name == contacts_file; });
   contacts_.emplace(files_->open(std::string(contacts_file)), scene);
@@ -62,6 +63,7 @@ void RunResults::add_frame(std::size_t frame, const Session& session) {
       if (file != nullptr) file->add_built(session);
   }
   if (dumps_) dumps_->write(frame, session.dump(frame));
+  if (scene_ != nullptr) displacement_.add_frame(scene_->centers(frame), scene_->frame_number(frame));
 }
 
 void RunResults::add_step(const FrameStamp& frame, std::string_view structure, std::uint64_t events) {
@@ -71,13 +73,17 @@ void RunResults::add_step(const FrameStamp& frame, std::string_view structure, s
   files_->check();
 }
 
-void RunResults::deliver(const RunReport& report, const std::string& json, const std::string& table) {
+void RunResults::deliver(RunReport report, const std::string& json, const std::string& table) {
   const bool json_on_stdout = destinations_.json == "-";
   const bool table_on_stdout = !destinations_.quiet && !json_on_stdout;
-  std::exception_ptr no_page;
   if (files_) {
     files_->write("summary.json", json);
-    no_page = add_page(*files_, [&] { return html_report(report); });
+    for (std::size_t s = 0; s < report.structures.size(); ++s)
+      report.structures[s].places = places_->places()[s];
+    report.displacement = displacement_;
+    std::vector<std::string> data{std::string(kFiles[0]), std::string(kFiles[1])};
+    if (contacts_) data.emplace_back(contacts_file);
+    files_->write("report.html", html_report(report, data));
   }
   std::optional<AtomicFile> json_file;
   if (destinations_.json && !json_on_stdout) json_file.emplace(*destinations_.json, json);
@@ -87,7 +93,6 @@ void RunResults::deliver(const RunReport& report, const std::string& json, const
       log_ ? &log_->staged() : nullptr, files_ ? &*files_ : nullptr, json_file ? &*json_file : nullptr});
   if (json_on_stdout) print_to_stdout(json);
   if (table_on_stdout) print_to_stdout(table);
-  if (no_page) std::rethrow_exception(no_page);
   if (files_ && table_on_stdout)
     print_to_stdout("report " + (*destinations_.out / "report.html").string() + "\n");
 }

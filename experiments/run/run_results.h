@@ -11,8 +11,10 @@
 #include "experiments/output/output_files.h"
 #include "experiments/output/staged_files.h"
 #include "experiments/run/contacts_csv.h"
+#include "experiments/run/displacements.h"
 #include "experiments/run/dumped_frames.h"
 #include "experiments/run/event_log_file.h"
+#include "experiments/run/event_places.h"
 #include "experiments/run/event_table.h"
 #include "experiments/run/events_csv.h"
 #include "experiments/run/run_options.h"
@@ -41,15 +43,17 @@ class RunResults {
   /// Events of a structure in the step from that frame on.
   void add_step(const FrameStamp& frame, std::string_view structure, std::uint64_t events);
   /// `json` is the summary; `table` is printed unless quiet, or where standard output is the JSON's. All
-  /// files appear together, in place of those of an earlier run. Where the plots fail the figures are safe,
-  /// and the page of an earlier run goes.
-  void deliver(const RunReport& report, const std::string& json, const std::string& table);
+  /// files appear together, in place of those of an earlier run.
+  void deliver(RunReport report, const std::string& json, const std::string& table);
 
  private:
   Destinations destinations_;
   std::optional<std::filesystem::path> events_path_;
   std::optional<StagedFiles> files_;
+  const Scene* scene_ = nullptr;
   std::optional<EventsCsv> events_;
+  std::optional<EventPlaces> places_;
+  Displacements displacement_;
   std::optional<ContactsTable> contacts_;
   std::optional<AtomicFile> every_event_file_;
   std::optional<EventTable> every_event_;

@@ -20,7 +20,7 @@ constexpr std::array kOptions{
                "random cases of each extreme, fewer for degrees above 6 and for radicals, one run of a"
                " structure for 50, cubic 100 (default: 200)"},
     OptionSpec{"--seed", "N", "which random cases (default: 1)"},
-    OptionSpec{"--out", "DIR", "write stability.json and stability.csv there (default: none)"},
+    OptionSpec{"--out", "DIR", "write stability.json, stability.csv and report.html there (default: none)"},
     OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };

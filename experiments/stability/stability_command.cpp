@@ -2,10 +2,14 @@
 
 #include <stdexcept>
 
+#include "experiments/output/output_files.h"
+#include "experiments/output/result_page.h"
+#include "experiments/output/text.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/table_results.h"
 #include "experiments/stability/parse_stability_options.h"
 #include "experiments/stability/run_stability.h"
+#include "experiments/stability/stability_page.h"
 #include "experiments/stability/stability_report.h"
 #include "experiments/stability/stability_table.h"
 
@@ -15,14 +19,23 @@ int stability_command(const Arguments& arguments) {
   const StabilityOptions options = parse_stability_options(arguments);
   const Destinations destinations{options.out, options.json, options.quiet};
   const std::string name = "stability";
-  check_table_destinations(destinations, name);
+  TakenPaths taken;
+  if (options.out) taken.write_into("--out", *options.out, {"report.html"});
+  check_table_destinations(destinations, name, taken);
+  if (options.out) {
+    check_directory(*options.out, "--out", {"report.html"});
+    refuse_page_beside_others(*options.out, "stability.json");
+  }
 
   ProgressBar bar(!options.quiet);
   const std::vector<StabilityRow> rows =
       run_stability(options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
   bar.erase();
+  const std::string command_line = "kds stability " + shell_words(arguments);
   deliver_table(destinations, name,
-                {stability_json(options, rows), stability_csv(rows), stability_table(rows)});
+                {stability_json(options, rows), stability_csv(rows), stability_table(rows), [&] {
+                   return stability_page(rows, made_by(name, command_line, stability_settings(options)));
+                 }});
 
   if (const auto complaint = complaint_about(rows)) throw std::runtime_error(*complaint);
   return 0;

@@ -14,7 +14,7 @@ struct StabilityOptions {
   std::vector<std::string> subjects;  ///< names; empty: all
   std::vector<std::string> extremes;  ///< names or families; empty: all
   StabilityCases cases{1, 200};
-  std::optional<std::filesystem::path> out;  ///< directory for stability.json, stability.csv
+  std::optional<std::filesystem::path> out;  ///< directory for stability.json, stability.csv, report.html
   std::optional<std::string> json;           ///< file, or - for standard output
   bool quiet = false;
 

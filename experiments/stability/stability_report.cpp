@@ -73,12 +73,16 @@ std::optional<std::string> complaint_about(std::span<const StabilityRow> rows) {
   return fmt::format("{} of {} rows do not hold: {}", failing.size(), rows.size(), fmt::join(failing, "; "));
 }
 
+Json stability_settings(const StabilityOptions& options) {
+  return {{"subjects", all_or(options.subjects)},
+          {"extremes", all_or(options.extremes)},
+          {"cases", options.cases.cases},
+          {"seed", options.cases.seed}};
+}
+
 std::string stability_json(const StabilityOptions& options, std::span<const StabilityRow> rows) {
   Json json;
-  json["settings"] = {{"subjects", all_or(options.subjects)},
-                      {"extremes", all_or(options.extremes)},
-                      {"cases", options.cases.cases},
-                      {"seed", options.cases.seed}};
+  json["settings"] = stability_settings(options);
   json["rows"] = Json::array();
   for (const StabilityRow& row : rows) json["rows"].push_back(row_json(row));
   json["holds"] = std::ranges::all_of(rows, &StabilityRow::holds);

@@ -5,10 +5,13 @@
 #include <span>
 #include <string>
 
+#include "experiments/output/result_json.h"
 #include "experiments/stability/stability_options.h"
 #include "experiments/stability/stability_row.h"
 
 namespace kds {
+
+[[nodiscard]] Json stability_settings(const StabilityOptions& options);
 
 /// One object: settings, rows, holds, version, machine. Ends with a newline.
 [[nodiscard]] std::string stability_json(const StabilityOptions& options, std::span<const StabilityRow> rows);

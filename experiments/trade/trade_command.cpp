@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "experiments/output/gnuplot.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/result_page.h"
 #include "experiments/output/text.h"
@@ -150,12 +149,14 @@ int trade_command(const Arguments& arguments) {
   const TradeOptions options = parse_trade_options(arguments);
   const Destinations& destinations = options.destinations;
   check_inputs_exist(options.input);
-  if (destinations.out) require_gnuplot("--out");
   TakenPaths taken;
   taken.read(options.input);
   if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
   check_table_destinations(destinations, kName, taken);
-  if (destinations.out) check_directory(*destinations.out, "--out", {"report.html"});
+  if (destinations.out) {
+    check_directory(*destinations.out, "--out", {"report.html"});
+    refuse_page_beside_others(*destinations.out, "trade.json");
+  }
 
   ProgressBar bar(!destinations.quiet);
   if (const auto instance = read_lone_instance(options.input))
@@ -176,7 +177,9 @@ int trade_command(const Arguments& arguments) {
 
   std::vector<std::string> names;
   for (const auto& input : options.input.inputs) names.push_back(input.filename().string());
+  const std::string command_line = "kds trade " + shell_words(arguments);
   Json json;
+  json["command"] = command_line;
   json["input"] = input_json(options, finest);
   json["settings"] = settings_json(options);
   json["rows"] = trade_rows_json(rows);
@@ -184,7 +187,9 @@ int trade_command(const Arguments& arguments) {
   json["warnings"] = warnings;
   add_provenance(json);
   deliver_table(destinations, kName, {text_of(json), trade_csv(rows), trade_table(rows), [&] {
-                                        return trade_page(rows, fmt::format("{}", fmt::join(names, ", ")));
+                                        return trade_page(
+                                            rows, fmt::format("{}", fmt::join(names, ", ")),
+                                            made_by(kName, command_line, settings_json(options)));
                                       }});
   return 0;
 }

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "experiments/output/html_page.h"
 #include "experiments/output/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/trade/recommend.h"
@@ -99,12 +98,10 @@ std::string table_of(std::span<const TradeRow> group) {
   return text;
 }
 
-std::string plots_of(std::span<const TradeRow> group, std::size_t number) {
+std::string plots_of(std::span<const TradeRow> group) {
   std::string html;
-  std::size_t k = 0;
   for (const ErrorColumn& column : columns_for(group.front().want)) {
-    PointPlot plot{fmt::format("trade{}-{}", number, k++),
-                   "processor time / exact run",
+    PointPlot plot{"processor time / exact run",
                    column.share ? fmt::format("{}, %", column.title) : column.title,
                    {"quickest of its error", "others"},
                    {}};
@@ -130,20 +127,32 @@ std::string plots_of(std::span<const TradeRow> group, std::size_t number) {
   return html;
 }
 
+std::string html_table_of(std::span<const TradeRow> group) {
+  const std::vector<ErrorColumn> errors = columns_for(group.front().want);
+  std::vector<std::string> columns{title_of(group), "ratio",        "seconds", "least",
+                                   "most",          "certificates", "events",  "MB"};
+  for (const ErrorColumn& column : errors) columns.emplace_back(column.title);
+  std::vector<HtmlRow> rows;
+  for (const TradeRow& row : group) {
+    HtmlRow& line = rows.emplace_back(HtmlRow{
+        {(row.on_front ? "* " : "") + words_of(row.setting), fmt::format("{:.3f}", row.cost.ratio),
+         short_decimal(row.cost.seconds), short_decimal(row.cost.quickest), short_decimal(row.cost.slowest),
+         with_thousands(row.cost.certificates), with_thousands(row.cost.events),
+         fmt::format("{:.2f}", 1e-6 * static_cast<double>(row.cost.memory))}});
+    for (const ErrorColumn& column : errors)
+      line.cells.push_back(shown(row.errors.*column.value, column.share));
+  }
+  return html_table(columns, rows);
+}
+
 constexpr const char* words_of_columns =
     "Each row is a setting of `kds run`; a stride is the third part of --frames. Seconds: of the processor, "
-    "median of "
-    "the rounds, without reading and the first build; their ratio to the exact run is for as many frames. "
-    "Errors are against beads on straight lines between all "
-    "frames, "
-    "at frames and at random times between: radius, of spheres from the smallest, on average and at most; "
-    "outside, "
-    "beads outside their spheres, mean of the times; wrong, cells that are not in the true diagram; edges, "
-    "short ones missed; "
-    "missed and "
-    "invented, events or contacts beside the exact run; time, in frames; closest, of the closest distance; "
-    "moved, a "
-    "bead from its place. *: no other row of the group is as quick and as right.";
+    "median of the rounds, without reading and the first build; their ratio to the exact run is for as many "
+    "frames. Errors are against beads on straight lines between all frames, at frames and at random times "
+    "between: radius, of spheres from the smallest, on average and at most; outside, beads outside their "
+    "spheres, mean of the times; wrong, cells that are not in the true diagram; edges, short ones missed; "
+    "missed and invented, events or contacts beside the exact run; time, in frames; closest, of the closest "
+    "distance; moved, a bead from its place. *: no other row of the group is as quick and as right.";
 
 }  // namespace
 
@@ -191,17 +200,13 @@ std::string trade_table(std::span<const TradeRow> rows) {
   return text + recommendation(rows) + "\n";
 }
 
-std::string trade_page(std::span<const TradeRow> rows, const std::string& input) {
-  std::string plots;
-  std::size_t number = 0;
-  for (const auto& group : groups_of(rows)) plots += plots_of(group, number++);
-  std::string tables;
-  for (const auto& group : groups_of(rows)) tables += table_of(group) + "\n";
-  return html_page(
-      "kds trade: " + input,
-      fmt::format("<p>{}</p>\n{}<h2>Figures</h2>\n<div class=\"scroll\"><pre>{}</pre></div>\n<h2>How to "
-                  "read this</h2>\n<p>{}</p>\n",
-                  html_escaped(recommendation(rows)), plots, html_escaped_lines(tables), words_of_columns));
+std::string trade_page(std::span<const TradeRow> rows, const std::string& input, Page page) {
+  page.title = "kds trade: " + input;
+  page.found = fmt::format("<p>{}</p>\n", html_escaped(recommendation(rows)));
+  page.words = words_of_columns;
+  for (const auto& group : groups_of(rows))
+    page.body += html_section(title_of(group), html_table_of(group) + plots_of(group));
+  return html_page(page);
 }
 
 }  // namespace kds

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "experiments/output/html_page.h"
 #include "experiments/output/result_json.h"
 #include "experiments/trade/measure_trade.h"
 
@@ -14,7 +15,7 @@ namespace kds {
 [[nodiscard]] std::string trade_csv(std::span<const TradeRow> rows);
 /// A block a group; what is on the front is marked.
 [[nodiscard]] std::string trade_table(std::span<const TradeRow> rows);
-/// One page with what to do, plots of cost against error, and the tables.
-[[nodiscard]] std::string trade_page(std::span<const TradeRow> rows, const std::string& input);
+/// `page` says how it was made.
+[[nodiscard]] std::string trade_page(std::span<const TradeRow> rows, const std::string& input, Page page);
 
 }  // namespace kds

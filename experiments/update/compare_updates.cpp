@@ -106,8 +106,8 @@ class Comparison {
   }
   [[nodiscard]] std::vector<UpdateRow> rows() {
     for (std::size_t t = 0; t < rows_.size(); ++t) {
-      rows_[t].seconds = median_of(seconds_[t]);
-      rows_[t].ratio = rows_[t].seconds / rows_[0].seconds;
+      rows_[t].seconds = spread_of(seconds_[t]);
+      rows_[t].ratio = rows_[t].seconds.median / rows_[0].seconds.median;
     }
     return rows_;
   }

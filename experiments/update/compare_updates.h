@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/program/timing.h"
 #include "experiments/update/update_options.h"
 #include "motions/readers/trajectory.h"
 #include "structures/triangulation/regular_triangulation.h"
@@ -36,8 +37,8 @@ struct UpdateRow {
   std::optional<std::uint64_t> activated, removed, events;  ///< where the technique does such a thing
   std::uint64_t rebuilds = 0;
   std::uint64_t audits = 0;
-  double seconds = 0;  ///< of the processor, median of all rounds
-  double ratio = 1;    ///< to rebuilding's
+  Spread seconds;    ///< of the processor, of all rounds
+  double ratio = 1;  ///< of medians, to rebuilding's
 
   /// Events a changed cell; none where nothing changed, and where not all changes are events.
   [[nodiscard]] std::optional<double> efficiency() const {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "experiments/output/gnuplot.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/result_page.h"
 #include "experiments/output/text.h"
@@ -61,7 +60,6 @@ int update_command(const Arguments& arguments) {
   const UpdateOptions options = parse_update_options(arguments);
   const Destinations destinations{options.out, options.json, options.quiet};
   check_inputs_exist(options.input);
-  if (options.out) require_gnuplot("--out");
   TakenPaths taken;
   taken.read(options.input);
   if (options.out) taken.write_into("--out", *options.out, {"report.html"});
@@ -86,14 +84,18 @@ int update_command(const Arguments& arguments) {
     print_warning(bar, warning);
   });
 
+  const std::string command_line = "kds update " + shell_words(arguments);
   Json json;
+  json["command"] = command_line;
   json["input"] = input_json(options, necklaces, radii);
   json["settings"] = settings_json(options);
   json["rows"] = update_rows_json(rows);
   json["warnings"] = warnings;
   add_provenance(json);
   deliver_table(destinations, kName, {text_of(json), update_csv(rows), update_table(rows), [&] {
-                                        return update_page(rows, file_names(options));
+                                        return update_page(
+                                            rows, file_names(options),
+                                            made_by(kName, command_line, settings_json(options)));
                                       }});
   return 0;
 }

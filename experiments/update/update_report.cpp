@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 
-#include "experiments/output/html_page.h"
 #include "experiments/output/svg_plot.h"
 #include "experiments/output/text.h"
 
@@ -41,10 +40,10 @@ std::string task_line(const UpdateTask& task) {
       static_cast<double>(task.hidden) / steps);
 }
 
-/// A curve over strides for each technique for which there is a value.
+/// Marks over strides for each technique for which there is a value.
 template <class Value>
-LinePlot over_strides(std::span<const UpdateRow> rows, const char* id, const char* label, Value value) {
-  LinePlot plot{id, "stride", label, false, {}};
+LinePlot over_strides(std::span<const UpdateRow> rows, const char* label, Value value) {
+  LinePlot plot{"stride", label, Drawn::points, {}};
   for (const UpdateRow& row : rows) {
     const std::optional<double> y = value(row);
     if (!y) continue;
@@ -59,24 +58,24 @@ LinePlot over_strides(std::span<const UpdateRow> rows, const char* id, const cha
 std::string plots(std::span<const UpdateRow> rows) {
   const bool several = rows.front().task.stride != rows.back().task.stride;
   if (!several) {
-    BarPlot plot{"time", "microseconds a step", {}};
-    for (const UpdateRow& row : rows) plot.bars.emplace_back(row.technique, 1e6 * per_step(row, row.seconds));
+    BarPlot plot{"microseconds a step", {}};
+    for (const UpdateRow& row : rows)
+      plot.bars.emplace_back(row.technique, 1e6 * per_step(row, row.seconds.median));
     return html_figure(svg_plot(plot), "Time of each technique from one frame to the next.");
   }
   std::string html =
-      html_figure(svg_plot(over_strides(rows, "ratio", "time / time to rebuild",
+      html_figure(svg_plot(over_strides(rows, "time / time to rebuild",
                                         [](const UpdateRow& row) { return std::optional(row.ratio); })),
                   "Time of each technique as a multiple of rebuilding with CGAL, by stride.");
-  const LinePlot efficiency =
-      over_strides(rows, "efficiency", "events / changed cells", [](const UpdateRow& row) {
-        const bool in_order =
-            row.technique == "kinetic" || row.technique == "hermite" || row.technique == "lifted";
-        return in_order ? row.efficiency() : std::nullopt;
-      });
+  const LinePlot efficiency = over_strides(rows, "events / changed cells", [](const UpdateRow& row) {
+    const bool in_order =
+        row.technique == "kinetic" || row.technique == "hermite" || row.technique == "lifted";
+    return in_order ? row.efficiency() : std::nullopt;
+  });
   if (!efficiency.curves.empty())
     html += html_figure(svg_plot(efficiency),
                         "Events a changed cell, by stride: <em>kinetic</em> is linear motion.");
-  LinePlot failed{"failed", "stride", "% of certificates that fail", false, {{"failed", {}}}};
+  LinePlot failed{"stride", "% of certificates that fail", Drawn::points, {{"failed", {}}}};
   for (const UpdateRow& row : rows) {
     if (row.technique == "rebuild")
       failed.curves.front().points.emplace_back(static_cast<double>(row.task.stride),
@@ -84,6 +83,53 @@ std::string plots(std::span<const UpdateRow> rows) {
   }
   return html + html_figure(svg_plot(failed),
                             "Certificates of a frame's diagram that fail at the next frame, by stride.");
+}
+
+/// Rows of one stride stand together.
+std::vector<std::span<const UpdateRow>> by_stride(std::span<const UpdateRow> rows) {
+  std::vector<std::span<const UpdateRow>> groups;
+  while (!rows.empty()) {
+    const auto end = std::ranges::find_if(
+        rows, [&](const UpdateRow& row) { return row.task.stride != rows.front().task.stride; });
+    groups.push_back(rows.first(static_cast<std::size_t>(end - rows.begin())));
+    rows = rows.subspan(groups.back().size());
+  }
+  return groups;
+}
+
+std::string tables(std::span<const UpdateRow> rows) {
+  std::string html;
+  for (const auto& group : by_stride(rows)) {
+    std::vector<HtmlRow> lines;
+    for (const UpdateRow& row : group) {
+      const auto efficiency = row.efficiency();
+      const auto micros = [&](double seconds) { return short_decimal(1e6 * per_step(row, seconds)); };
+      lines.push_back(
+          {{row.technique, fmt::format("{:.3f}", row.ratio), micros(row.seconds.median),
+            micros(row.seconds.least), micros(row.seconds.most), count_or_dash(row.activated),
+            count_or_dash(row.removed), count_or_dash(row.events),
+            efficiency ? fmt::format("{:.3f}", *efficiency) : "-", with_thousands(row.rebuilds)}});
+    }
+    html += fmt::format("<p>{}.</p>\n", html_escaped(task_line(group.front().task)));
+    html += html_table({"technique", "ratio", "us a step", "least", "most", "activated", "removed", "events",
+                        "a change", "rebuilds"},
+                       lines);
+  }
+  return html;
+}
+
+// Which technique is the fastest, stride by stride.
+std::string findings(std::span<const UpdateRow> rows) {
+  std::string html;
+  for (const auto& group : by_stride(rows)) {
+    const UpdateRow& best = *std::ranges::min_element(group, {}, &UpdateRow::ratio);
+    html += fmt::format(
+        "<p>At stride {} <strong>{}</strong> was the fastest, {} of rebuilding's time; {:.3g}% of the "
+        "certificates failed from one frame to the next.</p>\n",
+        best.task.stride, html_escaped(best.technique), short_decimal(best.ratio),
+        100 * best.task.failed_share());
+  }
+  return html;
 }
 
 }  // namespace
@@ -105,7 +151,9 @@ Json update_rows_json(std::span<const UpdateRow> rows) {
                     {"efficiency", value_or_null(row.efficiency())},
                     {"rebuilds", row.rebuilds},
                     {"audits", row.audits},
-                    {"seconds", row.seconds},
+                    {"seconds", row.seconds.median},
+                    {"seconds_least", row.seconds.least},
+                    {"seconds_most", row.seconds.most},
                     {"ratio", row.ratio}});
   }
   return json;
@@ -114,14 +162,14 @@ Json update_rows_json(std::span<const UpdateRow> rows) {
 std::string update_csv(std::span<const UpdateRow> rows) {
   std::string text =
       "stride,technique,steps,cells,hidden,cells_changed,certificates,certificates_failed,activated,removed,"
-      "events,efficiency,rebuilds,audits,seconds,ratio\n";
+      "events,efficiency,rebuilds,audits,seconds,ratio,seconds_least,seconds_most\n";
   for (const UpdateRow& row : rows) {
     const UpdateTask& task = row.task;
-    text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", task.stride, row.technique,
-                    task.steps, task.cells, task.hidden, task.cells_changed, task.certificates, task.failed,
-                    value_or_empty(row.activated), value_or_empty(row.removed), value_or_empty(row.events),
-                    value_or_empty(row.efficiency()), row.rebuilds, row.audits, row.seconds, row.ratio);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", task.stride, row.technique,
+                        task.steps, task.cells, task.hidden, task.cells_changed, task.certificates,
+                        task.failed, value_or_empty(row.activated), value_or_empty(row.removed),
+                        value_or_empty(row.events), value_or_empty(row.efficiency()), row.rebuilds,
+                        row.audits, row.seconds.median, row.ratio, row.seconds.least, row.seconds.most);
   }
   return text;
 }
@@ -140,7 +188,7 @@ std::string update_table(std::span<const UpdateRow> rows) {
     text += fmt::format("  {:<10}{:>12}{:>12}{:>12}{:>10}{:>10}{:>12.1f}{:>9.3f}\n", row.technique,
                         count_or_dash(row.activated), count_or_dash(row.removed), count_or_dash(row.events),
                         efficiency ? fmt::format("{:.3f}", *efficiency) : "-", with_thousands(row.rebuilds),
-                        1e6 * per_step(row, row.seconds), row.ratio);
+                        1e6 * per_step(row, row.seconds.median), row.ratio);
   }
   std::uint64_t audits = 0;  // one that fails ends the program
   for (const UpdateRow& row : rows) audits += row.audits;
@@ -149,17 +197,18 @@ std::string update_table(std::span<const UpdateRow> rows) {
   return text;
 }
 
-std::string update_page(std::span<const UpdateRow> rows, const std::string& input) {
-  constexpr std::string_view words =
+std::string update_page(std::span<const UpdateRow> rows, const std::string& input, Page page) {
+  page.title = "kds update: " + input;
+  page.found = findings(rows);
+  page.words =
       "Each <em>technique</em> brings the power diagram from one frame to the next and ends in the same "
       "diagram. <em>Activated</em>: beads that moved on a path in time; <em>removed</em>: beads taken out "
       "and put in again; <em>events</em>: flips, and beads that vanish from the diagram or come back; <em>a "
       "change</em>: events divided by the cells that are in one frame's diagram and not in the other's; "
-      "<em>ratio</em>: time as a multiple of building the diagram anew with CGAL.";
-  return html_page("kds update: " + input,
-                   fmt::format("{}<h2>Figures</h2>\n<div class=\"scroll\"><pre>{}</pre></div>\n<h2>How to "
-                               "read this</h2>\n<p>{}</p>\n",
-                               plots(rows), html_escaped_lines(update_table(rows)), words));
+      "<em>ratio</em>: time as a multiple of building the diagram anew with CGAL; <em>least</em> and "
+      "<em>most</em>: of the rounds, of which the median counts.";
+  page.body = html_section("Plots", plots(rows)) + html_section("Figures", tables(rows));
+  return html_page(page);
 }
 
 }  // namespace kds

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "experiments/output/html_page.h"
 #include "experiments/output/result_json.h"
 #include "experiments/update/compare_updates.h"
 
@@ -14,7 +15,7 @@ namespace kds {
 [[nodiscard]] std::string update_csv(std::span<const UpdateRow> rows);
 /// A line for each stride, then one for each technique.
 [[nodiscard]] std::string update_table(std::span<const UpdateRow> rows);
-/// One page with the table and plots, drawn by gnuplot.
-[[nodiscard]] std::string update_page(std::span<const UpdateRow> rows, const std::string& input);
+/// `page` says how it was made.
+[[nodiscard]] std::string update_page(std::span<const UpdateRow> rows, const std::string& input, Page page);
 
 }  // namespace kds

@@ -10,6 +10,7 @@
 #include "motions/base/input_error.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
+#include "tests/experiments/sound_page.h"
 
 namespace kds::test {
 namespace {
@@ -141,7 +142,9 @@ TEST(Missed, WritesFilesAndAPage) {
       content_of(passing.directory / "report/missed.csv"),
       testing::StartsWith("factor,stride,frames,contacts,found,missed,missed_fraction\n1,1,5,2,1,1,0.5\n"));
   EXPECT_EQ(Json::parse(content_of(passing.directory / "report/missed.json"))["rows"].size(), 3U);
-  EXPECT_THAT(content_of(passing.directory / "report/report.html"), HasSubstr("<svg"));
+  const std::string page = content_of(passing.directory / "report/report.html");
+  expect_sound(page);
+  EXPECT_THAT(page, HasSubstr("<svg"));
   // Its page is not lost to another command's.
   run = run_program({"collide", passing.rests, "--radius", "1", "--out", out});
   EXPECT_EQ(run.code, 2);

@@ -18,6 +18,7 @@
 #include "motions/base/input_error.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
+#include "tests/experiments/sound_page.h"
 
 namespace kds::test {
 namespace {
@@ -250,6 +251,7 @@ TEST(Compare, SeveralInputsWithAPage) {
       csv, testing::StartsWith("structure,input,stride,motion,steps,events,interchange,enter,leave,pivot,"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 9);
   const std::string page = content_of(scratch / "out/report.html");
+  expect_sound(page);
   for (const char* part : {"<svg", "wrapped, ends.xyz", "How to read this", "Along the chain", "By level"})
     EXPECT_THAT(page, HasSubstr(part));
   EXPECT_EQ(Json::parse(content_of(scratch / "out/compare.json"))["inputs"][1]["frames"], 3);

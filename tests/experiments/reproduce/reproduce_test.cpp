@@ -17,6 +17,7 @@
 #include "structures/triangulation/regular_triangulation.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
+#include "tests/experiments/sound_page.h"
 
 namespace kds::test {
 namespace {
@@ -163,6 +164,7 @@ TEST(Reproduce, StabilityAsCompareHasIt) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "out/table1.csv"));
   EXPECT_THAT(content_of(scratch / "out/table6.csv"), StartsWith("name,beads,at,bases_changed,"));
   const std::string page = content_of(scratch / "out/report.html");
+  expect_sound(page);
   for (const char* part : {"<svg", "Table 6", "kds reproduce table6 --rounds 1"})
     EXPECT_THAT(page, HasSubstr(part));
 }

@@ -11,6 +11,7 @@
 #include "motions/readers/read_trajectory.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
+#include "tests/experiments/sound_page.h"
 
 namespace kds {
 namespace {
@@ -160,7 +161,7 @@ TEST(TradeCommand, WritesRowsAndAPage) {
     EXPECT_TRUE(row.at("error").at("radius_mean").is_number());
   }
   EXPECT_TRUE(std::filesystem::exists(directory.path() / "result" / "trade.csv"));
-  EXPECT_TRUE(std::filesystem::exists(directory.path() / "result" / "report.html"));
+  expect_sound(content_of(directory.path() / "result" / "report.html"));
 }
 
 TEST(TradeCommand, RefusesWhatItDoesNotKnow) {

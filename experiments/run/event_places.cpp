@@ -1,4 +1,4 @@
-#include "experiments/compare/event_places.h"
+#include "experiments/run/event_places.h"
 
 #include <algorithm>
 #include <span>
@@ -34,6 +34,20 @@ void EventPlaces::on_event(const KineticStructure& structure, const LoggedEvent&
   }
   for (const BeadId bead : ids)
     if (bead < places.by_bead.size()) ++places.by_bead[bead];
+}
+
+std::vector<std::pair<double, double>> means_along_chain(std::span<const std::uint64_t> by_bead) {
+  constexpr std::size_t most_points = 600;  // a plot is about as many pixels wide
+  const std::size_t width = std::max<std::size_t>(1, (by_bead.size() + most_points - 1) / most_points);
+  std::vector<std::pair<double, double>> points;
+  for (std::size_t first = 0; first < by_bead.size(); first += width) {
+    const auto some = by_bead.subspan(first, std::min(width, by_bead.size() - first));
+    std::uint64_t sum = 0;
+    for (const std::uint64_t count : some) sum += count;
+    points.emplace_back(static_cast<double>(first),
+                        static_cast<double>(sum) / static_cast<double>(some.size()));
+  }
+  return points;
 }
 
 }  // namespace kds

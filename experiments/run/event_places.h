@@ -2,23 +2,17 @@
 // Where along the chain, and how deep in its tree, structures change.
 
 #include <cstdint>
-#include <string_view>
+#include <span>
+#include <utility>
 #include <vector>
 
+#include "experiments/run/run_report.h"
 #include "kds/event_log.h"
 #include "motions/scene/scene.h"
 #include "structures/necklace/necklace_tree.h"
 #include "structures/session/session.h"
 
 namespace kds {
-
-/// External events of one structure.
-struct PlacesOfEvents {
-  /// That name this bead: of nodes, in the basis that is new. An event counts at each of its beads.
-  std::vector<std::uint64_t> by_bead;
-  /// At nodes of this level of the tree, roots 0; empty where events are not at nodes.
-  std::vector<std::uint64_t> by_level;
-};
 
 /// Hears of all events of a session.
 class EventPlaces final : public EventListener {
@@ -33,5 +27,9 @@ class EventPlaces final : public EventListener {
   std::vector<std::size_t> levels_;  ///< of its nodes
   std::vector<PlacesOfEvents> places_;
 };
+
+/// Bead, and events that name it; of long chains the first of some beads, and their mean.
+[[nodiscard]] std::vector<std::pair<double, double>> means_along_chain(
+    std::span<const std::uint64_t> by_bead);
 
 }  // namespace kds

@@ -1,0 +1,55 @@
+#include "experiments/program/power_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace kds {
+
+namespace {
+
+// Student's t: an interval this many standard errors to either side holds 95 percent, by degrees of freedom.
+double student_95(std::size_t freedom) {
+  constexpr std::array<double, 30> table{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306,
+                                         2.262,  2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120,
+                                         2.110,  2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064,
+                                         2.060,  2.056, 2.052, 2.048, 2.045, 2.042};
+  return table[std::min(freedom, table.size()) - 1];
+}
+
+}  // namespace
+
+std::optional<PowerFit> fit_power(std::span<const std::pair<double, double>> points) {
+  std::vector<std::pair<double, double>> logs;
+  for (const auto& [x, y] : points)
+    if (x > 0 && y > 0) logs.emplace_back(std::log2(x), std::log2(y));
+  if (logs.size() < 3) return std::nullopt;
+  const auto count = static_cast<double>(logs.size());
+  double mean_x = 0, mean_y = 0, spread = 0, together = 0, left = 0;
+  for (const auto& [x, y] : logs) {
+    mean_x += x / count;
+    mean_y += y / count;
+  }
+  for (const auto& [x, y] : logs) {
+    spread += (x - mean_x) * (x - mean_x);
+    together += (x - mean_x) * (y - mean_y);
+  }
+  if (!(spread > 0)) return std::nullopt;
+  const double slope = together / spread;
+  for (const auto& [x, y] : logs) {
+    const double off = y - mean_y - slope * (x - mean_x);
+    left += off * off;
+  }
+  const std::size_t freedom = logs.size() - 2;
+  const double error = student_95(freedom) * std::sqrt(left / static_cast<double>(freedom) / spread);
+  return PowerFit{logs.size(), slope, slope - error, slope + error, std::exp2(mean_y - slope * mean_x)};
+}
+
+std::string exponent_text(const PowerFit& fit) {
+  return fmt::format("{:.3f} (95%: {:.3f} to {:.3f})", fit.exponent, fit.lower, fit.upper);
+}
+
+}  // namespace kds

@@ -1,0 +1,244 @@
+#include "experiments/questions/bounds_question.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "experiments/output/text.h"
+#include "experiments/program/timing.h"
+#include "experiments/questions/moving_subjects.h"
+#include "structures/hierarchy/static_wrapped_hierarchy.h"
+
+namespace kds {
+
+namespace {
+
+constexpr std::array<double, 4> kSkins{0.5, 1, 2, 4};  // radii
+constexpr std::array<std::size_t, 6> kFramesTrusted{1, 2, 4, 8, 16, 32};
+
+Eigen::VectorXd moves(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to, bool without_drift) {
+  Eigen::Matrix3Xd by = to - from;
+  if (without_drift) by.colwise() -= Eigen::Vector3d(by.rowwise().mean());
+  return by.colwise().norm();
+}
+
+double two_largest(Eigen::VectorXd moved) {
+  std::partial_sort(moved.begin(), moved.begin() + 2, moved.end(), std::greater<>());
+  return moved[0] + moved[1];
+}
+
+// The farthest that any bead ever moves from a frame to the next: what a model with a speed limit promises.
+double speed_of(const Subject& subject) {
+  double speed = 0;
+  for (std::size_t k = 0; k + 1 < subject.frames.size(); ++k)
+    speed = std::max(speed, moves(subject.frames[k], subject.frames[k + 1], false).maxCoeff());
+  return speed;
+}
+
+// Pairs are found at the first frame, and again at each where two beads may have come nearer by more than the
+// skin since, as `nearer(found_at, now)` bounds it.
+template <class Nearer>
+double times_found(const Subject& subject, double skin, const Nearer& nearer) {
+  std::size_t found = 1, at = 0;
+  for (std::size_t k = 1; k < subject.frames.size(); ++k) {
+    if (nearer(at, k) <= skin) continue;
+    ++found;
+    at = k;
+  }
+  return static_cast<double>(found);
+}
+
+// What a hierarchy whose bases are trusted knows of how far beads may stick out, mean of the nodes as a share
+// of their radii.
+struct Trusted {
+  double by_speed = 0, by_displacement = 0, really = 0;
+};
+
+double really_out(const StaticWrappedHierarchy<3>& hierarchy, NodeId node, const Subject& subject,
+                  std::size_t frame) {
+  const Sphere sphere = hierarchy.sphere(node);
+  double out = 0;
+  const BeadRange& beads = hierarchy.tree().range(node);
+  for (BeadId b = beads.first; b <= beads.last; ++b)
+    out = std::max(out,
+                   (subject.frames[frame].col(b) - sphere.center).norm() + subject.radii[b] - sphere.radius);
+  return out / sphere.radius;
+}
+
+Trusted looseness(const StaticWrappedHierarchy<3>& hierarchy, const Subject& subject, std::size_t frame,
+                  double by_speed, double by_displacement) {
+  Trusted sum;
+  const auto nodes = static_cast<double>(hierarchy.tree().node_count());
+  for (NodeId node = 0; node < hierarchy.tree().node_count(); ++node) {
+    const double radius = hierarchy.sphere(node).radius;
+    sum.by_speed += hierarchy.stick_out(node, by_speed) / radius / nodes;
+    sum.by_displacement += hierarchy.stick_out(node, by_displacement) / radius / nodes;
+    sum.really += really_out(hierarchy, node, subject, frame) / nodes;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::size_t bounds_steps() { return moving_subject_count; }
+std::size_t trust_steps() { return moving_subject_count * kFramesTrusted.size(); }
+
+Question ask_about_bounds(const std::filesystem::path& data, std::uint64_t seed,
+                          const std::function<void()>& step_done) {
+  Question question;
+  std::vector<double> gains;
+  question.name = "bounds";
+  question.title = "Which bounds on motion make updates rarer?";
+  question.columns = {{"skin", "skin, radii"},        {"frames", "frames"},
+                      {"speed", "by speed"},          {"displacement", "by displacement"},
+                      {"two_largest", "two largest"}, {"without_drift", "and without drift"}};
+  question.x_label = "skin, radii";
+  question.y_label = "frames from one search to the next";
+  question.words =
+      "Pairs of beads at most the skin apart are found at one frame and serve until two beads may have come "
+      "nearer by more than it: how often in all frames they are found. By speed: all that is known is how "
+      "far "
+      "any bead moves in a frame at most. By displacement: the largest of any bead since the search is "
+      "measured. "
+      "Two largest: the sum of the two largest, for it takes two beads. Without drift: the same after the "
+      "mean displacement of all beads is taken away, which no distance notices.";
+  for (std::size_t which = 0; which < moving_subject_count; ++which) {
+    const auto [name, subject] = moving_subject(which, data, seed);
+    const double speed = speed_of(subject), radius = subject.radii.front();
+    const auto frames = static_cast<double>(subject.frames.size());
+    QuestionCurve by_speed{"", name + ", by speed", {}}, best{"", name + ", two largest without drift", {}};
+    double gain = 0;
+    for (const double skin : kSkins) {
+      const auto found = [&](const auto& nearer) { return times_found(subject, skin * radius, nearer); };
+      const auto& at = subject.frames;
+      const double with_speed = found(
+          [&](std::size_t from, std::size_t now) { return 2 * speed * static_cast<double>(now - from); });
+      const double displaced = found(
+          [&](std::size_t from, std::size_t now) { return 2 * moves(at[from], at[now], false).maxCoeff(); });
+      const double two = found(
+          [&](std::size_t from, std::size_t now) { return two_largest(moves(at[from], at[now], false)); });
+      const double no_drift = found(
+          [&](std::size_t from, std::size_t now) { return two_largest(moves(at[from], at[now], true)); });
+      question.rows.push_back({name, {skin, frames, with_speed, displaced, two, no_drift}});
+      by_speed.points.emplace_back(skin, frames / with_speed);
+      best.points.emplace_back(skin, frames / no_drift);
+      if (skin == 1) gain = with_speed / no_drift;
+    }
+    gains.push_back(gain);
+    question.findings.push_back(
+        fmt::format("{}: at a skin of one radius measured displacements, the two largest without drift, make "
+                    "searches {} times rarer than a bound on speed.",
+                    name, short_decimal(gain)));
+    question.curves.push_back(std::move(by_speed));
+    question.curves.push_back(std::move(best));
+    step_done();
+  }
+  const Spread rarer = spread_of(gains);
+  question.answer = fmt::format(
+      "Measured displacements make searches for near pairs {} to {} times rarer than a bound on speed, at a "
+      "skin "
+      "of one radius.",
+      short_decimal(rarer.least), short_decimal(rarer.most));
+  return question;
+}
+
+Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, std::size_t rounds,
+                         const std::function<void()>& step_done) {
+  Question question;
+  std::vector<double> savings, slack;
+  question.name = "trust";
+  question.title = "What does it save to trust bases for some frames?";
+  question.columns = {{"frames_trusted", "frames trusted"},
+                      {"trust_per_verify", "time, trusting / verifying"},
+                      {"least", "least"},
+                      {"most", "most"},
+                      {"by_speed", "out at most, by speed"},
+                      {"by_displacement", "by displacement"},
+                      {"really", "really"}};
+  question.x_label = "frames trusted";
+  question.y_label = "how far beads may stick out, share of the radius";
+  question.words =
+      "The wrapped hierarchy is verified at one frame; so many frames later its spheres are taken from the "
+      "same "
+      "bases without any test. Beads may stick out of these; by how much at most follows from how far beads "
+      "have "
+      "moved, as a bound on speed or the largest measured displacement tells: mean over all nodes, as a "
+      "share of "
+      "their radii, and beside it how far beads really stick out. Times are medians of the rounds at one "
+      "frame, "
+      "with the least and the most.";
+  for (std::size_t which = 0; which < moving_subject_count; ++which) {
+    const auto [name, subject] = moving_subject(which, data, seed);
+    const double speed = speed_of(subject);
+    QuestionCurve by_speed{name, "by speed", {}}, by_displacement{name, "by displacement", {}},
+        really{name, "really", {}};
+    double saved = 0;
+    for (const std::size_t trusted : kFramesTrusted) {
+      Trusted sum;
+      std::size_t looks = 0;
+      StaticWrappedHierarchy<3> hierarchy(subject.necklaces);
+      for (std::size_t k = 0; k + trusted < subject.frames.size(); k += trusted) {
+        const Balls<3> before(subject.frames[k], subject.radii),
+            after(subject.frames[k + trusted], subject.radii);
+        hierarchy.build(before);
+        hierarchy.update(after, Update::trust);
+        const Trusted one = looseness(hierarchy, subject, k + trusted, speed * static_cast<double>(trusted),
+                                      greatest_move(before, after));
+        sum.by_speed += one.by_speed;
+        sum.by_displacement += one.by_displacement;
+        sum.really += one.really;
+        ++looks;
+      }
+      const auto count = static_cast<double>(looks);
+      const Balls<3> first(subject.frames[0], subject.radii), later(subject.frames[trusted], subject.radii);
+      const auto ratio_once = [&] {
+        hierarchy.build(first);
+        const double trusting =
+            repeated_seconds(1, [&] {
+              return processor_seconds_of([&] { hierarchy.update(later, Update::trust); });
+            }).median;
+        const double verifying = repeated_seconds(1, [&] {
+                                   hierarchy.build(first);
+                                   return processor_seconds_of([&] { hierarchy.update(later); });
+                                 }).median;
+        return trusting / verifying;
+      };
+      std::vector<double> ratios;
+      for (std::size_t round = 0; round < rounds; ++round) ratios.push_back(ratio_once());
+      const Spread ratio = spread_of(ratios);
+      question.rows.push_back({name,
+                               {static_cast<double>(trusted), ratio.median, ratio.least, ratio.most,
+                                sum.by_speed / count, sum.by_displacement / count, sum.really / count}});
+      by_speed.points.emplace_back(static_cast<double>(trusted), sum.by_speed / count);
+      by_displacement.points.emplace_back(static_cast<double>(trusted), sum.by_displacement / count);
+      really.points.emplace_back(static_cast<double>(trusted), sum.really / count);
+      if (trusted == 1) saved = 1 / ratio.median;
+      step_done();
+    }
+    savings.push_back(saved);
+    slack.push_back(by_displacement.points.front().second / really.points.front().second);
+    question.findings.push_back(fmt::format(
+        "{}: trusting for one frame is {} times as fast as verifying; beads may stick out by {} of a radius "
+        "as a "
+        "bound on speed tells, {} as measured displacements tell, and do by {} (means).",
+        name, short_decimal(saved), short_decimal(by_speed.points.front().second),
+        short_decimal(by_displacement.points.front().second), short_decimal(really.points.front().second)));
+    for (QuestionCurve* curve : {&by_speed, &by_displacement, &really}) {
+      if (const auto fit = curve->fit())
+        question.findings.push_back(
+            fmt::format("{}, {}: grows as frames^{}.", name, curve->name, exponent_text(*fit)));
+      question.curves.push_back(std::move(*curve));
+    }
+  }
+  const Spread faster = spread_of(savings), beyond = spread_of(slack);
+  question.answer = fmt::format(
+      "Spheres of trusted bases are {} to {} times as fast as verified ones; how far beads stick out of them "
+      "after "
+      "a frame is proved no better than {} to {} times what it is.",
+      short_decimal(faster.least), short_decimal(faster.most), short_decimal(beyond.least),
+      short_decimal(beyond.most));
+  return question;
+}
+
+}  // namespace kds

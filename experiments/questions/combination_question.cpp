@@ -1,0 +1,194 @@
+#include "experiments/questions/combination_question.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "experiments/output/text.h"
+#include "experiments/reproduce/subjects.h"
+#include "motions/models/model.h"
+#include "motions/models/shape.h"
+#include "structures/collision/sphere_tree.h"
+#include "structures/triangulation/diagram_edges.h"
+
+namespace kds {
+
+namespace {
+
+constexpr std::array<std::size_t, 5> kBlocks{4, 8, 16, 32, 64};
+constexpr std::size_t kSubjects = 7;
+
+struct Chain {
+  std::string name;
+  Eigen::Matrix3Xd centers;
+  std::vector<double> radii;
+};
+
+Chain model_chain(std::string name, std::string_view model, std::uint64_t seed,
+                  std::optional<double> fill = {}) {
+  constexpr std::size_t beads = 1024;
+  const models::Settings settings{
+      .beads = beads, .seed = seed, .motion = models::ShapeMotion::rest, .fill = fill};
+  return {std::move(name), models::generate(*models::find_model(model), settings).front().frames.front(),
+          std::vector<double>(beads, models::radius)};
+}
+
+Chain protein_chain(std::string name, const std::filesystem::path& data, std::string_view file,
+                    std::string_view topology) {
+  Subject subject = protein(data, file, topology);
+  return {std::move(name), std::move(subject.frames.front()), std::move(subject.radii)};
+}
+
+Chain chain(std::size_t which, const std::filesystem::path& data, std::uint64_t seed) {
+  switch (which) {
+    case 0:
+      return model_chain("helix", "helix", seed);
+    case 1:
+      return model_chain("scaling helix", "scaling-helix", seed);
+    case 2:
+      return model_chain("random chain, fill 0.02", "random-chain", seed, 0.02);
+    case 3:
+      return model_chain("random chain, fill 0.2", "random-chain", seed, 0.2);
+    case 4:
+      return protein_chain("villin", data, "trajectories/villin_hp36_300K.dcd",
+                           "trajectories/villin_hp36_300K.pdb");
+    case 5:
+      return protein_chain("random protein", data, "trajectories/random100_400K_first200.dcd",
+                           "trajectories/random100_400K.pdb");
+    default:
+      return protein_chain("1a4y", data, "paper/1a4y_AB.pdb", "");
+  }
+}
+
+// The search of the paper's figure 6, of one necklace with itself, that leaves two blocks of beads whose
+// spheres meet to another method where they are farther apart along the chain than a block is long.
+class Search {
+ public:
+  Search(std::span<const TreeSphere<3>> spheres, std::size_t block)
+      : spheres_(spheres), block_(block), left_((spheres.empty() ? 0 : spheres.back().last) + 1, false) {}
+
+  void visit(std::uint32_t a) {
+    const TreeSphere<3>& node = spheres_[a];
+    if (node.is_bead()) return;
+    visit(node.left);
+    visit(node.right);
+    visit(node.left, node.right);
+  }
+  [[nodiscard]] double pairs() const { return static_cast<double>(pairs_); }
+  [[nodiscard]] const std::vector<bool>& left() const { return left_; }
+
+ private:
+  // a before b.
+  void visit(std::uint32_t a, std::uint32_t b) {
+    const TreeSphere<3>&s = spheres_[a], &t = spheres_[b];
+    if (t.last - s.first < 2) return;  // neighbours
+    double square = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      square += (s.center[axis] - t.center[axis]) * (s.center[axis] - t.center[axis]);
+    const double reach = s.radius + t.radius;
+    if (square > reach * reach || (s.is_bead() && t.is_bead())) {
+      ++pairs_;
+      return;
+    }
+    if (s.bead_count() <= block_ && t.bead_count() <= block_ && t.first - s.last > block_) {
+      for (BeadId bead = s.first; bead <= s.last; ++bead) left_[bead] = true;
+      for (BeadId bead = t.first; bead <= t.last; ++bead) left_[bead] = true;
+      return;
+    }
+    if (s.bead_count() >= t.bead_count()) {
+      visit(s.left, b);
+      visit(s.right, b);
+    } else {
+      visit(a, t.left);
+      visit(a, t.right);
+    }
+  }
+
+  std::span<const TreeSphere<3>> spheres_;
+  std::size_t block_;
+  std::uint64_t pairs_ = 0;
+  std::vector<bool> left_;
+};
+
+double edges_of(const Chain& chain, const std::vector<bool>& some) {
+  std::vector<Eigen::Index> beads;
+  std::vector<double> weights;
+  for (std::size_t bead = 0; bead < some.size(); ++bead) {
+    if (!some[bead]) continue;
+    beads.push_back(static_cast<Eigen::Index>(bead));
+    weights.push_back(chain.radii[bead] * chain.radii[bead]);
+  }
+  if (beads.empty()) return 0;
+  return static_cast<double>(
+      static_edges<3>(Eigen::Matrix3Xd(chain.centers(Eigen::all, beads)), weights).edges.size());
+}
+
+}  // namespace
+
+std::size_t combination_steps() { return kSubjects; }
+
+Question ask_about_combination(const std::filesystem::path& data, std::uint64_t seed,
+                               const std::function<void()>& step_done) {
+  Question question;
+  question.name = "combination";
+  question.title = "What do diagram and hierarchy give together?";
+  question.columns = {{"block", "block, beads"},     {"left", "beads left, %"},
+                      {"pairs", "pairs of spheres"}, {"edges", "edges of their diagram"},
+                      {"together", "together"},      {"hierarchy", "hierarchy alone"},
+                      {"diagram", "diagram alone"},  {"gain", "better alone / together"}};
+  question.x_label = "block, beads";
+  question.y_label = "better alone / together";
+  question.words =
+      "Pairs that must be looked at to decide whether a chain collides with itself. Alone: the separating "
+      "family "
+      "of the wrapped hierarchy; the edges of the power diagram of all beads. Together: the hierarchy is "
+      "searched "
+      "down to blocks of so many beads, and on to beads where two blocks are near along the chain; beads in "
+      "blocks "
+      "that still meet others are left to a power diagram of these beads alone, whose edges decide (Theorem "
+      "3.5 "
+      "holds of any set of balls). Above 1 the two together look at fewer pairs than the better of both "
+      "alone.";
+  std::vector<double> costs;
+  for (std::size_t which = 0; which < kSubjects; ++which) {
+    const Chain one = chain(which, data, seed);
+    const std::vector<BeadRange> necklaces{{0, static_cast<BeadId>(one.radii.size() - 1)}};
+    SphereTree<3> tree(Hierarchy::wrapped, necklaces);
+    tree.build(Balls<3>(one.centers, one.radii));
+    Search whole(tree.spheres(), 0);
+    whole.visit(tree.roots().front());
+    const double diagram = edges_of(one, std::vector<bool>(one.radii.size(), true));
+    const double alone = std::min(whole.pairs(), diagram);
+    QuestionCurve gains{"", one.name, {}};
+    for (const std::size_t block : kBlocks) {
+      Search search(tree.spheres(), block);
+      search.visit(tree.roots().front());
+      const auto left = static_cast<double>(std::count(search.left().begin(), search.left().end(), true));
+      const double edges = edges_of(one, search.left()), together = search.pairs() + edges;
+      question.rows.push_back(
+          {one.name,
+           {static_cast<double>(block), 100 * left / static_cast<double>(one.radii.size()), search.pairs(),
+            edges, together, whole.pairs(), diagram, alone / together}});
+      gains.points.emplace_back(static_cast<double>(block), alone / together);
+    }
+    const auto best =
+        *std::ranges::max_element(gains.points, {}, [](const auto& point) { return point.second; });
+    costs.push_back(1 / best.second);
+    question.findings.push_back(fmt::format(
+        "{}: hierarchy {}, diagram {} pairs; together at best {} times as many as the better alone (blocks "
+        "of {}).",
+        one.name, with_thousands(static_cast<std::uint64_t>(whole.pairs())),
+        with_thousands(static_cast<std::uint64_t>(diagram)), short_decimal(1 / best.second), best.first));
+    question.curves.push_back(std::move(gains));
+    step_done();
+  }
+  const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
+  question.answer = fmt::format(
+      "Hierarchy and diagram together look at {} to {} times as many pairs as the better of both alone.",
+      short_decimal(*least), short_decimal(*most));
+  return question;
+}
+
+}  // namespace kds

@@ -1,0 +1,228 @@
+#include "experiments/questions/energy_question.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "experiments/output/text.h"
+#include "experiments/questions/deformation.h"
+#include "experiments/questions/moving_subjects.h"
+#include "motions/models/random.h"
+#include "motions/models/shape.h"
+#include "structures/session/session.h"
+
+namespace kds {
+
+namespace {
+
+constexpr std::array<std::size_t, 6> kStrides{1, 2, 4, 8, 16, 32};
+constexpr int kAmplitudes = 9;  // 2^-10 ... 2^-2 radians
+constexpr std::size_t kConformations = 16, kChainBeads = 128;
+
+constexpr std::size_t kProteins = 2;  // the first of the moving subjects
+
+constexpr const char *kBases = "basis changes", *kFlips = "flips";
+
+enum class Angles { bending, torsion, both };
+constexpr std::array kAngles{Angles::bending, Angles::torsion, Angles::both};
+constexpr std::array<std::string_view, 3> kAngleNames{"bending", "torsion", "both"};
+
+// One step from frame to frame.
+struct Step {
+  Deformation deformation;
+  double bases = 0, flips = 0;  ///< events
+};
+
+std::vector<Step> steps_of(std::vector<Eigen::Matrix3Xd> frames, const std::vector<double>& radii) {
+  std::vector<Step> steps(frames.size() - 1);
+  for (std::size_t k = 0; k < steps.size(); ++k) steps[k].deformation = deformation(frames[k], frames[k + 1]);
+  Trajectory chain;
+  chain.file = "chain";
+  chain.frames = std::move(frames);
+  const Scene scene(std::span(&chain, 1), radii);
+  Session session(scene, SessionOptions{{"wrapped", "power"}, Kernel::filtered, AuditMode::none, {}});
+  session.load(0);
+  session.simulator().build();
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    session.load(k);
+    session.simulator().run_step();
+  }
+  session.simulator().finish();
+  const auto events = [&](std::size_t structure, std::size_t k) {
+    return static_cast<double>(session.structures()[structure]->statistics.events_per_step[k]);
+  };
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    steps[k].bases = events(0, k);
+    steps[k].flips = events(1, k);
+  }
+  return steps;
+}
+
+Step mean_of(std::span<const Step> steps) {
+  Step mean;
+  const auto count = static_cast<double>(steps.size());
+  for (const Step& step : steps) {
+    mean.deformation.bending += step.deformation.bending / count;
+    mean.deformation.torsion += step.deformation.torsion / count;
+    mean.bases += step.bases / count;
+    mean.flips += step.flips / count;
+  }
+  return mean;
+}
+
+// Normal, of variance 1.
+double normal(models::Random& random) {
+  const double u = 1 - random.uniform(), v = random.uniform();
+  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+}
+
+ChainAngles random_angles(models::Random& random) {
+  ChainAngles angles;
+  for (std::size_t k = 0; k < kChainBeads - 2; ++k)
+    angles.bending.push_back(std::numbers::pi * (0.5 + 0.4 * random.uniform()));
+  for (std::size_t k = 0; k < kChainBeads - 3; ++k)
+    angles.torsion.push_back(2 * std::numbers::pi * random.uniform());
+  return angles;
+}
+
+class Measurement {
+ public:
+  Measurement(const std::filesystem::path& data, std::uint64_t seed, const std::function<void()>& step_done)
+      : data_(data), seed_(seed), step_done_(step_done) {}
+
+  Question ask() {
+    question_.name = "energy";
+    question_.title = "How many changes does a deformation energy buy?";
+    question_.columns = {{"step", "stride or amplitude"},           {"steps", "steps"},
+                         {"bending", "bending energy a step"},      {"torsion", "torsion energy a step"},
+                         {"basis_changes", "basis changes a step"}, {"flips", "flips a step"}};
+    question_.x_label = "deformation energy a step, rad²";
+    question_.y_label = "changes a step";
+    question_.words = fmt::format(
+        "The energy of a step is half the sum of the squared changes of all bending angles and of all "
+        "torsion "
+        "angles of the chain, in radians, between two frames: springs of stiffness 1. Basis changes are "
+        "events "
+        "of the wrapped hierarchy, flips those of the power diagram, under linear motion, all exact. "
+        "Trajectories "
+        "are looked at frame by frame and over strides to {}; of the steps at stride 1 those of like energy "
+        "are "
+        "also taken together, eight groups of equal size. Random chains have {} beads, bending angles "
+        "between "
+        "0.5 and 0.9 pi, any torsion; in a step all angles of one kind, or of both, change by normal random "
+        "amounts of the amplitude given, {} conformations each.",
+        kStrides.back(), kChainBeads, kConformations);
+    for (std::size_t which = 0; which < kProteins; ++which) ask(moving_subject(which, data_, seed_));
+    for (const Angles angles : kAngles) ask(angles);
+    question_.answer = answer();
+    return std::move(question_);
+  }
+
+ private:
+  // Of chains all of whose angles change: the last two curves.
+  [[nodiscard]] std::string answer() const {
+    const std::size_t count = question_.curves.size();
+    const auto bases = question_.curves[count - 2].fit(), flips = question_.curves[count - 1].fit();
+    if (!bases || !flips) return "";
+    return fmt::format(
+        "On random chains basis changes grow as energy^{} and flips as energy^{}: an exponent of 0.5 "
+        "is growth in proportion to how far angles change.",
+        exponent_text(*bases), exponent_text(*flips));
+  }
+
+  void add(const std::string& subject, double step, std::span<const Step> steps, QuestionCurve& bases,
+           QuestionCurve& flips) {
+    const Step mean = mean_of(steps);
+    question_.rows.push_back({subject,
+                              {step, static_cast<double>(steps.size()), mean.deformation.bending,
+                               mean.deformation.torsion, mean.bases, mean.flips}});
+    bases.points.emplace_back(mean.deformation.energy(), mean.bases);
+    flips.points.emplace_back(mean.deformation.energy(), mean.flips);
+  }
+
+  void keep(QuestionCurve bases, QuestionCurve flips, std::string_view over) {
+    for (QuestionCurve* curve : {&bases, &flips}) {
+      if (const auto fit = curve->fit())
+        question_.findings.push_back(fmt::format("{}, {}: grow as energy^{} over {}.", curve->name,
+                                                 curve->plot, exponent_text(*fit), over));
+      question_.curves.push_back(std::move(*curve));
+    }
+  }
+
+  void ask(const NamedSubject& one) {
+    const auto& [name, subject] = one;
+    QuestionCurve bases{kBases, name, {}}, flips{kFlips, name, {}};
+    std::vector<Step> finest;
+    for (const std::size_t stride : kStrides) {
+      std::vector<Eigen::Matrix3Xd> frames;
+      for (std::size_t k = 0; k < subject.frames.size(); k += stride) frames.push_back(subject.frames[k]);
+      const std::vector<Step> steps = steps_of(std::move(frames), subject.radii);
+      add(name, static_cast<double>(stride), steps, bases, flips);
+      if (stride == 1) finest = steps;
+      step_done_();
+    }
+    keep(std::move(bases), std::move(flips), "strides");
+    in_groups(name, std::move(finest));
+  }
+
+  // Does a step of more energy have more changes, at one time between frames?
+  void in_groups(const std::string& name, std::vector<Step> steps) {
+    constexpr std::size_t groups = 8;
+    std::ranges::sort(steps, {}, [](const Step& step) { return step.deformation.energy(); });
+    QuestionCurve bases{kBases, name + " by step", {}}, flips{kFlips, name + " by step", {}};
+    for (std::size_t g = 0; g < groups; ++g) {
+      const std::size_t first = g * steps.size() / groups, end = (g + 1) * steps.size() / groups;
+      const Step mean = mean_of(std::span(steps).subspan(first, end - first));
+      bases.points.emplace_back(mean.deformation.energy(), mean.bases);
+      flips.points.emplace_back(mean.deformation.energy(), mean.flips);
+    }
+    keep(std::move(bases), std::move(flips), "steps at stride 1");
+  }
+
+  void ask(Angles angles) {
+    const std::string name = fmt::format("random chain, {}", kAngleNames[static_cast<std::size_t>(angles)]);
+    QuestionCurve bases{kBases, name, {}}, flips{kFlips, name, {}};
+    const std::vector<double> radii(kChainBeads, models::radius);
+    for (int a = 0; a < kAmplitudes; ++a) {
+      const double amplitude = std::ldexp(1, a - kAmplitudes - 1);
+      models::Random random(seed_);  // the same conformations and directions at every amplitude
+      std::vector<Step> steps;
+      for (std::size_t c = 0; c < kConformations; ++c) {
+        const ChainAngles from = random_angles(random);
+        ChainAngles to = from;
+        for (double& angle : to.bending)
+          angle += (angles == Angles::torsion ? 0 : amplitude) * normal(random);
+        for (double& angle : to.torsion)
+          angle += (angles == Angles::bending ? 0 : amplitude) * normal(random);
+        steps.push_back(
+            steps_of({chain_of(from, 2 * models::usual_bond), chain_of(to, 2 * models::usual_bond)}, radii)
+                .front());
+      }
+      add(name, amplitude, steps, bases, flips);
+      step_done_();
+    }
+    keep(std::move(bases), std::move(flips), "amplitudes");
+  }
+
+  const std::filesystem::path& data_;
+  std::uint64_t seed_;
+  const std::function<void()>& step_done_;
+  Question question_;
+};
+
+}  // namespace
+
+std::size_t energy_steps() {
+  return kProteins * kStrides.size() + kAngles.size() * static_cast<std::size_t>(kAmplitudes);
+}
+
+Question ask_about_energy(const std::filesystem::path& data, std::uint64_t seed,
+                          const std::function<void()>& step_done) {
+  return Measurement(data, seed, step_done).ask();
+}
+
+}  // namespace kds

@@ -1,0 +1,15 @@
+#pragma once
+// The page of `kds stability`: whether the kernels agree, and where arithmetic was hardest.
+
+#include <span>
+#include <string>
+
+#include "experiments/output/html_page.h"
+#include "experiments/stability/stability_row.h"
+
+namespace kds {
+
+/// `page` says how it was made.
+[[nodiscard]] std::string stability_page(std::span<const StabilityRow> rows, Page page);
+
+}  // namespace kds

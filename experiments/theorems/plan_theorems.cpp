@@ -1,0 +1,166 @@
+#include "experiments/theorems/plan_theorems.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "experiments/theorems/closest_by_diagram.h"
+#include "experiments/theorems/family_sizes.h"
+#include "experiments/theorems/root_ratio.h"
+#include "motions/models/model.h"
+#include "motions/models/shapes.h"
+#include "motions/models/tightness_points.h"
+
+namespace kds {
+
+namespace {
+
+using Centers = Eigen::Matrix3Xd;
+
+Centers random_chain(std::size_t beads, std::uint64_t seed) {
+  const models::Settings settings{.beads = beads, .seed = seed, .motion = models::ShapeMotion::rest};
+  return models::generate(*models::find_model("random-chain"), settings).front().frames.front();
+}
+
+// A little out of order, since in a regular grid all pairs beside each other are equally close. Consecutive
+// beads still meet, and no others.
+Centers jittered_grid(std::size_t beads, int dimension, double gap, std::uint64_t seed) {
+  const double overlap = 0.05 * (1 - gap);
+  const models::Settings settings{.beads = beads,
+                                  .seed = seed,
+                                  .motion = models::ShapeMotion::rest,
+                                  .bond = 1 - overlap,
+                                  .gap = gap,
+                                  .dimension = dimension,
+                                  .jitter = std::min(0.4 * gap, 0.9 * overlap)};
+  return models::generate(*models::find_model("grid"), settings).front().frames.front();
+}
+
+class Planner {
+ public:
+  explicit Planner(const TheoremOptions& options) : options_(options) {}
+
+  TheoremPlan plan() {
+    if (asked(Theorem::tightness)) plan_tightness();
+    if (asked(Theorem::family) || asked(Theorem::search)) plan_families();
+    if (asked(Theorem::closest_pair)) plan_closest_pairs();
+    return std::move(plan_);
+  }
+
+ private:
+  [[nodiscard]] bool asked(Theorem theorem) const {
+    return std::find(options_.theorems.begin(), options_.theorems.end(), theorem) != options_.theorems.end();
+  }
+
+  std::size_t add_series(Theorem theorem, std::string_view model, int dimension, std::string_view hierarchy,
+                         std::optional<double> expected) {
+    plan_.series.push_back({theorem, std::string(model), dimension, std::string(hierarchy), expected, {}});
+    return plan_.series.size() - 1;
+  }
+
+  // 2^from, 2^(from+1), ... up to the most beads.
+  [[nodiscard]] std::vector<std::size_t> powers_of_two(std::size_t least, std::size_t most) const {
+    std::vector<std::size_t> sizes;
+    for (std::size_t beads = least; beads <= std::min(most, options_.most_beads); beads *= 2)
+      sizes.push_back(beads);
+    return sizes;
+  }
+
+  using Made = std::function<Centers(std::size_t beads)>;
+
+  void plan_tightness() {
+    const auto add = [&](std::string_view model, int dimension, double radius, const Made& made,
+                         std::optional<double> expected = std::nullopt) {
+      const std::size_t series = add_series(Theorem::tightness, model, dimension, "", expected);
+      for (const std::size_t beads : powers_of_two(16, options_.most_beads))
+        plan_.work.emplace_back([=](std::vector<TheoremSeries>& all) {
+          const double ratio = root_ratio(made(beads), std::vector<double>(beads, radius), dimension);
+          const double bound = std::sqrt(static_cast<double>(tree_height(beads)) + 1);
+          all[series].points.push_back({beads, ratio, bound, std::nullopt, ratio <= bound});
+        });
+    };
+    add(
+        "points of Lemma 2.5", 2, 0,
+        [](std::size_t beads) { return models::tightness_points(static_cast<int>(tree_height(beads))); },
+        0.5);
+    for (const int dimension : {2, 3})
+      add("grid", dimension, models::radius,
+          [=, gap = options_.gap](std::size_t beads) { return models::packed_grid(beads, dimension, gap); });
+    add("random chain", 3, models::radius,
+        [seed = options_.seed](std::size_t beads) { return random_chain(beads, seed); });
+  }
+
+  // One search tells of both theorems.
+  void plan_families() {
+    const auto add = [&](std::string_view model, int dimension, Hierarchy hierarchy,
+                         const std::vector<std::size_t>& sizes, const Made& made) {
+      const std::string_view name = hierarchy_names[static_cast<std::size_t>(hierarchy)];
+      const double expected = dimension == 2 ? 1 : 4.0 / 3;
+      std::vector<std::size_t> series;
+      for (const Theorem theorem : {Theorem::family, Theorem::search})
+        if (asked(theorem)) series.push_back(add_series(theorem, model, dimension, name, expected));
+      for (const std::size_t beads : sizes)
+        plan_.work.emplace_back([=, rounds = options_.rounds](std::vector<TheoremSeries>& all) {
+          const FamilySize size = measure_family(made(beads), dimension, hierarchy, rounds);
+          for (const std::size_t s : series) {
+            const double value =
+                all[s].theorem == Theorem::family ? static_cast<double>(size.family) : size.seconds.median;
+            const auto bound = all[s].theorem == Theorem::family
+                                   ? std::optional(family_bound(dimension, beads))
+                                   : std::nullopt;  // seconds know no constant
+            all[s].points.push_back({beads, value, bound, size.seconds, std::nullopt});
+          }
+        });
+    };
+    for (const int dimension : {2, 3})
+      for (const Hierarchy hierarchy : {Hierarchy::wrapped, Hierarchy::layered})
+        add("grid", dimension, hierarchy, sizes_of_grids(dimension),
+            [=, gap = options_.gap](std::size_t beads) {
+              return models::packed_grid(beads, dimension, gap);
+            });
+    add("random chain", 3, Hierarchy::wrapped, powers_of_two(1024, options_.most_beads),
+        [seed = options_.seed](std::size_t beads) { return random_chain(beads, seed); });
+  }
+
+  void plan_closest_pairs() {
+    // A helix of constant turns has a power diagram of quadratic size.
+    constexpr std::size_t most_of_helix = 4096;
+    const auto add = [&](std::string_view model, int dimension, std::optional<double> expected,
+                         const std::vector<std::size_t>& sizes, const Made& made) {
+      const std::size_t series = add_series(Theorem::closest_pair, model, dimension, "", expected);
+      for (const std::size_t beads : sizes)
+        plan_.work.emplace_back([=, rounds = options_.rounds](std::vector<TheoremSeries>& all) {
+          const ClosestByDiagram closest = closest_by_diagram(made(beads), dimension, rounds);
+          all[series].points.push_back(
+              {beads, static_cast<double>(closest.looked_at), std::nullopt, closest.seconds, closest.same});
+        });
+    };
+    for (const int dimension : {2, 3})
+      add("grid", dimension, 1, sizes_of_grids(dimension),
+          [dimension, gap = options_.gap, seed = options_.seed](std::size_t beads) {
+            return jittered_grid(beads, dimension, gap, seed);
+          });
+    add("random chain", 3, 1, powers_of_two(1024, options_.most_beads),
+        [seed = options_.seed](std::size_t beads) { return random_chain(beads, seed); });
+    add("helix", 3, std::nullopt, powers_of_two(512, most_of_helix), [](std::size_t beads) {
+      constexpr double turns = 10;
+      return models::helix(beads, turns);
+    });
+  }
+
+  [[nodiscard]] std::vector<std::size_t> sizes_of_grids(int dimension) const {
+    std::vector<std::size_t> sizes;
+    for (const std::size_t side : sides_of_grids(dimension, options_.most_beads))
+      sizes.push_back(beads_of_grid(dimension, side));
+    return sizes;
+  }
+
+  TheoremOptions options_;
+  TheoremPlan plan_;
+};
+
+}  // namespace
+
+TheoremPlan plan_theorems(const TheoremOptions& options) { return Planner(options).plan(); }
+
+}  // namespace kds

@@ -1,0 +1,51 @@
+#include "experiments/program/power_fit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace kds {
+namespace {
+
+using Points = std::vector<std::pair<double, double>>;
+
+TEST(PowerFit, FindsThePowerThatPointsFollow) {
+  Points points;
+  for (const double x : {1000.0, 3000.0, 10000.0, 50000.0}) points.emplace_back(x, 3 * std::pow(x, 1.4));
+  const auto fit = fit_power(points);
+  ASSERT_TRUE(fit);
+  EXPECT_EQ(fit->points, 4U);
+  EXPECT_NEAR(fit->exponent, 1.4, 1e-12);
+  EXPECT_NEAR(fit->factor, 3, 1e-9);
+  EXPECT_LE(fit->lower, fit->exponent);
+  EXPECT_LT(fit->upper - fit->lower, 1e-9);
+  points[1].second *= 2;  // off the line: the interval is wide
+  EXPECT_GT(fit_power(points)->upper - fit_power(points)->lower, 0.3);
+}
+
+// y = 1, 2, 2, 4 over x = 1, 2, 4, 8: by hand, slope 0.6, residuals -0.1, 0.3, -0.3, 0.1, t 4.303.
+TEST(PowerFit, IntervalAsByHand) {
+  const auto fit = fit_power(Points{{1, 1}, {2, 2}, {4, 2}, {8, 4}});
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->exponent, 0.6, 1e-12);
+  EXPECT_NEAR(fit->upper - fit->exponent, 4.303 * std::sqrt(0.2 / 2 / 5), 1e-9);
+}
+
+TEST(PowerFit, WhatHasNoLogarithmIsLeftOut) {
+  const Points points{{1, 2}, {0, 5}, {2, 4}, {3, 0}, {-1, 1}, {4, 8}};
+  const auto fit = fit_power(points);
+  ASSERT_TRUE(fit);
+  EXPECT_EQ(fit->points, 3U);
+  EXPECT_NEAR(fit->exponent, 1, 1e-12);
+}
+
+TEST(PowerFit, NoneOfTwoPointsOrOfOneX) {
+  EXPECT_FALSE(fit_power(Points{{1, 1}, {2, 2}}));
+  EXPECT_FALSE(fit_power(Points{{2, 1}, {2, 2}, {2, 3}}));
+}
+
+}  // namespace
+}  // namespace kds

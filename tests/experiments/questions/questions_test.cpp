@@ -1,0 +1,148 @@
+// `kds questions`: the deformation energy, and what is printed.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+
+#include "experiments/questions/deformation.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+#include "tests/experiments/sound_page.h"
+
+namespace kds::test {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+constexpr double pi = std::numbers::pi;
+
+ChainAngles some_angles() { return {{1.5, 2.0, 1.8, 2.5}, {0.3, -2.0, 3.0}}; }
+
+TEST(Deformation, AChainHasTheAnglesItWasMadeOf) {
+  const ChainAngles angles = some_angles();
+  const Eigen::Matrix3Xd chain = chain_of(angles, 2);
+  ASSERT_EQ(chain.cols(), 6);
+  for (int bead = 0; bead + 1 < 6; ++bead)
+    EXPECT_NEAR((chain.col(bead + 1) - chain.col(bead)).norm(), 2, 1e-12);
+  for (std::size_t k = 0; k < angles.bending.size(); ++k) {
+    ChainAngles other = angles;
+    other.bending[k] += 0.1;
+    const Deformation by = deformation(chain, chain_of(other, 2));
+    EXPECT_NEAR(by.bending, 0.1 * 0.1 / 2, 1e-12);
+    EXPECT_NEAR(by.torsion, 0, 1e-20);
+  }
+  for (std::size_t k = 0; k < angles.torsion.size(); ++k) {
+    ChainAngles other = angles;
+    other.torsion[k] += 0.2;
+    const Deformation by = deformation(chain, chain_of(other, 3));  // bonds do not count
+    EXPECT_NEAR(by.torsion, 0.2 * 0.2 / 2, 1e-12);
+    EXPECT_NEAR(by.bending, 0, 1e-20);
+  }
+}
+
+TEST(Deformation, TorsionGoesTheShortWayRound) {
+  ChainAngles before = some_angles(), after = before;
+  before.torsion[1] = pi - 0.1;
+  after.torsion[1] = -pi + 0.1;
+  EXPECT_NEAR(deformation(chain_of(before, 1), chain_of(after, 1)).torsion, 0.02, 1e-12);
+}
+
+TEST(Deformation, RigidMotionTakesNone) {
+  const Eigen::Matrix3Xd chain = chain_of(some_angles(), 2);
+  const Eigen::AngleAxisd turn(1.2, Eigen::Vector3d(1, 2, 3).normalized());
+  Eigen::Matrix3Xd moved = turn.toRotationMatrix() * chain;
+  moved.colwise() += Eigen::Vector3d(4, 5, 6);
+  EXPECT_NEAR(deformation(chain, moved).energy(), 0, 1e-20);
+}
+
+TEST(Deformation, StraightAndShortChainsAndBeadsInOnePlace) {
+  Eigen::Matrix3Xd straight = Eigen::Matrix3Xd::Zero(3, 5);
+  straight.row(0) << 0, 1, 2, 3, 4;
+  EXPECT_EQ(deformation(straight, straight).energy(), 0);
+  Eigen::Matrix3Xd bent = straight;
+  bent.col(4) = Eigen::Vector3d(3, 1, 0);
+  EXPECT_NEAR(deformation(straight, bent).bending, pi * pi / 8, 1e-12);  // a right angle at one bead
+  EXPECT_EQ(deformation(straight, bent).torsion, 0);                     // which a straight chain leaves open
+  EXPECT_EQ(deformation(straight, Eigen::Matrix3Xd::Zero(3, 5)).energy(), 0);
+  EXPECT_EQ(deformation(straight.leftCols(2), bent.leftCols(2)).energy(), 0);
+  EXPECT_EQ(deformation(straight.leftCols(1), bent.leftCols(1)).energy(), 0);
+}
+
+Json rows_of(const Json& all, const std::string& question) {
+  Json rows = Json::array();
+  for (const Json& row : all["rows"])
+    if (row["question"] == question) rows.push_back(row);
+  return rows;
+}
+
+TEST(Questions, AllOfThemWithAPage) {
+  const ScratchDirectory scratch;
+  const ProgramRun run = run_program({"questions", "--rounds", "1", "--seed", "3", "--out", scratch / "out"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(content_of(scratch / "out/questions.json"));
+  EXPECT_EQ(json["settings"]["seed"], 3);
+  EXPECT_EQ(json["questions"].size(), 4U);
+  for (const Json& row : rows_of(json, "energy")) {
+    if (row["subject"] == "random chain, bending") {
+      EXPECT_GT(row["bending"], 1e-6) << row;
+    }
+    if (row["subject"] == "random chain, torsion") {
+      EXPECT_LT(row["bending"], 1e-20) << row;
+      EXPECT_GT(row["torsion"], 1e-6) << row;
+    }
+  }
+  // More is known, less often pairs are searched.
+  for (const Json& row : rows_of(json, "bounds")) {
+    EXPECT_GE(row["frames"], row["speed"]) << row;
+    EXPECT_GE(row["speed"], row["displacement"]) << row;
+    EXPECT_GE(row["displacement"], row["two_largest"]) << row;
+  }
+  // Bounds hold, and that on speed is the weaker.
+  for (const Json& row : rows_of(json, "trust")) {
+    EXPECT_GE(row["by_speed"].get<double>(), row["by_displacement"].get<double>()) << row;
+    EXPECT_GE(row["by_displacement"], row["really"]) << row;
+  }
+  for (const Json& row : rows_of(json, "combination")) {
+    EXPECT_EQ(row["together"], row["pairs"].get<double>() + row["edges"].get<double>()) << row;
+    EXPECT_LE(row["pairs"], row["hierarchy"]) << row;
+  }
+  const std::string csv = content_of(scratch / "out/questions.csv");
+  const auto commas = [&](std::size_t from) {
+    return count_of(csv.substr(from, csv.find('\n', from) - from), ",");
+  };
+  std::size_t lines = 0;
+  for (std::size_t from = 0; from < csv.size(); from = csv.find('\n', from) + 1, ++lines)
+    if (csv.find('"', from) >= csv.find('\n', from)) {  // names with commas stand in quotes
+      EXPECT_EQ(commas(from), commas(0)) << lines;
+    }
+  EXPECT_EQ(lines, json["rows"].size() + 1);
+  const std::string page = content_of(scratch / "out/report.html");
+  expect_sound(page);
+  EXPECT_THAT(page, HasSubstr("No theorem is claimed"));
+}
+
+TEST(Questions, TheSameSeedGivesTheSameCounts) {
+  const auto rows = [](const std::string& seed) {
+    const ProgramRun run = run_program({"questions", "combination", "bounds", "--seed", seed, "--json", "-"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.code == 0 ? Json::parse(run.out)["rows"] : Json();
+  };
+  const Json first = rows("5");
+  EXPECT_EQ(first, rows("5"));
+  EXPECT_NE(first, rows("6"));
+}
+
+TEST(Questions, RefusesWhatIsNoQuestion) {
+  const ProgramRun run = run_program({"questions", "why"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("QUESTION: 'why' is not one of energy, bounds, trust, combination"));
+  EXPECT_EQ(run_program({"questions", "energy", "--data", "nowhere"}).code, 2);
+}
+
+}  // namespace
+}  // namespace kds::test

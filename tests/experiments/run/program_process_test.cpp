@@ -1,0 +1,138 @@
+// The program from outside: full disks, signals, closed streams, memory.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/experiments/expect_refused.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds::test {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kSmall = data_file("kinetic/d1_n20_linear.txt");
+
+TEST(Program, AFullOutputIsAFailureWithTheSystemsReason) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const ScratchDirectory directory;
+  const std::string log = (directory / "events.log").string(), model = (directory / "model.xyz").string();
+  ASSERT_EQ(run_program({"run", kSmall, "--log", log, "--quiet"}).code, 0);
+  std::filesystem::create_symlink("/dev/full", model);
+  const auto expect_full = [](const ProgramRun& run) {
+    EXPECT_EQ(run.code, 1);
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("No space left on device"));
+  };
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"run", kSmall, "--quiet", "--json", "/dev/full"},
+        {"run", kSmall, "--quiet", "--log", "/dev/full"},
+        {"run", data_file("kinetic/d1_n200_linear.txt"), "--quiet", "--log", "/dev/full"},
+        {"replay", log, "--quiet", "--json", "/dev/full"},
+        {"info", kSmall, "--quiet", "--json", "/dev/full"},
+        {"generate", "helix", "--beads", "10", "--quiet", "-o", model}})
+    expect_full(run_program(arguments));
+  for (const char* line :
+       {"\"$0\" --help", "\"$0\" help run", "\"$0\" run \"$1\"", "\"$0\" run \"$1\" --json -",
+        "\"$0\" info \"$1\"", "\"$0\" replay \"$2\"", "\"$0\" replay \"$2\" --json -"})
+    expect_full(run_shell(std::string(line) + " > /dev/full", {kSmall, log}));
+}
+
+// Files of more than 4 KB cannot be written: as on a full disk, but for the reason.
+TEST(Program, ADiskThatFillsUpLeavesNoHalfResults) {
+  const ScratchDirectory directory;
+  const std::string out = (directory / "out/below").string();
+  const auto expect_full = [&](const std::string& arguments) {
+    const ProgramRun run =
+        run_shell("ulimit -f 8; \"$0\" " + arguments, {data_file("kinetic/d3_n100_linear.txt"), out});
+    EXPECT_EQ(run.code, 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("cannot write: File too large"));
+    EXPECT_EQ(directory.entries(), 0U) << arguments;
+  };
+  expect_full("run \"$1\" --quiet --dump \"$2\"");
+  expect_full("generate helix --beads 1000 --quiet -o \"${2%/out/below}/m.xyz\"");
+  expect_full("stability --quiet --subjects orientation,power_test --cases 1 --out \"$2\"");
+}
+
+// As many frames as one likes need no more memory than a few.
+TEST(Program, MemoryDoesNotGrowWithTheFrames) {
+  const ScratchDirectory directory;
+  const auto peak = [&](std::size_t frames) {
+    std::string text;
+    for (std::size_t k = 0; k < frames; ++k) {
+      std::vector<std::string> beads;
+      for (std::size_t b = 0; b < 60; ++b)
+        beads.push_back(fmt::format("{} {} 0.{}", b, k % 7, (b * 37 + k) % 10));
+      text += xyz(beads);
+    }
+    const std::string input = directory.file(std::to_string(frames) + ".xyz", text);
+    const std::string there = (directory / std::to_string(frames)).string();
+    const ProgramRun run = run_program({"run", input, "--structures", "sorted", "--quiet", "--out", there,
+                                        "--dump", there, "--log", there + ".log", "--motion", "hermite"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    const ProgramRun replay = run_program({"replay", there + ".log", "--quiet"});
+    EXPECT_EQ(replay.code, 0) << replay.err;
+    return std::max(run.peak_kilobytes, replay.peak_kilobytes);
+  };
+  const long few = peak(10), many = peak(6000);
+  EXPECT_LT(many, few + few / 4) << few;
+}
+
+TEST(Program, StandardStreamsMayBeClosed) {
+  const ScratchDirectory directory;
+  const std::string log = (directory / "events.log").string();
+  EXPECT_EQ(run_shell("\"$0\" run nowhere.pdb 2>&-").code, 2);
+  EXPECT_EQ(run_shell("\"$0\" run \"$1\" >&-", {kSmall}).code, 1);
+  EXPECT_EQ(run_shell("\"$0\" run \"$1\" >&- 2>&-", {kSmall}).code, 1);
+  EXPECT_EQ(run_shell("\"$0\" run \"$1\" --quiet --log \"$2\" <&- >&- 2>&-", {kSmall, log}).code, 0);
+  EXPECT_TRUE(content_of(log).starts_with("kds event log"));
+}
+
+TEST(Program, AFileThatMayNotGrowIsAFailureWithoutATrace) {
+  const ScratchDirectory directory;
+  const std::string log = (directory / "events.log").string();
+  const ProgramRun run = run_shell("ulimit -f 8; \"$0\" run \"$1\" --quiet --log \"$2\"",
+                                   {data_file("kinetic/d1_n200_linear.txt"), log});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.err, HasSubstr("events.log: cannot write: File too large"));
+  EXPECT_EQ(directory.entries(), 0U);
+}
+
+TEST(Program, AnInterruptedRunLeavesNothingBehind) {
+  for (const char* signal : {"TERM", "HUP", "USR1", "XCPU"}) {
+    const ScratchDirectory directory;
+    // Waits for the log in the making, and ends the program then.
+    const ProgramRun run = run_shell(
+        "\"$0\" run \"$1\" --log \"$2/events.log\" --dump \"$2/made/dump\" --audit events & "
+        "i=0; while [ -z \"$seen\" ] && [ $i -lt 200 ]; do sleep 0.05; seen=$(ls -A \"$2\" | grep part); "
+        "i=$((i+1)); done; echo \"$seen\"; kill -$3 $!; wait $!",
+        {data_file("trajectories/villin_hp36_300K.dcd"), directory.path().string(), signal});
+    EXPECT_GT(run.code, 128) << run.err;
+    EXPECT_THAT(run.out, HasSubstr(".part"));
+    EXPECT_EQ(directory.entries(), 0U);
+  }
+}
+
+TEST(Program, WhatAKilledRunLeftIsClearedByTheNext) {
+  const ScratchDirectory directory;
+  const std::string there = directory.path().string();
+  const ProgramRun killed = run_shell(
+      "\"$0\" run \"$1\" --dump \"$2\" --audit events & "
+      "i=0; while [ -z \"$seen\" ] && [ $i -lt 200 ]; do sleep 0.05; seen=$(ls -A \"$2\"/.kds-*); "
+      "i=$((i+1)); done; kill -KILL $!; wait $!",
+      {data_file("trajectories/villin_hp36_300K.dcd"), there});
+  EXPECT_EQ(killed.code, 128 + 9) << killed.err;
+  ASSERT_EQ(directory.entries(), 1U);
+  EXPECT_EQ(run_program({"run", data_file("kinetic/d3_n20_linear.txt"), "--quiet", "--dump", there}).code, 0);
+  EXPECT_EQ(directory.entries(), 4U);  // cells and hidden beads of two frames
+}
+
+}  // namespace
+}  // namespace kds::test

@@ -1,0 +1,239 @@
+// The program from outside: where results go, and that they appear together.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/experiments/expect_refused.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using Json = nlohmann::ordered_json;
+
+const std::string kSmall = data_file("kinetic/d1_n20_linear.txt");
+const std::string kTrajectory = data_file("trajectories/villin_hp36_300K.dcd");
+
+TEST(Program, StandardOutputHoldsWhatWasAskedFor) {
+  const ProgramRun table = run_program({"run", kSmall});
+  EXPECT_EQ(table.code, 0) << table.err;
+  EXPECT_THAT(table.out, HasSubstr("fingerprint "));
+  EXPECT_EQ(table.err, "");  // no progress bar: standard error is no terminal
+
+  EXPECT_EQ(run_program({"run", kSmall, "--quiet"}).out, "");
+
+  const ProgramRun json = run_program({"run", kSmall, "--json", "-"});
+  EXPECT_EQ(json.code, 0);
+  const Json summary = Json::parse(json.out);
+  EXPECT_EQ(summary["structures"]["sorted"]["events"]["total"], 97);
+  EXPECT_THAT(table.out, HasSubstr(summary["fingerprint"].get<std::string>()));
+  EXPECT_EQ(Json::parse(run_program({"run", kSmall, "--json", "-", "--quiet"}).out)["fingerprint"],
+            summary["fingerprint"]);
+}
+
+TEST(Program, WritesItsReport) {
+  const ScratchDirectory directory;
+  const std::string report = (directory / "a/report").string();
+  const ProgramRun run =
+      run_program({"run", kSmall, "--out", report, "--json", (directory / "copy.json").string()});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr(report + "/report.html"));
+  const std::string summary = content_of(report + "/summary.json");
+  EXPECT_EQ(summary, content_of(directory / "copy.json"));
+  EXPECT_EQ(Json::parse(summary)["input"]["beads"], 20);
+  EXPECT_EQ(content_of(report + "/events.csv"), "frame,structure,events,cumulative\n0,sorted,97,97\n");
+  EXPECT_THAT(content_of(report + "/report.html"), HasSubstr("</html>"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(report), {}), 3);
+}
+
+TEST(Program, ReplaysItsLog) {
+  const ScratchDirectory directory;
+  const std::string log = (directory / "events.log").string();
+  ASSERT_EQ(run_program({"run", kSmall, "--log", log, "--quiet"}).code, 0);
+  const ProgramRun same = run_program({"replay", log});
+  EXPECT_EQ(same.code, 0) << same.err;
+  EXPECT_THAT(same.out, HasSubstr("fingerprint same"));
+  const ProgramRun json = run_program({"replay", log, "--json", "-"});
+  EXPECT_EQ(Json::parse(json.out)["replay"]["same"], true);
+  EXPECT_EQ(run_program({"replay", log, "--quiet"}).out, "");
+  expect_refused({"replay", directory.file("other.log", "not a log\n")}, {"other.log"});
+}
+
+TEST(Program, ReplaysRunsWithoutGuarantees) {
+  const ScratchDirectory directory;
+  const std::string log = (directory / "events.log").string();
+  ASSERT_EQ(run_program({"run", data_file("kinetic/degenerate_d3_n64_swap.txt"), "--structures",
+                         "wrapped,power", "--kernel", "fast", "--log", log, "--quiet"})
+                .code,
+            0);
+  EXPECT_THAT(run_program({"replay", log}).out, HasSubstr("fingerprint same"));
+}
+
+TEST(Program, ANameThatIsNoTextCannotBeLogged) {
+  const ScratchDirectory directory;
+  const std::string input = directory.file("odd\xff.xyz", xyz({"0 0 0", "1 0 0"}) + xyz({"0 0 0", "2 0 0"}));
+  const std::vector<std::string> arguments{"run", input, "--structures", "sorted"};
+  EXPECT_EQ(run_program(arguments).code, 0);
+  std::vector<std::string> logged = arguments;
+  logged.insert(logged.end(), {"--log", (directory / "events.log").string()});
+  expect_refused(logged, {"--log", "UTF-8"});
+  EXPECT_EQ(directory.entries(), 1U);
+}
+
+TEST(Program, ARefusalMakesNoDirectory) {
+  const ScratchDirectory directory;
+  const std::string input =
+      directory.file("a.xyz", xyz({"0 0 0", "1 0 0", "2 0.5 0"}) + xyz({"0 0 0", "nan 0 0", "2 0 0"}));
+  const std::string flat = directory.file("flat.xyz", xyz({"0 0 0", "1 0 1", "2 1 2", "3 0 3", "4 1 4"}) +
+                                                          xyz({"0 1 0", "1 0 1", "2 2 2", "3 0 3", "4 2 4"}));
+  const std::string log = directory.file("log", "not a log\n");
+  for (const char* option : {"--out", "--dump"}) {
+    const std::string there = (directory / "new/there").string();
+    expect_refused({"run", input, option, there}, {"frame 1"});
+    expect_refused({"run", flat, option, there, "--structures", "wrapped,power"}, {"plane"});  // at its end
+    expect_refused({"run", kSmall, option, there, "--structures", "power"}, {"power"});
+    EXPECT_FALSE(std::filesystem::exists(directory / "new"));
+  }
+  for (const char* command : {"info", "update", "collide", "replay"}) {
+    const std::string of = command == std::string("replay") ? log : input;
+    expect_refused({command, of, "--out", (directory / "new").string()}, {of});
+    EXPECT_FALSE(std::filesystem::exists(directory / "new"));
+  }
+  std::filesystem::create_directory(directory / "old");
+  directory.file("old/frame-0.wrapped.csv", "precious");
+  expect_refused({"run", flat, "--dump", (directory / "old").string()}, {"plane"});
+  EXPECT_EQ(content_of(directory / "old/frame-0.wrapped.csv"), "precious");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory / "old"), {}), 1);
+}
+
+TEST(Program, WarningsWaitUntilTheInputIsAccepted) {
+  const ScratchDirectory directory;
+  const std::string cut = directory.file("cut.xyz", xyz({"0 0 0", "1 0 0", "2 0 0", "9 0 0"}) +
+                                                        xyz({"0 0 0", "1 0 0", "2 0 0", "9 1 0"}) + "4\n");
+  const std::string bad = directory.file("bad.xyz", "what\n");
+  EXPECT_THAT(run_program({"run", cut, "--frames", ":2", "--structures", "wrapped"}).err,
+              HasSubstr("warning: " + cut));
+  for (const char* command : {"run", "info", "update", "collide"})
+    expect_refused({command, cut, bad, "--frames", ":2"}, {"bad.xyz"});
+  expect_refused({"run", cut, "--frames", ":2", "--structures", "wrapped", "--nodes", "70:80"}, {"--nodes"});
+}
+
+TEST(Program, ADumpReplacesAnEarlierOneAsAWhole) {
+  const ScratchDirectory directory;
+  const std::string dump = (directory / "dump").string();
+  ASSERT_EQ(run_program({"run", kTrajectory, "--frames", "0:12", "--quiet", "--dump", dump}).code, 0);
+  for (const char* name : {"frame-1.notes.txt", "frame-01.power.csv", "notes.csv"})
+    directory.file(std::string("dump/") + name, "the user's");
+  ASSERT_EQ(std::distance(std::filesystem::directory_iterator(dump), {}), 36 + 3);
+  ASSERT_EQ(run_program(
+                {"run", kTrajectory, "--frames", "0:5", "--structures", "wrapped", "--quiet", "--dump", dump})
+                .code,
+            0);
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(dump))
+    names.push_back(entry.path().filename().string());
+  EXPECT_THAT(names, testing::UnorderedElementsAre("frame-0.wrapped.csv", "frame-1.wrapped.csv",
+                                                   "frame-2.wrapped.csv", "frame-3.wrapped.csv",
+                                                   "frame-4.wrapped.csv", "frame-1.notes.txt",
+                                                   "frame-01.power.csv", "notes.csv"));
+}
+
+// A frame's file leads nowhere: neither the other frames nor the log nor the summary are replaced.
+TEST(Program, AllResultsOfARunAreReplacedOrNone) {
+  const ScratchDirectory directory;
+  const std::string dump = (directory / "dump").string(), log = directory.file("log", "old"),
+                    json = directory.file("json", "old"), out = (directory / "out").string();
+  std::filesystem::create_directory(dump);
+  directory.file("dump/frame-0.wrapped.csv", "old");
+  std::filesystem::create_symlink("missing/file", dump + "/frame-1.power.csv");
+  expect_refused({"run", kTrajectory, "--frames", "0:3", "--quiet", "--dump", dump, "--log", log, "--json",
+                  json, "--out", out},
+                 {"frame-1.power.csv: cannot write: No such file or directory"});
+  for (const std::string& file : {log, json, dump + "/frame-0.wrapped.csv"})
+    EXPECT_EQ(content_of(file), "old");
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dump), {}), 2);
+}
+
+TEST(Program, AReportReplacesAnEarlierOneAsAWhole) {
+  const ScratchDirectory directory;
+  const std::string out = (directory / "out").string();
+  ASSERT_EQ(run_program({"run", kSmall, "--quiet", "--out", out}).code, 0);
+  const ProgramRun run =
+      run_program({"run", data_file("kinetic/d3_n20_linear.txt"), "--quiet", "--out", out});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(Json::parse(content_of(out + "/summary.json"))["input"]["dimension"], 3);
+  EXPECT_THAT(content_of(out + "/events.csv"), HasSubstr("0,power,"));
+  const std::string page = content_of(out + "/report.html");
+  EXPECT_THAT(page, HasSubstr("d3_n20_linear.txt"));
+  EXPECT_THAT(page, Not(HasSubstr("d1_n20_linear.txt")));
+}
+
+// None of them is there yet, and one is to be a file and a directory.
+TEST(Program, AnOutputIsAFileOrADirectory) {
+  const ScratchDirectory directory;
+  const std::string both = (directory / "both").string();
+  const std::vector<std::pair<std::string, std::string>> places{
+      {both, both}, {both, both + "/"}, {both, both + "/below"}, {both, both + "/../both/below/more"}};
+  for (const auto& [file, folder] : places) {
+    for (const char* option : {"--log", "--events", "--json"})
+      for (const char* of : {"--out", "--dump"})
+        expect_refused({"run", kSmall, option, file, of, folder}, {option, of, "directory"});
+    expect_refused({"info", kTrajectory, "--json", file, "--out", folder}, {"--json", "--out", "directory"});
+  }
+  for (const char* below : {"", "/below"})
+    expect_refused({"generate", "grid", "--beads", "8", "-o", both + ".xyz", "--out", both + ".xyz" + below},
+                   {"--out", "both.xyz is the file of -o, expected a directory"});
+  EXPECT_EQ(directory.entries(), 0U);
+  ASSERT_EQ(
+      run_program({"run", kSmall, "--quiet", "--dump", both, "--out", both, "--log", both + ".log"}).code, 0);
+  EXPECT_TRUE(std::filesystem::is_regular_file(directory / "both/summary.json"));
+}
+
+TEST(Program, StandardOutputIsAnOutputByItsPath) {
+  const ScratchDirectory directory;
+  const std::string here = directory.path().string();
+  ASSERT_EQ(run_program({"run", kSmall, "--quiet", "--log", here + "/log"}).code, 0);
+  const std::string log = content_of(directory / "log");
+  for (const char* name : {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
+    const ProgramRun piped =
+        run_shell("\"$0\" run \"$1\" --quiet --log " + std::string(name) + " | cat", {kSmall});
+    EXPECT_EQ(piped.out, log) << name << piped.err;
+    // A file behind it is written on, not anew: what comes behind the log does not replace its beginning.
+    const ProgramRun appended = run_shell("{ echo before; \"$0\" run \"$1\" --quiet --log " +
+                                              std::string(name) + "; echo after; } > \"$2/file\"",
+                                          {kSmall, here});
+    EXPECT_EQ(appended.err, "");
+    EXPECT_EQ(content_of(directory / "file"), "before\n" + log + "after\n") << name;
+  }
+  EXPECT_EQ(run_shell("\"$0\" run \"$1\" --quiet --events /dev/fd/3 3>\"$2/third\"", {kSmall, here}).code, 0);
+  EXPECT_THAT(content_of(directory / "third"), testing::StartsWith("frame,"));
+  for (const char* closed : {"/dev/fd/7", "/dev/stdin"})
+    expect_refused({"run", kSmall, "--log", closed}, {"--log", closed, "not open for writing"});
+}
+
+// They would wait for a reader, at the end of a run at the latest.
+TEST(Program, NamedPipesAreNoOutputs) {
+  const ScratchDirectory directory;
+  const std::string pipe = (directory / "pipe").string(), out = (directory / "out").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const char* option : {"--events", "--log", "--json"})
+    expect_refused({"run", kSmall, option, pipe}, {option, "pipe: is a named pipe, expected a file"});
+  std::filesystem::create_directory(out);
+  ASSERT_EQ(::mkfifo((out + "/summary.json").c_str(), 0600), 0);
+  expect_refused({"run", kSmall, "--out", out}, {"out/summary.json: is no regular file"});
+}
+
+}  // namespace
+}  // namespace kds::test

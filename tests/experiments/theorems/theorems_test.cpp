@@ -1,0 +1,147 @@
+// `kds theorems`: sizes, what is measured, and what it prints.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/theorems/closest_by_diagram.h"
+#include "experiments/theorems/family_sizes.h"
+#include "experiments/theorems/plan_theorems.h"
+#include "experiments/theorems/root_ratio.h"
+#include "motions/models/tightness_points.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+#include "tests/experiments/sound_page.h"
+
+namespace kds::test {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+TEST(TheoremSizes, SidesAreOddAndGrow) {
+  for (const int dimension : {2, 3}) {
+    const auto sides = sides_of_grids(dimension, 1'000'000);
+    EXPECT_GT(sides.size(), 8U);
+    EXPECT_TRUE(std::is_sorted(sides.begin(), sides.end()));
+    EXPECT_EQ(std::adjacent_find(sides.begin(), sides.end()), sides.end());
+    for (const std::size_t side : sides) EXPECT_EQ(side % 2, 1U);
+    EXPECT_GE(std::pow(sides.front(), dimension), 900);
+    EXPECT_LT(std::pow(sides.back(), dimension), 1'000'000);
+    EXPECT_GT(std::pow(sides.back(), dimension), 900'000);
+    EXPECT_LE(beads_of_grid(dimension, sides.back()), 1'000'000U);
+  }
+}
+
+TEST(TheoremSeries, InThePlaneALogarithmIsDividedOut) {
+  TheoremSeries series;
+  series.theorem = Theorem::family;
+  series.dimension = 2;
+  for (const std::size_t beads : {1000, 3000, 10000, 50000}) {
+    const auto n = static_cast<double>(beads);
+    series.points.push_back({beads, 5 * n * std::log2(n), {}, {}, {}});
+  }
+  EXPECT_NEAR(series.fit()->exponent, 1, 1e-9);
+  series.dimension = 3;
+  EXPECT_GT(series.fit()->exponent, 1.05);
+}
+
+TEST(TheoremSeries, TightnessGrowsWithTheHeight) {
+  TheoremSeries series;
+  for (const std::size_t beads : {16, 256, 4096, 65536})
+    series.points.push_back({beads, std::sqrt(static_cast<double>(tree_height(beads))), {}, {}, {}});
+  EXPECT_NEAR(series.fit()->exponent, 0.5, 1e-9);
+}
+
+TEST(RootRatio, OfThePointsOfLemma25IsTheRootOfTheHeight) {
+  EXPECT_EQ(tree_height(2), 1U);
+  EXPECT_EQ(tree_height(3), 2U);
+  EXPECT_EQ(tree_height(1024), 10U);
+  EXPECT_EQ(tree_height(1025), 11U);
+  for (const int h : {4, 9})
+    EXPECT_NEAR(root_ratio(models::tightness_points(h), std::vector<double>(std::size_t{1} << h, 0.0), 2),
+                std::sqrt(h), 1e-9);
+  const Eigen::Matrix3Xd one_place = Eigen::Matrix3Xd::Zero(3, 4);
+  EXPECT_EQ(root_ratio(one_place, std::vector<double>(4, 0.0), 3), 1);
+}
+
+TEST(ClosestByDiagram, IsThatOfASearchAndTellsWhatItLookedAt) {
+  const TheoremPlan plan = plan_theorems({{Theorem::closest_pair}, 2000});
+  std::vector<TheoremSeries> series = plan.series;
+  plan.work.front()(series);  // the smallest grid in the plane
+  const TheoremPoint& point = series.front().points.front();
+  EXPECT_EQ(point.holds, true);
+  EXPECT_GT(point.value, static_cast<double>(point.beads));
+  EXPECT_LT(point.value, 6 * static_cast<double>(point.beads));  // edges, and pairs two beads apart
+  EXPECT_GT(point.seconds->median, 0);
+}
+
+TEST(TheoremPlan, OneSearchTellsOfBothTheorems) {
+  const TheoremPlan both = plan_theorems({{Theorem::family, Theorem::search}, 4000});
+  const TheoremPlan one = plan_theorems({{Theorem::search}, 4000});
+  EXPECT_EQ(both.work.size(), one.work.size());
+  EXPECT_EQ(both.series.size(), 2 * one.series.size());
+}
+
+// The same seed, the same figures but for times.
+TEST(Theorems, RowsFitsAndPage) {
+  const ScratchDirectory scratch;
+  const ProgramRun run =
+      run_program({"theorems", "--beads", "2048", "--rounds", "2", "--seed", "5", "--out", scratch / "out"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("theorem 3.5: the closest pair is an edge"));
+  const Json json = Json::parse(content_of(scratch / "out/theorems.json"));
+  EXPECT_EQ(json["command"].get<std::string>().rfind("kds theorems --beads 2048", 0), 0U);
+  EXPECT_EQ(json["settings"]["seed"], 5);
+  for (const Json& row : json["rows"]) {
+    const std::string theorem = row["theorem"];
+    if (theorem == "2.3" || theorem == "3.5") {
+      EXPECT_EQ(row["holds"], true) << row;
+    }
+    if (theorem == "2.3") {
+      EXPECT_GT(row["value"], 0.999) << row;
+    }
+    if (theorem == "3.1" && row["model"] == "grid") {
+      EXPECT_GT(row["ratio"], row["dimension"] == 2 ? 1 : 3) << row;
+      EXPECT_LT(row["ratio"], row["dimension"] == 2 ? 1.5 : 4) << row;
+    }
+    if (theorem == "3.2") {
+      EXPECT_EQ(row["value"], row["seconds"]) << row;
+      EXPECT_LE(row["seconds_least"], row["seconds"]) << row;
+    }
+  }
+  for (const Json& fit : json["fits"]) {
+    if (fit["model"] != "points of Lemma 2.5") continue;
+    EXPECT_NEAR(fit["exponent"], 0.5, 1e-6);
+    EXPECT_EQ(fit["sizes"], 8);
+  }
+  const std::string csv = content_of(scratch / "out/theorems.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), json["rows"].size() + 1);
+  const std::string page = content_of(scratch / "out/report.html");
+  expect_sound(page);
+  for (const char* part : {"Theorem 2.3", "Theorem 3.5", "<svg", "kds theorems --beads 2048"})
+    EXPECT_THAT(page, HasSubstr(part));
+
+  const ProgramRun again =
+      run_program({"theorems", "3.1", "--beads", "2048", "--rounds", "1", "--seed", "5", "--json", "-"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  std::vector<Json> values, values_again;
+  for (const Json& row : json["rows"])
+    if (row["theorem"] == "3.1") values.push_back(row["value"]);
+  const Json json_again = Json::parse(again.out);
+  for (const Json& row : json_again["rows"]) values_again.push_back(row["value"]);
+  EXPECT_EQ(values, values_again);
+}
+
+TEST(Theorems, RefusesWhatIsNoTheorem) {
+  const ProgramRun run = run_program({"theorems", "2.4"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("THEOREM: '2.4' is not one of 2.3, 3.1, 3.2, 3.5"));
+  EXPECT_EQ(run_program({"theorems", "--beads", "999"}).code, 2);
+}
+
+}  // namespace
+}  // namespace kds::test
