@@ -4,6 +4,8 @@
 // step the first by ids. Radii are not looked at: the pairs of balls that meet are what contacts are about.
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "certificates/types/closer.h"

@@ -6,6 +6,7 @@
 // together the least is the corner. One corner where all beads are together, two where all are on one line.
 // A corner that comes or goes is recorded when all that happens at that time has happened.
 
+#include <cstdint>
 #include <vector>
 
 #include "kds/kinetic_structure.h"

@@ -7,6 +7,7 @@
 //
 // Of contestants level with each other for the rest of a step the least wins.
 
+#include <algorithm>
 #include <bit>
 #include <concepts>
 #include <cstdint>
