@@ -1,7 +1,6 @@
 // Certificate types of beads as subjects of `kds stability`: one line each.
 
 #include "certificates/types/bead_in_sphere.h"
-#include "certificates/types/closer.h"
 #include "certificates/types/orientation.h"
 #include "certificates/types/power_test.h"
 #include "certificates/types/precedes.h"
@@ -12,7 +11,6 @@ namespace kds {
 std::vector<StabilitySubject> bead_certificates(int degree) {
   return {
       certificate_subject<Precedes, 1>("precedes", degree),
-      certificate_subject<Closer, 2>("closer", degree),
       certificate_subject<Orientation<2>, 2>("orientation", degree),
       certificate_subject<Orientation<3>, 3>("orientation", degree),
       certificate_subject<PowerTest<2>, 2>("power_test", degree),

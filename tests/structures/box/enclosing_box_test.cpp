@@ -103,7 +103,7 @@ TEST(EnclosingBox, TouchingIsNoEvent) {
 template <Motion M>
 void try_random_motions(unsigned seed) {
   Random random(seed);
-  for (int round = 0; round < test::rounds(20); ++round) {
+  for (int round = 0; round < test::rounds(7); ++round) {
     for (const MotionKind kind : all_motion_kinds) {
       SCOPED_TRACE(text_of("kind ", static_cast<int>(kind), ", round ", round));
       expect_right(random_steps<M>(random, 1 + random() % 12, kind, 3));

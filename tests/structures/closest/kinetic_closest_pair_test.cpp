@@ -110,7 +110,7 @@ TEST(KineticClosestPair, WhereManyMeetItChangesOnce) {
 template <Motion M>
 void try_random_motions(unsigned seed) {
   Random random(seed);
-  for (int round = 0; round < test::rounds(8); ++round) {
+  for (int round = 0; round < test::rounds(5); ++round) {
     for (const MotionKind kind : all_motion_kinds) {
       SCOPED_TRACE(text_of("kind ", static_cast<int>(kind), ", round ", round));
       expect_right(random_steps<M>(random, 1 + random() % 8, kind, 3));

@@ -216,7 +216,7 @@ TEST(ConvexHull, AllMeet) {
 
 TEST(ConvexHull, Grids) {
   std::mt19937 random(3);
-  for (int round = 0; round < test::rounds(60); ++round) {
+  for (int round = 0; round < test::rounds(25); ++round) {
     SCOPED_TRACE(text_of("round ", round));
     const std::size_t beads = 3 + random() % 14;
     const int range = 2 + static_cast<int>(random() % 4);
@@ -230,7 +230,7 @@ TEST(ConvexHull, Grids) {
 template <Motion M>
 void try_random_motions(unsigned seed) {
   Random random(seed);
-  for (int round = 0; round < test::rounds(20); ++round) {
+  for (int round = 0; round < test::rounds(7); ++round) {
     for (const MotionKind kind : all_motion_kinds) {
       SCOPED_TRACE(text_of("kind ", static_cast<int>(kind), ", round ", round));
       expect_right(random_steps<M>(random, 1 + random() % 12, kind, 3));
