@@ -1,4 +1,5 @@
-// The order of two beads. In lanes where points have one coordinate, whose one structure is the sorted list.
+// The order of two beads along an axis. In lanes where points have one coordinate, whose one structure is the
+// sorted list.
 #include "certificates/search/define_certificate_search.h"
 #include "certificates/types/precedes.h"
 
@@ -12,6 +13,18 @@ std::unique_ptr<CertificateSearch<Precedes>> search_over(const MotionRef<2>& mot
 template <>
 std::unique_ptr<CertificateSearch<Precedes>> search_over(const MotionRef<3>& motion) {
   return detail::search_one_by_one<Precedes>(motion);
+}
+template <>
+std::unique_ptr<CertificateSearch<PrecedesAlong<1>>> search_over(const MotionRef<2>& motion) {
+  return detail::search_one_by_one<PrecedesAlong<1>>(motion);
+}
+template <>
+std::unique_ptr<CertificateSearch<PrecedesAlong<1>>> search_over(const MotionRef<3>& motion) {
+  return detail::search_one_by_one<PrecedesAlong<1>>(motion);
+}
+template <>
+std::unique_ptr<CertificateSearch<PrecedesAlong<2>>> search_over(const MotionRef<3>& motion) {
+  return detail::search_one_by_one<PrecedesAlong<2>>(motion);
 }
 
 }  // namespace kds

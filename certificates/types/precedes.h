@@ -1,20 +1,25 @@
 #pragma once
-// "Bead left lies before bead right along the first axis." Exact; degree k for centres of degree k.
+// "Bead left lies before bead right along an axis", the first if none is named. Exact; degree k for centres
+// of degree k.
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/sorted_beads.h"
 
 namespace kds {
 
-struct Precedes {
-  static constexpr CertificateType type{0, "precedes"};
+template <int Axis>
+struct PrecedesAlong {
+  static_assert(0 <= Axis && Axis < 3);
+  static constexpr std::array<CertificateType, 3> types{
+      {{0, "precedes"}, {10, "precedes_in_y"}, {11, "precedes_in_z"}}};
+  static constexpr CertificateType type = types[Axis];
 
   std::array<BeadId, 2> beads{};  ///< ascending
   int sign = 1;
 
-  Precedes() = default;
+  PrecedesAlong() = default;
   /// Holds while the first bead lies before the second.
-  Precedes(std::array<BeadId, 2> in_order) : beads(in_order), sign(sort_beads(beads)) {}
+  PrecedesAlong(std::array<BeadId, 2> in_order) : beads(in_order), sign(sort_beads(beads)) {}
 
   [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
 
@@ -22,8 +27,10 @@ struct Precedes {
 
   template <MotionView View>
   [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 2>& beads) {
-    return view.difference(beads[1], beads[0])[0];
+    return view.difference(beads[1], beads[0])[Axis];
   }
 };
+
+using Precedes = PrecedesAlong<0>;
 
 }  // namespace kds

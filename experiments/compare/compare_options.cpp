@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array kCompareOptions{
     OptionSpec{"--structures", "LIST",
-               "comma list of sorted, wrapped, power, contacts (default: wrapped,power)"},
+               "comma list of sorted, box, hull, closest, wrapped, power, contacts (default: wrapped,power)"},
     OptionSpec{"--strides", "LIST", "run over every frame, every second, ...: 1,2,4 (default: 1)"},
     OptionSpec{"--motions", "LIST",
                "how beads move between frames: comma list of linear, hermite, lifted (default: linear)"},
@@ -33,7 +33,8 @@ constexpr CommandSpec kCommand{
     "kds compare",
     "Compares how often structures change, by stride, motion and input: each is a run of all structures.\n\n"
     "  net changes     what is not the same at one frame and the next: nodes with another basis (wrapped),\n"
-    "                  cells of one diagram and not of the other (power), pairs (contacts), ranks (sorted)\n"
+    "                  cells of one diagram and not of the other (power), pairs (contacts), ranks (sorted),\n"
+    "                  ends (box), corners (hull), the pair (closest)\n"
     "  efficiency      events a net change\n"
     "  compactness     the most certificates at once; locality: the most on one bead\n"
     "  responsiveness  the seconds an event takes",

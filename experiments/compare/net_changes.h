@@ -10,7 +10,9 @@ namespace kds {
 
 /// Places (CombinatorialElements) that hold something else, or that only one of the two has: of a wrapped
 /// hierarchy the nodes with another basis, of a power diagram the cells of one frame that are not in the
-/// other, of contacts the pairs that meet in one frame only, of a sorted list the ranks with another bead.
+/// other, of contacts the pairs that meet in one frame only, of a sorted list the ranks with another bead,
+/// of a box the ends with another bead, of a hull the corners of one frame alone, and of closest pairs
+/// another pair.
 [[nodiscard]] std::uint64_t net_changes(CombinatorialElements before, CombinatorialElements after);
 
 /// Adds them up over the frames of a run, of which it keeps the last.

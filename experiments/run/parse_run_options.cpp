@@ -19,9 +19,10 @@ namespace kds {
 namespace {
 
 constexpr std::array kRunOptions{
-    OptionSpec{"--structures", "LIST",
-               "comma list of sorted, wrapped, layered, power, contacts (default: wrapped,power;"
-               " instances: sorted in 1D, else power)"},
+    OptionSpec{
+        "--structures", "LIST",
+        "comma list of sorted, box, hull, closest, wrapped, layered, power, contacts (default: wrapped,power;"
+        " instances: sorted in 1D, else power)"},
     OptionSpec{"--motion", "NAME",
                "how beads move between frames: linear, hermite, lifted (default: linear)"},
     OptionSpec{"--kernel", "NAME", "fast, filtered or exact arithmetic (default: filtered)"},

@@ -175,8 +175,11 @@ std::vector<StabilitySubject> kinetic_structures() {
   std::vector<StabilitySubject> subjects;
   for (const int degree : {1, 3}) {
     subjects.push_back(structure_subject("sorted", Of::points, 1, degree, 10));
+    subjects.push_back(structure_subject("hull", Of::points, 2, degree, 8));
     const std::size_t few = degree == 1 ? 8 : 6;
     for (const int dimension : {2, 3}) {
+      subjects.push_back(structure_subject("box", Of::points, dimension, degree, 10));
+      subjects.push_back(structure_subject("closest", Of::points, dimension, degree, few));
       subjects.push_back(structure_subject("wrapped", Of::points, dimension, degree, few));
       subjects.push_back(structure_subject("power", Of::points, dimension, degree, few));
       subjects.push_back(structure_subject("contacts", Of::balls, dimension, degree, few));

@@ -1,6 +1,8 @@
 #pragma once
 // The texts of --dump. Doubles are printed so that they read back exactly.
 
+#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,5 +26,8 @@ struct WrappedNode {
 [[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<3>> cells);   ///< a,b,c,d
 [[nodiscard]] DumpFile dump_hidden(std::span<const BeadId> hidden);       ///< bead
 [[nodiscard]] DumpFile dump_sorted(std::span<const BeadId> order);        ///< bead
+[[nodiscard]] DumpFile dump_box(std::span<const BeadId> ends);            ///< axis,min,max
+[[nodiscard]] DumpFile dump_hull(std::span<const BeadId> corners);        ///< bead
+[[nodiscard]] DumpFile dump_closest(const std::optional<std::array<BeadId, 2>>& pair);  ///< i,j
 
 }  // namespace kds

@@ -24,6 +24,9 @@ inline constexpr const char* fictitious_radii =
 }
 
 [[nodiscard]] StructureSpec sorted_structure();
+[[nodiscard]] StructureSpec box_structure();
+[[nodiscard]] StructureSpec hull_structure();
+[[nodiscard]] StructureSpec closest_structure();
 [[nodiscard]] StructureSpec layered_structure();
 [[nodiscard]] StructureSpec wrapped_structure();
 [[nodiscard]] StructureSpec power_structure();

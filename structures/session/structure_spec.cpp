@@ -28,6 +28,9 @@ StructureRegistry& structure_registry() {
   static StructureRegistry registry = [] {
     StructureRegistry own;
     own.add(sorted_structure());
+    own.add(box_structure());
+    own.add(hull_structure());
+    own.add(closest_structure());
     own.add(wrapped_structure());
     own.add(layered_structure());
     own.add(power_structure());

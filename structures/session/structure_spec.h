@@ -85,7 +85,7 @@ struct StructureSettings {
 struct StructureSpec {
   std::string name;
   /// In what order structures act at one time, and stand in reports: ascending, then by name. Those of the
-  /// framework have 10, 20, 25, 30, 40.
+  /// framework have 10 to 40.
   int order = 100;
   /// Whether a run of this scene has it when nobody says which structures to run.
   std::function<bool(const Scene&)> by_default = [](const Scene&) { return false; };

@@ -1,12 +1,15 @@
 #include "structures/triangulation/static_build.h"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Min_sphere_of_spheres_d.h>
 #include <CGAL/Min_sphere_of_spheres_d_traits_2.h>
 #include <CGAL/Min_sphere_of_spheres_d_traits_3.h>
 #include <CGAL/Simple_cartesian.h>
+#include <CGAL/convex_hull_2.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <type_traits>
 #include <vector>
 
@@ -69,6 +72,25 @@ Seconds seconds_to_sort(const Eigen::Matrix3Xd& centers) {
   std::vector<double> x(static_cast<std::size_t>(centers.cols()));
   for (std::size_t b = 0; b < x.size(); ++b) x[b] = centers(0, static_cast<Eigen::Index>(b));
   return seconds_of([&] { std::sort(x.begin(), x.end()); });
+}
+
+Seconds seconds_to_box(const Eigen::Matrix3Xd& centers) {
+  const FloatingPointGuard to_nearest;
+  return seconds_of([&] {
+    volatile double used = (centers.rowwise().maxCoeff() - centers.rowwise().minCoeff()).sum();
+    static_cast<void>(used);
+  });
+}
+
+Seconds seconds_to_hull(const Eigen::Matrix3Xd& centers) {
+  const FloatingPointGuard to_nearest;
+  using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
+  std::vector<Point> points;
+  for (Eigen::Index b = 0; b < centers.cols(); ++b) points.emplace_back(centers(0, b), centers(1, b));
+  return seconds_of([&] {
+    std::vector<Point> corners;
+    CGAL::convex_hull_2(points.begin(), points.end(), std::back_inserter(corners));
+  });
 }
 
 }  // namespace kds

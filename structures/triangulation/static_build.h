@@ -19,4 +19,10 @@ template <int Dimension>
 /// What it takes to sort the beads along the first axis.
 [[nodiscard]] Seconds seconds_to_sort(const Eigen::Matrix3Xd& centers);
 
+/// What it takes to find the least and the greatest coordinates.
+[[nodiscard]] Seconds seconds_to_box(const Eigen::Matrix3Xd& centers);
+
+/// What CGAL takes for the convex hull in the plane; the third row is not looked at.
+[[nodiscard]] Seconds seconds_to_hull(const Eigen::Matrix3Xd& centers);
+
 }  // namespace kds

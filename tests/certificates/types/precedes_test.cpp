@@ -26,6 +26,20 @@ TEST(Precedes, IsTheOrderAlongTheFirstAxis) {
   }
 }
 
+TEST(Precedes, AlongEachAxis) {
+  test::Random random(732);
+  for (const test::MotionKind kind : test::all_motion_kinds) {
+    const auto motion = test::random_motion<BezierMotion<3, 3>>(random, 2, kind);
+    const Dyadic time = test::random_dyadic(random);
+    const auto left = test::point_at(motion, 0, time), right = test::point_at(motion, 1, time);
+    EXPECT_EQ(test::sign_at(PrecedesAlong<0>{{0, 1}}, motion, time), test::sign(right[0] - left[0]));
+    EXPECT_EQ(test::sign_at(PrecedesAlong<1>{{0, 1}}, motion, time), test::sign(right[1] - left[1]));
+    EXPECT_EQ(test::sign_at(PrecedesAlong<2>{{1, 0}}, motion, time), test::sign(left[2] - right[2]));
+  }
+  EXPECT_NE((PrecedesAlong<1>{{0, 1}}.identity()), (Precedes{{0, 1}}.identity()));
+  EXPECT_NE((PrecedesAlong<1>{{0, 1}}.identity()), (PrecedesAlong<2>{{0, 1}}.identity()));
+}
+
 TEST(Precedes, HasOneIdentityBothWays) {
   EXPECT_EQ((Precedes{{5, 2}}.identity()), (Precedes{{2, 5}}.identity()));
   EXPECT_EQ((Precedes{{5, 2}}.identity().beads), test::identity_with(0, {2, 5}).beads);

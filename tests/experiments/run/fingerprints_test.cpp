@@ -1,7 +1,7 @@
 // Runs of the program whose histories are on record: tests/support/fingerprints.csv has a row for each, with
 // the fingerprint of all its events in their order and how many events each structure had. The file was made
-// by the program as it was before structures were compiled once a dimension, rows of contacts by the first
-// one that had them; a row changes only where a history is meant to change.
+// by the program as it was before structures were compiled once a dimension, rows of contacts, boxes, hulls
+// and closest pairs by the first one that had them; a row changes only where a history is meant to change.
 //
 // Columns: `run`, the arguments of `kds run`, names with a slash in the data folder; `fingerprint`; `events`;
 // `model`, the arguments of `kds generate` where the input is a model; `beads`, a hash of that model's

@@ -1,0 +1,17 @@
+#pragma once
+// The pairs of beads that may be the closest at some time of a step: all others are always farther apart than
+// some pair ever is. Proved from control points in double, rounding included. Where beads move little beside
+// their distances these are few, whatever the number of beads; where all meet, all pairs.
+
+#include <array>
+#include <vector>
+
+#include "motions/curves/curves.h"
+
+namespace kds {
+
+/// Ascending, each pair too. Throws InputError where there are more than 10^8, which is too many to hold.
+template <int Dimension>
+[[nodiscard]] std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<Dimension>& curves);
+
+}  // namespace kds

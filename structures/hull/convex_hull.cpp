@@ -1,0 +1,183 @@
+#include "structures/hull/convex_hull.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "motions/curves/positions.h"
+#include "structures/hull/static_hull.h"
+
+namespace kds {
+
+namespace {
+
+using Circle = std::vector<BeadId>;
+
+void begin_with_least(Circle& circle) {
+  std::rotate(circle.begin(), std::min_element(circle.begin(), circle.end()), circle.end());
+}
+
+Circle sorted(Circle circle) {
+  std::sort(circle.begin(), circle.end());
+  return circle;
+}
+bool is_in(const Circle& sorted, BeadId bead) {
+  return std::binary_search(sorted.begin(), sorted.end(), bead);
+}
+
+/// Those of the one that are in the other too.
+Circle common(const Circle& circle, const Circle& other) {
+  const Circle others = sorted(other);
+  Circle both;
+  std::copy_if(circle.begin(), circle.end(), std::back_inserter(both),
+               [&](BeadId b) { return is_in(others, b); });
+  begin_with_least(both);
+  return both;
+}
+
+std::size_t place_of(const Circle& circle, BeadId bead) {
+  return static_cast<std::size_t>(std::find(circle.begin(), circle.end(), bead) - circle.begin());
+}
+
+/// So many steps further around.
+BeadId further(const Circle& circle, std::size_t from, std::size_t steps) {
+  return circle[(from + steps) % circle.size()];
+}
+
+}  // namespace
+
+ConvexHull::ConvexHull(Simulator& simulator, const MotionRef<2>& motion)
+    : simulator_(simulator),
+      motion_(motion),
+      index_(simulator.add(*this)),
+      guards_(simulator, *this, index_, motion) {}
+
+std::span<const EventKind> ConvexHull::kinds() const {
+  static constexpr std::array<EventKind, 3> kinds{{{"enter"}, {"leave"}, {"interchange", false}}};
+  return kinds;
+}
+
+void ConvexHull::build() {
+  const std::size_t beads = motion_.bead_count();
+  const Kernel kernel = simulator_.kernel();
+  const StaticHull hull = static_hull(
+      beads, [&](BeadId a, BeadId b) { return guards_.order_at_start(kernel, a, b, statistics.stages); },
+      [&](BeadId a, BeadId b, BeadId c) {
+        return guards_.turn_at_start(kernel, {a, b, c}, statistics.stages);
+      });
+  lower_.assign(beads, hull.lower);
+  upper_.assign(beads, hull.upper);
+  corners_ = hull.circle();
+  begin_with_least(corners_);
+}
+
+void ConvexHull::start_step() {
+  lower_.start();
+  upper_.start();
+  needs_after_batch = true;
+  std::vector<std::uint32_t> certificates_of(motion_.bead_count(), 0);
+  for (const HalfHull* half : {&lower_, &upper_}) half->count_certificates(certificates_of);
+  auto& most = statistics.certificates.per_bead_max;
+  for (const std::uint32_t count : certificates_of) most = std::max<std::uint64_t>(most, count);
+}
+
+void ConvexHull::fail(unsigned table, std::uint32_t slot) {
+  const HullGuards::Failed failed = guards_.failure(table, slot);
+  HalfHull& half = HalfHull::is_upper(failed.place) ? upper_ : lower_;
+  half.fail(table, failed.place);
+  guards_.failure_is_over();
+  if (half.take_changed()) needs_after_batch = true;
+  if (table != HullGuards::turns)
+    simulator_.record(index_, Change{interchange, 2, {failed.before, failed.after}});
+}
+
+// From the corners there were to those that the halves have now.
+void ConvexHull::after_batch() {
+  Circle now = StaticHull{lower_.chain(), upper_.chain()}.circle();
+  if (simulator_.kernel() == Kernel::fast) {  // the halves may contradict each other: each bead once
+    std::set<BeadId> seen;
+    std::erase_if(now, [&](BeadId b) { return !seen.insert(b).second; });
+  }
+  Circle staying = common(now, corners_);
+  // Where all meet in a line or a point those that stay may come out in another order: then all but one leave
+  // and enter again.
+  if (staying != common(corners_, now)) staying.resize(1);
+  const std::size_t start = staying.empty() ? 0 : place_of(now, staying.front());
+  staying = sorted(std::move(staying));
+
+  for (const BeadId b : Circle(corners_)) {
+    if (is_in(staying, b)) continue;
+    const std::size_t i = place_of(corners_, b), others = corners_.size() - 1;
+    change_corners({leave, 3, {b, further(corners_, i, others), further(corners_, i, 1)}});
+  }
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    const BeadId b = further(now, start, k);
+    if (is_in(staying, b)) continue;
+    const BeadId before = corners_.empty() ? b : further(now, start, k - 1);
+    const BeadId after = corners_.empty() ? b : further(corners_, place_of(corners_, before), 1);
+    change_corners({enter, 3, {b, before, after}});
+  }
+}
+
+void ConvexHull::change_corners(const Change& change) {
+  apply(change);
+  simulator_.record(index_, change);
+}
+
+void ConvexHull::apply(const Change& change) {
+  const auto [bead, before, after] = std::array{change.ids[0], change.ids[1], change.ids[2]};
+  const std::size_t beads = motion_.bead_count();
+  if (change.kind == interchange) {  // halves are not replayed, only what they tell
+    if (bead >= beads || before >= beads) throw std::invalid_argument("there is no such bead");
+    return;
+  }
+  const std::size_t i = place_of(corners_, bead);
+  const bool is_corner = i < corners_.size();
+  if (is_corner != (change.kind == leave) || bead >= beads)
+    throw std::invalid_argument(is_corner ? "the bead is a corner of the hull already"
+                                          : "the bead is no corner of the hull");
+  if (change.kind == leave) {
+    const std::size_t others = corners_.size() - 1;
+    if (further(corners_, i, others) != before || further(corners_, i, 1) != after)
+      throw std::invalid_argument("the bead does not lie between these corners of the hull");
+    corners_.erase(corners_.begin() + static_cast<std::ptrdiff_t>(i));
+  } else if (corners_.empty()) {
+    corners_ = {bead};
+  } else {
+    const std::size_t k = place_of(corners_, before);
+    if (k == corners_.size() || further(corners_, k, 1) != after)
+      throw std::invalid_argument("these are not consecutive corners of the hull");
+    corners_.insert(corners_.begin() + static_cast<std::ptrdiff_t>(k) + 1, bead);
+  }
+  begin_with_least(corners_);
+}
+
+std::optional<std::string> ConvexHull::audit(const Dyadic& time) {
+  std::vector<std::array<Rational, 3>> at;
+  for (BeadId b = 0; b < motion_.bead_count(); ++b) at.push_back(exact_position(motion_.curves(), b, time));
+  const auto order = [&](BeadId a, BeadId b) {
+    const int in_x = at[a][0].compare(at[b][0]);
+    return in_x != 0 ? in_x : at[a][1].compare(at[b][1]);
+  };
+  const auto turn = [&](BeadId a, BeadId b, BeadId c) {
+    const Rational ahead = (at[b][0] - at[a][0]) * (at[c][1] - at[a][1]);
+    return ahead.compare((at[b][1] - at[a][1]) * (at[c][0] - at[a][0]));
+  };
+  for (const BeadId corner : static_hull(at.size(), order, turn).circle()) {
+    if (std::none_of(corners_.begin(), corners_.end(), [&](BeadId b) { return order(b, corner) == 0; }))
+      return "bead " + std::to_string(corner) + " is a corner, but is not known as one";
+  }
+  // In order around the first corner, and nowhere a turn inwards; at a time of ties corners may lie on edges.
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const BeadId b = corners_[i], next = further(corners_, i, 1);
+    if (turn(b, next, further(corners_, i, 2)) < 0 || turn(corners_[0], b, next) < 0)
+      return "the hull turns inwards at bead " + std::to_string(next);
+  }
+  return std::nullopt;
+}
+
+}  // namespace kds

@@ -1,0 +1,215 @@
+#include "structures/hull/half_hull.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace kds {
+
+void HalfHull::assign(std::size_t beads, const std::vector<BeadId>& chain) {
+  beads_.assign(beads, {});
+  first_ = chain.empty() ? no_bead : chain.front();
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    Bead& bead = beads_[chain[i]];
+    bead.in_chain = true;
+    if (i > 0) bead.left = chain[i - 1];
+    if (i + 1 < chain.size()) bead.right = chain[i + 1];
+  }
+  for (Bead& bead : beads_)
+    if (!bead.in_chain) bead.left = first_;
+}
+
+void HalfHull::start() {
+  for (BeadId b = static_cast<BeadId>(beads_.size()); b-- > 0;) {
+    Bead& bead = beads_[b];
+    bead.after_left = bead.before_right = {};
+    bead.turn = CertificateHandle::violated;
+    bead.under.clear();
+    (bead.in_chain ? unheld_ : displaced_).push_back(b);
+  }
+  hold_all();
+}
+
+void HalfHull::fail(unsigned table, std::uint32_t place) {
+  const BeadId b = place / 4;
+  Bead& bead = beads_[b];
+  OrderGuard& order = place % 2 == 1 ? bead.before_right : bead.after_left;
+  CertificateHandle& failed = table == HullGuards::turns         ? bead.turn
+                              : table == HullGuards::orders_in_x ? order.x
+                                                                 : order.y;
+  failed = CertificateHandle::violated;
+  if (table == HullGuards::orders_in_y) guards_.drop(order);
+  if (bead.in_chain) {
+    unheld_.push_back(b);
+  } else {
+    std::vector<BeadId>& under = beads_[bead.left].under;
+    beads_[under.back()].place_under = bead.place_under;
+    under[bead.place_under] = under.back();
+    under.pop_back();
+    displace(b);
+  }
+  hold_all();
+}
+
+/// Until nothing is missing.
+void HalfHull::hold_all() {
+  while (!unheld_.empty() || !displaced_.empty()) {
+    auto& waiting = unheld_.empty() ? displaced_ : unheld_;
+    const bool in_chain = !unheld_.empty();
+    const BeadId b = waiting.back();
+    waiting.pop_back();
+    if (beads_[b].in_chain != in_chain) continue;  // it has come or gone meanwhile
+    in_chain ? hold(b) : place(b);
+  }
+}
+
+/// What is missing at a bead of the chain; or it leaves, or the one after it.
+void HalfHull::hold(BeadId v) {
+  Bead& vertex = beads_[v];
+  if (vertex.left != no_bead && vertex.right != no_bead && vertex.turn == CertificateHandle::violated) {
+    vertex.turn = guards_.watch_turn({vertex.left, v, vertex.right}, upper_ ? -1 : 1, place_of(v));
+    if (vertex.turn == CertificateHandle::zero) guards_.drop(vertex.turn);
+    if (vertex.turn == CertificateHandle::violated) return remove(v);
+  }
+  const BeadId right = vertex.right;
+  if (right == no_bead || vertex.after_left.is_held()) return;
+  const Ordered ordered = guards_.watch_order(v, right, place_of(v), vertex.after_left);
+  if (ordered == Ordered::together) remove(std::max(v, right));
+  if (ordered == Ordered::after) remove(beads_[right].right == no_bead && v != first_ ? right : v);
+}
+
+/// Where it belongs: under an edge, or in the chain.
+void HalfHull::place(BeadId b) {
+  if (first_ == no_bead) return insert(b, no_bead);
+  Bead& bead = beads_[b];
+  BeadId left = bead.left != no_bead && beads_[bead.left].in_chain ? bead.left : first_;
+  while (true) {
+    const Ordered ordered = guards_.watch_order(left, b, place_of(b), bead.after_left);
+    if (ordered == Ordered::after) {
+      if (left == first_) return insert(b, no_bead);
+      left = beads_[left].left;
+      continue;
+    }
+    if (ordered == Ordered::together && b < left) return stand_in(b, left);
+    const BeadId right = beads_[left].right;
+    if (right == no_bead) {
+      if (ordered == Ordered::together) return put_under(b, left);
+      return insert(b, left);
+    }
+    const Ordered ordered_right = guards_.watch_order(b, right, place_of(b, true), bead.before_right);
+    if (ordered_right == Ordered::after) {
+      guards_.drop(bead.after_left);
+      left = right;
+      continue;
+    }
+    if (ordered_right == Ordered::together && b < right) return stand_in(b, right);
+    bead.turn = guards_.watch_turn({left, right, b}, upper_ ? -1 : 1, place_of(b));
+    if (bead.turn == CertificateHandle::violated) return insert(b, left);
+    return put_under(b, left);
+  }
+}
+
+void HalfHull::put_under(BeadId b, BeadId left) {
+  Bead& bead = beads_[b];
+  bead.left = left;
+  bead.place_under = static_cast<std::uint32_t>(beads_[left].under.size());
+  beads_[left].under.push_back(b);
+}
+
+/// Into the chain; `after` none: as the first.
+void HalfHull::insert(BeadId b, BeadId after) {
+  release(b);
+  const BeadId right = after == no_bead ? first_ : beads_[after].right;
+  beads_[b].in_chain = true;
+  beads_[b].left = after;
+  beads_[b].right = right;
+  changed_ = true;
+  if (after == no_bead) {
+    first_ = b;
+  } else {
+    open_edge(after, after);
+    beads_[after].right = b;
+    guards_.drop(beads_[after].turn);
+    unheld_.push_back(after);
+  }
+  if (right != no_bead) {
+    beads_[right].left = b;
+    guards_.drop(beads_[right].turn);
+    unheld_.push_back(right);
+  }
+  unheld_.push_back(b);
+}
+
+/// Out of the chain.
+void HalfHull::remove(BeadId v) {
+  const BeadId left = beads_[v].left, right = beads_[v].right;
+  open_edge(v, left != no_bead ? left : right);
+  changed_ = true;
+  if (left == no_bead) {
+    first_ = right;
+  } else {
+    open_edge(left, left);
+    beads_[left].right = right;
+    guards_.drop(beads_[left].turn);
+    unheld_.push_back(left);
+  }
+  if (right != no_bead) {
+    beads_[right].left = left;
+    guards_.drop(beads_[right].turn);
+    unheld_.push_back(right);
+  }
+  beads_[v].in_chain = false;
+  beads_[v].left = left != no_bead ? left : right;
+  beads_[v].right = no_bead;
+  displace(v);
+}
+
+/// For a bead of the chain that is together with it.
+void HalfHull::stand_in(BeadId b, BeadId vertex) {
+  const BeadId left = beads_[vertex].left;
+  remove(vertex);
+  insert(b, left);
+}
+
+/// Nothing lies under the edge any more, and nothing is held of it; what lay there will look for its place
+/// from a bead of the chain on.
+void HalfHull::open_edge(BeadId left, BeadId look_from) {
+  guards_.drop(beads_[left].after_left);
+  for (const BeadId b : beads_[left].under) {
+    displace(b);
+    beads_[b].left = look_from;
+  }
+  beads_[left].under.clear();
+}
+
+void HalfHull::displace(BeadId b) {
+  release(b);
+  displaced_.push_back(b);
+}
+
+/// Nothing is held of it any more.
+void HalfHull::release(BeadId b) {
+  guards_.drop(beads_[b].after_left);
+  guards_.drop(beads_[b].before_right);
+  guards_.drop(beads_[b].turn);
+}
+
+std::vector<BeadId> HalfHull::chain() const {
+  std::vector<BeadId> chain;
+  for (BeadId b = first_; b != no_bead; b = beads_[b].right) chain.push_back(b);
+  return chain;
+}
+
+void HalfHull::count_certificates(std::vector<std::uint32_t>& of_bead) const {
+  const auto count = [&](std::initializer_list<BeadId> named) {
+    for (const BeadId b : named) ++of_bead[b];
+  };
+  for (BeadId b = 0; b < beads_.size(); ++b) {
+    const Bead& bead = beads_[b];
+    const BeadId left = bead.left, right = bead.in_chain ? bead.right : beads_[left].right;
+    if (!bead.in_chain) count({left, b});
+    if (right != no_bead) count({b, right});
+    if (left != no_bead && right != no_bead) count({left, b, right});
+  }
+}
+
+}  // namespace kds
