@@ -69,7 +69,10 @@ template <int Dimension>
 const std::vector<BeadPair>& AutoDetector<Dimension>::from_scratch(const Balls<Dimension>& balls) {
   ++counts_.from_scratch;
   mode_ = Mode::scratch;
-  return tree_.pairs(balls);
+  if (const auto* found = tree_.pairs_unless(balls, most_kept_a_bead * balls.size())) return *found;
+  ++counts_.by_cells;
+  if (!cells_) cells_.emplace(tree_.asked());
+  return cells_->pairs(balls);
 }
 
 template <int Dimension>

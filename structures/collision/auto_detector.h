@@ -5,6 +5,9 @@
 // blocks of beads have gone far, pairs are repaired: those of these blocks are found anew, the others stay.
 // What it does follows from what it has counted, not from clocks: the same frames, the same work.
 //
+// Where floats tell nothing, coordinates being huge beside radii, or where very many beads are near, a scene
+// is left to a cell list.
+//
 // With a declared speed, the farthest that any bead moves from one frame to the next, whatever it is, it does
 // not even read the positions of beads that are too far from others: not before they can have come near.
 //
@@ -17,6 +20,7 @@
 #include <vector>
 
 #include "structures/collision/block_tree.h"
+#include "structures/collision/cell_list.h"
 #include "structures/collision/distance_queries.h"
 #include "structures/collision/kept_pairs.h"
 #include "structures/collision/pairs_asked.h"
@@ -48,6 +52,7 @@ class AutoDetector {
 
   struct Counts {
     std::uint64_t from_scratch = 0;  ///< frames searched without anything kept
+    std::uint64_t by_cells = 0;      ///< of these, those left to a cell list
     std::uint64_t rebuilds = 0;      ///< frames at which near pairs were found anew to be kept
     std::uint64_t repairs = 0;       ///< frames at which those of a few blocks were
     std::uint64_t read = 0;          ///< frames answered from kept pairs, all positions read
@@ -76,6 +81,7 @@ class AutoDetector {
   VectorTarget target_;
   BlockTree<Dimension> tree_;
   KeptPairs<Dimension> kept_;
+  std::optional<CellList<Dimension>> cells_;
   std::optional<double> speed_;
   Mode mode_ = Mode::nothing;
   double longest_skin_ = 0;        // worth keeping pairs for

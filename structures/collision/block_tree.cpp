@@ -488,13 +488,20 @@ void BlockTree<Dimension>::find_candidates(const Balls<Dimension>& balls, double
 
 template <int Dimension>
 const std::vector<BeadPair>& BlockTree<Dimension>::pairs(const Balls<Dimension>& balls) {
+  return *pairs_unless(balls, std::numeric_limits<std::size_t>::max());
+}
+
+template <int Dimension>
+const std::vector<BeadPair>* BlockTree<Dimension>::pairs_unless(const Balls<Dimension>& balls,
+                                                                std::size_t most) {
   const FloatingPointGuard to_nearest;
-  find_candidates(balls, 0, std::numeric_limits<std::size_t>::max());
+  find_candidates(balls, 0, most);
+  if (candidate_count_ > most) return nullptr;
   pairs_.clear();
   for (std::size_t k = 0; k < candidate_count_; ++k)
     if (balls_meet(balls, candidates_[k].first, candidates_[k].second)) pairs_.push_back(candidates_[k]);
   sorter_.sort(pairs_, beads_);
-  return pairs_;
+  return &pairs_;
 }
 
 template <int Dimension>

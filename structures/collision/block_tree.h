@@ -51,6 +51,9 @@ class BlockTree {
   /// All pairs asked about that meet, in order. Valid until the next call. Throws std::invalid_argument where
   /// the balls are not as many as the necklaces have.
   const std::vector<BeadPair>& pairs(const Balls<Dimension>& balls);
+  /// The same, but null where floats leave more than `most` pairs, which is found out before there are many
+  /// more.
+  const std::vector<BeadPair>* pairs_unless(const Balls<Dimension>& balls, std::size_t most);
 
   /// All pairs asked about that are at most `gap` apart (finite, not negative), and some that are little
   /// farther, in no order; none where there are more than `most`, which is found out before there are many

@@ -190,6 +190,20 @@ TEST(CollisionDetectors, BoxesAreTurnedToTheBonds) {
   expect_turned<2>(128);
 }
 
+TEST(CollisionDetectors, ScenesThatFloatsDoNotTellApartAreLeftToCells) {
+  Chance chance(1);
+  CollisionScene far{
+      "far", Eigen::Matrix3Xd(3, 2000), std::vector<double>(2000, 0.5), {{{0, 999}, {1000, 1999}}}};
+  for (Eigen::Index b = 0; b < 2000; ++b)
+    far.centers.col(b) = Eigen::Vector3d(10 * uniform(chance) + (b < 1000 ? 0 : 1e8), 10 * uniform(chance),
+                                         10 * uniform(chance));
+  const Balls<3> balls(far.centers, far.radii);
+  AutoDetector<3> detector(far.asked);
+  const auto expected = all_pairs(far.centers, far.radii, far.asked, 3);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(detector.pairs(balls), expected);
+  EXPECT_GE(detector.counts().by_cells, 1U);
+}
+
 TEST(CollisionDetectors, WrongUseIsRefused) {
   const Balls<3> two(Eigen::Matrix3Xd::Zero(3, 2), std::vector<double>(2, 1.0));
   const PairsAsked three{{{0, 2}}}, gap{{{0, 1}, {3, 4}}};
