@@ -21,6 +21,9 @@ class Simulator::Running {
       : running_(simulator.running_), before_(std::exchange(running_, true)) {}
   void end() { running_ = before_; }
 
+  /// Those who listen, of a change; apart from what goes on where nobody does.
+  [[gnu::noinline]] static void tell(Simulator& simulator, std::size_t structure, const Change& change);
+
  private:
   bool& running_;
   bool before_;
@@ -363,13 +366,17 @@ void Simulator::record(std::size_t structure, const Change& change) {
   ++s.statistics.events_by_kind[change.kind];
   if (s.kinds()[change.kind].external) ++s.statistics.events_per_step.back();
   fingerprint_.add(static_cast<std::uint32_t>(step_), static_cast<std::uint32_t>(structure), change);
-  if (!listeners_.empty()) {
-    const Event event{step_,    now_.lower(),           now_.upper(), structure, change,
-                      s.name(), s.kinds()[change.kind], from_,        to_};
-    Running running(*this);  // also where a structure is edited
-    for (EventListener* listener : listeners_) listener->on_event(event);
-    running.end();
-  }
+  if (!listeners_.empty()) [[unlikely]]
+    Running::tell(*this, structure, change);
+}
+
+void Simulator::Running::tell(Simulator& simulator, std::size_t structure, const Change& change) {
+  const KineticStructure& s = *simulator.structures_[structure];
+  const Event event{simulator.step_, simulator.now_.lower(), simulator.now_.upper(), structure,    change,
+                    s.name(),        s.kinds()[change.kind], simulator.from_,        simulator.to_};
+  Running running(simulator);  // also where a structure is edited
+  for (EventListener* listener : simulator.listeners_) listener->on_event(event);
+  running.end();
 }
 
 }  // namespace kds
