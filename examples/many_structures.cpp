@@ -1,16 +1,12 @@
-// Four structures on one set of moving beads, on one clock: an observer hears of every change as it happens
-// and keeps a log, and a second run makes the logged changes again, without a certificate.
+// Four structures on one set of moving beads, on one clock: who listens hears of every change as it happens,
+// a log keeps them all, and a second run makes the logged changes again, without a certificate.
 #include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
 
-#include "kds/simulator.h"
 #include "motions/curves/bezier_motion.h"
-#include "structures/contacts/contacts.h"
-#include "structures/hierarchy/wrapped_hierarchy.h"
-#include "structures/power_diagram/power_diagram.h"
-#include "structures/sorted/sorted_list.h"
+#include "structures/session/kinetic_run.h"
 
 namespace {
 
@@ -39,34 +35,14 @@ void load(Motion& motion, int step) {
   }
 }
 
-/// The structures of a run, in the order in which they act.
-struct Structures {
-  const std::vector<kds::BeadRange> necklaces{{0, beads - 1}};
-  kds::SortedList<3> sorted;
-  kds::WrappedHierarchy<3> wrapped;
-  kds::PowerDiagram<3> power;
-  kds::Contacts<3> contacts;
-
-  Structures(kds::Simulator& simulator, const Motion& motion)
-      : sorted(simulator, motion),
-        wrapped(simulator, motion, necklaces, kds::Radii::equal),
-        power(simulator, motion),
-        contacts(simulator, motion, {necklaces}) {}
-};
-
-/// Prints the first contacts, and keeps everything.
+/// Prints the first contacts.
 class Observer final : public kds::EventListener {
  public:
-  void on_event(const kds::KineticStructure& structure, const kds::LoggedEvent& event) override {
-    if (structure.name() == "contacts" && printed_++ < 3) {
-      const std::string kind(structure.kinds()[event.change.kind].name);
-      std::printf("step %d, u = %.3f: beads %u and %u %s\n", static_cast<int>(event.step), event.lower,
-                  event.change.ids[0], event.change.ids[1], kind.c_str());
-    }
-    log.push_back(event);
+  void on_event(const kds::Event& event) override {
+    if (event.structure != "contacts" || printed_++ >= 3) return;
+    std::printf("step %d, u = %.3f: beads %u and %u %s\n", static_cast<int>(event.step), event.lower,
+                event.ids()[0], event.ids()[1], std::string(event.kind.name).c_str());
   }
-
-  std::vector<kds::LoggedEvent> log;
 
  private:
   int printed_ = 0;
@@ -77,30 +53,33 @@ class Observer final : public kds::EventListener {
 int main() {
   Motion motion(beads);
   load(motion, 0);
-  kds::Simulator simulator;
-  Structures structures(simulator, motion);
+  const kds::SessionOptions options{.structures = {"sorted", "wrapped", "power", "contacts"}};
+  kds::KineticRun run(motion, {.radii = {0.9}}, options);
   Observer observer;
-  simulator.listen(observer);
-  simulator.build();
+  kds::EventLog log;
+  run.listen(observer);
+  run.listen(log);
   for (int step = 0; step < steps; ++step) {
     load(motion, step);
-    simulator.run_step();
+    run.run_step();
   }
-  simulator.finish();
+  run.finish();
 
   // The same structures again, led by the log; after each step they are compared with static builds.
   load(motion, 0);
-  kds::Simulator replay(kds::AuditMode::frames);
-  const Structures replayed(replay, motion);
+  kds::SessionOptions audited = options;
+  audited.audits = kds::AuditMode::frames;
+  kds::Session again(run.scene(), motion, audited);
+  kds::Simulator& replay = again.simulator();
   replay.build_for_replay();
   for (int step = 0; step < steps; ++step) {
     load(motion, step);
     std::vector<kds::Simulator::Replayed> events;
-    for (const kds::LoggedEvent& event : observer.log)
+    for (const kds::Event& event : log.events)
       if (event.step == static_cast<std::size_t>(step))
-        events.push_back({event.structure, event.lower, event.upper, event.change, "the log"});
+        events.push_back({event.structure_index, event.lower, event.upper, event.change, "the log"});
     replay.replay_step(events);
   }
-  std::printf("%d events, replayed: %s\n", static_cast<int>(observer.log.size()),
-              replay.fingerprint() == simulator.fingerprint() ? "the same" : "others");
+  std::printf("%d events, replayed: %s\n", static_cast<int>(log.events.size()),
+              replay.fingerprint() == run.simulator().fingerprint() ? "the same" : "others");
 }

@@ -5,17 +5,15 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <vector>
 
-#include "kds/simulator.h"
-#include "motions/curves/bezier_motion.h"
 #include "structures/contacts/contacts.h"
+#include "structures/session/kinetic_run.h"
 
 namespace {
 
 constexpr kds::BeadId links = 12, peg = links;  // the peg is the last bead, and rests
 constexpr double time_step = 0.01, radius = 0.3;
-using Positions = std::array<std::array<double, 2>, links + 1>;
-
 /// Knows nothing of kds.
 class SpringChain {
  public:
@@ -23,7 +21,11 @@ class SpringChain {
     for (kds::BeadId i = 0; i < links; ++i) at_[i] = {0.7 * i - 2.9, 2.0};
     at_[peg] = {0.1, 0.0};
   }
-  [[nodiscard]] const Positions& positions() const { return at_; }
+  [[nodiscard]] std::vector<double> coordinates() const {
+    std::vector<double> all;
+    for (const Vector& v : at_) all.insert(all.end(), v.begin(), v.end());
+    return all;
+  }
 
   void advance() {
     std::array<std::array<double, 2>, links> force{};
@@ -58,17 +60,17 @@ class SpringChain {
     force[1] += share * y;
   }
 
-  Positions at_{};
+  std::array<Vector, links + 1> at_{};
   std::array<Vector, links> velocity_{};
 };
 
 /// Tells of contacts as they happen.
 class Reporter final : public kds::EventListener {
  public:
-  void on_event(const kds::KineticStructure& structure, const kds::LoggedEvent& event) override {
-    const double time = time_step * (static_cast<double>(event.step) + event.lower);
-    const std::string kind(structure.kinds()[event.change.kind].name);
-    std::printf("%.4f: bead %u and the peg, contacts %s\n", time, event.change.ids[0], kind.c_str());
+  void on_event(const kds::Event& event) override {
+    const std::string kind(event.kind.name);
+    std::printf("%.4f: bead %u and the peg, contacts %s\n", time_step * event.frame(), event.ids()[0],
+                kind.c_str());
   }
 };
 
@@ -76,27 +78,16 @@ class Reporter final : public kds::EventListener {
 
 int main() {
   SpringChain chain;
-  kds::BezierMotion<2, 1> motion(links + 1);  // straight lines from one frame to the next
-  const auto set = [&](int end) {
-    for (kds::BeadId bead = 0; bead <= peg; ++bead) {
-      for (int axis = 0; axis < 2; ++axis)
-        motion.set_coordinate(bead, end, axis, chain.positions()[bead][static_cast<std::size_t>(axis)]);
-      motion.set_radius(bead, end, radius);
-    }
-  };
-  set(0);
-  set(1);
-  kds::Simulator simulator;
-  kds::Contacts<2> contacts(simulator, motion, {{{0, links - 1}, {peg, peg}}, /*within=*/false});
+  kds::KineticRun run({.dimension = 2, .necklaces = {links, 1}, .radii = {radius}}, {.by_default = false});
+  const auto& contacts =
+      run.add<kds::Contacts<2>>(kds::PairsAsked{run.scene().necklaces(), /*within=*/false});
   Reporter reporter;
-  simulator.listen(reporter);
-  simulator.build();
+  run.listen(reporter);
+  run.push(chain.coordinates());
   for (int frame = 1; frame <= 600; ++frame) {
-    set(0);  // where the step before ended
     chain.advance();
-    set(1);
-    simulator.run_step();
+    run.push(chain.coordinates());
   }
-  simulator.finish();
+  run.finish();
   std::printf("%d contacts now\n", static_cast<int>(contacts.pairs().size()));
 }

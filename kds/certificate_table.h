@@ -148,6 +148,21 @@ class CertificateTable final : public FailureSource {
     free_.push_back(slot_of(guard));
   }
 
+  /// Gives up all those in the queue of which `asked(certificate)` is true. A look at each, and no event may
+  /// be under way.
+  template <std::predicate<const Certificate&> Asked>
+  void drop_if(Asked asked) {
+    std::vector<std::uint8_t> is_free(entries_.size(), 0);
+    for (const std::uint32_t slot : free_) is_free[slot] = 1;
+    for (std::uint32_t slot = 0; slot < is_free.size(); ++slot) {
+      if (is_free[slot] == 0 && asked(entries_[slot].certificate)) drop(static_cast<CertificateHandle>(slot));
+    }
+  }
+  /// Where it stands in the structure from now on.
+  void set_place(CertificateHandle guard, std::uint32_t place) {
+    if (has_slot(guard)) entries_[slot_of(guard)].place = place;
+  }
+
   /// Counts certificates that are known to hold for the rest of the step.
   void hold_never(std::uint64_t count) {
     CertificateCounts& counts = owner_.statistics.certificates;

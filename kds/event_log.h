@@ -1,24 +1,69 @@
 #pragma once
-// Listeners of a run's history: every change in order, with the bracket of its time.
+// A run's history as those hear of it who listen: every change in order, each as one record that tells all
+// there is to tell, and that outlives the run.
 
 #include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
 
 #include "kds/change.h"
-#include "kds/kinetic_structure.h"
+#include "kds/statistics.h"
+#include "motions/readers/frame_stamp.h"
 
 namespace kds {
 
-struct LoggedEvent {
-  std::size_t step;
-  double lower, upper;  ///< the time lies between, or equals both
-  std::size_t structure;
+struct Event {
+  std::size_t step = 0;
+  double lower = 0, upper = 0;      ///< its time in the step lies between, or equals both
+  std::size_t structure_index = 0;  ///< in the order in which structures were added to the simulator
   Change change;
+  std::string_view structure;  ///< its name, of static storage
+  EventKind kind;
+  FrameStamp from,
+      to;  ///< the frames that the step leads from and to, where none are known steps are counted
+
+  [[nodiscard]] std::span<const BeadId> ids() const { return {change.ids.data(), change.size}; }
+  /// The middle of its bracket. By the numbers of frames, with a fraction between two.
+  [[nodiscard]] double frame() const {
+    return between(static_cast<double>(from.number), static_cast<double>(to.number));
+  }
+  [[nodiscard]] bool has_picoseconds() const { return from.picoseconds && to.picoseconds; }
+  [[nodiscard]] double picoseconds() const {
+    return between(from.picoseconds.value_or(0), to.picoseconds.value_or(0));
+  }
+  /// Calls `visit(role, ids)` for each role that ids are in.
+  template <class Visit>
+  void for_roles(Visit visit) const {
+    std::size_t first = 0;
+    for (const IdRole& role : kind.roles) {
+      const std::size_t left = ids().size() - first;
+      const std::size_t count = role.count == 0 || role.count > left ? left : role.count;
+      if (count > 0) visit(role, ids().subspan(first, count));
+      first += count;
+    }
+  }
+
+ private:
+  [[nodiscard]] double between(double begin, double end) const {
+    return begin + 0.5 * (lower + upper) * (end - begin);
+  }
 };
 
 class EventListener {
  public:
   virtual ~EventListener() = default;
-  virtual void on_event(const KineticStructure& structure, const LoggedEvent& event) = 0;
+  /// While the change is being made: not to change structures, nor to let time run. Where it throws the run
+  /// is over.
+  virtual void on_event(const Event& event) = 0;
+};
+
+/// Keeps everything.
+class EventLog final : public EventListener {
+ public:
+  void on_event(const Event& event) override { events.push_back(event); }
+
+  std::vector<Event> events;
 };
 
 }  // namespace kds

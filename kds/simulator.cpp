@@ -4,11 +4,30 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <exception>
 #include <stdexcept>
+#include <utility>
 
 #include "certificates/exact/exact_time.h"
+#include "kds/bead_edits.h"
 
 namespace kds {
+
+/// While it lasts structures change. Where that ends by an exception they are who knows how, and it is never
+/// said to have ended.
+class Simulator::Running {
+ public:
+  explicit Running(Simulator& simulator)
+      : running_(simulator.running_), before_(std::exchange(running_, true)) {}
+  void end() { running_ = before_; }
+
+  /// Those who listen, of a change; apart from what goes on where nobody does.
+  [[gnu::noinline]] static void tell(Simulator& simulator, std::size_t structure, const Change& change);
+
+ private:
+  bool& running_;
+  bool before_;
+};
 
 std::size_t Simulator::add(KineticStructure& structure) {
   if (phase_ != Phase::new_run)
@@ -32,6 +51,9 @@ void Simulator::add_table(FailureSource& table, const CertificateType& type) {
 }
 
 void Simulator::require(Phase phase, const char* what) const {
+  if (running_)
+    throw std::logic_error(fmt::format(
+        "{}: an event is being handled, or the run was broken off by an exception: nothing follows", what));
   if (phase_ == phase) return;
   throw std::logic_error(
       fmt::format("{}: {}", what,
@@ -68,15 +90,22 @@ void Simulator::finish() {
   watch_.charge(Stopwatch::stopped);
 }
 
+void Simulator::set_frames(const FrameStamp& from, const FrameStamp& to) {
+  from_ = from;
+  to_ = to;
+}
+
 void Simulator::enter_step() {
   const Entry entry(*this);
   require(Phase::between_steps, "a step");
   begin_step();
+  Running running(*this);
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     watch_.charge(s + 1);
     structures_[s]->start_step();
   }
   after_batch();
+  running.end();
   watch_.charge(Stopwatch::stopped);
 }
 
@@ -87,29 +116,84 @@ void Simulator::run_until(const Dyadic& time) {
   if (ExactTime::compare(stop, now_.exact()) < 0 || !(time < Dyadic(1.0)))
     throw std::invalid_argument(fmt::format("a run until u = {}: expected a time from {} on, before 1",
                                             time.rational().str(), now_.lower()));
-  run_events(&time);
+  run_events<false>(&time);
   now_ = Instant(time);
   ++moment_;
   watch_.charge(Stopwatch::stopped);
 }
 
+bool Simulator::run_next() {
+  const Entry entry(*this);
+  require(Phase::within_step, "run_next()");
+  const bool any = run_events<true>(nullptr);
+  if (any) hold_now();
+  watch_.charge(Stopwatch::stopped);
+  return any;
+}
+
+/// The certificate that failed may be forgotten from now on, and its beads go another way.
+void Simulator::hold_now() {
+  if (present_.time.lower == present_.time.upper) {
+    now_ = Instant(present_.time.lower);
+  } else {
+    held_.function = present_.source->exact_function(present_.slot);
+    now_ = Instant(present_.time, held_, 0);
+  }
+  retire_present();
+}
+
+void Simulator::require_standing_still() const {
+  if (phase_ != Phase::within_step || running_)
+    throw std::invalid_argument("beads come, go and change course only within a step, between events");
+}
+
+void Simulator::change_motion(std::span<const BeadId> beads, const std::function<void()>& set_curves) {
+  const Entry entry(*this);
+  require_standing_still();
+  for (KineticStructure* structure : structures_) {
+    if (structure->edits() == nullptr)
+      throw std::invalid_argument(fmt::format(
+          "{}: its beads cannot change course within a step, only between two of them", structure->name()));
+    for (const BeadId bead : beads) static_cast<void>(structure->edits()->is_absent(bead));  // is one
+  }
+  Running running(*this);
+  for (std::size_t s = 0; s < structures_.size(); ++s) {
+    watch_.charge(s + 1);
+    structures_[s]->edits()->release(beads);
+  }
+  watch_.charge(Stopwatch::stopped);
+  std::exception_ptr refused;  // structures go on along whatever curves there are then
+  try {
+    set_curves();
+  } catch (...) {
+    refused = std::current_exception();
+  }
+  for (std::size_t s = 0; s < structures_.size(); ++s) {
+    watch_.charge(s + 1);
+    structures_[s]->edits()->take_up(beads);
+  }
+  running.end();
+  watch_.charge(Stopwatch::stopped);
+  if (refused) std::rethrow_exception(refused);
+}
+
 void Simulator::leave_step() {
   const Entry entry(*this);
   require(Phase::within_step, "leave_step()");
-  run_events(nullptr);
+  run_events<false>(nullptr);
   finish_step();
 }
 
 bool Simulator::try_step(std::uint64_t most) {
   const Entry entry(*this);
   enter_step();
-  if (run_events(nullptr, most)) {
+  if (run_events<false>(nullptr, most)) {
     finish_step();
     return true;
   }
   clear_step();
   watch_.charge(Stopwatch::stopped);
-  ++step_;
+  end_step();
   return false;
 }
 
@@ -137,7 +221,12 @@ void Simulator::finish_step() {
   }
   watch_.charge(Stopwatch::stopped);
   if (audits_ != AuditMode::none) audit(Dyadic(1.0));
+  end_step();
+}
+
+void Simulator::end_step() {
   ++step_;
+  set_frames({step_, {}}, {step_ + 1, {}});
 }
 
 void Simulator::build_for_replay() {
@@ -165,7 +254,10 @@ void Simulator::replay_step(std::span<const Replayed> events) {
   finish_step();
 }
 
+template <bool one_moment>
 bool Simulator::run_events(const Dyadic* until, std::uint64_t most) {
+  Running running(*this);
+  [[maybe_unused]] bool any = false;
   const bool alone = structures_.size() == 1;  // then the engine's time is the structure's
   watch_.charge(alone ? 1 : nobody);
   while (true) {
@@ -173,9 +265,22 @@ bool Simulator::run_events(const Dyadic* until, std::uint64_t most) {
     const bool tied =
         present_.source != nullptr && !queue_.empty() && order_.compare_times(present_, queue_.top()) == 0;
     if (!tied) ++moment_;
+    if constexpr (one_moment) {
+      if ((any && !tied) || queue_.empty()) {
+        running.end();
+        return any;
+      }
+      any = true;
+    }
     retire_present();
-    if (queue_.empty() || (until != nullptr && is_after(queue_.top(), *until))) return true;
-    if (most-- == 0) return false;
+    if (queue_.empty() || (until != nullptr && is_after(queue_.top(), *until))) {
+      running.end();
+      return true;
+    }
+    if (most-- == 0) {
+      running.end();
+      return false;
+    }
     present_ = queue_.top();
     queue_.pop();
     auto& source = static_cast<FailureSource&>(*present_.source);
@@ -261,10 +366,17 @@ void Simulator::record(std::size_t structure, const Change& change) {
   ++s.statistics.events_by_kind[change.kind];
   if (s.kinds()[change.kind].external) ++s.statistics.events_per_step.back();
   fingerprint_.add(static_cast<std::uint32_t>(step_), static_cast<std::uint32_t>(structure), change);
-  if (!listeners_.empty()) {
-    const LoggedEvent event{step_, now_.lower(), now_.upper(), structure, change};
-    for (EventListener* listener : listeners_) listener->on_event(s, event);
-  }
+  if (!listeners_.empty()) [[unlikely]]
+    Running::tell(*this, structure, change);
+}
+
+void Simulator::Running::tell(Simulator& simulator, std::size_t structure, const Change& change) {
+  const KineticStructure& s = *simulator.structures_[structure];
+  const Event event{simulator.step_, simulator.now_.lower(), simulator.now_.upper(), structure,    change,
+                    s.name(),        s.kinds()[change.kind], simulator.from_,        simulator.to_};
+  Running running(simulator);  // also where a structure is edited
+  for (EventListener* listener : simulator.listeners_) listener->on_event(event);
+  running.end();
 }
 
 }  // namespace kds

@@ -2,6 +2,7 @@
 // One clock and one queue for all structures of a run. Knows no geometry.
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -67,6 +68,8 @@ class Simulator {
   void run_step();
   /// No step follows.
   void finish();
+  /// What events say of the frames that the next step leads from and to. Until it is said, steps are counted.
+  void set_frames(const FrameStamp& from, const FrameStamp& to);
   /// The same in parts, for what is done to structures while time runs: enters the step, runs to some times,
   /// ascending, and leaves. At each of them all that happens until then, or right then, has happened, and the
   /// structures are settled. Throws std::invalid_argument where a time is not in [now, 1), std::logic_error
@@ -74,6 +77,18 @@ class Simulator {
   void enter_step();
   void run_until(const Dyadic& time);
   void leave_step();
+  /// Within the step: runs all that happens at the next time at which something does, irrational as it may
+  /// be. False, and time stays, where nothing happens any more in the step.
+  bool run_next();
+
+  /// While time stands still: `set_curves()` gives some beads other curves in the motion, along which they go
+  /// on from now; elsewhere than they are now, if need be. All structures follow, or, where one cannot,
+  /// std::invalid_argument, and nothing is changed. A log does not hold curves: a replay must follow the same
+  /// motion.
+  void change_motion(std::span<const BeadId> beads, const std::function<void()>& set_curves);
+  /// Throws std::invalid_argument unless a step is under way and nothing happens: not while an event is
+  /// handled, nor after a run that was broken off by an exception.
+  void require_standing_still() const;
   /// As run_step, but not beyond `most` failures: if there are more the step is given up, and false. Then
   /// the structures stand somewhere within it, are not asked to finish, and must be built anew at its end.
   [[nodiscard]] bool try_step(std::uint64_t most);
@@ -117,15 +132,28 @@ class Simulator {
   [[nodiscard]] double seconds_of(std::size_t structure) const { return watch_.seconds(structure + 1); }
 
  private:
+  /// What an irrational time is a root of, whatever becomes of the certificate that failed then.
+  class HeldFunction final : public CertificateSource {
+   public:
+    [[nodiscard]] ExactFunction exact_function(std::uint32_t) const override { return function; }
+    ExactFunction function;
+  };
+
   enum class Phase : std::uint8_t { new_run, between_steps, within_step };
   static constexpr std::size_t nobody = 0;  // the stopwatch's lane of the engine; structures follow
 
+  class Running;
+
   void require(Phase phase, const char* what) const;
+  void hold_now();
   void begin_step();
   void clear_step();
   void finish_step();
+  void end_step();
   static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
-  /// Those until a time, or all of the step; false where `most` were not enough.
+  /// Those until a time, or all of the step; false where `most` were not enough. Or those of one moment,
+  /// whose last is `present_` then: false where there are none.
+  template <bool one_moment>
   bool run_events(const Dyadic* until, std::uint64_t most = no_limit);
   [[nodiscard]] static bool is_after(const ScheduledFailure& failure, const Dyadic& time);
   void advance(ScheduledFailure* next);
@@ -143,7 +171,10 @@ class Simulator {
   AuditMode audits_;
   Kernel kernel_;
   Phase phase_ = Phase::new_run;
+  bool running_ = false;  // and still so where an exception ended it
   std::size_t step_ = 0;
+  FrameStamp from_, to_{1, {}};
+  HeldFunction held_;
   Instant now_;
   ScheduledFailure present_;  // the event that made it now; no source at the start of a step
   std::uint64_t moment_ = 0;

@@ -1,7 +1,9 @@
 #pragma once
 // What a structure counted in a run.
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -20,11 +22,27 @@ struct CertificateCounts {
   std::uint64_t per_bead_max = 0;  ///< most that name one bead, at the starts of steps: locality
 };
 
+/// What some of an event's ids are: those of its first role come first.
+struct IdRole {
+  enum class Of : std::uint8_t {
+    beads,   ///< beads, or no_bead: the infinite vertex
+    node,    ///< two: the first and the last bead below a node of a hierarchy
+    number,  ///< no beads
+  };
+  std::string_view name;
+  std::uint8_t count = 1;  ///< so many ids; 0: all that are left
+  Of of = Of::beads;
+};
+
+/// Of kinds that do not say what their ids are.
+inline constexpr std::array<IdRole, 1> unnamed_ids{{{"beads", 0}}};
+
 /// A kind of event by name. Internal events change bookkeeping only and are left out of totals.
 struct EventKind {
   std::string_view name;
   bool external = true;
   bool counted_apart = false;  ///< not listed among the events (rebuilds)
+  std::span<const IdRole> roles = unnamed_ids;
 };
 
 struct StructureStatistics {

@@ -48,7 +48,7 @@ std::vector<SampledContacts::Sampling> samplings_of(const MissedTask& task, cons
   run_steps(*session, scene, options, [&](std::size_t frame) {
     if (frame == 0) {
       std::vector<BeadPair> at_start;
-      for (const Change& change : session->built(0)) at_start.push_back({change.ids[0], change.ids[1]});
+      for (const Event& event : session->built(0)) at_start.push_back({event.ids()[0], event.ids()[1]});
       sampled.add_built(at_start);
     }
     at_frame(frame);

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "experiments/output/text.h"
+#include "motions/base/csv_field.h"
 
 namespace kds {
 

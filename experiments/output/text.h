@@ -20,9 +20,6 @@ namespace kds {
 /// Control characters replaced by spaces, so that a message stays one line whatever name it quotes.
 [[nodiscard]] std::string one_line(std::string_view text);
 
-/// A field of CSV, between quotation marks where it must be.
-[[nodiscard]] std::string csv_field(std::string_view text);
-
 /// Words as a shell reads them back.
 [[nodiscard]] std::string shell_words(const std::vector<std::string>& words);
 

@@ -8,6 +8,7 @@
 #include "experiments/output/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/reproduce/findings.h"
+#include "motions/base/csv_field.h"
 
 namespace kds {
 

@@ -29,8 +29,7 @@ std::unique_ptr<SceneStream> open_frames(const RunOptions& options, std::size_t 
 
 class PairsListener final : public EventListener {
  public:
-  void on_event(const KineticStructure&, const LoggedEvent& event) override { add(event.change); }
-  void add(const Change& change) { pairs.emplace(change.ids[0], change.ids[1]); }
+  void on_event(const Event& event) override { pairs.emplace(event.ids()[0], event.ids()[1]); }
 
   PairsMet pairs;
 };
@@ -51,7 +50,7 @@ PairsMet pairs_met(const RunOptions& options, const SceneSurvey& survey, std::ve
   session->simulator().listen(listener);
   run_steps(*session, scene, contacts, [&](std::size_t frame) {
     if (frame != 0) return;
-    for (const Change& change : session->built(0)) listener.add(change);
+    for (const Event& event : session->built(0)) listener.on_event(event);
   });
   return listener.pairs;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "experiments/output/text.h"
+#include "motions/base/csv_field.h"
 
 namespace kds {
 
@@ -21,21 +22,20 @@ bool has_contacts(const Session& session) {
 
 void ContactsCsv::add_built(const Session& session) {
   for (std::size_t s = 0; s < session.structures().size(); ++s) {
-    const KineticStructure& structure = *session.structures()[s];
-    if (structure.name() != structure_name) continue;
-    for (const Change& change : session.built(s)) on_event(structure, {0, 0, 0, s, change});
+    if (session.structures()[s]->name() != structure_name) continue;
+    for (const Event& event : session.built(s)) on_event(event);
   }
 }
 
-void ContactsCsv::on_event(const KineticStructure& structure, const LoggedEvent& event) {
-  if (structure.name() == structure_name) add(event, structure.kinds()[event.change.kind].name);
+void ContactsCsv::on_event(const Event& event) {
+  if (event.structure == structure_name && !event.kind.counted_apart) add(event, event.kind.name);
 }
 
 ContactsDump::ContactsDump(std::ostream& stream) : stream_(stream) {
   stream_ << "step,lower,upper,i,j,event\n";
 }
 
-void ContactsDump::add(const LoggedEvent& event, std::string_view kind) {
+void ContactsDump::add(const Event& event, std::string_view kind) {
   stream_ << fmt::format("{},{},{},{},{},{}\n", event.step, event.lower, event.upper, event.change.ids[0],
                          event.change.ids[1], kind);
 }
@@ -45,16 +45,11 @@ ContactsTable::ContactsTable(std::ostream& stream, const Scene& scene)
   stream_ << "event,i,j,first,second,frame" << (timed_ ? ",picoseconds\n" : "\n");
 }
 
-void ContactsTable::add(const LoggedEvent& event, std::string_view kind) {
+void ContactsTable::add(const Event& event, std::string_view kind) {
   const auto [i, j] = std::pair(event.change.ids[0], event.change.ids[1]);
-  const double u = 0.5 * (event.lower + event.upper);
-  const FrameStamp from = scene_.stamp(event.step), to = scene_.stamp(event.step + 1);
-  const auto between = [u](double a, double b) { return a + u * (b - a); };
   stream_ << fmt::format("{},{},{},{},{},{:.12g}", kind, i, j, csv_field(scene_.bead_name(i)),
-                         csv_field(scene_.bead_name(j)),
-                         between(static_cast<double>(from.number), static_cast<double>(to.number)));
-  if (timed_)
-    stream_ << fmt::format(",{:.12g}", between(from.picoseconds.value_or(0), to.picoseconds.value_or(0)));
+                         csv_field(scene_.bead_name(j)), event.frame());
+  if (timed_) stream_ << fmt::format(",{:.12g}", event.picoseconds());
   stream_ << '\n';
 }
 

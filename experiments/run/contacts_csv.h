@@ -21,10 +21,10 @@ class ContactsCsv : public EventListener {
  public:
   /// Those that begin with the first frame: to be called once, when the structures have been built.
   void add_built(const Session& session);
-  void on_event(const KineticStructure& structure, const LoggedEvent& event) override;
+  void on_event(const Event& event) override;
 
  private:
-  virtual void add(const LoggedEvent& event, std::string_view kind) = 0;
+  virtual void add(const Event& event, std::string_view kind) = 0;
 };
 
 /// As in --dump: header `step,lower,upper,i,j,event`, then the bracket of the time in the step, the beads and
@@ -35,7 +35,7 @@ class ContactsDump final : public ContactsCsv {
   explicit ContactsDump(std::ostream& stream);
 
  private:
-  void add(const LoggedEvent& event, std::string_view kind) override;
+  void add(const Event& event, std::string_view kind) override;
 
   std::ostream& stream_;
 };
@@ -49,7 +49,7 @@ class ContactsTable final : public ContactsCsv {
   ContactsTable(std::ostream& stream, const Scene& scene);
 
  private:
-  void add(const LoggedEvent& event, std::string_view kind) override;
+  void add(const Event& event, std::string_view kind) override;
 
   std::ostream& stream_;
   const Scene& scene_;

@@ -101,13 +101,13 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const RunOptio
   file_.stream() << first_line << '\n' << *header << '\n';
 }
 
-void EventLogWriter::on_event(const KineticStructure& structure, const LoggedEvent& event) {
+void EventLogWriter::on_event(const Event& event) {
   if (event.step != step_) end_step();
   step_ = event.step;
   const Change& change = event.change;
-  const std::string line = fmt::format("{} {} {} {} {} {}", event.step, structure.name(),
-                                       structure.kinds()[change.kind].name, event.lower, event.upper,
-                                       fmt::join(change.ids.begin(), change.ids.begin() + change.size, " "));
+  const std::string line =
+      fmt::format("{} {} {} {} {} {}", event.step, event.structure, event.kind.name, event.lower, event.upper,
+                  fmt::join(change.ids.begin(), change.ids.begin() + change.size, " "));
   add_line(step_hash_, line);
   file_.stream() << line << '\n';
   file_.check();

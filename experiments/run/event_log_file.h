@@ -28,7 +28,7 @@ namespace kds {
 class EventLogWriter final : public EventListener {
  public:
   EventLogWriter(const std::filesystem::path& path, const RunOptions& options, const Scene& scene);
-  void on_event(const KineticStructure& structure, const LoggedEvent& event) override;
+  void on_event(const Event& event) override;
   /// Ends the log.
   void end(std::uint64_t fingerprint);
   [[nodiscard]] Staged& staged() { return file_; }

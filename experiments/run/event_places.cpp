@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <span>
 
-#include "structures/session/structure_spec.h"
-
 namespace kds {
 
 EventPlaces::EventPlaces(const Session& session, const Scene& scene)
@@ -18,22 +16,24 @@ EventPlaces::EventPlaces(const Session& session, const Scene& scene)
   for (const KineticStructure* structure : session.structures()) {
     PlacesOfEvents& places = places_.emplace_back();
     places.by_bead.resize(scene.bead_count(), 0);
-    if (const StructureSpec* spec = structure_registry().find(structure->name()); spec && spec->of_nodes)
-      places.by_level.resize(level_count, 0);
+    for (const EventKind& kind : structure->kinds())
+      for (const IdRole& role : kind.roles)
+        if (role.of == IdRole::Of::node) places.by_level.resize(level_count, 0);
   }
 }
 
-void EventPlaces::on_event(const KineticStructure& structure, const LoggedEvent& event) {
-  const EventKind& kind = structure.kinds()[event.change.kind];
+void EventPlaces::on_event(const Event& event) {
+  const EventKind& kind = event.kind;
   if (!kind.external || kind.counted_apart) return;
-  PlacesOfEvents& places = places_[event.structure];
-  std::span<const BeadId> ids(event.change.ids.data(), event.change.size);
-  if (!places.by_level.empty()) {
-    if (const auto node = tree_.find({ids[0], ids[1]})) ++places.by_level[levels_[*node]];
-    ids = ids.subspan(2);
-  }
-  for (const BeadId bead : ids)
-    if (bead < places.by_bead.size()) ++places.by_bead[bead];
+  PlacesOfEvents& places = places_[event.structure_index];
+  event.for_roles([&](const IdRole& role, std::span<const BeadId> ids) {
+    if (role.of == IdRole::Of::node) {
+      if (const auto node = tree_.find({ids.front(), ids.back()})) ++places.by_level[levels_[*node]];
+    } else {
+      for (const BeadId bead : ids)
+        if (bead < places.by_bead.size()) ++places.by_bead[bead];
+    }
+  });
 }
 
 std::vector<std::pair<double, double>> means_along_chain(std::span<const std::uint64_t> by_bead) {

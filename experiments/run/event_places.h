@@ -18,7 +18,7 @@ namespace kds {
 class EventPlaces final : public EventListener {
  public:
   EventPlaces(const Session& session, const Scene& scene);
-  void on_event(const KineticStructure& structure, const LoggedEvent& event) override;
+  void on_event(const Event& event) override;
   /// In the order of the session's structures.
   [[nodiscard]] const std::vector<PlacesOfEvents>& places() const { return places_; }
 

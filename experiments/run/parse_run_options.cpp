@@ -12,7 +12,7 @@
 #include "experiments/program/option_lists.h"
 #include "experiments/program/option_values.h"
 #include "experiments/run/certify_stride.h"
-#include "experiments/run/event_table.h"
+#include "experiments/run/events_option.h"
 #include "motions/base/input_error.h"
 
 namespace kds {

@@ -12,7 +12,7 @@
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/taken_paths.h"
 #include "experiments/program/warnings.h"
-#include "experiments/run/event_table.h"
+#include "experiments/run/events_option.h"
 #include "experiments/run/replay_log.h"
 #include "experiments/run/report_json.h"
 #include "experiments/run/run_results.h"

@@ -40,15 +40,14 @@ class LogComparison final : public EventListener {
         simulator_(simulator),
         own_version_(log.header().version == program_version()) {}
 
-  void on_event(const KineticStructure& structure, const LoggedEvent& event) override {
+  void on_event(const Event& event) override {
     if (difference_) return;
     const EventLogReader::Entry* const entry = log_.next();
     if (entry == nullptr) {
-      part(fmt::format("{}: ends before an event of {} in step {}", name_, structure.name(), event.step));
-    } else if (!is_event(*entry, structure, event)) {
+      part(fmt::format("{}: ends before an event of {} in step {}", name_, event.structure, event.step));
+    } else if (!is_event(*entry, event)) {
       part(fmt::format("{}:{}: an event of {} in step {}, but what happens is {} {} {} in step {}", name_,
-                       entry->line, entry->structure, entry->step, structure.name(),
-                       structure.kinds()[event.change.kind].name,
+                       entry->line, entry->structure, entry->step, event.structure, event.kind.name,
                        fmt::join(event.change.ids.begin(), event.change.ids.begin() + event.change.size, " "),
                        event.step));
     } else if (!is_time(*entry, event)) {
@@ -67,16 +66,14 @@ class LogComparison final : public EventListener {
   }
 
  private:
-  static bool is_event(const EventLogReader::Entry& entry, const KineticStructure& structure,
-                       const LoggedEvent& event) {
+  static bool is_event(const EventLogReader::Entry& entry, const Event& event) {
     const Change& change = event.change;
-    return entry.step == event.step && entry.structure == structure.name() &&
-           entry.kind == structure.kinds()[change.kind].name &&
+    return entry.step == event.step && entry.structure == event.structure && entry.kind == event.kind.name &&
            std::equal(entry.ids.begin(), entry.ids.end(), change.ids.begin(),
                       change.ids.begin() + change.size);
   }
 
-  bool is_time(const EventLogReader::Entry& entry, const LoggedEvent& event) const {
+  bool is_time(const EventLogReader::Entry& entry, const Event& event) const {
     if (entry.lower == event.lower && entry.upper == event.upper) return true;
     if (own_version_ || simulator_.kernel() == Kernel::fast) return false;
     ExactTime& now = simulator_.now().exact();

@@ -9,6 +9,7 @@
 #include "experiments/output/result_page.h"
 #include "experiments/output/staged.h"
 #include "experiments/run/html_report.h"
+#include "structures/session/event_writers.h"
 
 namespace kds {
 
@@ -28,7 +29,7 @@ void check_destinations(const Destinations& destinations) {
 void RunResults::begin(const Scene& scene, Session& session) {
   if (events_path_) {
     every_event_file_.emplace(*events_path_);
-    every_event_.emplace(every_event_file_->stream(), scene);
+    every_event_ = make_event_writer(*events_path_, every_event_file_->stream(), scene);
     session.simulator().listen(*every_event_);
   }
   if (!destinations_.out) return;

@@ -3,6 +3,7 @@
 // --events, --log, standard output.
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,10 +16,10 @@
 #include "experiments/run/dumped_frames.h"
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/event_places.h"
-#include "experiments/run/event_table.h"
 #include "experiments/run/events_csv.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
+#include "kds/event_log.h"
 #include "motions/scene/scene.h"
 #include "structures/session/session.h"
 
@@ -56,7 +57,7 @@ class RunResults {
   Displacements displacement_;
   std::optional<ContactsTable> contacts_;
   std::optional<AtomicFile> every_event_file_;
-  std::optional<EventTable> every_event_;
+  std::unique_ptr<EventListener> every_event_;
   std::optional<DumpedFrames> dumps_;
   std::optional<ContactsDump> dumped_contacts_;
   std::optional<EventLogWriter> log_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiments/output/text.h"
+#include "motions/base/csv_field.h"
 
 namespace kds {
 

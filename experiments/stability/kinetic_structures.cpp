@@ -17,9 +17,8 @@ namespace {
 /// All events but rebuilds, which are counted apart.
 class Recorder final : public EventListener {
  public:
-  void on_event(const KineticStructure& structure, const LoggedEvent& event) override {
-    if (!structure.kinds()[event.change.kind].counted_apart)
-      events.push_back({event.change, event.lower, event.upper});
+  void on_event(const Event& event) override {
+    if (!event.kind.counted_apart) events.push_back({event.change, event.lower, event.upper});
   }
 
   std::vector<TimedChange> events;

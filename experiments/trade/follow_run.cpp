@@ -26,7 +26,7 @@ class Clock {
   [[nodiscard]] double place_in(std::size_t step, std::size_t time) const {
     return static_cast<double>(time - start_of(step)) / static_cast<double>(stride_ * parts_of_frame);
   }
-  [[nodiscard]] double time_of(const LoggedEvent& event) const {
+  [[nodiscard]] double time_of(const Event& event) const {
     return static_cast<double>(frame(event.step)) +
            static_cast<double>(stride_) * (0.5 * event.lower + 0.5 * event.upper);
   }
@@ -39,9 +39,8 @@ class Clock {
 class Recorder final : public EventListener {
  public:
   explicit Recorder(const Clock& clock) : clock_(clock) {}
-  void on_event(const KineticStructure& structure, const LoggedEvent& event) override {
-    if (structure.kinds()[event.change.kind].external)
-      events.push_back({clock_.time_of(event), event.change});
+  void on_event(const Event& event) override {
+    if (event.kind.external) events.push_back({clock_.time_of(event), event.change});
   }
   std::vector<TimedEvent> events;
 
@@ -197,9 +196,9 @@ std::set<std::size_t> times_to_look(std::size_t frames, const SamplingOfTimes& s
   return times;
 }
 
-std::vector<BeadPair> pairs_of(const std::vector<Change>& built) {
+std::vector<BeadPair> pairs_of(const std::vector<Event>& built) {
   std::vector<BeadPair> pairs;
-  for (const Change& change : built) pairs.push_back({change.ids[0], change.ids[1]});
+  for (const Event& event : built) pairs.push_back({event.ids()[0], event.ids()[1]});
   return pairs;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "motions/readers/frame_stamp.h"
 #include "motions/readers/periodic.h"
 
 namespace kds {
@@ -16,12 +17,6 @@ namespace kds {
 struct ChainRead {
   std::string name;
   std::size_t bead_count = 0;
-};
-
-/// A frame's place in its file and its time.
-struct FrameStamp {
-  std::size_t number = 0;             ///< 0-based place in the file
-  std::optional<double> picoseconds;  ///< none where the file has no times
 };
 
 struct FrameRead {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "motions/base/input_error.h"
@@ -107,15 +108,84 @@ void Scene::begin(FrameMotion motion, const std::vector<std::size_t>& bead_count
                   const std::string& longest) {
   degree_ = motion == FrameMotion::hermite ? 3 : 1;
   is_lifted_ = motion == FrameMotion::lifted;
+  set_necklaces(bead_counts);
+  if (frame_count_ < 2)
+    throw InputError(
+        fmt::format("{}: a run needs at least two frames, this input has {}", longest, frame_count_));
+  if (necklaces_.empty() || necklaces_.back().last + 1 == 0)
+    throw InputError(fmt::format("{}: expected beads, found none", longest));
+}
+
+void Scene::set_necklaces(const std::vector<std::size_t>& bead_counts) {
   BeadId beads = 0;
   for (const std::size_t count : bead_counts) {
     necklaces_.push_back({beads, beads + static_cast<BeadId>(count) - 1});
     beads += static_cast<BeadId>(count);
   }
-  if (frame_count_ < 2)
-    throw InputError(
-        fmt::format("{}: a run needs at least two frames, this input has {}", longest, frame_count_));
-  if (beads == 0) throw InputError(fmt::format("{}: expected beads, found none", longest));
+}
+
+Scene::Scene(PushedFrames frames)
+    : dimension_(frames.dimension),
+      degree_(frames.motion == FrameMotion::hermite ? 3 : 1),
+      is_lifted_(frames.motion == FrameMotion::lifted),
+      has_radii_(!frames.radii.empty()),
+      radii_(std::move(frames.radii)),
+      pushed_(true),
+      most_held_(frames.motion == FrameMotion::hermite ? 4 : 2) {
+  if (dimension_ < 1 || dimension_ > 3)
+    throw InputError(fmt::format("frames in {} dimensions: expected 1, 2 or 3", dimension_));
+  if (is_lifted_ && dimension_ == 1)
+    throw InputError("lifted motion in 1 dimension: expected 2 or 3, or another kind of motion");
+  for (std::size_t n = 0; n < frames.necklaces.size(); ++n)
+    if (frames.necklaces[n] == 0) throw InputError(fmt::format("necklace {}: expected beads, found none", n));
+  if (frames.necklaces.empty()) throw InputError("frames of no necklace: expected beads, found none");
+  set_necklaces(frames.necklaces);
+  const std::size_t beads = std::size_t{necklaces_.back().last} + 1;
+  if (radii_.size() == 1) radii_.resize(beads, radii_.front());
+  if (has_radii_ && radii_.size() != beads)
+    throw InputError(fmt::format("{} beads: expected as many radii, or one, found {}", beads, radii_.size()));
+  for (std::size_t bead = 0; bead < radii_.size(); ++bead)
+    if (radii_[bead] < 0)
+      throw InputError(
+          fmt::format("bead {}: expected a radius that is not negative, found {}", bead, radii_[bead]));
+  check_radii(radii_);
+  radii_.resize(beads, 0);
+}
+
+void Scene::push(std::span<const double> coordinates, std::optional<double> picoseconds) {
+  if (!pushed_ || ended_)
+    throw std::logic_error(pushed_ ? "a frame is pushed after the last one"
+                                   : "a frame is pushed to a scene that has frames of its own");
+  const auto columns = static_cast<std::size_t>(dimension_);
+  if (coordinates.size() != columns * bead_count())
+    throw InputError(fmt::format("frame {}: expected {} of {} beads, {} numbers, found {}", frame_count_,
+                                 columns == 1 ? "1 coordinate" : fmt::format("{} coordinates each", columns),
+                                 bead_count(), columns * bead_count(), coordinates.size()));
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    if (std::isfinite(coordinates[i])) continue;
+    throw InputError(fmt::format("frame {}, bead {}: expected finite coordinates, found {}", frame_count_,
+                                 i / columns, coordinates[i]));
+  }
+  FrameRead frame;
+  if (held_.size() == most_held_) {  // its memory is used again
+    frame = std::move(held_.front());
+    held_.erase(held_.begin());
+    ++first_held_;
+  }
+  frame.stamp = {frame_count_, picoseconds};
+  frame.positions.setZero(3, static_cast<Eigen::Index>(bead_count()));
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    frame.positions(static_cast<Eigen::Index>(i % columns), static_cast<Eigen::Index>(i / columns)) =
+        coordinates[i];
+  if (frame_count_ == 0) first_ = frame.stamp;
+  last_ = frame.stamp;
+  held_.push_back(std::move(frame));
+  ++frame_count_;
+}
+
+std::size_t Scene::known_steps() const {
+  const std::size_t steps = step_count();
+  return pushed_ && degree_ == 3 && !ended_ && steps > 0 ? steps - 1 : steps;
 }
 
 void Scene::name_beads(std::span<const Trajectory> necklaces) {
@@ -139,6 +209,10 @@ void Scene::lay_in_plane(Eigen::Matrix3Xd& frame) const {
 }
 
 void Scene::hold(std::size_t first, std::size_t last) const {
+  if (pushed_ && (first < first_held_ || last >= first_held_ + held_.size()))
+    throw InputError(fmt::format("frame {} {}: of frames that are pushed those of one step are kept",
+                                 first < first_held_ ? first : last,
+                                 first < first_held_ ? "is gone" : "has not come"));
   if (!stream_) return;
   if (first < first_held_) {
     stream_->rewind();

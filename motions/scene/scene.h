@@ -37,6 +37,14 @@ inline constexpr std::array<std::string_view, 3> frame_motion_names{"linear", "h
   return frame_motion_names[static_cast<std::size_t>(motion)];
 }
 
+/// What is known of a scene before its first frame comes.
+struct PushedFrames {
+  int dimension = 3;                        ///< 1 to 3
+  std::vector<std::size_t> necklaces = {};  ///< how many beads each has
+  std::vector<double> radii = {};           ///< one a bead, or one for all; none: points
+  FrameMotion motion = FrameMotion::linear;
+};
+
 class Scene {
  public:
   /// Necklaces of equal frame counts; one of a single frame is at rest. `radii`: one a bead in scene order.
@@ -52,14 +60,27 @@ class Scene {
         FrameMotion motion = FrameMotion::linear);
   /// Points, or balls of these radii where they are given, one a point. Throws InputError likewise.
   explicit Scene(Instance instance, std::vector<double> radii = {});
+  /// Frames are pushed one by one, and in memory are those of the last of the steps that they make. Throws
+  /// InputError where there are no beads, or a radius or the dimension is none.
+  explicit Scene(PushedFrames frames);
+
+  /// The next frame: the coordinates of bead 0, then those of bead 1, `dimension` numbers each. Throws
+  /// InputError, and the frame is not taken, where they are not so many, or not finite; std::logic_error
+  /// where the scene has frames of its own or has ended.
+  void push(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt);
+  /// No frame follows.
+  void end_frames() { ended_ = true; }
+  /// Steps whose motion is known: all, but of frames that are pushed. Between these Hermite curves are known
+  /// one frame later, or when they end.
+  [[nodiscard]] std::size_t known_steps() const;
 
   [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] int degree() const { return degree_; }
   [[nodiscard]] bool is_lifted() const { return is_lifted_; }
   [[nodiscard]] std::size_t bead_count() const { return radii_.size(); }
-  /// An instance has two: u = 0 and u = 1.
+  /// An instance has two: u = 0 and u = 1. Of frames that are pushed, those that came.
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
-  [[nodiscard]] std::size_t step_count() const { return frame_count_ - 1; }
+  [[nodiscard]] std::size_t step_count() const { return frame_count_ == 0 ? 0 : frame_count_ - 1; }
   /// A frame's number in the file and its time, for messages and results.
   [[nodiscard]] FrameStamp stamp(std::size_t frame) const;
   [[nodiscard]] std::size_t frame_number(std::size_t frame) const { return stamp(frame).number; }
@@ -71,6 +92,8 @@ class Scene {
   }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   [[nodiscard]] bool equal_radii() const;
+  /// Whether any bead has a name.
+  [[nodiscard]] bool names_beads() const { return !bead_names_.empty(); }
   /// Those of an instance file have weights at most.
   [[nodiscard]] bool has_radii() const { return has_radii_; }
   /// For what compares weights: throws InputError where a weight, a radius squared, is too small a number to
@@ -100,6 +123,7 @@ class Scene {
  private:
   [[nodiscard]] bool is_sampled() const { return !instance_; }
   void begin(FrameMotion motion, const std::vector<std::size_t>& bead_counts, const std::string& longest);
+  void set_necklaces(const std::vector<std::size_t>& bead_counts);
   void name_beads(std::span<const Trajectory> necklaces);
   void lay_in_plane(const std::optional<AxisPlane>& plane);
   void lay_in_plane(Eigen::Matrix3Xd& frame) const;
@@ -158,7 +182,8 @@ class Scene {
   std::optional<Instance> instance_;     // none: sampled frames
   FrameStamp first_, last_;              // of sampled frames
   std::unique_ptr<SceneStream> stream_;  // null where all frames are held
-  std::size_t most_held_ = 0;            // frames of a stream in memory at once
+  bool pushed_ = false, ended_ = false;  // frames that come from outside
+  std::size_t most_held_ = 0;            // frames of a stream, or pushed, in memory at once
   mutable std::vector<FrameRead> held_;  // frames that follow each other, those in memory
   mutable std::size_t first_held_ = 0;
 };

@@ -101,8 +101,14 @@ EnclosingBox<Dimension>::~EnclosingBox() = default;
 
 template <int Dimension>
 std::span<const EventKind> EnclosingBox<Dimension>::kinds() const {
-  static constexpr std::array<EventKind, 7> kinds{
-      {{"overtake", false}, {"min-x"}, {"max-x"}, {"min-y"}, {"max-y"}, {"min-z"}, {"max-z"}}};
+  static constexpr std::array<IdRole, 2> was_is{{{"was"}, {"is"}}};
+  static constexpr std::array<EventKind, 7> kinds{{{"overtake", false, false, was_is},
+                                                   {"min-x", true, false, was_is},
+                                                   {"max-x", true, false, was_is},
+                                                   {"min-y", true, false, was_is},
+                                                   {"max-y", true, false, was_is},
+                                                   {"min-z", true, false, was_is},
+                                                   {"max-z", true, false, was_is}}};
   return std::span(kinds).first(first_end + 2 * Dimension);
 }
 

@@ -19,7 +19,9 @@ KineticClosestPair<Dimension>::KineticClosestPair(Simulator& simulator, const Mo
 
 template <int Dimension>
 std::span<const EventKind> KineticClosestPair<Dimension>::kinds() const {
-  static constexpr std::array<EventKind, 2> kinds{{{"overtake", false}, {"replace"}}};
+  static constexpr std::array<IdRole, 2> was_is{{{"was", 2}, {"is", 2}}};
+  static constexpr std::array<EventKind, 2> kinds{
+      {{"overtake", false, false, was_is}, {"replace", true, false, was_is}}};
   return kinds;
 }
 

@@ -14,7 +14,8 @@ namespace kds {
 template <int Dimension>
 std::optional<std::string> contact_fault(const Curves<Dimension>& curves,
                                          const CertificateSearch<Contact>& search, const Dyadic& time,
-                                         const PairsAsked& asked, const ContactSet& contacts) {
+                                         const PairsAsked& asked, const std::vector<char>& absent,
+                                         const ContactSet& contacts) {
   const double u = time.round_down();
   const Eigen::Matrix3Xd centers = approximate_positions(curves, u);
   const std::vector<double> radii = approximate_radii(curves, u);
@@ -33,6 +34,7 @@ std::optional<std::string> contact_fault(const Curves<Dimension>& curves,
   std::size_t met = 0;
   const auto look_at = [&](BeadId a, BeadId b) {
     if (fault || !asked.asks({a, b})) return;
+    if (!absent.empty() && (absent[a] != 0 || absent[b] != 0)) return;
     const double distance = (centers.col(a) - centers.col(b)).template head<Dimension>().stableNorm();
     const double gap = distance - radii[a] - radii[b];
     const bool is_clear = std::isfinite(gap) && std::abs(gap) > 4 * spare && spare > 0x1p-900;
@@ -59,8 +61,10 @@ std::optional<std::string> contact_fault(const Curves<Dimension>& curves,
 }
 
 template std::optional<std::string> contact_fault(const Curves<2>&, const CertificateSearch<Contact>&,
-                                                  const Dyadic&, const PairsAsked&, const ContactSet&);
+                                                  const Dyadic&, const PairsAsked&, const std::vector<char>&,
+                                                  const ContactSet&);
 template std::optional<std::string> contact_fault(const Curves<3>&, const CertificateSearch<Contact>&,
-                                                  const Dyadic&, const PairsAsked&, const ContactSet&);
+                                                  const Dyadic&, const PairsAsked&, const std::vector<char>&,
+                                                  const ContactSet&);
 
 }  // namespace kds

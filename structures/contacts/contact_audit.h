@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "certificates/search/certificate_search.h"
 #include "certificates/types/contact.h"
@@ -12,11 +13,13 @@
 namespace kds {
 
 /// What is wrong, or nothing. At the ends of a step pairs that touch exactly may be in contact or not: what
-/// happens at a frame is the next step's, what happens before the first is nobody's.
+/// happens at a frame is the next step's, what happens before the first is nobody's. `absent` marks beads
+/// that take no part; empty: all do.
 template <int Dimension>
 [[nodiscard]] std::optional<std::string> contact_fault(const Curves<Dimension>& curves,
                                                        const CertificateSearch<Contact>& search,
                                                        const Dyadic& time, const PairsAsked& asked,
+                                                       const std::vector<char>& absent,
                                                        const ContactSet& contacts);
 
 }  // namespace kds

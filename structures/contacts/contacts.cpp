@@ -30,28 +30,45 @@ Contacts<D>::Contacts(Simulator& simulator, const MotionRef<D>& motion, PairsAsk
 
 template <int D>
 std::span<const EventKind> Contacts<D>::kinds() const {
-  static constexpr std::array<EventKind, 3> kinds{{{"begin"}, {"end"}, {"touch"}}};
+  static constexpr std::array<IdRole, 2> pair{{{"first"}, {"second"}}};
+  static constexpr std::array<IdRole, 1> bead{{{"bead"}}};
+  static constexpr std::array<EventKind, 6> kinds{{{"begin", true, false, pair},
+                                                   {"end", true, false, pair},
+                                                   {"touch", true, false, pair},
+                                                   {"insert", false, true, bead},
+                                                   {"erase", false, true, bead},
+                                                   {"change", false, true, bead}}};
   return kinds;
 }
 
 template <int D>
-void Contacts<D>::find_pairs(typename MovingFamily<D>::Resting resting, bool list_overlapping) {
-  if (simulator_.kernel() != Kernel::exact)
-    return family_.find_pairs(motion_.curves(), resting, list_overlapping, pairs_);
-  pairs_.clear();
-  const PairsAsked& asked = family_.asked();
-  const auto beads = static_cast<BeadId>(motion_.bead_count());
-  for (BeadId i = 0; i < beads; ++i)
-    for (BeadId j = i + 1; j < beads; ++j)
-      if (asked.asks({i, j})) pairs_.unclear.push_back({i, j});
-  pairs_.looked_at = pairs_.unclear.size();
+void Contacts<D>::find_pairs(typename MovingFamily<D>::Resting resting, bool list_overlapping,
+                             PairsOfBlocks& pairs) {
+  if (simulator_.kernel() != Kernel::exact) {
+    family_.find_pairs(motion_.curves(), resting, list_overlapping, pairs);
+  } else {
+    pairs.clear();
+    const PairsAsked& asked = family_.asked();
+    const auto beads = static_cast<BeadId>(motion_.bead_count());
+    for (BeadId i = 0; i < beads; ++i)
+      for (BeadId j = i + 1; j < beads; ++j)
+        if (asked.asks({i, j})) pairs.unclear.push_back({i, j});
+    pairs.looked_at = pairs.unclear.size();
+  }
+  if (absent_.empty()) return;
+  const auto names_absent = [this](const BeadPair& p) {
+    return absent_[p.first] != 0 || absent_[p.second] != 0;
+  };
+  std::erase_if(pairs.unclear, names_absent);
+  std::erase_if(pairs.overlapping, names_absent);
 }
 
 template <int D>
 void Contacts<D>::build() {
+  built_ = true;
   contacts_.clear();
   family_.forget_rest();
-  find_pairs(MovingFamily<D>::Resting::looked_at, true);
+  find_pairs(MovingFamily<D>::Resting::looked_at, true, pairs_);
   for (const BeadPair& pair : pairs_.overlapping) contacts_.insert(pair);
   const Instant start(0.0);
   for (const BeadPair& pair : pairs_.unclear) {
@@ -63,9 +80,17 @@ void Contacts<D>::build() {
 
 template <int D>
 void Contacts<D>::start_step() {
-  find_pairs(MovingFamily<D>::Resting::left_out, false);
+  find_pairs(MovingFamily<D>::Resting::left_out, false, pairs_);
   disjoint_.hold_never(family_.size() + pairs_.looked_at - pairs_.unclear.size());
-  for (std::uint32_t place = 0; place < pairs_.unclear.size(); ++place) {
+  at_once_.clear();
+  watch_from(0, true);
+  if (!at_once_.empty()) settle_now();
+  count_per_bead();
+}
+
+template <int D>
+void Contacts<D>::watch_from(std::uint32_t place, bool at_start) {
+  for (; place < pairs_.unclear.size(); ++place) {
     const BeadPair& pair = pair_at(place);
     if (contacts_.contains(pair)) {
       overlapping_.one_of_many(place, KnownAtStart::unknown) = overlapping(pair);
@@ -73,29 +98,26 @@ void Contacts<D>::start_step() {
       disjoint_.one_of_many(place, KnownAtStart::unknown) = disjoint(pair);
     }
   }
-  at_frame_.clear();
   const Curves<D> curves = motion_.curves();
-  disjoint_.watch_enqueued([&](std::uint32_t place, CertificateHandle handle) {
-    const BeadPair& pair = pair_at(place);
+  disjoint_.watch_enqueued([&](std::uint32_t at, CertificateHandle handle) {
+    const BeadPair& pair = pair_at(at);
     if (handle == CertificateHandle::violated || handle == CertificateHandle::zero) {
-      at_frame_.push_back({pair, begin, handle == CertificateHandle::violated ? place : no_place});
-    } else if (is_zero_at_start(curves, pair)) {
-      at_frame_.push_back({pair, touch, no_place});
+      at_once_.push_back({pair, begin, handle == CertificateHandle::violated ? at : no_place});
+    } else if (at_start && is_zero_at_start(curves, pair)) {
+      at_once_.push_back({pair, touch, no_place});
     }
   });
-  overlapping_.watch_enqueued([&](std::uint32_t place, CertificateHandle handle) {
-    if (handle == CertificateHandle::violated) at_frame_.push_back({pair_at(place), end, place});
+  overlapping_.watch_enqueued([&](std::uint32_t at, CertificateHandle handle) {
+    if (handle == CertificateHandle::violated) at_once_.push_back({pair_at(at), end, at});
   });
-  if (!at_frame_.empty()) settle_frame();
-  count_per_bead();
 }
 
-// What happens at the frame itself, in the order of the beads as all that happens at one time; then the
-// certificates of the pairs that changed.
+// What happens right now, at a frame or when beads come or change course, in the order of the beads as all
+// that happens at one time; then the certificates of the pairs that changed.
 template <int D>
-void Contacts<D>::settle_frame() {
-  std::sort(at_frame_.begin(), at_frame_.end());
-  for (const AtFrame& event : at_frame_) {
+void Contacts<D>::settle_now() {
+  std::sort(at_once_.begin(), at_once_.end());
+  for (const Happens& event : at_once_) {
     record(event.kind, event.pair);
     if (event.place == no_place) continue;
     if (event.kind == begin) {
@@ -104,6 +126,106 @@ void Contacts<D>::settle_frame() {
       (void)disjoint_.watch(disjoint(event.pair), event.place);
     }
   }
+}
+
+// Beads that come, go and change course.
+
+template <int D>
+bool Contacts<D>::is_absent(BeadId bead) const {
+  if (bead >= motion_.bead_count()) throw std::invalid_argument(fmt::format("there is no bead {}", bead));
+  return bead < absent_.size() && absent_[bead] != 0;
+}
+
+template <int D>
+void Contacts<D>::require_edit(BeadId bead, bool absent) const {
+  if (is_absent(bead) != absent)
+    throw std::invalid_argument(
+        fmt::format("bead {} is {} the beads that may be in contact", bead, absent ? "among" : "not among"));
+}
+
+template <int D>
+void Contacts<D>::set_absent(BeadId bead, bool absent) {
+  absent_.resize(motion_.bead_count(), 0);
+  absent_[bead] = absent ? 1 : 0;
+}
+
+template <int D>
+void Contacts<D>::leave_out(BeadId bead) {
+  require_edit(bead, false);
+  if (built_) throw std::invalid_argument("beads are left out before contacts are built");
+  set_absent(bead, true);
+}
+
+template <int D>
+void Contacts<D>::insert(BeadId bead) {
+  const Simulator::Entry entry(simulator_);
+  require_edit(bead, true);
+  simulator_.require_standing_still();
+  set_absent(bead, false);
+  simulator_.record(index_, {inserts, 1, {bead}});
+  find_of({&bead, 1});
+}
+
+template <int D>
+void Contacts<D>::erase(BeadId bead) {
+  const Simulator::Entry entry(simulator_);
+  require_edit(bead, false);
+  simulator_.require_standing_still();
+  drop_of({&bead, 1});
+  for (const BeadPair& pair : contacts_.pairs())
+    if (pair.first == bead || pair.second == bead) record(end, pair);
+  set_absent(bead, true);
+  simulator_.record(index_, {erases, 1, {bead}});
+}
+
+template <int D>
+std::vector<char> Contacts<D>::marked(std::span<const BeadId> beads) const {
+  std::vector<char> marks(motion_.bead_count(), 0);
+  for (const BeadId bead : beads) marks[bead] = 1;
+  return marks;
+}
+
+template <int D>
+void Contacts<D>::drop_of(std::span<const BeadId> beads) {
+  const std::vector<char> marks = marked(beads);
+  const auto names_one = [&](const Contact& c) { return marks[c.beads[0]] != 0 || marks[c.beads[1]] != 0; };
+  disjoint_.drop_if(names_one);
+  overlapping_.drop_if(names_one);
+}
+
+template <int D>
+void Contacts<D>::release(std::span<const BeadId> beads) {
+  drop_of(beads);
+}
+
+template <int D>
+void Contacts<D>::take_up(std::span<const BeadId> beads) {
+  for (const BeadId bead : beads)
+    if (!is_absent(bead)) simulator_.record(index_, {changes, 1, {bead}});
+  find_of(beads);
+}
+
+// Pairs of these beads, without certificates yet; how they were before is known.
+template <int D>
+void Contacts<D>::find_of(std::span<const BeadId> beads) {
+  const std::vector<char> marks = marked(beads);
+  const auto names_none = [&](const BeadPair& p) { return marks[p.first] == 0 && marks[p.second] == 0; };
+  PairsOfBlocks found;
+  find_pairs(MovingFamily<D>::Resting::looked_at, true, found);
+  std::erase_if(found.unclear, names_none);
+  std::erase_if(found.overlapping, names_none);
+  at_once_.clear();
+  for (const BeadPair& pair : found.overlapping)
+    if (!contacts_.contains(pair)) at_once_.push_back({pair, begin, no_place});
+  ContactSet may_meet;
+  for (const BeadPair& pair : found.overlapping) may_meet.insert(pair);
+  for (const BeadPair& pair : found.unclear) may_meet.insert(pair);
+  for (const BeadPair& pair : contacts_.pairs())
+    if (!names_none(pair) && !may_meet.contains(pair)) at_once_.push_back({pair, end, no_place});
+  const auto first = static_cast<std::uint32_t>(pairs_.unclear.size());
+  pairs_.unclear.insert(pairs_.unclear.end(), found.unclear.begin(), found.unclear.end());
+  watch_from(first, false);
+  settle_now();
 }
 
 template <int D>
@@ -161,8 +283,16 @@ void Contacts<D>::count_per_bead() {
 
 template <int D>
 void Contacts<D>::apply(const Change& change) {
+  if (change.size != (change.kind < inserts ? 2 : 1))
+    throw std::invalid_argument("a change of contacts has other numbers of beads");
+  if (change.kind >= inserts) {
+    require_edit(change.ids[0], change.kind == inserts);
+    if (change.kind != changes) set_absent(change.ids[0], change.kind == erases);
+    return;
+  }
   const BeadPair pair{change.ids[0], change.ids[1]};
-  if (!(pair.first < pair.second && pair.second < motion_.bead_count() && family_.asked().asks(pair)))
+  if (!(pair.first < pair.second && pair.second < motion_.bead_count() && family_.asked().asks(pair)) ||
+      is_absent(pair.first) || is_absent(pair.second))
     throw std::invalid_argument(
         fmt::format("beads {} and {} are no pair that is asked about", pair.first, pair.second));
   const bool in_contact = contacts_.contains(pair);
@@ -175,7 +305,7 @@ void Contacts<D>::apply(const Change& change) {
 
 template <int D>
 std::optional<std::string> Contacts<D>::audit(const Dyadic& time) {
-  return contact_fault<D>(motion_.curves(), disjoint_.search(), time, family_.asked(), contacts_);
+  return contact_fault<D>(motion_.curves(), disjoint_.search(), time, family_.asked(), absent_, contacts_);
 }
 
 template class Contacts<2>;

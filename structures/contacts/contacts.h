@@ -9,11 +9,16 @@
 // balls that meet right then and part at once only touch. Before the first frame there is nothing, and balls
 // in contact then have begun by then: no event, but part of what is built. With `exact` no pair is left to
 // the family, each is looked at on integers.
+//
+// A bead that goes ends its contacts, one that comes begins those that it has just after that time. A bead
+// costs, when it goes, a look at all certificates, when it comes or changes course, what the family costs.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "certificates/types/contact.h"
+#include "kds/bead_edits.h"
 #include "kds/certificate_table.h"
 #include "structures/contacts/contact_set.h"
 #include "structures/contacts/moving_family.h"
@@ -21,10 +26,10 @@
 namespace kds {
 
 template <int Dimension>
-class Contacts final : public KineticStructure {
+class Contacts final : public KineticStructure, public BeadEdits {
  public:
-  /// Kinds of its events; ids: the two beads, ascending.
-  enum Kind : std::uint8_t { begin, end, touch };
+  /// Kinds of its events; ids: the two beads, ascending; of an edit: the bead.
+  enum Kind : std::uint8_t { begin, end, touch, inserts, erases, changes };
 
   Contacts(Simulator& simulator, const MotionRef<Dimension>& motion, PairsAsked asked);
 
@@ -41,20 +46,38 @@ class Contacts final : public KineticStructure {
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
+  [[nodiscard]] BeadEdits* edits() override { return this; }
+  void leave_out(BeadId bead) override;
+  void insert(BeadId bead) override;
+  void erase(BeadId bead) override;
+  [[nodiscard]] bool is_absent(BeadId bead) const override;
+
  private:
   static constexpr std::uint32_t no_place = 0xffffffffU;  // nothing to watch any more
-  struct AtFrame {
+  struct Happens {                                        // at the present time
     BeadPair pair;
     Kind kind;
     std::uint32_t place;
-    friend bool operator<(const AtFrame& a, const AtFrame& b) { return a.pair < b.pair; }
+    friend bool operator<(const Happens& a, const Happens& b) { return a.pair < b.pair; }
   };
 
-  void find_pairs(typename MovingFamily<Dimension>::Resting resting, bool list_overlapping);
+  void release(std::span<const BeadId> beads) override;
+  void take_up(std::span<const BeadId> beads) override;
+  void require_edit(BeadId bead, bool absent) const;
+  void set_absent(BeadId bead, bool absent);
+  [[nodiscard]] std::vector<char> marked(std::span<const BeadId> beads) const;
+  /// Gives up all certificates that name some of them.
+  void drop_of(std::span<const BeadId> beads);
+  void find_of(std::span<const BeadId> beads);
+
+  void find_pairs(typename MovingFamily<Dimension>::Resting resting, bool list_overlapping,
+                  PairsOfBlocks& pairs);
+  /// Guards the pairs from this place on.
+  void watch_from(std::uint32_t place, bool at_start);
   [[nodiscard]] const BeadPair& pair_at(std::uint32_t place) const { return pairs_.unclear[place]; }
   [[nodiscard]] bool is_zero_at_start(const Curves<Dimension>& curves, const BeadPair& pair);
   void record(Kind kind, const BeadPair& pair);
-  void settle_frame();
+  void settle_now();
   void count_per_bead();
 
   Simulator& simulator_;
@@ -64,8 +87,12 @@ class Contacts final : public KineticStructure {
   CertificateTable<Contact> disjoint_, overlapping_;
   ContactSet contacts_;
   PairsOfBlocks pairs_;  // of the step
-  std::vector<AtFrame> at_frame_;
+  std::vector<Happens> at_once_;
+  bool built_ = false;
+  std::vector<char> absent_;  // of each bead, if any was ever left out
   std::vector<std::uint32_t> certificates_of_bead_;
 };
+
+static_assert(EditableStructure<Contacts<2>>);
 
 }  // namespace kds

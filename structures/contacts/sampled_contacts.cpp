@@ -12,14 +12,14 @@ void SampledContacts::add_built(std::span<const BeadPair> pairs) {
   for (const BeadPair& pair : pairs) since_[pair] = 0;
 }
 
-void SampledContacts::on_event(const KineticStructure& structure, const LoggedEvent& event) {
+void SampledContacts::on_event(const Event& event) {
   using Kind = Contacts<3>::Kind;
-  if (structure.name() != "contacts") return;
+  if (event.structure != "contacts") return;
   const BeadPair pair{event.change.ids[0], event.change.ids[1]};
   // A bracket that is one number is the time itself.
   const bool at_frame = event.lower == 0 && event.upper == 0;
   const std::size_t next_frame = event.step + (at_frame ? 0 : 1), frame_before = event.step;
-  switch (event.change.kind) {
+  switch (static_cast<Kind>(event.change.kind)) {
     case Kind::begin:
       since_[pair] = next_frame;
       break;
@@ -27,8 +27,11 @@ void SampledContacts::on_event(const KineticStructure& structure, const LoggedEv
       count(since_[pair], frame_before);
       since_.erase(pair);
       break;
-    default:
+    case Kind::touch:
       count(next_frame, frame_before);
+      break;
+    default:  // a bead comes, goes or changes course
+      break;
   }
 }
 

@@ -30,7 +30,7 @@ class SampledContacts final : public EventListener {
 
   /// Those in contact at the first frame; before any event.
   void add_built(std::span<const BeadPair> pairs);
-  void on_event(const KineticStructure& structure, const LoggedEvent& event) override;
+  void on_event(const Event& event) override;
   /// Contacts that go on last until this frame, the run's last.
   void finish(std::size_t last_frame);
 

@@ -59,7 +59,9 @@ WrappedHierarchy<Dimension>::~WrappedHierarchy() = default;
 
 template <int Dimension>
 std::span<const EventKind> WrappedHierarchy<Dimension>::kinds() const {
-  static constexpr std::array<EventKind, 3> kinds{{{"enter"}, {"leave"}, {"pivot"}}};
+  static constexpr std::array<IdRole, 2> roles{{{"node", 2, IdRole::Of::node}, {"basis", 0}}};
+  static constexpr std::array<EventKind, 3> kinds{
+      {{"enter", true, false, roles}, {"leave", true, false, roles}, {"pivot", true, false, roles}}};
   return kinds;
 }
 

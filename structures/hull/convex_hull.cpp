@@ -57,7 +57,11 @@ ConvexHull::ConvexHull(Simulator& simulator, const MotionRef<2>& motion)
       guards_(simulator, *this, index_, motion) {}
 
 std::span<const EventKind> ConvexHull::kinds() const {
-  static constexpr std::array<EventKind, 3> kinds{{{"enter"}, {"leave"}, {"interchange", false}}};
+  static constexpr std::array<IdRole, 3> corner{{{"corner"}, {"before"}, {"after"}}};
+  static constexpr std::array<IdRole, 2> interchanged{{{"first"}, {"second"}}};
+  static constexpr std::array<EventKind, 3> kinds{{{"enter", true, false, corner},
+                                                   {"leave", true, false, corner},
+                                                   {"interchange", false, false, interchanged}}};
   return kinds;
 }
 

@@ -21,19 +21,35 @@ void DiagramEditor<Dimension>::set_absent(BeadId bead, bool absent) {
 }
 
 template <int Dimension>
-void DiagramEditor<Dimension>::require_edit(BeadId bead, bool present) const {
+void DiagramEditor<Dimension>::require_bead(BeadId bead) const {
   if (bead >= state_.bead_count()) throw std::invalid_argument("there is no bead " + std::to_string(bead));
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::require_edit(BeadId bead, bool present) const {
+  require_bead(bead);
   if (state_.is_absent(bead) == present)
     throw std::invalid_argument("bead " + std::to_string(bead) +
                                 (present ? " is not in the diagram" : " is in the diagram already"));
 }
 
 template <int Dimension>
-Dyadic DiagramEditor<Dimension>::time_of_edit() const {
-  if (!state_.within_step || !state_.simulator.now().exact().is_dyadic())
-    throw std::invalid_argument("the diagram can be edited only within a step, between events");
+void DiagramEditor<Dimension>::require_time() const {
+  state_.simulator.require_standing_still();
+  require_cells();
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::require_cells() const {
+  if (!state_.within_step)
+    throw std::invalid_argument("the diagram can be edited only in a step in which all beads move");
   if (!state_.has_cells()) rebuilder_.refuse_flat(state_.simulator.step());
-  return state_.simulator.now().exact().lower();
+}
+
+template <int Dimension>
+std::optional<Dyadic> DiagramEditor<Dimension>::rational_now() const {
+  const ExactTime& now = state_.simulator.now().exact();
+  return now.is_dyadic() ? std::optional(now.lower()) : std::nullopt;
 }
 
 template <int Dimension>
@@ -48,7 +64,7 @@ template <int Dimension>
 void DiagramEditor<Dimension>::insert(BeadId bead, BeadId near) {
   require_edit(bead, false);
   if (near != no_bead) require_edit(near, true);
-  static_cast<void>(time_of_edit());
+  require_time();
   const CellId from = cell_near(near);
   set_absent(bead, false);
   put_in(bead, from);
@@ -57,57 +73,82 @@ void DiagramEditor<Dimension>::insert(BeadId bead, BeadId near) {
 template <int Dimension>
 void DiagramEditor<Dimension>::erase(BeadId bead) {
   require_edit(bead, true);
-  const Dyadic time = time_of_edit();
+  require_time();
   if (state_.bead_count() - state_.absent_count <= Dimension + 1)
     throw std::invalid_argument("the power diagram needs at least " + std::to_string(Dimension + 1) +
                                 " beads");
   if (state_.hidden.contains(bead)) return take_out_hidden(bead);
   const std::vector<CellId> around = state_.triangulation.cells_around(bead);
   hidden_.displace(around);
-  take_out(bead, around, time);
+  take_out(bead, around);
 }
 
 template <int Dimension>
-void DiagramEditor<Dimension>::change_motion(BeadId bead, const std::function<void()>& set_curve) {
-  require_edit(bead, true);
-  const Dyadic time = time_of_edit();
+auto DiagramEditor<Dimension>::positions_of_released(const Dyadic& time) const -> std::vector<ExactPosition> {
+  std::vector<ExactPosition> positions;
+  state_.motion.visit([&](const auto& curves) {
+    for (const BeadId bead : released_) positions.push_back(exact_position(curves, bead, time));
+  });
+  return positions;
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::release(std::span<const BeadId> beads) {
+  require_cells();
+  released_.clear();
+  before_.clear();
+  around_.clear();
+  std::copy_if(beads.begin(), beads.end(), std::back_inserter(released_),
+               [this](BeadId bead) { return !state_.is_absent(bead); });
+  std::sort(released_.begin(), released_.end());
+  released_.erase(std::unique(released_.begin(), released_.end()), released_.end());
+  if (released_.empty()) return;
+  if (const auto time = rational_now()) before_ = positions_of_released(*time);
   state_.present = {};
-  const bool hidden = state_.hidden.contains(bead);
-  std::vector<CellId> around;
-  if (hidden) {
-    hidden_.drop(bead);
-  } else {
-    around = state_.triangulation.cells_around(bead);
+  if (released_.size() > 1) {
+    facets_.drop_all();
+    return hidden_.drop_all();
   }
-  hidden_.displace(around);
-  facets_.drop_around(around);
-  const auto position = [&] {
-    return state_.motion.visit([&](const auto& curves) { return exact_position(curves, bead, time); });
-  };
-  const auto before = position();
-  set_curve();
+  if (state_.hidden.contains(released_[0])) return hidden_.drop(released_[0]);
+  around_ = state_.triangulation.cells_around(released_[0]);
+  hidden_.displace(around_);
+  facets_.drop_around(around_);
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::take_up() {
   state_.curves = state_.motion.curves();
-  if (position() != before) {
-    state_.record({Events::changes, 1, {bead}});
-    BeadId near = no_bead;
-    if (hidden) {
-      take_out_hidden(bead);
-    } else {
-      const Beads& v = state_.beads_of(around[0]);
-      near = *std::find_if(v.begin(), v.end(), [&](BeadId b) { return b != bead && b != infinite_bead; });
-      take_out(bead, around, time);
-    }
-    const CellId from = cell_near(near);
-    set_absent(bead, false);
-    return put_in(bead, from);
-  }
-  if (hidden) {
-    hidden_.watch(bead);
+  if (released_.empty()) return;
+  for (const BeadId bead : released_) state_.record({Events::changes, 1, {bead}});
+  const auto time = rational_now();
+  const bool jump = !time || positions_of_released(*time) != before_;
+  if (released_.size() > 1) {
+    if (jump) return rebuilder_.rebuild_at_first_time_that_works();
+    rebuilder_.watch_all();
+  } else if (jump) {
+    return move_elsewhere(released_[0]);
+  } else if (around_.empty()) {
+    hidden_.watch(released_[0]);
   } else {
-    facets_.watch_around(around);
-    hidden_.rehouse(around[0]);
+    facets_.watch_around(around_);
+    hidden_.rehouse(around_[0]);
   }
-  finish_edit(Events::changes, bead);
+  settle();
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::move_elsewhere(BeadId bead) {
+  BeadId near = no_bead;
+  if (around_.empty()) {
+    take_out_hidden(bead);
+  } else {
+    const Beads& v = state_.beads_of(around_[0]);
+    near = *std::find_if(v.begin(), v.end(), [&](BeadId b) { return b != bead && b != infinite_bead; });
+    take_out(bead, around_);
+  }
+  const CellId from = cell_near(near);
+  set_absent(bead, false);
+  put_in(bead, from);
 }
 
 template <int Dimension>
@@ -154,9 +195,8 @@ void DiagramEditor<Dimension>::take_out_hidden(BeadId bead) {
 }
 
 template <int Dimension>
-void DiagramEditor<Dimension>::take_out(BeadId bead, std::span<const CellId> hole, const Dyadic& time) {
-  state_.present = {};
-  set_absent(bead, true);
+auto DiagramEditor<Dimension>::fill_without(BeadId bead, std::span<const CellId> hole,
+                                            const Dyadic& time) const -> std::vector<Beads> {
   std::vector<BeadId> beads(hidden_.displaced().begin(), hidden_.displaced().end());
   for (const CellId cell : hole) {
     const Beads& v = state_.beads_of(cell);
@@ -164,16 +204,34 @@ void DiagramEditor<Dimension>::take_out(BeadId bead, std::span<const CellId> hol
                  [bead](BeadId b) { return b != bead && b != infinite_bead; });
   }
   std::vector<Beads> made = exchange_.fill_of(hole, beads, time);
-  if (made.empty()) {  // these may lie in one plane: the beads beyond do not
-    for (const CellId cell : hole) {
-      if (const BeadId b = state_.apex(cell, state_.place_of(cell, bead)); b != infinite_bead)
-        beads.push_back(b);
-    }
-    made = exchange_.fill_of(hole, beads, time);
+  if (!made.empty()) return made;
+  for (const CellId cell : hole) {  // these may lie in one plane: the beads beyond do not
+    if (const BeadId b = state_.apex(cell, state_.place_of(cell, bead)); b != infinite_bead)
+      beads.push_back(b);
   }
-  if (!exchange_.can_fill(hole, made)) return rebuild_after_edit(Events::erases, bead);
-  exchange_.fill(hole, made);
-  finish_edit(Events::erases, bead);
+  return exchange_.fill_of(hole, beads, time);
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::take_out(BeadId bead, std::span<const CellId> hole) {
+  state_.present = {};
+  set_absent(bead, true);
+  const auto try_at = [&](const Dyadic& time, bool soon_after) {
+    const std::vector<Beads> made = fill_without(bead, hole, time);
+    if (!exchange_.can_fill(hole, made) || (soon_after && !exchange_.is_regular(hole, made))) return false;
+    exchange_.fill(hole, made);
+    finish_edit(Events::erases, bead);
+    return true;
+  };
+  if (const auto now = rational_now()) {
+    if (try_at(*now, false)) return;
+  } else {
+    for (const unsigned bits : {80U, 200U}) {  // hardly ever does anything happen sooner
+      const Dyadic time = next_on_grid(state_.simulator.now().exact(), bits);
+      if (time < Dyadic(1.0) && try_at(time, true)) return;
+    }
+  }
+  rebuild_after_edit(Events::erases, bead);
 }
 
 /// The connected cells that the bead is in conflict with, among them `start`.
@@ -209,6 +267,11 @@ auto DiagramEditor<Dimension>::star_in_place_of(std::span<const CellId> hole, Be
 template <int Dimension>
 void DiagramEditor<Dimension>::finish_edit(Kind kind, BeadId bead) {
   state_.record({kind, 1, {bead}});
+  settle();
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::settle() {
   if (!state_.owner.needs_after_batch) return;
   state_.owner.needs_after_batch = false;
   rebuilder_.after_batch();

@@ -8,15 +8,22 @@
 //   erase    the cells around it are replaced by those of the static triangulation of their other beads and
 //            of the beads hidden there that fill the same place: all of these are cells of the whole, and
 //            hidden beads come back as they are in it.
-//   change   the certificates that name the bead are made anew.
+//   change   the certificates that name the bead are made anew; where it jumps, it is erased and inserted.
+//            Of many beads at once: all certificates; where any jumps, all cells, and that is counted.
+//
+// At an irrational time, that of an event, nobody can build a static triangulation: cells come from one at a
+// time soon after, once their signs just after the present time say that they are those of then. And whether
+// a bead jumps is not looked at: it is taken to.
 //
 // Infinite cells take part like any other. Ties for good (whole grids at rest) may leave flat cells, or a
 // static triangulation that decided otherwise than the cells that stay: then all is built anew, and counted.
 
-#include <functional>
+#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "motions/numbers/exact_number.h"
 #include "structures/power_diagram/cell_exchange.h"
 #include "structures/power_diagram/diagram_rebuilder.h"
 
@@ -28,6 +35,7 @@ class DiagramEditor {
   using Beads = typename State::Beads;
   using Events = typename State::Events;
   using Kind = typename Events::Kind;
+  using ExactPosition = std::array<Rational, static_cast<std::size_t>(Dimension) + 1>;
 
  public:
   DiagramEditor(State& state, FacetGuards<Dimension>& facets, HiddenGuards<Dimension>& hidden,
@@ -38,29 +46,42 @@ class DiagramEditor {
         rebuilder_(rebuilder),
         exchange_(state, facets, hidden) {}
 
+  /// Throws std::invalid_argument where there is no such bead, or it is not (or is) in the diagram.
+  void require_bead(BeadId bead) const;
+  void require_edit(BeadId bead, bool present) const;
+
   // What PowerDiagram says of them.
   void leave_out(BeadId bead);
   void insert(BeadId bead, BeadId near);
   void erase(BeadId bead);
-  void change_motion(BeadId bead, const std::function<void()>& set_curve);
+  void release(std::span<const BeadId> beads);
+  void take_up();
 
   /// Makes a logged edit again, without certificates: first the cells that it clears and fills. No cells
   /// before it: the bead is hidden, or a rebuild follows. Throws std::invalid_argument if it cannot be made.
   void apply(const Change& change);
 
  private:
-  void require_edit(BeadId bead, bool present) const;
-  [[nodiscard]] Dyadic time_of_edit() const;
+  void require_time() const;
+  void require_cells() const;
+  /// The present time, if it is rational.
+  [[nodiscard]] std::optional<Dyadic> rational_now() const;
   void set_absent(BeadId bead, bool absent);
   void put_in(BeadId bead, CellId from);
   /// With the cells around it, whose hidden beads are displaced.
-  void take_out(BeadId bead, std::span<const CellId> hole, const Dyadic& time);
+  void take_out(BeadId bead, std::span<const CellId> hole);
   void take_out_hidden(BeadId bead);
+  /// Cells in its place as they are at `time`, without the bead.
+  [[nodiscard]] std::vector<Beads> fill_without(BeadId bead, std::span<const CellId> hole,
+                                                const Dyadic& time) const;
+  [[nodiscard]] std::vector<ExactPosition> positions_of_released(const Dyadic& time) const;
+  void move_elsewhere(BeadId bead);
   [[nodiscard]] CellId cell_near(BeadId near) const;
   [[nodiscard]] int power_against(BeadId bead, CellId cell);
   [[nodiscard]] std::vector<CellId> cells_in_conflict(BeadId bead, CellId start, bool zero_too);
   [[nodiscard]] std::vector<Beads> star_in_place_of(std::span<const CellId> hole, BeadId bead) const;
   void finish_edit(Kind kind, BeadId bead);
+  void settle();
   void rebuild_after_edit(Kind kind, BeadId bead);
 
   State& state_;
@@ -68,6 +89,10 @@ class DiagramEditor {
   HiddenGuards<Dimension>& hidden_;
   DiagramRebuilder<Dimension>& rebuilder_;
   CellExchange<Dimension> exchange_;
+  // Beads between two courses, where they are if that is rational, and the cells around one of them.
+  std::vector<BeadId> released_;
+  std::vector<ExactPosition> before_;
+  std::vector<CellId> around_;
   // Replay: cells that the edit being read clears and fills.
   std::vector<CellId> cleared_;
   std::vector<Beads> filled_;

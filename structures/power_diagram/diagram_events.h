@@ -38,15 +38,41 @@ struct DiagramEvents {
   };
 
   [[nodiscard]] static std::span<const EventKind> all_kinds() {
-    static constexpr EventKind wander{"wander", false};
-    static constexpr EventKind rebuilt{"rebuild", false, true};
-    static constexpr EventKind clear{"clear", false, true}, fill{"fill", false, true};
-    static constexpr EventKind insert{"insert", false, true}, erase{"erase", false, true},
-        change{"change", false, true}, repair{"repair", false, true};
-    static constexpr std::array<EventKind, 12> in_space{
-        {{"2-3"}, {"3-2"}, {"4-1"}, {"1-4"}, wander, rebuilt, clear, fill, insert, erase, change, repair}};
-    static constexpr std::array<EventKind, 11> in_plane{
-        {{"2-2"}, {"3-1"}, {"1-3"}, wander, rebuilt, clear, fill, insert, erase, change, repair}};
+    static constexpr std::uint8_t all_of_cell = Dimension + 1;
+    static constexpr std::array<IdRole, 2> triangle_edge{{{"triangle", 3}, {"edge", 2}}};
+    static constexpr std::array<IdRole, 2> edges{{{"gone", 2}, {"new", 2}}};
+    static constexpr std::array<IdRole, 2> cell_bead{{{"cell", all_of_cell}, {"bead"}}};
+    static constexpr std::array<IdRole, 2> bead_cell{{{"bead"}, {"cell", 0}}};
+    static constexpr std::array<IdRole, 1> cell{{{"cell", 0}}}, bead{{{"bead"}}};
+    static constexpr std::array<IdRole, 1> time{{{"time", 0, IdRole::Of::number}}};
+    static constexpr EventKind wander{"wander", false, false, bead_cell};
+    static constexpr EventKind rebuilt{"rebuild", false, true, time};
+    static constexpr EventKind clear{"clear", false, true, cell}, fill{"fill", false, true, cell};
+    static constexpr EventKind insert{"insert", false, true, bead}, erase{"erase", false, true, bead},
+        change{"change", false, true, bead}, repair{"repair", false, true, bead};
+    static constexpr std::array<EventKind, 12> in_space{{{"2-3", true, false, triangle_edge},
+                                                         {"3-2", true, false, triangle_edge},
+                                                         {"4-1", true, false, cell_bead},
+                                                         {"1-4", true, false, cell_bead},
+                                                         wander,
+                                                         rebuilt,
+                                                         clear,
+                                                         fill,
+                                                         insert,
+                                                         erase,
+                                                         change,
+                                                         repair}};
+    static constexpr std::array<EventKind, 11> in_plane{{{"2-2", true, false, edges},
+                                                         {"3-1", true, false, cell_bead},
+                                                         {"1-3", true, false, cell_bead},
+                                                         wander,
+                                                         rebuilt,
+                                                         clear,
+                                                         fill,
+                                                         insert,
+                                                         erase,
+                                                         change,
+                                                         repair}};
     if constexpr (Dimension == 3) return in_space;
     return in_plane;
   }

@@ -185,12 +185,23 @@ void PowerDiagram<Dimension>::erase(BeadId bead) {
 
 template <int Dimension>
 void PowerDiagram<Dimension>::change_motion(BeadId bead, const std::function<void()>& set_curve) {
-  const Simulator::Entry entry(parts_->state.simulator);
-  parts_->editor.change_motion(bead, set_curve);
+  parts_->editor.require_edit(bead, true);
+  parts_->state.simulator.change_motion({&bead, 1}, set_curve);
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::release(std::span<const BeadId> beads) {
+  parts_->editor.release(beads);
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::take_up(std::span<const BeadId>) {
+  parts_->editor.take_up();
 }
 
 template <int Dimension>
 bool PowerDiagram<Dimension>::is_absent(BeadId bead) const {
+  parts_->editor.require_bead(bead);
   return parts_->state.is_absent(bead);
 }
 

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kds/bead_edits.h"
 #include "kds/kinetic_structure.h"
 #include "motions/curves/motion_ref.h"
 #include "structures/power_diagram/diagram_events.h"
@@ -33,7 +34,7 @@ template <int Dimension>
 class RegularTriangulation;
 
 template <int Dimension>
-class PowerDiagram final : public KineticStructure, public DiagramEvents<Dimension> {
+class PowerDiagram final : public KineticStructure, public BeadEdits, public DiagramEvents<Dimension> {
   static_assert(Dimension == 2 || Dimension == 3);
 
  public:
@@ -63,24 +64,19 @@ class PowerDiagram final : public KineticStructure, public DiagramEvents<Dimensi
   /// Its edges there, of all beads, none being absent: what closest_pair (closest_pair.h) asks for.
   [[nodiscard]] DiagramEdges edges_at_frame(bool first) const;
 
-  // Edits, within a step while the simulator stands still between events (Simulator::run_until): afterwards
-  // the diagram is the one of the beads then present, just after that time. Cost: the beads around, and the
-  // way to them. Where ties decide how cells lie, the diagram is built anew instead, and the rebuild counted.
-  // Bad calls are refused by std::invalid_argument, and nothing is changed; if all beads left stay in one
-  // plane (on one line), InputError. Other structures on the same motion are not told.
+  // Edits (bead_edits.h). Cost: the beads around, and the way to them. Where ties decide how cells lie, and
+  // where many beads jump at once, the diagram is built anew instead, and the rebuild counted. Refused
+  // besides is what leaves too few beads; if all left stay in one plane (on one line), InputError.
 
-  /// Before it is built: the bead does not take part until it is inserted. Its curve may be anything finite.
-  void leave_out(BeadId bead);
-  /// The bead takes part from now on, on the curve that the motion has. It is looked for from `near`, if
-  /// given.
-  void insert(BeadId bead, BeadId near = no_bead);
-  /// It does not any more.
-  void erase(BeadId bead);
-  /// The bead goes on along the curve that `set_curve()` gives it in the motion; where it jumps now it is
-  /// erased and inserted. That of beads absent can be set at any time. A log does not hold curves: a replay
-  /// must follow the same motion.
+  [[nodiscard]] BeadEdits* edits() override { return this; }
+  void leave_out(BeadId bead) override;
+  void insert(BeadId bead) override { insert(bead, no_bead); }
+  /// The bead is looked for from `near`, if given: that is quicker.
+  void insert(BeadId bead, BeadId near);
+  void erase(BeadId bead) override;
+  [[nodiscard]] bool is_absent(BeadId bead) const override;
+  /// Simulator::change_motion of one bead that takes part.
   void change_motion(BeadId bead, const std::function<void()>& set_curve);
-  [[nodiscard]] bool is_absent(BeadId bead) const;
 
   // Steps that bring but a part of the beads to the next frame (diagram_update.h).
 
@@ -107,10 +103,14 @@ class PowerDiagram final : public KineticStructure, public DiagramEvents<Dimensi
  private:
   struct Parts;
 
+  void release(std::span<const BeadId> beads) override;
+  void take_up(std::span<const BeadId> beads) override;
   void count_certificates_per_bead();
 
   std::unique_ptr<Parts> parts_;
 };
+
+static_assert(EditableStructure<PowerDiagram<2>>);
 
 extern template class PowerDiagram<2>;
 extern template class PowerDiagram<3>;

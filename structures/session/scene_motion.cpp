@@ -17,6 +17,9 @@ class MotionOfType final : public SceneMotion {
       : scene_(scene), motion_(scene.bead_count(), sizes...) {}
   void load(std::size_t step) override { scene_.load(step, motion_); }
   [[nodiscard]] Ref ref() const override { return MotionRef<M::dimension>(motion_); }
+  void set_coordinate(BeadId bead, int k, int axis, double value) override {
+    motion_.set_coordinate(bead, k, axis, value);
+  }
 
  private:
   const Scene& scene_;

@@ -21,6 +21,9 @@ class SceneMotion {
   /// Sets the motion to that of the step.
   virtual void load(std::size_t step) = 0;
   [[nodiscard]] virtual Ref ref() const = 0;
+  /// Sets one number of a bead's k-th control point, until a step is loaded. Throws InputError where it is
+  /// not finite.
+  virtual void set_coordinate(BeadId bead, int k, int axis, double value) = 0;
 };
 
 /// The scene must outlive it. Throws InputError where the degree is above highest_degree.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kds/bead_edits.h"
 #include "motions/base/floating_point_guard.h"
 
 namespace kds {
@@ -25,27 +26,78 @@ std::vector<std::string> default_structures(const Scene& scene) {
 }
 
 Session::Session(const Scene& scene, const SessionOptions& options)
-    : motion_(make_scene_motion(scene)), simulator_(options.audits, options.kernel) {
+    : scene_(scene),
+      motion_(make_scene_motion(scene)),
+      ref_(motion_->ref()),
+      simulator_(options.audits, options.kernel) {
+  make_by_name(options);
+}
+
+Session::Session(const Scene& scene, const SceneMotion::Ref& motion, const SessionOptions& options)
+    : scene_(scene), ref_(motion), simulator_(options.audits, options.kernel) {
+  make_by_name(options);
+}
+
+void Session::make_by_name(const SessionOptions& options) {
   const FloatingPointGuard to_nearest;
   const std::vector<std::string> names =
-      options.structures.empty() ? default_structures(scene) : options.structures;
+      options.structures.empty() && options.by_default ? default_structures(scene_) : options.structures;
   for (const std::string& name : names) {
     const StructureSpec* spec = structure_registry().find(name);
     if (spec == nullptr)
       throw StructureRefusal(name, "there is no such structure; expected " + names_of_all());
-    if (const auto reason = spec->refusal(scene)) throw StructureRefusal(name, *reason);
+    if (const auto reason = spec->refusal(scene_)) throw StructureRefusal(name, *reason);
   }
-  const SceneMotion::Ref motion = motion_->ref();
+  const auto is_named = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const auto& [name, beads] : options.only)
+    if (!is_named(name)) throw StructureRefusal(name, "is to be of some beads only, and is not in the run");
   for (const StructureSpec& spec : structure_registry().all()) {  // in their order
-    if (std::find(names.begin(), names.end(), spec.name) == names.end()) continue;
-    running_.push_back(spec.make(simulator_, scene, motion, options.settings));
-    kinetic_.push_back(&running_.back()->kinetic());
+    if (!is_named(spec.name)) continue;
+    add_made(spec.make(simulator_, scene_, ref_, options.settings));
+    if (const auto only = options.only.find(spec.name); only != options.only.end())
+      keep_only(running_.size() - 1, only->second);
   }
+}
+
+void Session::add_made(std::unique_ptr<RunningStructure> structure) {
+  if (structure == nullptr)
+    throw StructureRefusal("a structure", "its type is not made for motions in " +
+                                              std::to_string(scene_.dimension()) + " dimensions");
+  running_.push_back(std::move(structure));
+  kinetic_.push_back(&running_.back()->kinetic());
+}
+
+void Session::keep_only(std::size_t structure, std::span<const BeadId> beads) {
+  KineticStructure& kept = *kinetic_.at(structure);
+  const std::string name(kept.name());
+  BeadEdits* const edits = kept.edits();
+  if (edits == nullptr) throw StructureRefusal(name, "is of all beads; it cannot be of some only");
+  std::vector<char> among(scene_.bead_count(), 0);
+  for (const BeadId bead : beads) {
+    if (bead >= among.size())
+      throw StructureRefusal(name, "there is no bead " + std::to_string(bead) + " of which it is to be");
+    among[bead] = 1;
+  }
+  for (BeadId bead = 0; bead < among.size(); ++bead)
+    if (among[bead] == 0) edits->leave_out(bead);
 }
 
 void Session::load(std::size_t step) {
   const FloatingPointGuard to_nearest;
+  if (!motion_) return;
   motion_->load(step);
+  simulator_.set_frames(scene_.stamp(step), scene_.stamp(step + 1));
+}
+
+std::vector<Event> Session::built(std::size_t structure) const {
+  std::vector<Event> events;
+  const KineticStructure& of = *kinetic_[structure];
+  const FrameStamp first = scene_.stamp(0);
+  for (const Change& change : running_[structure]->built())
+    events.push_back({0, 0, 0, structure, change, of.name(), of.kinds()[change.kind], first, first});
+  return events;
 }
 
 std::vector<DumpFile> Session::dump(std::size_t frame) const {

@@ -74,7 +74,7 @@ inline constexpr std::array<std::string_view, 2> between_names{"events", "chord"
 }
 
 struct StructureSettings {
-  NodeSelection nodes;                ///< of hierarchies
+  NodeSelection nodes = {};           ///< of hierarchies
   Between between = Between::events;  ///< wrapped
   /// Of chords: radii are within 1 + this of the smallest at all times; none: whatever they are.
   std::optional<double> tightness{};
@@ -99,9 +99,6 @@ struct StructureSpec {
   std::function<std::unique_ptr<RunningStructure>(Simulator&, const Scene&, const SceneMotion::Ref&,
                                                   const StructureSettings&)>
       make;
-  /// Whether the first two ids of its events are the first and last bead of a node of the balanced tree over
-  /// the necklaces, and the others beads. Else all are beads.
-  bool of_nodes = false;
 };
 
 class StructureRegistry {

@@ -112,7 +112,6 @@ class WrappedChordsInRun final : public ChordsInRun<StaticWrappedHierarchy<Dimen
 StructureSpec wrapped_structure() {
   StructureSpec spec;
   spec.name = "wrapped";
-  spec.of_nodes = true;
   spec.order = 20;
   spec.by_default = [](const Scene& scene) { return scene.has_radii(); };
   spec.refusal = refusal_of_spheres;

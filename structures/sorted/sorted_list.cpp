@@ -17,8 +17,13 @@ SortedList<D>::SortedList(Simulator& simulator, const MotionRef<D>& motion)
 
 template <int D>
 std::span<const EventKind> SortedList<D>::kinds() const {
-  static constexpr std::array<EventKind, 1> kinds{
-      {{"interchange"}}};  // ids: the bead that was left, the other
+  static constexpr std::array<IdRole, 2> interchanged{{{"first"}, {"second"}}};
+  static constexpr std::array<IdRole, 2> inserted{{{"bead"}, {"after"}}};
+  static constexpr std::array<IdRole, 1> bead{{{"bead"}}};
+  static constexpr std::array<EventKind, 4> kinds{{{"interchange", true, false, interchanged},
+                                                   {"insert", false, true, inserted},
+                                                   {"erase", false, true, bead},
+                                                   {"change", false, true, bead}}};
   return kinds;
 }
 
@@ -27,6 +32,7 @@ void SortedList<D>::build() {
   const Curves<D> curves = motion_.curves();
   order_.resize(curves.bead_count());
   std::iota(order_.begin(), order_.end(), BeadId{0});
+  std::erase_if(order_, [this](BeadId bead) { return is_absent(bead); });
   // The first control points that differ decide just after u = 0.
   std::stable_sort(order_.begin(), order_.end(), [&](BeadId a, BeadId b) {
     int k = 0;
@@ -68,19 +74,138 @@ CertificateHandle SortedList<D>::watch(std::size_t i, KnownAtStart known) {
 
 template <int D>
 void SortedList<D>::interchange(std::size_t i, KnownAtStart known) {
-  simulator_.record(index_, Change{0, 2, {order_[i], order_[i + 1]}});
+  simulator_.record(index_, Change{interchanges, 2, {order_[i], order_[i + 1]}});
   std::swap(order_[i], order_[i + 1]);
   guards_[i] = watch(i, known);
   for (const std::size_t beside : {i - 1, i + 1}) {  // i - 1 wraps round at 0
-    if (beside >= guards_.size()) continue;
-    table_.drop(guards_[beside]);
-    guards_[beside] = CertificateHandle::violated;
-    unguarded_.push_back(beside);
+    if (beside < guards_.size()) give_up(beside);
   }
 }
 
 template <int D>
+void SortedList<D>::give_up(std::size_t i) {
+  table_.drop(guards_[i]);
+  guards_[i] = CertificateHandle::violated;
+  unguarded_.push_back(i);
+}
+
+// Beads that come, go and change course.
+
+template <int D>
+bool SortedList<D>::is_absent(BeadId bead) const {
+  if (bead >= motion_.bead_count()) throw std::invalid_argument("there is no bead " + std::to_string(bead));
+  return bead < absent_.size() && absent_[bead] != 0;
+}
+
+template <int D>
+void SortedList<D>::require_edit(BeadId bead, bool absent) const {
+  if (is_absent(bead) == absent) return;
+  throw std::invalid_argument("bead " + std::to_string(bead) +
+                              (absent ? " is in the list already" : " is not in the list"));
+}
+
+template <int D>
+void SortedList<D>::leave_out(BeadId bead) {
+  require_edit(bead, false);
+  if (!order_.empty()) throw std::invalid_argument("beads are left out before the list is built");
+  absent_.resize(motion_.bead_count(), 0);
+  absent_[bead] = 1;
+}
+
+template <int D>
+std::size_t SortedList<D>::place_for(BeadId bead) {
+  const auto comes_first = [&](BeadId other) {
+    const Precedes pair{{other, bead}};
+    return table_.search().sign_just_after(simulator_.kernel(), pair, simulator_.now(), statistics.stages) >=
+           0;
+  };
+  return static_cast<std::size_t>(std::partition_point(order_.begin(), order_.end(), comes_first) -
+                                  order_.begin());
+}
+
+template <int D>
+void SortedList<D>::insert(BeadId bead) {
+  const Simulator::Entry entry(simulator_);
+  require_edit(bead, true);
+  simulator_.require_standing_still();
+  const std::size_t i = place_for(bead);
+  simulator_.record(index_, Change{inserts, 2, {bead, i == 0 ? no_bead : order_[i - 1]}});
+  put_in(i, bead);
+  if (order_.size() < 2) return;
+  const std::size_t guard = std::min(i, guards_.size());
+  guards_.insert(guards_.begin() + static_cast<std::ptrdiff_t>(guard), CertificateHandle::violated);
+  renumber_from(guard + 1);
+  give_up(guard);
+  if (i > 0 && i + 1 < order_.size()) give_up(i - 1);  // the pair that it comes between
+  guard_all();
+}
+
+template <int D>
+void SortedList<D>::erase(BeadId bead) {
+  const Simulator::Entry entry(simulator_);
+  require_edit(bead, false);
+  simulator_.require_standing_still();
+  simulator_.record(index_, Change{erases, 1, {bead}});
+  const std::size_t i = take_out(bead);
+  if (guards_.empty()) return;
+  const std::size_t guard = std::min(i, guards_.size() - 1);
+  table_.drop(guards_[guard]);
+  guards_.erase(guards_.begin() + static_cast<std::ptrdiff_t>(guard));
+  renumber_from(guard);
+  if (i > 0 && i < order_.size()) give_up(i - 1);  // the pair that it stood between
+  guard_all();
+}
+
+template <int D>
+void SortedList<D>::put_in(std::size_t i, BeadId bead) {
+  absent_[bead] = 0;
+  order_.insert(order_.begin() + static_cast<std::ptrdiff_t>(i), bead);
+}
+
+template <int D>
+std::size_t SortedList<D>::take_out(BeadId bead) {
+  absent_.resize(motion_.bead_count(), 0);
+  absent_[bead] = 1;
+  const auto at = std::find(order_.begin(), order_.end(), bead);
+  return static_cast<std::size_t>(order_.erase(at) - order_.begin());
+}
+
+/// Certificates know the places of their pairs.
+template <int D>
+void SortedList<D>::renumber_from(std::size_t i) {
+  for (; i < guards_.size(); ++i) table_.set_place(guards_[i], static_cast<std::uint32_t>(i));
+}
+
+template <int D>
+void SortedList<D>::release(std::span<const BeadId> beads) {
+  std::vector<char> among(motion_.bead_count(), 0);
+  for (const BeadId bead : beads) among[bead] = 1;
+  for (std::size_t i = 0; i < guards_.size(); ++i)
+    if (among[order_[i]] != 0 || among[order_[i + 1]] != 0) give_up(i);
+}
+
+template <int D>
+void SortedList<D>::take_up(std::span<const BeadId> beads) {
+  for (const BeadId bead : beads)
+    if (!is_absent(bead)) simulator_.record(index_, Change{changes, 1, {bead}});
+  guard_all();
+}
+
+template <int D>
 void SortedList<D>::apply(const Change& change) {
+  const BeadId bead = change.ids[0];
+  if (change.size != (change.kind == interchanges || change.kind == inserts ? 2 : 1))
+    throw std::invalid_argument("a change of a list has other numbers of beads");
+  if (change.kind != interchanges) {
+    require_edit(bead, change.kind == inserts);
+    if (change.kind == erases) take_out(bead);
+    if (change.kind != inserts) return;
+    const BeadId before = change.ids[1];
+    if (before == no_bead) return put_in(0, bead);
+    require_edit(before, false);
+    const auto at = std::find(order_.begin(), order_.end(), before);
+    return put_in(static_cast<std::size_t>(at - order_.begin()) + 1, bead);
+  }
   const auto i =
       static_cast<std::size_t>(std::find(order_.begin(), order_.end(), change.ids[0]) - order_.begin());
   if (i + 1 >= order_.size() || order_[i + 1] != change.ids[1])
@@ -97,6 +222,9 @@ std::optional<std::string> SortedList<D>::audit(const Dyadic& time) {
              " are out of order";
     }
   }
+  const auto absent = static_cast<std::size_t>(std::count(absent_.begin(), absent_.end(), 1));
+  if (order_.size() + absent != motion_.bead_count())
+    return std::to_string(order_.size()) + " beads are in order, and " + std::to_string(absent) + " absent";
   return std::nullopt;
 }
 

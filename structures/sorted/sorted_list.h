@@ -1,19 +1,26 @@
 #pragma once
 // Beads sorted along the first axis, kept sorted while they move: the smallest complete kinetic structure,
 // and the one to read first, with its .cpp. One certificate a pair of neighbours; when it fails they trade
-// places.
+// places. Beads come, go and change course at the cost of a few certificates and a shift of the list.
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "certificates/types/precedes.h"
+#include "kds/bead_edits.h"
 #include "kds/certificate_table.h"
 
 namespace kds {
 
 template <int Dimension>
-class SortedList final : public KineticStructure {
+class SortedList final : public KineticStructure, public BeadEdits {
  public:
+  /// Kinds of its events; ids: the bead that was first, the other; a bead that comes, and the one before it
+  /// or no_bead; one that goes; one on another curve.
+  enum Kind : std::uint8_t { interchanges, inserts, erases, changes };
+
   SortedList(Simulator& simulator, const MotionRef<Dimension>& motion);
 
   [[nodiscard]] std::string_view name() const override { return "sorted"; }
@@ -26,7 +33,22 @@ class SortedList final : public KineticStructure {
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
+  [[nodiscard]] BeadEdits* edits() override { return this; }
+  void leave_out(BeadId bead) override;
+  void insert(BeadId bead) override;
+  void erase(BeadId bead) override;
+  [[nodiscard]] bool is_absent(BeadId bead) const override;
+
  private:
+  void release(std::span<const BeadId> beads) override;
+  void take_up(std::span<const BeadId> beads) override;
+  void require_edit(BeadId bead, bool absent) const;
+  /// Where a bead that is absent belongs just after now.
+  [[nodiscard]] std::size_t place_for(BeadId bead);
+  void put_in(std::size_t i, BeadId bead);
+  std::size_t take_out(BeadId bead);
+  void give_up(std::size_t i);
+  void renumber_from(std::size_t i);
   void guard_all();
   [[nodiscard]] CertificateHandle watch(std::size_t i, KnownAtStart known);
   void interchange(std::size_t i, KnownAtStart known);
@@ -36,8 +58,11 @@ class SortedList final : public KineticStructure {
   std::size_t index_;
   CertificateTable<Precedes> table_;
   std::vector<BeadId> order_;
+  std::vector<char> absent_;               // of each bead, if any was ever left out
   std::vector<CertificateHandle> guards_;  // of the pair at i and i+1; violated: none yet
   std::vector<std::size_t> unguarded_;
 };
+
+static_assert(EditableStructure<SortedList<1>>);
 
 }  // namespace kds

@@ -83,7 +83,7 @@ TEST(SimulatorReplay, EqualsTheRun) {
     for (const auto& heard : listener.heard) {
       if (heard.event.step == step)
         events.push_back(
-            {heard.event.structure, heard.event.lower, heard.event.upper, heard.event.change, ""});
+            {heard.event.structure_index, heard.event.lower, heard.event.upper, heard.event.change, ""});
     }
     replay.replay_step(events);
   }

@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "certificates/exact/exact_time.h"
 #include "tests/support/inputs/script.h"
 
 namespace kds {
@@ -38,6 +39,54 @@ TEST_F(SimulatorTest, DispatchesInTheOrderOfTime) {
               ElementsAre("a build", "a start", "a 1/3", "a 2/5", "a 1/2", "a 3/4", "a finish", "a end"));
   EXPECT_EQ(a.retired, 4);
   EXPECT_EQ(a.cleared, 1);
+}
+
+TEST_F(SimulatorTest, RunsTimeByTime) {
+  a.on_start = [&] {
+    a.schedule("1/2", falling(1, 2), 1);
+    a.schedule("1/3", falling(1, 3), 2);
+    a.schedule("1/2 again", falling(2, 4), 3, [&] { a.needs_after_batch = true; });
+  };
+  simulator.build();
+  EXPECT_THROW(static_cast<void>(simulator.run_next()), std::logic_error);
+  EXPECT_THROW(simulator.require_standing_still(), std::invalid_argument);
+  simulator.enter_step();
+  simulator.require_standing_still();
+  log.clear();
+  EXPECT_TRUE(simulator.run_next());
+  EXPECT_THAT(log, ElementsAre("a 1/3"));
+  // A third is no double: its time is known exactly all the same, whatever becomes of the certificate.
+  EXPECT_EQ(a.retired, 1);
+  ExactTime before(Dyadic(0.333)), after(Dyadic(0.334));
+  EXPECT_LT(ExactTime::compare(before, simulator.now().exact()), 0);
+  EXPECT_GT(ExactTime::compare(after, simulator.now().exact()), 0);
+  simulator.require_standing_still();
+  EXPECT_TRUE(simulator.run_next());
+  EXPECT_THAT(log, ElementsAre("a 1/3", "a 1/2", "a 1/2 again", "a settle"));
+  ExactTime half(Dyadic(0.5));
+  EXPECT_EQ(ExactTime::compare(half, simulator.now().exact()), 0);
+  EXPECT_FALSE(simulator.run_next());
+  EXPECT_EQ(ExactTime::compare(half, simulator.now().exact()), 0);  // time stays
+  simulator.run_until(Dyadic(0.5));
+  simulator.leave_step();
+  EXPECT_THROW(simulator.require_standing_still(), std::invalid_argument);
+  EXPECT_THROW(simulator.change_motion({}, [] { FAIL(); }), std::invalid_argument);
+}
+
+TEST_F(SimulatorTest, EventsTellOfFramesAsTheyAreSet) {
+  Listener listener;
+  simulator.listen(listener);
+  a.on_start = [&] { a.schedule("1/2", falling(1, 2), 1); };
+  simulator.build();
+  simulator.set_frames({7, 1.5}, {9, 2.5});
+  simulator.run_step();
+  simulator.run_step();
+  ASSERT_EQ(listener.heard.size(), 2U);
+  EXPECT_EQ(listener.heard[0].event.frame(), 8.0);
+  EXPECT_EQ(listener.heard[0].event.picoseconds(), 2.0);
+  EXPECT_EQ(listener.heard[1].event.frame(), 1.5);  // not said: steps
+  EXPECT_FALSE(listener.heard[1].event.has_picoseconds());
+  EXPECT_EQ(listener.heard[1].event.kind.name, "turn");
 }
 
 TEST_F(SimulatorTest, AStepOfTooManyFailuresIsGivenUp) {
@@ -267,7 +316,7 @@ TEST_F(SimulatorTest, ListenersHearEveryChange) {
     EXPECT_EQ(event.step, i / 3);
     const std::array<std::string, 3> names{"a", "b", "b"};
     EXPECT_EQ(structure, names[i % 3]);
-    EXPECT_EQ(event.structure, i % 3 == 0 ? 0U : 1U);
+    EXPECT_EQ(event.structure_index, i % 3 == 0 ? 0U : 1U);
     const std::array<Change, 3> changes{{{0, 1, {7}}, {1, 1, {9}}, {0, 1, {10}}}};
     EXPECT_EQ(event.change, changes[i % 3]);
     const double time = i % 3 == 0 ? 1.0 / 3 : 0.5;

@@ -133,8 +133,8 @@ TEST(TableConstants, OtherConstantsAreOtherFunctions) {
   nearly.set_cutoff(std::nextafter(1.0, 2));  // reached before, if only by a trifle
   same.set_cutoff(1);
   struct Listener final : EventListener {
-    void on_event(const KineticStructure&, const LoggedEvent& event) override {
-      order.push_back(event.structure);
+    void on_event(const Event& event) override {
+      order.push_back(event.structure_index);
       times.push_back(event.lower);
     }
     std::vector<std::size_t> order;

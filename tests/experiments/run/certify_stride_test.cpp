@@ -30,9 +30,7 @@ Arguments arguments_with(const std::string& frames, std::vector<std::string> mor
 
 struct Pairs final : EventListener {
   PairsMet met;
-  void on_event(const KineticStructure&, const LoggedEvent& event) override {
-    met.emplace(event.change.ids[0], event.change.ids[1]);
-  }
+  void on_event(const Event& event) override { met.emplace(event.change.ids[0], event.change.ids[1]); }
 };
 
 /// By a run of all frames.
@@ -44,7 +42,7 @@ PairsMet pairs_in_truth(const std::string& frames) {
   session->simulator().listen(pairs);
   run_steps(*session, scene, options, [&](std::size_t frame) {
     if (frame != 0) return;
-    for (const Change& change : session->built(0)) pairs.met.emplace(change.ids[0], change.ids[1]);
+    for (const Event& event : session->built(0)) pairs.on_event(event);
   });
   return pairs.met;
 }

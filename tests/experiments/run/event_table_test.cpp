@@ -115,6 +115,61 @@ TEST(EventTable, HoldsTheEventsOfTheLogAndNamesTheirBeads) {
   EXPECT_EQ(content_of(scratch / "replayed.csv"), content_of(scratch / "events.csv"));
 }
 
+// The same events as in the table, and what their ids are.
+TEST(EventTable, IsOfJsonLinesWhereItsNameSaysSo) {
+  const ScratchDirectory scratch;
+  for (const char* name : {"events.csv", "events.JSONL"}) {
+    const ProgramRun run =
+        run_program({"run", kDcd, "--topology", kPdb, "--frames", "10:20:2", "--structures",
+                     "wrapped,power,contacts", "--events", scratch / name, "--quiet"});
+    ASSERT_EQ(run.code, 0) << run.err;
+  }
+  auto rows = table_of(scratch / "events.csv");
+  const bool timed = rows[0].size() == 10;
+  rows.erase(rows.begin());
+  std::vector<std::string> lines = parts(content_of(scratch / "events.JSONL"), '\n');
+  lines.pop_back();  // behind the last one
+  ASSERT_EQ(lines.size(), rows.size());
+  const std::map<std::string, std::vector<std::string>> roles{
+      {"wrapped", {"node", "basis"}}, {"contacts", {"first", "second"}}, {"2-3", {"triangle", "edge"}},
+      {"3-2", {"triangle", "edge"}},  {"4-1", {"cell", "bead"}},         {"1-4", {"cell", "bead"}},
+      {"wander", {"bead", "cell"}}};
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Json line = Json::parse(lines[r]);
+    std::vector<std::string> row = rows[r];
+    if (timed) {
+      EXPECT_EQ(line["picoseconds"].get<double>(), std::stod(row[3]));
+      row.erase(row.begin() + 3);
+    }
+    const double first = std::stod(row[0]), lower = std::stod(row[1]), upper = std::stod(row[2]);
+    EXPECT_EQ(line["frame"], first);
+    EXPECT_EQ(line["step"], (first - 10) / 2);
+    EXPECT_NEAR(line["time"].get<double>(), first + lower + upper, 1e-9);  // strided: 2 frames a step
+    EXPECT_EQ(line["lower"], lower);
+    EXPECT_EQ(line["upper"], upper);
+    EXPECT_EQ(line["structure"], row[3]);
+    EXPECT_EQ(line["kind"], row[4]);
+    EXPECT_EQ(line["external"], row[5] == "1");
+    std::vector<std::string> names;
+    std::string beads, residues;
+    for (const auto& [role, ids] : line["ids"].items()) {
+      names.push_back(role);
+      if (role == "node") {
+        EXPECT_EQ(ids[0].dump() + "-" + ids[1].dump(), row[6]);
+        continue;
+      }
+      for (const Json& id : ids)
+        beads += (beads.empty() ? "" : " ") + (id.is_null() ? std::string("infinity") : id.dump());
+    }
+    EXPECT_EQ(names, roles.at(row[3] == "power" ? row[4] : row[3]));
+    EXPECT_EQ(beads, row[7]);
+    std::size_t residue = row[6].empty() ? 0 : 2;  // of the node's ends, too
+    for (; residue < line["residues"].size(); ++residue)
+      residues += (residues.empty() ? "" : " ") + line["residues"][residue].get<std::string>();
+    EXPECT_EQ(residues, row[8]);
+  }
+}
+
 TEST(EventTable, SaysNothingOfResiduesWhereTheFileDoesNot) {
   const ScratchDirectory scratch;
   const std::string moving = scratch.file("moving.xyz", "2\na\nC 0 0 0\nC 9 1 2\n2\nb\nC 8 0 0\nC 1 1 2\n");

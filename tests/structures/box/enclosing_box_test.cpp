@@ -42,7 +42,7 @@ History expect_right(const std::vector<M>& steps) {
 
 std::vector<std::string> told(const History& history) {
   std::vector<std::string> lines;
-  for (const LoggedEvent& e : history.events) {
+  for (const Event& e : history.events) {
     const auto kind = e.change.kind;
     if (kind == 0) continue;
     lines.push_back(text_of(kind % 2 == 1 ? "min-" : "max-", "xyz"[(kind - 1) / 2], " ", e.change.ids[0], " ",

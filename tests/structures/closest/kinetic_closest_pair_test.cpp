@@ -50,7 +50,7 @@ History expect_right(const std::vector<M>& steps) {
 
 std::vector<std::string> told(const History& history) {
   std::vector<std::string> lines;
-  for (const LoggedEvent& e : history.events) {
+  for (const Event& e : history.events) {
     const auto& ids = e.change.ids;
     if (e.change.kind == KineticClosestPair<3>::replace)
       lines.push_back(text_of(ids[0], " ", ids[1], " to ", ids[2], " ", ids[3], " at ",

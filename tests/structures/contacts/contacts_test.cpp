@@ -33,7 +33,7 @@ PairsAsked all_pairs(std::size_t beads, BeadId apart = 1) {
 template <Motion M>
 std::vector<std::string> told(const ContactRig<M>& rig) {
   std::vector<std::string> lines;
-  for (const LoggedEvent& e : rig.history.events)
+  for (const Event& e : rig.history.events)
     lines.push_back(text_of(rig.structure.kinds()[e.change.kind].name, " ", e.change.ids[0], " ",
                             e.change.ids[1], " at ",
                             static_cast<double>(e.step) + 0.5 * (e.lower + e.upper)));
@@ -155,7 +155,7 @@ TEST(Contacts, PairsNearAlongTheChainAreLeftOut) {
     ContactRig<Space> rig(steps.front(), AuditMode::events, all_pairs(40, apart));
     rig.run(steps);
     EXPECT_EQ(rig.history.events.size(), (40 - apart) * (41 - apart) / 2) << apart;
-    for (const LoggedEvent& e : rig.history.events) EXPECT_GE(e.change.ids[1] - e.change.ids[0], apart);
+    for (const Event& e : rig.history.events) EXPECT_GE(e.change.ids[1] - e.change.ids[0], apart);
     EXPECT_EQ(contact_history_fault(steps, all_pairs(40, apart), rig.history, {}, rig.structure.pairs()),
               std::nullopt);
   }

@@ -77,7 +77,7 @@ TEST(SampledContacts, OfAProteinMostAreMissedBetweenFrames) {
   session.load(0);
   session.simulator().build();
   std::vector<BeadPair> at_start;
-  for (const Change& change : session.built(0)) at_start.push_back({change.ids[0], change.ids[1]});
+  for (const Event& event : session.built(0)) at_start.push_back({event.ids()[0], event.ids()[1]});
   sampled.add_built(at_start);
   for (std::size_t step = 0; step < scene.step_count(); ++step) {
     session.load(step);

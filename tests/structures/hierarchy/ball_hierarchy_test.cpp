@@ -287,7 +287,7 @@ TEST(NodeSelection, OtherNodesMakeNoDifference) {
   const std::vector<BeadRange> necklace{{0, 49}};
   const auto events_of = [](const History& history, const BeadRange& range) {
     std::vector<std::array<BeadId, 10>> some;
-    for (const LoggedEvent& e : history.events)
+    for (const Event& e : history.events)
       if (e.change.ids[0] == range.first && e.change.ids[1] == range.last) some.push_back(e.change.ids);
     return some;
   };

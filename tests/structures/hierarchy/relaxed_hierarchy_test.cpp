@@ -131,9 +131,9 @@ TEST(RelaxedHierarchy, AnEscapeWaits) {
     RelaxedRig<Space> rig(motion, AuditMode::events, Kernel::filtered, share);
     rig.run();
     EXPECT_EQ(rig.history.events.size(), share < 1 ? 1U : 0U);
-    return rig.history.events.empty() ? LoggedEvent{} : rig.history.events.front();
+    return rig.history.events.empty() ? Event{} : rig.history.events.front();
   };
-  const auto is_at = [](const LoggedEvent& event, double u) { return event.lower <= u && u <= event.upper; };
+  const auto is_at = [](const Event& event, double u) { return event.lower <= u && u <= event.upper; };
   EXPECT_TRUE(is_at(first_event(0), 0.5));
   EXPECT_TRUE(is_at(first_event(0.25), 0.625));
   EXPECT_TRUE(is_at(first_event(0.5), 0.75));

@@ -71,7 +71,7 @@ Witness::Look definition(WrappedRig<K>& rig, int stride) {
 template <Kernel K>
 void expect_consistent_log(const WrappedRig<K>& rig, std::map<std::pair<BeadId, BeadId>, Basis> bases) {
   std::array<std::uint64_t, 3> kinds{};
-  for (const LoggedEvent& e : rig.history.events) {
+  for (const Event& e : rig.history.events) {
     Basis& before = bases.at({e.change.ids[0], e.change.ids[1]});
     const Basis after(std::span(e.change.ids).subspan(2, e.change.size - 2U));
     EXPECT_FALSE(after == before);
@@ -350,7 +350,7 @@ TEST(WrappedHierarchy, KernelsAgree) {
     fast.run(*motion);
     const auto changes = [](const History& history) {
       std::vector<std::pair<std::size_t, std::array<BeadId, 10>>> all;
-      for (const LoggedEvent& e : history.events) all.emplace_back(e.step, e.change.ids);
+      for (const Event& e : history.events) all.emplace_back(e.step, e.change.ids);
       std::sort(all.begin(), all.end());
       return all;
     };

@@ -86,7 +86,7 @@ History expect_right(const std::vector<M>& steps) {
 /// "enter 3 between 1 and 2 at 0.5", without what the halves only keep for themselves.
 std::vector<std::string> told(const History& history) {
   std::vector<std::string> lines;
-  for (const LoggedEvent& e : history.events) {
+  for (const Event& e : history.events) {
     const auto& ids = e.change.ids;
     if (e.change.kind != ConvexHull::interchange)
       lines.push_back(text_of(e.change.kind == ConvexHull::enter ? "enter " : "leave ", ids[0], " between ",

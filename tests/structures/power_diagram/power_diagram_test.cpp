@@ -124,7 +124,7 @@ TEST(PowerDiagram, LoggedFlipsTurnTheFirstCellsIntoTheLast) {
     return sorted;
   };
   const auto finite = [](const CellBeads<3>& c) { return c[3] != infinite_bead; };
-  for (const LoggedEvent& e : rig.history.events) {
+  for (const Event& e : rig.history.events) {
     const auto& id = e.change.ids;
     ASSERT_EQ(e.change.size, 5);
     EXPECT_TRUE(id[0] < id[1] && id[1] < id[2] && id[3] < id[4]);
@@ -176,7 +176,7 @@ TEST(PowerDiagram, AuditsNoticeEveryWrongFlip) {
   rig.run();
   EXPECT_EQ(rig.structure.audit(Dyadic(1.0)), std::nullopt);
   int tried = 0;
-  for (const LoggedEvent& e : rig.history.events) {
+  for (const Event& e : rig.history.events) {
     const bool to_edge = rig.structure.kinds()[e.change.kind].name == "2-3";
     for (const bool forth : {to_edge, !to_edge}) {
       Change change = e.change;

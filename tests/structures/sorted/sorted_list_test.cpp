@@ -47,7 +47,7 @@ void expect_all_crossings(const Line& motion, Kernel kernel = Kernel::filtered) 
   ASSERT_NO_THROW(rig.run());
   auto expected = crossings(motion);
   Rational before = 0;
-  for (const LoggedEvent& event : rig.history.events) {
+  for (const Event& event : rig.history.events) {
     const auto [low, high] = std::minmax(event.change.ids[0], event.change.ids[1]);
     const auto found = expected.find({low, high});
     ASSERT_NE(found, expected.end()) << "beads " << low << " and " << high << " do not cross, or not again";
@@ -129,7 +129,7 @@ TEST(SortedList, RandomFramesFullOfTies) {
     // Nothing is done in vain: within a step no pair trades places twice.
     for (std::size_t k = 0; k < steps.size(); ++k) {
       std::map<std::pair<BeadId, BeadId>, int> times;
-      for (const LoggedEvent& e : filtered.history.of_step(k)) {
+      for (const Event& e : filtered.history.of_step(k)) {
         const auto [low, high] = std::minmax(e.change.ids[0], e.change.ids[1]);
         EXPECT_EQ(++times[std::pair(low, high)], 1) << low << " " << high << " in step " << k;
       }

@@ -77,11 +77,11 @@ inline Points random_grid_points(std::mt19937& random, std::size_t beads, int ra
 
 /// Everything that was recorded.
 struct History final : EventListener {
-  std::vector<LoggedEvent> events;
-  void on_event(const KineticStructure&, const LoggedEvent& event) override { events.push_back(event); }
-  [[nodiscard]] std::vector<LoggedEvent> of_step(std::size_t step) const {
-    std::vector<LoggedEvent> some;
-    for (const LoggedEvent& e : events) {
+  std::vector<Event> events;
+  void on_event(const Event& event) override { events.push_back(event); }
+  [[nodiscard]] std::vector<Event> of_step(std::size_t step) const {
+    std::vector<Event> some;
+    for (const Event& e : events) {
       if (e.step == step) some.push_back(e);
     }
     return some;
@@ -138,8 +138,8 @@ class Rig {
     for (std::size_t k = 0; k < steps.size(); ++k) {
       motion = steps[k];
       std::vector<Simulator::Replayed> events;
-      for (const LoggedEvent& e : log.of_step(k))
-        events.push_back({e.structure, e.lower, e.upper, e.change, ""});
+      for (const Event& e : log.of_step(k))
+        events.push_back({e.structure_index, e.lower, e.upper, e.change, ""});
       simulator.replay_step(events);
     }
     simulator.finish();

@@ -122,12 +122,10 @@ class Script final : public KineticStructure, public FailureSource {
 struct Listener final : EventListener {
   struct Heard {
     std::string structure;
-    LoggedEvent event;
+    Event event;
   };
   std::vector<Heard> heard;
-  void on_event(const KineticStructure& structure, const LoggedEvent& event) override {
-    heard.push_back({std::string(structure.name()), event});
-  }
+  void on_event(const Event& event) override { heard.push_back({std::string(event.structure), event}); }
 };
 
 }  // namespace kds::test

@@ -130,9 +130,9 @@ std::optional<std::string> contact_history_fault(const std::vector<M>& steps, co
                                                  const History& history,
                                                  const std::vector<BeadPair>& at_start,
                                                  const std::vector<BeadPair>& at_end) {
-  std::map<BeadPair, std::vector<const LoggedEvent*>> of_pair;
+  std::map<BeadPair, std::vector<const Event*>> of_pair;
   double earliest = 0;
-  for (const LoggedEvent& event : history.events) {
+  for (const Event& event : history.events) {
     of_pair[{event.change.ids[0], event.change.ids[1]}].push_back(&event);
     if (static_cast<double>(event.step) + event.upper < earliest) return "events are out of order";
     earliest = static_cast<double>(event.step) + event.lower;

@@ -1,0 +1,20 @@
+#pragma once
+// Texts in files of comma separated values.
+
+#include <string>
+#include <string_view>
+
+namespace kds {
+
+/// A field of CSV, between quotation marks where it must be.
+[[nodiscard]] inline std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += c;
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+}  // namespace kds

@@ -1,0 +1,281 @@
+#include "structures/session/kinetic_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "certificates/exact/exact_time.h"
+#include "kds/bead_edits.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+/// What its user did, and when.
+struct KineticRun::Edit {
+  std::size_t step;
+  ExactTime time;
+  std::function<void()> make;
+};
+
+/// A bead on another curve than the frames', and where that ends.
+struct KineticRun::Bend {
+  BeadId bead;
+  std::array<double, 3> end;
+};
+
+namespace {
+
+PushedFrames without_frames(const SceneMotion::Ref& motion, const BeadsOfMotion& beads) {
+  return std::visit(
+      [&]<int Dimension>(const MotionRef<Dimension>& ref) {
+        PushedFrames frames{Dimension, beads.necklaces, beads.radii,
+                            ref.is_lifted() ? FrameMotion::lifted : FrameMotion::linear};
+        if (frames.necklaces.empty()) frames.necklaces.push_back(ref.bead_count());
+        std::size_t count = 0;
+        for (const std::size_t of_necklace : frames.necklaces) count += of_necklace;
+        if (count != ref.bead_count())
+          throw InputError(fmt::format("necklaces of {} beads in all: expected {}, as many as the motion has",
+                                       count, ref.bead_count()));
+        return frames;
+      },
+      motion);
+}
+
+std::array<double, 3> control_point(const SceneMotion::Ref& motion, BeadId bead, bool last) {
+  std::array<double, 3> point{};
+  std::visit(
+      [&]<int Dimension>(const MotionRef<Dimension>& ref) {
+        const Curves<Dimension> curves = ref.curves();
+        for (int axis = 0; axis < Dimension; ++axis)
+          point[static_cast<std::size_t>(axis)] =
+              curves.coordinate(bead, last ? curves.own_degree() : 0, axis);
+      },
+      motion);
+  return point;
+}
+
+}  // namespace
+
+KineticRun::KineticRun(PushedFrames frames, const SessionOptions& options)
+    : own_scene_(std::make_unique<Scene>(std::move(frames))), scene_(*own_scene_), options_(options) {
+  make_session();
+}
+
+KineticRun::KineticRun(const Scene& scene, const SessionOptions& options) : scene_(scene), options_(options) {
+  make_session();
+}
+
+KineticRun::KineticRun(const SceneMotion::Ref& motion, const BeadsOfMotion& beads,
+                       const SessionOptions& options)
+    : own_scene_(std::make_unique<Scene>(without_frames(motion, beads))),
+      scene_(*own_scene_),
+      motion_(motion),
+      options_(options) {
+  make_session();
+}
+
+KineticRun::~KineticRun() = default;
+
+void KineticRun::make_session() {
+  session_ = motion_ ? std::make_unique<Session>(scene_, *motion_, options_)
+                     : std::make_unique<Session>(scene_, options_);
+  for (const auto& addition : additions_) addition(*session_);
+  built_ = within_ = finished_ = false;
+  bends_.clear();
+}
+
+void KineticRun::plan(std::function<void(Session&)> addition) {
+  if (built_) throw std::logic_error("structures are chosen before the first step is run");
+  addition(*session_);
+  additions_.push_back(std::move(addition));
+}
+
+void KineticRun::listen(EventListener& listener) {
+  listeners_.push_back(&listener);
+  simulator().listen(listener);
+}
+
+bool KineticRun::can_enter() const {
+  return !finished_ && (motion_ || session_->simulator().step() < scene_.known_steps());
+}
+
+void KineticRun::enter() {
+  const std::size_t step = simulator().step();
+  if (motion_) check_radii();
+  if (!built_) {
+    session_->load(0);
+    simulator().build();
+    built_ = true;
+  }
+  session_->load(step);
+  check_bends();
+  simulator().enter_step();
+  within_ = true;
+}
+
+void KineticRun::leave() {
+  simulator().leave_step();
+  within_ = false;
+}
+
+/// Spheres and contacts rely on what was said of radii.
+void KineticRun::check_radii() const {
+  if (!scene_.has_radii()) return;
+  std::visit(
+      [&]<int Dimension>(const MotionRef<Dimension>& ref) {
+        const Curves<Dimension> curves = ref.curves();
+        for (BeadId bead = 0; bead < curves.bead_count(); ++bead) {
+          for (int k = 0; k <= curves.own_degree(); ++k) {
+            if (curves.radius(bead, k) != scene_.radii()[bead])
+              throw InputError(
+                  fmt::format("bead {}: its radius is {} in the motion, expected {}, as was said", bead,
+                              curves.radius(bead, k), scene_.radii()[bead]));
+          }
+        }
+      },
+      *motion_);
+}
+
+/// Structures go on from where the step before ended.
+void KineticRun::check_bends() {
+  for (const Bend& bend : std::exchange(bends_, {})) {
+    if (control_point(session_->motion()->ref(), bend.bead, false) != bend.end)
+      throw InputError(
+          fmt::format("bead {}: its course was changed in step {}, and does not end where frame {} has it",
+                      bend.bead, simulator().step() - 1, simulator().step()));
+  }
+}
+
+void KineticRun::take(std::span<const double> coordinates, std::optional<double> picoseconds) {
+  if (!own_scene_ || motion_) throw std::logic_error("a frame is pushed to a run that has a motion already");
+  run();
+  own_scene_->push(coordinates, picoseconds);
+}
+
+void KineticRun::push(std::span<const double> coordinates, std::optional<double> picoseconds) {
+  take(coordinates, picoseconds);
+  run();
+}
+
+bool KineticRun::run_step() {
+  if (!within_) {
+    if (!can_enter()) return false;
+    enter();
+  }
+  leave();
+  return true;
+}
+
+void KineticRun::run() {
+  if (motion_) throw std::logic_error("over a motion that its user sets, each step is run by run_step()");
+  while (run_step()) {
+  }
+}
+
+bool KineticRun::next_event() {
+  while (within_ || can_enter()) {
+    if (!within_) enter();
+    if (simulator().run_next()) return true;
+    leave();
+    if (motion_) return false;
+  }
+  return false;
+}
+
+void KineticRun::finish() {
+  if (finished_) return;
+  if (own_scene_) own_scene_->end_frames();
+  if (within_) leave();
+  if (!motion_) run();
+  if (built_) simulator().finish();
+  finished_ = true;
+}
+
+void KineticRun::go_to(double time) {
+  const std::size_t present = simulator().step();
+  const auto last = static_cast<double>(motion_ ? present + 1 : scene_.known_steps());
+  if (!(time >= 0 && time <= last))
+    throw std::invalid_argument(
+        fmt::format("time {}: expected one from 0 to {}, where the steps that are known end", time, last));
+  const auto step = static_cast<std::size_t>(time);
+  const double u = time - static_cast<double>(step);
+  ExactTime there{Dyadic(u)};
+  const bool is_past = step < present || (step == present && within_ &&
+                                          ExactTime::compare(there, simulator().now().exact()) < 0);
+  if (!is_past) return go_on_to(step, u);
+  if (own_scene_)
+    throw std::invalid_argument(
+        fmt::format("time {}: the run is past it, and its steps are not kept; expected a later one", time));
+  make_session();
+  struct TellAgain {  // nobody hears of what happens before that time
+    KineticRun& run;
+    ~TellAgain() {
+      for (EventListener* listener : run.listeners_) run.simulator().listen(*listener);
+    }
+  } const tell_again{*this};
+  for (Edit& edit : std::exchange(edits_, {})) {
+    if (edit.step > step || (edit.step == step && ExactTime::compare(there, edit.time) < 0)) break;
+    redo(edit);
+    edits_.push_back(std::move(edit));
+  }
+  go_on_to(step, u);
+}
+
+/// Stands within the step unless u is 0.
+void KineticRun::go_on_to(std::size_t step, double u) {
+  while (simulator().step() < step) run_step();
+  if (u == 0) return;
+  if (!within_) enter();
+  simulator().run_until(Dyadic(u));
+}
+
+void KineticRun::edit(std::function<void()> make) {
+  make();
+  if (!own_scene_) edits_.push_back({simulator().step(), simulator().now().exact(), std::move(make)});
+}
+
+void KineticRun::redo(const Edit& edit) {
+  while (simulator().step() < edit.step) run_step();
+  if (!within_) enter();
+  ExactTime time = edit.time;
+  if (time.is_dyadic()) {
+    simulator().run_until(time.lower());
+  } else {
+    while (ExactTime::compare(simulator().now().exact(), time) < 0)
+      if (!simulator().run_next()) throw std::logic_error("an edit's time does not come again");
+  }
+  edit.make();
+}
+
+BeadEdits& KineticRun::edits_of(std::size_t structure) const {
+  KineticStructure& edited = *structures().at(structure);
+  if (edited.edits() == nullptr)
+    throw StructureRefusal(std::string(edited.name()), "its beads cannot come and go");
+  return *edited.edits();
+}
+
+void KineticRun::insert(std::size_t structure, BeadId bead) {
+  edit([this, structure, bead] { edits_of(structure).insert(bead); });
+}
+
+void KineticRun::erase(std::size_t structure, BeadId bead) {
+  edit([this, structure, bead] { edits_of(structure).erase(bead); });
+}
+
+void KineticRun::change_motion(std::vector<BeadId> beads,
+                               const std::function<void(SceneMotion&)>& set_curves) {
+  if (motion_)
+    throw std::logic_error("over a motion that its user sets, Simulator::change_motion changes courses");
+  edit([this, kept = std::move(beads), set_curves] {
+    simulator().change_motion(kept, [&] { set_curves(*session_->motion()); });
+    for (const BeadId bead : kept) {
+      std::erase_if(bends_, [bead](const Bend& bend) { return bend.bead == bead; });
+      bends_.push_back({bead, control_point(session_->motion()->ref(), bead, true)});
+    }
+  });
+}
+
+}  // namespace kds

@@ -1,0 +1,431 @@
+// Beads that come, go and change course in several structures on one clock, at rational times, at the
+// irrational times of events, and where many things happen at once. The slow twin: the same structures, made
+// of the beads present and the curves that there are, and run to that time from the start.
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "certificates/exact/exact_time.h"
+#include "motions/base/input_error.h"
+#include "motions/numbers/exact_number.h"
+#include "structures/contacts/contacts.h"
+#include "structures/hierarchy/wrapped_hierarchy.h"
+#include "structures/power_diagram/power_diagram.h"
+#include "structures/sorted/sorted_list.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/inputs/random_motion.h"
+#include "tests/support/rounds.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+template <int Dimension>
+struct Structures {
+  template <class M>
+  Structures(Simulator& simulator, const M& motion, std::size_t beads)
+      : sorted(simulator, motion),
+        power(simulator, motion),
+        contacts(simulator, motion, {{{0, static_cast<BeadId>(beads - 1)}}, true, 1}) {}
+
+  [[nodiscard]] std::array<BeadEdits*, 3> all() { return {&sorted, &power, &contacts}; }
+
+  SortedList<Dimension> sorted;
+  PowerDiagram<Dimension> power;
+  Contacts<Dimension> contacts;
+};
+
+enum class Scene { generic, grid };
+
+template <class M>
+void set_curve(M& motion, BeadId b, Random& random, Scene scene) {
+  for (int k = 0; k <= M::degree; ++k) {
+    for (int axis = 0; axis < M::dimension; ++axis)
+      motion.set_coordinate(
+          b, k, axis,
+          scene == Scene::grid ? pick(random, -2, 2) : 0x1p-16 * pick(random, -(1 << 17), 1 << 17));
+    const double radius = scene == Scene::grid ? 0.5 : 0.125 * (1 + b % 3);
+    motion.set_radius(b, k, radius);
+    motion.set_weight(b, k, radius * radius);
+  }
+}
+
+/// Turns the bead's course at u, where it stays as it is; not for cubic curves.
+template <class M>
+void bend(M& motion, BeadId b, double u, Random& random) {
+  for (int axis = 0; axis < M::dimension; ++axis) {
+    const double d = 0x1p-8 * pick(random, -128, 128);
+    motion.set_coordinate(b, 0, axis, motion.coordinate(b, 0, axis) + u * d);
+    motion.set_coordinate(b, 1, axis, motion.coordinate(b, 1, axis) - (1 - u) * d);
+  }
+}
+
+/// The list's functions in their order: beads that move alike may trade places.
+template <class M>
+std::vector<std::vector<double>> courses(const M& motion, const std::vector<BeadId>& order) {
+  std::vector<std::vector<double>> all;
+  for (const BeadId b : order) {
+    auto& course = all.emplace_back();
+    for (int k = 0; k <= M::degree; ++k) course.push_back(motion.coordinate(b, k, 0));
+  }
+  return all;
+}
+
+struct Totals {
+  std::uint64_t edits = 0, at_events = 0, rebuilds = 0, contacts = 0;
+};
+
+template <class M>
+class EditedRun {
+ public:
+  static constexpr int dimension = M::dimension;
+
+  EditedRun(unsigned seed, Scene scene, Totals& totals, Kernel kernel = Kernel::filtered)
+      : random_(2 * seed + static_cast<unsigned>(scene)),
+        scene_(scene),
+        totals_(totals),
+        motion_(dimension + 9),
+        simulator_(kernel == Kernel::fast ? AuditMode::none : AuditMode::events, kernel),
+        structures_(simulator_, motion_, motion_.bead_count()) {
+    for (BeadId b = 0; b < motion_.bead_count(); ++b) set_curve(motion_, b, random_, scene_);
+    for (BeadEdits* structure : structures_.all())
+      for (BeadId b = 0; b < 3; ++b)
+        if (random_() % 2 == 0) structure->leave_out(b);
+  }
+
+  void run() {
+    simulator_.build();
+    for (int step = 0; step < 2; ++step) {
+      if (step > 0) go_on();
+      simulator_.enter_step();
+      edit();
+      compare(0);
+      for (int stand = 1; stand < 10; ++stand) {
+        double u = 0.1 * stand;
+        if (stand % 3 == 0) u = 0x1p-4 * std::floor(16 * u);  // where much happens at once on a grid
+        if (simulator_.now().lower() <= u) {
+          simulator_.run_until(Dyadic(u));
+          edit();
+          compare(u);
+        }
+        if (!simulator_.run_next()) continue;
+        totals_.at_events += simulator_.now().lower() < simulator_.now().upper() ? 1 : 0;
+        edit();
+      }
+      simulator_.leave_step();
+      EXPECT_TRUE(books_balance(structures_.sorted.statistics));
+      EXPECT_TRUE(books_balance(structures_.power.statistics));
+      EXPECT_TRUE(books_balance(structures_.contacts.statistics));
+    }
+    simulator_.finish();
+    totals_.rebuilds += structures_.power.statistics.rebuilds;
+    totals_.contacts += structures_.contacts.statistics.events_by_kind[0];
+  }
+
+  [[nodiscard]] std::uint64_t fingerprint() const { return simulator_.fingerprint(); }
+
+ private:
+  void go_on() {
+    for (BeadId b = 0; b < motion_.bead_count(); ++b) {
+      std::array<double, dimension> from{};
+      for (int axis = 0; axis < dimension; ++axis)
+        from[static_cast<std::size_t>(axis)] = motion_.coordinate(b, M::degree, axis);
+      set_curve(motion_, b, random_, scene_);
+      for (int axis = 0; axis < dimension; ++axis)
+        motion_.set_coordinate(b, 0, axis, from[static_cast<std::size_t>(axis)]);
+    }
+  }
+
+  void edit() {
+    for (BeadEdits* structure : structures_.all()) {
+      const auto b = static_cast<BeadId>(random_() % motion_.bead_count());
+      ++totals_.edits;
+      if (structure->is_absent(b)) {
+        structure->insert(b);
+      } else if (b < 4) {
+        structure->erase(b);
+      }
+    }
+    const ExactTime& now = simulator_.now().exact();
+    const auto b = static_cast<BeadId>(random_() % motion_.bead_count());
+    std::vector<BeadId> beads{b};
+    switch (random_() % 6) {
+      case 0:
+        return simulator_.change_motion(beads, [&] { set_curve(motion_, b, random_, scene_); });
+      case 1:  // a turn, where numbers are short enough for one without rounding
+        if (M::degree > 1 || !now.is_dyadic()) return;
+        return simulator_.change_motion(beads, [&] { bend(motion_, b, now.lower().round_down(), random_); });
+      case 2:  // two, and one that nothing becomes of
+        beads = {b, static_cast<BeadId>((b + 1) % motion_.bead_count()),
+                 static_cast<BeadId>((b + 2) % motion_.bead_count())};
+        return simulator_.change_motion(beads, [&] {
+          set_curve(motion_, beads[0], random_, scene_);
+          set_curve(motion_, beads[1], random_, scene_);
+        });
+      case 3:  // all, as they were
+        for (BeadId all = 0; all < motion_.bead_count(); ++all) beads.push_back(all);
+        return simulator_.change_motion(beads, [] {});
+      default:
+        return;
+    }
+  }
+
+  void compare(double u) {
+    if (simulator_.kernel() == Kernel::fast) return;
+    Simulator simulator;
+    Structures<dimension> twins(simulator, motion_, motion_.bead_count());
+    for (std::size_t s = 0; s < 3; ++s)
+      for (BeadId b = 0; b < motion_.bead_count(); ++b)
+        if (structures_.all()[s]->is_absent(b)) twins.all()[s]->leave_out(b);
+    simulator.build();
+    simulator.enter_step();
+    simulator.run_until(Dyadic(u));
+    EXPECT_EQ(courses(motion_, structures_.sorted.order()), courses(motion_, twins.sorted.order()));
+    EXPECT_EQ(structures_.contacts.pairs(), twins.contacts.pairs());
+    if (scene_ == Scene::grid) return;  // many power diagrams are right then: audits look at it
+    const auto cells = structures_.power.at_frame(true), of_twin = twins.power.at_frame(true);
+    EXPECT_EQ(cells.cells, of_twin.cells);
+    EXPECT_EQ(cells.hidden, of_twin.hidden);
+  }
+
+  Random random_;
+  Scene scene_;
+  Totals& totals_;
+  M motion_;
+  Simulator simulator_;
+  Structures<dimension> structures_;
+};
+
+template <class M>
+void run_all(unsigned seeds) {
+  for (const Scene scene : {Scene::generic, Scene::grid}) {
+    Totals totals;
+    for (unsigned seed = 0; seed < seeds && !testing::Test::HasFailure(); ++seed) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", scene " << static_cast<int>(scene));
+      try {
+        EditedRun<M>(seed, scene, totals).run();
+      } catch (const InputError& error) {  // all left in one plane, or on one line
+        EXPECT_EQ(scene, Scene::grid) << error.what();
+      }
+    }
+    EXPECT_GT(totals.edits, 20 * seeds);
+    EXPECT_GT(totals.contacts, 5 * seeds);
+    if (scene == Scene::generic) {
+      EXPECT_GT(totals.at_events, 5 * seeds);
+    }
+  }
+}
+
+TEST(BeadEdits, InThePlane) { run_all<BezierMotion<2, 1>>(rounds(10U)); }
+TEST(BeadEdits, InSpace) { run_all<Space>(rounds(8U)); }
+TEST(BeadEdits, OnCubicCurves) { run_all<BezierMotion<3, 3>>(rounds(4U)); }
+
+TEST(BeadEdits, KernelsAgreeAndFastEnds) {
+  Totals totals;
+  for (unsigned seed = 50; seed < 50 + rounds(4U); ++seed) {
+    EditedRun<Space> filtered(seed, Scene::generic, totals),
+        exact(seed, Scene::generic, totals, Kernel::exact), fast(seed, Scene::generic, totals, Kernel::fast);
+    filtered.run();
+    exact.run();
+    EXPECT_EQ(filtered.fingerprint(), exact.fingerprint());
+    fast.run();
+  }
+}
+
+/// A few lines, of which two meet at an irrational time: bead 0 on a parabola, bead 1 at rest.
+using Parabolas = BezierMotion<1, 2>;
+Parabolas parabolas() {
+  Parabolas motion(3);
+  for (int k = 0; k <= 2; ++k) {
+    motion.set_coordinate(0, k, 0, k == 2 ? 1 : 0);  // u^2
+    motion.set_coordinate(1, k, 0, 0.5);
+    motion.set_coordinate(2, k, 0, 4);
+  }
+  return motion;
+}
+
+TEST(BeadEdits, JustAfterAnEventAtAnIrrationalTime) {
+  Rig<SortedList<1>, Parabolas> rig(parabolas(), AuditMode::events);
+  rig.simulator.build();
+  rig.simulator.enter_step();
+  ASSERT_TRUE(rig.simulator.run_next());
+  EXPECT_THAT(rig.structure.order(), testing::ElementsAre(1, 0, 2));
+  EXPECT_LT(rig.simulator.now().lower(), rig.simulator.now().upper());
+  EXPECT_NEAR(rig.simulator.now().lower(), std::sqrt(0.5), 1e-9);
+  // Bead 2 comes to where the others are at this very time, from above: it is first just after it. Bead 0 is
+  // said to change, and does not.
+  rig.simulator.change_motion(std::array<BeadId, 2>{0, 2}, [&] {
+    for (int k = 0; k <= 2; ++k) {
+      rig.motion.set_coordinate(2, k, 0, 1 - rig.motion.coordinate(0, k, 0));  // 1 - u^2: 1/2 then
+    }
+  });
+  EXPECT_THAT(rig.structure.order(), testing::ElementsAre(2, 1, 0));
+  rig.simulator.leave_step();
+  EXPECT_EQ(rig.structure.audit(Dyadic(1.0)), std::nullopt);
+}
+
+TEST(BeadEdits, ErasedBeadsComeBackWhereTheyAreThen) {
+  Rig<SortedList<1>, Parabolas> rig(parabolas(), AuditMode::events);
+  rig.structure.leave_out(0);
+  rig.structure.leave_out(1);
+  rig.structure.leave_out(2);  // none is left
+  rig.simulator.build();
+  rig.simulator.enter_step();
+  EXPECT_FALSE(rig.simulator.run_next());
+  rig.simulator.run_until(Dyadic(0.875));
+  rig.structure.insert(0);
+  rig.structure.insert(1);
+  EXPECT_THAT(rig.structure.order(), testing::ElementsAre(1, 0));
+  rig.structure.erase(1);
+  rig.structure.insert(2);
+  EXPECT_THAT(rig.structure.order(), testing::ElementsAre(0, 2));
+  rig.structure.erase(2);
+  rig.structure.erase(0);
+  EXPECT_TRUE(rig.structure.order().empty());
+  rig.simulator.leave_step();
+  EXPECT_EQ(rig.external_events(), 0U);
+}
+
+/// Inserts and erases of all structures, made again from the log without certificates.
+TEST(BeadEdits, AreReplayed) {
+  Random random(7);
+  Space motion(12);
+  for (BeadId b = 0; b < 12; ++b) set_curve(motion, b, random, Scene::generic);
+  Simulator simulator;
+  Structures<3> structures(simulator, motion, 12);
+  History history;
+  simulator.listen(history);
+  for (BeadEdits* structure : structures.all()) structure->leave_out(5);
+  simulator.build();
+  simulator.enter_step();
+  for (BeadId b = 0; simulator.run_next(); b = (b + 1) % 12) {
+    for (BeadEdits* structure : structures.all()) {
+      if (structure->is_absent(b)) {
+        structure->insert(b);
+      } else if (b % 3 == 0) {
+        structure->erase(b);
+      }
+    }
+  }
+  simulator.leave_step();
+  EXPECT_GT(structures.sorted.statistics.events_by_kind[SortedList<3>::erases], 3U);
+
+  Simulator replay;
+  Structures<3> replayed(replay, motion, 12);
+  for (BeadEdits* structure : replayed.all()) structure->leave_out(5);
+  replay.build_for_replay();
+  std::vector<Simulator::Replayed> events;
+  for (const Event& e : history.events)
+    events.push_back({e.structure_index, e.lower, e.upper, e.change, "the log"});
+  replay.replay_step(events);
+  EXPECT_EQ(replay.fingerprint(), simulator.fingerprint());
+  EXPECT_EQ(replayed.sorted.order(), structures.sorted.order());
+  EXPECT_EQ(replayed.contacts.pairs(), structures.contacts.pairs());
+  EXPECT_EQ(replayed.power.at_frame(false).cells, structures.power.at_frame(false).cells);
+}
+
+template <class Call>
+void expect_refused(Call call, const char* why) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr(why));
+    return;
+  }
+  ADD_FAILURE() << "not refused: " << why;
+}
+
+TEST(BeadEdits, BadCallsAreRefusedAndChangeNothing) {
+  Random random(3);
+  BezierMotion<2, 1> motion(6);
+  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Scene::generic);
+  Simulator simulator;
+  Structures<2> structures(simulator, motion, 6);
+  const std::array<BeadId, 1> third{3}, unknown{6};
+  for (BeadEdits* structure : structures.all()) {
+    expect_refused([&] { structure->insert(3); }, "bead 3 is");
+    expect_refused([&] { structure->leave_out(6); }, "there is no bead 6");
+    structure->leave_out(5);
+    expect_refused([&] { structure->insert(5); }, "only within a step");
+  }
+  simulator.build();
+  for (BeadEdits* structure : structures.all()) {
+    expect_refused([&] { structure->leave_out(3); }, "are left out before");
+    expect_refused([&] { structure->erase(3); }, "only within a step");
+  }
+  expect_refused([&] { simulator.change_motion(third, [] { FAIL(); }); }, "only within a step");
+  simulator.enter_step();
+  for (BeadEdits* structure : structures.all()) {
+    expect_refused([&] { structure->erase(5); }, "bead 5 is not");
+    expect_refused([&] { structure->erase(6); }, "there is no bead 6");
+  }
+  expect_refused([&] { simulator.change_motion(unknown, [] { FAIL(); }); }, "there is no bead 6");
+  // A number that is none: the bead goes on as it did.
+  EXPECT_THROW(simulator.change_motion(third, [&] { motion.set_coordinate(3, 1, 0, std::nan("")); }),
+               std::invalid_argument);
+  simulator.leave_step();
+  expect_refused([&] { structures.sorted.erase(3); }, "only within a step");
+}
+
+TEST(BeadEdits, AreRefusedByStructuresThatCannotFollow) {
+  Random random(3);
+  BezierMotion<2, 1> motion(6);
+  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Scene::generic);
+  Simulator simulator;
+  const std::vector<BeadRange> necklace{{0, 5}};
+  SortedList<2> sorted(simulator, motion);
+  WrappedHierarchy<2> wrapped(simulator, motion, necklace, Radii::any);
+  static_assert(!EditableStructure<WrappedHierarchy<2>> && EditableStructure<SortedList<2>>);
+  simulator.build();
+  simulator.enter_step();
+  expect_refused([&] { simulator.change_motion(std::array<BeadId, 1>{3}, [] { FAIL(); }); },
+                 "wrapped: its beads cannot change course within a step, only between two of them");
+  sorted.erase(3);  // that concerns nobody else
+  simulator.leave_step();
+}
+
+/// Edits while an event is being handled, and a listener that throws.
+class Meddler final : public EventListener {
+ public:
+  Meddler(Simulator& simulator, SortedList<1>& list) : simulator_(simulator), list_(list) {}
+  void on_event(const Event&) override {
+    expect_refused([&] { list_.erase(2); }, "between events");
+    EXPECT_THROW(static_cast<void>(simulator_.run_next()), std::logic_error);
+    if (throws) throw std::runtime_error("enough");
+  }
+  bool throws = false;
+
+ private:
+  Simulator& simulator_;
+  SortedList<1>& list_;
+};
+
+TEST(BeadEdits, AreNotForListenersAndAListenerThatThrowsEndsTheRun) {
+  for (const bool throws : {false, true}) {
+    Rig<SortedList<1>, Parabolas> rig(parabolas());
+    Meddler meddler(rig.simulator, rig.structure);
+    meddler.throws = throws;
+    rig.simulator.listen(meddler);
+    rig.simulator.build();
+    if (!throws) {
+      rig.simulator.run_step();
+      rig.simulator.enter_step();  // the same again
+      rig.structure.erase(0);      // tells of itself
+      rig.simulator.leave_step();
+      EXPECT_EQ(rig.history.events.size(), 2U + 1U);
+      continue;
+    }
+    EXPECT_THROW(rig.simulator.run_step(), std::runtime_error);
+    EXPECT_EQ(rig.history.events.size(), 1U);
+    EXPECT_THROW(rig.simulator.run_step(), std::logic_error);
+    expect_refused([&] { rig.structure.erase(2); }, "between events");
+  }
+}
+
+}  // namespace
+}  // namespace kds
