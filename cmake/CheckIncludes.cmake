@@ -10,8 +10,8 @@ endmacro()
 room(motions base numbers curves views readers scene models)
 room(certificates base exact types conservative filters search)
 list(APPEND order kds)
-room(structures sorted tournament box hull closest necklace enclosing_sphere moving_sphere hierarchy chord_cages triangulation power_diagram collision contacts session)
-room(experiments output program run scenes update compare collide trade stability bench reproduce theorems questions)
+room(structures sorted tournament box hull closest necklace enclosing_sphere moving_sphere hierarchy chord_cages triangulation power_diagram blocks collision contacts session)
+room(experiments output program events run scenes update compare collide trade stability bench reproduce theorems questions)
 list(APPEND order experiments)  # main.cpp
 
 set(wrong "")

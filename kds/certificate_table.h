@@ -15,6 +15,7 @@
 
 #include "certificates/search/certificate_search.h"
 #include "kds/kinetic_structure.h"
+#include "kds/place_among_tables.h"
 #include "kds/simulator.h"
 #include "motions/base/grow_little.h"
 
@@ -73,6 +74,7 @@ class CertificateTable final : public FailureSource {
         owner_(owner),
         structure_(structure),
         number_(number),
+        among_tables_(structure, number),
         search_(search_over<Certificate>(motion)),
         touches_(touches),
         most_in_step_(most_in_step(motion.bead_count())) {
@@ -200,14 +202,17 @@ class CertificateTable final : public FailureSource {
     return search_->exact_function(entries_[slot].certificate);
   }
   [[nodiscard]] Identity identity(std::uint32_t slot) const override {
-    Identity identity = entries_[slot].certificate.identity();
-    // Tables with other constants have other functions of the same beads.
-    if constexpr (HasConstants<Certificate>) identity.beads.back() = structure_and_table();
+    return identity(entries_[slot].certificate);
+  }
+  /// Of a certificate as this table has it: that of its beads, but tables with other constants have other
+  /// functions of the same beads.
+  [[nodiscard]] Identity identity(const Certificate& certificate) const {
+    Identity identity = certificate.identity();
+    if constexpr (HasConstants<Certificate>) identity.beads.back() = among_tables_.table();
     return identity;
   }
   [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override {
-    return (static_cast<std::uint64_t>(structure_) << 36U) | (static_cast<std::uint64_t>(number_) << 32U) |
-           entries_[slot].place;
+    return among_tables_.of(entries_[slot].place);
   }
   [[nodiscard]] std::size_t structure() const override { return structure_; }
 
@@ -305,6 +310,7 @@ class CertificateTable final : public FailureSource {
 
   [[nodiscard]] CertificateHandle hold(const Certificate& certificate, std::uint32_t place,
                                        const Failure& failure) {
+    if constexpr (HasConstants<Certificate>) constants_in_use_.value = true;
     CertificateCounts& counts = owner_.statistics.certificates;
     ++counts.created;
     if (failure.kind == Failure::Kind::at_birth) {
@@ -332,8 +338,6 @@ class CertificateTable final : public FailureSource {
     return static_cast<CertificateHandle>(slot);
   }
 
-  [[nodiscard]] BeadId structure_and_table() const { return static_cast<BeadId>(structure_ << 4U | number_); }
-
   /// More than true motions ask for, and about what `filtered` takes for as much time.
   [[nodiscard]] static std::uint64_t most_in_step(std::uint64_t beads) {
     return 20'000 + 4'000 * beads + 4 * beads * beads;
@@ -343,6 +347,7 @@ class CertificateTable final : public FailureSource {
   KineticStructure& owner_;
   std::size_t structure_;
   unsigned number_;
+  PlaceAmongTables among_tables_;
   std::unique_ptr<CertificateSearch<Certificate>> search_;
   TouchPolicy touches_;
   std::uint64_t most_in_step_;  // of certificates, with `fast`

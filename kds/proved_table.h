@@ -22,7 +22,12 @@ class ProvedTable final : public FailureSource {
   /// As of CertificateTable.
   ProvedTable(Simulator& simulator, KineticStructure& owner, std::size_t structure, unsigned number,
               const MotionRef<Dimension>& motion)
-      : simulator_(simulator), owner_(owner), structure_(structure), number_(number), motion_(motion) {
+      : simulator_(simulator),
+        owner_(owner),
+        structure_(structure),
+        number_(number),
+        among_tables_(structure, number),
+        motion_(motion) {
     simulator.add_table(*this, Certificate::type);
   }
 
@@ -78,8 +83,7 @@ class ProvedTable final : public FailureSource {
     return entries_[slot].certificate.identity();
   }
   [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override {
-    return (static_cast<std::uint64_t>(structure_) << 36U) | (static_cast<std::uint64_t>(number_) << 32U) |
-           entries_[slot].place;
+    return among_tables_.of(entries_[slot].place);
   }
   [[nodiscard]] std::size_t structure() const override { return structure_; }
 
@@ -109,6 +113,7 @@ class ProvedTable final : public FailureSource {
   KineticStructure& owner_;
   std::size_t structure_;
   unsigned number_;
+  PlaceAmongTables among_tables_;
   MotionRef<Dimension> motion_;
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> free_;

@@ -1,9 +1,9 @@
 #pragma once
 // What a certificate type must offer. It names a few beads and has one function of time, written once over a
 // MotionView: positive while the certificate holds. The function must be homogeneous in lengths (weights
-// count as squares). It does not depend on the origin unless it asks for positions; these and constants of
-// the type are in constants.h. Everything else is derived: the floating-point filter and its error bound,
-// four certificates at once, the exact isolation, the order of simultaneous failures.
+// count as squares). It does not depend on the origin unless it asks for positions or has a constant point;
+// these and constants of the type are in constants.h. Everything else is derived: the floating-point filter
+// and its error bound, four certificates at once, the exact isolation, the order of simultaneous failures.
 //
 // The function is a static `formula(view, beads)`, or its negative where side() is false. One that asks for
 // weights or radii says so: `static constexpr bool uses_weights = true` (`uses_radii`).

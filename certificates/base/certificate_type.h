@@ -21,7 +21,8 @@ struct CertificateType {
 };
 
 /// Names the function of a certificate among all of a run, whatever structure holds it. Certificates with the
-/// same identity have, up to a positive or negative factor, the same function. Ties between failure times are
+/// same identity have, up to a positive or negative factor, the same function; where a type has constants it
+/// is CertificateTable::identity that tells, which knows them. Ties between failure times are
 /// broken by it: type first, then beads.
 struct Identity {
   static constexpr std::size_t most_beads = 8;

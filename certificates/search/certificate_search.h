@@ -21,9 +21,9 @@ namespace kds {
 /// What the structure knows of a new certificate's function at the present time.
 enum class KnownAtStart : std::uint8_t {
   unknown,
-  /// The present time is a failure time of the same function (by Identity) with the opposite sign: the
-  /// function has a root right now and is positive just after. After a flip the same beads give the negated
-  /// polynomial.
+  /// The present time is a failure time of the same function (by its table's Identity) with the opposite
+  /// sign: the function has a root right now and is positive just after. After a flip the same beads give the
+  /// negated polynomial.
   at_own_root,
 };
 

@@ -125,6 +125,7 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
   explicit SearchOneByOne(const MotionRef<dimension>& motion) : motion_(motion) {
     require_searchable(name_of_function<Certificate>(), degree_of_function<Certificate, C>(motion.degree()),
                        motion.degree());
+    static_cast<void>(Values::error_bound(motion.degree()));  // refuses sums of unlike powers of length
   }
 
   void first_failures(Kernel kernel, std::span<const Certificate> certificates, const Instant& now,
@@ -354,6 +355,9 @@ std::unique_ptr<CertificateSearch<Certificate>> search_over(const MotionRef<Dime
   static_assert(HasStaticFormula<Certificate, Dimension>,
                 "a certificate needs `template <kds::MotionView View> static auto formula(const View& view, "
                 "const std::array<kds::BeadId, N>& beads)`");
+  static_assert(DeclaresItsConstants<Certificate>,
+                "a member of a certificate's `struct Constants` needs a declared power of length: it is a "
+                "kds::Constant<1>, a kds::ConstantVector, ..., not a number");
   static_assert(!AddsUnlikePowers<Certificate, Dimension>,
                 "the formula adds unlike powers of length: all terms of a sum need the same");
   if (motion.is_lifted() && channels_of<Certificate>.radii)

@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "experiments/compare/compare_report.h"
+#include "experiments/events/event_places.h"
 #include "experiments/output/svg_plot.h"
 #include "experiments/output/text.h"
-#include "experiments/run/event_places.h"
 
 namespace kds {
 

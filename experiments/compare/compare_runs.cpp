@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "experiments/compare/net_changes.h"
-#include "experiments/run/event_places.h"
+#include "experiments/events/event_places.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/report_of_session.h"
 #include "experiments/run/run_steps.h"

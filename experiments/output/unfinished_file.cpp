@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstring>
 #include <mutex>
@@ -45,7 +46,11 @@ void remove_numbered(const char* folder, std::uint64_t number) {
   ::unlink(path.data());
 }
 
+std::atomic_flag is_clearing = ATOMIC_FLAG_INIT;
+
 extern "C" void remove_unfinished_and_end(int signal) {
+  while (is_clearing.test_and_set())
+    ::pause();  // another thread is, and ends the program once all is cleared
   for (const Entry* entry = all_entries.load(); entry != nullptr; entry = entry->next)
     if (const char* path = entry->path.load()) {
       for (std::uint64_t number = entry->files.load(); number-- > 0;) remove_numbered(path, number);

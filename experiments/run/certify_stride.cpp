@@ -1,5 +1,7 @@
 #include "experiments/run/certify_stride.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -65,6 +67,12 @@ ContactBounds bound_contacts(const RunOptions& options, const Scene& scene,
   for (std::size_t b = 0; b < larger.size(); ++b) {
     const double by = deviation.of_bead[b];
     larger[b] = std::nextafter(larger[b] + by, infinity);
+    if (!std::isfinite(larger[b] * larger[b]))
+      throw InputError(
+          fmt::format("--certify: bead {} may be {} from where the run has it, too far to tell contacts by; "
+                      "expected frames closer "
+                      "to each other, or --structures without contacts",
+                      b, by));
     smaller[b] = std::nextafter(smaller[b] - by, -infinity);
     if (smaller[b] > 0) continue;
     smaller[b] = 0;  // more than what is left of it: no pair with it is sure

@@ -7,11 +7,11 @@
 #include <iterator>
 #include <vector>
 
+#include "experiments/events/event_bins.h"
+#include "experiments/events/event_places.h"
 #include "experiments/output/html_page.h"
 #include "experiments/output/svg_plot.h"
 #include "experiments/output/text.h"
-#include "experiments/run/event_bins.h"
-#include "experiments/run/event_places.h"
 #include "experiments/run/summary_rows.h"
 
 namespace kds {

@@ -8,11 +8,11 @@
 
 #include "certificates/base/relaxation.h"
 #include "certificates/exact/exact_work.h"
+#include "experiments/events/events_option.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option_lists.h"
 #include "experiments/program/option_values.h"
 #include "experiments/run/certify_stride.h"
-#include "experiments/run/events_option.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -83,7 +83,7 @@ NodeSelection parse_nodes(const ParsedArguments& parsed) {
     nodes.last_level = static_cast<std::uint32_t>(end - 1);
   }
   if (const auto text = parsed.value("--nodes")) {
-    const auto [first, end] = parse_range("--nodes", *text, most);
+    const auto [first, end] = parse_range("--nodes", *text, text->ends_with(':') ? most : most - 1);
     nodes.beads = BeadRange{static_cast<BeadId>(first), static_cast<BeadId>(end - 1)};
   }
   return nodes;

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 
+#include "experiments/events/events_option.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/text.h"
 #include "experiments/program/input_options.h"
@@ -12,7 +13,6 @@
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/taken_paths.h"
 #include "experiments/program/warnings.h"
-#include "experiments/run/events_option.h"
 #include "experiments/run/replay_log.h"
 #include "experiments/run/report_json.h"
 #include "experiments/run/run_results.h"

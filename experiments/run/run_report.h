@@ -7,22 +7,15 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/events/displacements.h"
+#include "experiments/events/event_bins.h"
+#include "experiments/events/event_places.h"
 #include "experiments/run/certify_stride.h"
-#include "experiments/run/displacements.h"
-#include "experiments/run/event_bins.h"
 #include "motions/readers/frame_reader.h"
 
 namespace kds {
 
 using NamedCounts = std::vector<std::pair<std::string, std::uint64_t>>;  ///< in the order to print
-
-/// Where along the chain, and how deep in its tree, a structure changes: its external events.
-struct PlacesOfEvents {
-  /// That name this bead: of nodes, in the basis that is new. An event counts at each of its beads.
-  std::vector<std::uint64_t> by_bead;
-  /// At nodes of this level of the tree, roots 0; empty where events are not at nodes.
-  std::vector<std::uint64_t> by_level;
-};
 
 struct StructureReport {
   std::string name;                ///< sorted, wrapped, power

@@ -8,15 +8,15 @@
 #include <string>
 #include <string_view>
 
+#include "experiments/events/contacts_csv.h"
+#include "experiments/events/displacements.h"
+#include "experiments/events/dumped_frames.h"
+#include "experiments/events/event_places.h"
+#include "experiments/events/events_csv.h"
 #include "experiments/output/destinations.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/staged_files.h"
-#include "experiments/run/contacts_csv.h"
-#include "experiments/run/displacements.h"
-#include "experiments/run/dumped_frames.h"
 #include "experiments/run/event_log_file.h"
-#include "experiments/run/event_places.h"
-#include "experiments/run/events_csv.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
 #include "kds/event_log.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "experiments/run/event_bins.h"
+#include "experiments/events/event_bins.h"
 #include "experiments/run/run_results.h"
 #include "motions/scene/scene.h"
 #include "structures/session/session.h"

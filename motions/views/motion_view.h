@@ -9,8 +9,8 @@
 //   IntegerView, ResidueView, MomentView   exact (integer_view.h)
 //
 // Functions of certificates are homogeneous in lengths, so a common factor changes no sign. Every view
-// answers with differences to a bead: certificates do not depend on the origin, and the filter is much
-// sharper for it. Views that pay for what might be asked are told which channels will be.
+// answers with differences to a bead: certificates do not depend on the origin, or have it as a bead, and the
+// filter is much sharper for it. Views that pay for what might be asked are told which channels will be.
 
 #include <algorithm>
 #include <array>

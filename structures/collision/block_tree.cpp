@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "motions/base/floating_point_guard.h"
-#include "structures/collision/bond_axes.h"
+#include "structures/blocks/bond_axes.h"
 
 namespace kds {
 

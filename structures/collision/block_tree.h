@@ -20,9 +20,9 @@
 #include <span>
 #include <vector>
 
+#include "structures/blocks/block_kernels.h"
+#include "structures/blocks/float_frame.h"
 #include "structures/collision/balls_meet.h"
-#include "structures/collision/block_kernels.h"
-#include "structures/collision/float_frame.h"
 #include "structures/collision/pairs_asked.h"
 
 namespace kds {

@@ -18,8 +18,8 @@
 #include <span>
 #include <vector>
 
+#include "structures/blocks/float_frame.h"
 #include "structures/collision/balls_meet.h"
-#include "structures/collision/float_frame.h"
 #include "structures/collision/pairs_asked.h"
 
 namespace kds {

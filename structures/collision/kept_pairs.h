@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
+#include "structures/blocks/float_frame.h"
 #include "structures/collision/balls_meet.h"
-#include "structures/collision/float_frame.h"
 
 namespace kds {
 

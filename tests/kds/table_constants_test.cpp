@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include "certificates/search/define_certificate_search.h"
@@ -111,7 +112,6 @@ TEST(TableConstants, DegenerateMotionIsAuditedToo) {
 }
 
 TEST(TableConstants, OneBeadHasNoPairs) {
-  const std::vector<BezierMotion<3, 1>> steps(2, BezierMotion<3, 1>(1));
   BezierMotion<3, 1> motion(1);
   Simulator simulator(AuditMode::events);
   NeighborPairs<3> neighbors(simulator, motion);
@@ -148,6 +148,61 @@ TEST(TableConstants, OtherConstantsAreOtherFunctions) {
   EXPECT_NEAR(listener.times[1], 0.75, 1e-9);
   EXPECT_NEAR(listener.times[3], 0.75, 1e-9);
   EXPECT_EQ(simulator.comparisons().ties, 1U);
+}
+
+/// A pair with many cutoffs, each in a table of its own; keeps the order in which they are reached.
+class ManyCutoffs final : public KineticStructure {
+ public:
+  ManyCutoffs(Simulator& simulator, const MotionRef<2>& motion, std::size_t count)
+      : simulator_(simulator), index_(simulator.add(*this)) {
+    for (unsigned t = 0; t < count; ++t)
+      tables_.push_back(std::make_unique<CertificateTable<Near>>(simulator, *this, index_, t, motion));
+  }
+  void set_cutoff(std::size_t table, double cutoff) { tables_[table]->set_constants({.cutoff = cutoff}); }
+  [[nodiscard]] std::string_view name() const override { return "many_cutoffs"; }
+  [[nodiscard]] std::span<const EventKind> kinds() const override {
+    static constexpr std::array<EventKind, 1> kinds{{{"reach"}}};
+    return kinds;
+  }
+  void build() override {}
+  void start_step() override {
+    for (const auto& table : tables_) static_cast<void>(table->watch({{0, 1}, false}, 0));
+  }
+  void fail(unsigned table, std::uint32_t) override {
+    reached.push_back(table);
+    simulator_.record(index_, Change{0, 2, {0, 1}});
+  }
+  void apply(const Change&) override {}
+  [[nodiscard]] std::optional<std::string> audit(const Dyadic&) override { return std::nullopt; }
+  [[nodiscard]] Identity identity(std::size_t table) const {
+    return tables_[table]->identity(Near{{0, 1}, false});
+  }
+
+  std::vector<unsigned> reached;
+
+ private:
+  Simulator& simulator_;
+  std::size_t index_;
+  std::vector<std::unique_ptr<CertificateTable<Near>>> tables_;
+};
+
+TEST(TableConstants, ManyTablesOfOneStructureAreManyFunctions) {
+  constexpr std::size_t count = 40;
+  BezierMotion<2, 1> motion(2);
+  motion.set_coordinate(1, 0, 0, 4);
+  Simulator simulator;
+  ManyCutoffs cutoffs(simulator, motion, count);
+  // All within some last places: no double tells when they are reached. The last table's is reached first.
+  double cutoff = 1;
+  for (std::size_t t = 0; t < count; ++t) {
+    cutoffs.set_cutoff(t, cutoff);
+    cutoff = std::nextafter(cutoff, 2);
+  }
+  EXPECT_NE(cutoffs.identity(0), cutoffs.identity(16));
+  simulator.build();
+  simulator.run_step();
+  ASSERT_EQ(cutoffs.reached.size(), count);
+  EXPECT_TRUE(std::is_sorted(cutoffs.reached.rbegin(), cutoffs.reached.rend()));
 }
 
 TEST(TableConstants, InTheMidstOfAStepTheyAreRefused) {

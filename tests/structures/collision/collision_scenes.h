@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "structures/collision/float_frame.h"
+#include "structures/blocks/float_frame.h"
 #include "structures/collision/pairs_asked.h"
 #include "structures/necklace/ball_distance.h"
 #include "structures/necklace/balls.h"

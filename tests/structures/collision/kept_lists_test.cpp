@@ -112,7 +112,7 @@ CollisionScene many_beads(Chance& chance, int dimension, bool gas, bool equal) {
   return scene;
 }
 
-// A tail swings, one bead after the other goes out of the frame of floats and comes back, all others creep.
+// A tail swings, a bead goes out of the frame of floats and comes back, again and again, all others creep.
 template <int Dimension>
 void swing_tail(bool gas, bool equal) {
   Chance chance(1);

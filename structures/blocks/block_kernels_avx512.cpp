@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "structures/collision/block_kernels.h"
+#include "structures/blocks/block_kernels.h"
 
 #if defined(__x86_64__)
 
@@ -106,7 +106,7 @@ KDS_AVX512 std::size_t append_bits(std::uint32_t* out, std::uint32_t base, unsig
 
 }  // namespace kds
 
-#include "structures/collision/define_block_kernels.h"
+#include "structures/blocks/define_block_kernels.h"
 
 #endif
 

@@ -1,4 +1,4 @@
-#include "experiments/run/contacts_csv.h"
+#include "experiments/events/contacts_csv.h"
 
 #include <fmt/format.h>
 

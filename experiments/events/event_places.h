@@ -6,13 +6,20 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/run/run_report.h"
 #include "kds/event_log.h"
 #include "motions/scene/scene.h"
 #include "structures/necklace/necklace_tree.h"
 #include "structures/session/session.h"
 
 namespace kds {
+
+/// Where along the chain, and how deep in its tree, a structure changes: its external events.
+struct PlacesOfEvents {
+  /// That name this bead: of nodes, in the basis that is new. An event counts at each of its beads.
+  std::vector<std::uint64_t> by_bead;
+  /// At nodes of this level of the tree, roots 0; empty where events are not at nodes.
+  std::vector<std::uint64_t> by_level;
+};
 
 /// Hears of all events of a session.
 class EventPlaces final : public EventListener {

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "structures/collision/block_kernels.h"
+#include "structures/blocks/block_kernels.h"
 
 #define KDS_BLOCK_TARGET gnu::hot  // nothing in particular
 
@@ -103,7 +103,7 @@ inline std::size_t append_bits(std::uint32_t* out, std::uint32_t base, unsigned 
 
 }  // namespace kds
 
-#include "structures/collision/define_block_kernels.h"
+#include "structures/blocks/define_block_kernels.h"
 
 namespace kds::detail {
 

@@ -20,7 +20,7 @@
 #include <cstdint>
 
 #include "motions/base/floating_point.h"
-#include "structures/collision/block_kernels.h"
+#include "structures/blocks/block_kernels.h"
 
 #define KDS_BLOCK_INLINE [[gnu::always_inline, KDS_BLOCK_TARGET]] inline
 

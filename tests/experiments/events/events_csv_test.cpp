@@ -1,4 +1,4 @@
-#include "experiments/run/events_csv.h"
+#include "experiments/events/events_csv.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/run/event_bins.h"
+#include "experiments/events/event_bins.h"
 
 namespace kds {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/run/event_bins.h"
+#include "experiments/events/event_bins.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "experiments/run/event_places.h"
+#include "experiments/events/event_places.h"
 
 #include <algorithm>
 #include <span>

@@ -1,4 +1,4 @@
-#include "structures/collision/bond_axes.h"
+#include "structures/blocks/bond_axes.h"
 
 #include <algorithm>
 #include <array>

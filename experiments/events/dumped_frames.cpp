@@ -1,11 +1,11 @@
-#include "experiments/run/dumped_frames.h"
+#include "experiments/events/dumped_frames.h"
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <utility>
 
-#include "experiments/run/contacts_csv.h"
+#include "experiments/events/contacts_csv.h"
 
 namespace kds {
 

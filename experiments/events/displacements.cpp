@@ -1,4 +1,4 @@
-#include "experiments/run/displacements.h"
+#include "experiments/events/displacements.h"
 
 #include <algorithm>
 #include <utility>

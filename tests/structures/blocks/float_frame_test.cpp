@@ -1,6 +1,6 @@
 // The bounds that float_frame.h claims, on rationals.
 
-#include "structures/collision/float_frame.h"
+#include "structures/blocks/float_frame.h"
 
 #include <gtest/gtest.h>
 

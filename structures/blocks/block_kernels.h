@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "structures/collision/vector_target.h"
+#include "structures/blocks/vector_target.h"
 
 namespace kds {
 

@@ -1,4 +1,4 @@
-#include "structures/collision/block_kernels.h"
+#include "structures/blocks/block_kernels.h"
 
 #include <stdexcept>
 

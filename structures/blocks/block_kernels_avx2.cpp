@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "structures/collision/block_kernels.h"
+#include "structures/blocks/block_kernels.h"
 
 #if defined(__x86_64__)
 
@@ -148,7 +148,7 @@ KDS_AVX2 std::size_t append_bits(std::uint32_t* out, std::uint32_t base, unsigne
 
 }  // namespace kds
 
-#include "structures/collision/define_block_kernels.h"
+#include "structures/blocks/define_block_kernels.h"
 
 #endif
 

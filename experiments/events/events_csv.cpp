@@ -1,4 +1,4 @@
-#include "experiments/run/events_csv.h"
+#include "experiments/events/events_csv.h"
 
 #include <fmt/format.h>
 

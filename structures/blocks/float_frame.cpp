@@ -1,4 +1,4 @@
-#include "structures/collision/float_frame.h"
+#include "structures/blocks/float_frame.h"
 
 #include "motions/numbers/lanes.h"
 

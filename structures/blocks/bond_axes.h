@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "structures/collision/float_frame.h"
+#include "structures/blocks/float_frame.h"
 #include "structures/necklace/balls.h"
 
 namespace kds {

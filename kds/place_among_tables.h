@@ -1,0 +1,28 @@
+#pragma once
+// What tells the certificates of a run's tables apart: structure, table, then the place in the structure.
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+
+namespace kds {
+
+class PlaceAmongTables {
+ public:
+  /// Throws std::logic_error where there are more structures, or tables of one structure, than have room.
+  PlaceAmongTables(std::size_t structure, unsigned number) {
+    if (structure >= most || number >= most)
+      throw std::logic_error("a run has at most 65536 structures, and each as many tables of certificates");
+    table_ = static_cast<std::uint32_t>(structure << 16U) | number;
+  }
+
+  [[nodiscard]] std::uint32_t table() const { return table_; }
+  /// In the order in which simultaneous failures of one function are handled.
+  [[nodiscard]] std::uint64_t of(std::uint32_t place) const { return std::uint64_t{table_} << 32U | place; }
+
+ private:
+  static constexpr std::size_t most = 65536;
+  std::uint32_t table_;
+};
+
+}  // namespace kds
