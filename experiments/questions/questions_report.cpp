@@ -7,6 +7,7 @@
 
 #include "experiments/output/svg_plot.h"
 #include "experiments/output/text.h"
+#include "motions/base/csv_field.h"
 
 namespace kds {
 
