@@ -128,7 +128,8 @@ std::string linear(char axis, const Range& range, int most) {
 int x_ticks(const DrawingSize& size) { return is_wide(size) ? 8 : 4; }
 constexpr int kYTicks = 5;
 
-// Powers of ten, about `most` at the most; 1, 2 and 5 of each where there are less than two.
+// Powers of ten, about `most` at the most; 1, 2 and 5 of each where there are less than two, and
+// round values where there are still less.
 std::string logarithmic(char axis, const Range& range, int most) {
   const int first = static_cast<int>(std::floor(std::log10(range.least)));
   const int last = static_cast<int>(std::ceil(std::log10(range.most)));
@@ -143,8 +144,12 @@ std::string logarithmic(char axis, const Range& range, int most) {
     for (int k = first; k <= last; ++k)
       for (const double factor : {1.0, 2.0, 5.0}) add(factor * std::pow(10, k));
   }
-  return set_range(axis, range) + fmt::format("set logscale {}\n", axis) +
-         (ticks.size() < 2 ? "" : set_ticks(axis, ticks));
+  if (ticks.size() < 2) {
+    ticks.clear();
+    const double apart = step(range, most);
+    for (double k = std::ceil(range.least / apart); k * apart <= range.most; ++k) ticks.push_back(k * apart);
+  }
+  return set_range(axis, range) + fmt::format("set logscale {}\n", axis) + set_ticks(axis, ticks);
 }
 
 // The values of all curves where the pointer rests; of long ones not more than there are places for.

@@ -39,6 +39,8 @@ TEST(SvgPlot, LogarithmicTicksArePowersOfTenWhereThereAreTwo) {
   expect_ticks(powers, {"10", "100", "1,000"});
   EXPECT_EQ(count_of(svg_plot(PointPlot{"x", "y", {"a"}, {{"", 1.5, 40, 0}, {"", 9, 60, 0}}}), ">5</text>"),
             2U);
+  expect_ticks(svg_plot(PointPlot{"x", "y", {"a"}, {{"", 1, 1.2, 0}, {"", 90, 3.2, 0}}}),
+               {"1.5", "2", "2.5", "3"});
   test::expect_nested(svg_plot(PointPlot{"x", "y", {"a"}, {{"", 1e-12, 1, 0}, {"", 1e12, 1, 0}}}));
 }
 
