@@ -22,7 +22,7 @@ void check_collide_destinations(const Destinations& destinations, TakenPaths tak
   check_table_destinations(destinations, "collide", taken);
   if (!destinations.out) return;
   check_directory(*destinations.out, "--out", {kFurtherFiles[0], kFurtherFiles[1], kFurtherFiles[2]});
-  refuse_page_beside_others(*destinations.out, "collide.json");
+  check_page(*destinations.out, "collide.json");
 }
 
 void CollideResults::begin(const CollideFrames& scene) {

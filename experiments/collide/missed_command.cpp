@@ -101,7 +101,7 @@ void check_destinations(const MissedOptions& options) {
   check_table_destinations(destinations, kName, taken);
   if (!destinations.out) return;
   check_directory(*destinations.out, "--out", {"report.html"});
-  refuse_page_beside_others(*destinations.out, "missed.json");
+  check_page(*destinations.out, "missed.json");
 }
 
 }  // namespace

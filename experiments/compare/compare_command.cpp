@@ -43,7 +43,7 @@ void check_destinations(const CompareOptions& options, const Destinations& desti
   check_table_destinations(destinations, kName, taken);
   if (!options.out) return;
   check_directory(*options.out, "--out", {"report.html"});
-  refuse_page_beside_others(*options.out, "compare.json");
+  check_page(*options.out, "compare.json");
 }
 
 }  // namespace

@@ -52,12 +52,11 @@ figure svg { width: 100%; height: auto; }
 svg.wide { display: block; }
 svg.narrow { display: none; }
 svg text { font-size: 12.5px; fill: var(--soft); }
-svg .axis { stroke: var(--soft); fill: none; }
-svg .grid { stroke: var(--line); fill: none; }
-svg .curve { fill: none; stroke: currentColor; stroke-width: 1.6; stroke-linejoin: round; }
-svg .mark, svg .bar { fill: currentColor; }
-svg .mark:hover { stroke: var(--ink); stroke-width: 2; }
-svg .hot { fill: var(--ink); fill-opacity: 0; }
+svg g { font: inherit; }
+svg .curve { stroke-linejoin: round; }
+svg .mark { stroke: none; }
+svg .mark:hover, svg .square:hover { stroke: var(--ink); stroke-width: 2; }
+svg .hot { fill: var(--ink); fill-opacity: 0; stroke: none; }
 svg .hot:hover { fill-opacity: .08; }
 .s0 { color: var(--s0); } .s1 { color: var(--s1); } .s2 { color: var(--s2); } .s3 { color: var(--s3); }
 .s4 { color: var(--s4); } .s5 { color: var(--s5); } .s6 { color: var(--s6); } .s7 { color: var(--s7); }

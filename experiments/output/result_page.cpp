@@ -4,11 +4,12 @@
 
 #include <array>
 
+#include "experiments/output/gnuplot.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
 
-void refuse_page_beside_others(const std::filesystem::path& directory, std::string_view own) {
+void check_page(const std::filesystem::path& directory, std::string_view own) {
   struct Result {
     std::string_view file, command;
   };
@@ -26,6 +27,7 @@ void refuse_page_beside_others(const std::filesystem::path& directory, std::stri
                       "another directory",
                       directory.string(), command, file));
   }
+  require_gnuplot("--out");
 }
 
 }  // namespace kds

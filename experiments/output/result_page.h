@@ -12,9 +12,9 @@
 
 namespace kds {
 
-/// Throws InputError where the directory holds the result of another command that writes a page, which would
-/// be lost. `own` is the file by which the result to come is known: summary.json, of `kds run`, or another of
-/// those listed with it.
-void refuse_page_beside_others(const std::filesystem::path& directory, std::string_view own);
+/// Before work begins. Throws InputError where gnuplot, which draws its plots, is missing, and where the
+/// directory holds the result of another command that writes a page, which would be lost. `own` is the file
+/// by which the result to come is known: summary.json, of `kds run`, or another of those listed with it.
+void check_page(const std::filesystem::path& directory, std::string_view own);
 
 }  // namespace kds

@@ -14,6 +14,9 @@ namespace kds {
 /// Seconds or a ratio with about four figures; never an exponent.
 [[nodiscard]] std::string short_decimal(double value);
 
+/// A value as plots have it at their ticks: 12,000, 0.25, 3·10⁻⁷.
+[[nodiscard]] std::string tick_label(double value);
+
 /// A fingerprint as it is printed everywhere: 16 hex digits.
 [[nodiscard]] std::string hex_digits(std::uint64_t value);
 

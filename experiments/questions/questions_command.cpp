@@ -79,7 +79,7 @@ void check_destinations(const Destinations& destinations) {
   check_table_destinations(destinations, kName, taken);
   if (!destinations.out) return;
   check_directory(*destinations.out, "--out", {"report.html"});
-  refuse_page_beside_others(*destinations.out, "questions.json");
+  check_page(*destinations.out, "questions.json");
 }
 
 std::size_t steps_of(const std::string& question) {

@@ -73,7 +73,7 @@ void check_destinations(const Destinations& destinations, const std::vector<int>
     check_directory(*destinations.out, "--out", {kResult, "report.html"});
     taken.write_into("--out", *destinations.out, {kResult, "report.html"});
     for (const int table : tables) taken.write("--out", *destinations.out / file_of(table));
-    refuse_page_beside_others(*destinations.out, kResult);
+    check_page(*destinations.out, kResult);
   }
   if (destinations.json && *destinations.json != "-") {
     taken.write("--json", *destinations.json);

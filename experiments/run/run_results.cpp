@@ -23,7 +23,7 @@ void check_destinations(const Destinations& destinations) {
   if (destinations.json && *destinations.json != "-") ensure_writable_file(*destinations.json, "--json");
   if (!destinations.out) return;
   check_directory(*destinations.out, "--out", {kFiles[0], kFiles[1], kFiles[2], kFiles[3]});
-  refuse_page_beside_others(*destinations.out, "summary.json");
+  check_page(*destinations.out, "summary.json");
 }
 
 void RunResults::begin(const Scene& scene, Session& session) {

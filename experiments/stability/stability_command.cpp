@@ -24,7 +24,7 @@ int stability_command(const Arguments& arguments) {
   check_table_destinations(destinations, name, taken);
   if (options.out) {
     check_directory(*options.out, "--out", {"report.html"});
-    refuse_page_beside_others(*options.out, "stability.json");
+    check_page(*options.out, "stability.json");
   }
 
   ProgressBar bar(!options.quiet);

@@ -104,7 +104,7 @@ int theorems_command(const Arguments& arguments) {
   check_table_destinations(destinations, kName, taken);
   if (destinations.out) {
     check_directory(*destinations.out, "--out", {"report.html"});
-    refuse_page_beside_others(*destinations.out, "theorems.json");
+    check_page(*destinations.out, "theorems.json");
   }
   const std::vector<TheoremSeries> series = measure(asked);
 

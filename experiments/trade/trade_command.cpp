@@ -155,7 +155,7 @@ int trade_command(const Arguments& arguments) {
   check_table_destinations(destinations, kName, taken);
   if (destinations.out) {
     check_directory(*destinations.out, "--out", {"report.html"});
-    refuse_page_beside_others(*destinations.out, "trade.json");
+    check_page(*destinations.out, "trade.json");
   }
 
   ProgressBar bar(!destinations.quiet);

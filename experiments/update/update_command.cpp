@@ -66,7 +66,7 @@ int update_command(const Arguments& arguments) {
   check_table_destinations(destinations, kName, taken);
   if (options.out) {
     check_directory(*options.out, "--out", {"report.html"});
-    refuse_page_beside_others(*options.out, "update.json");
+    check_page(*options.out, "update.json");
   }
 
   ProgressBar bar(!options.quiet);

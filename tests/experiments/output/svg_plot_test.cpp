@@ -1,4 +1,4 @@
-// Axes and plots: where ticks stand, and what a page shows of values.
+// Plots: where ticks stand, and what a page shows of values.
 
 #include "experiments/output/svg_plot.h"
 
@@ -6,68 +6,90 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "experiments/output/axis.h"
+#include "experiments/output/page_svg.h"
 #include "tests/experiments/sound_page.h"
 
 namespace kds {
 namespace {
 
 using test::count_of;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-std::vector<std::string> labels_of(const Axis& axis, std::size_t most) {
-  std::vector<std::string> labels;
-  for (const Tick& tick : axis.ticks(most)) labels.push_back(tick.label);
-  return labels;
+void expect_ticks(const std::string& html, const std::vector<std::string>& ticks) {
+  for (const std::string& tick : ticks) EXPECT_EQ(count_of(html, ">" + tick + "</text>"), 2U) << tick;
 }
 
-TEST(Axis, LinearTicksAreRound) {
-  EXPECT_THAT(labels_of(Axis(0, 10, false), 5), ElementsAre("0", "2", "4", "6", "8", "10"));
-  EXPECT_THAT(labels_of(Axis(-1, 1.2, false), 4), ElementsAre("-1", "0", "1"));
-  EXPECT_THAT(labels_of(Axis(0, 43140, false), 5), ElementsAre("0", "10,000", "20,000", "30,000", "40,000"));
-  Axis axis(0, 43140, false);
-  axis.widen_to_ticks(5);
-  EXPECT_THAT(labels_of(axis, 5), ElementsAre("0", "10,000", "20,000", "30,000", "40,000", "50,000"));
-  EXPECT_DOUBLE_EQ(axis.share(25000), 0.5);
+TEST(SvgPlot, TicksAreRound) {
+  LinePlot plot{"frame", "events", Drawn::line, {{"a", {{0, 0}, {70, 43140}}}}};
+  const std::string html = svg_plot(plot);
+  expect_ticks(html, {"10,000", "20,000", "30,000", "40,000", "50,000"});
+  EXPECT_EQ(count_of(html, ",000</text>"), 10U);
+  plot.below_zero = true;
+  plot.curves[0].points = {{0, -1}, {70, 1.2}};
+  expect_ticks(svg_plot(plot), {"-1", "1"});
 }
 
-TEST(Axis, LogarithmicTicksArePowersOfTenWhereThereAreTwo) {
-  EXPECT_THAT(labels_of(Axis(5, 2000, true), 5), ElementsAre("10", "100", "1,000"));
-  EXPECT_THAT(labels_of(Axis(1.5, 9, true), 5), ElementsAre("2", "5"));
-  EXPECT_GE(labels_of(Axis(1.1, 1.3, true), 5).size(), 2U);
-  EXPECT_LE(labels_of(Axis(1e-12, 1e12, true), 5).size(), 7U);
-  EXPECT_DOUBLE_EQ(Axis(1, 100, true).share(10), 0.5);
+TEST(SvgPlot, LogarithmicTicksArePowersOfTenWhereThereAreTwo) {
+  const std::string powers = svg_plot(PointPlot{"x", "y", {"a"}, {{"", 5, 0.5, 0}, {"", 2000, 0.7, 0}}});
+  expect_ticks(powers, {"10", "100", "1,000"});
+  EXPECT_EQ(count_of(svg_plot(PointPlot{"x", "y", {"a"}, {{"", 1.5, 40, 0}, {"", 9, 60, 0}}}), ">5</text>"),
+            2U);
+  expect_ticks(svg_plot(PointPlot{"x", "y", {"a"}, {{"", 1, 1.2, 0}, {"", 90, 3.2, 0}}}),
+               {"1.5", "2", "2.5", "3"});
+  test::expect_nested(svg_plot(PointPlot{"x", "y", {"a"}, {{"", 1e-12, 1, 0}, {"", 1e12, 1, 0}}}));
 }
 
-TEST(Axis, OneValueOrNoneHasARangeAroundIt) {
-  EXPECT_DOUBLE_EQ(Axis(3, 3, false).share(3), 0.5);
-  EXPECT_DOUBLE_EQ(Axis(0, 0, false).share(0), 0.5);
-  EXPECT_NEAR(Axis(7, 7, true).share(7), 0.5, 1e-12);
-  EXPECT_DOUBLE_EQ(Axis(0, 0, true).share(1), 1);
-  const double next = std::nextafter(0.6, 1);  // steps of less than a last place would never arrive
-  EXPECT_LE(Axis(0.6, next, false).ticks(5).size(), 7U);
-  EXPECT_LE(Axis(0.6, next, true).ticks(5).size(), 7U);
+// Steps of less than a last place would never arrive; ends that are rounded would leave the axis.
+TEST(SvgPlot, ValuesThatAreAsGoodAsEqual) {
+  const double next = std::nextafter(0.6, 1);
+  for (const bool below_zero : {false, true}) {
+    const std::string html =
+        svg_plot(LinePlot{"x", "y", Drawn::line, {{"a", {{0.6, next}, {next, 0.6}}}}, below_zero});
+    EXPECT_EQ(count_of(html, "class=\"hot\""), 4U);
+    EXPECT_LE(count_of(html, "<text>"), 40U);
+  }
+  EXPECT_EQ(count_of(svg_plot(LinePlot{"x", "y", Drawn::line, {{"a", {{1.0 / 3, 1}, {2.0 / 3, 2}}}}}),
+                     "class=\"hot\""),
+            4U);
 }
 
-TEST(TickLabel, ShowsSizesLegibly) {
-  EXPECT_EQ(tick_label(0), "0");
-  EXPECT_EQ(tick_label(-3), "-3");
-  EXPECT_EQ(tick_label(12000), "12,000");
-  EXPECT_EQ(tick_label(-1234), "-1,234");
-  EXPECT_EQ(tick_label(0.25), "0.25");
-  EXPECT_EQ(tick_label(1e6), "10⁶");
-  EXPECT_EQ(tick_label(3e-7), "3·10⁻⁷");
-  EXPECT_EQ(tick_label(-2.5e12), "-2.5·10¹²");
-  EXPECT_EQ(tick_label(9999999), "10⁷");
+TEST(SvgPlot, ColoursAreThePagesAndNoIdsAreShared) {
+  const std::string html =
+      svg_plot(LinePlot{"x", "y", Drawn::staircase, {{"a", {{0, 1}, {1, 2}}}, {"b", {{0, 2}, {1, 1}}}}});
+  for (const char* colour : {"var(--s0)", "var(--s1)", "var(--soft)", "var(--line)"})
+    EXPECT_THAT(html, HasSubstr(colour));
+  for (const char* part : {"rgb(", " id=", "href", "onmouse", "<script", "xmlns"})
+    EXPECT_THAT(html, Not(HasSubstr(part)));
+}
+
+TEST(SvgPlot, EachSquareOfAMapHasItsValue) {
+  const std::string html = svg_plot(MapPlot{"bead", "share", -0.5, 1.5, 1, {{0, 1, 0.5}, {1, 0, 1}}});
+  EXPECT_EQ(count_of(html, "<title>bead 0, 1\nshare: 0.5</title>"), 2U);
+  EXPECT_EQ(count_of(html, "<title>bead 1, 0\nshare: 1</title>"), 2U);
+}
+
+TEST(SvgPlot, BarsHaveTheirNamesAndValues) {
+  const std::string html = svg_plot(BarPlot{"events", {{"tip 'edge'", 1200}, {"`date` $b @c", 0}}});
+  expect_ticks(html, {"tip 'edge'", "`date` $b @c", "1,200", "0"});
+}
+
+TEST(PageSvg, WhatIsNoDrawingIsAFailure) {
+  const DrawingSize size{10, 10, 1, 1, 1, 1};
+  EXPECT_THROW(static_cast<void>(page_svg("", size, TextsOf::marks, {}, "")), std::runtime_error);
+  EXPECT_THROW(static_cast<void>(page_svg("<svg><defs></defs>", size, TextsOf::squares, {"lost"}, "")),
+               std::runtime_error);
+  EXPECT_THROW(static_cast<void>(page_svg("<defs></defs>\n<use x='0'/>", size, TextsOf::marks, {}, "")),
+               std::runtime_error);
 }
 
 TEST(SvgPlot, ValuesAreShownUnderThePointer) {
-  LinePlot plot{"frame", "events", Drawn::line, {{"wrapped", {{0, 3}, {1, 4}}}, {"power", {{1, 40}}}}};
+  LinePlot plot{
+      "frame", "events", Drawn::line, {{"wrapped", {{0, 3}, {1, 4}}}, {"power", {{1, 40}, {2, 50}}}}};
   const std::string html = svg_plot(plot);
   EXPECT_THAT(html, HasSubstr("<title>frame 0\nwrapped: 3</title>"));
   EXPECT_THAT(html, HasSubstr("<title>frame 1\nwrapped: 4\npower: 40</title>"));

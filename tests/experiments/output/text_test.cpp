@@ -44,5 +44,17 @@ TEST(Text, ShellWordsReadBack) {
   EXPECT_EQ(shell_words({"my file", "", "it's"}), R"('my file' '' 'it'\''s')");
 }
 
+TEST(TickLabel, ShowsSizesLegibly) {
+  EXPECT_EQ(tick_label(0), "0");
+  EXPECT_EQ(tick_label(-3), "-3");
+  EXPECT_EQ(tick_label(12000), "12,000");
+  EXPECT_EQ(tick_label(-1234), "-1,234");
+  EXPECT_EQ(tick_label(0.25), "0.25");
+  EXPECT_EQ(tick_label(1e6), "10⁶");
+  EXPECT_EQ(tick_label(3e-7), "3·10⁻⁷");
+  EXPECT_EQ(tick_label(-2.5e12), "-2.5·10¹²");
+  EXPECT_EQ(tick_label(9999999), "10⁷");
+}
+
 }  // namespace
 }  // namespace kds

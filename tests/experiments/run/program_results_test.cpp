@@ -180,6 +180,35 @@ TEST(Program, AReportReplacesAnEarlierOneAsAWhole) {
   EXPECT_THAT(page, Not(HasSubstr("d1_n20_linear.txt")));
 }
 
+// The plots of the second run fail: the page of the first must not stand beside the figures of the second.
+TEST(Program, APlotThatFailsLeavesNoPage) {
+  const ScratchDirectory directory;
+  const std::string out = (directory / "out").string();
+  ASSERT_EQ(run_program({"run", kSmall, "--quiet", "--out", out}).code, 0);
+  ASSERT_EQ(directory.file("gnuplot",
+                           "#!/bin/sh\ncase $(cat) in *ready*) echo ready;; *) echo no >&2; exit 1;; esac\n"),
+            (directory / "gnuplot").string());
+  std::filesystem::permissions(directory / "gnuplot", std::filesystem::perms::owner_all);
+  const ProgramRun run = run_shell("PATH=\"$2:$PATH\" \"$0\" run \"$1\" --quiet --out \"$2/out\"",
+                                   {data_file("kinetic/d3_n20_linear.txt"), directory.path().string()});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.err, HasSubstr("gnuplot failed"));
+  EXPECT_EQ(Json::parse(content_of(out + "/summary.json"))["input"]["dimension"], 3);
+  EXPECT_FALSE(std::filesystem::exists(out + "/report.html"));
+}
+
+TEST(Program, WithoutGnuplotNoPageIsPromised) {
+  const ScratchDirectory directory;
+  for (const char* command : {"run", "compare", "update"}) {
+    const ProgramRun run =
+        run_shell(std::string("PATH=/nowhere \"$0\" ") + command + " \"$1\" --out \"$2/out\"",
+                  {kTrajectory, directory.path().string()});
+    EXPECT_EQ(run.code, 2) << command;
+    EXPECT_THAT(run.err, HasSubstr("--out needs gnuplot for its plots")) << command;
+    EXPECT_FALSE(std::filesystem::exists(directory / "out")) << command;
+  }
+}
+
 // None of them is there yet, and one is to be a file and a directory.
 TEST(Program, AnOutputIsAFileOrADirectory) {
   const ScratchDirectory directory;
