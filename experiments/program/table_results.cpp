@@ -24,7 +24,7 @@ void check_table_destinations(const Destinations& destinations, const std::strin
   const bool json_file = destinations.json && *destinations.json != "-";
   const std::array<std::string, 2> files{name + ".json", name + ".csv"};
   if (destinations.out) paths.write_into("--out", *destinations.out, {files[0], files[1]});
-  if (json_file) paths.write("--json", *destinations.json);
+  if (destinations.json) paths.write_json(*destinations.json);
 
   if (json_file) ensure_writable_file(*destinations.json, "--json");
   if (!destinations.out) return;

@@ -44,6 +44,18 @@ void TakenPaths::read(const InputOptions& options) {
   if (options.radius.starts_with(file)) add("--radius", options.radius.substr(file.size()));
 }
 
+void TakenPaths::read_folder(const std::string& owner, const fs::path& folder) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator file(folder, error), end; file != end && !error;
+       file.increment(error))
+    if (file->is_regular_file(error)) add(owner, file->path());
+}
+
+void TakenPaths::write_json(const std::string& destination) {
+  if (destination == "-") return write("--json -", "/dev/stdout");
+  write("--json", destination);
+}
+
 void TakenPaths::write(const std::string& option, const fs::path& path) {
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_regular_file(path, error)) return;
@@ -71,7 +83,7 @@ void TakenPaths::write_into(const std::string& option, const fs::path& directory
 void TakenPaths::write(const Destinations& destinations) {
   if (destinations.out)
     write_into("--out", *destinations.out, {"summary.json", "events.csv", "contacts.csv", "report.html"});
-  if (destinations.json && *destinations.json != "-") write("--json", *destinations.json);
+  if (destinations.json) write_json(*destinations.json);
 }
 
 }  // namespace kds

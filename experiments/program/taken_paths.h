@@ -21,6 +21,10 @@ class TakenPaths {
   }
   /// The files that are read.
   void read(const InputOptions& options);
+  /// All files in a folder, of which some are read.
+  void read_folder(const std::string& owner, const std::filesystem::path& folder);
+  /// What --json says: a file as `write` has it, or - for standard output, which may be a file too.
+  void write_json(const std::string& destination);
   /// A file to be written. Throws InputError where it is another's, or is to be a directory; devices are for
   /// all.
   void write(const std::string& option, const std::filesystem::path& path);

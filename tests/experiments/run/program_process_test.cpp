@@ -20,6 +20,19 @@ using testing::HasSubstr;
 
 const std::string kSmall = data_file("kinetic/d1_n20_linear.txt");
 
+TEST(Program, StandardOutputThatIsAFileIsNoOtherOutput) {
+  const ScratchDirectory directory;
+  const std::string file = (directory / "both").string();
+  const ProgramRun run =
+      run_shell("\"$0\" run \"$1\" --quiet --json - --log \"$2\" > \"$2\"", {kSmall, file});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("--json - /dev/stdout: is the file of --log"));
+  EXPECT_EQ(run_shell("\"$0\" run \"$1\" --quiet --json - --log \"$2\" | cat > \"$3\"",
+                      {kSmall, file, (directory / "other").string()})
+                .code,
+            0);
+}
+
 TEST(Program, AFullOutputIsAFailureWithTheSystemsReason) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   const ScratchDirectory directory;
