@@ -155,7 +155,7 @@ class Measurement {
 
   void ask(const NamedSubject& one) {
     const auto& [name, subject] = one;
-    QuestionCurve bases{kBases, name, {}}, flips{kFlips, name, {}};
+    QuestionCurve bases{kBases, name, {}, {}}, flips{kFlips, name, {}, {}};
     std::vector<Step> finest;
     for (const std::size_t stride : kStrides) {
       std::vector<Eigen::Matrix3Xd> frames;
@@ -173,7 +173,7 @@ class Measurement {
   void in_groups(const std::string& name, std::vector<Step> steps) {
     constexpr std::size_t groups = 8;
     std::ranges::sort(steps, {}, [](const Step& step) { return step.deformation.energy(); });
-    QuestionCurve bases{kBases, name + " by step", {}}, flips{kFlips, name + " by step", {}};
+    QuestionCurve bases{kBases, name + " by step", {}, {}}, flips{kFlips, name + " by step", {}, {}};
     for (std::size_t g = 0; g < groups; ++g) {
       const std::size_t first = g * steps.size() / groups, end = (g + 1) * steps.size() / groups;
       const Step mean = mean_of(std::span(steps).subspan(first, end - first));
@@ -185,7 +185,7 @@ class Measurement {
 
   void ask(Angles angles) {
     const std::string name = fmt::format("random chain, {}", kAngleNames[static_cast<std::size_t>(angles)]);
-    QuestionCurve bases{kBases, name, {}}, flips{kFlips, name, {}};
+    QuestionCurve bases{kBases, name, {}, {}}, flips{kFlips, name, {}, {}};
     const std::vector<double> radii(kChainBeads, models::radius);
     for (int a = 0; a < kAmplitudes; ++a) {
       const double amplitude = std::ldexp(1, a - kAmplitudes - 1);
