@@ -6,9 +6,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/questions/deformation.h"
@@ -82,6 +84,35 @@ Json rows_of(const Json& all, const std::string& question) {
   return rows;
 }
 
+void expect_energy(const Json& rows) {
+  EXPECT_EQ(rows.size(), 2 * 6 + 3 * 9U);  // strides of two proteins, amplitudes of three kinds of angles
+  std::map<std::string, std::size_t> of_subject;
+  for (const Json& row : rows) {
+    ++of_subject[row["subject"]];
+    EXPECT_GT(row["flips"], 0) << row;
+    EXPECT_GT(row["basis_changes"], 0) << row;
+    if (row["subject"] == "random chain, bending") {
+      EXPECT_GT(row["bending"], 1e-6) << row;
+      EXPECT_LT(row["torsion"], 1e-20) << row;
+    }
+    if (row["subject"] == "random chain, torsion") {
+      EXPECT_LT(row["bending"], 1e-20) << row;
+      EXPECT_GT(row["torsion"], 1e-6) << row;
+    }
+    // Half the square of a normal change of each of 125 or 126 angles.
+    if (row["subject"] == "random chain, both") {
+      const double amplitude = row["step"], expected = 0.5 * amplitude * amplitude * 125;
+      EXPECT_NEAR(row["bending"].get<double>() / expected, 1, 0.1) << row;
+      EXPECT_NEAR(row["torsion"].get<double>() / expected, 1, 0.1) << row;
+    }
+  }
+  EXPECT_EQ(of_subject, (std::map<std::string, std::size_t>{{"villin", 6},
+                                                            {"random protein", 6},
+                                                            {"random chain, bending", 9},
+                                                            {"random chain, torsion", 9},
+                                                            {"random chain, both", 9}}));
+}
+
 // More is known, more rarely pairs are searched again.
 void expect_bounds(const Json& rows) {
   EXPECT_EQ(rows.size(), 3 * 4U);
@@ -131,18 +162,25 @@ TEST(Questions, AllOfThemWithAPage) {
   const Json json = Json::parse(content_of(scratch / "out/questions.json"));
   EXPECT_EQ(json["settings"]["seed"], 3);
   EXPECT_EQ(json["questions"].size(), 4U);
-  for (const Json& row : rows_of(json, "energy")) {
-    if (row["subject"] == "random chain, bending") {
-      EXPECT_GT(row["bending"], 1e-6) << row;
-    }
-    if (row["subject"] == "random chain, torsion") {
-      EXPECT_LT(row["bending"], 1e-20) << row;
-      EXPECT_GT(row["torsion"], 1e-6) << row;
-    }
-  }
+  expect_energy(rows_of(json, "energy"));
   expect_bounds(rows_of(json, "bounds"));
   expect_trust(rows_of(json, "trust"));
   expect_combination(rows_of(json, "combination"));
+  // The same frames as kds run, at strides 1 and 8.
+  for (const auto& [row, frames] : {std::pair<std::size_t, const char*>{0, "0:200"}, {3, "0:200:8"}}) {
+    const ProgramRun by_run =
+        run_program({"run", data_file("trajectories/villin_hp36_300K.dcd"), "--topology",
+                     data_file("trajectories/villin_hp36_300K.pdb"), "--frames", frames, "--structures",
+                     "wrapped,power", "--json", "-"});
+    ASSERT_EQ(by_run.code, 0) << by_run.err;
+    const Json summary = Json::parse(by_run.out);
+    const Json energy = rows_of(json, "energy")[row];
+    const double steps = energy["steps"];
+    EXPECT_NEAR(energy["basis_changes"].get<double>() * steps,
+                summary["structures"]["wrapped"]["events"]["total"], 1e-6);
+    EXPECT_NEAR(energy["flips"].get<double>() * steps, summary["structures"]["power"]["events"]["total"],
+                1e-6);
+  }
   const std::string csv = content_of(scratch / "out/questions.csv");
   const auto commas = [&](std::size_t from) {
     return count_of(csv.substr(from, csv.find('\n', from) - from), ",");
