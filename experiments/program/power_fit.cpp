@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 namespace kds {
 
@@ -45,11 +44,35 @@ std::optional<PowerFit> fit_power(std::span<const std::pair<double, double>> poi
   }
   const std::size_t freedom = logs.size() - 2;
   const double error = student_95(freedom) * std::sqrt(left / static_cast<double>(freedom) / spread);
-  return PowerFit{logs.size(), slope, slope - error, slope + error, std::exp2(mean_y - slope * mean_x)};
+  return PowerFit{logs.size(),   points.size() - logs.size(),       slope, slope - error,
+                  slope + error, std::exp2(mean_y - slope * mean_x)};
+}
+
+std::optional<PowerFit> fit_power(std::span<const std::pair<double, double>> points,
+                                  std::span<const std::vector<std::pair<double, double>>> without_a_share) {
+  auto fit = fit_power(points);
+  const auto shares = static_cast<double>(without_a_share.size());
+  if (!fit || without_a_share.size() < 2) return std::nullopt;
+  std::vector<double> exponents;
+  double mean = 0, squares = 0;
+  for (const auto& rest : without_a_share) {
+    const auto of_rest = fit_power(rest);
+    if (!of_rest) return std::nullopt;
+    exponents.push_back(of_rest->exponent);
+    mean += of_rest->exponent / shares;
+  }
+  for (const double exponent : exponents) squares += (exponent - mean) * (exponent - mean);
+  const double error = student_95(without_a_share.size() - 1) * std::sqrt((shares - 1) / shares * squares);
+  fit->lower = fit->exponent - error;
+  fit->upper = fit->exponent + error;
+  return fit;
 }
 
 std::string exponent_text(const PowerFit& fit) {
-  return fmt::format("{:.3f} (95%: {:.3f} to {:.3f})", fit.exponent, fit.lower, fit.upper);
+  const std::string left_out = fit.left_out == 0 ? ""
+                                                 : fmt::format("; {} of {} points are 0 and left out",
+                                                               fit.left_out, fit.points + fit.left_out);
+  return fmt::format("{:.3f} (95%: {:.3f} to {:.3f}{})", fit.exponent, fit.lower, fit.upper, left_out);
 }
 
 }  // namespace kds

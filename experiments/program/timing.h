@@ -30,17 +30,20 @@ inline Spread spread_of(const std::vector<double>& values) {
   return {median_of(values), *least, *most};
 }
 
-/// Of the seconds that `work` reports of a call. Short work is called often enough in a round to be measured;
-/// work that takes more than `enough` seconds is called once in all.
+/// Of the seconds that `work` reports of a call. Short work is called often enough in a round to be measured,
+/// and once before, for caches; of longer work the first call is the first round. Work that takes more than
+/// `enough` seconds is called once in all.
 template <class Work>
 Spread repeated_seconds(std::size_t rounds, const Work& work, double enough = 1) {
   constexpr double least = 1e-3;
   double once = work();
   if (once > enough) return spread_of({once});
-  if (once < least) once = work();  // caches are warm
+  const bool is_short = once < least;
+  if (is_short) once = work();  // caches are warm
   const auto calls = static_cast<std::size_t>(std::max(1.0, least / std::max(once, 1e-9)));
   std::vector<double> seconds;
-  for (std::size_t round = 0; round < rounds; ++round) {
+  if (!is_short) seconds.push_back(once);
+  while (seconds.size() < rounds) {
     double sum = 0;
     for (std::size_t call = 0; call < calls; ++call) sum += work();
     seconds.push_back(sum / static_cast<double>(calls));

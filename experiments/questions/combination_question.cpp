@@ -10,8 +10,8 @@
 #include "experiments/reproduce/subjects.h"
 #include "motions/models/model.h"
 #include "motions/models/shape.h"
+#include "structures/collision/closest_pair.h"
 #include "structures/collision/sphere_tree.h"
-#include "structures/triangulation/diagram_edges.h"
 
 namespace kds {
 
@@ -112,17 +112,38 @@ class Search {
   std::vector<bool> left_;
 };
 
-double edges_of(const Chain& chain, const std::vector<bool>& some) {
+// Pairs that decide whether some of these beads collide: edges of their diagram, and beads with a common
+// neighbour along the chain (closest_pair.h says why both are needed, and that no others are: where a pair is
+// named by a bead's centre, or found by a grid, it stands for these).
+struct Named {
+  double edges = 0, others = 0;
+  [[nodiscard]] double sum() const { return edges + others; }
+};
+
+Named pairs_named(const Chain& chain, const std::vector<bool>& some) {
   std::vector<Eigen::Index> beads;
-  std::vector<double> weights;
+  std::vector<double> radii;
+  std::vector<BeadId> of_chain;
   for (std::size_t bead = 0; bead < some.size(); ++bead) {
     if (!some[bead]) continue;
     beads.push_back(static_cast<Eigen::Index>(bead));
-    weights.push_back(chain.radii[bead] * chain.radii[bead]);
+    radii.push_back(chain.radii[bead]);
+    of_chain.push_back(static_cast<BeadId>(bead));
   }
-  if (beads.empty()) return 0;
-  return static_cast<double>(
-      static_edges<3>(Eigen::Matrix3Xd(chain.centers(Eigen::all, beads)), weights).edges.size());
+  if (beads.size() < 2) return {};
+  // Beads that follow each other here are neighbours only if they do in the chain.
+  std::vector<BeadRange> pieces{{0, 0}};
+  for (BeadId k = 1; k < of_chain.size(); ++k) {
+    if (of_chain[k] == of_chain[k - 1] + 1)
+      pieces.back().last = k;
+    else
+      pieces.push_back({k, k});
+  }
+  const PairsLookedAt pairs = closest_pair<3>(Eigen::Matrix3Xd(chain.centers(Eigen::all, beads)), radii,
+                                              BeadPairs::along(beads.size(), pieces))
+                                  .looked_at;
+  return {static_cast<double>(pairs.edges),
+          static_cast<double>(pairs.common_neighbors + pairs.centers + pairs.near)};
 }
 
 }  // namespace
@@ -134,23 +155,30 @@ Question ask_about_combination(const std::filesystem::path& data, std::uint64_t 
   Question question;
   question.name = "combination";
   question.title = "What do diagram and hierarchy give together?";
-  question.columns = {{"block", "block, beads"},     {"left", "beads left, %"},
-                      {"pairs", "pairs of spheres"}, {"edges", "edges of their diagram"},
-                      {"together", "together"},      {"hierarchy", "hierarchy alone"},
-                      {"diagram", "diagram alone"},  {"gain", "better alone / together"}};
+  question.columns = {{"block", "block, beads"},
+                      {"left", "beads left, %"},
+                      {"pairs", "pairs of spheres"},
+                      {"edges", "edges of their diagram"},
+                      {"others", "with a common neighbour"},
+                      {"together", "together"},
+                      {"hierarchy", "hierarchy alone"},
+                      {"diagram", "diagram alone"},
+                      {"gain", "better alone / together"}};
   question.x_label = "block, beads";
   question.y_label = "better alone / together";
   question.words =
       "Pairs that must be looked at to decide whether a chain collides with itself. Alone: the separating "
-      "family "
-      "of the wrapped hierarchy; the edges of the power diagram of all beads. Together: the hierarchy is "
-      "searched "
-      "down to blocks of so many beads, and on to beads where two blocks are near along the chain; beads in "
-      "blocks "
-      "that still meet others are left to a power diagram of these beads alone, whose edges decide (Theorem "
-      "3.5 "
-      "holds of any set of balls). Above 1 the two together look at fewer pairs than the better of both "
-      "alone.";
+      "family of the wrapped hierarchy; of the power diagram of all beads the edges that join no neighbours "
+      "along the chain, and the beads with a common neighbour, without which the edges do not decide "
+      "(Theorem "
+      "3.5, which holds of any set of balls; with them count a few pairs of a bead and that in whose cell "
+      "its "
+      "centre is). Together: the hierarchy is searched down to blocks of so many beads, and on to beads "
+      "where "
+      "two blocks are near along the chain; beads in blocks that still meet others are left to a power "
+      "diagram "
+      "of these beads alone, which decides likewise. Above 1 the two together look at fewer pairs than the "
+      "better of both alone.";
   std::vector<double> costs;
   for (std::size_t which = 0; which < kSubjects; ++which) {
     const Chain one = chain(which, data, seed);
@@ -159,18 +187,19 @@ Question ask_about_combination(const std::filesystem::path& data, std::uint64_t 
     tree.build(Balls<3>(one.centers, one.radii));
     Search whole(tree.spheres(), 0);
     whole.visit(tree.roots().front());
-    const double diagram = edges_of(one, std::vector<bool>(one.radii.size(), true));
+    const double diagram = pairs_named(one, std::vector<bool>(one.radii.size(), true)).sum();
     const double alone = std::min(whole.pairs(), diagram);
-    QuestionCurve gains{"", one.name, {}};
+    QuestionCurve gains{"", one.name, {}, {}};
     for (const std::size_t block : kBlocks) {
       Search search(tree.spheres(), block);
       search.visit(tree.roots().front());
       const auto left = static_cast<double>(std::count(search.left().begin(), search.left().end(), true));
-      const double edges = edges_of(one, search.left()), together = search.pairs() + edges;
+      const Named named = pairs_named(one, search.left());
+      const double together = search.pairs() + named.sum();
       question.rows.push_back(
           {one.name,
            {static_cast<double>(block), 100 * left / static_cast<double>(one.radii.size()), search.pairs(),
-            edges, together, whole.pairs(), diagram, alone / together}});
+            named.edges, named.others, together, whole.pairs(), diagram, alone / together}});
       gains.points.emplace_back(static_cast<double>(block), alone / together);
     }
     const auto best =

@@ -21,7 +21,13 @@ namespace {
 
 constexpr std::array<std::size_t, 6> kStrides{1, 2, 4, 8, 16, 32};
 constexpr int kAmplitudes = 9;  // 2^-10 ... 2^-2 radians
-constexpr std::size_t kConformations = 16, kChainBeads = 128;
+constexpr std::size_t kChainBeads = 128;
+// Of the largest amplitude; each smaller one has twice as many, up to the most, for its steps have fewer
+// changes.
+constexpr std::size_t kLeastConformations = 32, kMostConformations = 256;
+constexpr std::size_t kShares = 16;  // of the conformations of an amplitude, which tell the interval
+// Bending angles stay this far from 0 and from pi: beyond these both torsions beside would jump by pi.
+constexpr double kLeastBending = 0.05 * std::numbers::pi;
 
 constexpr std::size_t kProteins = 2;  // the first of the moving subjects
 
@@ -83,10 +89,22 @@ double normal(models::Random& random) {
 ChainAngles random_angles(models::Random& random) {
   ChainAngles angles;
   for (std::size_t k = 0; k < kChainBeads - 2; ++k)
-    angles.bending.push_back(std::numbers::pi * (0.5 + 0.4 * random.uniform()));
+    angles.bending.push_back(std::numbers::pi * (0.4 + 0.4 * random.uniform()));
   for (std::size_t k = 0; k < kChainBeads - 3; ++k)
     angles.torsion.push_back(2 * std::numbers::pi * random.uniform());
   return angles;
+}
+
+// Drawn again where the chain would fold or straighten.
+double changed_bending(double angle, double amplitude, models::Random& random) {
+  for (;;) {
+    const double changed = angle + amplitude * normal(random);
+    if (changed > kLeastBending && changed < std::numbers::pi - kLeastBending) return changed;
+  }
+}
+
+std::size_t conformations_at(int amplitude) {
+  return std::min(kMostConformations, kLeastConformations << (kAmplitudes - 1 - amplitude));
 }
 
 class Measurement {
@@ -112,10 +130,12 @@ class Measurement {
         "are looked at frame by frame and over strides to {}; of the steps at stride 1 those of like energy "
         "are "
         "also taken together, eight groups of equal size. Random chains have {} beads, bending angles "
-        "between "
-        "0.5 and 0.9 pi, any torsion; in a step all angles of one kind, or of both, change by normal random "
-        "amounts of the amplitude given, {} conformations each.",
-        kStrides.back(), kChainBeads, kConformations);
+        "between 0.4 and 0.8 pi, any torsion; in a step all angles of one kind, or of both, change by normal "
+        "random amounts of the amplitude given, drawn again where a bending angle would come within 0.05 pi "
+        "of 0 or pi. Conformations are drawn anew for each amplitude, {} at the largest to {} at the small "
+        "ones; intervals of their exponents are of the exponents without one of {} equal shares of them "
+        "(jackknife). Those of trajectories are of the line through few points, whose frames are the same.",
+        kStrides.back(), kChainBeads, kLeastConformations, kMostConformations, kShares);
     for (std::size_t which = 0; which < kProteins; ++which) ask(moving_subject(which, data_, seed_));
     for (const Angles angles : kAngles) ask(angles);
     question_.answer = answer();
@@ -155,7 +175,7 @@ class Measurement {
 
   void ask(const NamedSubject& one) {
     const auto& [name, subject] = one;
-    QuestionCurve bases{kBases, name, {}}, flips{kFlips, name, {}};
+    QuestionCurve bases{kBases, name, {}, {}}, flips{kFlips, name, {}, {}};
     std::vector<Step> finest;
     for (const std::size_t stride : kStrides) {
       std::vector<Eigen::Matrix3Xd> frames;
@@ -173,7 +193,7 @@ class Measurement {
   void in_groups(const std::string& name, std::vector<Step> steps) {
     constexpr std::size_t groups = 8;
     std::ranges::sort(steps, {}, [](const Step& step) { return step.deformation.energy(); });
-    QuestionCurve bases{kBases, name + " by step", {}}, flips{kFlips, name + " by step", {}};
+    QuestionCurve bases{kBases, name + " by step", {}, {}}, flips{kFlips, name + " by step", {}, {}};
     for (std::size_t g = 0; g < groups; ++g) {
       const std::size_t first = g * steps.size() / groups, end = (g + 1) * steps.size() / groups;
       const Step mean = mean_of(std::span(steps).subspan(first, end - first));
@@ -185,27 +205,44 @@ class Measurement {
 
   void ask(Angles angles) {
     const std::string name = fmt::format("random chain, {}", kAngleNames[static_cast<std::size_t>(angles)]);
-    QuestionCurve bases{kBases, name, {}}, flips{kFlips, name, {}};
-    const std::vector<double> radii(kChainBeads, models::radius);
+    QuestionCurve bases{kBases, name, {}, {}}, flips{kFlips, name, {}, {}};
+    models::Random random(seed_ * kAngles.size() + static_cast<std::uint64_t>(angles));
     for (int a = 0; a < kAmplitudes; ++a) {
       const double amplitude = std::ldexp(1, a - kAmplitudes - 1);
-      models::Random random(seed_);  // the same conformations and directions at every amplitude
       std::vector<Step> steps;
-      for (std::size_t c = 0; c < kConformations; ++c) {
-        const ChainAngles from = random_angles(random);
-        ChainAngles to = from;
-        for (double& angle : to.bending)
-          angle += (angles == Angles::torsion ? 0 : amplitude) * normal(random);
-        for (double& angle : to.torsion)
-          angle += (angles == Angles::bending ? 0 : amplitude) * normal(random);
-        steps.push_back(
-            steps_of({chain_of(from, 2 * models::usual_bond), chain_of(to, 2 * models::usual_bond)}, radii)
-                .front());
-      }
+      for (std::size_t c = 0; c < conformations_at(a); ++c)
+        steps.push_back(random_step(angles, amplitude, random));
       add(name, amplitude, steps, bases, flips);
+      add_shares(steps, bases, flips);
       step_done_();
     }
     keep(std::move(bases), std::move(flips), "amplitudes");
+  }
+
+  static Step random_step(Angles angles, double amplitude, models::Random& random) {
+    static const std::vector<double> radii(kChainBeads, models::radius);
+    const ChainAngles from = random_angles(random);
+    ChainAngles to = from;
+    if (angles != Angles::torsion)
+      for (double& angle : to.bending) angle = changed_bending(angle, amplitude, random);
+    if (angles != Angles::bending)
+      for (double& angle : to.torsion) angle += amplitude * normal(random);
+    return steps_of({chain_of(from, 2 * models::usual_bond), chain_of(to, 2 * models::usual_bond)}, radii)
+        .front();
+  }
+
+  // The point just added as it is without each of the shares.
+  static void add_shares(const std::vector<Step>& steps, QuestionCurve& bases, QuestionCurve& flips) {
+    bases.without.resize(kShares);
+    flips.without.resize(kShares);
+    for (std::size_t share = 0; share < kShares; ++share) {
+      std::vector<Step> others;
+      for (std::size_t c = 0; c < steps.size(); ++c)
+        if (c % kShares != share) others.push_back(steps[c]);
+      const Step mean = mean_of(others);
+      bases.without[share].emplace_back(mean.deformation.energy(), mean.bases);
+      flips.without[share].emplace_back(mean.deformation.energy(), mean.flips);
+    }
   }
 
   const std::filesystem::path& data_;

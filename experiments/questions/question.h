@@ -27,7 +27,11 @@ struct QuestionCurve {
   std::string plot;  ///< curves of one plot stand together
   std::string name;
   std::vector<std::pair<double, double>> points;
-  [[nodiscard]] std::optional<PowerFit> fit() const { return fit_power(points); }
+  /// The points without one of several equal shares of what was measured, where there are such.
+  std::vector<std::vector<std::pair<double, double>>> without;
+  [[nodiscard]] std::optional<PowerFit> fit() const {
+    return without.empty() ? fit_power(points) : fit_power(points, without);
+  }
 };
 
 struct Question {

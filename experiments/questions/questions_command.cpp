@@ -16,6 +16,7 @@
 #include "experiments/questions/combination_question.h"
 #include "experiments/questions/energy_question.h"
 #include "experiments/questions/questions_report.h"
+#include "motions/base/input_error.h"
 
 namespace kds {
 
@@ -27,7 +28,8 @@ constexpr std::array<std::string_view, 4> kQuestions{"energy", "bounds", "trust"
 constexpr std::array kOptions{
     OptionSpec{"--data", "DIR", "the folder data of the sources, for proteins (default: where it was built)"},
     OptionSpec{"--seed", "N", "of random chains (default: 1)"},
-    OptionSpec{"--rounds", "N", "of each measurement of time, of which the median counts (default: 5)"},
+    OptionSpec{"--rounds", "N",
+               "of each measurement of time (trust), of which the median counts (default: 5)"},
     OptionSpec{"--out", "DIR", "write questions.json, questions.csv and report.html there (default: none)"},
     OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
     OptionSpec{"--quiet", "", "no table, no progress bar"},
@@ -59,17 +61,23 @@ Asked parse(const Arguments& arguments) {
   const ParsedArguments parsed = parse_arguments(kCommand, arguments);
   Asked asked;
   std::array<bool, kQuestions.size()> chosen_ones{};
-  for (const std::string& name : parsed.operands())
-    chosen_ones[place_among("QUESTION", name, kQuestions)] = true;
+  for (const std::string& name : parsed.operands()) {
+    bool& chosen = chosen_ones[place_among("QUESTION", name, kQuestions)];
+    if (chosen) throw InputError(fmt::format("QUESTION: {} is listed twice", name));
+    chosen = true;
+  }
   const bool all = parsed.operands().empty();
   for (std::size_t q = 0; q < kQuestions.size(); ++q)
     if (all || chosen_ones[q]) asked.questions.emplace_back(kQuestions[q]);
   if (const auto text = parsed.value("--seed"))
     asked.seed = parse_whole_number("--seed", *text, 0, UINT64_MAX);
-  if (const auto text = parsed.value("--rounds"))
+  if (const auto text = parsed.value("--rounds")) {
     asked.rounds = parse_whole_number("--rounds", *text, 1, 1000);
+    if (std::ranges::find(asked.questions, "trust") == asked.questions.end())
+      throw InputError("--rounds: no question asked measures time; trust does");
+  }
   asked.destinations = {path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
-  asked.data = data_folder(parsed);
+  asked.data = data_folder(parsed, {"trajectories", "paper"});
   return asked;
 }
 

@@ -80,6 +80,7 @@ Json questions_json(std::span<const Question> questions) {
       if (const auto fit = curve.fit())
         fits.push_back({{"curve", curve.plot.empty() ? curve.name : curve.plot + ", " + curve.name},
                         {"points", fit->points},
+                        {"left_out", fit->left_out},
                         {"exponent", fit->exponent},
                         {"lower", fit->lower},
                         {"upper", fit->upper},
@@ -142,7 +143,7 @@ std::string questions_page(std::span<const Question> questions, Page page) {
     page.found += fmt::format("<p>{}</p>\n", html_escaped(question.answer));
   page.found +=
       "<p><strong>No theorem is claimed</strong>: exponents are of these chains, with intervals of 95% "
-      "confidence as if errors were normal.</p>\n";
+      "confidence.</p>\n";
   for (const Question& question : questions) {
     std::string section = fmt::format("<p>{}</p>\n<ul>\n", html_escaped(question.words));
     for (const std::string& finding : question.findings)

@@ -28,7 +28,8 @@ constexpr const char* kResult = "reproduce.json";
 
 constexpr std::array kOptions{
     OptionSpec{"--data", "DIR", "the folder data of the sources, for proteins (default: where it was built)"},
-    OptionSpec{"--rounds", "N", "of each measurement of time, of which the median counts (default: 5)"},
+    OptionSpec{"--rounds", "N",
+               "of each measurement of time of at most a second, of which the median counts (default: 5)"},
     OptionSpec{"--out", "DIR",
                "write table1.csv ... of these tables, reproduce.json and report.html there (default: none)"},
     OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
@@ -136,17 +137,13 @@ int reproduce_command(const Arguments& arguments) {
   if (const auto text = parsed.value("--rounds")) rounds = parse_whole_number("--rounds", *text, 1, 1000);
   const Destinations destinations{path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
   check_destinations(destinations, numbers);
-  const std::filesystem::path data = data_folder(parsed);
-  std::error_code none;
-  if (!std::filesystem::is_directory(data / "paper", none))
-    throw InputError(fmt::format("--data: there is no folder {}; expected the folder data of the sources",
-                                 (data / "paper").string()));
+  const std::filesystem::path data = data_folder(parsed, {"paper"});
 
   ProgressBar bar(!destinations.quiet);
   const std::vector<PaperTable> tables = measure(numbers, data, rounds, bar);
   std::vector<std::string> names;
   for (const int number : numbers) names.push_back(fmt::format("table{}", number));
-  const std::string command_line = fmt::format("kds reproduce {} --rounds {}", shell_words(names), rounds);
+  const std::string command_line = "kds reproduce " + shell_words(arguments);
   Json json;
   const Json settings{{"tables", names}, {"rounds", rounds}};
   json["command"] = command_line;

@@ -12,7 +12,8 @@ namespace kds {
 
 /// A row each: `table`, `name`, `beads`, `at`, each column by name and with `_paper` behind it, `note`.
 [[nodiscard]] Json paper_rows_json(std::span<const PaperTable> tables);
-/// Of each table `table`, `title`, and `findings` as sentences.
+/// Of each table `table`, `title`, and `findings`, each with the `claim`'s name, whether it `holds`, and
+/// `words`, a sentence.
 [[nodiscard]] Json paper_findings_json(std::span<const PaperTable> tables);
 /// The same rows of one table.
 [[nodiscard]] std::string paper_csv(const PaperTable& table);

@@ -86,6 +86,13 @@ double end_of(const RunReport& report, const std::vector<EventBin>& bins, std::s
 std::string over_steps(std::size_t width) {
   return width > 1 ? fmt::format(" Each value is the mean over {} steps.", width) : "";
 }
+std::string of_steps(std::size_t width) {
+  return width > 1 ? fmt::format(
+                         " Each value is of {} steps: the mean over them, of the farthest bead the "
+                         "most in any of them.",
+                         width)
+                   : "";
+}
 
 std::string plots_over_time(const RunReport& report) {
   std::size_t width = 1;
@@ -129,7 +136,7 @@ std::string plot_of_displacement(const RunReport& report) {
       svg_plot(plot),
       fmt::format("How far beads are from where they were a frame before, in the file's unit of length; the "
                   "largest radius is {}.{}",
-                  short_decimal(report.radius_max), over_steps(report.displacement.width())));
+                  short_decimal(report.radius_max), of_steps(report.displacement.width())));
 }
 
 std::string plots_by_kind(const RunReport& report) {

@@ -46,6 +46,7 @@ Json stride_json(const StrideCertificate& stride) {
 
 Json run_json(const RunReport& report) {
   Json json;
+  json["command"] = report.command_line;
   json["input"] = {{"files", report.files},           {"beads", report.beads},
                    {"frames", report.frames},         {"dimension", report.dimension},
                    {"radius_min", report.radius_min}, {"radius_max", report.radius_max}};

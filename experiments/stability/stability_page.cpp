@@ -10,7 +10,7 @@ namespace kds {
 namespace {
 
 std::string findings(std::span<const StabilityRow> rows) {
-  std::uint64_t cases = 0, refused = 0, differing = 0, missed = 0, extra = 0, audits = 0;
+  std::uint64_t cases = 0, refused = 0, differing = 0, missed = 0, extra = 0, audits = 0, failed_audits = 0;
   for (const StabilityRow& row : rows) {
     cases += row.cases;
     refused += row.refused;
@@ -18,14 +18,16 @@ std::string findings(std::span<const StabilityRow> rows) {
     missed += row.fast.missed;
     extra += row.fast.extra;
     audits += row.audits_run;
+    failed_audits += row.audits_failed;
   }
   return fmt::format(
       "<p>In {} cases of {} rows, of which both kernels refuse {}, <strong>filtered differs from exact in "
-      "{}</strong>.</p>\n<p>{} audits were run. The kernel fast, which promises nothing, missed {} events "
+      "{}</strong>.</p>\n<p>Of {} audits <strong>{} failed</strong>. The kernel fast, which promises "
+      "nothing, missed {} events "
       "and "
       "invented {}.</p>\n",
       with_thousands(cases), with_thousands(rows.size()), with_thousands(refused), with_thousands(differing),
-      with_thousands(audits), with_thousands(missed), with_thousands(extra));
+      with_thousands(audits), with_thousands(failed_audits), with_thousands(missed), with_thousands(extra));
 }
 
 std::string micros(double seconds) { return short_decimal(1e6 * seconds); }

@@ -19,9 +19,13 @@ FamilySize measure(const Eigen::Matrix3Xd& centers, Hierarchy hierarchy, std::si
   SphereTree<Dimension> tree(hierarchy, asked.necklaces);
   tree.build(balls);
   FamilySize size;
-  size.seconds = repeated_seconds(
-      rounds, [&] { return processor_seconds_of([&] { size.family = find_pairs(tree, asked).family; }); },
-      std::numeric_limits<double>::infinity());
+  const auto search = [&] {
+    return processor_seconds_of([&] { size.family = find_pairs(tree, asked).family; });
+  };
+  if (rounds == 0)
+    search();
+  else
+    size.seconds = repeated_seconds(rounds, search, std::numeric_limits<double>::infinity());
   return size;
 }
 

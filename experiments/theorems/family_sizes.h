@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "experiments/program/timing.h"
@@ -16,11 +17,12 @@
 namespace kds {
 
 struct FamilySize {
-  std::uint64_t family = 0;  ///< pairs of spheres
-  Spread seconds;            ///< of the search, without building the hierarchy
+  std::uint64_t family = 0;       ///< pairs of spheres
+  std::optional<Spread> seconds;  ///< of the search, without building the hierarchy
 };
 
-/// Of beads of radius 1, no two of which collide but neighbours along the chain.
+/// Of beads of radius 1, no two of which collide but neighbours along the chain. Of no rounds no time is
+/// told.
 [[nodiscard]] FamilySize measure_family(const Eigen::Matrix3Xd& centers, int dimension, Hierarchy hierarchy,
                                         std::size_t rounds);
 

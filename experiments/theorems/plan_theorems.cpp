@@ -17,6 +17,9 @@ namespace {
 
 using Centers = Eigen::Matrix3Xd;
 
+// The smallest sizes, of 2.3 and of random chains; each next is twice as large.
+constexpr std::size_t kLeastOfRoots = 16, kLeastOfChains = 1024;
+
 Centers random_chain(std::size_t beads, std::uint64_t seed) {
   const models::Settings settings{.beads = beads, .seed = seed, .motion = models::ShapeMotion::rest};
   return models::generate(*models::find_model("random-chain"), settings).front().frames.front();
@@ -53,8 +56,9 @@ class Planner {
   }
 
   std::size_t add_series(Theorem theorem, std::string_view model, int dimension, std::string_view hierarchy,
-                         std::optional<double> expected) {
+                         std::optional<double> expected, std::size_t sizes) {
     plan_.series.push_back({theorem, std::string(model), dimension, std::string(hierarchy), expected, {}});
+    plan_.sizes.push_back(sizes);
     return plan_.series.size() - 1;
   }
 
@@ -71,8 +75,9 @@ class Planner {
   void plan_tightness() {
     const auto add = [&](std::string_view model, int dimension, double radius, const Made& made,
                          std::optional<double> expected = std::nullopt) {
-      const std::size_t series = add_series(Theorem::tightness, model, dimension, "", expected);
-      for (const std::size_t beads : powers_of_two(16, options_.most_beads))
+      const std::vector<std::size_t> sizes = powers_of_two(kLeastOfRoots, options_.most_beads);
+      const std::size_t series = add_series(Theorem::tightness, model, dimension, "", expected, sizes.size());
+      for (const std::size_t beads : sizes)
         plan_.work.emplace_back([=](std::vector<TheoremSeries>& all) {
           const double ratio = root_ratio(made(beads), std::vector<double>(beads, radius), dimension);
           const double bound = std::sqrt(static_cast<double>(tree_height(beads)) + 1);
@@ -98,19 +103,21 @@ class Planner {
       const double expected = dimension == 2 ? 1 : 4.0 / 3;
       std::vector<std::size_t> series;
       for (const Theorem theorem : {Theorem::family, Theorem::search})
-        if (asked(theorem)) series.push_back(add_series(theorem, model, dimension, name, expected));
+        if (asked(theorem))
+          series.push_back(add_series(theorem, model, dimension, name, expected, sizes.size()));
       for (const std::size_t beads : sizes)
-        plan_.work.emplace_back([=, rounds = options_.rounds](std::vector<TheoremSeries>& all) {
-          const FamilySize size = measure_family(made(beads), dimension, hierarchy, rounds);
-          for (const std::size_t s : series) {
-            const double value =
-                all[s].theorem == Theorem::family ? static_cast<double>(size.family) : size.seconds.median;
-            const auto bound = all[s].theorem == Theorem::family
-                                   ? std::optional(family_bound(dimension, beads))
-                                   : std::nullopt;  // seconds know no constant
-            all[s].points.push_back({beads, value, bound, size.seconds, std::nullopt});
-          }
-        });
+        plan_.work.emplace_back(
+            [=, rounds = asked(Theorem::search) ? options_.rounds : 0](std::vector<TheoremSeries>& all) {
+              const FamilySize size = measure_family(made(beads), dimension, hierarchy, rounds);
+              for (const std::size_t s : series) {
+                const double value = all[s].theorem == Theorem::family ? static_cast<double>(size.family)
+                                                                       : size.seconds->median;
+                const auto bound = all[s].theorem == Theorem::family
+                                       ? std::optional(family_bound(dimension, beads))
+                                       : std::nullopt;  // seconds know no constant
+                all[s].points.push_back({beads, value, bound, size.seconds, std::nullopt});
+              }
+            });
     };
     for (const int dimension : {2, 3})
       for (const Hierarchy hierarchy : {Hierarchy::wrapped, Hierarchy::layered})
@@ -118,7 +125,7 @@ class Planner {
             [=, gap = options_.gap](std::size_t beads) {
               return models::packed_grid(beads, dimension, gap);
             });
-    add("random chain", 3, Hierarchy::wrapped, powers_of_two(1024, options_.most_beads),
+    add("random chain", 3, Hierarchy::wrapped, powers_of_two(kLeastOfChains, options_.most_beads),
         [seed = options_.seed](std::size_t beads) { return random_chain(beads, seed); });
   }
 
@@ -127,7 +134,8 @@ class Planner {
     constexpr std::size_t most_of_helix = 4096;
     const auto add = [&](std::string_view model, int dimension, std::optional<double> expected,
                          const std::vector<std::size_t>& sizes, const Made& made) {
-      const std::size_t series = add_series(Theorem::closest_pair, model, dimension, "", expected);
+      const std::size_t series =
+          add_series(Theorem::closest_pair, model, dimension, "", expected, sizes.size());
       for (const std::size_t beads : sizes)
         plan_.work.emplace_back([=, rounds = options_.rounds](std::vector<TheoremSeries>& all) {
           const ClosestByDiagram closest = closest_by_diagram(made(beads), dimension, rounds);
@@ -140,7 +148,7 @@ class Planner {
           [dimension, gap = options_.gap, seed = options_.seed](std::size_t beads) {
             return jittered_grid(beads, dimension, gap, seed);
           });
-    add("random chain", 3, 1, powers_of_two(1024, options_.most_beads),
+    add("random chain", 3, 1, powers_of_two(kLeastOfChains, options_.most_beads),
         [seed = options_.seed](std::size_t beads) { return random_chain(beads, seed); });
     add("helix", 3, std::nullopt, powers_of_two(512, most_of_helix), [](std::size_t beads) {
       constexpr double turns = 10;
@@ -162,5 +170,18 @@ class Planner {
 }  // namespace
 
 TheoremPlan plan_theorems(const TheoremOptions& options) { return Planner(options).plan(); }
+
+// Grids of three sizes are smaller than the third random chain.
+std::size_t least_beads_for(const std::vector<Theorem>& theorems) {
+  const bool roots_only =
+      std::ranges::all_of(theorems, [](Theorem theorem) { return theorem == Theorem::tightness; });
+  return 4 * (roots_only ? kLeastOfRoots : kLeastOfChains);
+}
+
+bool measures_time(const std::vector<Theorem>& theorems) {
+  return std::ranges::any_of(theorems, [](Theorem theorem) {
+    return theorem == Theorem::search || theorem == Theorem::closest_pair;
+  });
+}
 
 }  // namespace kds

@@ -20,10 +20,15 @@ struct TheoremOptions {
 
 struct TheoremPlan {
   std::vector<TheoremSeries> series;  ///< without points
+  std::vector<std::size_t> sizes;     ///< of each series: how many points it gets
   /// Each adds a point to one series, or to two that share a measurement; to be done in order.
   std::vector<std::function<void(std::vector<TheoremSeries>&)>> work;
 };
 
 [[nodiscard]] TheoremPlan plan_theorems(const TheoremOptions& options);
+
+/// The fewest beads of the largest necklaces with which each series has three sizes, as a fit needs.
+[[nodiscard]] std::size_t least_beads_for(const std::vector<Theorem>& theorems);
+[[nodiscard]] bool measures_time(const std::vector<Theorem>& theorems);
 
 }  // namespace kds

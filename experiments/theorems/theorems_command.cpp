@@ -13,6 +13,7 @@
 #include "experiments/program/table_results.h"
 #include "experiments/theorems/plan_theorems.h"
 #include "experiments/theorems/theorems_report.h"
+#include "motions/base/input_error.h"
 
 namespace kds {
 
@@ -21,10 +22,13 @@ namespace {
 constexpr const char* kName = "theorems";
 
 constexpr std::array kOptions{
-    OptionSpec{"--beads", "N", "of the largest necklaces, from 1000 to 4000000 (default: 100000)"},
+    OptionSpec{"--beads", "N",
+               "of the largest necklaces, to 4000000; from 64 for 2.3, 4096 for others, three sizes "
+               "(default: 100000)"},
     OptionSpec{"--gap", "X", "between rows of grids, in diameters (default: 0.05)"},
     OptionSpec{"--seed", "N", "of what is random: chains, and how grids are disturbed (default: 1)"},
-    OptionSpec{"--rounds", "N", "of each measurement of time, of which the median counts (default: 3)"},
+    OptionSpec{"--rounds", "N",
+               "of each measurement of time (3.2, 3.5), of which the median counts (default: 3)"},
     OptionSpec{"--out", "DIR", "write theorems.json, theorems.csv and report.html there (default: none)"},
     OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
     OptionSpec{"--quiet", "", "no table, no progress bar"},
@@ -41,7 +45,7 @@ constexpr CommandSpec kCommand{
     "2.3, 3.1, 3.2, 3.5 (default: all)",
     kOptions,
     "kds theorems --out report\n"
-    "kds theorems 3.1 --beads 1000000 --rounds 1 --json -",
+    "kds theorems 3.1 --beads 1000000 --json -",
 };
 
 struct Asked {
@@ -55,19 +59,23 @@ Asked parse(const Arguments& arguments) {
   TheoremOptions& options = asked.measured;
   for (const std::string& name : parsed.operands()) {
     const auto theorem = choice_of<Theorem>("THEOREM", name, theorem_names);
-    if (std::ranges::find(options.theorems, theorem) == options.theorems.end())
-      options.theorems.push_back(theorem);
+    if (std::ranges::find(options.theorems, theorem) != options.theorems.end())
+      throw InputError(fmt::format("THEOREM: {} is listed twice", name));
+    options.theorems.push_back(theorem);
   }
   if (options.theorems.empty())
     options.theorems = {Theorem::tightness, Theorem::family, Theorem::search, Theorem::closest_pair};
   std::ranges::sort(options.theorems);
   if (const auto text = parsed.value("--beads"))
-    options.most_beads = parse_whole_number("--beads", *text, 1000, 4'000'000);
+    options.most_beads = parse_whole_number("--beads", *text, least_beads_for(options.theorems), 4'000'000);
   if (const auto text = parsed.value("--gap")) options.gap = parse_real("--gap", *text, {0.001, 0.9});
   if (const auto text = parsed.value("--seed"))
     options.seed = parse_whole_number("--seed", *text, 0, UINT64_MAX);
-  if (const auto text = parsed.value("--rounds"))
+  if (const auto text = parsed.value("--rounds")) {
     options.rounds = parse_whole_number("--rounds", *text, 1, 1000);
+    if (!measures_time(options.theorems))
+      throw InputError("--rounds: no theorem asked for measures time; 3.2 and 3.5 do");
+  }
   asked.destinations = {path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
   return asked;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -39,7 +40,24 @@ TEST(PowerFit, WhatHasNoLogarithmIsLeftOut) {
   const auto fit = fit_power(points);
   ASSERT_TRUE(fit);
   EXPECT_EQ(fit->points, 3U);
+  EXPECT_EQ(fit->left_out, 3U);
   EXPECT_NEAR(fit->exponent, 1, 1e-12);
+  EXPECT_THAT(exponent_text(*fit), testing::HasSubstr("; 3 of 6 points are 0 and left out)"));
+  EXPECT_EQ(exponent_text(*fit_power(Points{{1, 1}, {2, 2}, {4, 2}, {8, 4}})).find("left out"),
+            std::string::npos);
+}
+
+// Exponents 1 and 2 without one share or the other: their jackknife error is half their difference, t 12.706.
+TEST(PowerFit, IntervalOfSharesAsByHand) {
+  const Points points{{1, 1}, {2, 3}, {4, 8}};
+  const std::vector<Points> without{{{1, 1}, {2, 2}, {4, 4}}, {{1, 1}, {2, 4}, {4, 16}}};
+  const auto fit = fit_power(points, without);
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->exponent, 1.5, 1e-12);
+  EXPECT_NEAR(fit->upper - fit->exponent, 12.706 * 0.5, 1e-9);
+  EXPECT_NEAR(fit->exponent - fit->lower, 12.706 * 0.5, 1e-9);
+  EXPECT_FALSE(fit_power(points, std::vector<Points>{without[0]}));
+  EXPECT_FALSE(fit_power(points, std::vector<Points>{without[0], {{1, 1}, {2, 0}, {4, 16}}}));
 }
 
 TEST(PowerFit, NoneOfTwoPointsOrOfOneX) {

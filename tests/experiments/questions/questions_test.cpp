@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "experiments/questions/deformation.h"
 #include "tests/experiments/run_program.h"
@@ -80,6 +84,77 @@ Json rows_of(const Json& all, const std::string& question) {
   return rows;
 }
 
+void expect_energy(const Json& rows) {
+  EXPECT_EQ(rows.size(), 2 * 6 + 3 * 9U);  // strides of two proteins, amplitudes of three kinds of angles
+  std::map<std::string, std::size_t> of_subject;
+  for (const Json& row : rows) {
+    ++of_subject[row["subject"]];
+    EXPECT_GT(row["flips"], 0) << row;
+    EXPECT_GT(row["basis_changes"], 0) << row;
+    if (row["subject"] == "random chain, bending") {
+      EXPECT_GT(row["bending"], 1e-6) << row;
+      EXPECT_LT(row["torsion"], 1e-20) << row;
+    }
+    if (row["subject"] == "random chain, torsion") {
+      EXPECT_LT(row["bending"], 1e-20) << row;
+      EXPECT_GT(row["torsion"], 1e-6) << row;
+    }
+    // Half the square of a normal change of each of 125 or 126 angles.
+    if (row["subject"] == "random chain, both") {
+      const double amplitude = row["step"], expected = 0.5 * amplitude * amplitude * 125;
+      EXPECT_NEAR(row["bending"].get<double>() / expected, 1, 0.1) << row;
+      EXPECT_NEAR(row["torsion"].get<double>() / expected, 1, 0.1) << row;
+    }
+  }
+  EXPECT_EQ(of_subject, (std::map<std::string, std::size_t>{{"villin", 6},
+                                                            {"random protein", 6},
+                                                            {"random chain, bending", 9},
+                                                            {"random chain, torsion", 9},
+                                                            {"random chain, both", 9}}));
+}
+
+// More is known, more rarely pairs are searched again.
+void expect_bounds(const Json& rows) {
+  EXPECT_EQ(rows.size(), 3 * 4U);
+  for (const Json& row : rows) {
+    EXPECT_EQ(row["frames"], 200);
+    EXPECT_GT(row["frames"], row["speed"]) << row;
+    EXPECT_GE(row["speed"], row["displacement"]) << row;
+    EXPECT_GE(row["displacement"], row["two_largest"]) << row;
+    // It moves .01 radii a frame: in 200 frames never by half a skin of four.
+    if (row["subject"] == "wandering chain" && row["skin"] == 4) {
+      EXPECT_EQ(row["displacement"], 0) << row;
+    }
+  }
+}
+
+// Bounds hold, and that on speed is the weaker.
+void expect_trust(const Json& rows) {
+  EXPECT_EQ(rows.size(), 3 * 6U);
+  for (const Json& row : rows) {
+    EXPECT_GE(row["by_speed"].get<double>(), row["by_displacement"].get<double>()) << row;
+    EXPECT_GE(row["by_displacement"], row["really"]) << row;
+    EXPECT_LE(row["least"], row["trust_per_verify"]) << row;
+    EXPECT_LE(row["trust_per_verify"], row["most"]) << row;
+  }
+}
+
+void expect_combination(const Json& rows) {
+  EXPECT_EQ(rows.size(), 7 * 5U);
+  for (const Json& row : rows) {
+    const double named = row["edges"].get<double>() + row["others"].get<double>();
+    EXPECT_EQ(row["together"], row["pairs"].get<double>() + named) << row;
+    EXPECT_LE(row["pairs"], row["hierarchy"]) << row;
+    EXPECT_NEAR(row["gain"].get<double>(),
+                std::min(row["hierarchy"].get<double>(), row["diagram"].get<double>()) /
+                    row["together"].get<double>(),
+                1e-12);
+    if (row["left"] == 100) {
+      EXPECT_EQ(named, row["diagram"]) << row;
+    }
+  }
+}
+
 TEST(Questions, AllOfThemWithAPage) {
   const ScratchDirectory scratch;
   const ProgramRun run = run_program({"questions", "--rounds", "1", "--seed", "3", "--out", scratch / "out"});
@@ -87,29 +162,24 @@ TEST(Questions, AllOfThemWithAPage) {
   const Json json = Json::parse(content_of(scratch / "out/questions.json"));
   EXPECT_EQ(json["settings"]["seed"], 3);
   EXPECT_EQ(json["questions"].size(), 4U);
-  for (const Json& row : rows_of(json, "energy")) {
-    if (row["subject"] == "random chain, bending") {
-      EXPECT_GT(row["bending"], 1e-6) << row;
-    }
-    if (row["subject"] == "random chain, torsion") {
-      EXPECT_LT(row["bending"], 1e-20) << row;
-      EXPECT_GT(row["torsion"], 1e-6) << row;
-    }
-  }
-  // More is known, less often pairs are searched.
-  for (const Json& row : rows_of(json, "bounds")) {
-    EXPECT_GE(row["frames"], row["speed"]) << row;
-    EXPECT_GE(row["speed"], row["displacement"]) << row;
-    EXPECT_GE(row["displacement"], row["two_largest"]) << row;
-  }
-  // Bounds hold, and that on speed is the weaker.
-  for (const Json& row : rows_of(json, "trust")) {
-    EXPECT_GE(row["by_speed"].get<double>(), row["by_displacement"].get<double>()) << row;
-    EXPECT_GE(row["by_displacement"], row["really"]) << row;
-  }
-  for (const Json& row : rows_of(json, "combination")) {
-    EXPECT_EQ(row["together"], row["pairs"].get<double>() + row["edges"].get<double>()) << row;
-    EXPECT_LE(row["pairs"], row["hierarchy"]) << row;
+  expect_energy(rows_of(json, "energy"));
+  expect_bounds(rows_of(json, "bounds"));
+  expect_trust(rows_of(json, "trust"));
+  expect_combination(rows_of(json, "combination"));
+  // The same frames as kds run, at strides 1 and 8.
+  for (const auto& [row, frames] : {std::pair<std::size_t, const char*>{0, "0:200"}, {3, "0:200:8"}}) {
+    const ProgramRun by_run =
+        run_program({"run", data_file("trajectories/villin_hp36_300K.dcd"), "--topology",
+                     data_file("trajectories/villin_hp36_300K.pdb"), "--frames", frames, "--structures",
+                     "wrapped,power", "--json", "-"});
+    ASSERT_EQ(by_run.code, 0) << by_run.err;
+    const Json summary = Json::parse(by_run.out);
+    const Json energy = rows_of(json, "energy")[row];
+    const double steps = energy["steps"];
+    EXPECT_NEAR(energy["basis_changes"].get<double>() * steps,
+                summary["structures"]["wrapped"]["events"]["total"], 1e-6);
+    EXPECT_NEAR(energy["flips"].get<double>() * steps, summary["structures"]["power"]["events"]["total"],
+                1e-6);
   }
   const std::string csv = content_of(scratch / "out/questions.csv");
   const auto commas = [&](std::size_t from) {
@@ -141,7 +211,18 @@ TEST(Questions, RefusesWhatIsNoQuestion) {
   const ProgramRun run = run_program({"questions", "why"});
   EXPECT_EQ(run.code, 2);
   EXPECT_THAT(run.err, HasSubstr("QUESTION: 'why' is not one of energy, bounds, trust, combination"));
-  EXPECT_EQ(run_program({"questions", "energy", "--data", "nowhere"}).code, 2);
+  const auto error_of = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "questions");
+    const ProgramRun refused = run_program(arguments);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_EQ(count_of(refused.err, "\n"), 1U) << refused.err;
+    return refused.err;
+  };
+  for (const char* question : {"energy", "bounds", "trust", "combination"})
+    EXPECT_THAT(error_of({question, "--data", "nowhere"}), HasSubstr("--data: there is no folder nowhere"));
+  EXPECT_THAT(error_of({"bounds", "bounds"}), HasSubstr("QUESTION: bounds is listed twice"));
+  EXPECT_THAT(error_of({"bounds", "energy", "--rounds", "3"}),
+              HasSubstr("--rounds: no question asked measures time; trust does"));
 }
 
 }  // namespace

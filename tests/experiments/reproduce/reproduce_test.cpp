@@ -135,13 +135,32 @@ TEST(PaperReport, SaysTheSameInAllForms) {
   const Json rows = Json::parse(text_of(paper_rows_json(tables)));
   EXPECT_EQ(rows[1]["cells_changed_paper"], nullptr);
   EXPECT_EQ(rows[0]["bases_changed"], 10);
-  EXPECT_THAT(findings_of(sample())[0], HasSubstr("within a factor of 1.5: yes (10"));
-  EXPECT_THAT(findings_of(sample())[1], HasSubstr("grow: yes (from 100"));
+  EXPECT_THAT(sentence_of(findings_of(sample())[0]), HasSubstr("within a factor of 1.5: yes (10"));
+  EXPECT_THAT(sentence_of(findings_of(sample())[1]), HasSubstr("grow: yes (from 100"));
   PaperTable other = sample();
   other.rows[0].ours = {2.0, 400.0};
-  EXPECT_THAT(findings_of(other)[0], HasSubstr(": no ("));
-  EXPECT_THAT(findings_of(other)[1], HasSubstr(": no ("));
+  EXPECT_THAT(sentence_of(findings_of(other)[0]), HasSubstr(": no ("));
+  EXPECT_THAT(sentence_of(findings_of(other)[1]), HasSubstr(": no ("));
   EXPECT_THAT(paper_text(tables), HasSubstr("why"));
+}
+
+// A claim that two tables tell of is one, and holds if both say so.
+TEST(PaperReport, CountsEachClaimOnce) {
+  const auto counts = [](const std::vector<PaperTable>& tables) {
+    const ClaimsJudged claims = judged(tables);
+    return std::pair(claims.hold, claims.all);
+  };
+  PaperTable other = sample();
+  other.rows[0].ours = {2.0, 100.0};  // bases are not flat, cells grow
+  EXPECT_EQ(counts({sample()}), std::pair(2UL, 2UL));
+  EXPECT_EQ(counts({other, sample()}), std::pair(1UL, 2UL));
+  EXPECT_EQ(counts({sample(), other}), std::pair(1UL, 2UL));
+  const std::vector<PaperTable> tables{other, sample()};
+  EXPECT_THAT(paper_page(tables, {}), HasSubstr("Of 2 claims"));
+  EXPECT_THAT(paper_page(tables, {}), HasSubstr("<strong>1</strong> hold"));
+  const Json json = paper_findings_json(tables);
+  EXPECT_EQ(json[0]["findings"][0]["claim"], "bases-flat");
+  EXPECT_EQ(json[0]["findings"][0]["holds"], false);
 }
 
 // One step of kds compare is a row of table 6.
@@ -165,7 +184,7 @@ TEST(Reproduce, StabilityAsCompareHasIt) {
   EXPECT_THAT(content_of(scratch / "out/table6.csv"), StartsWith("name,beads,at,bases_changed,"));
   const std::string page = content_of(scratch / "out/report.html");
   expect_sound(page);
-  for (const char* part : {"<svg", "Table 6", "kds reproduce table6 --rounds 1"})
+  for (const char* part : {"<svg", "Table 6", "kds reproduce table6 --rounds 1", "--data"})
     EXPECT_THAT(page, HasSubstr(part));
 }
 

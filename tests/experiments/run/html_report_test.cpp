@@ -55,6 +55,8 @@ TEST(HtmlReport, PlacesAndDisplacementsWhereTheyAreKnown) {
     frame(0, 1) = x;
     report.displacement.add_frame(frame, report.displacement.bins().size() + 10);
   }
+  EXPECT_EQ(report.displacement.width(), 1U);
+  EXPECT_THAT(html_report(report), Not(HasSubstr("the most in any of them")));
   ASSERT_EQ(report.displacement.bins().size(), 2U);
   EXPECT_EQ(report.displacement.bins()[1].first_frame, 10U);
   EXPECT_EQ(report.displacement.bins()[1].most, 3);
@@ -64,6 +66,17 @@ TEST(HtmlReport, PlacesAndDisplacementsWhereTheyAreKnown) {
   EXPECT_THAT(html, HasSubstr("Along the chain"));
   EXPECT_THAT(html, HasSubstr("farthest bead: 3"));
   EXPECT_THAT(html, HasSubstr("bead 2\nwrapped: 5"));
+}
+
+// A bin's farthest is no mean.
+TEST(HtmlReport, BinsOfDisplacementsSayWhatTheyAre) {
+  RunReport report = test::sample_report();
+  report.displacement = Displacements(2);
+  for (std::size_t k = 0; k < 5; ++k)
+    report.displacement.add_frame(Eigen::Matrix3Xd::Constant(3, 2, static_cast<double>(k * k)), k);
+  ASSERT_EQ(report.displacement.bins().size(), 2U);
+  EXPECT_THAT(html_report(report),
+              HasSubstr("of 2 steps: the mean over them, of the farthest bead the most in any of them"));
 }
 
 TEST(HtmlReport, EscapesNames) {

@@ -23,11 +23,14 @@ std::vector<std::string> keys(const Json& object) {
 }
 
 TEST(ReportJson, HasTheShapeOfTheContract) {
-  const std::string text = report_json(test::sample_report());
+  RunReport report = test::sample_report();
+  report.command_line = "kds run chain.pdb";
+  const std::string text = report_json(report);
   const Json json = Json::parse(text);
   EXPECT_EQ(text.back(), '\n');
-  EXPECT_THAT(keys(json),
-              ElementsAre("input", "settings", "structures", "engine", "fingerprint", "version", "machine"));
+  EXPECT_THAT(keys(json), ElementsAre("command", "input", "settings", "structures", "engine", "fingerprint",
+                                      "version", "machine"));
+  EXPECT_EQ(json["command"], "kds run chain.pdb");
   EXPECT_THAT(keys(json["input"]),
               ElementsAre("files", "beads", "frames", "dimension", "radius_min", "radius_max"));
   EXPECT_THAT(keys(json["machine"]), ElementsAre("cpu", "cores", "os", "compiler"));

@@ -15,6 +15,7 @@
 #include "experiments/stability/compare_answers.h"
 #include "experiments/stability/parse_stability_options.h"
 #include "experiments/stability/run_stability.h"
+#include "experiments/stability/stability_page.h"
 #include "experiments/stability/stability_radii.h"
 #include "experiments/stability/stability_report.h"
 #include "experiments/stability/stability_table.h"
@@ -401,6 +402,18 @@ namespace outside {
 
 using test::run_program;
 using test::ScratchDirectory;
+
+TEST(StabilityPage, SaysFirstHowManyAuditsFailed) {
+  StabilityRow row;
+  row.subject = "wrapped";
+  row.structure = true;
+  row.cases = 7;
+  row.audits_run = 1234;
+  EXPECT_THAT(stability_page(std::vector{row}, {}), HasSubstr("Of 1,234 audits <strong>0 failed</strong>"));
+  row.audits_failed = 5;
+  EXPECT_THAT(stability_page(std::vector{row, row}, {}),
+              HasSubstr("Of 2,468 audits <strong>10 failed</strong>"));
+}
 
 TEST(StabilityProgram, PrintsATable) {
   const auto run = run_program({"stability", "--cases", "2", "--subjects", "precedes,sorted"});

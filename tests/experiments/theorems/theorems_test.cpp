@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
+#include "experiments/program/timing.h"
 #include "experiments/theorems/closest_by_diagram.h"
 #include "experiments/theorems/family_sizes.h"
 #include "experiments/theorems/plan_theorems.h"
@@ -79,6 +82,55 @@ TEST(ClosestByDiagram, IsThatOfASearchAndTellsWhatItLookedAt) {
   EXPECT_GT(point.seconds->median, 0);
 }
 
+TEST(TheoremPlan, ThreeSizesOfEachFromTheLeastBeads) {
+  const std::vector<std::vector<Theorem>> choices{{Theorem::tightness},
+                                                  {Theorem::family},
+                                                  {Theorem::search},
+                                                  {Theorem::closest_pair},
+                                                  {Theorem::tightness, Theorem::closest_pair}};
+  for (const std::vector<Theorem>& theorems : choices) {
+    const std::size_t least = least_beads_for(theorems);
+    const auto fewest = [&](std::size_t beads) {
+      const TheoremPlan plan = plan_theorems({theorems, beads});
+      EXPECT_EQ(plan.sizes.size(), plan.series.size());
+      return std::ranges::min(plan.sizes);
+    };
+    EXPECT_LT(fewest(least - 1), 3U);
+    for (std::size_t beads = least; beads < 50 * least; beads += beads / 16)
+      EXPECT_GE(fewest(beads), 3U) << name_of(theorems.front()) << " of " << beads;
+  }
+  const TheoremPlan plan = plan_theorems({{Theorem::tightness}, 64});
+  std::vector<TheoremSeries> series = plan.series;
+  for (const auto& work : plan.work) work(series);
+  for (std::size_t s = 0; s < series.size(); ++s) EXPECT_EQ(series[s].points.size(), plan.sizes[s]);
+}
+
+// The size of a family takes one search: no time is told.
+TEST(TheoremPlan, FamiliesAloneAreNotTimed) {
+  for (const bool timed : {false, true}) {
+    TheoremOptions options{{Theorem::family}, 4096};
+    if (timed) options.theorems.push_back(Theorem::search);
+    const TheoremPlan plan = plan_theorems(options);
+    std::vector<TheoremSeries> series = plan.series;
+    plan.work.front()(series);
+    EXPECT_EQ(series.front().points.front().seconds.has_value(), timed);
+    EXPECT_GT(series.front().points.front().value, 1000);
+  }
+}
+
+TEST(Timing, AsManyRoundsAsAreAskedFor) {
+  for (const std::size_t rounds : {1, 2, 5}) {
+    std::size_t calls = 0;
+    const Spread spread = repeated_seconds(rounds, [&] { return 0.1 * static_cast<double>(++calls); });
+    EXPECT_EQ(calls, rounds);
+    EXPECT_DOUBLE_EQ(spread.least, 0.1);
+    EXPECT_DOUBLE_EQ(spread.most, 0.1 * static_cast<double>(rounds));
+  }
+  std::size_t calls = 0;
+  EXPECT_EQ(repeated_seconds(5, [&] { return static_cast<double>(++calls) + 1; }).median, 2);
+  EXPECT_EQ(calls, 1U);  // long work
+}
+
 TEST(TheoremPlan, OneSearchTellsOfBothTheorems) {
   const TheoremPlan both = plan_theorems({{Theorem::family, Theorem::search}, 4000});
   const TheoremPlan one = plan_theorems({{Theorem::search}, 4000});
@@ -90,11 +142,11 @@ TEST(TheoremPlan, OneSearchTellsOfBothTheorems) {
 TEST(Theorems, RowsFitsAndPage) {
   const ScratchDirectory scratch;
   const ProgramRun run =
-      run_program({"theorems", "--beads", "2048", "--rounds", "2", "--seed", "5", "--out", scratch / "out"});
+      run_program({"theorems", "--beads", "4096", "--rounds", "2", "--seed", "5", "--out", scratch / "out"});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("theorem 3.5: the closest pair is an edge"));
   const Json json = Json::parse(content_of(scratch / "out/theorems.json"));
-  EXPECT_EQ(json["command"].get<std::string>().rfind("kds theorems --beads 2048", 0), 0U);
+  EXPECT_EQ(json["command"].get<std::string>().rfind("kds theorems --beads 4096", 0), 0U);
   EXPECT_EQ(json["settings"]["seed"], 5);
   for (const Json& row : json["rows"]) {
     const std::string theorem = row["theorem"];
@@ -116,23 +168,26 @@ TEST(Theorems, RowsFitsAndPage) {
   for (const Json& fit : json["fits"]) {
     if (fit["model"] != "points of Lemma 2.5") continue;
     EXPECT_NEAR(fit["exponent"], 0.5, 1e-6);
-    EXPECT_EQ(fit["sizes"], 8);
+    EXPECT_EQ(fit["sizes"], 9);
   }
+  EXPECT_EQ(json["fits"].size(), 4 + 5 + 5 + 4U);  // one of each series
   const std::string csv = content_of(scratch / "out/theorems.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), json["rows"].size() + 1);
   const std::string page = content_of(scratch / "out/report.html");
   expect_sound(page);
-  for (const char* part : {"Theorem 2.3", "Theorem 3.5", "<svg", "kds theorems --beads 2048"})
+  for (const char* part : {"Theorem 2.3", "Theorem 3.5", "<svg", "kds theorems --beads 4096"})
     EXPECT_THAT(page, HasSubstr(part));
 
-  const ProgramRun again =
-      run_program({"theorems", "3.1", "--beads", "2048", "--rounds", "1", "--seed", "5", "--json", "-"});
+  const ProgramRun again = run_program({"theorems", "3.1", "--beads", "4096", "--seed", "5", "--json", "-"});
   ASSERT_EQ(again.code, 0) << again.err;
   std::vector<Json> values, values_again;
   for (const Json& row : json["rows"])
     if (row["theorem"] == "3.1") values.push_back(row["value"]);
   const Json json_again = Json::parse(again.out);
-  for (const Json& row : json_again["rows"]) values_again.push_back(row["value"]);
+  for (const Json& row : json_again["rows"]) {
+    values_again.push_back(row["value"]);
+    EXPECT_EQ(row["seconds"], nullptr) << row;
+  }
   EXPECT_EQ(values, values_again);
 }
 
@@ -140,7 +195,18 @@ TEST(Theorems, RefusesWhatIsNoTheorem) {
   const ProgramRun run = run_program({"theorems", "2.4"});
   EXPECT_EQ(run.code, 2);
   EXPECT_THAT(run.err, HasSubstr("THEOREM: '2.4' is not one of 2.3, 3.1, 3.2, 3.5"));
-  EXPECT_EQ(run_program({"theorems", "--beads", "999"}).code, 2);
+  const auto error_of = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "theorems");
+    const ProgramRun refused = run_program(arguments);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_EQ(count_of(refused.err, "\n"), 1U) << refused.err;
+    return refused.err;
+  };
+  EXPECT_THAT(error_of({"--beads", "1000"}), HasSubstr("--beads: '1000' is not a whole number from 4096"));
+  EXPECT_THAT(error_of({"2.3", "--beads", "63"}), HasSubstr("--beads: '63' is not a whole number from 64"));
+  EXPECT_THAT(error_of({"3.1", "2.3", "3.1"}), HasSubstr("THEOREM: 3.1 is listed twice"));
+  EXPECT_THAT(error_of({"2.3", "3.1", "--rounds", "2"}),
+              HasSubstr("--rounds: no theorem asked for measures time; 3.2 and 3.5 do"));
 }
 
 }  // namespace
