@@ -81,8 +81,9 @@ Asked parse(const Arguments& arguments) {
   return asked;
 }
 
-void check_destinations(const Destinations& destinations) {
+void check_destinations(const Destinations& destinations, const std::filesystem::path& data) {
   TakenPaths taken;
+  taken.read_folder("--data", data);
   if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
   check_table_destinations(destinations, kName, taken);
   if (!destinations.out) return;
@@ -121,7 +122,7 @@ std::vector<Question> measure(const Asked& asked) {
 
 int questions_command(const Arguments& arguments) {
   const Asked asked = parse(arguments);
-  check_destinations(asked.destinations);
+  check_destinations(asked.destinations, asked.data);
   const std::vector<Question> questions = measure(asked);
 
   const std::string command_line = "kds questions " + shell_words(arguments);

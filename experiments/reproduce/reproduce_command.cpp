@@ -68,18 +68,19 @@ std::vector<int> tables_asked_for(const ParsedArguments& parsed) {
   return tables;
 }
 
-void check_destinations(const Destinations& destinations, const std::vector<int>& tables) {
+void check_destinations(const Destinations& destinations, const std::vector<int>& tables,
+                        const std::filesystem::path& data) {
   TakenPaths taken;
+  taken.read_folder("--data", data);
   if (destinations.out) {
     check_directory(*destinations.out, "--out", {kResult, "report.html"});
     taken.write_into("--out", *destinations.out, {kResult, "report.html"});
     for (const int table : tables) taken.write("--out", *destinations.out / file_of(table));
     check_page(*destinations.out, kResult);
   }
-  if (destinations.json && *destinations.json != "-") {
-    taken.write("--json", *destinations.json);
-    ensure_writable_file(*destinations.json, "--json");
-  }
+  if (!destinations.json) return;
+  taken.write_json(*destinations.json);
+  if (*destinations.json != "-") ensure_writable_file(*destinations.json, "--json");
 }
 
 std::vector<PaperTable> measure(const std::vector<int>& numbers, const std::filesystem::path& data,
@@ -136,8 +137,8 @@ int reproduce_command(const Arguments& arguments) {
   std::size_t rounds = 5;
   if (const auto text = parsed.value("--rounds")) rounds = parse_whole_number("--rounds", *text, 1, 1000);
   const Destinations destinations{path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
-  check_destinations(destinations, numbers);
   const std::filesystem::path data = data_folder(parsed, {"paper"});
+  check_destinations(destinations, numbers, data);
 
   ProgressBar bar(!destinations.quiet);
   const std::vector<PaperTable> tables = measure(numbers, data, rounds, bar);

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "experiments/questions/deformation.h"
+#include "tests/experiments/expect_refused.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
@@ -223,6 +226,21 @@ TEST(Questions, RefusesWhatIsNoQuestion) {
   EXPECT_THAT(error_of({"bounds", "bounds"}), HasSubstr("QUESTION: bounds is listed twice"));
   EXPECT_THAT(error_of({"bounds", "energy", "--rounds", "3"}),
               HasSubstr("--rounds: no question asked measures time; trust does"));
+}
+
+// A result must not replace what is measured.
+TEST(Questions, NothingIsWrittenOntoTheData) {
+  const ScratchDirectory directory;
+  namespace fs = std::filesystem;
+  fs::create_directories(directory / "data/paper");
+  fs::create_directories(directory / "data/trajectories");
+  const fs::path file = directory / "data/trajectories/any.dcd", linked = directory / "linked";
+  std::ofstream(file) << "frames";
+  fs::create_hard_link(file, linked);
+  for (const fs::path& json : {file, linked})
+    expect_refused({"questions", "energy", "--data", (directory / "data").string(), "--json", json.string()},
+                   {"--json", "is the file of --data"});
+  EXPECT_EQ(fs::file_size(file), 6U);
 }
 
 }  // namespace
