@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "motions/base/csv_field.h"
 #include "motions/base/file_ending.h"
@@ -38,14 +39,20 @@ std::string residue_of(const Scene& scene, BeadId bead) {
   return name ? fmt::format("{}:{}:{}:{}", name->chain, name->residue, name->number, name->atom) : "-";
 }
 
-EventCsv::EventCsv(std::ostream& stream, const Scene& scene)
-    : stream_(stream), scene_(scene), timed_(scene.stamp(0).picoseconds.has_value()) {
+EventCsv::EventCsv(std::ostream& stream, const Scene& scene) : stream_(stream), scene_(scene) {
+  if (scene.frame_count() > 0) finish();
+}
+
+void EventCsv::finish() {
+  if (std::exchange(begun_, true)) return;
+  timed_ = scene_.frame_count() > 0 && scene_.stamp(0).picoseconds.has_value();
   stream_ << "frame,lower,upper" << (timed_ ? ",picoseconds" : "")
           << ",structure,kind,external,node,beads,residues\n";
 }
 
 void EventCsv::on_event(const Event& event) {
   if (event.kind.counted_apart) return;
+  finish();
   stream_ << fmt::format("{},{},{}", event.from.number, event.lower, event.upper);
   if (timed_) stream_ << (event.has_picoseconds() ? fmt::format(",{:.12g}", event.picoseconds()) : ",");
   std::string node, beads, residues;

@@ -24,14 +24,17 @@ namespace kds {
 /// `residues` what the scene says of each of them.
 class EventCsv final : public EventListener {
  public:
-  /// Writes the header. The scene must outlive it; its first frame tells whether there are times.
+  /// The scene must outlive it; its first frame tells whether there are times. Where it is there already the
+  /// header is written now, else at the first event.
   EventCsv(std::ostream& stream, const Scene& scene);
   void on_event(const Event& event) override;
+  /// Writes the header if it is not there yet: of a run without events.
+  void finish();
 
  private:
   std::ostream& stream_;
   const Scene& scene_;
-  bool timed_;
+  bool begun_ = false, timed_ = false;
 };
 
 /// An object a line: `step`; `frame`, the number of the frame that it begins with; `time`, that of the event

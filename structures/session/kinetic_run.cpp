@@ -10,6 +10,7 @@
 #include "certificates/exact/exact_time.h"
 #include "kds/bead_edits.h"
 #include "motions/base/input_error.h"
+#include "structures/session/new_courses.h"
 
 namespace kds {
 
@@ -83,6 +84,8 @@ void KineticRun::make_session() {
   session_ = motion_ ? std::make_unique<Session>(scene_, *motion_, options_)
                      : std::make_unique<Session>(scene_, options_);
   for (const auto& addition : additions_) addition(*session_);
+  simulator().exact_work().set_limit(most_work_);
+  if (work_watcher_) simulator().exact_work().set_watcher(work_watcher_, watch_every_);
   built_ = within_ = finished_ = false;
   bends_.clear();
 }
@@ -96,6 +99,17 @@ void KineticRun::plan(std::function<void(Session&)> addition) {
 void KineticRun::listen(EventListener& listener) {
   listeners_.push_back(&listener);
   simulator().listen(listener);
+}
+
+void KineticRun::limit_work(std::uint64_t most) {
+  most_work_ = most;
+  simulator().exact_work().set_limit(most);
+}
+
+void KineticRun::watch_work(std::function<void()> watcher, std::uint64_t every) {
+  work_watcher_ = std::move(watcher);
+  watch_every_ = every;
+  simulator().exact_work().set_watcher(work_watcher_, every);
 }
 
 bool KineticRun::can_enter() const {
@@ -113,6 +127,7 @@ void KineticRun::enter() {
   session_->load(step);
   check_bends();
   simulator().enter_step();
+  bends_.clear();
   within_ = true;
 }
 
@@ -140,12 +155,12 @@ void KineticRun::check_radii() const {
 }
 
 /// Structures go on from where the step before ended.
-void KineticRun::check_bends() {
-  for (const Bend& bend : std::exchange(bends_, {})) {
+void KineticRun::check_bends() const {
+  for (const Bend& bend : bends_) {
     if (control_point(session_->motion()->ref(), bend.bead, false) != bend.end)
       throw InputError(
           fmt::format("bead {}: its course was changed in step {}, and does not end where frame {} has it",
-                      bend.bead, simulator().step() - 1, simulator().step()));
+                      bend.bead, session_->simulator().step() - 1, session_->simulator().step()));
   }
 }
 
@@ -177,12 +192,23 @@ void KineticRun::run() {
 
 bool KineticRun::next_event() {
   while (within_ || can_enter()) {
-    if (!within_) enter();
+    if (!within_) {
+      const std::uint64_t before = changes_made();
+      enter();
+      if (changes_made() != before) return true;  // right at the frame
+    }
     if (simulator().run_next()) return true;
     leave();
     if (motion_) return false;
   }
   return false;
+}
+
+std::uint64_t KineticRun::changes_made() const {
+  std::uint64_t changes = 0;
+  for (const KineticStructure* structure : structures())
+    for (const std::uint64_t of_kind : structure->statistics.events_by_kind) changes += of_kind;
+  return changes;
 }
 
 void KineticRun::finish() {
@@ -196,7 +222,7 @@ void KineticRun::finish() {
 
 void KineticRun::go_to(double time) {
   const std::size_t present = simulator().step();
-  const auto last = static_cast<double>(motion_ ? present + 1 : scene_.known_steps());
+  const auto last = static_cast<double>(!motion_ ? scene_.known_steps() : finished_ ? present : present + 1);
   if (!(time >= 0 && time <= last))
     throw std::invalid_argument(
         fmt::format("time {}: expected one from 0 to {}, where the steps that are known end", time, last));
@@ -224,9 +250,14 @@ void KineticRun::go_to(double time) {
   go_on_to(step, u);
 }
 
+void KineticRun::run_to(std::size_t step) {
+  while (simulator().step() < step)
+    if (!run_step()) throw std::logic_error(fmt::format("step {} does not come any more", step));
+}
+
 /// Stands within the step unless u is 0.
 void KineticRun::go_on_to(std::size_t step, double u) {
-  while (simulator().step() < step) run_step();
+  run_to(step);
   if (u == 0) return;
   if (!within_) enter();
   simulator().run_until(Dyadic(u));
@@ -238,7 +269,7 @@ void KineticRun::edit(std::function<void()> make) {
 }
 
 void KineticRun::redo(const Edit& edit) {
-  while (simulator().step() < edit.step) run_step();
+  run_to(edit.step);
   if (!within_) enter();
   ExactTime time = edit.time;
   if (time.is_dyadic()) {
@@ -270,7 +301,11 @@ void KineticRun::change_motion(std::vector<BeadId> beads,
   if (motion_)
     throw std::logic_error("over a motion that its user sets, Simulator::change_motion changes courses");
   edit([this, kept = std::move(beads), set_curves] {
-    simulator().change_motion(kept, [&] { set_curves(*session_->motion()); });
+    simulator().require_standing_still();
+    NewCourses courses(*session_->motion(), kept);
+    set_curves(courses);  // where it throws nothing has happened yet
+    courses.hold_back();
+    simulator().change_motion(kept, [&] { courses.set_for_good(); });
     for (const BeadId bead : kept) {
       std::erase_if(bends_, [bead](const Bend& bend) { return bend.bead == bead; });
       bends_.push_back({bead, control_point(session_->motion()->ref(), bead, true)});

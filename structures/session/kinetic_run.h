@@ -9,6 +9,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "certificates/exact/exact_work.h"
 #include "structures/session/session.h"
 
 namespace kds {
@@ -65,6 +67,10 @@ class KineticRun {
 
   /// Hears of all that happens from now on. Must outlive the run.
   void listen(EventListener& listener);
+  /// ExactWork::set_limit and set_watcher, also of the run made anew where it goes back: its work is counted
+  /// from 0 again. Said to Simulator::exact_work() itself they hold until then.
+  void limit_work(std::uint64_t most);
+  void watch_work(std::function<void()> watcher, std::uint64_t every);
 
   /// Hands over the next frame, and runs all steps whose motion is known then. Throws InputError, and nothing
   /// has happened, where it is no frame of these beads.
@@ -75,11 +81,13 @@ class KineticRun {
   bool run_step();
   /// All steps that are known. Not over a motion that the user sets.
   void run();
-  /// All that happens at the next time at which something does. False, at the end of the steps known, or of
-  /// one over a motion that the user sets, where nothing does any more.
+  /// All that happens at the next time at which something does, a frame's too: then it stands at u = 0 of the
+  /// step that begins there. False, at the end of the steps known, or of one over a motion that the user
+  /// sets, where nothing does any more.
   bool next_event();
   /// To a time, forward, or, of a scene's, back: then it is run anew from the start, edits included, without
-  /// telling who listens; they hear again of what happens after that time. Edits after it are forgotten.
+  /// telling who listens; they hear again of what happens after that time. Edits after it are forgotten, and
+  /// remade are only those by the functions below: not what was done to structures, session or simulator.
   /// Throws std::invalid_argument where the time is none of those known.
   void go_to(double time);
   /// No step follows: frames have ended.
@@ -93,11 +101,12 @@ class KineticRun {
   /// come and go, std::invalid_argument where this one cannot.
   void insert(std::size_t structure, BeadId bead);
   void erase(std::size_t structure, BeadId bead);
-  /// Beads go on along other curves: `set_curves` sets their control points (SceneMotion::set_coordinate),
-  /// and is called again if the run goes back and comes here again. Curves are those of the whole step, also
-  /// where the bead has never been; where the step ends they must be where the next frame has the bead, or
-  /// the next step throws InputError. All structures follow, or std::invalid_argument says which cannot. Over
-  /// a motion that the user sets there is Simulator::change_motion.
+  /// Beads go on along other curves: `set_curves` sets their control points (SceneMotion::set_coordinate, of
+  /// other beads std::invalid_argument), and is called again if the run goes back and comes here again. Where
+  /// it throws nothing has happened. Curves are those of the whole step, also where the bead has never been;
+  /// where the step ends they must be where the next frame has the bead, or the next step, if one follows,
+  /// throws InputError. All structures follow, or std::invalid_argument says which cannot, and nothing is
+  /// changed. Over a motion that the user sets there is Simulator::change_motion.
   void change_motion(std::vector<BeadId> beads, const std::function<void(SceneMotion&)>& set_curves);
 
  private:
@@ -109,11 +118,13 @@ class KineticRun {
   [[nodiscard]] bool can_enter() const;
   void enter();
   void leave();
+  [[nodiscard]] std::uint64_t changes_made() const;
+  void run_to(std::size_t step);
   void go_on_to(std::size_t step, double u);
   void edit(std::function<void()> make);
   void redo(const Edit& edit);
   [[nodiscard]] BeadEdits& edits_of(std::size_t structure) const;
-  void check_bends();
+  void check_bends() const;
   void check_radii() const;
 
   std::unique_ptr<Scene> own_scene_;
@@ -122,6 +133,8 @@ class KineticRun {
   SessionOptions options_;
   std::vector<std::function<void(Session&)>> additions_;
   std::vector<EventListener*> listeners_;
+  std::uint64_t most_work_ = ExactWork::no_limit, watch_every_ = 0;
+  std::function<void()> work_watcher_;
   std::unique_ptr<Session> session_;
   bool built_ = false, within_ = false, finished_ = false;
   std::vector<Edit> edits_;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "motions/base/input_error.h"
 #include "motions/curves/any_degree_motion.h"
 
@@ -18,6 +20,12 @@ class MotionOfType final : public SceneMotion {
   void load(std::size_t step) override { scene_.load(step, motion_); }
   [[nodiscard]] Ref ref() const override { return MotionRef<M::dimension>(motion_); }
   void set_coordinate(BeadId bead, int k, int axis, double value) override {
+    const int degree = degree_of(motion_);
+    if (bead >= motion_.bead_count() || k < 0 || k > degree || axis < 0 || axis >= M::dimension)
+      throw std::invalid_argument(fmt::format(
+          "coordinate {} of control point {} of bead {}: expected one from 0 to {} of a point from "
+          "0 to {} of one of {} beads",
+          axis, k, bead, M::dimension - 1, degree, motion_.bead_count()));
     motion_.set_coordinate(bead, k, axis, value);
   }
 

@@ -21,8 +21,8 @@ class SceneMotion {
   /// Sets the motion to that of the step.
   virtual void load(std::size_t step) = 0;
   [[nodiscard]] virtual Ref ref() const = 0;
-  /// Sets one number of a bead's k-th control point, until a step is loaded. Throws InputError where it is
-  /// not finite.
+  /// Sets one number of a bead's k-th control point, until a step is loaded. Throws std::invalid_argument
+  /// where there is no such number, or the value is not finite, and the motion is as before.
   virtual void set_coordinate(BeadId bead, int k, int axis, double value) = 0;
 };
 

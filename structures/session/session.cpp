@@ -78,10 +78,12 @@ void Session::keep_only(std::size_t structure, std::span<const BeadId> beads) {
   for (const BeadId bead : beads) {
     if (bead >= among.size())
       throw StructureRefusal(name, "there is no bead " + std::to_string(bead) + " of which it is to be");
+    if (edits->is_absent(bead))
+      throw StructureRefusal(name, "bead " + std::to_string(bead) + " is left out already");
     among[bead] = 1;
   }
   for (BeadId bead = 0; bead < among.size(); ++bead)
-    if (among[bead] == 0) edits->leave_out(bead);
+    if (among[bead] == 0 && !edits->is_absent(bead)) edits->leave_out(bead);
 }
 
 void Session::load(std::size_t step) {

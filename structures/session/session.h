@@ -49,7 +49,7 @@ class Session {
   template <std::derived_from<KineticStructure> Structure, class... Arguments>
   Structure& add(const Arguments&... arguments);
   /// Before it is built: the structure is of these beads only. Throws StructureRefusal where its beads cannot
-  /// come and go, or there is no such bead.
+  /// come and go, or there is no such bead, or it is left out already; then nothing is changed.
   void keep_only(std::size_t structure, std::span<const BeadId> beads);
 
   /// Sets the motion to that of the step.

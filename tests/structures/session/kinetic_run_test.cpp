@@ -353,6 +353,9 @@ TEST(KineticRun, OverAMotionThatItsUserSets) {
   EXPECT_EQ(refusal_of([&] { run.run_step(); }),
             "bead 0: its radius is 0.5 in the motion, expected 0.4, as was said");
   run.finish();
+  run.go_to(3.0);
+  for (const double time : {3.5, 4.0, 5.0})  // no step follows
+    EXPECT_THROW(run.go_to(time), std::invalid_argument) << time;
   const Scene scene = scene_of(2, frames);
   KineticRun expected(scene, four);
   EventLog expected_log;
@@ -370,12 +373,105 @@ TEST(KineticRun, ACourseThatEndsElsewhereIsRefused) {
   KineticRun run(scene, {.structures = {"sorted"}});
   run.go_to(0.5);
   run.change_motion({4}, [](SceneMotion& motion) { motion.set_coordinate(4, 1, 0, 2.0); });
-  EXPECT_EQ(refusal_of([&] { run.run(); }),
-            "bead 4: its course was changed in step 0, and does not end where frame 1 has it");
+  for (int times = 0; times < 2; ++times) {
+    EXPECT_EQ(refusal_of([&] { run.run(); }),
+              "bead 4: its course was changed in step 0, and does not end where frame 1 has it");
+    EXPECT_EQ(run.simulator().step(), 1U);
+  }
+  KineticRun plain(scene, {.structures = {"sorted"}});
+  plain.finish();
+  run.go_to(0.25);  // without that edit it goes on
+  run.finish();
+  EXPECT_EQ(run.simulator().fingerprint(), plain.simulator().fingerprint());
+}
+
+TEST(KineticRun, ACourseThatCannotBeSetChangesNothing) {
+  const Scene scene = scene_of(3, frames_of(3, 4));
+  const SessionOptions options{.structures = {"sorted", "power", "contacts"}, .audits = AuditMode::frames};
+  KineticRun plain(scene, options), run(scene, options);
+  plain.finish();
+  run.go_to(0.5);
+  const auto set_and_throw = [&](auto more) {
+    run.change_motion({4, 5, 4}, [&](SceneMotion& motion) {
+      motion.set_coordinate(4, 1, 0, 2.0);
+      more(motion);
+    });
+  };
+  EXPECT_THROW(set_and_throw([](SceneMotion&) { throw std::runtime_error("enough"); }), std::runtime_error);
+  EXPECT_THROW(set_and_throw([](SceneMotion& motion) { motion.load(1); }), std::logic_error);
+  struct Number {
+    BeadId bead;
+    int k, axis;
+    double value;
+  };
+  const std::vector<Number> wrong{{6, 0, 0, 1}, {14, 0, 0, 1}, {no_bead, 0, 0, 1}, {4, -1, 0, 1},
+                                  {4, 2, 0, 1}, {4, 0, -1, 1}, {4, 0, 3, 1},       {4, 0, 0, std::nan("")}};
+  for (const Number& n : wrong) {
+    EXPECT_THROW(
+        set_and_throw([&](SceneMotion& motion) { motion.set_coordinate(n.bead, n.k, n.axis, n.value); }),
+        std::invalid_argument)
+        << n.bead << ' ' << n.k << ' ' << n.axis;
+    EXPECT_THROW(
+        run.session().motion()->set_coordinate(n.bead, n.k, n.axis, n.bead == 6 ? std::nan("") : n.value),
+        std::invalid_argument);
+  }
+  EXPECT_THROW(run.change_motion({14}, [](SceneMotion&) {}), std::invalid_argument);
+  run.finish();
+  EXPECT_EQ(run.simulator().fingerprint(), plain.simulator().fingerprint());
+}
+
+TEST(KineticRun, NextEventStandsAtAFrameWhereSomethingHappensThere) {
+  KineticRun run({1, {3}}, {.audits = AuditMode::events});
+  const std::vector<Frame> frames{{0, 1, 5}, {1, 1, 5}, {3, 1, 5}, {3, 1, 5}};
+  run.take(frames[0]);
+  run.take(frames[1]);
+  EXPECT_FALSE(run.next_event());  // they meet at the end
+  run.take(frames[2]);
+  ASSERT_TRUE(run.next_event());
+  EXPECT_TRUE(run.within_step());
+  EXPECT_EQ(run.simulator().step(), 1U);
+  EXPECT_EQ(run.simulator().now().upper(), 0.0);
+  EXPECT_THAT(run.structure<SortedList<1>>(0).order(), ElementsAre(1, 0, 2));
+  run.erase(0, 2);  // time stands still
+  EXPECT_FALSE(run.next_event());
+  run.take(frames[3]);
+  EXPECT_FALSE(run.next_event());
+  EXPECT_EQ(run.simulator().step(), 3U);
+}
+
+TEST(KineticRun, KeepsWhatWasSaidOfExactWorkWhenItGoesBack) {
+  const Scene scene = scene_of(2, frames_of(2, 4));
+  KineticRun run(scene, {.structures = {"sorted", "power"}, .kernel = Kernel::exact});
+  int calls = 0;
+  run.watch_work([&] { ++calls; }, 100);
+  run.go_to(2);
+  const int before = calls;
+  EXPECT_GT(before, 1);
+  run.go_to(1);
+  EXPECT_GT(calls, before);
+  run.go_to(2);
+  EXPECT_EQ(calls, 2 * before);
+  run.limit_work(run.simulator().exact_work().done() / 2);
+  EXPECT_THROW(
+      {
+        run.go_to(1);
+        run.go_to(2);
+      },
+      WorkLimitReached);
+}
+
+TEST(KineticRun, ASubsetThatCannotBeLeavesAllAsItWas) {
+  KineticRun run(beads_in(2), {.structures = {"sorted"}});
+  run.keep_only(0, {1, 2, 3, 4});
+  EXPECT_EQ(refusal_of([&] { run.keep_only(0, {1, 2, 9}); }), "sorted: bead 9 is left out already");
+  for (const BeadId bead : {3U, 4U}) EXPECT_FALSE(run.structures()[0]->edits()->is_absent(bead));
+  run.keep_only(0, {4, 1});
+  for (const Frame& frame : frames_of(2, 2)) run.push(frame);
+  EXPECT_THAT(run.structure<SortedList<2>>(0).order(), testing::UnorderedElementsAre(1, 4));
 }
 
 TEST(EventWriters, CsvAndJsonLines) {
-  std::ostringstream csv, json, timed;
+  std::ostringstream csv, json, timed;  // times are known from the first frame on
   KineticRun run({2, {3}, {0.5}},
                  {.structures = {"sorted", "wrapped", "contacts"}, .settings = {.apart = 1}});
   EventCsv csv_writer(csv, run.scene());
@@ -389,27 +485,43 @@ TEST(EventWriters, CsvAndJsonLines) {
   run.finish();
   const std::string quarter = "0[.]2[0-9]*,0[.]2[0-9]*", half = "0[.][45][0-9]*,0[.]5[0-9]*",
                     three_quarters = "0[.]7[0-9]*,0[.]7[0-9]*";
-  EXPECT_THAT(csv.str(), MatchesRegex("frame,lower,upper,structure,kind,external,node,beads,residues\n"
-                                      "0," +
-                                      quarter +
-                                      ",contacts,begin,1,,0 1,- -\n"
-                                      "0," +
-                                      half +
-                                      ",sorted,interchange,1,,0 1,- -\n"
-                                      "0," +
-                                      half +
-                                      ",wrapped,pivot,1,0-2,1 2,- -\n"
-                                      "0," +
-                                      three_quarters + ",contacts,end,1,,0 1,- -\n"));
-  EXPECT_THAT(timed.str(), MatchesRegex("frame,lower,upper,picoseconds,structure,[^\n]*\n"
-                                        "0," +
-                                        quarter + ",10[.]5,contacts,begin,(.|\n)*"));
+  EXPECT_THAT(csv.str(),
+              MatchesRegex("frame,lower,upper,picoseconds,structure,kind,external,node,beads,residues\n"
+                           "0," +
+                           quarter +
+                           ",10[.]5,contacts,begin,1,,0 1,- -\n"
+                           "0," +
+                           half +
+                           ",11,sorted,interchange,1,,0 1,- -\n"
+                           "0," +
+                           half +
+                           ",11,wrapped,pivot,1,0-2,1 2,- -\n"
+                           "0," +
+                           three_quarters + ",11[.]5,contacts,end,1,,0 1,- -\n"));
+  EXPECT_EQ(timed.str(), csv.str());
   EXPECT_THAT(
       json.str(),
       MatchesRegex("[{]\"step\":0,\"frame\":0,\"time\":0.25,\"picoseconds\":10.5,\"lower\":0[.]2[0-9]*,"
                    "\"upper\":0[.]2[0-9]*,\"structure\":\"contacts\",\"kind\":\"begin\","
                    "\"external\":true,\"ids\":[{]\"first\":[[]0],\"second\":[[]1][}][}]\n(.|\n)*"));
   EXPECT_THAT(json.str(), HasSubstr("\"ids\":{\"node\":[0,2],\"basis\":[1,2]}}\n"));
+}
+
+TEST(EventWriters, CsvHasItsHeaderWithoutEventsTimesOrFrames) {
+  std::ostringstream csv;
+  KineticRun run({1, {2}}, {});
+  EventCsv writer(csv, run.scene());
+  run.listen(writer);
+  run.finish();
+  EXPECT_EQ(csv.str(), "");
+  for (int times = 0; times < 2; ++times) {
+    writer.finish();
+    EXPECT_EQ(csv.str(), "frame,lower,upper,structure,kind,external,node,beads,residues\n");
+  }
+  std::ostringstream known;  // where frames are there already
+  const Scene scene = scene_of(2, frames_of(2, 2));
+  EventCsv at_once(known, scene);
+  EXPECT_EQ(known.str(), csv.str());
 }
 
 }  // namespace
