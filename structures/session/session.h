@@ -10,6 +10,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -99,6 +100,16 @@ class StructureByType final : public RunningStructure {
 
 template <std::derived_from<KineticStructure> Structure, class... Arguments>
 Structure& Session::add(const Arguments&... arguments) {
+  static_assert(
+      !std::is_abstract_v<Structure>,
+      "the structure lacks a function of kds::KineticStructure that has to be its own: it is abstract");
+  static_assert(
+      std::is_abstract_v<Structure> ||
+          std::constructible_from<Structure, Simulator&, const MotionRef<1>&, const Arguments&...> ||
+          std::constructible_from<Structure, Simulator&, const MotionRef<2>&, const Arguments&...> ||
+          std::constructible_from<Structure, Simulator&, const MotionRef<3>&, const Arguments&...>,
+      "the structure needs a constructor from (kds::Simulator&, const kds::MotionRef<D>&, and the "
+      "arguments of `add`)");
   add_made(std::visit(
       [&]<int Dimension>(const MotionRef<Dimension>& motion) -> std::unique_ptr<RunningStructure> {
         if constexpr (std::constructible_from<Structure, Simulator&, const MotionRef<Dimension>&,
