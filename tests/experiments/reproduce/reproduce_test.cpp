@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/output/result_json.h"
 #include "experiments/reproduce/findings.h"
 #include "experiments/reproduce/measurements.h"
 #include "experiments/reproduce/paper_tables.h"
@@ -158,7 +159,7 @@ TEST(PaperReport, CountsEachClaimOnce) {
   const std::vector<PaperTable> tables{other, sample()};
   EXPECT_THAT(paper_page(tables, {}), HasSubstr("Of 2 claims"));
   EXPECT_THAT(paper_page(tables, {}), HasSubstr("<strong>1</strong> hold"));
-  const Json json = paper_findings_json(tables);
+  const Json json = Json::parse(text_of(paper_findings_json(tables)));
   EXPECT_EQ(json[0]["findings"][0]["claim"], "bases-flat");
   EXPECT_EQ(json[0]["findings"][0]["holds"], false);
 }
