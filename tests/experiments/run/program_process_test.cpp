@@ -26,7 +26,7 @@ TEST(Program, StandardOutputThatIsAFileIsNoOtherOutput) {
   const ProgramRun run =
       run_shell("\"$0\" run \"$1\" --quiet --json - --log \"$2\" > \"$2\"", {kSmall, file});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("--json - /dev/stdout: is the file of --log"));
+  EXPECT_THAT(run.err, HasSubstr("/both: is the file of --json -"));
   EXPECT_EQ(run_shell("\"$0\" run \"$1\" --quiet --json - --log \"$2\" | cat > \"$3\"",
                       {kSmall, file, (directory / "other").string()})
                 .code,
