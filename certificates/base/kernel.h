@@ -23,6 +23,8 @@ enum class Rounding : std::uint8_t { charged, ignored };
 [[nodiscard]] constexpr Rounding rounding_of(Kernel kernel) {
   return kernel == Kernel::fast ? Rounding::ignored : Rounding::charged;
 }
+/// The factor of all errors.
+[[nodiscard]] constexpr double charge_of(Rounding rounding) { return rounding == Rounding::charged ? 1 : 0; }
 
 /// In the order of the enumerators.
 inline constexpr std::array<std::string_view, 3> kernel_names{"fast", "filtered", "exact"};

@@ -185,20 +185,8 @@ double descent_of(const Coefficients<Lanes>& bernstein) {
 #define KDS_COMPILE(degree)                                                                          \
   template void isolate_lanes(LanesDescent<degree>&, double, const Lanes::Mask&, const Lanes::Mask&, \
                               LanesSearch&);                                                         \
-  template void narrow_lanes(LanesDescent<degree>&, const Lanes::Mask&)
-KDS_COMPILE(any_degree);
-KDS_COMPILE(1);
-KDS_COMPILE(2);
-KDS_COMPILE(3);
-KDS_COMPILE(4);
-KDS_COMPILE(5);
-KDS_COMPILE(6);
-KDS_COMPILE(8);
-KDS_COMPILE(9);
-KDS_COMPILE(10);
-KDS_COMPILE(12);
-KDS_COMPILE(15);
-KDS_COMPILE(18);
+  template void narrow_lanes(LanesDescent<degree>&, const Lanes::Mask&);
+KDS_FOR_EACH_LANES_DEGREE(KDS_COMPILE)
 #undef KDS_COMPILE
 
 }  // namespace kds

@@ -61,14 +61,6 @@ void narrow_lanes(LanesDescent<Degree>& descent, const Lanes::Mask& wanted);
 /// on [0,1], as far as the coefficients themselves tell.
 [[nodiscard]] double descent_of(const Coefficients<Lanes>& bernstein);
 
-/// Both are compiled for the degrees that certificates have under motions of degrees 1 to 3, and for
-/// any_degree, by which others go.
-template <int Degree>
-inline constexpr bool is_compiled = [] {
-  constexpr std::array degrees{any_degree, 1, 2, 3, 4, 5, 6, 8, 9, 10, 12, 15, 18};
-  return std::find(degrees.begin(), degrees.end(), Degree) != degrees.end();
-}();
-
 template <int Degree>
 requires(!is_compiled<Degree>) void isolate_lanes(LanesDescent<Degree>& descent, double from,
                                                   const Lanes::Mask& wanted, const Lanes::Mask& known,

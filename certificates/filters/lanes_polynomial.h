@@ -1,6 +1,7 @@
 #pragma once
 // Four polynomials side by side by their Bernstein coefficients: subdivision, and what signs tell of roots.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -12,6 +13,35 @@ namespace kds {
 /// Of a degree that is a constant, or (any_degree) known at run time.
 template <int Degree>
 using LanesCoefficients = decltype(Bernstein<Lanes, Degree>::scaled);
+
+/// The scaled Bernstein coefficients of four functions, and the scale of their errors.
+template <int Degree>
+struct ScaledLanes {
+  LanesCoefficients<Degree> scaled;
+  Lanes error_scale;     ///< M^h, or a NaN where the bound is not proved
+  Lanes::Mask positive;  ///< all coefficients certainly
+
+  ScaledLanes() = default;
+  template <int Other>
+  explicit ScaledLanes(const ScaledLanes<Other>& other) requires(Degree < 0 && Other >= 0)
+      : error_scale(other.error_scale), positive(other.positive) {
+    scaled.resize(other.scaled.size());
+    std::copy(other.scaled.begin(), other.scaled.end(), scaled.begin());
+  }
+};
+
+// Functions of such polynomials are compiled for the degrees that certificates have under motions of degrees
+// 1 to 3, and for any_degree, by which others go.
+#define KDS_FOR_EACH_LANES_DEGREE(compile)                                                         \
+  compile(any_degree) compile(1) compile(2) compile(3) compile(4) compile(5) compile(6) compile(8) \
+      compile(9) compile(10) compile(12) compile(15) compile(18)
+
+template <int Degree>
+inline constexpr bool is_compiled = [] {
+#define KDS_IS_DEGREE(degree) || Degree == (degree)
+  return false KDS_FOR_EACH_LANES_DEGREE(KDS_IS_DEGREE);
+#undef KDS_IS_DEGREE
+}();
 
 /// In place: the polynomial on [u, 1] from that on [0, 1]; the first coefficient becomes the value at u.
 template <class Row>

@@ -14,7 +14,7 @@
 
 #include <cmath>
 
-#include "certificates/filters/classify_lanes.h"
+#include "certificates/filters/formula_lanes.h"
 #include "motions/numbers/tracked_double.h"
 
 namespace kds {

@@ -14,6 +14,7 @@
 #include "certificates/base/formula_probe.h"
 #include "certificates/exact/exact_work.h"
 #include "certificates/filters/classify_lanes.h"
+#include "certificates/filters/formula_lanes.h"
 #include "certificates/filters/moment_lanes.h"
 #include "certificates/search/careful_search.h"
 #include "certificates/search/certificate_search.h"
@@ -51,14 +52,15 @@ class LanesFilter {
     for (std::size_t lane = 0; lane < places.size(); ++lane) {
       if (known[places[lane]] == KnownAtStart::at_own_root) lanes_now.at_own_root |= 1U << lane;
     }
-    LanesOutcome<degree> outcome;
-    classify_lanes<Certificate>(curves, tuples, sides, bound_, fast ? Rounding::ignored : Rounding::charged,
-                                lanes_now, outcome);
-    if (Lanes::all(outcome.positive)) {
+    ScaledLanes<degree> functions;
+    evaluate_lanes<Certificate>(curves, tuples, sides, bound_, rounding_of(kernel), functions);
+    if (Lanes::all(functions.positive)) {
       for (const std::size_t place : places) failures[place] = {};
       stages.coefficients += places.size();
       return;
     }
+    LanesOutcome<degree> outcome;
+    classify_lanes(functions, bound_.uniform, rounding_of(kernel), lanes_now, outcome);
     LanesDescent<degree>& descent = outcome.descent;
     LanesSearch search{outcome.positive | outcome.never, outcome.found, outcome.found};
     if (Lanes::any(outcome.unclear))

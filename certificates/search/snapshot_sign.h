@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "certificates/filters/classify_lanes.h"
+#include "certificates/filters/formula_lanes.h"
 #include "certificates/search/function_values.h"
 #include "motions/curves/snapshot.h"
 
@@ -34,9 +34,9 @@ template <class Function, int Dimension>
     const Snapshot<Dimension>& snapshot,
     const typename LanesView<Snapshot<Dimension>, bead_places<Function>>::Tuples& tuples, const Lanes& sides,
     Lanes::Mask& positive) {
-  detail::ScaledLanes<0> lanes;
-  detail::evaluate_lanes<Function>(snapshot, tuples, sides, detail::bound_at_rest<Function, Dimension>, 1,
-                                   lanes);
+  ScaledLanes<0> lanes;
+  detail::evaluate_in_line<Function>(snapshot, tuples, sides, detail::bound_at_rest<Function, Dimension>, 1,
+                                     lanes);
   positive = lanes.positive;
 }
 
