@@ -91,12 +91,12 @@ template <class Number>
 }
 
 inline void add_product(Integer& sum, const Integer& a, const Integer& b) {
-  mpz_addmul(sum.backend().data(), a.backend().data(), b.backend().data());
+  mpz_addmul(sum.data(), a.data(), b.data());
 }
 inline void add_product(LeadingDigits& sum, const LeadingDigits& a, const LeadingDigits& b) { sum += a * b; }
 
 /// Of 64 bits, roughly.
-[[nodiscard]] inline std::size_t limbs_of(const Integer& x) { return mpz_size(x.backend().data()) + 1; }
+[[nodiscard]] inline std::size_t limbs_of(const Integer& x) { return mpz_size(x.data()) + 1; }
 [[nodiscard]] inline std::size_t limbs_of(const LeadingDigits&) { return 1; }
 
 /// The ends of an interval and what is beyond them up to 1, over a common denominator 2^exponent.

@@ -74,7 +74,7 @@ std::size_t ExactPolynomial::largest_bit_length() const {
   if (wide_) return wide_->largest_bit_length();
   std::size_t bits = 0;
   for (const Integer& x : scaled_) {
-    if (x != 0) bits = std::max(bits, mpz_sizeinbase(x.backend().data(), 2));
+    if (x != 0) bits = std::max(bits, mpz_sizeinbase(x.data(), 2));
   }
   return bits;
 }

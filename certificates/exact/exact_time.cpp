@@ -59,7 +59,7 @@ double rough(const ExactTime& time) {
   std::vector<double> c;
   for (const Integer& x : local.scaled()) {
     long exponent = 0;
-    const double fraction = mpz_get_d_2exp(&exponent, x.backend().data());
+    const double fraction = mpz_get_d_2exp(&exponent, x.data());
     c.push_back(std::ldexp(fraction, static_cast<int>(std::max(exponent - shift, -1100L))));
   }
   const auto value = [&c](double s) {
@@ -137,7 +137,7 @@ std::int64_t places_of(const ExactTime& time) {
   const unsigned exponent = std::max(time.lower().exponent(), time.upper().exponent());
   const Integer length = (time.upper().numerator() << (exponent - time.upper().exponent())) -
                          (time.lower().numerator() << (exponent - time.lower().exponent()));
-  return std::int64_t{exponent} - static_cast<std::int64_t>(mpz_sizeinbase(length.backend().data(), 2));
+  return std::int64_t{exponent} - static_cast<std::int64_t>(mpz_sizeinbase(length.data(), 2));
 }
 
 // But for one that is far ahead: some times gain a bit a round, others thousands, which nobody asked for.

@@ -18,11 +18,11 @@ Integers binomials(std::size_t degree) {
 }
 
 void shift_up(Integer& to, const Integer& from, std::size_t bits) {
-  mpz_mul_2exp(to.backend().data(), from.backend().data(), bits);
+  mpz_mul_2exp(to.data(), from.data(), bits);
 }
 
 bool is_certain(const Integer& x, const Integer& error) {
-  return error == 0 || mpz_cmpabs(x.backend().data(), error.backend().data()) > 0;
+  return error == 0 || mpz_cmpabs(x.data(), error.data()) > 0;
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ Halves Halves::halve() {
   if (error_ != 0) {  // rounded to the unit that they had: each is wrong by less than 1 more
     const std::size_t degree = c_.size() - 1;
     for (Integers* half : {&c_, &left.c_})
-      for (Integer& x : *half) mpz_fdiv_q_2exp(x.backend().data(), x.backend().data(), degree);
+      for (Integer& x : *half) mpz_fdiv_q_2exp(x.data(), x.data(), degree);
     error_ += 1;
   }
   left.error_ = error_;

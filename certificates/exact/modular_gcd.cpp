@@ -49,14 +49,14 @@ std::uint64_t fold_of_prime(std::size_t number) {
   const std::lock_guard lock(mutex);
   while (residue_folds.size() + more.size() <= number) {
     std::uint64_t fold = (more.empty() ? residue_folds.back() : more.back()) + 2;
-    while (mpz_probab_prime_p(Integer((1ULL << 61U) - fold).backend().data(), 25) == 0) fold += 2;
+    while (mpz_probab_prime_p(Integer((1ULL << 61U) - fold).data(), 25) == 0) fold += 2;
     more.push_back(fold);
   }
   return more[number - residue_folds.size()];
 }
 
 std::uint64_t residue_of(const Integer& x, std::uint64_t fold) {
-  return mpz_fdiv_ui(x.backend().data(), Residue::modulus(fold));
+  return mpz_fdiv_ui(x.data(), Residue::modulus(fold));
 }
 
 Image image_of(const Integers& p, std::uint64_t fold) {
@@ -79,7 +79,7 @@ class Combined {
   /// Knows it modulo one more prime; whether that changed nothing, as where all of it is known.
   bool add(const Image& image, std::uint64_t fold) {
     if (polynomial_.empty()) polynomial_.resize(image.size());
-    ExactWork::spend(image.size() * mpz_size(modulus_.backend().data()));
+    ExactWork::spend(image.size() * mpz_size(modulus_.data()));
     const Residue inverse = Residue{residue_of(modulus_, fold), fold}.inverse();
     const Integer prime = Residue::modulus(fold);
     bool same = true;
@@ -128,23 +128,22 @@ bool certainly_square_free(std::vector<Residue> p) {
 void make_primitive(std::vector<Integer>& p) {
   Integer content = 0;
   for (const Integer& x : p) {
-    content = boost::multiprecision::gcd(content, x);
+    content = gcd(content, x);
     if (content == 1) return;
   }
   if (content == 0) return;
-  for (Integer& x : p) mpz_divexact(x.backend().data(), x.backend().data(), content.backend().data());
+  for (Integer& x : p) mpz_divexact(x.data(), x.data(), content.data());
 }
 
 std::optional<std::vector<Integer>> quotient(std::vector<Integer> a, const std::vector<Integer>& b) {
   if (a.size() < b.size()) return std::nullopt;
   Integers result(a.size() - b.size() + 1);
-  ExactWork::spend(result.size() * b.size() * mpz_size(a.back().backend().data()));
+  ExactWork::spend(result.size() * b.size() * mpz_size(a.back().data()));
   for (std::size_t k = result.size(); k-- > 0;) {
     const Integer& lead = a[k + b.size() - 1];
-    if (mpz_divisible_p(lead.backend().data(), b.back().backend().data()) == 0) return std::nullopt;
-    mpz_divexact(result[k].backend().data(), lead.backend().data(), b.back().backend().data());
-    for (std::size_t i = 0; i < b.size(); ++i)
-      mpz_submul(a[k + i].backend().data(), result[k].backend().data(), b[i].backend().data());
+    if (mpz_divisible_p(lead.data(), b.back().data()) == 0) return std::nullopt;
+    mpz_divexact(result[k].data(), lead.data(), b.back().data());
+    for (std::size_t i = 0; i < b.size(); ++i) mpz_submul(a[k + i].data(), result[k].data(), b[i].data());
   }
   for (std::size_t i = 0; i + 1 < b.size(); ++i)
     if (a[i] != 0) return std::nullopt;
@@ -156,7 +155,7 @@ std::vector<Integer> polynomial_gcd(std::vector<Integer> a, std::vector<Integer>
   make_primitive(b);
   if (a.empty() || b.empty()) return a.empty() ? b : a;
   // The gcd's leading coefficient divides this; images are made monic and then multiplied by it.
-  const Integer lead = boost::multiprecision::gcd(a.back(), b.back());
+  const Integer lead = gcd(a.back(), b.back());
   Combined known;
   for (std::size_t number = 0;; ++number) {
     const std::uint64_t fold = fold_of_prime(number);

@@ -59,7 +59,7 @@ LongDigits value_at(const WidePolynomial& polynomial, const Dyadic& u, std::size
 
 int sign_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper) {
   const detail::Ends ends(lower, upper);
-  const auto width_of = [](const Integer& x) { return mpz_sizeinbase(x.backend().data(), 2); };
+  const auto width_of = [](const Integer& x) { return mpz_sizeinbase(x.data(), 2); };
   const std::size_t places = std::min(width_of(ends.upper), width_of(ends.above_lower));
   const std::size_t digits = places - std::min(places, width_of(ends.upper - ends.lower));
   // Bits far below what the interval leaves open tell nothing.

@@ -18,14 +18,14 @@ bool is_precise(const LeadingDigits& x) { return x.magnitude >> (LeadingDigits::
 LeadingDigits between(const Integer& low, const Integer& high) {
   LeadingDigits all = LeadingDigits::of(high);
   const Integer length = high - low;
-  const auto bits = static_cast<std::int64_t>(mpz_sizeinbase(length.backend().data(), 2));
+  const auto bits = static_cast<std::int64_t>(mpz_sizeinbase(length.data(), 2));
   if (const std::int64_t down = bits - 60 - all.exponent; down > 0) {
     all.magnitude = down >= 128 ? 0 : all.magnitude >> static_cast<unsigned>(down);
     all.exponent += down;
     all.error = 1;
   }
   const Integer units = length >> static_cast<std::size_t>(all.exponent);
-  all.error += static_cast<std::uint64_t>(units) + 1;
+  all.error += mpz_get_ui(units.data()) + 1;
   return all;
 }
 

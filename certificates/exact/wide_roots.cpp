@@ -20,8 +20,7 @@ using Level = std::int64_t;
 /// upwards towards 1.
 Level level_of(const Dyadic& u) {
   const auto power_of = [](const Integer& numerator, unsigned exponent) {
-    return static_cast<Level>(mpz_sizeinbase(numerator.backend().data(), 2)) - 1 -
-           static_cast<Level>(exponent);
+    return static_cast<Level>(mpz_sizeinbase(numerator.data(), 2)) - 1 - static_cast<Level>(exponent);
   };
   const Level power = power_of(u.numerator(), u.exponent());
   if (power < -1 || (u.numerator() == 1 && u.exponent() == 1)) return power + 1;
@@ -234,7 +233,7 @@ void visit_wide_roots(const WidePolynomial& square_free, const Dyadic& lower, co
 
 bool has_digits(const RootInterval& root, unsigned digits) {
   const detail::Ends ends(root.lower, root.upper);
-  const auto length_of = [](const Integer& x) { return mpz_sizeinbase(x.backend().data(), 2); };
+  const auto length_of = [](const Integer& x) { return mpz_sizeinbase(x.data(), 2); };
   return length_of(ends.upper - ends.lower) + digits <
          std::min(length_of(ends.upper), length_of(ends.above_lower));
 }

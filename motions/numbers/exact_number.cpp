@@ -20,7 +20,7 @@ Dyadic::Dyadic(Integer numerator, unsigned exponent) : numerator_(std::move(nume
   if (numerator_ == 0) {
     exponent_ = 0;
   } else if (exponent_ > 0) {
-    const auto zeros = static_cast<unsigned>(mpz_scan1(numerator_.backend().data(), 0));
+    const auto zeros = static_cast<unsigned>(mpz_scan1(numerator_.data(), 0));
     const unsigned shift = zeros < exponent_ ? zeros : exponent_;
     numerator_ >>= shift;
     exponent_ -= shift;
@@ -34,7 +34,7 @@ namespace {
 // mpz_get_d_2exp truncates towards zero, and so does a double that is scaled without becoming subnormal.
 double truncate(const Integer& numerator, unsigned exponent) {
   long scale = 0;
-  const double fraction = mpz_get_d_2exp(&scale, numerator.backend().data());
+  const double fraction = mpz_get_d_2exp(&scale, numerator.data());
   const long power = scale - static_cast<long>(exponent);
   if (power > 1024) return std::copysign(std::numeric_limits<double>::max(), fraction);
   if (power < -1021) {  // subnormal: cut to the last place that remains

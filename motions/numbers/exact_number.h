@@ -3,25 +3,20 @@
 
 #include <algorithm>
 #include <bit>
-#include <boost/multiprecision/gmp.hpp>
 #include <cstdint>
 #include <utility>
 
+#include "motions/numbers/integer.h"
+#include "motions/numbers/rational.h"
 #include "motions/numbers/sum_of_products.h"
 
 namespace kds {
-
-using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
-using Rational =
-    boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
 
 template <>
 class SumOfProducts<Integer> {
  public:
   SumOfProducts(const Integer& a, const Integer& b) : sum_(a * b) {}
-  void add(const Integer& a, const Integer& b) {
-    mpz_addmul(sum_.backend().data(), a.backend().data(), b.backend().data());
-  }
+  void add(const Integer& a, const Integer& b) { mpz_addmul(sum_.data(), a.data(), b.data()); }
   [[nodiscard]] Integer value() && { return std::move(sum_); }
 
  private:

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t error_bits = 61;
 
 std::size_t width_of(const Integer& x) {
-  mpz_srcptr whole = x.backend().data();
+  mpz_srcptr whole = x.data();
   const std::size_t limbs = mpz_size(whole);
   return limbs == 0
              ? 0
@@ -20,7 +20,7 @@ std::size_t width_of(const Integer& x) {
 
 /// x / 2^bits, less than 2^64, without what is below 1.
 std::uint64_t top_of(const Integer& x, std::size_t bits) {
-  mpz_srcptr whole = x.backend().data();
+  mpz_srcptr whole = x.data();
   const auto limb = [&](std::size_t i) {
     return std::uint64_t{mpz_getlimbn(whole, static_cast<mp_size_t>(i))};
   };
@@ -69,8 +69,8 @@ LongDigits::LongDigits(const Integer& value, std::size_t most_bits) : most_bits_
     return;
   }
   const std::size_t below = width - most_bits;
-  mpz_tdiv_q_2exp(value_.backend().data(), value.backend().data(), below);
-  error_ = mpz_scan1(value.backend().data(), 0) >= below ? 0 : 1;
+  mpz_tdiv_q_2exp(value_.data(), value.data(), below);
+  error_ = mpz_scan1(value.data(), 0) >= below ? 0 : 1;
   exponent_ = static_cast<std::int64_t>(below);
 }
 
@@ -91,13 +91,11 @@ LongDigits LongDigits::between(const Integer& low, const Integer& high, std::siz
   const std::size_t width = width_of(length), below = static_cast<std::size_t>(all.exponent_);
   if (width > below + length_bits) all.shift_down(width - below - length_bits);
   const Integer units = length >> static_cast<std::size_t>(all.exponent_);
-  all.error_ += mpz_get_ui(units.backend().data()) + 1;
+  all.error_ += mpz_get_ui(units.data()) + 1;
   return all;
 }
 
-int LongDigits::certain_sign() const {
-  return mpz_cmpabs_ui(value_.backend().data(), error_) <= 0 ? 0 : value_.sign();
-}
+int LongDigits::certain_sign() const { return mpz_cmpabs_ui(value_.data(), error_) <= 0 ? 0 : value_.sign(); }
 
 bool LongDigits::has_digits(std::size_t digits) const {
   return error_ == 0 || width_of(value_) > digits + static_cast<std::size_t>(std::bit_width(error_));
@@ -112,8 +110,8 @@ std::size_t LongDigits::room(std::size_t wanted) const {
 }
 
 void LongDigits::shift_down(std::size_t bits) {
-  const bool exact = value_ == 0 || mpz_scan1(value_.backend().data(), 0) >= bits;
-  mpz_tdiv_q_2exp(value_.backend().data(), value_.backend().data(), bits);
+  const bool exact = value_ == 0 || mpz_scan1(value_.data(), 0) >= bits;
+  mpz_tdiv_q_2exp(value_.data(), value_.data(), bits);
   error_ = shifted_down(error_, bits) + (exact ? 0 : 1);
   exponent_ += static_cast<std::int64_t>(bits);
 }

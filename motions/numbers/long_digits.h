@@ -49,9 +49,7 @@ class LongDigits {
 };
 
 /// Of 64 bits, roughly.
-[[nodiscard]] inline std::size_t limbs_of(const LongDigits& x) {
-  return mpz_size(x.number().backend().data()) + 1;
-}
+[[nodiscard]] inline std::size_t limbs_of(const LongDigits& x) { return mpz_size(x.number().data()) + 1; }
 
 /// a += b c
 inline void add_product(LongDigits& a, LongDigits b, const LongDigits& c) { a += (b *= c); }

@@ -30,7 +30,7 @@ double rounded_quotient(Integer n, const Integer& d, int unit) {
   const int shift = 64 - (static_cast<int>(msb(n)) - static_cast<int>(msb(d)));
   const Integer q = shift >= 0 ? Integer((n << static_cast<unsigned>(shift)) / d)
                                : Integer(n / (d << static_cast<unsigned>(-shift)));
-  const double size = std::ldexp(q.convert_to<double>(), unit - shift);
+  const double size = std::ldexp(static_cast<double>(q), unit - shift);
   return negative ? -size : size;
 }
 

@@ -14,7 +14,7 @@ namespace {
 using Geometry = CGAL::Exact_predicates_exact_constructions_kernel;
 
 // Twos in the denominator.
-mp_bitcnt_t binary_places(const Rational& x) { return mpz_scan1(mpq_denref(x.backend().data()), 0); }
+mp_bitcnt_t binary_places(const Rational& x) { return mpz_scan1(mpq_denref(x.data()), 0); }
 
 // Lengths are taken times two to this power: dyadic numbers are whole then, which CGAL's rationals need no
 // common divisors for. The triangulation stays as it is.
@@ -30,8 +30,8 @@ mp_bitcnt_t places_of(std::span<const ExactBead> beads) {
 Geometry::FT to_cgal(const Rational& x, mp_bitcnt_t places) {
   using Exact = Geometry::FT::ET;
   Rational shifted;
-  mpq_mul_2exp(shifted.backend().data(), x.backend().data(), places);
-  return Geometry::FT(Exact(shifted.backend().data()));
+  mpq_mul_2exp(shifted.data(), x.data(), places);
+  return Geometry::FT(Exact(shifted.data()));
 }
 
 }  // namespace

@@ -120,9 +120,8 @@ TEST(MeanValues, HoldValuesAndDerivatives) {
     const MeanValue g = sqrt(MeanValue(3) + f);
     const auto value = [&](const Rational& s) -> Rational {
       const Rational u = rational(lower) + s * rational(length);
-      const Dyadic time(
-          Integer(numerator(u)),
-          static_cast<unsigned>(mpz_sizeinbase(Integer(denominator(u)).backend().data(), 2) - 1));
+      const Dyadic time(Integer(numerator(u)),
+                        static_cast<unsigned>(mpz_sizeinbase(Integer(denominator(u)).data(), 2) - 1));
       const auto p = exact_position(motion, 1, time);
       const auto q = exact_position(motion, 0, time);
       const Rational a = p[0] - q[0];

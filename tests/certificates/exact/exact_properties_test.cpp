@@ -222,7 +222,7 @@ struct OnAMotion {
 
   /// False where the number is too large.
   [[nodiscard]] bool set(BeadId bead, int k, const Integer& x) {
-    const double control = x.convert_to<double>();
+    const double control = static_cast<double>(x);
     if (!std::isfinite(control)) return false;
     as_it_was &= Integer(control) == x;
     motion.set_coordinate(bead, k, 0, control);

@@ -278,7 +278,8 @@ TEST(NextOnGrid, IsTheFirstMultipleAfter) {
     SCOPED_TRACE(trace + " bits " + std::to_string(bits));
     const Dyadic next = next_on_grid(time.ours, bits);
     EXPECT_LE(next.exponent(), bits);
-    const Dyadic previous(Integer((next.rational() * (Integer(1) << bits)).convert_to<Integer>() - 1), bits);
+    const Rational scaled = next.rational() * (Integer(1) << bits);
+    const Dyadic previous(numerator(scaled) / denominator(scaled) - 1, bits);
     EXPECT_EQ(judge(time, at(next)), -1);
     EXPECT_GE(judge(time, at(previous)), 0);
   }

@@ -249,8 +249,7 @@ class Source final : public CoefficientSource {
   }
   [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {
     std::vector<Residue> image;
-    for (const Integer& x : p_)
-      image.push_back({mpz_fdiv_ui(x.backend().data(), Residue::modulus(fold)), fold});
+    for (const Integer& x : p_) image.push_back({mpz_fdiv_ui(x.data(), Residue::modulus(fold)), fold});
     return image;
   }
   [[nodiscard]] std::vector<Integer> whole() const override {

@@ -163,7 +163,7 @@ TEST_P(BoundedPolynomials, ValuesErrAsLittleAsClaimed) {
     const Rational error = abs(rational(p.value_at(u)) - exact_value);
     const Rational claimed = rational(value_rounding(degree()) * largest);
     EXPECT_LE(error, claimed);
-    share = std::max(share, Rational(error / claimed).template convert_to<double>());
+    share = std::max(share, static_cast<double>(Rational(error / claimed)));
   }
   EXPECT_GT(share, 0.001);
 }

@@ -14,7 +14,7 @@ Integer modulus(std::size_t i) { return Residue::modulus(residue_folds[i]); }
 
 // In [0, modulus).
 std::uint64_t residue_of(const Integer& x, std::size_t i) {
-  return mpz_fdiv_ui(x.backend().data(), Residue::modulus(residue_folds[i]));
+  return mpz_fdiv_ui(x.data(), Residue::modulus(residue_folds[i]));
 }
 
 Residue random_residue(Random& random, std::uint64_t fold) {
@@ -30,7 +30,7 @@ Residue random_residue(Random& random, std::uint64_t fold) {
 
 TEST(Residue, ModuliAreDifferentPrimes) {
   for (std::size_t i = 0; i < residue_folds.size(); ++i) {
-    EXPECT_NE(mpz_probab_prime_p(modulus(i).backend().data(), 30), 0);
+    EXPECT_NE(mpz_probab_prime_p(modulus(i).data(), 30), 0);
     if (i > 0) {
       EXPECT_LT(residue_folds[i - 1], residue_folds[i]);
     }

@@ -103,7 +103,7 @@ void expect_bounds(bool planar, FrameMotion kind) {
     }
     for (BeadId b = 0; b < 5; ++b) {
       EXPECT_LE(found.of_bead[b], found.largest);
-      const double reached = std::sqrt(largest[b].convert_to<double>());
+      const double reached = std::sqrt(static_cast<double>(largest[b]));
       EXPECT_GT(reached, found.of_bead[b] * (M::degree == 1 ? 1 - 1e-11 : 0.8));
     }
     EXPECT_EQ(found.of_bead[found.bead], found.largest);
@@ -114,7 +114,7 @@ void expect_bounds(bool planar, FrameMotion kind) {
       EXPECT_NE(u, 0);
       const Rational there =
           deviation_at(scene, motion, found.bead, Dyadic(u), 0, frames[found.frame], frames[found.frame]);
-      EXPECT_NEAR(std::sqrt(there.convert_to<double>()), found.largest, 1e-11);
+      EXPECT_NEAR(std::sqrt(static_cast<double>(there)), found.largest, 1e-11);
     }
   }
 }

@@ -49,7 +49,7 @@ inline RationalCurve difference(const RationalCurve& a, const RationalCurve& b) 
 
 inline ExactPolynomial exact_polynomial(const RationalCurve& curve, int sign) {
   Integer common = 1;
-  for (const Rational& c : curve) common = boost::multiprecision::lcm(common, denominator(c));
+  for (const Rational& c : curve) common = lcm(common, denominator(c));
   std::vector<Integer> whole;
   for (const Rational& c : curve) whole.emplace_back(sign * numerator(c) * (common / denominator(c)));
   return ExactPolynomial(std::move(whole));

@@ -66,7 +66,7 @@ inline void normalize(Polynomial& p) {
   trim(p);
   Integer content = 0;
   for (const Integer& x : p) {
-    content = boost::multiprecision::gcd(content, x);
+    content = gcd(content, x);
     if (content == 1) return;
   }
   for (Integer& x : p) x /= content;
@@ -116,7 +116,7 @@ inline Polynomial gcd(Polynomial a, Polynomial b) {
 
 inline Polynomial square_free(const Polynomial& p) {
   if (p.size() <= 2) return p;
-  Polynomial result = quotient(p, gcd(p, derivative(p)));
+  Polynomial result = sturm::quotient(p, sturm::gcd(p, derivative(p)));
   normalize(result);
   return result;
 }
