@@ -133,12 +133,37 @@ class Integer {
     mpz_mul(product.value_, a.value_, b.value_);
     return product;
   }
-  friend Integer operator*(Integer a, std::integral auto b) { return std::move(a *= b); }
-  friend Integer operator*(std::integral auto a, Integer b) { return std::move(b *= a); }
-  friend Integer operator/(Integer a, const Integer& b) { return std::move(a /= b); }
-  friend Integer operator%(Integer a, const Integer& b) { return std::move(a %= b); }
-  friend Integer operator<<(Integer a, mp_bitcnt_t bits) { return std::move(a <<= bits); }
-  friend Integer operator>>(Integer a, mp_bitcnt_t bits) { return std::move(a >>= bits); }
+  friend Integer operator*(const Integer& a, std::signed_integral auto b) {
+    Integer product;
+    mpz_mul_si(product.value_, a.value_, b);
+    return product;
+  }
+  friend Integer operator*(const Integer& a, std::unsigned_integral auto b) {
+    Integer product;
+    mpz_mul_ui(product.value_, a.value_, b);
+    return product;
+  }
+  friend Integer operator*(std::integral auto a, const Integer& b) { return b * a; }
+  friend Integer operator/(const Integer& a, const Integer& b) {
+    Integer quotient;
+    mpz_tdiv_q(quotient.value_, a.value_, b.value_);
+    return quotient;
+  }
+  friend Integer operator%(const Integer& a, const Integer& b) {
+    Integer rest;
+    mpz_tdiv_r(rest.value_, a.value_, b.value_);
+    return rest;
+  }
+  friend Integer operator<<(const Integer& a, mp_bitcnt_t bits) {
+    Integer shifted;
+    mpz_mul_2exp(shifted.value_, a.value_, bits);
+    return shifted;
+  }
+  friend Integer operator>>(const Integer& a, mp_bitcnt_t bits) {
+    Integer shifted;
+    mpz_fdiv_q_2exp(shifted.value_, a.value_, bits);
+    return shifted;
+  }
 
   friend bool operator==(const Integer& a, const Integer& b) { return mpz_cmp(a.value_, b.value_) == 0; }
   friend std::strong_ordering operator<=>(const Integer& a, const Integer& b) { return a.compare(b) <=> 0; }

@@ -7,7 +7,6 @@
 #include <concepts>
 #include <iosfwd>
 #include <string>
-#include <utility>
 
 #include "motions/numbers/integer.h"
 
@@ -69,10 +68,26 @@ class Rational {
     mpq_neg(a.value_, a.value_);
     return a;
   }
-  friend Rational operator+(Rational a, const Rational& b) { return std::move(a += b); }
-  friend Rational operator-(Rational a, const Rational& b) { return std::move(a -= b); }
-  friend Rational operator*(Rational a, const Rational& b) { return std::move(a *= b); }
-  friend Rational operator/(Rational a, const Rational& b) { return std::move(a /= b); }
+  friend Rational operator+(const Rational& a, const Rational& b) {
+    Rational sum;
+    mpq_add(sum.value_, a.value_, b.value_);
+    return sum;
+  }
+  friend Rational operator-(const Rational& a, const Rational& b) {
+    Rational difference;
+    mpq_sub(difference.value_, a.value_, b.value_);
+    return difference;
+  }
+  friend Rational operator*(const Rational& a, const Rational& b) {
+    Rational product;
+    mpq_mul(product.value_, a.value_, b.value_);
+    return product;
+  }
+  friend Rational operator/(const Rational& a, const Rational& b) {
+    Rational quotient;
+    mpq_div(quotient.value_, a.value_, b.value_);
+    return quotient;
+  }
 
   friend bool operator==(const Rational& a, const Rational& b) { return mpq_equal(a.value_, b.value_) != 0; }
   friend std::strong_ordering operator<=>(const Rational& a, const Rational& b) { return a.compare(b) <=> 0; }
