@@ -16,7 +16,6 @@ endforeach()
 
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3)
-find_dependency(Boost 1.74)
 find_dependency(ZLIB)
 find_dependency(fmt)
 if(_kds_last GREATER 2)

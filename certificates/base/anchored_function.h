@@ -88,6 +88,7 @@ struct AnchoredFunction {
   static constexpr bool has_square = detail::is_among<Constant<2>, ConstantMembers<Certificate>>;
   static constexpr bool uses_weights = channels_of<Certificate>.weights || has_square;
   static constexpr bool uses_radii = channels_of<Certificate>.radii || has_length || has_square;
+  static constexpr int lanes_up_to_degree = kds::lanes_up_to_degree<Certificate>;
   static constexpr CertificateType type = Certificate::type;
 
   std::array<BeadId, own_beads + anchors> beads{};

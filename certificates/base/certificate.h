@@ -6,7 +6,8 @@
 // and its error bound, four certificates at once, the exact isolation, the order of simultaneous failures.
 //
 // The function is a static `formula(view, beads)`, or its negative where side() is false. One that asks for
-// weights or radii says so: `static constexpr bool uses_weights = true` (`uses_radii`).
+// weights or radii says so: `static constexpr bool uses_weights = true` (`uses_radii`). Where motions are of
+// degree 2 or 3 and speed matters, `static constexpr int lanes_up_to_degree = 3`.
 
 #include <concepts>
 
@@ -22,6 +23,14 @@ inline constexpr Channels channels_of = [] {
   if constexpr (requires { F::uses_weights; }) channels.weights = F::uses_weights;
   if constexpr (requires { F::uses_radii; }) channels.radii = F::uses_radii;
   return channels;
+}();
+
+/// Searches go four at a time in motions up to this degree, 0 to 3, and one at a time in others. Each takes a
+/// second or more to compile: 1 where the type says nothing.
+template <class F>
+inline constexpr int lanes_up_to_degree = [] {
+  if constexpr (requires { F::lanes_up_to_degree; }) return F::lanes_up_to_degree;
+  return 1;
 }();
 
 /// A function of a few beads over this motion. Over a lifted motion, whose radii mean nothing, it must not

@@ -1,7 +1,7 @@
 #pragma once
 // Definition of search_over for polynomial certificates: included by the one file that instantiates it for a
 // certificate type, and by nobody else who wants short compile times. Certificates go in lanes of four where
-// the motion's degree has been compiled, each alone elsewhere; what the first filter does not decide is
+// the type wants it (lanes_up_to_degree), each alone elsewhere; what the first filter does not decide is
 // looked at one by one.
 
 #include <algorithm>
@@ -328,9 +328,11 @@ template <class Certificate, int Dimension>
   return std::make_unique<SearchOneByOne<Certificate, Curves<Dimension>>>(motion);
 }
 
-/// In lanes for degrees 1 to 3 and lifted motion.
+/// In lanes for lifted motion and the degrees that the type wants.
 template <class Certificate, int Dimension>
 std::unique_ptr<CertificateSearch<Certificate>> filtered_search(const MotionRef<Dimension>& motion) {
+  constexpr int most = lanes_up_to_degree<Certificate>;
+  static_assert(0 <= most && most <= 3, "lanes_up_to_degree is 0 to 3");
   const auto in_lanes =
       [&]<class C>(std::type_identity<C>) -> std::unique_ptr<CertificateSearch<Certificate>> {
     return std::make_unique<SearchInLanes<Certificate, C>>(motion);
@@ -338,16 +340,17 @@ std::unique_ptr<CertificateSearch<Certificate>> filtered_search(const MotionRef<
   if constexpr (Dimension > 1 && channels_of<Certificate>.weights && !channels_of<Certificate>.radii) {
     if (motion.is_lifted()) return in_lanes(std::type_identity<LiftedCurves<Dimension>>{});
   }
-  switch (motion.degree()) {  // the centres of a lifted motion move linearly
-    case 1:
-      return in_lanes(std::type_identity<FixedCurves<Dimension, 1>>{});
-    case 2:
-      return in_lanes(std::type_identity<FixedCurves<Dimension, 2>>{});
-    case 3:
-      return in_lanes(std::type_identity<FixedCurves<Dimension, 3>>{});
-    default:
-      return search_one_by_one<Certificate>(motion);
+  const int degree = motion.degree();  // the centres of a lifted motion move linearly
+  if constexpr (most >= 1) {
+    if (degree == 1) return in_lanes(std::type_identity<FixedCurves<Dimension, 1>>{});
   }
+  if constexpr (most >= 2) {
+    if (degree == 2) return in_lanes(std::type_identity<FixedCurves<Dimension, 2>>{});
+  }
+  if constexpr (most >= 3) {
+    if (degree == 3) return in_lanes(std::type_identity<FixedCurves<Dimension, 3>>{});
+  }
+  return search_one_by_one<Certificate>(motion);
 }
 
 }  // namespace detail

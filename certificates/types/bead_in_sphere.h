@@ -21,6 +21,7 @@ template <int Size>
 struct BeadInSphere {
   static_assert(Size >= 1 && Size <= 3);
   static constexpr CertificateType type{3, "bead_in_sphere"};
+  static constexpr int lanes_up_to_degree = 3;
 
   std::array<BeadId, Size + 1> beads{};  ///< the basis, ascending; then the bead
   bool inside = true;

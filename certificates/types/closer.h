@@ -10,6 +10,7 @@ namespace kds {
 
 struct Closer {
   static constexpr CertificateType type{12, "closer"};
+  static constexpr int lanes_up_to_degree = 3;
 
   std::array<BeadId, 4> beads{};  ///< of the lesser pair, ascending, then of the other; pairs may share one
   int sign = 1;

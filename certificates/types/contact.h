@@ -10,6 +10,7 @@ namespace kds {
 
 struct Contact {
   static constexpr CertificateType type{4, "contact"};
+  static constexpr int lanes_up_to_degree = 3;
   static constexpr bool uses_radii = true;
 
   std::array<BeadId, 2> beads{};  ///< ascending

@@ -14,6 +14,7 @@ template <int Dimension>
 struct Orientation {
   static_assert(Dimension == 2 || Dimension == 3);
   static constexpr CertificateType type{1, "orientation"};
+  static constexpr int lanes_up_to_degree = 3;
   static constexpr std::size_t size = Dimension + 1;
 
   std::array<BeadId, size> beads{};  ///< ascending

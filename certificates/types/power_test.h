@@ -28,6 +28,7 @@ template <int Dimension>
 struct PowerTest {
   static_assert(Dimension == 2 || Dimension == 3);
   static constexpr CertificateType type{2, "power_test"};
+  static constexpr int lanes_up_to_degree = 3;
   static constexpr std::size_t size = Dimension + 2;
   static constexpr bool uses_weights = true;
 

@@ -13,6 +13,7 @@ struct PrecedesAlong {
   static constexpr std::array<CertificateType, 3> types{
       {{0, "precedes"}, {10, "precedes_in_y"}, {11, "precedes_in_z"}}};
   static constexpr CertificateType type = types[Axis];
+  static constexpr int lanes_up_to_degree = 3;
 
   std::array<BeadId, 2> beads{};  ///< ascending
   int sign = 1;
