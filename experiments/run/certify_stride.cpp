@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -59,33 +58,22 @@ PairsMet pairs_met(const RunOptions& options, const SceneSurvey& survey, std::ve
 
 ContactBounds bound_contacts(const RunOptions& options, const Scene& scene,
                              const StrideDeviation& deviation) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const SceneSurvey survey =
       open_frames(options, options.reading.frames.stride)->survey(false, [](const std::string&) {});
-  std::vector<double> larger = scene.radii(), smaller = scene.radii();
-  std::vector<std::uint8_t> has_a_ball(larger.size(), 1);
-  for (std::size_t b = 0; b < larger.size(); ++b) {
-    const double by = deviation.of_bead[b];
-    larger[b] = std::nextafter(larger[b] + by, infinity);
-    if (!std::isfinite(larger[b] * larger[b]))
-      throw InputError(
-          fmt::format("--certify: bead {} may be {} from where the run has it, too far to tell contacts by; "
-                      "expected frames closer "
-                      "to each other, or --structures without contacts",
-                      b, by));
-    smaller[b] = std::nextafter(smaller[b] - by, -infinity);
-    if (smaller[b] > 0) continue;
-    smaller[b] = 0;  // more than what is left of it: no pair with it is sure
-    has_a_ball[b] = 0;
+  RadiiWithin radii;
+  try {
+    radii = radii_within(deviation, scene.radii());
+  } catch (const InputError& error) {
+    throw InputError(std::string("--certify: ") + error.what());
   }
   std::optional<double> tolerance;
   if (options.tolerance) tolerance = options.tolerance->length(scene.radii());
   ContactBounds bounds;
   bounds.found = pairs_met(options, survey, scene.radii(), tolerance);
-  bounds.possible = pairs_met(options, survey, std::move(larger), tolerance);
-  bounds.sure = pairs_met(options, survey, std::move(smaller), tolerance);
+  bounds.possible = pairs_met(options, survey, std::move(radii.larger), tolerance);
+  bounds.sure = pairs_met(options, survey, std::move(radii.smaller), tolerance);
   std::erase_if(bounds.sure, [&](const std::pair<BeadId, BeadId>& pair) {
-    return has_a_ball[pair.first] == 0 || has_a_ball[pair.second] == 0;
+    return radii.has_a_ball[pair.first] == 0 || radii.has_a_ball[pair.second] == 0;
   });
   return bounds;
 }

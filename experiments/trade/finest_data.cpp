@@ -9,8 +9,10 @@
 #include "motions/base/input_error.h"
 #include "motions/curves/positions.h"
 #include "motions/readers/every_nth.h"
+#include "motions/scene/radii.h"
 #include "motions/scene/straightened_frames.h"
 #include "structures/collision/auto_detector.h"
+#include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/enclosing_sphere/integer_balls.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
 #include "structures/session/scene_motion.h"
@@ -35,36 +37,103 @@ void straighten(Trajectory& necklace, double tolerance) {
     necklace.frames.push_back(std::move(frame.positions));
 }
 
+/// All frames of necklaces, as a scene has them.
+class SideBySide final : public FrameReader {
+ public:
+  SideBySide(const std::vector<Trajectory>& necklaces, std::size_t frames)
+      : necklaces_(necklaces), frames_(frames) {}
+  bool next(FrameRead& frame) override {
+    if (place_ == frames_) return false;
+    Eigen::Index beads = 0;
+    for (const Trajectory& necklace : necklaces_) beads += necklace.frames.front().cols();
+    frame.positions.resize(3, beads);
+    Eigen::Index first = 0;
+    for (const Trajectory& necklace : necklaces_) {
+      const bool rests = necklace.frames.size() == 1;
+      const Eigen::Matrix3Xd& here = necklace.frames[rests ? 0 : place_];
+      frame.positions.middleCols(first, here.cols()) = here;
+      if (!rests) frame.stamp.number = necklace.frame_number(place_);
+      first += here.cols();
+    }
+    ++place_;
+    return true;
+  }
+  void rewind() override { place_ = 0; }
+
+ private:
+  const std::vector<Trajectory>& necklaces_;
+  std::size_t frames_, place_ = 0;
+};
+
 }  // namespace
 
-FinestData::FinestData(std::vector<Trajectory> necklaces, std::vector<double> radii)
-    : necklaces_(std::move(necklaces)), radii_(std::move(radii)) {
+FinestData::FinestData(std::vector<Trajectory> necklaces, std::vector<double> radii,
+                       const std::string& radius)
+    : necklaces_(std::move(necklaces)),
+      radii_(std::move(radii)),
+      calpha_(calpha_model(necklaces_, radii_, radius)) {
   for (const Trajectory& necklace : necklaces_) frames_ = std::max(frames_, necklace.frames.size());
   dimension_ = scene().dimension();
 }
 
 FinestData FinestData::first_frames(std::size_t frames) const {
-  std::vector<Trajectory> some = necklaces_;
-  for (Trajectory& necklace : some)
-    if (necklace.frames.size() > frames) necklace.frames.resize(frames);
-  return {std::move(some), radii_};
+  FinestData some = *this;
+  const auto cut = [&](std::vector<Trajectory>& necklaces) {
+    for (Trajectory& necklace : necklaces)
+      if (necklace.frames.size() > frames) necklace.frames.resize(frames);
+  };
+  cut(some.necklaces_);
+  if (some.calpha_) cut(some.calpha_->necklaces);
+  some.frames_ = std::min(frames_, frames);
+  some.dimension_ = some.scene().dimension();
+  return some;
 }
 
-Scene FinestData::scene(const TradeSetting& setting) const {
-  std::vector<Trajectory> some = necklaces_;
+TradeInput FinestData::input() const {
+  const auto knows_elements = [](const Trajectory& necklace) {
+    return necklace.element_radii.size() == necklace.bead_count();
+  };
+  return {frames_,
+          static_cast<BeadId>(radii_.size()),
+          necklaces_.size(),
+          dimension_,
+          calpha_ ? static_cast<BeadId>(calpha_->bead.size()) : 0,
+          calpha_ ? calpha_->covering_radius : 0,
+          std::all_of(necklaces_.begin(), necklaces_.end(), knows_elements)};
+}
+
+std::vector<double> FinestData::radii_of(const TradeSetting& setting) const {
+  if (setting.element_radii) return bead_radii("element", necklaces_);
+  if (!setting.calpha) return radii_;
+  if (!setting.calpha_radius) return calpha_->radii;
+  return std::vector<double>(calpha_->bead.size(), *setting.calpha_radius);
+}
+
+Scene FinestData::scene(const TradeSetting& setting) const { return scene(setting, radii_of(setting)); }
+
+Scene FinestData::scene(const TradeSetting& setting, std::vector<double> radii) const {
+  std::vector<Trajectory> some = setting.calpha ? calpha_->necklaces : necklaces_;
+  const std::vector<double> own = radii_of(setting);
   for (Trajectory& necklace : some) {
+    if (setting.projected)
+      for (Eigen::Matrix3Xd& frame : necklace.frames) frame.row(2).setZero();
     if (necklace.frames.size() == 1) continue;  // at rest
     if (setting.tolerance > 0)
-      straighten(necklace, setting.tolerance * *std::min_element(radii_.begin(), radii_.end()));
+      straighten(necklace, setting.tolerance * *std::min_element(own.begin(), own.end()));
     necklace = every_nth(necklace, setting.stride);
   }
-  Scene scene(some, radii_, setting.motion);
-  if (scene.dimension() != dimension_)
+  Scene scene(some, std::move(radii), setting.motion);
+  if (!setting.projected && scene.dimension() != dimension_)
     throw InputError(
         fmt::format("frames of a stride of {} lie in a plane, as others do not; expected frames of {} "
                     "dimensions",
                     setting.stride, dimension_));
   return scene;
+}
+
+StrideDeviation FinestData::deviation(const TradeSetting& setting, const Scene& scene) const {
+  SideBySide every(necklaces_, frames_);
+  return deviation_of_stride(scene, every, setting.stride);
 }
 
 namespace {
@@ -101,7 +170,8 @@ class TruthIn final : public Truth {
       }
       built_ = wrapped_ = true;
     }
-    return hierarchy_.sphere(hierarchy_.tree().find(node).value()).radius;
+    const auto id = hierarchy_.tree().find(node);
+    return id ? hierarchy_.sphere(*id).radius : smallest_sphere(*balls_, node.first, node.last).sphere.radius;
   }
 
   [[nodiscard]] std::size_t balls_outside(const NodeSphere& node) override {

@@ -5,11 +5,14 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "experiments/trade/calpha_model.h"
 #include "experiments/trade/trade_setting.h"
 #include "motions/readers/trajectory.h"
 #include "motions/scene/scene.h"
+#include "motions/scene/stride_deviation.h"
 #include "structures/collision/pairs_asked.h"
 #include "structures/necklace/node_sphere.h"
 #include "structures/session/structure_spec.h"
@@ -21,22 +24,34 @@ inline constexpr std::size_t parts_of_frame = 64;
 
 class FinestData {
  public:
-  FinestData(std::vector<Trajectory> necklaces, std::vector<double> radii);
+  /// `radius`: the policy by which beads have got their radii.
+  FinestData(std::vector<Trajectory> necklaces, std::vector<double> radii, const std::string& radius);
 
   /// So many of them alone, at least two.
   [[nodiscard]] FinestData first_frames(std::size_t frames) const;
 
   [[nodiscard]] std::size_t frame_count() const { return frames_; }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
+  [[nodiscard]] TradeInput input() const;
+  /// Null where there is none.
+  [[nodiscard]] const CalphaModel* calpha() const { return calpha_ ? &*calpha_ : nullptr; }
   /// All frames, linear motion between them.
   [[nodiscard]] Scene scene() const { return {necklaces_, radii_, FrameMotion::linear}; }
   /// As the setting has it, which leaves two frames. Throws InputError naming the stride where they lie in a
   /// plane and others do not.
   [[nodiscard]] Scene scene(const TradeSetting& setting) const;
+  /// The same with other radii.
+  [[nodiscard]] Scene scene(const TradeSetting& setting, std::vector<double> radii) const;
+  /// How far beads are from where the setting's scene has them, in the frames that it leaves out or
+  /// straightens.
+  [[nodiscard]] StrideDeviation deviation(const TradeSetting& setting, const Scene& scene) const;
 
  private:
+  [[nodiscard]] std::vector<double> radii_of(const TradeSetting& setting) const;
+
   std::vector<Trajectory> necklaces_;
   std::vector<double> radii_;
+  std::optional<CalphaModel> calpha_;
   std::size_t frames_ = 1;
   int dimension_ = 3;
 };
@@ -51,9 +66,9 @@ class Truth {
 
   /// Each coordinate rounded to a double a few times.
   [[nodiscard]] virtual const Eigen::Matrix3Xd& positions() const = 0;
-  /// The radius of the smallest sphere around the balls of a node, right to 1e-12 of its size.
+  /// The radius of the smallest sphere around these balls of one necklace, right to 1e-12 of its size.
   [[nodiscard]] virtual double smallest_radius(const BeadRange& node) = 0;
-  /// How many of a node's balls are not in this sphere, as it stands. Exact.
+  /// How many of these balls are not in this sphere, as it stands. Exact.
   [[nodiscard]] virtual std::size_t balls_outside(const NodeSphere& node) = 0;
   /// Cells of the power diagram of the positions, ids ascending, in order.
   [[nodiscard]] virtual const std::vector<std::vector<BeadId>>& cells() = 0;

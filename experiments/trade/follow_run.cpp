@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
 #include <set>
@@ -107,26 +108,46 @@ std::set<std::pair<BeadId, BeadId>> short_edges(const std::vector<std::vector<Be
   return edges;
 }
 
+/// Edges of beads as edges of their residues.
+std::set<std::pair<BeadId, BeadId>> of_residues(const std::set<std::pair<BeadId, BeadId>>& edges,
+                                                const CalphaModel& model) {
+  std::set<std::pair<BeadId, BeadId>> all;
+  for (const auto& [a, b] : edges)
+    if (model.of_bead[a] != model.of_bead[b]) all.insert(std::minmax(model.of_bead[a], model.of_bead[b]));
+  return all;
+}
+
 class Follower {
  public:
-  Follower(const Scene& scene, const TradeSetting& setting, Truth& truth, double cutoff)
-      : scene_(scene), setting_(setting), truth_(truth), motion_(scene), cutoff_(cutoff) {}
+  /// `deviation`: null where spheres are as the run has them, else they are made larger by it.
+  Follower(const FinestData& finest, const Scene& scene, const TradeSetting& setting, Truth& truth,
+           double cutoff, const StrideDeviation* deviation)
+      : calpha_(setting.calpha ? finest.calpha() : nullptr),
+        scene_(scene),
+        setting_(setting),
+        truth_(truth),
+        motion_(scene),
+        cutoff_(cutoff),
+        deviation_(deviation) {}
 
   /// At a time of a step, the truth's in parts of a frame.
   void look(const Session& session, std::size_t step, double u, std::size_t time) {
     truth_.move_to(time);
     const Eigen::Matrix3Xd here = motion_.positions(step, u);
-    raise(errors.displacement, (here - truth_.positions()).colwise().norm().maxCoeff());
-    if (setting_.structure == "contacts") look_at_distance(here);
+    raise(errors.displacement, displacement(here));
+    if (setting_.structure == "contacts" && calpha_ == nullptr) look_at_distance(here);
     if (setting_.structure == "power") look_at_cells(session);
-    look_at_spheres(session.spheres_at(0, Dyadic(u)));
+    look_at_spheres(session.spheres_at(0, Dyadic(u)), time % parts_of_frame == 0);
   }
   void finish() {
     if (nodes_ > 0) {
       errors.radius_mean = sum_of_excess_ / static_cast<double>(nodes_);
+      if (nodes_at_frames_ > 0)
+        errors.radius_frames_mean = sum_at_frames_ / static_cast<double>(nodes_at_frames_);
       errors.beads_outside = static_cast<double>(beads_outside_) / static_cast<double>(looks_at_spheres_);
     }
-    if (cells_ > 0) errors.cells_wrong = static_cast<double>(wrong_cells_) / static_cast<double>(cells_);
+    if (cells_ > 0 && calpha_ == nullptr)
+      errors.cells_wrong = static_cast<double>(wrong_cells_) / static_cast<double>(cells_);
     if (setting_.structure == "power")
       errors.edges_missed =
           edges_ == 0 ? 0 : static_cast<double>(missed_edges_) / static_cast<double>(edges_);
@@ -138,17 +159,44 @@ class Follower {
   std::optional<double> tests;
 
  private:
-  void look_at_spheres(const std::vector<NodeSphere>& nodes) {
+  [[nodiscard]] double displacement(const Eigen::Matrix3Xd& here) const {
+    double largest = 0;
+    for (Eigen::Index b = 0; b < here.cols(); ++b) {
+      const Eigen::Index there =
+          calpha_ == nullptr ? b : Eigen::Index{calpha_->bead[static_cast<std::size_t>(b)]};
+      largest = std::max(largest, (here.col(b) - truth_.positions().col(there)).norm());
+    }
+    return largest;
+  }
+  /// A node with the beads that it is to hold in truth, and its sphere as a certificate has it.
+  [[nodiscard]] NodeSphere promised(NodeSphere node) const {
+    if (deviation_ != nullptr) {
+      const auto of_node =
+          std::span(deviation_->of_bead)
+              .subspan(node.range.first, std::size_t{node.range.last} - node.range.first + 1);
+      node.sphere.radius = std::nextafter(node.sphere.radius + *std::ranges::max_element(of_node),
+                                          std::numeric_limits<double>::infinity());
+    }
+    if (calpha_ != nullptr)
+      node.range = {calpha_->residue[node.range.first].first, calpha_->residue[node.range.last].last};
+    return node;
+  }
+  void look_at_spheres(std::vector<NodeSphere> nodes, bool at_frame) {
     if (nodes.empty()) return;
-    for (const NodeSphere& node : nodes) {
+    SearchCost cost(nodes);
+    for (NodeSphere& node : nodes) {
+      node = promised(node);
       const double smallest = truth_.smallest_radius(node.range);
       const double excess = smallest > 0 ? std::abs(node.sphere.radius / smallest - 1) : 0;
       sum_of_excess_ += excess;
       ++nodes_;
       raise(errors.radius_max, excess);
       beads_outside_ += truth_.balls_outside(node);
+      if (!at_frame) continue;
+      sum_at_frames_ += excess;
+      ++nodes_at_frames_;
+      raise(errors.radius_frames_max, excess);
     }
-    SearchCost cost(nodes);
     for (const BeadRange& necklace : scene_.necklaces()) search_tests_ += cost.of(necklace);
     ++looks_at_spheres_;
   }
@@ -163,8 +211,10 @@ class Follower {
     for (const auto& cell : found)
       wrong_cells_ += std::binary_search(expected.begin(), expected.end(), cell) ? 0 : 1;
     cells_ += found.size();
-    const auto edges = short_edges(expected, truth_.positions(), cutoff_);
-    const auto known = short_edges(found, truth_.positions(), cutoff_);
+    auto edges = short_edges(expected, truth_.positions(), cutoff_);
+    if (calpha_ != nullptr) edges = of_residues(edges, *calpha_);
+    const auto known = calpha_ == nullptr ? short_edges(found, truth_.positions(), cutoff_)
+                                          : short_edges(found, truth_.positions(), HUGE_VAL);
     edges_ += edges.size();
     for (const auto& edge : edges) missed_edges_ += known.contains(edge) ? 0 : 1;
   }
@@ -173,13 +223,16 @@ class Follower {
     if (expected && found) raise(errors.closest_distance, std::abs(*found - *expected));
   }
 
+  const CalphaModel* calpha_;  // null: the beads are those of the finest data
   const Scene& scene_;
   const TradeSetting& setting_;
   Truth& truth_;
   FollowedMotion motion_;
   double cutoff_;
-  double sum_of_excess_ = 0;
-  std::uint64_t nodes_ = 0, beads_outside_ = 0, cells_ = 0, wrong_cells_ = 0, edges_ = 0, missed_edges_ = 0;
+  const StrideDeviation* deviation_;
+  double sum_of_excess_ = 0, sum_at_frames_ = 0;
+  std::uint64_t nodes_ = 0, nodes_at_frames_ = 0, beads_outside_ = 0, cells_ = 0, wrong_cells_ = 0,
+                edges_ = 0, missed_edges_ = 0;
   std::uint64_t search_tests_ = 0, looks_at_spheres_ = 0;
 };
 
@@ -208,6 +261,8 @@ std::vector<std::pair<std::string, std::optional<double>>> by_name(const TradeEr
   return {{"displacement", errors.displacement},
           {"radius_mean", errors.radius_mean},
           {"radius_max", errors.radius_max},
+          {"radius_frames_mean", errors.radius_frames_mean},
+          {"radius_frames_max", errors.radius_frames_max},
           {"beads_outside", errors.beads_outside},
           {"cells_wrong", errors.cells_wrong},
           {"edges_missed", errors.edges_missed},
@@ -217,19 +272,57 @@ std::vector<std::pair<std::string, std::optional<double>>> by_name(const TradeEr
           {"event_time_max", errors.event_time_max},
           {"contacts_missed", errors.contacts_missed},
           {"contacts_spurious", errors.contacts_spurious},
+          {"contacts_unsure", errors.contacts_unsure},
+          {"sure_wrong", errors.sure_wrong},
           {"contact_time_mean", errors.contact_time_mean},
           {"contact_time_max", errors.contact_time_max},
           {"closest_distance", errors.closest_distance}};
 }
 
-FollowedRun follow_run(const TradeSetting& setting, const Scene& scene, std::size_t frames, Truth& truth,
-                       const SamplingOfTimes& sampling, double cutoff) {
+namespace {
+
+/// All contacts of the setting's motion, with these radii.
+std::vector<ContactTime> contacts_with(const FinestData& finest, const TradeSetting& setting,
+                                       std::vector<double> radii) {
+  const Scene scene = finest.scene(setting, std::move(radii));
   const Clock clock(scene, setting.stride);
-  const std::set<std::size_t> times = times_to_look(frames, sampling);
+  Session session(scene, {{"contacts"}, setting.kernel, AuditMode::none, setting.settings});
+  Recorder recorder(clock);
+  session.simulator().listen(recorder);
+  session.load(0);
+  session.simulator().build();
+  const std::vector<BeadPair> built = pairs_of(session.built(0));
+  for (std::size_t step = 0; step < clock.steps(); ++step) {
+    session.load(step);
+    session.simulator().run_step();
+  }
+  session.simulator().finish();
+  return contact_times(built, recorder.events, 0, static_cast<double>(clock.frame(clock.steps())));
+}
+
+void certify_contacts(const FinestData& finest, const TradeSetting& setting, const Scene& scene,
+                      const StrideDeviation& deviation, RunHistory& history) {
+  const RadiiWithin radii = radii_within(deviation, scene.radii());
+  history.contacts = contacts_with(finest, setting, radii.larger);
+  history.sure = contacts_with(finest, setting, radii.smaller);
+  std::erase_if(history.sure, [&](const ContactTime& contact) {
+    return radii.has_a_ball[contact.pair.first] == 0 || radii.has_a_ball[contact.pair.second] == 0;
+  });
+}
+
+}  // namespace
+
+FollowedRun follow_run(const FinestData& finest, const TradeSetting& setting, Truth& truth,
+                       const SamplingOfTimes& sampling, double cutoff) {
+  const Scene scene = finest.scene(setting);
+  const Clock clock(scene, setting.stride);
+  const std::set<std::size_t> times = times_to_look(finest.frame_count(), sampling);
+  std::optional<StrideDeviation> deviation;
+  if (setting.certify) deviation = finest.deviation(setting, scene);
   Session session(scene, {{setting.structure}, setting.kernel, AuditMode::none, setting.settings});
   Recorder recorder(clock);
   session.simulator().listen(recorder);
-  Follower follower(scene, setting, truth, cutoff);
+  Follower follower(finest, scene, setting, truth, cutoff, deviation ? &*deviation : nullptr);
   session.load(0);
   session.simulator().build();
   const std::vector<BeadPair> built = pairs_of(session.built(0));
@@ -248,13 +341,16 @@ FollowedRun follow_run(const TradeSetting& setting, const Scene& scene, std::siz
   session.simulator().finish();
   follower.finish();
   const auto end = static_cast<double>(clock.frame(clock.steps()));
-  FollowedRun run{{end, std::move(recorder.events), {}}, follower.errors, follower.tests};
-  if (setting.structure == "contacts")
+  FollowedRun run{{end, std::move(recorder.events), {}, {}}, follower.errors, follower.tests};
+  if (setting.structure == "contacts") {
     run.history.contacts = contact_times(built, run.history.events, 0, end);
+    if (deviation) certify_contacts(finest, setting, scene, *deviation, run.history);
+  }
   return run;
 }
 
-void compare_histories(const RunHistory& exact, FollowedRun& run, const TradeSetting& setting) {
+void compare_histories(const RunHistory& exact, FollowedRun& run, const FinestData& finest,
+                       const TradeSetting& setting) {
   const auto share = [](std::uint64_t part, std::uint64_t of) {
     return of == 0 ? (part == 0 ? 0.0 : HUGE_VAL) : static_cast<double>(part) / static_cast<double>(of);
   };
@@ -262,7 +358,7 @@ void compare_histories(const RunHistory& exact, FollowedRun& run, const TradeSet
     return of == 0 ? std::optional<double>() : std::optional(sum / static_cast<double>(of));
   };
   // A stride may stop before the last frame.
-  RunHistory expected{run.history.end, {}, {}};
+  RunHistory expected{run.history.end, {}, {}, {}};
   for (const TimedEvent& event : exact.events)
     if (event.time <= expected.end) expected.events.push_back(event);
   for (const ContactTime& contact : exact.contacts)
@@ -270,12 +366,23 @@ void compare_histories(const RunHistory& exact, FollowedRun& run, const TradeSet
       expected.contacts.push_back({contact.pair, contact.from, std::min(contact.to, expected.end)});
   TradeErrors& errors = run.errors;
   if (setting.structure == "contacts") {
-    const ContactMatch match = match_contacts(expected.contacts, run.history.contacts, setting.reach());
+    if (setting.calpha)
+      expected.contacts = finest.calpha()->of_residues(expected.contacts, setting.settings.apart);
+    // What is certified is so at that very time, which is known to a bracket.
+    constexpr double at_once = 1e-6;
+    const ContactMatch match =
+        match_contacts(expected.contacts, run.history.contacts, setting.certify ? at_once : setting.reach());
     errors.contacts_missed = share(match.missed, match.expected);
     errors.contacts_spurious = share(match.spurious, match.expected);
     errors.contact_time_mean = mean(match.time_error_sum, match.timed);
     if (match.timed > 0) errors.contact_time_max = match.time_error_max;
+    if (setting.certify) {
+      const ContactMatch sure = match_contacts(expected.contacts, run.history.sure, at_once);
+      errors.contacts_unsure = share(sure.missed, sure.expected);
+      errors.sure_wrong = static_cast<double>(sure.spurious);
+    }
   }
+  if (setting.calpha) return;  // its events are of other beads
   const EventMatch match = match_events(expected.events, run.history.events, setting.reach());
   errors.events_missed = share(match.missed, match.expected);
   errors.events_invented = share(match.invented, match.expected);

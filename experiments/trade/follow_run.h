@@ -19,12 +19,15 @@ namespace kds {
 struct TradeErrors {
   std::optional<double> displacement;             ///< largest, of a bead from where it truly is
   std::optional<double> radius_mean, radius_max;  ///< of a node from the smallest, as a share of it
-  std::optional<double> beads_outside;            ///< of their nodes' spheres, mean of the times looked at
-  std::optional<double> cells_wrong;              ///< share of cells that are not in the true diagram
-  std::optional<double> edges_missed;             ///< share of the true edges shorter than the cutoff
+  std::optional<double> radius_frames_mean, radius_frames_max;  ///< the same at frames alone
+  std::optional<double> beads_outside;  ///< of their nodes' spheres, mean of the times looked at
+  std::optional<double> cells_wrong;    ///< share of cells that are not in the true diagram
+  std::optional<double> edges_missed;   ///< share of the true edges shorter than the cutoff
   std::optional<double> events_missed, events_invented;  ///< shares of the exact run's events
   std::optional<double> event_time_mean, event_time_max;
-  std::optional<double> contacts_missed, contacts_spurious;   ///< shares of the true contacts
+  std::optional<double> contacts_missed, contacts_spurious;  ///< shares of the true contacts
+  std::optional<double> contacts_unsure;  ///< share of the true contacts; of certified runs, as the next
+  std::optional<double> sure_wrong;       ///< contacts that are called sure and are none
   std::optional<double> contact_time_mean, contact_time_max;  ///< of their ends
   std::optional<double> closest_distance;  ///< largest error of the closest pair's distance
 };
@@ -35,7 +38,8 @@ struct TradeErrors {
 struct RunHistory {
   double end = 0;  ///< in frames of the finest data, where the run stops
   std::vector<TimedEvent> events;
-  std::vector<ContactTime> contacts;  ///< of the structure contacts
+  std::vector<ContactTime> contacts;  ///< of the structure contacts; certified: all that are possible
+  std::vector<ContactTime> sure;      ///< certified
 };
 
 struct SamplingOfTimes {
@@ -50,11 +54,11 @@ struct FollowedRun {
 };
 
 /// `cutoff`: for edges_missed.
-/// `frames`: of the finest data.
-[[nodiscard]] FollowedRun follow_run(const TradeSetting& setting, const Scene& scene, std::size_t frames,
-                                     Truth& truth, const SamplingOfTimes& sampling, double cutoff);
+[[nodiscard]] FollowedRun follow_run(const FinestData& finest, const TradeSetting& setting, Truth& truth,
+                                     const SamplingOfTimes& sampling, double cutoff);
 
 /// Adds the errors of events and contacts, by the history of the exact run.
-void compare_histories(const RunHistory& exact, FollowedRun& run, const TradeSetting& setting);
+void compare_histories(const RunHistory& exact, FollowedRun& run, const FinestData& finest,
+                       const TradeSetting& setting);
 
 }  // namespace kds

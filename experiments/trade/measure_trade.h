@@ -27,7 +27,7 @@ struct TradeCost {
   double ratio = 1;                  ///< to the exact run's, for as many frames
   std::uint64_t certificates = 0, events = 0;
   std::optional<double> tests;  ///< FollowedRun::tests
-  std::uint64_t memory = 0;     ///< bytes that the run holds at its end
+  std::uint64_t memory = 0;     ///< bytes that the run holds at its end, or of several the largest
 };
 
 struct TradeRow {
@@ -39,7 +39,7 @@ struct TradeRow {
   bool on_front = false;  ///< no other row of its group costs less and errs less
 };
 
-/// The errors by which rows of a group are compared.
+/// The errors by which rows of a group are compared; empty where one of them is not known, and of scenes.
 [[nodiscard]] std::vector<double> main_errors(const TradeRow& row);
 
 /// In the order of the settings. Throws InputError where the trajectory does not go with what is wanted.

@@ -25,6 +25,8 @@ std::string subject_of(const TradeRow& row) {
       return "For the diagram";
     case Want::events:
       return "For events of " + row.setting.structure;
+    case Want::scenes:
+      return "Of what can be asked of the scene";
   }
   return {};
 }
@@ -32,7 +34,8 @@ std::string subject_of(const TradeRow& row) {
 bool is_small(const TradeRow& row) {
   if (row.errors.beads_outside.value_or(0) > 0) return false;
   const std::vector<double> errors = main_errors(row);
-  return std::all_of(errors.begin(), errors.end(), [](double error) { return error <= small_error; });
+  return !errors.empty() &&
+         std::all_of(errors.begin(), errors.end(), [](double error) { return error <= small_error; });
 }
 
 std::string times_as_fast(double ratio) {
@@ -40,7 +43,17 @@ std::string times_as_fast(double ratio) {
                    : fmt::format("{:.2g} times as slow as the exact run", ratio);
 }
 
+std::string sentence_for_scenes(std::span<const TradeRow> group) {
+  const auto [least, most] = std::minmax_element(
+      group.begin(), group.end(),
+      [](const TradeRow& a, const TradeRow& b) { return a.cost.seconds < b.cost.seconds; });
+  return fmt::format("{}, `{}` costs least, and `{}` {:.2g} times as much.", subject_of(group.front()),
+                     words_of(least->setting), words_of(most->setting),
+                     most->cost.seconds / least->cost.seconds);
+}
+
 std::string sentence_for(std::span<const TradeRow> group) {
+  if (group.front().want == Want::scenes) return sentence_for_scenes(group);
   constexpr double hardly_quicker = 0.95;
   const TradeRow* best = nullptr;
   for (const TradeRow& row : group.subspan(1)) {
@@ -61,6 +74,7 @@ std::string sentence_for(std::span<const TradeRow> group) {
       const std::vector<double> errors = main_errors(r);
       return *std::max_element(errors.begin(), errors.end());
     };
+    if (main_errors(row).empty()) continue;
     if (row.cost.ratio < hardly_quicker && (best == nullptr || worst(row) < worst(*best))) best = &row;
   }
   if (best == nullptr)
@@ -89,9 +103,12 @@ std::string losses_of(const TradeRow& row) {
   if (row.want == Want::diagram)
     add(fmt::format("{} of its cells are wrong, and it misses {} of the short edges",
                     percent(e.cells_wrong.value_or(0)), percent(e.edges_missed.value_or(0))));
-  if (row.want == Want::contacts)
+  if (row.want == Want::contacts) {
     add(fmt::format("{} of the contacts are missed, {} are spurious", percent(e.contacts_missed.value_or(0)),
                     percent(e.contacts_spurious.value_or(0))));
+    if (e.contacts_unsure) add(fmt::format("{} of them are only possible", percent(*e.contacts_unsure)));
+    if (row.setting.calpha) add("it is another model, and tells of residues");
+  }
   if (row.want == Want::events || ((row.want == Want::diagram || row.want == Want::cages) && e.events_missed))
     add(fmt::format("{} of the events are missed, {} are invented", percent(e.events_missed.value_or(0)),
                     percent(e.events_invented.value_or(0))));

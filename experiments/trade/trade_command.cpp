@@ -28,7 +28,9 @@ constexpr const char* kName = "trade";
 
 constexpr std::array kTradeOptions{
     OptionSpec{"--want", "LIST",
-               "comma list of contacts, cages, diagram, events (default: contacts,cages,diagram)"},
+               "comma list of contacts, cages, diagram, events, and scenes, which is what each part of the "
+               "scene costs "
+               "(default: contacts,cages,diagram)"},
     OptionSpec{"--apart", "K",
                "contacts: of beads of one chain, those at least K apart along it (default: 2)"},
     OptionSpec{
@@ -52,7 +54,8 @@ constexpr CommandSpec kCommand{
     "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
     kOptions,
     "kds trade villin.dcd --topology villin.pdb --frames 0:200 --out report\n"
-    "kds trade villin.dcd --topology villin.pdb --want contacts --radius 2 --apart 5",
+    "kds trade villin.dcd --topology villin.pdb --want contacts --radius 2 --apart 5\n"
+    "kds trade models.pdb --chain A,B --want scenes",
 };
 
 std::vector<Want> parse_wants(const std::string& list) {
@@ -164,7 +167,7 @@ int trade_command(const Arguments& arguments) {
   HeldWarnings held;
   std::vector<Trajectory> necklaces = read_necklaces(options.input, held.hold());
   std::vector<double> radii = bead_radii(options.input.radius, necklaces);
-  const FinestData finest(std::move(necklaces), std::move(radii));
+  const FinestData finest(std::move(necklaces), std::move(radii), options.input.radius);
   if (!destinations.quiet) foretell(foretold_seconds(finest, options.task));
   const std::vector<TradeRow> rows = measure_trade(
       finest, options.task, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });

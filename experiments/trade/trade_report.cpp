@@ -7,6 +7,7 @@
 #include "experiments/output/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/trade/recommend.h"
+#include "motions/base/csv_field.h"
 
 namespace kds {
 
@@ -43,6 +44,7 @@ std::vector<ErrorColumn> columns_for(Want want) {
     case Want::cages:
       return {{"radius", &E::radius_mean, true},
               {"at most", &E::radius_max, true},
+              {"at frames", &E::radius_frames_max, true},
               {"outside", &E::beads_outside, false},
               missed,
               invented,
@@ -54,17 +56,17 @@ std::vector<ErrorColumn> columns_for(Want want) {
               invented,
               {"moved", &E::displacement, false}};
     case Want::contacts:
-      return {{"missed", &E::contacts_missed, true},
-              {"spurious", &E::contacts_spurious, true},
-              {"time", &E::contact_time_mean, false},
-              {"closest", &E::closest_distance, false},
-              {"moved", &E::displacement, false}};
+      return {{"missed", &E::contacts_missed, true},    {"spurious", &E::contacts_spurious, true},
+              {"unsure", &E::contacts_unsure, true},    {"time", &E::contact_time_mean, false},
+              {"closest", &E::closest_distance, false}, {"moved", &E::displacement, false}};
     case Want::events:
       return {missed,
               invented,
               {"time", &E::event_time_mean, false},
               {"at most", &E::event_time_max, false},
               {"moved", &E::displacement, false}};
+    case Want::scenes:
+      return {};
   }
   return {};
 }
@@ -82,15 +84,15 @@ Json number_or_null(const std::optional<double>& value) {
 
 std::string table_of(std::span<const TradeRow> group) {
   const std::vector<ErrorColumn> columns = columns_for(group.front().want);
-  std::string text = fmt::format("{:<46}{:>11}{:>9}{:>14}{:>10}{:>8}", title_of(group), "seconds", "ratio",
-                                 "certificates", "events", "MB");
+  std::string text = fmt::format("{:<46}{:>11}{:>9}{:>14}{:>10}{:>11}{:>8}", title_of(group), "seconds",
+                                 "ratio", "certificates", "events", "tests", "MB");
   for (const ErrorColumn& column : columns) text += fmt::format("{:>11}", column.title);
   text += "\n";
   for (const TradeRow& row : group) {
-    text += fmt::format("{} {:<44}{:>11}{:>9.3f}{:>14}{:>10}{:>8.2f}", row.on_front ? '*' : ' ',
+    text += fmt::format("{} {:<44}{:>11}{:>9.3f}{:>14}{:>10}{:>11}{:>8.2f}", row.on_front ? '*' : ' ',
                         words_of(row.setting), short_decimal(row.cost.seconds), row.cost.ratio,
                         with_thousands(row.cost.certificates), with_thousands(row.cost.events),
-                        1e-6 * static_cast<double>(row.cost.memory));
+                        shown(row.cost.tests, false), 1e-6 * static_cast<double>(row.cost.memory));
     for (const ErrorColumn& column : columns)
       text += fmt::format("{:>11}", shown(row.errors.*column.value, column.share));
     text += "\n";
@@ -129,15 +131,15 @@ std::string plots_of(std::span<const TradeRow> group) {
 
 std::string html_table_of(std::span<const TradeRow> group) {
   const std::vector<ErrorColumn> errors = columns_for(group.front().want);
-  std::vector<std::string> columns{title_of(group), "ratio",        "seconds", "least",
-                                   "most",          "certificates", "events",  "MB"};
+  std::vector<std::string> columns{title_of(group), "ratio",  "seconds", "least", "most",
+                                   "certificates",  "events", "tests",   "MB"};
   for (const ErrorColumn& column : errors) columns.emplace_back(column.title);
   std::vector<HtmlRow> rows;
   for (const TradeRow& row : group) {
     HtmlRow& line = rows.emplace_back(HtmlRow{
         {(row.on_front ? "* " : "") + words_of(row.setting), fmt::format("{:.3f}", row.cost.ratio),
          short_decimal(row.cost.seconds), short_decimal(row.cost.quickest), short_decimal(row.cost.slowest),
-         with_thousands(row.cost.certificates), with_thousands(row.cost.events),
+         with_thousands(row.cost.certificates), with_thousands(row.cost.events), shown(row.cost.tests, false),
          fmt::format("{:.2f}", 1e-6 * static_cast<double>(row.cost.memory))}});
     for (const ErrorColumn& column : errors)
       line.cells.push_back(shown(row.errors.*column.value, column.share));
@@ -147,11 +149,19 @@ std::string html_table_of(std::span<const TradeRow> group) {
 
 constexpr const char* words_of_columns =
     "Each row is a setting of `kds run`; a stride is the third part of --frames. Seconds: of the processor, "
-    "median of the rounds, without reading and the first build; their ratio to the exact run is for as many "
-    "frames. Errors are against beads on straight lines between all frames, at frames and at random times "
-    "between: radius, of spheres from the smallest, on average and at most; outside, beads outside their "
-    "spheres, mean of the times; wrong, cells that are not in the true diagram; edges, short ones missed; "
-    "missed and invented, events or contacts beside the exact run; time, in frames; closest, of the closest "
+    "median of the rounds, without reading and the first build, those of --certify with its runs; their "
+    "ratio "
+    "to the exact run is for as many frames. Tests: of two spheres, by a search for contacts in the "
+    "hierarchy, "
+    "on average. Errors are against beads on straight lines between all frames, at frames and at random "
+    "times "
+    "between: radius, of spheres from the smallest, on average and at most, and at most at frames; outside, "
+    "beads outside their spheres, mean of the times (with --certify spheres are larger by what is "
+    "certified); "
+    "wrong, cells that are not in the true diagram; edges, short ones missed; "
+    "missed and invented or spurious, events or contacts beside the exact run (with --certify all possible "
+    "contacts count as found, and unsure are those that it calls no more; of --select ca, which is another "
+    "model, residues count); time, in frames; closest, of the closest "
     "distance; moved, a bead from its place. *: no other row of the group is as quick and as right.";
 
 }  // namespace
@@ -161,6 +171,7 @@ Json trade_rows_json(std::span<const TradeRow> rows) {
   for (const TradeRow& row : rows) {
     Json setting = Json::object(), errors = Json::object();
     for (const auto& [name, value] : options_of(row.setting)) setting[name] = value;
+    if (row.setting.projected) setting["projected"] = "xy";
     for (const auto& [name, value] : by_name(row.errors)) errors[name] = number_or_null(value);
     json.push_back({{"want", name_of(row.want)},
                     {"setting", setting},
@@ -184,7 +195,7 @@ std::string trade_csv(std::span<const TradeRow> rows) {
   for (const auto& [name, value] : by_name({})) text += "," + name;
   text += ",pareto\n";
   for (const TradeRow& row : rows) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{}", name_of(row.want), words_of(row.setting),
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{}", name_of(row.want), csv_field(words_of(row.setting)),
                         row.cost.seconds, row.cost.quickest, row.cost.slowest, row.cost.ratio,
                         row.cost.events, row.cost.certificates,
                         row.cost.tests ? fmt::format("{}", *row.cost.tests) : "", row.cost.memory);

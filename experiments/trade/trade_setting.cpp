@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "motions/scene/straightened_frames.h"
 
@@ -18,7 +19,12 @@ double TradeSetting::reach() const {
 }
 
 std::vector<std::pair<std::string, std::string>> options_of(const TradeSetting& setting) {
-  std::vector<std::pair<std::string, std::string>> options{{"structures", setting.structure}};
+  std::string structures = setting.structure;
+  for (const std::string& beside : setting.besides) structures += "," + beside;
+  std::vector<std::pair<std::string, std::string>> options{{"structures", structures}};
+  if (setting.calpha) options.emplace_back("select", "ca");
+  if (setting.calpha_radius) options.emplace_back("radius", fmt::format("{}", *setting.calpha_radius));
+  if (setting.element_radii) options.emplace_back("radius", "element");
   if (setting.kernel != Kernel::filtered) options.emplace_back("kernel", name_of(setting.kernel));
   if (setting.motion != FrameMotion::linear) options.emplace_back("motion", name_of(setting.motion));
   if (setting.stride > 1) options.emplace_back("stride", std::to_string(setting.stride));
@@ -29,21 +35,42 @@ std::vector<std::pair<std::string, std::string>> options_of(const TradeSetting& 
     options.emplace_back("tightness", fmt::format("{}", *setting.settings.tightness));
   if (setting.settings.relax.any())
     options.emplace_back("relax", fmt::format("{:.3g}", setting.settings.relax.share()));
+  const NodeSelection& nodes = setting.settings.nodes;
+  if (nodes.last_level < std::numeric_limits<std::uint32_t>::max())
+    options.emplace_back("levels", fmt::format("{}:{}", nodes.first_level, nodes.last_level + 1));
+  if (nodes.beads)
+    options.emplace_back("nodes", fmt::format("{}:{}", nodes.beads->first, nodes.beads->last + 1));
+  if (setting.has_own_apart) options.emplace_back("apart", std::to_string(setting.settings.apart));
+  if (setting.certify) options.emplace_back("certify", "yes");
   return options;
 }
 
 std::string words_of(const TradeSetting& setting) {
-  std::string words = setting.structure;
-  for (const auto& [name, value] : options_of(setting))
-    if (name != "structures") words += fmt::format(" --{} {}", name, value);
-  return words;
+  std::string words;
+  for (const auto& [name, value] : options_of(setting)) {
+    if (name == "structures") {
+      words = value;
+    } else {
+      words += name == "certify" ? " --certify" : fmt::format(" --{} {}", name, value);
+    }
+  }
+  return setting.projected ? words + ", projected" : words;
 }
 
 namespace {
 
+/// One bead a residue: pairs that were so far apart along the chain are of residues so far apart.
+void take_calpha(TradeSetting& setting, const TradeInput& input) {
+  setting.calpha = true;
+  const BeadId beads_a_residue = (input.beads + input.residues - 1) / input.residues;
+  const BeadId apart = std::max<BeadId>(2, (setting.settings.apart - 1) / beads_a_residue + 1);
+  setting.has_own_apart = setting.structure == "contacts" && apart != setting.settings.apart;
+  setting.settings.apart = apart;
+}
+
 class Settings {
  public:
-  Settings(std::string structure, std::size_t frames, BeadId apart) : frames_(frames) {
+  Settings(std::string structure, const TradeInput& input, BeadId apart) : input_(input) {
     exact_.structure = std::move(structure);
     exact_.settings.apart = apart;
     all.push_back(exact_);
@@ -54,7 +81,7 @@ class Settings {
   void add(Change change) {
     TradeSetting setting = exact_;
     change(setting);
-    if (frames_ > setting.stride) all.push_back(std::move(setting));
+    if (input_.frames > setting.stride) all.push_back(std::move(setting));
   }
   void add_kernel() {
     add([](TradeSetting& s) { s.kernel = Kernel::fast; });
@@ -72,20 +99,47 @@ class Settings {
     for (const double share : {0.01, 0.03, 0.1})
       add([=](TradeSetting& s) { s.settings.relax = Relaxation::of(share); });
   }
+  /// Where what is left out can be made up for.
+  void add_certified() {
+    for (const std::size_t stride : {2, 4}) {
+      add([=](TradeSetting& s) {
+        s.stride = stride;
+        s.certify = true;
+      });
+    }
+    add([](TradeSetting& s) {
+      s.tolerance = 0.2;
+      s.certify = true;
+    });
+  }
+  void add_calpha() {
+    if (input_.residues == 0) return;
+    add([&](TradeSetting& s) { take_calpha(s, input_); });
+    if (exact_.structure == "power") return;  // a diagram covers nothing
+    add([&](TradeSetting& s) {
+      take_calpha(s, input_);
+      s.calpha_radius = input_.residue_radius;
+    });
+  }
 
   std::vector<TradeSetting> all;
 
  private:
   TradeSetting exact_;
-  std::size_t frames_;
+  const TradeInput& input_;
 };
 
-std::vector<TradeSetting> cages(std::size_t frames, BeadId apart) {
-  Settings settings("wrapped", frames, apart);
+Settings with_events(const char* structure, const TradeInput& input, BeadId apart) {
+  Settings settings(structure, input, apart);
   settings.add_kernel();
   settings.add_motion(FrameMotion::hermite);
   settings.add_strides();
   settings.add_tolerances();
+  return settings;
+}
+
+std::vector<TradeSetting> cages(const TradeInput& input, BeadId apart) {
+  Settings settings = with_events("wrapped", input, apart);
   settings.add_relaxed();
   const auto chord = [](TradeSetting& s) { s.settings.between = Between::chord; };
   settings.add(chord);
@@ -110,39 +164,85 @@ std::vector<TradeSetting> cages(std::size_t frames, BeadId apart) {
     s.settings.relax = Relaxation::of(0.03);
     s.stride = 2;
   });
+  settings.add_certified();
+  settings.add([&](TradeSetting& s) {
+    chord(s);
+    s.stride = 2;
+    s.certify = true;
+  });
+  settings.add_calpha();
   return settings.all;
 }
 
-std::vector<TradeSetting> with_events(const char* structure, std::size_t frames, BeadId apart) {
-  Settings settings(structure, frames, apart);
-  settings.add_kernel();
-  settings.add_motion(FrameMotion::hermite);
-  settings.add_strides();
-  settings.add_tolerances();
+std::vector<TradeSetting> contacts(const TradeInput& input, BeadId apart) {
+  Settings settings = with_events("contacts", input, apart);
+  settings.add_certified();
+  settings.add_calpha();
+  return settings.all;
+}
+
+std::vector<TradeSetting> diagram(const TradeInput& input, BeadId apart) {
+  Settings settings = with_events("power", input, apart);
+  settings.add_motion(FrameMotion::lifted);
+  settings.add_calpha();
+  return settings.all;
+}
+
+/// From the least that can be asked of a scene to all of it, then all of it otherwise, then parts alone.
+std::vector<TradeSetting> scenes(const TradeInput& input, BeadId apart) {
+  const bool several = input.necklaces > 1;
+  Settings settings("contacts", input,
+                    several ? input.beads : apart);  // so far apart is no pair of one chain
+  const auto more = [&](std::vector<std::string> besides, auto change) {
+    settings.add([&](TradeSetting& s) {
+      s.settings.apart = apart;
+      s.besides = std::move(besides);
+      change(s);
+    });
+  };
+  const auto nothing = [](TradeSetting&) {};
+  if (several) {
+    settings.all.front().has_own_apart = true;
+    more({}, nothing);
+  }
+  const std::vector<std::string> rest{"wrapped", "power"};
+  more({"wrapped"}, nothing);
+  more(rest, nothing);
+  if (input.has_element_radii) more(rest, [](TradeSetting& s) { s.element_radii = true; });
+  if (input.residues > 0) more(rest, [&](TradeSetting& s) { take_calpha(s, input); });
+  if (input.dimension == 3) more(rest, [](TradeSetting& s) { s.projected = true; });
+  more({}, [](TradeSetting& s) { s.structure = "power"; });
+  const auto wrapped = [](TradeSetting& s) { s.structure = "wrapped"; };
+  more({}, wrapped);
+  more({}, [&](TradeSetting& s) {
+    wrapped(s);
+    s.settings.nodes.last_level = 3;
+  });
+  more({}, [&](TradeSetting& s) {
+    wrapped(s);
+    s.settings.nodes.beads = {0, input.beads / 2};
+  });
   return settings.all;
 }
 
 }  // namespace
 
-std::vector<TradeGroup> groups_for(Want want, std::size_t frames, BeadId apart) {
+std::vector<TradeGroup> groups_for(Want want, const TradeInput& input, BeadId apart) {
   switch (want) {
     case Want::contacts:
-      return {{want, with_events("contacts", frames, apart)}};
+      return {{want, contacts(input, apart)}};
     case Want::cages:
-      return {{want, cages(frames, apart)}};
-    case Want::diagram: {
-      TradeGroup group{want, with_events("power", frames, apart)};
-      TradeSetting lifted = group.settings.front();
-      lifted.motion = FrameMotion::lifted;
-      group.settings.push_back(lifted);
-      return {group};
-    }
+      return {{want, cages(input, apart)}};
+    case Want::diagram:
+      return {{want, diagram(input, apart)}};
     case Want::events: {
       std::vector<TradeGroup> groups;
       for (const char* structure : {"wrapped", "power", "contacts"})
-        groups.push_back({want, with_events(structure, frames, apart)});
+        groups.push_back({want, with_events(structure, input, apart).all});
       return groups;
     }
+    case Want::scenes:
+      return {{want, scenes(input, apart)}};
   }
   return {};
 }

@@ -127,4 +127,26 @@ StrideDeviation deviation_of_stride(const Scene& scene, FrameReader& every, std:
   return search.take();
 }
 
+RadiiWithin radii_within(const StrideDeviation& deviation, std::span<const double> radii) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  RadiiWithin within{{radii.begin(), radii.end()}, {radii.begin(), radii.end()}, {}};
+  within.has_a_ball.assign(radii.size(), 1);
+  for (std::size_t b = 0; b < radii.size(); ++b) {
+    const double by = deviation.of_bead[b];
+    double& larger = within.larger[b];
+    larger = std::nextafter(larger + by, infinity);
+    if (!std::isfinite(larger * larger))
+      throw InputError(
+          fmt::format("bead {} may be {} from where the run has it, too far to tell contacts by; expected "
+                      "frames closer to each other, or structures without contacts",
+                      b, by));
+    double& smaller = within.smaller[b];
+    smaller = std::nextafter(smaller - by, -infinity);
+    if (smaller > 0) continue;
+    smaller = 0;
+    within.has_a_ball[b] = 0;
+  }
+  return within;
+}
+
 }  // namespace kds

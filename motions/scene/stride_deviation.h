@@ -9,6 +9,8 @@
 // coordinates; infinity where doubles overflow. Frames behind the scene's last one are not looked at.
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "motions/base/bead.h"
@@ -28,5 +30,14 @@ struct StrideDeviation {
 /// `every`: all frames of the files from the scene's first on, of which it has each `stride`-th. Throws
 /// InputError where these are not the frames that the scene has.
 [[nodiscard]] StrideDeviation deviation_of_stride(const Scene& scene, FrameReader& every, std::size_t stride);
+
+/// Radii by which contacts are bounded: with the larger ones balls meet whenever they do in truth, with the
+/// smaller ones only when they do. Rounded outward.
+struct RadiiWithin {
+  std::vector<double> larger, smaller;
+  std::vector<std::uint8_t> has_a_ball;  ///< 0: nothing is left of it, and no contact of it is sure
+};
+/// Throws InputError naming the bead where one is too far off for its square to be a number.
+[[nodiscard]] RadiiWithin radii_within(const StrideDeviation& deviation, std::span<const double> radii);
 
 }  // namespace kds

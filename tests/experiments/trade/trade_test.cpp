@@ -1,5 +1,6 @@
 // What `kds trade` measures, against the truth computed another way, and the command.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -27,7 +28,7 @@ FinestData villin(std::size_t frames, double radius) {
   std::vector<double> radii(trajectory.bead_count(), radius);
   std::vector<Trajectory> necklaces;
   necklaces.push_back(std::move(trajectory));
-  return {std::move(necklaces), std::move(radii)};
+  return {std::move(necklaces), std::move(radii), std::to_string(radius)};
 }
 
 std::vector<TradeRow> measured(const FinestData& finest, std::vector<Want> wants) {
@@ -92,6 +93,86 @@ TEST(Trade, ContainmentIsKeptWhereItIsPromised) {
           << words_of(other.setting) << " is better than " << words_of(row.setting);
     }
   }
+}
+
+TEST(Trade, CertifiedRunsMissNothingAndNothingSureIsWrong) {
+  const std::vector<TradeRow> rows = measured(villin(17, 2.2), {Want::contacts, Want::cages});
+  std::size_t certified = 0;
+  bool any_sure = false;
+  for (const TradeRow& row : rows) {
+    SCOPED_TRACE(words_of(row.setting));
+    const TradeErrors& errors = row.errors;
+    EXPECT_EQ(errors.sure_wrong.has_value(), row.setting.certify && row.want == Want::contacts);
+    if (!row.setting.certify) continue;
+    ++certified;
+    if (row.want == Want::contacts) {
+      EXPECT_EQ(errors.contacts_missed, 0.0);
+      EXPECT_EQ(errors.sure_wrong, 0.0);
+      EXPECT_GT(errors.contacts_spurious.value(), 0);
+      any_sure |= errors.contacts_unsure.value() < 1;
+    } else {
+      EXPECT_EQ(errors.beads_outside, 0.0);
+      EXPECT_GT(errors.radius_mean.value(), 0.001);
+    }
+  }
+  EXPECT_EQ(certified, 7U);
+  EXPECT_TRUE(any_sure);
+  EXPECT_GT(row_of(rows, "wrapped --stride 2").errors.beads_outside.value(), 0);
+  EXPECT_GT(row_of(rows, "contacts --stride 2").errors.contacts_missed.value(), 0);
+}
+
+TEST(Trade, CalphaAloneIsAnotherModel) {
+  const FinestData finest = villin(13, 2.0);
+  const std::vector<TradeRow> rows = measured(finest, {Want::contacts, Want::cages, Want::diagram});
+  const std::string by_hand = fmt::format(" --radius {}", finest.calpha()->covering_radius);
+  const TradeErrors& contacts = row_of(rows, "contacts --select ca --apart 2").errors;
+  EXPECT_EQ(contacts.contacts_missed, 1.0);  // CA are 3.8 apart, and closer than 4 only along the chain
+  EXPECT_FALSE(contacts.events_missed);
+  EXPECT_EQ(contacts.displacement, 0.0);
+  const TradeErrors& covering = row_of(rows, "contacts --select ca" + by_hand + " --apart 2").errors;
+  EXPECT_EQ(covering.contacts_missed, 0.0);
+  EXPECT_GT(covering.contacts_spurious.value(), 0);
+  const TradeRow& diagram = row_of(rows, "power --select ca");
+  EXPECT_FALSE(diagram.errors.cells_wrong);  // there are no such cells
+  EXPECT_FALSE(diagram.on_front);
+  EXPECT_LT(diagram.cost.certificates, row_of(rows, "power").cost.certificates / 2);
+  const TradeErrors& cages = row_of(rows, "wrapped --select ca").errors;
+  EXPECT_GT(cages.beads_outside.value(), 0);
+  EXPECT_GT(cages.radius_max.value(), 0.001);
+  EXPECT_EQ(row_of(rows, "wrapped --select ca" + by_hand).errors.beads_outside, 0.0);
+}
+
+TEST(Trade, ScenesCostByWhatIsAskedFor) {
+  ReadOptions options;
+  options.frames = {0, 9, 1};
+  options.topology = data_file("trajectories/villin_hp36_300K.pdb");
+  std::vector<Trajectory> necklaces(2,
+                                    read_trajectory(data_file("trajectories/villin_hp36_300K.dcd"), options));
+  for (Eigen::Matrix3Xd& frame : necklaces[1].frames) frame.row(0).array() += 12;
+  std::vector<double> radii(2 * necklaces[0].bead_count(), 2.0);
+  const std::vector<TradeRow> rows =
+      measured(FinestData(std::move(necklaces), std::move(radii), "2"), {Want::scenes});
+  const TradeCost& between = row_of(rows, "contacts --apart 216").cost;
+  const TradeCost& contacts = row_of(rows, "contacts").cost;
+  const TradeCost& with_cages = row_of(rows, "contacts,wrapped").cost;
+  const TradeCost& all = row_of(rows, "contacts,wrapped,power").cost;
+  const TradeCost& power = row_of(rows, "power").cost;
+  const TradeCost& wrapped = row_of(rows, "wrapped").cost;
+  EXPECT_LT(between.certificates, contacts.certificates);
+  EXPECT_LE(between.events, contacts.events);
+  EXPECT_EQ(with_cages.certificates, contacts.certificates + wrapped.certificates);
+  EXPECT_EQ(with_cages.events, contacts.events + wrapped.events);
+  EXPECT_EQ(all.certificates, with_cages.certificates + power.certificates);
+  EXPECT_LT(row_of(rows, "wrapped --levels 0:4").cost.certificates, wrapped.certificates);
+  EXPECT_LT(row_of(rows, "wrapped --nodes 0:109").cost.certificates, wrapped.certificates);
+  EXPECT_LT(row_of(rows, "contacts,wrapped,power, projected").cost.certificates, all.certificates);
+  EXPECT_NO_THROW(static_cast<void>(row_of(rows, "contacts,wrapped,power --radius element")));
+  EXPECT_NO_THROW(static_cast<void>(row_of(rows, "contacts,wrapped,power --select ca --apart 2")));
+  for (const TradeRow& row : rows) {
+    EXPECT_FALSE(row.on_front);
+    for (const auto& [name, value] : by_name(row.errors)) EXPECT_FALSE(value) << name;
+  }
+  EXPECT_THAT(recommendation(rows), HasSubstr("costs least"));
 }
 
 TEST(Trade, AStrideIsWrongByWhatItLeavesOut) {
