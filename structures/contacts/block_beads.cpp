@@ -12,11 +12,10 @@ namespace kds {
 namespace {
 
 constexpr std::size_t row = BeadBlock::most_beads;
+static_assert(row == beads_in_block);
 
 // A block in floats: rows of sixteen, one for each coordinate of each control point, two for radii made
-// larger and smaller, one for each coordinate of the swept balls' centres, one for their radii; the sides of
-// the boxes around four swept balls each, for all pairs of one of these with one of another block: each of
-// the four four times, and all four four times; then the box around all.
+// larger and smaller.
 template <int Dimension>
 struct Layout {
   static constexpr std::size_t axes = static_cast<std::size_t>(Dimension);
@@ -26,20 +25,10 @@ struct Layout {
   }
   static constexpr std::size_t larger(std::size_t controls) { return row * controls * axes; }
   static constexpr std::size_t smaller(std::size_t controls) { return larger(controls) + row; }
-  static constexpr std::size_t center(std::size_t controls, std::size_t axis) {
-    return smaller(controls) + row * (1 + axis);
-  }
-  static constexpr std::size_t reach(std::size_t controls) { return center(controls, axes); }
-  static constexpr std::size_t quarters(std::size_t controls, std::size_t axis) {
-    return reach(controls) + row * (1 + 4 * axis);
-  }
-  static constexpr std::size_t box(std::size_t controls, std::size_t axis) {
-    return quarters(controls, axes) + 2 * axis;
-  }
-  static constexpr std::size_t size(std::size_t controls) { return quarters(controls, axes) + row; }
+  static constexpr std::size_t size(std::size_t controls) { return smaller(controls) + row; }
 };
 
-struct RowBits {
+struct ProvedBits {
   std::uint32_t apart = 0, inside = 0;
 };
 
@@ -54,7 +43,32 @@ template <class F>
 [[gnu::always_inline]] inline void store(const F& lanes, float* numbers) {
   __builtin_memcpy(numbers, &lanes.v, sizeof lanes.v);
 }
-/// Bits of a row, gathered vector by vector.
+
+// All pairs of four beads of one block and four of another side by side: pair 4 i + j from lane to lane.
+
+/// The j-th of four numbers in the lanes of its pairs.
+template <class F>
+[[gnu::always_inline]] inline F four_after_four(const float* numbers) {
+  const auto four = load<FloatLanesIn<4>>(numbers);
+  if constexpr (F::width == 4) {
+    return four;
+  } else {
+    return F(__builtin_shufflevector(four.v, four.v, 0, 1, 2, 3, 0, 1, 2, 3));
+  }
+}
+/// The i-th of four numbers in the lanes of its pairs, in the vector whose first lane is of pair `first`.
+template <class F>
+[[gnu::always_inline]] inline F each_four_times(const float* numbers, std::size_t first) {
+  if constexpr (F::width == 4) {
+    return F(numbers[first / 4]);
+  } else {  // within halves, where a shuffle is cheap
+    const auto v = four_after_four<F>(numbers).v;
+    return F(first == 0 ? __builtin_shufflevector(v, v, 0, 0, 0, 0, 5, 5, 5, 5)
+                        : __builtin_shufflevector(v, v, 2, 2, 2, 2, 7, 7, 7, 7));
+  }
+}
+
+/// Bits of sixteen pairs, gathered vector by vector.
 template <class F>
 class BitsOf {
  public:
@@ -84,63 +98,17 @@ struct Scan {
 
   [[nodiscard, gnu::always_inline]] std::size_t controls() const { return Controls == 0 ? given : Controls; }
 
-  /// Which beads' swept balls may meet the box of another block.
-  [[nodiscard, gnu::always_inline]] std::uint32_t near_box(const float* beads, const float* other) const {
-    BitsOf<F> near;
-    const float* const sides = other + L::box(controls(), 0);
-    for (std::size_t first = 0; first < row; first += F::width) {
-      const F reach = load<F>(beads + L::reach(controls()) + first);
-      typename F::Mask apart{};
-      for (std::size_t axis = 0; axis < L::axes; ++axis) {
-        const F x = load<F>(beads + L::center(controls(), axis) + first);
-        apart |= (x - reach > F(sides[2 * axis + 1])) | (F(sides[2 * axis]) > x + reach);
-      }
-      near.add(~apart, first);
-    }
-    return near.bits();
-  }
-
-  /// Which of four runs of a block may meet which of another: bit 4 a + b.
-  [[nodiscard, gnu::always_inline]] std::uint32_t near_quarters(const float* a, const float* b) const {
-    BitsOf<F> near;
-    for (std::size_t first = 0; first < row; first += F::width) {
-      typename F::Mask apart{};
-      for (std::size_t axis = 0; axis < L::axes; ++axis) {
-        const float* const of_a = a + L::quarters(controls(), axis) + first;
-        const float* const of_b = b + L::quarters(controls(), axis) + first + 2 * row;
-        apart |= (load<F>(of_a) > load<F>(of_b + row)) | (load<F>(of_b) > load<F>(of_a + row));
-      }
-      near.add(~apart, first);
-    }
-    return near.bits();
-  }
-
-  /// Which swept balls of a block may meet that of one bead of another.
-  [[nodiscard, gnu::always_inline]] std::uint32_t near_bead(const float* a, std::size_t bead,
-                                                            const float* b) const {
-    BitsOf<F> near;
-    const F reach_a(a[L::reach(controls()) + bead]);
-    for (std::size_t first = 0; first < row; first += F::width) {
-      F distance(0.0F);
-      for (std::size_t axis = 0; axis < L::axes; ++axis) {
-        const F d =
-            load<F>(b + L::center(controls(), axis) + first) - F(a[L::center(controls(), axis) + bead]);
-        distance += d * d;
-      }
-      const F reach = reach_a + load<F>(b + L::reach(controls()) + first);
-      near.add(~(distance > reach * reach), first);
-    }
-    return near.bits();
-  }
-
-  /// One bead of a block against all of another.
-  [[nodiscard, gnu::always_inline]] RowBits one_row(const float* a, std::size_t bead, const float* b) const {
+  /// Of four beads of a block with four of another; a, b: where their numbers begin in the blocks' first row.
+  [[nodiscard, gnu::always_inline]] ProvedBits proved(const float* a, const float* b) const {
     BitsOf<F> apart, inside;
-    const F larger_a(a[L::larger(controls()) + bead]), smaller_a(a[L::smaller(controls()) + bead]);
     const std::size_t last = controls() - 1;
     for (std::size_t first = 0; first < row; first += F::width) {
       const auto difference = [&](std::size_t k, std::size_t axis) __attribute__((always_inline)) {
-        return load<F>(b + L::coordinates(k, axis) + first) - F(a[L::coordinates(k, axis) + bead]);
+        const std::size_t x = L::coordinates(k, axis);
+        return four_after_four<F>(b + x) - each_four_times<F>(a + x, first);
+      };
+      const auto sum = [&](std::size_t radii) __attribute__((always_inline)) {
+        return each_four_times<F>(a + radii, first) + four_after_four<F>(b + radii);
       };
       std::array<F, L::axes> n;
       F length(0.0F);
@@ -148,8 +116,7 @@ struct Scan {
         n[axis] = difference(0, axis) + difference(last, axis);
         length += n[axis] * n[axis];
       }
-      const F larger = larger_a + load<F>(b + L::larger(controls()) + first);
-      const F smaller = smaller_a + load<F>(b + L::smaller(controls()) + first);
+      const F larger = sum(L::larger(controls())), smaller = sum(L::smaller(controls()));
       const F reach = larger * larger * length, within = smaller * smaller;
       typename F::Mask all_apart = ~typename F::Mask{}, all_inside = smaller > F(0.0F);
       for (std::size_t k = 0; k <= last; ++k) {
@@ -169,123 +136,74 @@ struct Scan {
   }
 };
 
-/// A bead of one block and, one bit each, beads of another.
-struct RowFound {
-  std::uint32_t bead;    // of all
-  std::uint32_t others;  // block
-  std::uint32_t inside, unclear;
+/// What is found of some pairs of blocks: groups of four beads as the block kernels number them, of which bit
+/// 4 i + j stands for bead i of the first and j of the second.
+struct Look {
+  static constexpr std::size_t most_groups = 16 * block_pairs_at_once + kernel_padding;
+
+  std::array<std::uint32_t, block_pairs_at_once> firsts, seconds;  // blocks
+  std::array<std::uint32_t, most_groups> scratch, groups;
+  std::array<std::uint16_t, most_groups> unclear, inside;
+  std::size_t count;
+
+  [[nodiscard, gnu::always_inline]] std::uint32_t first_block(std::size_t k) const {
+    return firsts[groups[k] / 16];
+  }
+  [[nodiscard, gnu::always_inline]] std::uint32_t second_block(std::size_t k) const {
+    return seconds[groups[k] / 16];
+  }
+  /// The first of four beads, by its place in its block.
+  [[nodiscard, gnu::always_inline]] std::uint32_t first_bead(std::size_t k) const { return groups[k] & 12U; }
+  [[nodiscard, gnu::always_inline]] std::uint32_t second_bead(std::size_t k) const {
+    return 4 * (groups[k] & 3U);
+  }
 };
 
-/// A look at a few pairs of blocks at a time. Each stage sifts what the one before left over, and lists what
-/// it leaves without a branch: no one foretells what that will be.
-struct Look {
-  static constexpr std::size_t at_a_time = 64;
-  struct PairLeft {
-    BlockPair blocks;
-    std::uint32_t quarters;  // bit 4 a + b: run a of the first may meet run b of the second
-  };
-  struct RowLeft {
-    BlockPair blocks;
-    std::uint32_t bead;  // of the first block
-    std::uint32_t near;
-  };
-
+/// Blocks in floats, one after the other.
+struct BlockNumbers {
   const float* floats;
   std::size_t stride, controls;
-  const BeadBlock* blocks;
-  BeadId apart;
-
-  std::uint64_t looked_at = 0;
-  std::size_t pairs_left, rows_left, count;
-  std::array<PairLeft, at_a_time> pairs;
-  std::array<RowLeft, at_a_time * row> rows;
-  std::array<RowFound, at_a_time * row> found;
-
-  [[nodiscard, gnu::always_inline]] const float* block(std::uint32_t place) const {
-    return floats + place * stride;
-  }
 };
 
-/// Beads of a block that a bead is asked about by their distance along the chain, at least `apart`; the block
-/// begins `offset` beads after the bead's own, or is its own: then those that follow.
-[[gnu::always_inline]] inline std::uint32_t far_enough(std::size_t bead, std::int64_t offset, BeadId apart) {
-  constexpr std::uint32_t all = (1U << row) - 1U;
-  const std::int64_t from = static_cast<std::int64_t>(bead) + static_cast<std::int64_t>(apart) - offset;
-  return from <= 0 ? all : from >= static_cast<std::int64_t>(row) ? 0U : (all << from) & all;
-}
-
-[[nodiscard, gnu::always_inline]] inline std::int64_t chain_offset(const BeadBlock& a, const BeadBlock& b) {
-  if (a.necklace != b.necklace) return std::numeric_limits<std::int64_t>::max() / 2;
-  return static_cast<std::int64_t>(b.first) - static_cast<std::int64_t>(a.first);
-}
-
-/// Four bits, each four times.
-[[gnu::always_inline]] inline std::uint32_t each_four_times(std::uint32_t bits) {
-  const std::uint32_t spread = (bits & 1U) | (bits & 2U) << 3U | (bits & 4U) << 6U | (bits & 8U) << 9U;
-  return spread * 0xfU;
-}
-
+/// Goes on with those whose swept balls may meet.
 template <class F, int Dimension, std::size_t Controls>
-[[gnu::always_inline]] inline void look_at_pairs(std::span<const BlockPair> pairs, Look& look) {
-  const Scan<F, Dimension, Controls> scan{look.controls};
-  look.pairs_left = look.rows_left = look.count = 0;
-  for (const BlockPair& pair : pairs) {
-    const std::uint32_t quarters = scan.near_quarters(look.block(pair.first), look.block(pair.second));
-    look.pairs[look.pairs_left] = {pair, quarters};
-    look.pairs_left += quarters != 0 ? 1 : 0;
-  }
-  for (std::size_t p = 0; p < look.pairs_left; ++p) {
-    const auto [pair, quarters] = look.pairs[p];
-    const float *const a = look.block(pair.first), *const b = look.block(pair.second);
-    std::uint32_t rows = look.blocks[pair.first].bits(), columns = look.blocks[pair.second].bits();
-    if (pair.first != pair.second) {
-      rows &= scan.near_box(a, b);
-      columns &= scan.near_box(b, a);
-    }
-    const std::int64_t offset = chain_offset(look.blocks[pair.first], look.blocks[pair.second]);
-    for (; rows != 0; rows &= rows - 1) {
-      const auto bead = static_cast<std::uint32_t>(std::countr_zero(rows));
-      const std::uint32_t asked =
-          columns & each_four_times(quarters >> (bead & 12U) & 15U) & far_enough(bead, offset, look.apart);
-      if (asked == 0) continue;
-      const std::uint32_t near = asked & scan.near_bead(a, bead, b);
-      look.looked_at += static_cast<std::uint64_t>(std::popcount(asked));
-      look.rows[look.rows_left] = {pair, bead, near};
-      look.rows_left += near != 0 ? 1 : 0;
-    }
-  }
-  for (std::size_t r = 0; r < look.rows_left; ++r) {
-    const auto& [pair, bead, near] = look.rows[r];
-    const RowBits bits = scan.one_row(look.block(pair.first), bead, look.block(pair.second));
-    const std::uint32_t left = near & ~bits.apart;
-    look.found[look.count] = {look.blocks[pair.first].first + bead, pair.second, left & bits.inside,
-                              left & ~bits.inside};
-    look.count += left != 0 ? 1 : 0;
+[[gnu::always_inline]] inline void prove_groups(const BlockNumbers& blocks, Look& look) {
+  const Scan<F, Dimension, Controls> scan{blocks.controls};
+  for (std::size_t k = 0; k < look.count; ++k) {
+    const ProvedBits bits =
+        scan.proved(blocks.floats + blocks.stride * look.first_block(k) + look.first_bead(k),
+                    blocks.floats + blocks.stride * look.second_block(k) + look.second_bead(k));
+    const std::uint32_t left = look.unclear[k] & ~bits.apart;
+    look.unclear[k] = static_cast<std::uint16_t>(left & ~bits.inside);
+    look.inside[k] = static_cast<std::uint16_t>(left & bits.inside);
   }
 }
 
 template <class F, int Dimension>
-[[gnu::always_inline]] inline void look_at_pairs(std::span<const BlockPair> pairs, Look& look) {
-  if (look.controls == 2) {
-    look_at_pairs<F, Dimension, 2>(pairs, look);
+[[gnu::always_inline]] inline void prove_groups(const BlockNumbers& blocks, Look& look) {
+  if (blocks.controls == 2) {
+    prove_groups<F, Dimension, 2>(blocks, look);
   } else {
-    look_at_pairs<F, Dimension, 0>(pairs, look);
+    prove_groups<F, Dimension, 0>(blocks, look);
   }
 }
 
 template <int Dimension>
-[[KDS_FLOAT_LANES_TARGETS]] void look_in_eights(std::span<const BlockPair> pairs, Look& look) {
-  look_at_pairs<FloatLanesIn<8>, Dimension>(pairs, look);
+[[KDS_FLOAT_LANES_TARGETS]] void prove_in_eights(const BlockNumbers& blocks, Look& look) {
+  prove_groups<FloatLanesIn<8>, Dimension>(blocks, look);
 }
 template <int Dimension>
-[[KDS_FLOAT_LANES_TARGETS]] void look_in_fours(std::span<const BlockPair> pairs, Look& look) {
-  look_at_pairs<FloatLanesIn<4>, Dimension>(pairs, look);
+[[KDS_FLOAT_LANES_TARGETS]] void prove_in_fours(const BlockNumbers& blocks, Look& look) {
+  prove_groups<FloatLanesIn<4>, Dimension>(blocks, look);
 }
 
-/// Calls visit(bead) for each bit.
+/// Calls visit(bead, other) for each bit 4 i + j.
 template <class Visit>
-void for_each_bead(const BeadBlock& block, std::uint32_t bits, const Visit& visit) {
-  for (; bits != 0; bits &= bits - 1) visit(block.first + static_cast<BeadId>(std::countr_zero(bits)));
+void for_each_pair(BeadId first, BeadId second, std::uint32_t bits, const Visit& visit) {
+  for (; bits != 0; bits &= bits - 1) {
+    const auto place = static_cast<BeadId>(std::countr_zero(bits));
+    visit(first + place / 4, second + place % 4);
+  }
 }
 
 /// What a block's floats are made of.
@@ -297,6 +215,7 @@ struct Move {
   const float* drift;
   double scale;
   std::size_t controls;
+  Blocks<Dimension> swept;
 };
 
 /// A bead of a block; where there are fewer its last one stands for those that lack.
@@ -333,37 +252,30 @@ template <int Dimension>
   }
 }
 
-/// The boxes around swept balls, along one axis.
-template <int Dimension>
-[[gnu::always_inline]] inline void bound(const std::array<float, row>& low,
-                                         const std::array<float, row>& high, std::size_t axis,
-                                         std::size_t controls, float* numbers) {
-  using L = Layout<Dimension>;
-  std::array<float, 4> lowest, highest;
-  for (std::size_t q = 0; q < 4; ++q) {
-    const std::size_t i = 4 * q;
-    lowest[q] = std::min(std::min(low[i], low[i + 1]), std::min(low[i + 2], low[i + 3]));
-    highest[q] = std::max(std::max(high[i], high[i + 1]), std::max(high[i + 2], high[i + 3]));
+/// The least and the greatest of each four of a row.
+[[gnu::always_inline]] inline void store_extremes(const std::array<float, row>& low,
+                                                  const std::array<float, row>& high,
+                                                  std::array<float, 4>& lowest,
+                                                  std::array<float, 4>& highest) {
+  using F = FloatLanesIn<4>;
+  std::array<F::Row, 4> lows, highs;
+  for (std::size_t i = 0; i < 4; ++i) {
+    lows[i] = load<F>(low.data() + 4 * i).v;
+    highs[i] = load<F>(high.data() + 4 * i).v;
   }
-  float* const sides = numbers + L::quarters(controls, axis);
-  for (std::size_t q = 0; q < 4; ++q) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      sides[4 * q + i] = lowest[q];
-      sides[row + 4 * q + i] = highest[q];
-      sides[2 * row + 4 * q + i] = lowest[i];
-      sides[3 * row + 4 * q + i] = highest[i];
-    }
-  }
-  numbers[L::box(controls, axis)] = std::min(std::min(lowest[0], lowest[1]), std::min(lowest[2], lowest[3]));
-  numbers[L::box(controls, axis) + 1] =
-      std::max(std::max(highest[0], highest[1]), std::max(highest[2], highest[3]));
+  const std::array<F, 4> l = F::transposed(lows), h = F::transposed(highs);
+  store(-F::max(F::max(-l[0], -l[1]), F::max(-l[2], -l[3])), lowest.data());
+  store(F::max(F::max(h[0], h[1]), F::max(h[2], h[3])), highest.data());
 }
 
-/// The swept balls of a block, and the boxes around them.
+/// The swept balls of a block, and the boxes around four each. A bead that lacks is in its boxes what stands
+/// for it, and is itself near nothing.
 template <class F, int Dimension>
-[[gnu::always_inline]] inline void sweep(const Move<Dimension>& move, float* numbers) {
+[[gnu::always_inline]] inline void sweep(const Move<Dimension>& move, std::size_t block,
+                                         const float* numbers) {
   using L = Layout<Dimension>;
   const std::size_t controls = move.controls, last = controls - 1;
+  const Blocks<Dimension>& swept = move.swept;
   std::array<std::array<float, row>, L::axes> low, high;
   for (std::size_t first = 0; first < row; first += F::width) {
     std::array<F, L::axes> center;
@@ -371,7 +283,7 @@ template <class F, int Dimension>
       const F from = load<F>(numbers + L::coordinates(0, axis) + first);
       const F to = load<F>(numbers + L::coordinates(last, axis) + first);
       center[axis] = F(0.5F) * (from + (to - F(move.drift[last * L::axes + axis])));
-      store(center[axis], numbers + L::center(controls, axis) + first);
+      store(center[axis], swept.centers[axis] + row * block + first);
     }
     F square(0.0F);
     for (std::size_t k = 0; k < controls; ++k) {
@@ -386,22 +298,26 @@ template <class F, int Dimension>
     for (std::size_t lane = 0; lane < F::width; ++lane) square.v[lane] = std::sqrt(square.v[lane]);
     const F larger = load<F>(numbers + L::larger(controls) + first);
     const F reach = (larger + square + F(0x1p-20F)) * F(1 + 0x1p-20F);
-    store(reach, numbers + L::reach(controls) + first);
+    store(reach, swept.radii + row * block + first);
     for (std::size_t axis = 0; axis < L::axes; ++axis) {
       store(center[axis] - reach, low[axis].data() + first);
       store(center[axis] + reach, high[axis].data() + first);
     }
   }
+  GroupBoxes<Dimension>& boxes = swept.boxes[block];
   for (std::size_t axis = 0; axis < L::axes; ++axis)
-    bound<Dimension>(low[axis], high[axis], axis, controls, numbers);
+    store_extremes(low[axis], high[axis], boxes.low[axis], boxes.high[axis]);
+  for (std::size_t i = move.blocks[block].count; i < row; ++i)
+    swept.centers[0][row * block + i] = std::numeric_limits<float>::quiet_NaN();
 }
 
 template <class F, int Dimension>
 [[gnu::always_inline]] inline void move_blocks(const Move<Dimension>& move, std::size_t stride,
                                                float* floats) {
-  for (std::size_t block = 0; block < move.blocks.size(); ++block, floats += stride) {
-    convert(move, move.blocks[block], floats);
-    sweep<F>(move, floats);
+  // One block behind: numbers just written in fours are slow to read in eights.
+  for (std::size_t block = 0; block <= move.blocks.size(); ++block) {
+    if (block < move.blocks.size()) convert(move, move.blocks[block], floats + stride * block);
+    if (block > 0) sweep<F>(move, block - 1, floats + stride * (block - 1));
   }
 }
 template <int Dimension>
@@ -415,14 +331,6 @@ template <int Dimension>
   move_blocks<FloatLanesIn<4>>(move, stride, floats);
 }
 
-bool has_long_vectors() {
-#if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") != 0;
-#else
-  return false;
-#endif
-}
-
 }  // namespace
 
 template <int Dimension>
@@ -431,7 +339,21 @@ BlockBeads<Dimension>::BlockBeads(std::span<const BeadBlock> blocks, int degree)
       controls_(static_cast<std::size_t>(degree) + 1),
       stride_(Layout<Dimension>::size(controls_)),
       floats_(stride_ * blocks.size()),
-      long_vectors_(has_long_vectors()) {}
+      reaches_(row * blocks.size() + kernel_padding),
+      boxes_(blocks.size()) {
+  for (std::vector<float>& of_axis : centers_) of_axis.resize(row * blocks.size() + kernel_padding);
+  for (const BeadBlock& block : blocks) necklaces_.push_back(block.necklace);
+}
+
+template <int Dimension>
+Blocks<Dimension> BlockBeads<Dimension>::swept() {
+  Blocks<Dimension> swept;
+  for (std::size_t axis = 0; axis < Layout<Dimension>::axes; ++axis)
+    swept.centers[axis] = centers_[axis].data();
+  swept.radii = reaches_.data();
+  swept.boxes = boxes_.data();
+  return swept;
+}
 
 template <int Dimension>
 void BlockBeads<Dimension>::move_to(const Curves<Dimension>& curves,
@@ -444,8 +366,8 @@ void BlockBeads<Dimension>::move_to(const Curves<Dimension>& curves,
   const double scale = std::ldexp(1.0, -exponent);
   find_drift(curves, scale);
   set_radii(curves, scale);
-  const Move<Dimension> move{&curves, blocks_, middle.data(), drift_.data(), scale, controls_};
-  if (long_vectors_) {
+  const Move<Dimension> move{&curves, blocks_, middle.data(), drift_.data(), scale, controls_, swept()};
+  if (target_ != VectorTarget::plain) {
     move_in_eights(move, stride_, floats_.data());
   } else {
     move_in_fours(move, stride_, floats_.data());
@@ -479,17 +401,14 @@ void BlockBeads<Dimension>::set_radii(const Curves<Dimension>& curves, double sc
   constexpr double spare = 0x1p-19;
   const std::size_t beads = curves.bead_count();
   bool same = scale == scale_of_radii_ && radii_.size() == beads * controls_;
-  radii_.resize(beads * controls_);
-  for (BeadId bead = 0; bead < beads; ++bead) {
-    for (std::size_t k = 0; k < controls_; ++k) {
-      double& known = radii_[bead * controls_ + k];
-      const double radius = curves.radii(bead)[k];
-      same &= known == radius;
-      known = radius;
-    }
-  }
+  const double* known = radii_.data();
+  for (BeadId bead = 0; same && bead < beads; ++bead, known += controls_)
+    same = std::equal(known, known + controls_, curves.radii(bead));
   if (same) return;
   scale_of_radii_ = scale;
+  radii_.clear();
+  for (BeadId bead = 0; bead < beads; ++bead)
+    radii_.insert(radii_.end(), curves.radii(bead), curves.radii(bead) + controls_);
   for (std::size_t block = 0; block < blocks_.size(); ++block) {
     float* const numbers = &floats_[block * stride_];
     for (std::size_t i = 0; i < row; ++i) {
@@ -503,46 +422,49 @@ void BlockBeads<Dimension>::set_radii(const Curves<Dimension>& curves, double sc
 
 template <int Dimension>
 void BlockBeads<Dimension>::look_at(std::span<const BlockPair> blocks, BeadId apart, bool list_overlapping,
-                                    PairsOfBlocks& pairs) const {
+                                    PairsOfBlocks& pairs) {
   if (!usable_) {
     for (const BlockPair& pair : blocks) look_at_all(blocks_[pair.first], blocks_[pair.second], apart, pairs);
     return;
   }
+  const LanesAsked asked{necklaces_.data(), apart, true, true, false};
+  const BlockNumbers numbers{floats_.data(), stride_, controls_};
   Look look;
-  look.floats = floats_.data();
-  look.stride = stride_;
-  look.controls = controls_;
-  look.blocks = blocks_.data();
-  look.apart = apart;
-  for (; !blocks.empty(); blocks = blocks.subspan(std::min(Look::at_a_time, blocks.size()))) {
-    const auto some = blocks.first(std::min(Look::at_a_time, blocks.size()));
-    if (long_vectors_) {
-      look_in_eights<Dimension>(some, look);
-    } else {
-      look_in_fours<Dimension>(some, look);
+  for (; !blocks.empty(); blocks = blocks.subspan(std::min(block_pairs_at_once, blocks.size()))) {
+    const auto some = blocks.first(std::min(block_pairs_at_once, blocks.size()));
+    for (std::size_t p = 0; p < some.size(); ++p) {
+      look.firsts[p] = some[p].first;
+      look.seconds[p] = some[p].second;
     }
-    for (std::size_t r = 0; r < look.count; ++r) {
-      const RowFound& of = look.found[r];
-      const BeadBlock& others = blocks_[of.others];
-      for_each_bead(others, of.unclear, [&](BeadId other) { pairs.unclear.push_back({of.bead, other}); });
+    look.count = block_kernels<Dimension>(target_).compare_unequal(
+        swept(), {look.firsts.data(), look.seconds.data()}, some.size(), asked, 0, look.scratch.data(),
+        {look.groups.data(), look.unclear.data()}, pairs.looked_at);
+    if (target_ != VectorTarget::plain) {
+      prove_in_eights<Dimension>(numbers, look);
+    } else {
+      prove_in_fours<Dimension>(numbers, look);
+    }
+    for (std::size_t k = 0; k < look.count; ++k) {
+      const BeadId first = blocks_[look.first_block(k)].first + look.first_bead(k);
+      const BeadId second = blocks_[look.second_block(k)].first + look.second_bead(k);
+      for_each_pair(first, second, look.unclear[k], [&](BeadId bead, BeadId other) {
+        pairs.unclear.push_back({bead, other});
+      });
       if (list_overlapping)
-        for_each_bead(others, of.inside, [&](BeadId other) {
-          pairs.overlapping.push_back({of.bead, other});
+        for_each_pair(first, second, look.inside[k], [&](BeadId bead, BeadId other) {
+          pairs.overlapping.push_back({bead, other});
         });
     }
   }
-  pairs.looked_at += look.looked_at;
 }
 
 template <int Dimension>
 void BlockBeads<Dimension>::look_at_all(const BeadBlock& a, const BeadBlock& b, BeadId apart,
                                         PairsOfBlocks& pairs) const {
-  const std::int64_t offset = chain_offset(a, b);
-  for (std::size_t i = 0; i < a.count; ++i) {
-    const std::uint32_t asked = b.bits() & far_enough(i, offset, apart);
-    pairs.looked_at += static_cast<std::uint64_t>(std::popcount(asked));
-    const BeadId bead = a.first + static_cast<BeadId>(i);
-    for_each_bead(b, asked, [&](BeadId other) { pairs.unclear.push_back({bead, other}); });
+  for (BeadId bead = a.first; bead < a.first + a.count; ++bead) {
+    const bool along = a.necklace == b.necklace;
+    for (BeadId other = along ? std::max(b.first, bead + apart) : b.first; other < b.first + b.count; ++other)
+      pairs.unclear.push_back({bead, other});
   }
 }
 

@@ -3,13 +3,13 @@
 // apart, or overlapping, all over the step. What is neither is not known: its polynomial must tell.
 //
 // First by swept balls: relative to a drift that all beads share, a bead's control points lie within some
-// distance of a centre, and so does the bead at all times; its ball lies in a larger one that rests. Boxes
-// around four swept balls each come before these. Those that they leave over by all control points: let d_k
-// be the differences of two beads' control points and R_k the sums of their radii. The beads' distance
-// exceeds R all over the step if for some direction n all n.d_k > R_k |n|, as their difference is a mean of
-// the d_k with weights that are never negative. It is below R if all |d_k| < R_k, by the triangle inequality.
-// The direction taken is d_0 plus the last d_k: where beads move little relative to each other it loses
-// nothing.
+// distance of a centre, and so does the bead at all times; its ball lies in a larger one that rests. Those
+// are sifted as balls at rest are, by the loops of the block tree: boxes around four each, then one by one.
+// What they leave over, by all control points: let d_k be the differences of two beads' control points and
+// R_k the sums of their radii. The beads' distance exceeds R all over the step if for some direction n all
+// n.d_k > R_k |n|, as their difference is a mean of the d_k with weights that are never negative. It is below
+// R if all |d_k| < R_k, by the triangle inequality. The direction taken is d_0 plus the last d_k: where beads
+// move little relative to each other it loses nothing.
 //
 // The bound of the errors. Coordinates are taken relative to the middle of all boxes and brought to [-1, 1]
 // by a power of two; let e = 2^-24. As a float one errs by at most 1.01 e, a difference of two by another 2e:
@@ -20,7 +20,8 @@
 // Squares are compared where n.d > 2^-40: then |n| > 2^-42, and nothing underflows. Of swept balls drift and
 // centre are what they are; how far a control point strays errs by at most 12.3e, for which 16e are added,
 // and by roundings of squares and root, for which there is another factor of 1 + 2^-20; the difference of two
-// centres errs by 7e, which the 64e cover.
+// centres errs by 7e, which the 64e cover. All of them are finite, so that what the loops of the block tree
+// do not find near is far; only where a block has no bead there is NaN.
 
 #include <array>
 #include <cstddef>
@@ -29,6 +30,8 @@
 #include <vector>
 
 #include "motions/curves/curves.h"
+#include "structures/blocks/block_kernels.h"
+#include "structures/blocks/vector_target.h"
 #include "structures/collision/pairs_asked.h"
 #include "structures/contacts/bead_blocks.h"
 
@@ -43,7 +46,7 @@ struct BlockPair {
 struct PairsOfBlocks {
   std::vector<BeadPair> unclear;
   std::vector<BeadPair> overlapping;  ///< all over the step; only where they are asked for
-  std::uint64_t looked_at = 0;        ///< pairs of beads one by one, those proved apart too
+  std::uint64_t looked_at = 0;        ///< pairs of four beads and four, those proved apart too
 
   void clear() {
     unclear.clear();
@@ -63,12 +66,13 @@ class BlockBeads {
 
   /// Of pairs of beads of two blocks, or of one with itself, those at least `apart` beads apart along a
   /// chain. Adds to `pairs`.
-  void look_at(std::span<const BlockPair> blocks, BeadId apart, bool list_overlapping,
-               PairsOfBlocks& pairs) const;
+  void look_at(std::span<const BlockPair> blocks, BeadId apart, bool list_overlapping, PairsOfBlocks& pairs);
   /// From now on as on processors without long vectors, for tests.
-  void use_short_vectors() { long_vectors_ = false; }
+  void use_short_vectors() { target_ = VectorTarget::plain; }
 
  private:
+  /// Swept balls, and boxes around them.
+  [[nodiscard]] Blocks<Dimension> swept();
   void find_drift(const Curves<Dimension>& curves, double scale);
   void set_radii(const Curves<Dimension>& curves, double scale);
   void look_at_all(const BeadBlock& a, const BeadBlock& b, BeadId apart, PairsOfBlocks& pairs) const;
@@ -80,7 +84,11 @@ class BlockBeads {
   std::vector<float> drift_;  // of each control point
   std::vector<double> radii_;
   double scale_of_radii_ = 0;
-  bool long_vectors_;
+  std::array<std::vector<float>, static_cast<std::size_t>(Dimension)> centers_;  // of swept balls
+  std::vector<float> reaches_;                                                   // their radii
+  std::vector<GroupBoxes<Dimension>> boxes_;
+  std::vector<std::uint32_t> necklaces_;  // of blocks
+  VectorTarget target_ = widest_vector_target();
   bool usable_ = false;  // floats: else lengths are too large or too small for them
 };
 

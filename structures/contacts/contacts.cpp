@@ -53,7 +53,6 @@ void Contacts<D>::find_pairs(typename MovingFamily<D>::Resting resting, bool lis
     for (BeadId i = 0; i < beads; ++i)
       for (BeadId j = i + 1; j < beads; ++j)
         if (asked.asks({i, j})) pairs.unclear.push_back({i, j});
-    pairs.looked_at = pairs.unclear.size();
   }
   if (absent_.empty()) return;
   const auto names_absent = [this](const BeadPair& p) {
@@ -81,7 +80,7 @@ void Contacts<D>::build() {
 template <int D>
 void Contacts<D>::start_step() {
   find_pairs(MovingFamily<D>::Resting::left_out, false, pairs_);
-  disjoint_.hold_never(family_.size() + pairs_.looked_at - pairs_.unclear.size());
+  disjoint_.hold_never(family_.size() + pairs_.looked_at);
   at_once_.clear();
   watch_from(0, true);
   if (!at_once_.empty()) settle_now();

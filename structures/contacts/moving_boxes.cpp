@@ -27,39 +27,46 @@ template <int Dimension>
   }
 }
 
-/// Bounds of the control points of a few beads, and whether all of a bead's are the same.
+/// Whether all control points of a bead are the same, for each of a few.
 template <int Dimension>
-[[KDS_LANES_TARGETS]] bool bound_beads(const Curves<Dimension>& curves, const BeadBlock& block, int controls,
+bool all_rest(const Curves<Dimension>& curves, const BeadBlock& block, int controls) {
+  for (BeadId b = block.first; b < block.first + block.count; ++b) {
+    for (int k = 1; k < controls; ++k) {
+      if (curves.radius(b, k) != curves.radius(b, 0)) return false;
+      for (int axis = 0; axis < Dimension; ++axis)
+        if (curves.coordinate(b, k, axis) != curves.coordinate(b, 0, axis)) return false;
+    }
+  }
+  return true;
+}
+
+/// Bounds of the control points of a few beads.
+template <int Dimension>
+[[KDS_LANES_TARGETS]] void bound_beads(const Curves<Dimension>& curves, const BeadBlock& block, int controls,
                                        double* sides) {
-  Lanes::Mask moves{};
-  bool same_radii = true;
   for (int k = 0; k < controls; ++k) {
     Lanes low(infinity), high(-infinity);
     for (BeadId b = block.first; b < block.first + block.count; ++b) {
-      const Lanes point = point_of(curves, b, k), start = point_of(curves, b, 0);
-      const double radius = curves.radius(b, k);
-      same_radii &= radius == curves.radius(b, 0);
-      low = Lanes::min(low, point - Lanes(radius));
-      high = Lanes::max(high, point + Lanes(radius));
-      moves |= (point < start) | (point > start);
+      const Lanes point = point_of(curves, b, k), radius(curves.radius(b, k));
+      low = Lanes::min(low, point - radius);
+      high = Lanes::max(high, point + radius);
     }
     for (int axis = 0; axis < Dimension; ++axis) {
       *sides++ = rounded_down(low.v[axis]);
       *sides++ = rounded_up(high.v[axis]);
     }
   }
-  bool rests = same_radii;
-  for (int axis = 0; axis < Dimension; ++axis) rests &= moves[axis] == 0;
-  return rests;
 }
 
 template <int Dimension>
-[[KDS_LANES_TARGETS]] std::uint32_t near_in_lanes(const double* box, const double* group, int controls) {
+[[KDS_LANES_TARGETS]] std::uint32_t near_in_lanes(const double* box, const double* group, int controls,
+                                                  std::uint32_t asked) {
   using Mask = Lanes::Mask;
   constexpr std::size_t fan = 16;
   Mask bits{0, 0, 0, 0};
   Mask weight{1, 2, 4, 8};
-  for (std::size_t first = 0; first < fan; first += Lanes::width) {
+  for (std::size_t first = 0; first < fan; first += Lanes::width, weight *= 16) {
+    if ((asked >> first & 15U) == 0) continue;
     Mask apart{0, 0, 0, 0};
     for (int axis = 0; axis < Dimension; ++axis) {
       Mask above{-1, -1, -1, -1}, below{-1, -1, -1, -1};
@@ -71,9 +78,8 @@ template <int Dimension>
       apart |= above | below;
     }
     bits |= ~apart & weight;
-    weight *= 16;
   }
-  return static_cast<std::uint32_t>((bits[0] | bits[1]) | (bits[2] | bits[3]));
+  return asked & static_cast<std::uint32_t>((bits[0] | bits[1]) | (bits[2] | bits[3]));
 }
 
 }  // namespace
@@ -102,16 +108,18 @@ void MovingBoxes<Dimension>::forget_rest() {
 }
 
 template <int Dimension>
-auto MovingBoxes<Dimension>::near_bits(const double* box, const double* group, int controls) -> Bits {
-  return near_in_lanes<Dimension>(box, group, controls);
+auto MovingBoxes<Dimension>::near_bits(const double* box, const double* group, int controls, Bits asked)
+    -> Bits {
+  return near_in_lanes<Dimension>(box, group, controls, asked);
 }
 
 template <int Dimension>
 void MovingBoxes<Dimension>::move_to(const Curves<Dimension>& curves, std::span<const BeadBlock> blocks) {
   std::swap(rests_, rested_);
-  for (std::size_t block = 0; block < blocks.size(); ++block)
-    rests_[block] =
-        bound_beads(curves, blocks[block], controls_, &sides_of_blocks_[block * sides_of_box()]) ? 1 : 0;
+  for (std::size_t block = 0; block < blocks.size(); ++block) {
+    bound_beads(curves, blocks[block], controls_, &sides_of_blocks_[block * sides_of_box()]);
+    rests_[block] = all_rest(curves, blocks[block], controls_) ? 1 : 0;
+  }
 }
 
 template <int Dimension>

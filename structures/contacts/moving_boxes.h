@@ -39,12 +39,14 @@ class MovingBoxes {
   [[nodiscard]] std::size_t level_count() const { return levels_.size(); }
   [[nodiscard]] std::size_t box_count(std::size_t level) const { return levels_[level].count; }
 
-  /// Which boxes of a group, those from fan * group on, may meet this box of the same level in the step.
-  [[nodiscard]] Bits near(std::size_t level, std::size_t box, std::size_t group) const {
+  /// Which of these boxes of a group, those from fan * group on, may meet this box of the same level in the
+  /// step.
+  [[nodiscard]] Bits near(std::size_t level, std::size_t box, std::size_t group, Bits asked) const {
     const Level& l = levels_[level];
-    return near_bits(&l.sides[box * sides_of_box()], &l.lanes[group * fan * sides_of_box()], controls_);
+    return near_bits(&l.sides[box * sides_of_box()], &l.lanes[group * fan * sides_of_box()], controls_,
+                     asked);
   }
-  /// Which boxes of a group there are: of others `near` says nothing.
+  /// Which boxes of a group there are.
   [[nodiscard]] Bits present(std::size_t level, std::size_t group) const {
     return levels_[level].present[group];
   }
@@ -73,7 +75,7 @@ class MovingBoxes {
   [[nodiscard]] static constexpr std::size_t place(int k, int axis, bool upper) {
     return 2 * static_cast<std::size_t>(k * Dimension + axis) + (upper ? 1 : 0);
   }
-  [[nodiscard]] static Bits near_bits(const double* box, const double* group, int controls);
+  [[nodiscard]] static Bits near_bits(const double* box, const double* group, int controls, Bits asked);
   void bound_boxes_of(const Level& below, Level& level) const;
   void lay_in_lanes(Level& level) const;
 
