@@ -62,7 +62,9 @@ Trajectory calphas_of(const Trajectory& necklace, const std::vector<Residue>& re
   return some;
 }
 
+/// 0 where three decimals are no number that is safely one.
 double rounded_up(double x) {
+  if (!(x > 1e-290 && x < 1e290)) return 0;
   const double unit = std::pow(10, std::floor(std::log10(x)) - 2);
   double rounded = x;
   for (double units = std::ceil(x / unit);; ++units) {

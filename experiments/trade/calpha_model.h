@@ -16,7 +16,8 @@ struct CalphaModel {
   std::vector<Trajectory> necklaces;
   std::vector<BeadRange> ranges;  ///< of its beads, one a necklace
   std::vector<double> radii;
-  /// A ball of it around a CA holds the balls of its residue, at all times: in three decimals, rounded up.
+  /// A ball of it around a CA holds the balls of its residue, at all times: in three decimals, rounded up. 0:
+  /// there is none, as numbers are too large or too small.
   double covering_radius = 0;
   // In the finest data, of each of its beads:
   std::vector<BeadId> bead;

@@ -115,7 +115,7 @@ class Settings {
   void add_calpha() {
     if (input_.residues == 0) return;
     add([&](TradeSetting& s) { take_calpha(s, input_); });
-    if (exact_.structure == "power") return;  // a diagram covers nothing
+    if (exact_.structure == "power" || input_.residue_radius == 0) return;  // a diagram covers nothing
     add([&](TradeSetting& s) {
       take_calpha(s, input_);
       s.calpha_radius = input_.residue_radius;

@@ -55,6 +55,13 @@ TEST(CalphaModel, NeedsNamesAndOtherBeads) {
   EXPECT_FALSE(calpha_model(std::vector(4, alone), std::vector<double>(4, 1.0), "1"));
 }
 
+TEST(CalphaModel, CoversNothingWhereNumbersEnd) {
+  std::vector<Trajectory> chains{small_chain(), small_chain()};
+  EXPECT_EQ(calpha_model(chains, std::vector<double>(12, 1e-3), "1")->covering_radius, 1.01);
+  chains[0].frames[1](0, 0) = 1e300;
+  EXPECT_EQ(calpha_model(chains, std::vector<double>(12, 1e-3), "1")->covering_radius, 0.0);
+}
+
 TEST(CalphaModel, TellsContactsOfResidues) {
   const std::vector<Trajectory> chains{small_chain(), small_chain()};
   const auto model = calpha_model(chains, std::vector<double>(12, 1.0), "1");
