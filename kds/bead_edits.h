@@ -28,8 +28,12 @@ class BeadEdits {
   [[nodiscard]] virtual bool is_absent(BeadId bead) const = 0;
 
  private:
-  // Simulator::change_motion alone asks for these, one after the other; absent beads may be among them.
+  // Simulator::change_motion alone asks for these, one after the other, each bead named once; absent beads
+  // may be among them.
   friend class Simulator;
+  /// Throws std::invalid_argument where the structure cannot follow these beads, whatever their curves will
+  /// be. All structures are asked before any releases.
+  virtual void require_release(std::span<const BeadId>) const {}
   /// The motion is about to have other curves for these beads: whatever was derived from them is given up.
   virtual void release(std::span<const BeadId> beads) = 0;
   /// It has them.

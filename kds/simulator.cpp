@@ -6,12 +6,26 @@
 #include <algorithm>
 #include <exception>
 #include <stdexcept>
+#include <unordered_set>
 #include <utility>
 
 #include "certificates/exact/exact_time.h"
 #include "kds/bead_edits.h"
 
 namespace kds {
+
+namespace {
+
+/// In the order in which they are named first.
+std::vector<BeadId> each_once(std::span<const BeadId> named) {
+  std::vector<BeadId> beads;
+  std::unordered_set<BeadId> found;
+  for (const BeadId bead : named)
+    if (found.insert(bead).second) beads.push_back(bead);
+  return beads;
+}
+
+}  // namespace
 
 /// While it lasts structures change. Where that ends by an exception they are who knows how, and it is never
 /// said to have ended.
@@ -150,11 +164,14 @@ void Simulator::require_standing_still() const {
 void Simulator::change_motion(std::span<const BeadId> beads, const std::function<void()>& set_curves) {
   const Entry entry(*this);
   require_standing_still();
+  const std::vector<BeadId> once = each_once(beads);
+  beads = once;
   for (KineticStructure* structure : structures_) {
     if (structure->edits() == nullptr)
       throw std::invalid_argument(fmt::format(
           "{}: its beads cannot change course within a step, only between two of them", structure->name()));
     for (const BeadId bead : beads) static_cast<void>(structure->edits()->is_absent(bead));  // is one
+    structure->edits()->require_release(beads);
   }
   Running running(*this);
   for (std::size_t s = 0; s < structures_.size(); ++s) {

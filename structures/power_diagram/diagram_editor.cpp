@@ -9,6 +9,7 @@
 
 #include "certificates/exact/exact_time.h"
 #include "motions/curves/positions.h"
+#include "structures/power_diagram/static_diagrams.h"
 
 namespace kds {
 
@@ -43,7 +44,45 @@ template <int Dimension>
 void DiagramEditor<Dimension>::require_cells() const {
   if (!state_.within_step)
     throw std::invalid_argument("the diagram can be edited only in a step in which all beads move");
-  if (!state_.has_cells()) rebuilder_.refuse_flat(state_.simulator.step());
+  if (!state_.has_cells())
+    throw std::invalid_argument("the diagram cannot be edited in a step in which all beads stay " +
+                                std::string(in_what));
+}
+
+template <int Dimension>
+void DiagramEditor<Dimension>::require_release(std::span<const BeadId> beads) const {
+  if (std::any_of(beads.begin(), beads.end(), [this](BeadId b) { return !state_.is_absent(b); }))
+    require_cells();
+}
+
+/// A cell of others tells that these do not stay flat, nearly always the first one.
+template <int Dimension>
+bool DiagramEditor<Dimension>::is_flat_without(BeadId bead) const {
+  if (state_.bead_count() - state_.absent_count <= Dimension + 1) return true;
+  constexpr int most_cells = 8;
+  int looked_at = 0;
+  for (CellId cell = 0; cell < state_.triangulation.cells().size() && looked_at < most_cells; ++cell) {
+    if (!state_.triangulation.is_live(cell) || state_.is_infinite(cell) ||
+        state_.place_of(cell, bead) <= Dimension)
+      continue;
+    Beads beads = state_.beads_of(cell);
+    std::sort(beads.begin(), beads.end());
+    if (!stays_flat(beads)) return false;
+    ++looked_at;
+  }
+  std::vector<BeadId> others = beads_present(state_);
+  std::erase(others, bead);
+  return stays_flat(others);
+}
+
+/// At all times: at more than a function of theirs has roots that is not zero throughout.
+template <int Dimension>
+bool DiagramEditor<Dimension>::stays_flat(std::span<const BeadId> beads) const {
+  for (int times = 0; times <= Dimension * state_.motion.degree(); ++times) {
+    const Dyadic time(Integer(2 * times + 1), 7);
+    if (static_diagram(state_, beads, time, false).dimension == Dimension) return false;
+  }
+  return true;
 }
 
 template <int Dimension>
@@ -78,6 +117,9 @@ void DiagramEditor<Dimension>::erase(BeadId bead) {
     throw std::invalid_argument("the power diagram needs at least " + std::to_string(Dimension + 1) +
                                 " beads");
   if (state_.hidden.contains(bead)) return take_out_hidden(bead);
+  if (is_flat_without(bead))
+    throw std::invalid_argument("without bead " + std::to_string(bead) + " all beads stay " + in_what +
+                                ": no power diagram is left");
   const std::vector<CellId> around = state_.triangulation.cells_around(bead);
   hidden_.displace(around);
   take_out(bead, around);
@@ -93,16 +135,26 @@ auto DiagramEditor<Dimension>::positions_of_released(const Dyadic& time) const -
 }
 
 template <int Dimension>
+std::vector<double> DiagramEditor<Dimension>::numbers_of_released() const {
+  const Curves<Dimension> curves = state_.motion.curves();
+  std::vector<double> numbers;
+  for (const BeadId bead : released_)
+    for (int k = 0; k <= curves.own_degree(); ++k)
+      numbers.insert(numbers.end(), curves.control_point(bead, k),
+                     curves.control_point(bead, k) + Dimension + 1);
+  return numbers;
+}
+
+template <int Dimension>
 void DiagramEditor<Dimension>::release(std::span<const BeadId> beads) {
-  require_cells();
   released_.clear();
   before_.clear();
   around_.clear();
   std::copy_if(beads.begin(), beads.end(), std::back_inserter(released_),
                [this](BeadId bead) { return !state_.is_absent(bead); });
   std::sort(released_.begin(), released_.end());
-  released_.erase(std::unique(released_.begin(), released_.end()), released_.end());
   if (released_.empty()) return;
+  numbers_before_ = numbers_of_released();
   if (const auto time = rational_now()) before_ = positions_of_released(*time);
   state_.present = {};
   if (released_.size() > 1) {
@@ -121,7 +173,8 @@ void DiagramEditor<Dimension>::take_up() {
   if (released_.empty()) return;
   for (const BeadId bead : released_) state_.record({Events::changes, 1, {bead}});
   const auto time = rational_now();
-  const bool jump = !time || positions_of_released(*time) != before_;
+  const bool jump =
+      numbers_of_released() != numbers_before_ && (!time || positions_of_released(*time) != before_);
   if (released_.size() > 1) {
     if (jump) return rebuilder_.rebuild_at_first_time_that_works();
     rebuilder_.watch_all();
@@ -141,6 +194,10 @@ void DiagramEditor<Dimension>::move_elsewhere(BeadId bead) {
   BeadId near = no_bead;
   if (around_.empty()) {
     take_out_hidden(bead);
+  } else if (is_flat_without(bead)) {
+    facets_.drop_all();
+    hidden_.drop_all();
+    return rebuilder_.rebuild_at_first_time_that_works();
   } else {
     const Beads& v = state_.beads_of(around_[0]);
     near = *std::find_if(v.begin(), v.end(), [&](BeadId b) { return b != bead && b != infinite_bead; });

@@ -9,11 +9,12 @@
 //            of the beads hidden there that fill the same place: all of these are cells of the whole, and
 //            hidden beads come back as they are in it.
 //   change   the certificates that name the bead are made anew; where it jumps, it is erased and inserted.
-//            Of many beads at once: all certificates; where any jumps, all cells, and that is counted.
+//            Of many beads at once, or where the others alone would have no diagram: all certificates; where
+//            any jumps, all cells, and that is counted.
 //
 // At an irrational time, that of an event, nobody can build a static triangulation: cells come from one at a
 // time soon after, once their signs just after the present time say that they are those of then. And whether
-// a bead jumps is not looked at: it is taken to.
+// a bead jumps is not looked at: it is taken to, unless its curve is the one that it had.
 //
 // Infinite cells take part like any other. Ties for good (whole grids at rest) may leave flat cells, or a
 // static triangulation that decided otherwise than the cells that stay: then all is built anew, and counted.
@@ -54,6 +55,7 @@ class DiagramEditor {
   void leave_out(BeadId bead);
   void insert(BeadId bead, BeadId near);
   void erase(BeadId bead);
+  void require_release(std::span<const BeadId> beads) const;
   void release(std::span<const BeadId> beads);
   void take_up();
 
@@ -64,6 +66,10 @@ class DiagramEditor {
  private:
   void require_time() const;
   void require_cells() const;
+  static constexpr const char* in_what = Dimension == 3 ? "in one plane" : "on one line";
+  /// Whether the others are too few for a diagram, or stay in one plane (on one line).
+  [[nodiscard]] bool is_flat_without(BeadId bead) const;
+  [[nodiscard]] bool stays_flat(std::span<const BeadId> beads) const;
   /// The present time, if it is rational.
   [[nodiscard]] std::optional<Dyadic> rational_now() const;
   void set_absent(BeadId bead, bool absent);
@@ -75,6 +81,7 @@ class DiagramEditor {
   [[nodiscard]] std::vector<Beads> fill_without(BeadId bead, std::span<const CellId> hole,
                                                 const Dyadic& time) const;
   [[nodiscard]] std::vector<ExactPosition> positions_of_released(const Dyadic& time) const;
+  [[nodiscard]] std::vector<double> numbers_of_released() const;
   void move_elsewhere(BeadId bead);
   [[nodiscard]] CellId cell_near(BeadId near) const;
   [[nodiscard]] int power_against(BeadId bead, CellId cell);
@@ -89,8 +96,10 @@ class DiagramEditor {
   HiddenGuards<Dimension>& hidden_;
   DiagramRebuilder<Dimension>& rebuilder_;
   CellExchange<Dimension> exchange_;
-  // Beads between two courses, where they are if that is rational, and the cells around one of them.
+  // Beads between two courses, the control points of the first, where they are if that is rational, and the
+  // cells around one of them.
   std::vector<BeadId> released_;
+  std::vector<double> numbers_before_;
   std::vector<ExactPosition> before_;
   std::vector<CellId> around_;
   // Replay: cells that the edit being read clears and fills.

@@ -190,6 +190,11 @@ void PowerDiagram<Dimension>::change_motion(BeadId bead, const std::function<voi
 }
 
 template <int Dimension>
+void PowerDiagram<Dimension>::require_release(std::span<const BeadId> beads) const {
+  parts_->editor.require_release(beads);
+}
+
+template <int Dimension>
 void PowerDiagram<Dimension>::release(std::span<const BeadId> beads) {
   parts_->editor.release(beads);
 }

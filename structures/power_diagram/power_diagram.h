@@ -66,7 +66,8 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
 
   // Edits (bead_edits.h). Cost: the beads around, and the way to them. Where ties decide how cells lie, and
   // where many beads jump at once, the diagram is built anew instead, and the rebuild counted. Refused
-  // besides is what leaves too few beads; if all left stay in one plane (on one line), InputError.
+  // besides is what leaves too few beads, or only such as stay in one plane (on one line), and all edits in a
+  // step in which all beads do. Where other courses make them do, InputError, and the run is over.
 
   [[nodiscard]] BeadEdits* edits() override { return this; }
   void leave_out(BeadId bead) override;
@@ -103,6 +104,7 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
  private:
   struct Parts;
 
+  void require_release(std::span<const BeadId> beads) const override;
   void release(std::span<const BeadId> beads) override;
   void take_up(std::span<const BeadId> beads) override;
   void count_certificates_per_bead();

@@ -148,7 +148,13 @@ class EditedRun {
       if (structure->is_absent(b)) {
         structure->insert(b);
       } else if (b < 4) {
-        structure->erase(b);
+        try {
+          structure->erase(b);
+        } catch (const std::invalid_argument& refusal) {  // all left would stay in one plane, or on one line
+          EXPECT_EQ(scene_, Scene::grid) << refusal.what();
+          EXPECT_THAT(refusal.what(), HasSubstr("all beads stay"));
+          EXPECT_FALSE(structure->is_absent(b));
+        }
       }
     }
     const ExactTime& now = simulator_.now().exact();
@@ -386,6 +392,103 @@ TEST(BeadEdits, AreRefusedByStructuresThatCannotFollow) {
   expect_refused([&] { simulator.change_motion(std::array<BeadId, 1>{3}, [] { FAIL(); }); },
                  "wrapped: its beads cannot change course within a step, only between two of them");
   sorted.erase(3);  // that concerns nobody else
+  simulator.leave_step();
+}
+
+using Plane = BezierMotion<2, 1>;
+
+/// The bead goes straight from one place to the other.
+void set_line(Plane& motion, BeadId bead, std::array<double, 2> from, std::array<double, 2> to) {
+  for (int axis = 0; axis < 2; ++axis) {
+    motion.set_coordinate(bead, 0, axis, from[static_cast<std::size_t>(axis)]);
+    motion.set_coordinate(bead, 1, axis, to[static_cast<std::size_t>(axis)]);
+  }
+}
+
+struct ListAndDiagram {
+  explicit ListAndDiagram(const Plane& motion) : sorted(simulator, motion), power(simulator, motion) {
+    simulator.listen(history);
+    simulator.build();
+    simulator.enter_step();
+  }
+  [[nodiscard]] std::uint64_t changes() const {
+    return sorted.statistics.events_by_kind[SortedList<2>::changes] +
+           power.statistics.events_by_kind[PowerDiagram<2>::changes];
+  }
+
+  Simulator simulator{AuditMode::events};
+  SortedList<2> sorted;
+  PowerDiagram<2> power;
+  History history;
+};
+
+// Three beads are a diagram, two are none: nothing is flat before or after.
+TEST(BeadEdits, ABeadWithoutWhichNoDiagramIsLeftChangesCourse) {
+  for (const bool at_event : {false, true}) {
+    Plane motion(3);
+    set_line(motion, 0, {0, 0}, {3, 0});
+    set_line(motion, 1, {1, 1}, {1, 1});
+    set_line(motion, 2, {5, 4}, {5, 4});
+    ListAndDiagram run(motion);
+    if (at_event) {
+      ASSERT_TRUE(run.simulator.run_next());
+      EXPECT_NEAR(run.simulator.now().lower(), 1.0 / 3, 1e-9);  // no dyadic
+    } else {
+      run.simulator.run_until(Dyadic(0.25));
+    }
+    const std::array<BeadId, 1> last{2};
+    run.simulator.change_motion(last, [] {});
+    EXPECT_EQ(run.power.statistics.rebuilds, 0U);  // it does not jump
+    run.simulator.change_motion(last, [&] { set_line(motion, 2, {0.5, 4}, {-6, 2}); });
+    EXPECT_EQ(run.power.statistics.rebuilds, 1U);
+    EXPECT_EQ(run.changes(), 4U);
+    run.simulator.leave_step();
+    EXPECT_EQ(run.sorted.order().front(), 2U);
+  }
+}
+
+TEST(BeadEdits, ABeadWithoutWhichAllIsFlatChangesCourseAndIsNotErased) {
+  Plane motion(4);
+  for (BeadId b = 0; b < 3; ++b) set_line(motion, b, {1.0 * b, 0}, {1.0 * b, 1});
+  set_line(motion, 3, {1, 3}, {4, 3});
+  ListAndDiagram run(motion);
+  run.simulator.run_until(Dyadic(0.5));
+  run.simulator.change_motion(std::array<BeadId, 1>{3}, [&] { set_line(motion, 3, {1, -3}, {1, -2}); });
+  const std::size_t told = run.history.events.size();
+  expect_refused([&] { run.power.erase(3); }, "without bead 3 all beads stay on one line");
+  EXPECT_FALSE(run.power.is_absent(3));
+  EXPECT_EQ(run.history.events.size(), told);
+  run.power.erase(1);
+  expect_refused([&] { run.power.erase(0); }, "at least 3 beads");
+  run.simulator.leave_step();
+}
+
+TEST(BeadEdits, AllStructuresAreAskedBeforeAnyChanges) {
+  Plane motion(4);
+  for (BeadId b = 0; b < 4; ++b) set_line(motion, b, {1.0 * b, 0}, {3.0 - b, 1});
+  ListAndDiagram run(motion);  // all on one line
+  const std::size_t told = run.history.events.size();
+  expect_refused([&] { run.simulator.change_motion(std::array<BeadId, 1>{3}, [] { FAIL(); }); },
+                 "in which all beads stay on one line");
+  expect_refused([&] { run.power.erase(3); }, "in which all beads stay on one line");
+  EXPECT_EQ(run.history.events.size(), told);
+  run.simulator.leave_step();
+  EXPECT_THAT(run.sorted.order(), testing::ElementsAre(3, 2, 1, 0));
+}
+
+TEST(BeadEdits, ABeadNamedTwiceChangesOnce) {
+  Random random(3);
+  Plane motion(6);
+  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Scene::generic);
+  Simulator simulator(AuditMode::events);
+  Structures<2> structures(simulator, motion, 6);
+  simulator.build();
+  simulator.enter_step();
+  simulator.change_motion(std::array<BeadId, 4>{3, 3, 1, 3},
+                          [&] { set_curve(motion, 3, random, Scene::generic); });
+  EXPECT_EQ(structures.sorted.statistics.events_by_kind[SortedList<2>::changes], 2U);
+  EXPECT_EQ(structures.power.statistics.events_by_kind[PowerDiagram<2>::changes], 2U);
+  EXPECT_EQ(structures.contacts.statistics.events_by_kind[Contacts<2>::changes], 2U);
   simulator.leave_step();
 }
 
