@@ -1,6 +1,10 @@
 #include "experiments/program/timing.h"
 
+#include <fmt/format.h>
+
 #include <utility>
+
+#include "experiments/output/text.h"
 
 namespace kds {
 
@@ -34,6 +38,11 @@ class RepeatedWork {
 };
 
 }  // namespace
+
+std::string spread_text(const Spread& spread) {
+  return fmt::format("{} ({} to {})", short_decimal(spread.median), short_decimal(spread.least),
+                     short_decimal(spread.most));
+}
 
 Spread repeated_seconds(std::size_t rounds, std::function<double()> work, double enough) {
   RepeatedWork repeated(std::move(work), enough);

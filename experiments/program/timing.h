@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "kds/seconds.h"
@@ -30,6 +31,9 @@ inline Spread spread_of(const std::vector<double>& values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   return {median_of(values), *least, *most};
 }
+
+/// "0.210 (0.204 to 0.233)".
+[[nodiscard]] std::string spread_text(const Spread& spread);
 
 /// Seconds of a call, as `work` reports them. Short work is called often enough in a round to be measured,
 /// and once before, for caches; of longer work the first call is the first round. Work that takes more than

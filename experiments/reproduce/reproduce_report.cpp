@@ -24,11 +24,8 @@ std::string shown(double value) {
   return is_count ? with_thousands(static_cast<std::uint64_t>(value)) : short_decimal(value);
 }
 std::string shown(const Value& value) { return value ? shown(*value) : "-"; }
-// "0.210 (0.204 to 0.233)".
 std::string shown(const PaperValue& ours) {
-  if (!ours.rounds) return shown(ours.value);
-  return fmt::format("{} ({} to {})", short_decimal(ours.value), short_decimal(ours.rounds->least),
-                     short_decimal(ours.rounds->most));
+  return ours.rounds ? spread_text(*ours.rounds) : shown(ours.value);
 }
 
 std::string name_of(const PaperRow& row) {
