@@ -148,6 +148,16 @@ std::vector<std::filesystem::path> trajectories_in(const std::filesystem::path& 
   return found;
 }
 
+Json settings_json(std::string_view subject, const BenchInputs& inputs) {
+  Json trajectories = Json::array();
+  for (const std::filesystem::path& file : inputs.trajectories) trajectories.push_back(file.string());
+  return {{"subject", subject},
+          {"sizes", inputs.sizes ? Json(*inputs.sizes) : Json(nullptr)},
+          {"trajectories", trajectories},
+          {"instances", inputs.instances.string()},
+          {"rounds", inputs.rounds}};
+}
+
 }  // namespace
 
 int bench_command(const Arguments& arguments) {
@@ -193,7 +203,9 @@ int bench_command(const Arguments& arguments) {
   const Rows rows =
       subject.bench(inputs, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
   bar.erase();
-  deliver_table(destinations, "bench", {bench_json(rows), bench_csv(rows), bench_table(rows)});
+  deliver_table(destinations, "bench",
+                {bench_json("kds bench " + shell_words(arguments), settings_json(subject.name, inputs), rows),
+                 bench_csv(rows), bench_table(rows)});
   return 0;
 }
 

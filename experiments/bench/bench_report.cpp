@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
-
-#include "experiments/output/result_json.h"
+#include <utility>
 
 namespace kds {
 
@@ -18,9 +17,9 @@ std::string figure(const std::optional<double>& x) { return x ? fmt::format("{:.
 
 }  // namespace
 
-std::string bench_json(std::span<const BenchRow> rows) {
-  Json json = Json::object();
-  add_provenance(json);
+std::string bench_json(std::string command, Json settings, std::span<const BenchRow> rows) {
+  Json json;
+  json["settings"] = std::move(settings);
   json["rows"] = Json::array();
   for (const BenchRow& row : rows) {
     const auto holds = row.holds();
@@ -35,6 +34,7 @@ std::string bench_json(std::span<const BenchRow> rows) {
                             {"goal", number_or_null(row.goal)},
                             {"holds", holds ? Json(*holds) : Json(nullptr)}});
   }
+  add_provenance(json, std::move(command));
   return text_of(json);
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/output/result_json.h"
+
 namespace kds {
 
 struct BenchRow {
@@ -30,8 +32,8 @@ struct BenchRow {
   }
 };
 
-/// {machine, version, rows}; ends with a newline.
-[[nodiscard]] std::string bench_json(std::span<const BenchRow> rows);
+/// Ends with a newline.
+[[nodiscard]] std::string bench_json(std::string command, Json settings, std::span<const BenchRow> rows);
 /// A header and one line a row.
 [[nodiscard]] std::string bench_csv(std::span<const BenchRow> rows);
 [[nodiscard]] std::string bench_table(std::span<const BenchRow> rows);

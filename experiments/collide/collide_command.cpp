@@ -96,13 +96,12 @@ int collide_command(const Arguments& arguments) {
 
   const std::string command_line = "kds collide " + shell_words(arguments);
   Json json;
-  json["command"] = command_line;
   json["input"] = input_json(options, frames);
   json["settings"] = settings_json(options);
   json["rows"] = collide_rows_json(report);
   json["frames"] = collide_frames_json(report);
   json["warnings"] = warnings;
-  add_provenance(json);
+  add_provenance(json, command_line);
   results.deliver(report, text_of(json), file_names(options),
                   made_by("collide", command_line, settings_json(options)));
   return 0;

@@ -143,12 +143,11 @@ int missed_command(const Arguments& arguments) {
 
   const std::string command_line = "kds missed " + shell_words(arguments);
   Json json;
-  json["command"] = command_line;
   json["input"] = input_json(task, report.input);
   json["settings"] = settings_json(task);
   json["rows"] = missed_rows_json(report.rows);
   json["warnings"] = warnings;
-  add_provenance(json);
+  add_provenance(json, command_line);
   deliver_table(options.destinations, kName,
                 {text_of(json), missed_csv(report.rows), missed_table(report.rows), [&] {
                    return missed_page(report.rows, file_names(task),

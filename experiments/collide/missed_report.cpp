@@ -36,7 +36,11 @@ std::string percent_text(const MissedRow& row) {
   return fraction ? fmt::format("{:.1f}%", 100 * *fraction) : "-";
 }
 
-// Of each factor, at the least stride above one that misses some, and at the largest.
+std::string frames_at(std::size_t stride) {
+  return stride == 1 ? "every frame" : fmt::format("one frame in {}", stride);
+}
+
+// Of each factor, at the least stride and at the largest.
 std::string findings(std::span<const MissedRow> rows) {
   std::string html;
   for (std::size_t first = 0; first < rows.size();) {
@@ -44,11 +48,12 @@ std::string findings(std::span<const MissedRow> rows) {
     while (end < rows.size() && rows[end].factor == rows[first].factor) ++end;
     const MissedRow &least = rows[first], &most = rows[end - 1];
     html += fmt::format(
-        "<p>With radii times {}, of {} contacts <strong>{}</strong> are missed by looking at every {}. frame",
-        least.factor, with_thousands(least.contacts), percent_text(least), least.stride);
+        "<p>With radii times {}, of {} contacts <strong>{}</strong> are missed by looking at {}",
+        least.factor, with_thousands(least.contacts), percent_text(least), frames_at(least.stride));
     if (end - first > 1)
-      html += fmt::format(", <strong>{}</strong> at every {}.", percent_text(most), most.stride);
-    html += "</p>\n";
+      html +=
+          fmt::format(", <strong>{}</strong> by looking at {}", percent_text(most), frames_at(most.stride));
+    html += ".</p>\n";
     first = end;
   }
   return html;
@@ -109,12 +114,13 @@ std::string missed_page(std::span<const MissedRow> rows, const std::string& inpu
   page.words =
       "A <em>contact</em> of two beads goes from the moment at which their closed balls begin to meet to "
       "that at which they part, or is a touch; those that last at the first or the last frame count too. "
-      "Their times are exact for beads that move between frames as told. Of every <em>stride</em>-th frame "
-      "<em>frames</em> are looked at, the first among them: a contact is <em>found</em> if one of them lies "
-      "in it, its ends included, and <em>missed</em> otherwise.";
+      "Their times are exact for beads that move between frames as told. One frame in <em>stride</em> is "
+      "looked at, the first among them, <em>frames</em> in all: a contact is <em>found</em> if one of them "
+      "lies in it, its ends included, and <em>missed</em> otherwise.";
   if (const std::string plot = plot_of(rows); !plot.empty())
     page.body = html_section(
-        "By stride", html_figure(plot, "Contacts that are missed by looking at every stride-th frame only."));
+        "By stride",
+        html_figure(plot, "Contacts that are missed by looking at one frame in <em>stride</em>."));
   page.body += html_section("Figures", table(rows));
   return html_page(page);
 }

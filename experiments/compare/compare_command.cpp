@@ -67,12 +67,11 @@ int compare_command(const Arguments& arguments) {
 
   const std::string command_line = "kds compare " + shell_words(arguments);
   Json json;
-  json["command"] = command_line;
   json["inputs"] = compared_inputs_json(comparison);
   json["settings"] = settings_json(options);
   json["rows"] = compare_rows_json(comparison);
   json["warnings"] = warnings;
-  add_provenance(json);
+  add_provenance(json, command_line);
   deliver_table(destinations, kName, {text_of(json), compare_csv(comparison), compare_table(comparison), [&] {
                                         return compare_page(
                                             comparison, made_by(kName, command_line, settings_json(options)));

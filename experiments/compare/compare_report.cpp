@@ -126,8 +126,7 @@ std::vector<std::string> compare_cells(const CompareRow& row) {
           with_thousands(row.structure.peak),
           with_thousands(row.structure.per_bead_max),
           seconds ? short_decimal(1e6 * *seconds) : "-",
-          fmt::format("{} ({} to {})", short_decimal(row.seconds.median), short_decimal(row.seconds.least),
-                      short_decimal(row.seconds.most)),
+          spread_text(row.seconds),
           kinds_text(row)};
 }
 

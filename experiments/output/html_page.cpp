@@ -40,9 +40,10 @@ dd { margin: 0; overflow-wrap: anywhere; }
 .scroll { overflow-x: auto; margin: .6rem 0 1.2rem; }
 table { border-collapse: separate; border-spacing: 0; font-size: .92rem; font-variant-numeric: tabular-nums; }
 th, td { padding: .26rem 0 .26rem 1.5rem; text-align: right; vertical-align: top; white-space: nowrap; }
-thead th { border-bottom: 2px solid var(--ink); vertical-align: bottom; font-weight: 600; }
+td small { display: block; color: var(--soft); }
+thead th { border-bottom: 2px solid var(--ink); vertical-align: bottom; font-weight: 600; white-space: normal; }
 th:first-child { position: sticky; left: 0; background: var(--page); padding-left: 0; padding-right: .6rem;
-                 text-align: left; font-weight: 600; white-space: normal; min-width: 7rem; max-width: 19rem; }
+                 text-align: left; font-weight: 600; white-space: normal; min-width: 9rem; max-width: 19rem; }
 tbody th, tbody td { border-top: 1px solid var(--line); }
 tbody tr:first-child > * { border-top: 0; }
 tbody tr.detail > * { border-top: 0; }
@@ -130,6 +131,18 @@ std::string html_section(const std::string& heading, const std::string& content)
   return content.empty() ? "" : fmt::format("<h2>{}</h2>\n{}", html_escaped(heading), content);
 }
 
+namespace {
+
+// What stands in brackets behind a value, such as its spread, goes below it.
+std::string cell_text(const std::string& cell) {
+  const std::size_t bracket = cell.find(" (");
+  if (bracket == std::string::npos || !cell.ends_with(')')) return html_escaped(cell);
+  return fmt::format("{} <small>{}</small>", html_escaped(cell.substr(0, bracket)),
+                     html_escaped(cell.substr(bracket + 1)));
+}
+
+}  // namespace
+
 std::string html_table(const std::vector<std::string>& columns, const std::vector<HtmlRow>& rows) {
   std::string html = "<div class=\"scroll\"><table>\n<thead><tr>";
   for (const std::string& column : columns)
@@ -138,8 +151,9 @@ std::string html_table(const std::vector<std::string>& columns, const std::vecto
   for (const HtmlRow& row : rows) {
     html += row.detail ? "<tr class=\"detail\">" : "<tr>";
     for (std::size_t c = 0; c < columns.size(); ++c) {
-      const std::string cell = c < row.cells.size() ? html_escaped(row.cells[c]) : "";
-      html += c == 0 ? fmt::format("<th scope=\"row\">{}</th>", cell) : fmt::format("<td>{}</td>", cell);
+      const std::string cell = c < row.cells.size() ? row.cells[c] : "";
+      html += c == 0 ? fmt::format("<th scope=\"row\">{}</th>", html_escaped(cell))
+                     : fmt::format("<td>{}</td>", cell_text(cell));
     }
     html += "</tr>\n";
   }

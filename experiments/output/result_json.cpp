@@ -79,11 +79,15 @@ const Json* Json::find(std::string_view name) const {
   return nullptr;
 }
 
-void add_provenance(Json& json) {
-  json["version"] = program_version();
+void add_provenance(Json& json, std::string command) {
+  Json whole{{"command", std::move(command)}};
+  if (const Json::Members* members = json.members())
+    for (const auto& [name, value] : *members) whole[name] = value;
+  whole["version"] = program_version();
   const Machine machine = this_machine();
-  json["machine"] = {
+  whole["machine"] = {
       {"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}, {"compiler", machine.compiler}};
+  json = std::move(whole);
 }
 
 std::string text_of(const Json& json) {

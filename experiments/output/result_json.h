@@ -65,8 +65,8 @@ class Json {
   std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, std::string, Items, Members> value_;
 };
 
-/// `version` and `machine`.
-void add_provenance(Json& json);
+/// To an object: first `command`, the command line, last `version` and `machine`, as every result has them.
+void add_provenance(Json& json, std::string command);
 
 /// Indented, ends with a newline. File names need not be UTF-8, JSON must be: wrong bytes are replaced.
 [[nodiscard]] std::string text_of(const Json& json);

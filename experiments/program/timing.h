@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "kds/seconds.h"
@@ -30,25 +32,20 @@ inline Spread spread_of(const std::vector<double>& values) {
   return {median_of(values), *least, *most};
 }
 
-/// Of the seconds that `work` reports of a call. Short work is called often enough in a round to be measured,
+/// "0.210 (0.204 to 0.233)".
+[[nodiscard]] std::string spread_text(const Spread& spread);
+
+/// Seconds of a call, as `work` reports them. Short work is called often enough in a round to be measured,
 /// and once before, for caches; of longer work the first call is the first round. Work that takes more than
 /// `enough` seconds is called once in all.
-template <class Work>
-Spread repeated_seconds(std::size_t rounds, const Work& work, double enough = 1) {
-  constexpr double least = 1e-3;
-  double once = work();
-  if (once > enough) return spread_of({once});
-  const bool is_short = once < least;
-  if (is_short) once = work();  // caches are warm
-  const auto calls = static_cast<std::size_t>(std::max(1.0, least / std::max(once, 1e-9)));
-  std::vector<double> seconds;
-  if (!is_short) seconds.push_back(once);
-  while (seconds.size() < rounds) {
-    double sum = 0;
-    for (std::size_t call = 0; call < calls; ++call) sum += work();
-    seconds.push_back(sum / static_cast<double>(calls));
-  }
-  return spread_of(seconds);
-}
+[[nodiscard]] Spread repeated_seconds(std::size_t rounds, std::function<double()> work, double enough = 1);
+
+/// The same of each work in turn, for machines drift: its seconds by round.
+[[nodiscard]] std::vector<std::vector<double>> seconds_in_turn(std::size_t rounds,
+                                                               std::vector<std::function<double()>> works);
+
+/// How many times as long as the others a work took, round by round. What was called once stands beside every
+/// round of the other.
+[[nodiscard]] Spread ratios_by_round(const std::vector<double>& seconds, const std::vector<double>& others);
 
 }  // namespace kds

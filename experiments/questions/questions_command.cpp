@@ -128,11 +128,10 @@ int questions_command(const Arguments& arguments) {
   const std::string command_line = "kds questions " + shell_words(arguments);
   const Json settings{{"questions", asked.questions}, {"seed", asked.seed}, {"rounds", asked.rounds}};
   Json json;
-  json["command"] = command_line;
   json["settings"] = settings;
   json["rows"] = question_rows_json(questions);
   json["questions"] = questions_json(questions);
-  add_provenance(json);
+  add_provenance(json, command_line);
   deliver_table(asked.destinations, kName,
                 {text_of(json), questions_csv(questions), questions_text(questions),
                  [&] { return questions_page(questions, made_by(kName, command_line, settings)); }});

@@ -12,14 +12,13 @@ namespace kds {
 
 namespace {
 
-// The values of a column that there are, in order.
+// Of a column, in order.
 std::vector<double> values_of(const PaperTable& table, std::string_view column) {
   const auto place = std::find_if(table.columns.begin(), table.columns.end(),
                                   [&](const PaperColumn& c) { return c.name == column; });
   const auto index = static_cast<std::size_t>(place - table.columns.begin());
   std::vector<double> values;
-  for (const PaperRow& row : table.rows)
-    if (row.ours[index]) values.push_back(*row.ours[index]);
+  for (const PaperRow& row : table.rows) values.push_back(row.ours[index].value);
   return values;
 }
 

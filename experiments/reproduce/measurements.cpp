@@ -4,7 +4,6 @@
 #include <array>
 #include <iterator>
 
-#include "experiments/program/timing.h"
 #include "structures/collision/brute_force.h"
 #include "structures/collision/hierarchy_search.h"
 #include "structures/triangulation/diagram_edges.h"
@@ -14,11 +13,6 @@
 namespace kds {
 
 namespace {
-
-template <class Work>
-double median_seconds(std::size_t rounds, const Work& work) {
-  return repeated_seconds(rounds, work).median;
-}
 
 std::vector<double> weights_of(const Subject& subject) {
   std::vector<double> weights;
@@ -38,12 +32,12 @@ Construction construction(const Subject& subject, std::size_t frame, std::size_t
   LayeredHierarchy<Dimension> layered(subject.necklaces);
   const std::vector<double> weights = weights_of(subject);
   Construction result;
-  result.wrapped =
-      median_seconds(rounds, [&] { return processor_seconds_of([&] { wrapped.build(balls); }); });
-  result.layered =
-      median_seconds(rounds, [&] { return processor_seconds_of([&] { layered.build(balls); }); });
-  result.power = median_seconds(
-      rounds, [&] { return seconds_to_triangulate<Dimension>(subject.frames[frame], weights).processor; });
+  const auto seconds = seconds_in_turn(
+      rounds, {[&] { return processor_seconds_of([&] { wrapped.build(balls); }); },
+               [&] { return processor_seconds_of([&] { layered.build(balls); }); },
+               [&] { return seconds_to_triangulate<Dimension>(subject.frames[frame], weights).processor; }});
+  result.layered_per_wrapped = ratios_by_round(seconds[1], seconds[0]);
+  result.power_per_wrapped = ratios_by_round(seconds[2], seconds[0]);
   result.tightness = tightness_of(wrapped, layered);
   return result;
 }
@@ -53,18 +47,20 @@ SelfCollision self_collision(const Subject& subject, std::size_t frame, std::siz
   const Balls<Dimension> balls = balls_at<Dimension>(subject, frame);
   const PairsAsked asked{subject.necklaces, true, 2, true};
   SelfCollision result;
-  const auto search = [&](Hierarchy kind, double& seconds, std::uint64_t& pairs) {
-    SphereTree<Dimension> tree(kind, subject.necklaces);
-    tree.build(balls);
-    seconds = median_seconds(
-        rounds, [&] { return processor_seconds_of([&] { pairs = find_pairs(tree, asked).family; }); });
+  SphereTree<Dimension> wrapped(Hierarchy::wrapped, subject.necklaces),
+      layered(Hierarchy::layered, subject.necklaces);
+  wrapped.build(balls);
+  layered.build(balls);
+  const auto search = [&asked](SphereTree<Dimension>& tree, std::uint64_t& pairs) {
+    return [&] { return processor_seconds_of([&] { pairs = find_pairs(tree, asked).family; }); };
   };
-  search(Hierarchy::wrapped, result.wrapped, result.wrapped_pairs);
-  search(Hierarchy::layered, result.layered, result.layered_pairs);
   std::size_t colliding = 0;  // used, so that nothing can be left out
-  result.quadratic = median_seconds(rounds, [&] {
-    return processor_seconds_of([&] { colliding += pairs_by_force(balls, asked).size(); });
-  });
+  const auto seconds = seconds_in_turn(
+      rounds, {search(wrapped, result.wrapped_pairs), search(layered, result.layered_pairs), [&] {
+                 return processor_seconds_of([&] { colliding += pairs_by_force(balls, asked).size(); });
+               }});
+  result.layered_per_wrapped = ratios_by_round(seconds[1], seconds[0]);
+  result.quadratic_per_wrapped = ratios_by_round(seconds[2], seconds[0]);
   result.edges = static_edges<Dimension>(subject.frames[frame], weights_of(subject)).edges.size();
   return result;
 }
@@ -79,44 +75,70 @@ std::uint64_t cells_changed(const Subject& subject, std::size_t from, std::size_
   return added.size();
 }
 
-// The hierarchy goes to and fro, so that each call has the same before it; the way back is not timed.
-template <int Dimension, class Arrived>
-double seconds_to_update(const Subject& subject, std::size_t from, std::size_t to, std::size_t rounds,
-                         Update how, const Arrived& arrived) {
-  const Balls<Dimension> before = balls_at<Dimension>(subject, from),
-                         after = balls_at<Dimension>(subject, to);
-  StaticWrappedHierarchy<Dimension> hierarchy(subject.necklaces);
-  hierarchy.build(before);
-  hierarchy.update(before, how == Update::cascade ? how : Update::naive);
-  return median_seconds(rounds, [&] {
-    WrapCounts counts;
+// To be called again and again: the hierarchy goes to and fro, so that each call has the same before it; the
+// way back is not timed.
+template <int Dimension>
+class TimedUpdate {
+ public:
+  using Hierarchy = StaticWrappedHierarchy<Dimension>;
+
+  TimedUpdate(const Subject& subject, std::size_t from, std::size_t to, Update how)
+      : before_(balls_at<Dimension>(subject, from)),
+        after_(balls_at<Dimension>(subject, to)),
+        hierarchy_(subject.necklaces),
+        how_(how) {
+    hierarchy_.build(before_);
+    go_back();
+  }
+
+  /// `arrived` is timed, too.
+  template <class Arrived>
+  double seconds(const Arrived& arrived) {
     const double seconds = processor_seconds_of([&] {
-      counts = hierarchy.update(after, how);
-      arrived(hierarchy, counts);
+      const WrapCounts counts = hierarchy_.update(after_, how_);
+      arrived(hierarchy_, counts);
     });
-    hierarchy.update(before, how == Update::cascade ? how : Update::naive);
+    go_back();
     return seconds;
-  });
+  }
+
+ private:
+  void go_back() { hierarchy_.update(before_, how_ == Update::cascade ? how_ : Update::naive); }
+
+  Balls<Dimension> before_, after_;
+  Hierarchy hierarchy_;
+  Update how_;
+};
+
+template <int Dimension>
+double mean_frontier(const StaticWrappedHierarchy<Dimension>& hierarchy, const WrapCounts& counts) {
+  return static_cast<double>(counts.frontier) / static_cast<double>(hierarchy.tree().node_count());
 }
 
 template <int Dimension>
 Step step(const Subject& subject, std::size_t from, std::size_t to, std::size_t rounds) {
   Step result;
-  const auto nothing = [](const auto&, const WrapCounts&) {};
   const auto tests = [](const WrapCounts& counts) {
     return static_cast<double>(counts.bead_tests + counts.cage_tests);
   };
-  result.lazy = seconds_to_update<Dimension>(subject, from, to, rounds, Update::trust, nothing);
-  result.naive = seconds_to_update<Dimension>(
-      subject, from, to, rounds, Update::naive,
-      [&](const auto&, const WrapCounts& counts) { result.naive_tests = tests(counts); });
-  result.cascade = seconds_to_update<Dimension>(
-      subject, from, to, rounds, Update::cascade, [&](const auto& hierarchy, const WrapCounts& counts) {
-        result.bases_changed = counts.changed;
-        result.cascade_tests = tests(counts);
-        result.frontier =
-            static_cast<double>(counts.frontier) / static_cast<double>(hierarchy.tree().node_count());
-      });
+  TimedUpdate<Dimension> lazy(subject, from, to, Update::trust), naive(subject, from, to, Update::naive),
+      cascade(subject, from, to, Update::cascade);
+  const auto seconds =
+      seconds_in_turn(rounds, {[&] { return lazy.seconds([](const auto&, const WrapCounts&) {}); },
+                               [&] {
+                                 return naive.seconds([&](const auto&, const WrapCounts& counts) {
+                                   result.naive_tests = tests(counts);
+                                 });
+                               },
+                               [&] {
+                                 return cascade.seconds([&](const auto& hierarchy, const WrapCounts& counts) {
+                                   result.bases_changed = counts.changed;
+                                   result.cascade_tests = tests(counts);
+                                   result.frontier = mean_frontier(hierarchy, counts);
+                                 });
+                               }});
+  result.lazy_per_naive = ratios_by_round(seconds[0], seconds[1]);
+  result.cascade_per_naive = ratios_by_round(seconds[2], seconds[1]);
   result.cells_changed = from == to ? 0 : cells_changed<Dimension>(subject, from, to);
   return result;
 }
@@ -183,19 +205,28 @@ CollisionBetween between(const Subject& subject, std::size_t from, std::size_t t
   CollisionBetween result;
   const Balls<Dimension> after = balls_at<Dimension>(subject, to);
   LayeredHierarchy<Dimension> layered(subject.necklaces);
-  result.layered = median_seconds(rounds, [&] {
-    return processor_seconds_of([&] {
-      layered.build(after);
-      result.layered_pairs = SearchBetween(layered, subject, to).pairs();
-    });
-  });
-  const auto search = [&](const auto& hierarchy, const WrapCounts& counts) {
-    result.wrapped_pairs = SearchBetween(hierarchy, subject, to).pairs();
-    result.frontier =
-        static_cast<double>(counts.frontier) / static_cast<double>(hierarchy.tree().node_count());
-  };
-  result.lazy = seconds_to_update<Dimension>(subject, from, to, rounds, Update::lazy, search);
-  result.full = seconds_to_update<Dimension>(subject, from, to, rounds, Update::cascade, search);
+  TimedUpdate<Dimension> lazy(subject, from, to, Update::lazy), full(subject, from, to, Update::cascade);
+  std::uint64_t lazily_found = 0;  // used, so that the search cannot be left out
+  const auto seconds =
+      seconds_in_turn(rounds, {[&] {
+                                 return processor_seconds_of([&] {
+                                   layered.build(after);
+                                   result.layered_pairs = SearchBetween(layered, subject, to).pairs();
+                                 });
+                               },
+                               [&] {
+                                 return lazy.seconds([&](const auto& hierarchy, const WrapCounts&) {
+                                   lazily_found += SearchBetween(hierarchy, subject, to).pairs();
+                                 });
+                               },
+                               [&] {
+                                 return full.seconds([&](const auto& hierarchy, const WrapCounts& counts) {
+                                   result.wrapped_pairs = SearchBetween(hierarchy, subject, to).pairs();
+                                   result.frontier = mean_frontier(hierarchy, counts);
+                                 });
+                               }});
+  result.layered_per_full = ratios_by_round(seconds[0], seconds[2]);
+  result.lazy_per_full = ratios_by_round(seconds[1], seconds[2]);
   return result;
 }
 

@@ -1,33 +1,35 @@
 #pragma once
-// What the paper's tables tell of one frame of a subject, or of the step between two.
+// What the paper's tables tell of one frame of a subject, or of the step between two. Times are ratios, of
+// works that are done in turn, round by round.
 
 #include <cstddef>
 #include <cstdint>
 
+#include "experiments/program/timing.h"
 #include "experiments/reproduce/subjects.h"
 #include "structures/hierarchy/tightness.h"
 
 namespace kds {
 
-/// Table 1. Seconds to build each structure.
+/// Table 1. Times of building each structure.
 struct Construction {
-  double wrapped = 0, layered = 0, power = 0;
+  Spread layered_per_wrapped, power_per_wrapped;
   Tightness tightness;
 };
 [[nodiscard]] Construction construction_of(const Subject& subject, std::size_t frame, std::size_t rounds);
 
-/// Tables 3 and 4: collisions within the necklace, of beads that are no neighbours along it. Seconds of the
+/// Tables 3 and 4: collisions within the necklace, of beads that are no neighbours along it. Times of the
 /// searches alone, hierarchies being built.
 struct SelfCollision {
-  double quadratic = 0, wrapped = 0, layered = 0;
+  Spread quadratic_per_wrapped, layered_per_wrapped;
   std::uint64_t wrapped_pairs = 0, layered_pairs = 0;  ///< of the separating sets
   std::uint64_t edges = 0;                             ///< of the power diagram
 };
 [[nodiscard]] SelfCollision self_collision_of(const Subject& subject, std::size_t frame, std::size_t rounds);
 
-/// Tables 2, 5 and 6: from one frame to another, or to itself. Seconds to bring the wrapped hierarchy there.
+/// Tables 2, 5 and 6: from one frame to another, or to itself. Times of bringing the wrapped hierarchy there.
 struct Step {
-  double lazy = 0, cascade = 0, naive = 0;
+  Spread lazy_per_naive, cascade_per_naive;
   double cascade_tests = 0, naive_tests = 0;  ///< of beads and cages against spheres
   double frontier = 0;                        ///< average over all nodes
   std::uint64_t bases_changed = 0;
@@ -35,10 +37,10 @@ struct Step {
 };
 [[nodiscard]] Step step_of(const Subject& subject, std::size_t from, std::size_t to, std::size_t rounds);
 
-/// Table 7: collisions between two necklaces, from one frame to the next. Seconds of updating the hierarchy
+/// Table 7: collisions between two necklaces, from one frame to the next. Times of updating the hierarchy
 /// and searching it.
 struct CollisionBetween {
-  double layered = 0, lazy = 0, full = 0;
+  Spread layered_per_full, lazy_per_full;
   std::uint64_t layered_pairs = 0, wrapped_pairs = 0;
   double frontier = 0;  ///< average over all nodes
 };

@@ -16,8 +16,8 @@ struct PaperTablePlan {
   std::vector<std::function<PaperRow()>> rows;  ///< each measures one
 };
 
-/// Table 1 to 7. Its inputs are made, or read from the folder `data`: throws InputError. Times are medians of
-/// so many rounds.
+/// Table 1 to 7. Its inputs are made, or read from the folder `data`: throws InputError. Times are
+/// measured in so many rounds.
 [[nodiscard]] PaperTablePlan plan_paper_table(int number, const std::filesystem::path& data,
                                               std::size_t rounds);
 

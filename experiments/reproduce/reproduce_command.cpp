@@ -147,11 +147,10 @@ int reproduce_command(const Arguments& arguments) {
   const std::string command_line = "kds reproduce " + shell_words(arguments);
   Json json;
   const Json settings{{"tables", names}, {"rounds", rounds}};
-  json["command"] = command_line;
   json["settings"] = settings;
   json["rows"] = paper_rows_json(tables);
   json["tables"] = paper_findings_json(tables);
-  add_provenance(json);
+  add_provenance(json, command_line);
   Page page;
   page.command_line = command_line;
   page.settings = settings;

@@ -19,10 +19,13 @@ using Value = std::optional<double>;
 Json value_or_null(const Value& value) { return value ? Json(*value) : Json(nullptr); }
 std::string value_or_empty(const Value& value) { return value ? fmt::format("{}", *value) : ""; }
 // Counts in full, ratios with four figures.
-std::string shown(const Value& value) {
-  if (!value) return "-";
-  const bool is_count = *value == std::floor(*value) && *value >= 2;
-  return is_count ? with_thousands(static_cast<std::uint64_t>(*value)) : short_decimal(*value);
+std::string shown(double value) {
+  const bool is_count = value == std::floor(value) && value >= 2;
+  return is_count ? with_thousands(static_cast<std::uint64_t>(value)) : short_decimal(value);
+}
+std::string shown(const Value& value) { return value ? shown(*value) : "-"; }
+std::string shown(const PaperValue& ours) {
+  return ours.rounds ? spread_text(*ours.rounds) : shown(ours.value);
 }
 
 std::string name_of(const PaperRow& row) {
@@ -62,7 +65,7 @@ std::string stability_plot(const PaperTable& table) {
     for (const bool paper : {false, true}) {
       Curve curve{fmt::format("{}{}", table.columns[c].title, paper ? ", paper" : ""), {}};
       for (const PaperRow& row : table.rows) {
-        const Value& value = paper ? row.paper[c] : row.ours[c];
+        const Value value = paper ? row.paper[c] : row.ours[c].value;
         if (value) curve.points.emplace_back(std::stod(row.at), *value);
       }
       plot.curves.push_back(std::move(curve));
@@ -78,8 +81,13 @@ Json paper_rows_json(std::span<const PaperTable> tables) {
     for (const PaperRow& row : table.rows) {
       Json of_row{{"table", table.number}, {"name", row.name}, {"beads", row.beads}, {"at", row.at}};
       for (std::size_t c = 0; c < table.columns.size(); ++c) {
-        of_row[table.columns[c].name] = value_or_null(row.ours[c]);
-        of_row[fmt::format("{}_paper", table.columns[c].name)] = value_or_null(row.paper[c]);
+        const std::string name(table.columns[c].name);
+        of_row[name] = row.ours[c].value;
+        if (const auto& rounds = row.ours[c].rounds) {
+          of_row[name + "_least"] = rounds->least;
+          of_row[name + "_most"] = rounds->most;
+        }
+        of_row[name + "_paper"] = value_or_null(row.paper[c]);
       }
       of_row["note"] = row.note;
       json.push_back(of_row);
@@ -100,12 +108,17 @@ Json paper_findings_json(std::span<const PaperTable> tables) {
 
 std::string paper_csv(const PaperTable& table) {
   std::string text = "name,beads,at";
-  for (const PaperColumn& column : table.columns) text += fmt::format(",{0},{0}_paper", column.name);
+  for (const PaperColumn& column : table.columns)
+    text += column.timed ? fmt::format(",{0},{0}_least,{0}_most,{0}_paper", column.name)
+                         : fmt::format(",{0},{0}_paper", column.name);
   text += ",note\n";
   for (const PaperRow& row : table.rows) {
     text += fmt::format("{},{},{}", csv_field(row.name), row.beads, csv_field(row.at));
-    for (std::size_t c = 0; c < table.columns.size(); ++c)
-      text += fmt::format(",{},{}", value_or_empty(row.ours[c]), value_or_empty(row.paper[c]));
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      text += fmt::format(",{}", row.ours[c].value);
+      if (const auto& rounds = row.ours[c].rounds) text += fmt::format(",{},{}", rounds->least, rounds->most);
+      text += fmt::format(",{}", value_or_empty(row.paper[c]));
+    }
     text += fmt::format(",{}\n", csv_field(row.note));
   }
   return text;
@@ -114,20 +127,24 @@ std::string paper_csv(const PaperTable& table) {
 std::string paper_text(std::span<const PaperTable> tables) {
   std::string text;
   for (const PaperTable& table : tables) {
-    std::size_t width = 0;
-    for (const PaperRow& row : table.rows) width = std::max(width, name_of(row).size());
-    text += fmt::format("{}table {}: {}\n  {:<{}}", text.empty() ? "" : "\n", table.number, table.title, "",
-                        width);
+    std::vector<std::vector<std::string>> lines{{""}};
     for (const PaperColumn& column : table.columns)
-      text +=
-          fmt::format("  {:>{}}{:>11}", column.title, std::max<std::size_t>(9, column.title.size()), "paper");
-    text += "\n";
+      lines[0].insert(lines[0].end(), {std::string(column.title), "paper"});
     for (const PaperRow& row : table.rows) {
-      text += fmt::format("  {:<{}}", name_of(row), width);
+      std::vector<std::string>& line = lines.emplace_back(std::vector{name_of(row)});
       for (std::size_t c = 0; c < table.columns.size(); ++c)
-        text += fmt::format("  {:>{}}{:>11}", shown(row.ours[c]),
-                            std::max<std::size_t>(9, table.columns[c].title.size()), shown(row.paper[c]));
-      text += (row.note.empty() ? "" : "  " + row.note) + "\n";
+        line.insert(line.end(), {shown(row.ours[c]), shown(row.paper[c])});
+    }
+    text += fmt::format("{}table {}: {}\n", text.empty() ? "" : "\n", table.number, table.title);
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+      for (std::size_t c = 0; c < lines[l].size(); ++c) {
+        std::size_t width = 0;
+        for (const auto& line : lines) width = std::max(width, line[c].size());
+        text += c == 0 ? fmt::format("  {:<{}}", lines[l][c], width)
+                       : fmt::format("  {:>{}}", lines[l][c], width);
+      }
+      const std::string& note = l == 0 ? "" : table.rows[l - 1].note;
+      text += (note.empty() ? "" : "  " + note) + "\n";
     }
     for (const Finding& finding : findings_of(table)) text += "  " + sentence_of(finding) + "\n";
   }
@@ -148,8 +165,10 @@ std::string paper_page(std::span<const PaperTable> tables, Page page) {
       "tells of them.</p>\n{}</ul>\n",
       claims.all, claims.hold, list);
   page.words =
-      "The paper's values stand beside ours. Times are ratios within a row, of medians of the rounds, for "
-      "the paper's machine is of 2004; work of more than a second is done once, whatever the rounds.";
+      "The paper's values stand beside ours. Times are ratios within a row, for the paper's machine is of "
+      "2004: of works that are done in turn, round by round, the median of the rounds and in brackets the "
+      "least and the most. Work of more than a second is done once, whatever the rounds, and stands beside "
+      "all rounds of the other.";
   for (const PaperTable& table : tables)
     page.body +=
         html_section(fmt::format("Table {}: {}", table.number, table.title),

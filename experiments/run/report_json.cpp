@@ -46,7 +46,6 @@ Json stride_json(const StrideCertificate& stride) {
 
 Json run_json(const RunReport& report) {
   Json json;
-  json["command"] = report.command_line;
   json["input"] = {{"files", report.files},           {"beads", report.beads},
                    {"frames", report.frames},         {"dimension", report.dimension},
                    {"radius_min", report.radius_min}, {"radius_max", report.radius_max}};
@@ -69,7 +68,7 @@ Json run_json(const RunReport& report) {
                     {"exact_work", report.exact_work}};
   json["fingerprint"] = hex_digits(report.fingerprint);
   if (report.stride) json["stride"] = stride_json(*report.stride);
-  add_provenance(json);
+  add_provenance(json, report.command_line);
   return json;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <utility>
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/text.h"
@@ -68,7 +69,7 @@ std::vector<Trajectory> necklaces_for(const GenerateOptions& options, const std:
   return necklaces;
 }
 
-TableResults results_of(const GenerateOptions& options, const SceneInfo& info) {
+TableResults results_of(const GenerateOptions& options, const SceneInfo& info, std::string command) {
   Json json;
   json["model"] = options.model->name;
   add_scene(json, info);
@@ -78,7 +79,7 @@ TableResults results_of(const GenerateOptions& options, const SceneInfo& info) {
     json["settings"][name] = value;
     table += fmt::format(", {} {}", name, value);
   }
-  add_provenance(json);
+  add_provenance(json, std::move(command));
   return {text_of(json), conditions_csv(info), table + "\n" + scene_table(info)};
 }
 
@@ -105,7 +106,8 @@ int generate_command(const Arguments& arguments) {
                      [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
   bar.erase();
   write_files(options, necklaces);
-  deliver_table(destinations, std::string(kName), results_of(options, info));
+  deliver_table(destinations, std::string(kName),
+                results_of(options, info, "kds generate " + shell_words(arguments)));
   return 0;
 }
 

@@ -36,7 +36,7 @@ Json settings_json(const InfoOptions& options) {
 }
 
 // Points with weights, not balls in a chain: there is nothing to judge.
-TableResults describe(const Instance& instance, bool beads) {
+TableResults describe(const Instance& instance, bool beads, const std::string& command_line) {
   if (beads)
     throw InputError(fmt::format("--beads: has no meaning for an instance file ({})", instance.file));
   Json json;
@@ -47,7 +47,7 @@ TableResults describe(const Instance& instance, bool beads) {
                    {"degree", instance.degree},
                    {"weighted", instance.weighted()}};
   json["rows"] = Json::array();
-  add_provenance(json);
+  add_provenance(json, command_line);
   const std::string row = fmt::format("{},{},{},{}", instance.point_count(), instance.dimension(),
                                       instance.degree, instance.weighted());
   return {text_of(json), "beads,dimension,degree,weighted\n" + row + "\n",
@@ -56,7 +56,7 @@ TableResults describe(const Instance& instance, bool beads) {
                       instance.degree, instance.weighted() ? "weighted" : "without weights")};
 }
 
-TableResults describe_beads(const InfoOptions& options, ProgressBar& bar) {
+TableResults describe_beads(const InfoOptions& options, const std::string& command_line, ProgressBar& bar) {
   HeldWarnings held;
   const std::vector<Trajectory> necklaces = read_necklaces(options.input, held.hold());
   const std::vector<BeadRow> rows = bead_rows(necklaces, bead_radii(options.input.radius, necklaces));
@@ -70,12 +70,12 @@ TableResults describe_beads(const InfoOptions& options, ProgressBar& bar) {
   json["settings"] = settings_json(options);
   json["rows"] = bead_rows_json(rows);
   json["warnings"] = warnings;
-  add_provenance(json);
+  add_provenance(json, command_line);
   return {text_of(json), bead_rows_csv(rows), bead_rows_table(rows)};
 }
 
-TableResults describe(const InfoOptions& options, ProgressBar& bar) {
-  if (options.beads) return describe_beads(options, bar);
+TableResults describe(const InfoOptions& options, const std::string& command_line, ProgressBar& bar) {
+  if (options.beads) return describe_beads(options, command_line, bar);
   Json warnings = Json::array();
   HeldWarnings held;
   const std::vector<Trajectory> necklaces = read_necklaces(options.input, held.hold());
@@ -92,7 +92,7 @@ TableResults describe(const InfoOptions& options, ProgressBar& bar) {
   add_scene(json, info);
   json["settings"] = settings_json(options);
   json["warnings"] = warnings;
-  add_provenance(json);
+  add_provenance(json, command_line);
   return {text_of(json), conditions_csv(info), scene_table(info)};
 }
 
@@ -106,10 +106,12 @@ int info_command(const Arguments& arguments) {
   taken.read(options.input);
   check_table_destinations(destinations, std::string(kName), taken);
 
+  const std::string command_line = "kds info " + shell_words(arguments);
   ProgressBar bar(!options.quiet);
   const std::optional<Instance> instance = read_lone_instance(options.input);
-  deliver_table(destinations, std::string(kName),
-                instance ? describe(*instance, options.beads) : describe(options, bar));
+  deliver_table(
+      destinations, std::string(kName),
+      instance ? describe(*instance, options.beads, command_line) : describe(options, command_line, bar));
   return 0;
 }
 

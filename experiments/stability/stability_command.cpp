@@ -32,10 +32,10 @@ int stability_command(const Arguments& arguments) {
       run_stability(options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
   bar.erase();
   const std::string command_line = "kds stability " + shell_words(arguments);
-  deliver_table(destinations, name,
-                {stability_json(options, rows), stability_csv(rows), stability_table(rows), [&] {
-                   return stability_page(rows, made_by(name, command_line, stability_settings(options)));
-                 }});
+  deliver_table(
+      destinations, name,
+      {stability_json(command_line, options, rows), stability_csv(rows), stability_table(rows),
+       [&] { return stability_page(rows, made_by(name, command_line, stability_settings(options))); }});
 
   if (const auto complaint = complaint_about(rows)) throw std::runtime_error(*complaint);
   return 0;

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "experiments/output/text.h"
 #include "experiments/stability/stability_report.h"
 
@@ -30,22 +34,68 @@ std::string findings(std::span<const StabilityRow> rows) {
       with_thousands(audits), with_thousands(failed_audits), with_thousands(missed), with_thousands(extra));
 }
 
-std::string micros(double seconds) { return short_decimal(1e6 * seconds); }
-
-std::string table(std::span<const StabilityRow> rows, bool structures) {
-  std::vector<HtmlRow> lines;
-  for (const StabilityRow& row : rows) {
-    if (row.structure != structures) continue;
-    lines.push_back(
-        {{name_of(row), with_thousands(row.cases), with_thousands(row.events),
-          with_thousands(row.disagreements + row.failed), with_thousands(row.refused),
-          with_thousands(row.fast.missed), with_thousands(row.fast.extra), micros(row.seconds.fast),
-          micros(row.seconds.filtered), micros(row.seconds.exact), row.holds() ? "yes" : "NO"}});
+// Rows together: the sums of their cases, medians of their times.
+class Together {
+ public:
+  void add(const StabilityRow& row) {
+    ++rows_;
+    sum_.cases += row.cases;
+    sum_.events += row.events;
+    sum_.disagreements += row.disagreements + row.failed;
+    sum_.refused += row.refused;
+    kds::add(sum_.fast, row.fast);
+    if (row.refused < row.cases) seconds_.push_back(row.seconds);
+    if (!row.holds()) ++failing_;
   }
-  if (lines.empty()) return "";
-  return html_table({"", "cases", "events", "differ", "refused", "fast missed", "fast extra", "us fast",
-                     "us filtered", "us exact", "holds"},
+
+  [[nodiscard]] HtmlRow line(const std::string& name) const {
+    return {{name, with_thousands(rows_), with_thousands(sum_.cases), with_thousands(sum_.events),
+             with_thousands(sum_.disagreements), with_thousands(sum_.refused),
+             with_thousands(sum_.fast.missed), with_thousands(sum_.fast.extra), micros(&KernelSeconds::fast),
+             micros(&KernelSeconds::filtered), micros(&KernelSeconds::exact), failing_ == 0 ? "yes" : "NO"}};
+  }
+
+ private:
+  [[nodiscard]] std::string micros(double KernelSeconds::*kernel) const {
+    std::vector<double> values;
+    for (const KernelSeconds& seconds : seconds_) values.push_back(1e6 * (seconds.*kernel));
+    return values.empty() ? "-" : short_decimal(median(std::move(values)));
+  }
+
+  std::size_t rows_ = 0, failing_ = 0;
+  StabilityRow sum_;
+  std::vector<KernelSeconds> seconds_;
+};
+
+// A line for all rows that `name` calls the same, in the order of their first.
+template <class Name>
+std::string table(std::span<const StabilityRow> rows, const Name& name) {
+  std::vector<std::pair<std::string, Together>> groups;
+  for (const StabilityRow& row : rows) {
+    const std::string group = name(row);
+    if (group.empty()) continue;
+    auto place = std::ranges::find(groups, group, &std::pair<std::string, Together>::first);
+    if (place == groups.end()) place = groups.insert(place, {group, {}});
+    place->second.add(row);
+  }
+  if (groups.empty()) return "";
+  std::vector<HtmlRow> lines;
+  for (const auto& [group, together] : groups) lines.push_back(together.line(group));
+  return html_table({"", "rows", "cases", "events", "differ", "refused", "fast missed", "fast extra",
+                     "us fast", "us filtered", "us exact", "holds"},
                     lines);
+}
+
+std::string subjects(std::span<const StabilityRow> rows, bool structures) {
+  return table(rows, [&](const StabilityRow& row) {
+    return row.structure == structures
+               ? fmt::format("{} {}D, degree {}", row.subject, row.dimension, row.degree)
+               : "";
+  });
+}
+
+std::string failing_rows(std::span<const StabilityRow> rows) {
+  return table(rows, [](const StabilityRow& row) { return row.holds() ? "" : name_of(row); });
 }
 
 }  // namespace
@@ -54,15 +104,17 @@ std::string stability_page(std::span<const StabilityRow> rows, Page page) {
   page.title = "kds stability";
   page.found = findings(rows);
   page.words =
-      "A row is a certificate type or a structure in one extreme of its input. <em>Differ</em>: cases in "
-      "which "
-      "the kernels filtered and exact do not tell the same, or one fails. <em>Missed</em> and "
-      "<em>extra</em>: "
-      "events of the kernel fast beside the exact ones. Times are medians over the cases, of a search or of "
-      "a "
-      "run.";
-  page.body =
-      html_section("Certificates", table(rows, false)) + html_section("Structures", table(rows, true));
+      "A row of the data is a certificate type or a structure in one extreme of its input; here they stand "
+      "together by subject and by extreme, and those that do not hold one by one. <em>Differ</em>: cases in "
+      "which the kernels filtered and exact do not tell the same, or one fails. <em>Missed</em> and "
+      "<em>extra</em>: events of the kernel fast beside the exact ones. Microseconds are of a certificate's "
+      "search, or of a structure's run: the median over the rows of each row's median over its cases, "
+      "without rows that are refused.";
+  page.body = html_section("Rows that do not hold", failing_rows(rows)) +
+              html_section("Certificates, all extremes", subjects(rows, false)) +
+              html_section("Structures, all extremes", subjects(rows, true)) +
+              html_section("Extremes, all subjects",
+                           table(rows, [](const StabilityRow& row) { return row.extreme; }));
   return html_page(page);
 }
 

@@ -80,13 +80,14 @@ Json stability_settings(const StabilityOptions& options) {
           {"seed", options.cases.seed}};
 }
 
-std::string stability_json(const StabilityOptions& options, std::span<const StabilityRow> rows) {
+std::string stability_json(std::string command, const StabilityOptions& options,
+                           std::span<const StabilityRow> rows) {
   Json json;
   json["settings"] = stability_settings(options);
   json["rows"] = Json::array();
   for (const StabilityRow& row : rows) json["rows"].push_back(row_json(row));
   json["holds"] = std::ranges::all_of(rows, &StabilityRow::holds);
-  add_provenance(json);
+  add_provenance(json, std::move(command));
   return text_of(json);
 }
 

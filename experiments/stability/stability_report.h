@@ -14,7 +14,8 @@ namespace kds {
 [[nodiscard]] Json stability_settings(const StabilityOptions& options);
 
 /// One object: settings, rows, holds, version, machine. Ends with a newline.
-[[nodiscard]] std::string stability_json(const StabilityOptions& options, std::span<const StabilityRow> rows);
+[[nodiscard]] std::string stability_json(std::string command, const StabilityOptions& options,
+                                         std::span<const StabilityRow> rows);
 
 /// One line a row, under a header.
 [[nodiscard]] std::string stability_csv(std::span<const StabilityRow> rows);

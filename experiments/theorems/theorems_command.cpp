@@ -118,11 +118,10 @@ int theorems_command(const Arguments& arguments) {
 
   const std::string command_line = "kds theorems " + shell_words(arguments);
   Json json;
-  json["command"] = command_line;
   json["settings"] = settings_json(asked.measured);
   json["rows"] = theorem_rows_json(series);
   json["fits"] = theorem_fits_json(series);
-  add_provenance(json);
+  add_provenance(json, command_line);
   deliver_table(destinations, kName,
                 {text_of(json), theorems_csv(series), theorems_table(series), [&] {
                    return theorems_page(series, made_by(kName, command_line, settings_json(asked.measured)));

@@ -32,9 +32,7 @@ std::string value_text(Theorem theorem, double value) {
   return is_count ? with_thousands(static_cast<std::uint64_t>(value)) : short_decimal(value);
 }
 std::string seconds_text(const TheoremPoint& point) {
-  if (!point.seconds) return "-";
-  return fmt::format("{} ({} to {})", short_decimal(point.seconds->median),
-                     short_decimal(point.seconds->least), short_decimal(point.seconds->most));
+  return point.seconds ? spread_text(*point.seconds) : "-";
 }
 std::string holds_text(const TheoremPoint& point) {
   if (!point.holds) return "-";

@@ -182,13 +182,12 @@ int trade_command(const Arguments& arguments) {
   for (const auto& input : options.input.inputs) names.push_back(input.filename().string());
   const std::string command_line = "kds trade " + shell_words(arguments);
   Json json;
-  json["command"] = command_line;
   json["input"] = input_json(options, finest);
   json["settings"] = settings_json(options);
   json["rows"] = trade_rows_json(rows);
   json["recommendation"] = recommendation(rows);
   json["warnings"] = warnings;
-  add_provenance(json);
+  add_provenance(json, command_line);
   deliver_table(destinations, kName, {text_of(json), trade_csv(rows), trade_table(rows), [&] {
                                         return trade_page(
                                             rows, fmt::format("{}", fmt::join(names, ", ")),

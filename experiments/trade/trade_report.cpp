@@ -129,6 +129,21 @@ std::string plots_of(std::span<const TradeRow> group) {
   return html;
 }
 
+// What stands between backticks is code.
+std::string with_code(const std::string& html) {
+  std::string text;
+  bool inside = false;
+  for (const char c : html) {
+    if (c != '`') {
+      text += c;
+      continue;
+    }
+    text += inside ? "</code>" : "<code>";
+    inside = !inside;
+  }
+  return text;
+}
+
 std::string html_table_of(std::span<const TradeRow> group) {
   const std::vector<ErrorColumn> errors = columns_for(group.front().want);
   std::vector<std::string> columns{title_of(group), "ratio",  "seconds", "least", "most",
@@ -213,7 +228,7 @@ std::string trade_table(std::span<const TradeRow> rows) {
 
 std::string trade_page(std::span<const TradeRow> rows, const std::string& input, Page page) {
   page.title = "kds trade: " + input;
-  page.found = fmt::format("<p>{}</p>\n", html_escaped(recommendation(rows)));
+  page.found = fmt::format("<p>{}</p>\n", with_code(html_escaped(recommendation(rows))));
   page.words = words_of_columns;
   for (const auto& group : groups_of(rows))
     page.body += html_section(title_of(group), html_table_of(group) + plots_of(group));

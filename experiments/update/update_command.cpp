@@ -86,12 +86,11 @@ int update_command(const Arguments& arguments) {
 
   const std::string command_line = "kds update " + shell_words(arguments);
   Json json;
-  json["command"] = command_line;
   json["input"] = input_json(options, necklaces, radii);
   json["settings"] = settings_json(options);
   json["rows"] = update_rows_json(rows);
   json["warnings"] = warnings;
-  add_provenance(json);
+  add_provenance(json, command_line);
   deliver_table(destinations, kName, {text_of(json), update_csv(rows), update_table(rows), [&] {
                                         return update_page(
                                             rows, file_names(options),

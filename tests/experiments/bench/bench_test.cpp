@@ -52,7 +52,10 @@ TEST(BenchReport, RatioGoalAndWhatHolds) {
   EXPECT_EQ(missed.holds(), false);
   EXPECT_EQ(alone.holds(), false);
   EXPECT_EQ(free.holds(), std::nullopt);
-  const Json json = Json::parse(bench_json(std::array{held, missed, alone, free}));
+  const Json json =
+      Json::parse(bench_json("kds bench engine", {{"rounds", 5}}, std::array{held, missed, alone, free}));
+  EXPECT_EQ(json["command"], "kds bench engine");
+  EXPECT_EQ(json["settings"]["rounds"], 5);
   EXPECT_EQ(json["rows"][0]["ratio"], 0.2);
   EXPECT_EQ(json["rows"][2]["ratio"], nullptr);
   EXPECT_EQ(json["rows"][2]["peer"], nullptr);

@@ -63,7 +63,9 @@ TEST(PaperMeasurements, SelfCollision) {
     EXPECT_EQ(family_fault(family, all.pairs, balls, asked), std::nullopt);
     EXPECT_EQ(pairs, family.pairs.size());
   }
-  EXPECT_GT(found.quadratic, 0);
+  EXPECT_GT(found.quadratic_per_wrapped.least, 0);
+  EXPECT_LE(found.quadratic_per_wrapped.least, found.quadratic_per_wrapped.median);
+  EXPECT_LE(found.quadratic_per_wrapped.median, found.quadratic_per_wrapped.most);
 }
 
 TEST(PaperMeasurements, StepsBetweenFrames) {
@@ -143,6 +145,36 @@ TEST(PaperReport, SaysTheSameInAllForms) {
   EXPECT_THAT(sentence_of(findings_of(other)[0]), HasSubstr(": no ("));
   EXPECT_THAT(sentence_of(findings_of(other)[1]), HasSubstr(": no ("));
   EXPECT_THAT(paper_text(tables), HasSubstr("why"));
+}
+
+TEST(PaperReport, TimesHaveTheSpreadOfTheirRounds) {
+  PaperTable table{1, "t", {{"a_per_b", "a / b time", true}, {"rho_avg", "rho"}}, {}, ""};
+  table.rows = {{"grill", 89, "", {Spread{0.5, 0.25, 2}, 0.75}, {0.125, std::nullopt}, ""}};
+  EXPECT_EQ(paper_csv(table),
+            "name,beads,at,a_per_b,a_per_b_least,a_per_b_most,a_per_b_paper,rho_avg,rho_avg_paper,note\n"
+            "grill,89,,0.5,0.25,2,0.125,0.75,,\n");
+  const Json row = Json::parse(text_of(paper_rows_json(std::vector{table})))[0];
+  EXPECT_EQ(row["a_per_b"], 0.5);
+  EXPECT_EQ(row["a_per_b_least"], 0.25);
+  EXPECT_EQ(row["a_per_b_most"], 2);
+  EXPECT_FALSE(row.contains("rho_avg_least"));
+}
+
+// Of several rounds the spread is none of one, in every table that has times.
+TEST(PaperTables, RoundsOfTimedColumnsDiffer) {
+  for (const int number : {1, 2, 3, 4, 5, 6}) {
+    const PaperTablePlan plan = plan_paper_table(number, kData, 3);
+    const PaperRow row = plan.rows.front()();
+    ASSERT_EQ(row.ours.size(), plan.table.columns.size());
+    for (std::size_t c = 0; c < row.ours.size(); ++c) {
+      const PaperValue& ours = row.ours[c];
+      ASSERT_EQ(ours.rounds.has_value(), plan.table.columns[c].timed) << plan.table.columns[c].name;
+      if (!ours.rounds) continue;
+      EXPECT_LT(ours.rounds->least, ours.rounds->most) << plan.table.columns[c].name;
+      EXPECT_LE(ours.rounds->least, ours.value);
+      EXPECT_LE(ours.value, ours.rounds->most);
+    }
+  }
 }
 
 // A claim that two tables tell of is one, and holds if both say so.

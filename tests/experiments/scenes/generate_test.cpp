@@ -138,6 +138,7 @@ TEST(Generate, WritesWhatTheModelIs) {
   const Json summary = Json::parse(content_of(json));
   EXPECT_EQ(summary["model"], "random-chain");
   EXPECT_EQ(summary["settings"]["seed"], "3");
+  EXPECT_EQ(std::string(summary["command"]).rfind("kds generate random-chain", 0), 0U);
   EXPECT_EQ(summary["input"]["beads"], 200);
   EXPECT_EQ(summary["input"]["radius_max"], 1.0);
   EXPECT_EQ(summary["proper"], true);

@@ -142,6 +142,7 @@ TEST(Info, OfAFile) {
   EXPECT_EQ(info["rows"][0]["violations"], 1);
   EXPECT_EQ(info["rows"][1]["first"].size(), 3U);
   EXPECT_EQ(info["proper"], false);
+  EXPECT_THAT(std::string(info["command"]), testing::StartsWith("kds info "));
   EXPECT_THAT(info["machine"].dump(), HasSubstr("cores"));
   EXPECT_EQ(content_of(directory / "out/info.json"), content_of(json));
   EXPECT_THAT(content_of(directory / "out/info.csv"), HasSubstr("connected,1,1,0,false\n"));

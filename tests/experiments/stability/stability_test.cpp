@@ -30,6 +30,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using Json = nlohmann::ordered_json;
 
 std::vector<StabilityRow> rows_of(const Arguments& arguments) {
@@ -382,10 +383,11 @@ TEST(StabilityReport, NamesRowsThatDoNotHold) {
   EXPECT_THAT(table, HasSubstr("DOES NOT HOLD: case 4"));
   EXPECT_THAT(table, HasSubstr("1 rows do not hold"));
   EXPECT_THAT(table, HasSubstr("power_test 3D degree 1, ties:end: case 4"));
-  const Json json = Json::parse(stability_json({}, rows));
+  const Json json = Json::parse(stability_json("kds stability", {}, rows));
   EXPECT_EQ(json["holds"], false);
   EXPECT_EQ(json["rows"][0]["holds"], false);
   EXPECT_EQ(json["rows"][0]["agree"], 6);
+  EXPECT_EQ(json["command"], "kds stability");
   EXPECT_EQ(complaint_about(rows), "1 of 1 rows do not hold: power_test 3D degree 1, ties:end");
   EXPECT_EQ(complaint_about({}), std::nullopt);
   EXPECT_EQ(json["rows"][0]["motion"], "1 1 1\n0 1\n");
@@ -413,6 +415,29 @@ TEST(StabilityPage, SaysFirstHowManyAuditsFailed) {
   row.audits_failed = 5;
   EXPECT_THAT(stability_page(std::vector{row, row}, {}),
               HasSubstr("Of 2,468 audits <strong>10 failed</strong>"));
+}
+
+// Thousands of rows are no page: they stand together, but for those that do not hold.
+TEST(StabilityPage, SumsBySubjectAndByExtreme) {
+  StabilityRow row;
+  row.subject = "wrapped";
+  row.structure = true;
+  row.dimension = 3;
+  row.degree = 1;
+  row.cases = 7;
+  row.extreme = "ties:end";
+  StabilityRow other = row;
+  other.extreme = "scale:2^300";
+  other.cases = 1001;
+  const std::string page = stability_page(std::vector{row, other}, {});
+  EXPECT_THAT(page, HasSubstr("wrapped 3D, degree 1</th><td>2</td><td>1,008</td>"));
+  EXPECT_THAT(page, HasSubstr("scale:2^300</th><td>1</td><td>1,001</td>"));
+  EXPECT_THAT(page, Not(HasSubstr("Rows that do not hold")));
+  other.disagreements = 1;
+  const std::string failing = stability_page(std::vector{row, other}, {});
+  EXPECT_THAT(failing, HasSubstr("Rows that do not hold"));
+  EXPECT_THAT(failing, HasSubstr("wrapped 3D degree 1, scale:2^300</th>"));
+  EXPECT_THAT(failing, Not(HasSubstr("wrapped 3D degree 1, ties:end</th>")));
 }
 
 TEST(StabilityProgram, PrintsATable) {

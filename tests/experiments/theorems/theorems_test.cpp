@@ -118,17 +118,15 @@ TEST(TheoremPlan, FamiliesAloneAreNotTimed) {
   }
 }
 
-TEST(Timing, AsManyRoundsAsAreAskedFor) {
-  for (const std::size_t rounds : {1, 2, 5}) {
-    std::size_t calls = 0;
-    const Spread spread = repeated_seconds(rounds, [&] { return 0.1 * static_cast<double>(++calls); });
-    EXPECT_EQ(calls, rounds);
-    EXPECT_DOUBLE_EQ(spread.least, 0.1);
-    EXPECT_DOUBLE_EQ(spread.most, 0.1 * static_cast<double>(rounds));
-  }
-  std::size_t calls = 0;
-  EXPECT_EQ(repeated_seconds(5, [&] { return static_cast<double>(++calls) + 1; }).median, 2);
-  EXPECT_EQ(calls, 1U);  // long work
+// Rows that are farther apart meet less.
+TEST(TheoremPlan, FamiliesShrinkAsTheGapOfGridsGrows) {
+  const auto family = [](double gap) {
+    const TheoremPlan plan = plan_theorems({{Theorem::family}, 4096, gap});
+    std::vector<TheoremSeries> series = plan.series;
+    plan.work.front()(series);
+    return series.front().points.front().value;
+  };
+  EXPECT_LT(family(0.5), 0.8 * family(0.05));
 }
 
 TEST(TheoremPlan, OneSearchTellsOfBothTheorems) {

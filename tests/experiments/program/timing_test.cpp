@@ -1,0 +1,46 @@
+#include "experiments/program/timing.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace kds {
+namespace {
+
+TEST(Timing, AsManyRoundsAsAreAskedFor) {
+  for (const std::size_t rounds : {1, 2, 5}) {
+    std::size_t calls = 0;
+    const Spread spread = repeated_seconds(rounds, [&] { return 0.1 * static_cast<double>(++calls); });
+    EXPECT_EQ(calls, rounds);
+    EXPECT_DOUBLE_EQ(spread.least, 0.1);
+    EXPECT_DOUBLE_EQ(spread.most, 0.1 * static_cast<double>(rounds));
+  }
+  std::size_t calls = 0;
+  EXPECT_EQ(repeated_seconds(5, [&] { return static_cast<double>(++calls) + 1; }).median, 2);
+  EXPECT_EQ(calls, 1U);  // long work
+}
+
+TEST(Timing, WorksGoInTurnsRoundByRound) {
+  std::string order;
+  const auto work = [&order](char name, double seconds) {
+    return [&order, name, seconds] {
+      order += name;
+      return seconds;
+    };
+  };
+  const auto seconds = seconds_in_turn(3, {work('a', 0.5), work('b', 2), work('c', 0.25)});
+  EXPECT_EQ(order, "abcacac");  // b is long
+  EXPECT_EQ(seconds, (std::vector<std::vector<double>>{{0.5, 0.5, 0.5}, {2}, {0.25, 0.25, 0.25}}));
+}
+
+TEST(Timing, RatiosAreOfOneRoundEach) {
+  const Spread ratio = ratios_by_round({1, 4, 9}, {1, 2, 3});
+  EXPECT_EQ(ratio.least, 1);
+  EXPECT_EQ(ratio.median, 2);
+  EXPECT_EQ(ratio.most, 3);
+  EXPECT_EQ(ratios_by_round({12}, {2, 3, 4}).most, 6);  // done once
+  EXPECT_EQ(ratios_by_round({2, 3, 4}, {2}).least, 1);
+}
+
+}  // namespace
+}  // namespace kds
