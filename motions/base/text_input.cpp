@@ -6,6 +6,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <locale>
+#include <sstream>
 
 #include "motions/base/input_error.h"
 #include "motions/base/input_file.h"
@@ -66,9 +68,11 @@ std::optional<double> parse_double(std::string_view field) {
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error == std::errc::result_out_of_range && end == field.data() + field.size()) {
-    // Too small is zero, or nearly: the C library tells which; too large stays an error.
-    const double nearest = std::strtod(std::string(field).c_str(), nullptr);
-    if (std::isfinite(nearest)) return nearest;
+    // Too small is zero, or nearly: a stream tells which, whatever locale the host program has chosen. Too
+    // large stays an error.
+    std::istringstream text{std::string(field)};
+    text.imbue(std::locale::classic());
+    if (text >> value && std::isfinite(value)) return value;
   }
   if (error != std::errc{} || end != field.data() + field.size()) return std::nullopt;
   return value;

@@ -26,7 +26,8 @@ inline constexpr std::size_t most_whole = std::size_t{1} << 30U;
 
 [[nodiscard]] std::string_view trimmed(std::string_view field);
 
-/// A decimal number; "nan" and "inf" count as numbers here, one too large for a double does not.
+/// The double nearest to a decimal number, 0 too where none is nearer; "nan" and "inf" count as numbers here,
+/// one too large for a double does not.
 [[nodiscard]] std::optional<double> parse_double(std::string_view field);
 
 /// A whole number from 0 on.

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <cmath>
 #include <limits>
+#include <string>
 
 #include "tests/motions/test_files.h"
 
@@ -20,7 +22,11 @@ TEST(TextInput, NumbersTakeUpTheirField) {
 }
 
 TEST(TextInput, NumbersAtTheEndsOfTheRange) {
-  EXPECT_EQ(parse_double("1e-400"), 0.0);
+  for (const char* text : {"1e-400", "1e-330", "2e-324", "-0e-400"})
+    EXPECT_EQ(parse_double(text), 0.0) << text;
+  EXPECT_TRUE(std::signbit(parse_double("-1.5e-330").value()));
+  EXPECT_EQ(parse_double("3e-324"), std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(parse_double("0." + std::string(400, '0') + "1e90"), 1e-311);
   EXPECT_EQ(parse_double("4.9406564584124654e-324"), std::numeric_limits<double>::denorm_min());
   EXPECT_EQ(parse_double("1.7976931348623157e308"), std::numeric_limits<double>::max());
   EXPECT_FALSE(parse_double("1e400").has_value());
