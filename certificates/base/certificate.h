@@ -26,7 +26,7 @@ inline constexpr Channels channels_of = [] {
 }();
 
 /// Searches go four at a time in motions up to this degree, 0 to 3, and one at a time in others. Each takes a
-/// second or more to compile: 1 where the type says nothing.
+/// second or more to compile: 1 where the type says nothing. Power tests over lifted motion always go so.
 template <class F>
 inline constexpr int lanes_up_to_degree = [] {
   if constexpr (requires { F::lanes_up_to_degree; }) return F::lanes_up_to_degree;

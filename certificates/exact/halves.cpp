@@ -78,7 +78,7 @@ Halves Halves::halve() {
     const std::size_t degree = c_.size() - 1;
     for (Integers* half : {&c_, &left.c_})
       for (Integer& x : *half) mpz_fdiv_q_2exp(x.data(), x.data(), degree);
-    error_ += 1;
+    ++error_;
   }
   left.error_ = error_;
   left.depth_ = ++depth_;

@@ -96,6 +96,12 @@ double covering_radius(std::span<const Trajectory> necklaces, std::span<const do
 
 }  // namespace
 
+BeadId CalphaModel::largest_residue() const {
+  BeadId most = 0;
+  for (const BeadRange& beads : residue) most = std::max(most, beads.last - beads.first + 1);
+  return most;
+}
+
 std::vector<ContactTime> CalphaModel::of_residues(const std::vector<ContactTime>& contacts,
                                                   BeadId apart) const {
   const PairsAsked asked{ranges, true, apart, true};

@@ -24,6 +24,8 @@ struct CalphaModel {
   std::vector<BeadRange> residue;    ///< all that stands for
   std::vector<BeadId> of_bead = {};  ///< the other way: whose residue each bead of the finest data is in
 
+  /// Beads of the finest data in the residue that has most.
+  [[nodiscard]] BeadId largest_residue() const;
   /// Contacts of beads as contacts of their residues: those of pairs that the model asks about, by pairs,
   /// then in the order of time.
   [[nodiscard]] std::vector<ContactTime> of_residues(const std::vector<ContactTime>& contacts,

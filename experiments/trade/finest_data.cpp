@@ -98,6 +98,7 @@ TradeInput FinestData::input() const {
           necklaces_.size(),
           dimension_,
           calpha_ ? static_cast<BeadId>(calpha_->bead.size()) : 0,
+          calpha_ ? calpha_->largest_residue() : 0,
           calpha_ ? calpha_->covering_radius : 0,
           std::all_of(necklaces_.begin(), necklaces_.end(), knows_elements)};
 }

@@ -25,7 +25,8 @@ struct TradeErrors {
   std::optional<double> edges_missed;   ///< share of the true edges shorter than the cutoff
   std::optional<double> events_missed, events_invented;  ///< shares of the exact run's events
   std::optional<double> event_time_mean, event_time_max;
-  std::optional<double> contacts_missed, contacts_spurious;  ///< shares of the true contacts
+  /// Shares of the true contacts. Of one bead a residue none where there is no true contact of residues.
+  std::optional<double> contacts_missed, contacts_spurious;
   std::optional<double> contacts_unsure;  ///< share of the true contacts; of certified runs, as the next
   std::optional<double> sure_wrong;       ///< contacts that are called sure and are none
   std::optional<double> contact_time_mean, contact_time_max;  ///< of their ends

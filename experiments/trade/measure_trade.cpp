@@ -1,11 +1,13 @@
 #include "experiments/trade/measure_trade.h"
 
+#include <fmt/format.h>
 #include <malloc.h>
 
 #include <algorithm>
 
 #include "experiments/program/timing.h"
 #include "kds/seconds.h"
+#include "motions/base/input_error.h"
 
 namespace kds {
 
@@ -55,6 +57,29 @@ double seconds_to_run(const FinestData& finest, const TradeSetting& setting, Tra
     seconds += seconds_of_one(finest.scene(setting, std::move(*some)), setting, cost);
   cost.events = events;  // the others only bound it
   return seconds;
+}
+
+/// Of contacts, where structures cannot have balls that are larger by how far beads may be off; none where
+/// the setting can run.
+std::optional<std::string> obstacle_to(const FinestData& finest, const TradeSetting& setting) {
+  if (!setting.certify || setting.structure != "contacts") return std::nullopt;
+  const Scene scene = finest.scene(setting);
+  const StrideDeviation deviation = finest.deviation(setting, scene);
+  try {
+    static_cast<void>(radii_within(deviation, scene.radii()));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return std::nullopt;
+}
+
+void leave_out_impossible(std::vector<TradeSetting>& settings, const FinestData& finest,
+                          const std::function<void(const std::string&)>& warn) {
+  std::erase_if(settings, [&](const TradeSetting& setting) {
+    const std::optional<std::string> obstacle = obstacle_to(finest, setting);
+    if (obstacle) warn(fmt::format("`{}` is left out: {}", words_of(setting), *obstacle));
+    return obstacle.has_value();
+  });
 }
 
 /// Scenes are other tasks, not other answers to the same.
@@ -108,11 +133,13 @@ std::vector<double> main_errors(const TradeRow& row) {
 }
 
 std::vector<TradeRow> measure_trade(const FinestData& finest, const TradeTask& task,
-                                    const std::function<void(std::size_t, std::size_t)>& progress) {
+                                    const std::function<void(std::size_t, std::size_t)>& progress,
+                                    const std::function<void(const std::string&)>& warn) {
   std::vector<TradeGroup> groups;
   std::size_t total = 0, done = 0;
   for (const Want want : task.wants) {
     for (TradeGroup& group : groups_for(want, finest.input(), task.apart)) {
+      leave_out_impossible(group.settings, finest, warn);
       total += group.settings.size() * (task.rounds + (has_errors(group) ? 1 : 0));
       groups.push_back(std::move(group));
     }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "experiments/trade/finest_data.h"
@@ -42,9 +43,12 @@ struct TradeRow {
 /// The errors by which rows of a group are compared; empty where one of them is not known, and of scenes.
 [[nodiscard]] std::vector<double> main_errors(const TradeRow& row);
 
-/// In the order of the settings. Throws InputError where the trajectory does not go with what is wanted.
+/// In the order of the settings. A setting that cannot be certified, since beads may be too far from where
+/// its run has them, is left out, and `warn` gets a line that says so. Throws InputError where the trajectory
+/// does not go with what is wanted.
 [[nodiscard]] std::vector<TradeRow> measure_trade(
     const FinestData& finest, const TradeTask& task,
-    const std::function<void(std::size_t, std::size_t)>& progress);
+    const std::function<void(std::size_t, std::size_t)>& progress,
+    const std::function<void(const std::string&)>& warn);
 
 }  // namespace kds

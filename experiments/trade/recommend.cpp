@@ -4,7 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <vector>
+
+#include "experiments/output/text.h"
 
 namespace kds {
 
@@ -13,7 +17,13 @@ namespace {
 // What most people would call none: a hundredth, and no bead outside.
 constexpr double small_error = 0.01;
 
-std::string percent(double share) { return fmt::format("{:.2g}%", 100 * share); }
+/// Two figures, and whole numbers of more without an exponent.
+std::string few_figures(double value) {
+  if (!(value >= 99 && value < 1e15)) return fmt::format("{:.2g}", value);
+  return with_thousands(static_cast<std::uint64_t>(std::llround(value)));
+}
+
+std::string percent(double share) { return few_figures(100 * share) + "%"; }
 
 std::string subject_of(const TradeRow& row) {
   switch (row.want) {
@@ -39,17 +49,17 @@ bool is_small(const TradeRow& row) {
 }
 
 std::string times_as_fast(double ratio) {
-  return ratio < 1 ? fmt::format("{:.2g} times as fast as the exact run", 1 / ratio)
-                   : fmt::format("{:.2g} times as slow as the exact run", ratio);
+  return ratio < 1 ? few_figures(1 / ratio) + " times as fast as the exact run"
+                   : few_figures(ratio) + " times as slow as the exact run";
 }
 
 std::string sentence_for_scenes(std::span<const TradeRow> group) {
   const auto [least, most] = std::minmax_element(
       group.begin(), group.end(),
       [](const TradeRow& a, const TradeRow& b) { return a.cost.seconds < b.cost.seconds; });
-  return fmt::format("{}, `{}` costs least, and `{}` {:.2g} times as much.", subject_of(group.front()),
+  return fmt::format("{}, `{}` costs least, and `{}` {} times as much.", subject_of(group.front()),
                      words_of(least->setting), words_of(most->setting),
-                     most->cost.seconds / least->cost.seconds);
+                     few_figures(most->cost.seconds / least->cost.seconds));
 }
 
 std::string sentence_for(std::span<const TradeRow> group) {

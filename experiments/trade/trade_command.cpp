@@ -106,11 +106,15 @@ double foretold_seconds(const FinestData& finest, const TradeTask& task) {
   pilot.sampling.times = 4;
   const FinestData first = finest.first_frames(few);
   // Twice: what a look costs is told apart from what a run costs.
-  const double with_few =
-      seconds_of([&] { static_cast<void>(measure_trade(first, pilot, [](auto, auto) {})); }).clock;
+  const double with_few = seconds_of([&] {
+                            static_cast<void>(measure_trade(
+                                first, pilot, [](auto, auto) {}, [](auto&) {}));
+                          }).clock;
   pilot.sampling.times = 8;
-  const double with_more =
-      seconds_of([&] { static_cast<void>(measure_trade(first, pilot, [](auto, auto) {})); }).clock;
+  const double with_more = seconds_of([&] {
+                             static_cast<void>(measure_trade(
+                                 first, pilot, [](auto, auto) {}, [](auto&) {}));
+                           }).clock;
   const double a_look = std::max(0.0, with_more - with_few) / 4;
   const double a_round = std::max(0.0, with_few - 4 * a_look) / 2;
   const double steps = static_cast<double>(finest.frame_count() - 1) / (few - 1);
@@ -170,7 +174,8 @@ int trade_command(const Arguments& arguments) {
   const FinestData finest(std::move(necklaces), std::move(radii), options.input.radius);
   if (!destinations.quiet) foretell(foretold_seconds(finest, options.task));
   const std::vector<TradeRow> rows = measure_trade(
-      finest, options.task, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
+      finest, options.task, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },
+      held.hold());
   bar.erase();
   Json warnings = Json::array();
   held.release([&](const std::string& warning) {

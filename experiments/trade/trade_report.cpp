@@ -176,7 +176,8 @@ constexpr const char* words_of_columns =
     "wrong, cells that are not in the true diagram; edges, short ones missed; "
     "missed and invented or spurious, events or contacts beside the exact run (with --certify all possible "
     "contacts count as found, and unsure are those that it calls no more; of --select ca, which is another "
-    "model, residues count); time, in frames; closest, of the closest "
+    "model, contacts of residues count that are at least its --apart apart); time, in frames; closest, of "
+    "the closest "
     "distance; moved, a bead from its place. *: no other row of the group is as quick and as right.";
 
 }  // namespace
@@ -229,7 +230,7 @@ std::string trade_table(std::span<const TradeRow> rows) {
 std::string trade_page(std::span<const TradeRow> rows, const std::string& input, Page page) {
   page.title = "kds trade: " + input;
   page.found = fmt::format("<p>{}</p>\n", with_code(html_escaped(recommendation(rows))));
-  page.words = words_of_columns;
+  page.words = with_code(words_of_columns);
   for (const auto& group : groups_of(rows))
     page.body += html_section(title_of(group), html_table_of(group) + plots_of(group));
   return html_page(page);

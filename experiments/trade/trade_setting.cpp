@@ -59,11 +59,12 @@ std::string words_of(const TradeSetting& setting) {
 
 namespace {
 
-/// One bead a residue: pairs that were so far apart along the chain are of residues so far apart.
+/// One bead a residue. Beads A apart along the chain, of residues of at most k beads, are of residues at
+/// least A / k apart, rounded down: so far apart are those asked about, that no such pair is dropped. But two
+/// at least: the CA of adjacent residues are bonded, and contacts of those residues are not asked about.
 void take_calpha(TradeSetting& setting, const TradeInput& input) {
   setting.calpha = true;
-  const BeadId beads_a_residue = (input.beads + input.residues - 1) / input.residues;
-  const BeadId apart = std::max<BeadId>(2, (setting.settings.apart - 1) / beads_a_residue + 1);
+  const BeadId apart = std::max<BeadId>(2, setting.settings.apart / input.largest_residue);
   setting.has_own_apart = setting.structure == "contacts" && apart != setting.settings.apart;
   setting.settings.apart = apart;
 }

@@ -63,6 +63,7 @@ struct TradeInput {
   std::size_t necklaces = 1;
   int dimension = 3;
   BeadId residues = 0;             ///< whose beads are known, CA and others; 0: they are not
+  BeadId largest_residue = 0;      ///< beads of the one that has most
   double residue_radius = 0;       ///< CalphaModel::covering_radius
   bool has_element_radii = false;  ///< that are known
 };

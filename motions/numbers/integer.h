@@ -12,13 +12,21 @@
 
 namespace kds {
 
+/// Numbers that GMP takes as they are; longer ones, which some compilers have, are refused.
+template <class T>
+concept SignedWord = std::signed_integral<T> && sizeof(T) <= sizeof(long);
+template <class T>
+concept UnsignedWord = std::unsigned_integral<T> && sizeof(T) <= sizeof(long);
+template <class T>
+concept Word = SignedWord<T> || UnsignedWord<T>;
+
 class Integer {
   static_assert(sizeof(long) == sizeof(long long), "GMP takes numbers of 64 bits as long");
 
  public:
   Integer() { mpz_init(value_); }
-  Integer(std::signed_integral auto value) { mpz_init_set_si(value_, value); }
-  Integer(std::unsigned_integral auto value) { mpz_init_set_ui(value_, value); }
+  Integer(SignedWord auto value) { mpz_init_set_si(value_, value); }
+  Integer(UnsignedWord auto value) { mpz_init_set_ui(value_, value); }
   /// The whole part; `value` must be finite.
   explicit Integer(double value) { mpz_init_set_d(value_, value); }
   /// In decimal digits; throws std::invalid_argument where they are none.
@@ -37,11 +45,11 @@ class Integer {
     mpz_swap(value_, other.value_);
     return *this;
   }
-  Integer& operator=(std::signed_integral auto value) {
+  Integer& operator=(SignedWord auto value) {
     mpz_set_si(value_, value);
     return *this;
   }
-  Integer& operator=(std::unsigned_integral auto value) {
+  Integer& operator=(UnsignedWord auto value) {
     mpz_set_ui(value_, value);
     return *this;
   }
@@ -77,11 +85,11 @@ class Integer {
     mpz_mul(value_, value_, other.value_);
     return *this;
   }
-  Integer& operator*=(std::signed_integral auto factor) {
+  Integer& operator*=(SignedWord auto factor) {
     mpz_mul_si(value_, value_, factor);
     return *this;
   }
-  Integer& operator*=(std::unsigned_integral auto factor) {
+  Integer& operator*=(UnsignedWord auto factor) {
     mpz_mul_ui(value_, value_, factor);
     return *this;
   }
@@ -133,17 +141,17 @@ class Integer {
     mpz_mul(product.value_, a.value_, b.value_);
     return product;
   }
-  friend Integer operator*(const Integer& a, std::signed_integral auto b) {
+  friend Integer operator*(const Integer& a, SignedWord auto b) {
     Integer product;
     mpz_mul_si(product.value_, a.value_, b);
     return product;
   }
-  friend Integer operator*(const Integer& a, std::unsigned_integral auto b) {
+  friend Integer operator*(const Integer& a, UnsignedWord auto b) {
     Integer product;
     mpz_mul_ui(product.value_, a.value_, b);
     return product;
   }
-  friend Integer operator*(std::integral auto a, const Integer& b) { return b * a; }
+  friend Integer operator*(Word auto a, const Integer& b) { return b * a; }
   friend Integer operator/(const Integer& a, const Integer& b) {
     Integer quotient;
     mpz_tdiv_q(quotient.value_, a.value_, b.value_);
@@ -167,16 +175,12 @@ class Integer {
 
   friend bool operator==(const Integer& a, const Integer& b) { return mpz_cmp(a.value_, b.value_) == 0; }
   friend std::strong_ordering operator<=>(const Integer& a, const Integer& b) { return a.compare(b) <=> 0; }
-  friend bool operator==(const Integer& a, std::signed_integral auto b) {
-    return mpz_cmp_si(a.value_, b) == 0;
-  }
-  friend bool operator==(const Integer& a, std::unsigned_integral auto b) {
-    return mpz_cmp_ui(a.value_, b) == 0;
-  }
-  friend std::strong_ordering operator<=>(const Integer& a, std::signed_integral auto b) {
+  friend bool operator==(const Integer& a, SignedWord auto b) { return mpz_cmp_si(a.value_, b) == 0; }
+  friend bool operator==(const Integer& a, UnsignedWord auto b) { return mpz_cmp_ui(a.value_, b) == 0; }
+  friend std::strong_ordering operator<=>(const Integer& a, SignedWord auto b) {
     return mpz_cmp_si(a.value_, b) <=> 0;
   }
-  friend std::strong_ordering operator<=>(const Integer& a, std::unsigned_integral auto b) {
+  friend std::strong_ordering operator<=>(const Integer& a, UnsignedWord auto b) {
     return mpz_cmp_ui(a.value_, b) <=> 0;
   }
   friend std::ostream& operator<<(std::ostream& out, const Integer& value);

@@ -4,7 +4,6 @@
 #include <gmp.h>
 
 #include <compare>
-#include <concepts>
 #include <iosfwd>
 #include <string>
 
@@ -15,7 +14,7 @@ namespace kds {
 class Rational {
  public:
   Rational() { mpq_init(value_); }
-  Rational(std::integral auto value) : Rational(Integer(value)) {}
+  Rational(Word auto value) : Rational(Integer(value)) {}
   Rational(const Integer& value) : Rational() { mpq_set_z(value_, value.data()); }
   /// The double itself, which must be finite.
   Rational(double value) : Rational() { mpq_set_d(value_, value); }

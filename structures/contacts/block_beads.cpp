@@ -268,8 +268,8 @@ template <int Dimension>
   store(F::max(F::max(h[0], h[1]), F::max(h[2], h[3])), highest.data());
 }
 
-/// The swept balls of a block, and the boxes around four each. A bead that lacks is in its boxes what stands
-/// for it, and is itself near nothing.
+/// The swept balls of a block, and the boxes around four each. A bead that lacks is in the box of four others
+/// what stands for it, and is itself near nothing, as is a box without a bead.
 template <class F, int Dimension>
 [[gnu::always_inline]] inline void sweep(const Move<Dimension>& move, std::size_t block,
                                          const float* numbers) {
@@ -307,6 +307,12 @@ template <class F, int Dimension>
   GroupBoxes<Dimension>& boxes = swept.boxes[block];
   for (std::size_t axis = 0; axis < L::axes; ++axis)
     store_extremes(low[axis], high[axis], boxes.low[axis], boxes.high[axis]);
+  for (std::size_t group = (move.blocks[block].count + 3) / 4; group < 4; ++group) {
+    for (std::size_t axis = 0; axis < L::axes; ++axis) {
+      boxes.low[axis][group] = std::numeric_limits<float>::infinity();
+      boxes.high[axis][group] = -std::numeric_limits<float>::infinity();
+    }
+  }
   for (std::size_t i = move.blocks[block].count; i < row; ++i)
     swept.centers[0][row * block + i] = std::numeric_limits<float>::quiet_NaN();
 }
@@ -436,15 +442,18 @@ void BlockBeads<Dimension>::look_at(std::span<const BlockPair> blocks, BeadId ap
       look.firsts[p] = some[p].first;
       look.seconds[p] = some[p].second;
     }
+    std::uint64_t groups = 0;
     look.count = block_kernels<Dimension>(target_).compare_unequal(
         swept(), {look.firsts.data(), look.seconds.data()}, some.size(), asked, 0, look.scratch.data(),
-        {look.groups.data(), look.unclear.data()}, pairs.looked_at);
+        {look.groups.data(), look.unclear.data()}, groups);
+    pairs.proved_apart += groups;
     if (target_ != VectorTarget::plain) {
       prove_in_eights<Dimension>(numbers, look);
     } else {
       prove_in_fours<Dimension>(numbers, look);
     }
     for (std::size_t k = 0; k < look.count; ++k) {
+      if ((look.unclear[k] | look.inside[k]) != 0) --pairs.proved_apart;
       const BeadId first = blocks_[look.first_block(k)].first + look.first_bead(k);
       const BeadId second = blocks_[look.second_block(k)].first + look.second_bead(k);
       for_each_pair(first, second, look.unclear[k], [&](BeadId bead, BeadId other) {
@@ -461,9 +470,11 @@ void BlockBeads<Dimension>::look_at(std::span<const BlockPair> blocks, BeadId ap
 template <int Dimension>
 void BlockBeads<Dimension>::look_at_all(const BeadBlock& a, const BeadBlock& b, BeadId apart,
                                         PairsOfBlocks& pairs) const {
+  const bool along = a.necklace == b.necklace;
+  const BeadId end = b.first + b.count;
   for (BeadId bead = a.first; bead < a.first + a.count; ++bead) {
-    const bool along = a.necklace == b.necklace;
-    for (BeadId other = along ? std::max(b.first, bead + apart) : b.first; other < b.first + b.count; ++other)
+    if (along && end - bead <= apart) continue;
+    for (BeadId other = along ? std::max(b.first, bead + apart) : b.first; other < end; ++other)
       pairs.unclear.push_back({bead, other});
   }
 }

@@ -46,12 +46,12 @@ struct BlockPair {
 struct PairsOfBlocks {
   std::vector<BeadPair> unclear;
   std::vector<BeadPair> overlapping;  ///< all over the step; only where they are asked for
-  std::uint64_t looked_at = 0;        ///< pairs of four beads and four, those proved apart too
+  std::uint64_t proved_apart = 0;     ///< pairs of four beads and four, whose boxes meet
 
   void clear() {
     unclear.clear();
     overlapping.clear();
-    looked_at = 0;
+    proved_apart = 0;
   }
 };
 

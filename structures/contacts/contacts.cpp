@@ -80,7 +80,7 @@ void Contacts<D>::build() {
 template <int D>
 void Contacts<D>::start_step() {
   find_pairs(MovingFamily<D>::Resting::left_out, false, pairs_);
-  disjoint_.hold_never(family_.size() + pairs_.looked_at);
+  disjoint_.hold_never(family_.size() + pairs_.proved_apart);
   at_once_.clear();
   watch_from(0, true);
   if (!at_once_.empty()) settle_now();

@@ -1,9 +1,9 @@
 #pragma once
 // Pairs of cages that are disjoint all over a step, and with them all pairs of beads that need not be looked
 // at (Agarwal et al., section 3). The cages are moving boxes around runs of consecutive beads. A pair of
-// boxes that is not proved disjoint is split; where both are blocks, their beads are looked at pair by pair.
-// The family is coarse again at the start of every step: what was split for one step need not be for the
-// next.
+// boxes that is not proved disjoint is split; where both are blocks, their beads are looked at, four with
+// four. The family is coarse again at the start of every step: what was split for one step need not be for
+// the next.
 //
 // Boxes around blocks hold those that are near along the chain, where there are few blocks, else those that
 // are near in space: a long chain that is packed tightly comes back to a place again and again. They are

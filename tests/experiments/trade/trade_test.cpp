@@ -37,7 +37,8 @@ std::vector<TradeRow> measured(const FinestData& finest, std::vector<Want> wants
   task.rounds = 1;
   task.sampling.times = 20;
   task.apart = 5;
-  return measure_trade(finest, task, [](auto, auto) {});
+  return measure_trade(
+      finest, task, [](auto, auto) {}, [](auto&) {});
 }
 
 const TradeRow& row_of(const std::vector<TradeRow>& rows, const std::string& words) {
@@ -142,6 +143,66 @@ TEST(Trade, CalphaAloneIsAnotherModel) {
   EXPECT_EQ(row_of(rows, "wrapped --select ca" + by_hand).errors.beads_outside, 0.0);
 }
 
+TEST(Trade, CalphaAsksAboutAllResiduesOfBeadsSoFarApart) {
+  const auto apart_of = [](BeadId largest_residue, BeadId apart) {
+    TradeInput input;
+    input.frames = 2;
+    input.beads = 60;
+    input.residues = 20;  // 3 beads each on average
+    input.largest_residue = largest_residue;
+    const std::vector<TradeGroup> groups = groups_for(Want::contacts, input, apart);
+    const auto found = std::ranges::find_if(groups.front().settings, &TradeSetting::calpha);
+    if (found == groups.front().settings.end()) throw std::logic_error("no setting of CA alone");
+    return found->settings.apart;
+  };
+  EXPECT_EQ(apart_of(3, 20), 6U);  // beads 0 and 20 are of residues 0 and 6
+  EXPECT_EQ(apart_of(3, 21), 7U);
+  EXPECT_EQ(apart_of(5, 20), 4U);  // the largest residue counts, not the mean
+  EXPECT_EQ(apart_of(3, 5), 2U);   // adjacent residues are never asked about
+}
+
+TEST(Trade, CalphaErrsByAnUnknownShareWithoutTrueContacts) {
+  const FinestData finest = villin(3, 2.0);
+  EXPECT_EQ(finest.input().largest_residue, 3U);
+  TradeSetting setting;
+  setting.structure = "contacts";
+  setting.calpha = true;
+  TradeRow row{Want::contacts, setting, {}, {}};
+  const auto compare = [&](const RunHistory& exact) {
+    FollowedRun run{{2, {}, {{{0, 5}, 0, 1}}, {}}, {}, {}};
+    compare_histories(exact, run, finest, setting);
+    row.errors = run.errors;
+  };
+  compare({2, {}, {{{0, 4}, 0, 1}}, {}});  // of adjacent residues
+  EXPECT_FALSE(row.errors.contacts_missed);
+  EXPECT_FALSE(row.errors.contacts_spurious);
+  EXPECT_TRUE(main_errors(row).empty());
+  compare({2, {}, {{{0, 4}, 0, 1}, {{0, 10}, 0, 1}}, {}});  // the other of residues 0 and 3
+  EXPECT_EQ(row.errors.contacts_missed, 1.0);
+  EXPECT_EQ(row.errors.contacts_spurious, 1.0);
+}
+
+TEST(Trade, LeavesOutWhatCannotBeCertifiedAndSaysSo) {
+  Trajectory chain;
+  Eigen::Matrix3Xd frame = Eigen::Matrix3Xd::Random(3, 6) * 1e171;
+  for (int k = 0; k < 5; ++k) {
+    chain.frames.push_back(frame);
+    frame.col(k) *= -1;
+  }
+  const FinestData finest({chain}, std::vector<double>(6, 1e153), "1e153");
+  TradeTask task;
+  task.wants = {Want::contacts};
+  task.rounds = 1;
+  task.sampling.times = 2;
+  std::vector<std::string> warnings;
+  const std::vector<TradeRow> rows = measure_trade(
+      finest, task, [](auto, auto) {}, [&](const std::string& warning) { warnings.push_back(warning); });
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_THAT(warnings.front(), HasSubstr("`contacts --stride 2 --certify` is left out: bead"));
+  EXPECT_NO_THROW(static_cast<void>(row_of(rows, "contacts --stride 2")));
+  for (const TradeRow& row : rows) EXPECT_NE(words_of(row.setting), "contacts --stride 2 --certify");
+}
+
 TEST(Trade, ScenesCostByWhatIsAskedFor) {
   ReadOptions options;
   options.frames = {0, 9, 1};
@@ -190,7 +251,8 @@ TEST(Trade, AStrideIsWrongByWhatItLeavesOut) {
   task.wants = {Want::diagram};
   task.rounds = 1;
   task.sampling.times = 500;
-  const std::vector<TradeRow> rows = measure_trade(finest, task, [](auto, auto) {});
+  const std::vector<TradeRow> rows = measure_trade(
+      finest, task, [](auto, auto) {}, [](auto&) {});
   const TradeErrors& errors = row_of(rows, "power --stride 8").errors;
   EXPECT_NEAR(errors.displacement.value(), farthest, 1e-9);
   EXPECT_GT(errors.cells_wrong.value(), 0.01);
@@ -216,6 +278,8 @@ TEST(Trade, RecommendsWhatHasSmallErrors) {
                      HasSubstr("0.02% from the smallest on average"), HasSubstr("no bead is outside")));
   EXPECT_THAT(recommendation(std::vector{exact, stride}), HasSubstr("stay with the exact run"));
   EXPECT_THAT(recommendation(std::vector{exact}), HasSubstr("nothing is quicker than the exact run"));
+  chord.cost.ratio = 0.005;
+  EXPECT_THAT(recommendation(std::vector{exact, chord}), HasSubstr("is 200 times as fast"));
 }
 
 TEST(TradeCommand, WritesRowsAndAPage) {
@@ -242,7 +306,9 @@ TEST(TradeCommand, WritesRowsAndAPage) {
     EXPECT_TRUE(row.at("error").at("radius_mean").is_number());
   }
   EXPECT_TRUE(std::filesystem::exists(directory.path() / "result" / "trade.csv"));
-  expect_sound(content_of(directory.path() / "result" / "report.html"));
+  const std::string page = content_of(directory.path() / "result" / "report.html");
+  expect_sound(page);
+  EXPECT_THAT(page, HasSubstr("<code>kds run</code>"));
 }
 
 TEST(TradeCommand, RefusesWhatItDoesNotKnow) {

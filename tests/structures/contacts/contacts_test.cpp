@@ -252,6 +252,34 @@ TEST(Contacts, OneBeadFarAway) {
   }
 }
 
+// Where floats are no help either: nothing is counted from a bead's number past all numbers.
+TEST(Contacts, NoPairIsAskedForBeyondTheChain) {
+  Points from, to;
+  for (int i = 0; i < 24; ++i) {
+    from.push_back({1e306 * (i % 3), 1e150 * i, 0});
+    to.push_back({1e306 * (i % 3), 0, 0});
+  }
+  const std::vector<Space> steps{with_radii(moving(from, to), {1e152})};
+  for (const BeadId apart : {24U, no_bead - 10, no_bead}) {
+    ContactRig<Space> rig(steps.front(), AuditMode::none, all_pairs(24, apart));
+    rig.run(steps);
+    EXPECT_THAT(rig.history.events, IsEmpty()) << apart;
+    EXPECT_THAT(rig.structure.pairs(), IsEmpty()) << apart;
+  }
+}
+
+// Three beads, of which one pair is asked for: it has one certificate, and the chain's box another.
+TEST(Contacts, CertificatesAreCountedThatThereAre) {
+  const auto steps = std::vector{
+      with_radii(moving({{0, 0, 0}, {5, 0, 0}, {10, 0, 0}}, {{0, 0, 0}, {5, 0, 0}, {1, 0, 0}}), {1})};
+  for (const Kernel kernel : {Kernel::filtered, Kernel::exact}) {
+    ContactRig<Space> rig(steps.front(), AuditMode::none, kernel, all_pairs(3, 2));
+    rig.run(steps);
+    EXPECT_EQ(rig.history.events.size(), 1U);
+    EXPECT_LE(rig.structure.statistics.certificates.created, 2U);
+  }
+}
+
 /// Steps of a protein's backbone, balls so many times as large as half its longest bond.
 std::vector<Space> backbone_steps(const std::string& name, const std::string& topology, std::size_t frames,
                                   std::size_t stride, double times) {
