@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <tuple>
+#include <type_traits>
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/constants.h"
@@ -52,7 +53,7 @@ class AnchoredView {
       return view_.radius_difference(anchor, anchors_[0]);
     } else {
       // Filters whose bound is in powers of the largest length hear of one not below the root.
-      if constexpr (requires { view_.largest_length(); })
+      if constexpr (requires { view_.largest_length(); } || std::is_same_v<Number, Recorded>)
         static_cast<void>(view_.radius_difference(anchor, anchors_[0]));
       return view_.weight_difference(anchor, anchors_[0]);
     }

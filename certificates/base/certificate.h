@@ -10,9 +10,12 @@
 // degree 2 or 3 and speed matters, `static constexpr int lanes_up_to_degree = 3`.
 
 #include <concepts>
+#include <cstddef>
+#include <tuple>
 
 #include "certificates/base/certificate_type.h"
 #include "motions/views/motion_view.h"
+#include "motions/views/recording_view.h"
 
 namespace kds {
 
@@ -24,6 +27,10 @@ inline constexpr Channels channels_of = [] {
   if constexpr (requires { F::uses_radii; }) channels.radii = F::uses_radii;
   return channels;
 }();
+
+/// How many beads a function is of.
+template <class F>
+inline constexpr std::size_t bead_places = std::tuple_size_v<decltype(F{}.beads)>;
 
 /// Searches go four at a time in motions up to this degree, 0 to 3, and one at a time in others. Each takes a
 /// second or more to compile: 1 where the type says nothing. Power tests over lifted motion always go so.
@@ -37,11 +44,12 @@ inline constexpr int lanes_up_to_degree = [] {
 /// ask for radii.
 template <class F, class M>
 concept FunctionOfBeads =
-    Motion<M> && !(lifted<M> && channels_of<F>.radii) && requires(const F& f, const DoubleView<M>& view) {
+    Motion<M> && !(lifted<M> && channels_of<F>.radii) &&
+    requires(const F& f, const RecordingView<M::dimension, lifted<M>, channels_of<F>>& view) {
   {
     F {}
     } -> std::same_as<F>;
-  { F::formula(view, f.beads).scaled[0] } -> std::convertible_to<double>;
+  F::formula(view, f.beads).degree;
 };
 
 /// The function itself, in the view's numbers.

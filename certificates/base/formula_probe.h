@@ -19,6 +19,9 @@ struct LengthPower {
   int power = any;
   bool unlike = false;  ///< unlike powers were added on the way
 
+  /// A whole number.
+  static constexpr LengthPower constant(double) { return {0}; }
+
   constexpr LengthPower& operator+=(const LengthPower& other) {
     unlike |= other.unlike || (power != any && other.power != any && power != other.power);
     power = std::max(power, other.power);

@@ -28,9 +28,6 @@ struct LanesBound {
   }
 };
 
-template <class Certificate>
-inline constexpr std::size_t bead_places = std::tuple_size_v<decltype(Certificate{}.beads)>;
-
 namespace detail {
 
 /// For callers that are compiled for lanes themselves.

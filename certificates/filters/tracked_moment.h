@@ -21,25 +21,26 @@ namespace kds {
   return number.value > error ? 1 : number.value < -error ? -1 : 0;
 }
 
-/// A function over this view names beads by their place among those given. Of the first all are seen.
-template <Motion M, std::size_t Places, Channels channels = Channels{false, true}>
+/// A function over this view names beads by their place among those given. Of a lifted motion no weights are
+/// seen: between frames they are no Bezier curves.
+template <Motion M>
 class TrackedMoment {
-  static_assert(!lifted<M> || !channels.weights, "weights between frames are no Bezier curves");
-
  public:
   using Number = TrackedDouble;
   static constexpr int dimension = M::dimension;
   static constexpr int degree = 0;
 
   /// From `lower` to `upper`, within [0,1].
-  TrackedMoment(const M& motion, std::span<const BeadId> beads, double lower, double upper) {
+  TrackedMoment(const M& motion, std::span<const BeadId> beads, double lower, double upper,
+                Channels channels) {
+    seen_.resize(beads.size() * columns);
     if constexpr (M::degree < 0) {  // most motion is linear, and few signs are worth loops for it
       if (degree_of(motion) == 1) {
-        see(FixedCurves<dimension, 1>(Curves<dimension>(motion)), beads, lower, upper);
+        see(FixedCurves<dimension, 1>(Curves<dimension>(motion)), beads, lower, upper, channels);
         return;
       }
     }
-    see(motion, beads, lower, upper);
+    see(motion, beads, lower, upper, channels);
   }
 
   [[nodiscard]] BernsteinVector<TrackedDouble, 0, dimension> difference(BeadId i, BeadId j) const {
@@ -47,46 +48,48 @@ class TrackedMoment {
     for (std::size_t axis = 0; axis < dimension; ++axis) result[axis].scaled[0] = between(i, j, axis);
     return result;
   }
-  [[nodiscard]] Bernstein<TrackedDouble, 0> radius_difference(BeadId i, BeadId j) const
-      requires(channels.radii) {
+  [[nodiscard]] Bernstein<TrackedDouble, 0> radius_difference(BeadId i, BeadId j) const {
     return {{between(i, j, of_radius)}};
   }
-  [[nodiscard]] Bernstein<TrackedDouble, 0> radius_sum(BeadId i, BeadId j) const requires(channels.radii) {
-    return {{seen_[i][of_radius] + seen_[j][of_radius] + first_radius_ + first_radius_}};
+  [[nodiscard]] Bernstein<TrackedDouble, 0> radius_sum(BeadId i, BeadId j) const {
+    return {{seen(i, of_radius) + seen(j, of_radius) + first_radius_ + first_radius_}};
   }
-  [[nodiscard]] Bernstein<TrackedDouble, 0> weight_difference(BeadId i, BeadId j) const
-      requires(channels.weights) {
+  [[nodiscard]] Bernstein<TrackedDouble, 0> weight_difference(BeadId i, BeadId j) const {
     return {{between(i, j, of_weight)}};
   }
 
  private:
-  static constexpr std::size_t of_radius = dimension, of_weight = dimension + (channels.radii ? 1 : 0);
-  static constexpr std::size_t columns = of_weight + (channels.weights ? 1 : 0);
+  static constexpr std::size_t of_radius = dimension, of_weight = dimension + 1, columns = dimension + 2;
 
   template <Motion C>
-  void see(const C& motion, std::span<const BeadId> beads, double lower, double upper) {
-    const double scale = scale_to_unit<channels>(motion, beads);
+  void see(const C& motion, std::span<const BeadId> beads, double lower, double upper, Channels channels) {
+    const double scale = scale_to_unit(motion, beads, channels);
     const int own = degree_of(motion);
     const TrackedDouble later{upper, 0}, earlier = rounded(1 - upper);
     const double length = own * (upper - lower) * TrackedDouble::inflation;
     const auto during = [&](auto control) { return value<C::degree>(own, control, earlier, later, length); };
-    for (std::size_t place = 1; place < Places; ++place) {
+    std::fill_n(seen_.begin(), columns, TrackedDouble{});
+    for (std::size_t place = 1; place < beads.size(); ++place) {
       const BeadId bead = beads[place], first = beads[0];
-      if (bead == first) continue;  // zero, without an error: that would be subnormal, and slow
+      TrackedDouble* const row = seen_.begin() + place * columns;
+      if (bead == first) {  // zero, without an error: that would be subnormal, and slow
+        std::fill_n(row, columns, TrackedDouble{});
+        continue;
+      }
       for (int axis = 0; axis < dimension; ++axis) {
-        seen_[place][static_cast<std::size_t>(axis)] = during([&](int k) {
+        row[axis] = during([&](int k) {
           return rounded((motion.coordinate(bead, k, axis) - motion.coordinate(first, k, axis)) * scale);
         });
       }
-      if constexpr (channels.radii)
-        seen_[place][of_radius] = during(
+      if (channels.radii)
+        row[of_radius] = during(
             [&](int k) { return rounded((motion.radius(bead, k) - motion.radius(first, k)) * scale); });
-      if constexpr (channels.weights)
-        seen_[place][of_weight] = during([&](int k) {
+      if (channels.weights)
+        row[of_weight] = during([&](int k) {
           return rounded((motion.weight(bead, k) - motion.weight(first, k)) * scale * scale);
         });
     }
-    if constexpr (channels.radii)
+    if (channels.radii)
       first_radius_ = during([&](int k) { return rounded(motion.radius(beads[0], k) * scale); });
   }
 
@@ -115,15 +118,18 @@ class TrackedMoment {
     return points[0];
   }
   [[nodiscard]] TrackedDouble between(BeadId i, BeadId j, std::size_t column) const {
-    if (j == 0) return seen_[i][column];
-    if (i == 0) return -seen_[j][column];
-    return seen_[i][column] - seen_[j][column];
+    if (j == 0) return seen(i, column);
+    if (i == 0) return -seen(j, column);
+    return seen(i, column) - seen(j, column);
+  }
+  [[nodiscard]] const TrackedDouble& seen(std::size_t place, std::size_t column) const {
+    return seen_[place * columns + column];
   }
 
-  std::array<std::array<TrackedDouble, columns>, Places> seen_{};  // from the first
+  Coefficients<TrackedDouble> seen_;  // rows of the beads, from the first; columns not asked for are not set
   TrackedDouble first_radius_;
 };
 
-static_assert(MotionView<TrackedMoment<BezierMotion<3, 1>, 3>>);
+static_assert(MotionView<TrackedMoment<BezierMotion<3, 1>>>);
 
 }  // namespace kds

@@ -7,8 +7,8 @@
 #include "certificates/base/failure_time.h"
 #include "certificates/base/stage_counts.h"
 #include "certificates/exact/instant.h"
+#include "certificates/formulas/function_values.h"
 #include "certificates/search/certificate_search.h"
-#include "certificates/search/function_values.h"
 
 namespace kds {
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "certificates/base/anchored_function.h"
+#include "certificates/formulas/function_values.h"
 #include "certificates/search/certificate_search.h"
-#include "certificates/search/define_function_values.h"
 
 namespace kds::detail {
 

@@ -16,10 +16,10 @@
 #include "certificates/filters/classify_lanes.h"
 #include "certificates/filters/formula_lanes.h"
 #include "certificates/filters/moment_lanes.h"
+#include "certificates/formulas/function_values.h"
 #include "certificates/search/careful_search.h"
 #include "certificates/search/certificate_search.h"
 #include "certificates/search/define_anchored_search.h"
-#include "certificates/search/define_function_values.h"
 #include "certificates/search/degree_limit.h"
 #include "certificates/search/exact_search.h"
 

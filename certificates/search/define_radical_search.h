@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "certificates/exact/exact_work.h"
+#include "certificates/formulas/function_values.h"
 #include "certificates/search/certificate_search.h"
-#include "certificates/search/define_function_values.h"
 #include "certificates/search/degree_limit.h"
 #include "certificates/search/exact_radical.h"
 #include "certificates/search/radical_in_double.h"

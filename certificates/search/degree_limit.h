@@ -6,17 +6,19 @@
 #include <string_view>
 #include <utility>
 
+#include "certificates/base/certificate.h"
 #include "certificates/base/certificate_type.h"
 #include "motions/numbers/bernstein.h"
-#include "motions/views/motion_view.h"
+#include "motions/views/recording_view.h"
 
 namespace kds::detail {
 
 /// Of a function of beads over curves of this degree. `C`: Curves or LiftedCurves.
 template <class Function, class C>
 [[nodiscard]] constexpr int degree_of_function(int of_curves) {
-  constexpr int degree = decltype(Function::formula(std::declval<const DoubleView<C>&>(),
-                                                    std::declval<Function>().beads))::degree;
+  constexpr int degree = decltype(Function::formula(
+      std::declval<const RecordingView<C::dimension, lifted<C>, channels_of<Function>>&>(),
+      std::declval<Function>().beads))::degree;
   return degree < 0 ? -degree * of_curves : degree;
 }
 

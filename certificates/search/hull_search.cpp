@@ -19,10 +19,4 @@ template std::unique_ptr<CertificateSearch<SameTurn<3>>> same_turn_search(const 
 template std::unique_ptr<CertificateSearch<CentroidInside<2>>> centroid_search(const MotionRef<2>&);
 template std::unique_ptr<CertificateSearch<CentroidInside<3>>> centroid_search(const MotionRef<3>&);
 
-// For signs where beads are (snapshot_sign.h).
-template struct FunctionValues<SameTurn<2>, Curves<2>>;
-template struct FunctionValues<SameTurn<3>, Curves<3>>;
-template struct FunctionValues<CentroidInside<2>, Curves<2>>;
-template struct FunctionValues<CentroidInside<3>, Curves<3>>;
-
 }  // namespace kds

@@ -6,8 +6,4 @@ namespace kds {
 template std::unique_ptr<CertificateSearch<Orientation<2>>> search_over(const MotionRef<2>&);
 template std::unique_ptr<CertificateSearch<Orientation<3>>> search_over(const MotionRef<3>&);
 
-// For signs where beads are (snapshot_sign.h).
-template struct FunctionValues<Orientation<2>, Curves<2>>;
-template struct FunctionValues<Orientation<3>, Curves<3>>;
-
 }  // namespace kds

@@ -8,7 +8,7 @@
 
 #include "certificates/base/radical.h"
 #include "certificates/filters/tracked_moment.h"
-#include "certificates/search/function_values.h"
+#include "certificates/formulas/function_values.h"
 #include "certificates/search/radical_walk.h"
 
 namespace kds::detail {
@@ -96,23 +96,23 @@ class CertificateInDouble final : public RadicalInDouble {
     return *norm_;
   }
   [[nodiscard]] int certain_sign_on(double lower, double upper) const override {
-    const View view(curves_, certificate_.beads, lower, upper);
+    const View view(curves_, certificate_.beads, lower, upper, channels);
     const int norm_sign = norm_ ? norm_->certain_sign_on(lower, upper) : 0;
     return side_ * with_condition(side_ * wanted(view).whole(norm_sign), view);
   }
   [[nodiscard]] int sign_by_norm(int norm_sign, double lower, double upper) const override {
-    const View view(curves_, certificate_.beads, lower, upper);
+    const View view(curves_, certificate_.beads, lower, upper, channels);
     return side_ * with_condition(side_ * wanted(view).whole_by_norm(norm_sign), view);
   }
   [[nodiscard]] int norm_while_it_holds(double lower, double upper) const override {
-    const View view(curves_, certificate_.beads, lower, upper);
+    const View view(curves_, certificate_.beads, lower, upper, channels);
     const int a = wanted(view).rational();
     return a != 0 && wanted(view).root() == -a ? a : 0;
   }
   [[nodiscard]] bool is_usable_on(double lower, double upper) const override {
     const auto certain = [this](const TrackedDouble& number) { return sign_of(number, errors_); };
     if constexpr (requires(View & view) { Certificate::is_usable(view, certificate_.beads, certain); }) {
-      const View view(curves_, certificate_.beads, lower, upper);
+      const View view(curves_, certificate_.beads, lower, upper, channels);
       auto places = certificate_.beads;
       std::iota(places.begin(), places.end(), 0U);
       return Certificate::is_usable(view, places, certain);
@@ -122,13 +122,14 @@ class CertificateInDouble final : public RadicalInDouble {
   [[nodiscard]] int certain_norm_at(double u) const override {
     if (norm_)
       if (const int sign = norm_->certain_sign_at(u)) return sign;
-    const View view(curves_, certificate_.beads, u, u);
+    const View view(curves_, certificate_.beads, u, u, channels);
     return wanted(view).norm();
   }
 
  private:
   using Norm = SignedPart<typename Certificate::Radical::Norm>;
-  using View = TrackedMoment<C, std::tuple_size_v<decltype(Certificate{}.beads)>>;
+  using View = TrackedMoment<C>;
+  static constexpr Channels channels{.weights = false, .radii = true};
 
   [[nodiscard]] BoundedPolynomial bounded_norm() const {
     using Values = FunctionValues<Norm, C>;

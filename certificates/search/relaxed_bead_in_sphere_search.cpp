@@ -21,10 +21,13 @@ class RelaxedSearch final : public detail::SearchOneByOne<Certificate, Curves<Di
     if (kernel != Kernel::filtered || this->motion().degree() != 1)
       return Base::first_failures(kernel, certificates, now, known, stages, touches, failures);
     const Curves<Dimension> curves = this->motion().curves();
+    const Linear linear(curves);
+    const ErrorBound& bound = Base::Values::error_bound(1);
     for (std::size_t i = 0; i < certificates.size(); ++i) {
       const Certificate& certificate = certificates[i];
+      const DoubleView<Linear> view(linear);
       const BoundedFunction function =
-          FunctionValues<Certificate, Linear>::bounded(certificate, Linear(curves));
+          bounded_function(function_of(certificate, view).scaled, bound, view.largest_length());
       if (function.positive) {
         ++stages.coefficients;
         failures[i] = {};

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "certificates/filters/formula_lanes.h"
-#include "certificates/search/function_values.h"
+#include "certificates/formulas/function_values.h"
 #include "motions/curves/snapshot.h"
 
 namespace kds {

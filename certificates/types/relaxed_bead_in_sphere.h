@@ -43,7 +43,6 @@ struct RelaxedBeadInSphere {
 
   template <MotionView View>
   [[nodiscard]] static auto formula(const View& view, const Beads& beads) {
-    using detail::times;
     constexpr std::int64_t four = 4 * Relaxation::one_squared;
     const std::int64_t sigma = beads.relaxation.square_units();
     const auto d1 = view.difference(beads[1], beads[0]);

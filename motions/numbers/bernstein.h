@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 #include <utility>
 
@@ -75,6 +76,20 @@ template <class Number>
                                 Coefficients<Number>& product) {
   product.resize(a.size() + b.size() - 1);
   for (std::size_t k = 0; k < product.size(); ++k) product[k] = convolved<Number>(a, b, k);
+}
+
+/// A whole number of times another number.
+template <class Number>
+constexpr void multiply_by(Number& x, std::int64_t factor) {
+  if constexpr (std::is_floating_point_v<Number>) {
+    x *= static_cast<Number>(factor);
+  } else if constexpr (requires { Number::constant(1.0); }) {
+    x = Number::constant(static_cast<double>(factor)) * x;
+  } else if constexpr (requires { x *= static_cast<long long>(factor); }) {
+    x *= static_cast<long long>(factor);
+  } else {
+    x = Number{static_cast<double>(factor)} * x;
+  }
 }
 
 }  // namespace detail
@@ -156,6 +171,13 @@ constexpr Bernstein<Number, To> elevate(const Bernstein<Number, From>& p) {
     next.scaled[static_cast<std::size_t>(From) + 1] = p.scaled[static_cast<std::size_t>(From)];
     return elevate<To>(next);
   }
+}
+
+/// A whole number of times a polynomial.
+template <class Number, int Degree>
+[[nodiscard]] constexpr Bernstein<Number, Degree> times(std::int64_t factor, Bernstein<Number, Degree> p) {
+  for (Number& c : p.scaled) detail::multiply_by(c, factor);
+  return p;
 }
 
 /// A vector of polynomials, one a coordinate axis.

@@ -28,13 +28,13 @@ namespace kds {
 
 /// Calls `visit` with each number of some beads' control points, in these channels, and with its power of
 /// length, 1 or 2.
-template <Channels channels, Motion M, std::invocable<double, int> Visit>
-void each_control(const M& motion, std::span<const BeadId> beads, Visit visit) {
+template <Motion M, std::invocable<double, int> Visit>
+void each_control(const M& motion, std::span<const BeadId> beads, Channels channels, Visit visit) {
   for (const BeadId bead : beads) {
     for (int k = 0; k <= degree_of(motion); ++k) {
       for (int axis = 0; axis < M::dimension; ++axis) visit(motion.coordinate(bead, k, axis), 1);
-      if constexpr (channels.weights) visit(motion.weight(bead, k), 2);
-      if constexpr (channels.radii) visit(motion.radius(bead, k), 1);
+      if (channels.weights) visit(motion.weight(bead, k), 2);
+      if (channels.radii) visit(motion.radius(bead, k), 1);
     }
   }
   if constexpr (lifted<M>) {
@@ -47,11 +47,12 @@ struct WholeScale {
   int exponent = -4096;  ///< lengths times 2^exponent, squares of them times 2^(2 exponent)
   int bits = 0;          ///< lengths are below 2^bits in size then, squares of them below 2^(2 bits)
 };
-template <Channels channels = all_channels, Motion M>
-[[nodiscard]] WholeScale whole_scale(const M& motion, std::span<const BeadId> beads) {
+template <Motion M>
+[[nodiscard]] WholeScale whole_scale(const M& motion, std::span<const BeadId> beads,
+                                     Channels channels = all_channels) {
   WholeScale scale;  // below every double
   int top = -4096;
-  each_control<channels>(motion, beads, [&](double value, int power) {
+  each_control(motion, beads, channels, [&](double value, int power) {
     const SplitDouble parts = split(value);
     if (parts.mantissa == 0) return;
     const auto bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::abs(parts.mantissa))));
@@ -87,18 +88,18 @@ struct RoundedIntegers {
   [[nodiscard]] static LeadingDigits of(long long x) { return LeadingDigits::of(x); }
 };
 
-template <Motion M, class Ring, Channels channels = all_channels>
+template <Motion M, class Ring>
 class ExactView {
  public:
   using Number = typename Ring::Number;
   static constexpr int dimension = M::dimension;
   static constexpr int degree = M::degree;
 
-  /// Knows only the beads that the scale was made for.
+  /// Knows only the beads, and the channels, that the scale was made for.
   ExactView(const M& motion, const WholeScale& scale, Ring ring = {})
       : motion_(motion), exponent_(scale.exponent), ring_(ring) {}
-  ExactView(const M& motion, std::span<const BeadId> beads)
-      : ExactView(motion, whole_scale<channels>(motion, beads)) {}
+  ExactView(const M& motion, std::span<const BeadId> beads, Channels channels = all_channels)
+      : ExactView(motion, whole_scale(motion, beads, channels)) {}
 
   [[nodiscard]] BernsteinVector<Number, degree, dimension> difference(BeadId i, BeadId j) const {
     BernsteinVector<Number, degree, dimension> result;
@@ -109,19 +110,16 @@ class ExactView {
     }
     return result;
   }
-  [[nodiscard]] Bernstein<Number, degree> weight_difference(BeadId i, BeadId j) const
-      requires(channels.weights) {
+  [[nodiscard]] Bernstein<Number, degree> weight_difference(BeadId i, BeadId j) const {
     return polynomial([&](int k) { return square(motion_.weight(i, k)) - square(motion_.weight(j, k)); });
   }
-  [[nodiscard]] Bernstein<Number, degree> radius_difference(BeadId i, BeadId j) const
-      requires(channels.radii) {
+  [[nodiscard]] Bernstein<Number, degree> radius_difference(BeadId i, BeadId j) const {
     return polynomial([&](int k) { return length(motion_.radius(i, k)) - length(motion_.radius(j, k)); });
   }
-  [[nodiscard]] Bernstein<Number, degree> radius_sum(BeadId i, BeadId j) const requires(channels.radii) {
+  [[nodiscard]] Bernstein<Number, degree> radius_sum(BeadId i, BeadId j) const {
     return polynomial([&](int k) { return length(motion_.radius(i, k)) + length(motion_.radius(j, k)); });
   }
-  [[nodiscard]] Bernstein<Number, 1> lift_difference(BeadId i, BeadId j) const
-      requires(channels.weights&& lifted<M>) {
+  [[nodiscard]] Bernstein<Number, 1> lift_difference(BeadId i, BeadId j) const requires(lifted<M>) {
     return lift_of(*this, i, j);
   }
   [[nodiscard]] std::array<Number, dimension> displacement(BeadId bead) const requires(lifted<M>) {
@@ -165,25 +163,26 @@ class ExactView {
   Ring ring_;
 };
 
-template <Motion M, Channels channels = all_channels>
-using IntegerView = ExactView<M, Integers, channels>;
-template <Motion M, Channels channels = all_channels>
-using FixedView = ExactView<M, FixedIntegers, channels>;
-template <Motion M, Channels channels = all_channels>
-using ResidueView = ExactView<M, Residues, channels>;
-template <Motion M, Channels channels = all_channels>
-using DigitsView = ExactView<M, RoundedIntegers, channels>;
+template <Motion M>
+using IntegerView = ExactView<M, Integers>;
+template <Motion M>
+using FixedView = ExactView<M, FixedIntegers>;
+template <Motion M>
+using ResidueView = ExactView<M, Residues>;
+template <Motion M>
+using DigitsView = ExactView<M, RoundedIntegers>;
 
-template <Motion M, Channels channels = all_channels>
+template <Motion M>
 class MomentView {
  public:
   using Number = Integer;
   static constexpr int dimension = M::dimension;
   static constexpr int degree = 0;
 
-  /// The motion at `time` in [0,1]; knows only these beads.
-  MomentView(const M& motion, std::span<const BeadId> beads, const Dyadic& time)
-      : moving_(motion, beads),
+  /// The motion at `time` in [0,1]; knows only these beads, and these channels of theirs.
+  MomentView(const M& motion, std::span<const BeadId> beads, const Dyadic& time,
+             Channels channels = all_channels)
+      : moving_(motion, beads, channels),
         degree_(degree_of(motion)),
         later_(time.numerator()),
         time_exponent_(time.exponent()) {
@@ -196,17 +195,16 @@ class MomentView {
     for (std::size_t axis = 0; axis < result.size(); ++axis) result[axis].scaled[0] = at_moment(moving[axis]);
     return result;
   }
-  [[nodiscard]] Bernstein<Integer, 0> weight_difference(BeadId i, BeadId j) const requires(channels.weights) {
+  [[nodiscard]] Bernstein<Integer, 0> weight_difference(BeadId i, BeadId j) const {
     return squares(moving_.weight_difference(i, j));
   }
-  [[nodiscard]] Bernstein<Integer, 0> lift_difference(BeadId i, BeadId j) const
-      requires(channels.weights&& lifted<M>) {
+  [[nodiscard]] Bernstein<Integer, 0> lift_difference(BeadId i, BeadId j) const requires(lifted<M>) {
     return squares(moving_.lift_difference(i, j));
   }
-  [[nodiscard]] Bernstein<Integer, 0> radius_difference(BeadId i, BeadId j) const requires(channels.radii) {
+  [[nodiscard]] Bernstein<Integer, 0> radius_difference(BeadId i, BeadId j) const {
     return {{at_moment(moving_.radius_difference(i, j))}};
   }
-  [[nodiscard]] Bernstein<Integer, 0> radius_sum(BeadId i, BeadId j) const requires(channels.radii) {
+  [[nodiscard]] Bernstein<Integer, 0> radius_sum(BeadId i, BeadId j) const {
     return {{at_moment(moving_.radius_sum(i, j))}};
   }
 
@@ -225,7 +223,7 @@ class MomentView {
     return value;
   }
 
-  IntegerView<M, channels> moving_;
+  IntegerView<M> moving_;
   int degree_;
   Integer later_;    // u * 2^time_exponent
   Integer earlier_;  // (1-u) * 2^time_exponent

@@ -7,6 +7,7 @@
 //                  square
 //   MagnitudeView  the error bound's constants (magnitude.h); sees no motion at all
 //   IntegerView, ResidueView, MomentView   exact (integer_view.h)
+//   RecordingView  writes the formula down, for all of these to play (recording_view.h)
 //
 // Functions of certificates are homogeneous in lengths, so a common factor changes no sign. Every view
 // answers with differences to a bead: certificates do not depend on the origin, or have it as a bead, and the
@@ -24,15 +25,9 @@
 #include "motions/numbers/bernstein.h"
 #include "motions/numbers/magnitude.h"
 #include "motions/numbers/tracked_double.h"
+#include "motions/views/channels.h"
 
 namespace kds {
-
-/// What a function asks of beads besides their centres.
-struct Channels {
-  bool weights = false;
-  bool radii = false;
-};
-inline constexpr Channels all_channels{true, true};
 
 /// Besides difference(i, j) a view has weight_difference(i, j), radius_difference(i, j) and radius_sum(i, j),
 /// polynomials of the same degree, if it was told that they will be asked for. Of a lifted motion it has
@@ -137,8 +132,9 @@ class DoubleView {
 
 /// A power of two that brings the largest difference of some beads near 1, as far as a double goes; 1 where
 /// differences overflow or are zero. Channels that are not asked for do not count.
-template <Channels channels = all_channels, Motion M>
-[[nodiscard]] double scale_to_unit(const M& motion, std::span<const BeadId> beads) {
+template <Motion M>
+[[nodiscard]] double scale_to_unit(const M& motion, std::span<const BeadId> beads,
+                                   Channels channels = all_channels) {
   double length = 0;
   double weight = 0;
   for (const BeadId bead : beads) {
@@ -146,8 +142,8 @@ template <Channels channels = all_channels, Motion M>
       for (int axis = 0; axis < M::dimension; ++axis)
         length = std::max(length,
                           std::abs(motion.coordinate(bead, k, axis) - motion.coordinate(beads[0], k, axis)));
-      if constexpr (channels.radii) length = std::max(length, std::abs(motion.radius(bead, k)));
-      if constexpr (channels.weights)
+      if (channels.radii) length = std::max(length, std::abs(motion.radius(bead, k)));
+      if (channels.weights)
         weight = std::max(weight, std::abs(motion.weight(bead, k) - motion.weight(beads[0], k)));
     }
   }
@@ -156,16 +152,16 @@ template <Channels channels = all_channels, Motion M>
   return std::ldexp(1.0, std::min(-std::ilogb(largest), 1023));
 }
 
-template <Motion M, Channels channels = all_channels>
+template <Motion M>
 class TrackedView {
  public:
   using Number = TrackedDouble;
   static constexpr int dimension = M::dimension;
   static constexpr int degree = M::degree;
 
-  /// Knows only these beads.
-  TrackedView(const M& motion, std::span<const BeadId> beads)
-      : motion_(motion), scale_(scale_to_unit<channels>(motion, beads)) {}
+  /// Knows only these beads, and these channels of theirs.
+  TrackedView(const M& motion, std::span<const BeadId> beads, Channels channels = all_channels)
+      : motion_(motion), scale_(scale_to_unit(motion, beads, channels)) {}
 
   [[nodiscard]] BernsteinVector<TrackedDouble, degree, dimension> difference(BeadId i, BeadId j) const {
     BernsteinVector<TrackedDouble, degree, dimension> result;
@@ -175,20 +171,16 @@ class TrackedView {
     }
     return result;
   }
-  [[nodiscard]] Bernstein<TrackedDouble, degree> weight_difference(BeadId i, BeadId j) const
-      requires(channels.weights) {
+  [[nodiscard]] Bernstein<TrackedDouble, degree> weight_difference(BeadId i, BeadId j) const {
     return polynomial([&](int k) { return scaled_twice(motion_.weight(i, k) - motion_.weight(j, k)); });
   }
-  [[nodiscard]] Bernstein<TrackedDouble, degree> radius_difference(BeadId i, BeadId j) const
-      requires(channels.radii) {
+  [[nodiscard]] Bernstein<TrackedDouble, degree> radius_difference(BeadId i, BeadId j) const {
     return polynomial([&](int k) { return scaled(motion_.radius(i, k) - motion_.radius(j, k)); });
   }
-  [[nodiscard]] Bernstein<TrackedDouble, degree> radius_sum(BeadId i, BeadId j) const
-      requires(channels.radii) {
+  [[nodiscard]] Bernstein<TrackedDouble, degree> radius_sum(BeadId i, BeadId j) const {
     return polynomial([&](int k) { return scaled(motion_.radius(i, k) + motion_.radius(j, k)); });
   }
-  [[nodiscard]] Bernstein<TrackedDouble, 1> lift_difference(BeadId i, BeadId j) const
-      requires(channels.weights&& lifted<M>) {
+  [[nodiscard]] Bernstein<TrackedDouble, 1> lift_difference(BeadId i, BeadId j) const requires(lifted<M>) {
     return lift_of(*this, i, j);
   }
   [[nodiscard]] std::array<TrackedDouble, dimension> displacement(BeadId bead) const requires(lifted<M>) {

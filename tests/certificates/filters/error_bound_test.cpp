@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "certificates/search/define_function_values.h"
+#include "certificates/formulas/function_values.h"
 #include "motions/views/integer_view.h"
 #include "tests/support/inputs/any_certificate.h"
 #include "tests/support/inputs/random_motion.h"

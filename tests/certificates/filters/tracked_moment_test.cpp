@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "certificates/exact/exact_function.h"
 #include "certificates/exact/exact_time.h"
+#include "certificates/formulas/function_values.h"
 #include "certificates/types/ball_in_sphere.h"
 #include "tests/support/inputs/random_motion.h"
 
@@ -23,14 +23,14 @@ template <class Polynomial, class M>
 void judge(const M& motion, Random& random, Tally& tally) {
   Polynomial polynomial;
   for (std::size_t i = 0; i < polynomial.beads.size(); ++i) polynomial.beads[i] = static_cast<BeadId>(i);
-  const ExactPolynomial exact =
-      exact_function_of(polynomial, motion, coefficient_bits(function_of(polynomial, MagnitudeViewOf<M>())));
+  using C = Curves<M::dimension>;
+  const ExactPolynomial exact = FunctionValues<Polynomial, C>::exact(polynomial, C(motion));
   const double lower = uniform(random, 0, 1);
   const double length = std::ldexp(1.0, -static_cast<int>(random() % 60));
   const double upper = random() % 3 == 0 ? lower : std::min(1.0, lower + length);
-  const TrackedMoment<M, std::tuple_size_v<decltype(polynomial.beads)>> view(motion, polynomial.beads, lower,
-                                                                             upper);
+  const TrackedMoment<M> view(motion, polynomial.beads, lower, upper, channels_of<Polynomial>);
   const int sign = certain_sign(Polynomial::formula(view, polynomial.beads).scaled[0]);
+  EXPECT_EQ((FunctionValues<Polynomial, C>::sign_during(polynomial, C(motion), lower, upper)), sign);
   if (sign == 0) {
     ++tally.doubtful;
     return;

@@ -1,7 +1,7 @@
 // The derived error bounds of a radical's polynomials, against exact coefficients.
 #include <gtest/gtest.h>
 
-#include "certificates/search/define_function_values.h"
+#include "certificates/formulas/function_values.h"
 #include "certificates/search/radical_in_double.h"
 #include "motions/views/integer_view.h"
 #include "tests/support/inputs/ball_motions.h"
@@ -16,18 +16,19 @@ template <class Part, class M>
 double share_used(const M& motion) {
   detail::SignedPart<Part> part;
   for (std::size_t i = 0; i < part.beads.size(); ++i) part.beads[i] = static_cast<BeadId>(i);
+  constexpr Channels radii_alone{.weights = false, .radii = true};
   const DoubleView<M> view(motion);
   const auto rounded = function_of(part, view);
-  const auto tracked = function_of(part, TrackedView<M, Channels{.radii = true}>(motion, part.beads));
-  const auto exact = function_of(part, IntegerView<M, Channels{.radii = true}>(motion, part.beads));
+  const auto tracked = function_of(part, TrackedView<M>(motion, part.beads, radii_alone));
+  const auto exact = function_of(part, IntegerView<M>(motion, part.beads, radii_alone));
   const ErrorBound& bound =
       FunctionValues<detail::SignedPart<Part>, Curves<M::dimension>>::error_bound(M::degree);
   const double scale = bound.scale(view.largest_length());
-  const int shift = whole_scale<Channels{.radii = true}>(motion, part.beads).exponent * bound.power;
+  const int shift = whole_scale(motion, part.beads, radii_alone).exponent * bound.power;
   const Rational power(Integer(1) << static_cast<unsigned>(std::abs(shift)));
   Rational unit(1);
   for (int i = 0; i < bound.power; ++i)
-    unit *= Dyadic(scale_to_unit<Channels{.radii = true}>(motion, part.beads)).rational();
+    unit *= Dyadic(scale_to_unit(motion, part.beads, radii_alone)).rational();
   double share = 0;
   for (std::size_t k = 0; k < rounded.scaled.size(); ++k) {
     const Rational value = shift > 0 ? Rational(exact.scaled[k] / power) : Rational(exact.scaled[k] * power);

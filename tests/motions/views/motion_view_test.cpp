@@ -145,9 +145,9 @@ TEST(MotionViews, WholeNumbersNeedNoScale) {
   motion.set_radius(0, 1, 0x1p-9);
   EXPECT_EQ(whole_scale(motion, beads).exponent, 9);
   // What is not asked for does not make numbers longer.
-  EXPECT_EQ(whole_scale<Channels{}>(motion, beads).exponent, 3);
-  EXPECT_EQ(whole_scale<Channels{.weights = true}>(motion, beads).exponent, 4);
-  EXPECT_EQ((IntegerView<BezierMotion<2, 1>, Channels{}>(motion, beads).difference(0, 1)[0].scaled[0]), 24);
+  EXPECT_EQ(whole_scale(motion, beads, Channels{}).exponent, 3);
+  EXPECT_EQ(whole_scale(motion, beads, Channels{.weights = true, .radii = false}).exponent, 4);
+  EXPECT_EQ((IntegerView<BezierMotion<2, 1>>(motion, beads, Channels{}).difference(0, 1)[0].scaled[0]), 24);
 }
 
 // The view of doubles remembers the largest thing that it answered.
@@ -336,9 +336,10 @@ TEST(LiftedMotion, LiftsAreLinear) {
 
   // lift_difference leaves out a multiple of the centres: 2 (where bead 1 starts) . (difference).
   const std::array<BeadId, 2> beads{0, 1};
-  const Rational scale = power_of_two(whole_scale<Channels{.weights = true}>(motion, beads).exponent);
-  const auto whole =
-      IntegerView<LiftedMotion<3>, Channels{.weights = true}>(motion, beads).lift_difference(0, 1);
+  const Rational scale =
+      power_of_two(whole_scale(motion, beads, Channels{.weights = true, .radii = false}).exponent);
+  const auto whole = IntegerView<LiftedMotion<3>>(motion, beads, Channels{.weights = true, .radii = false})
+                         .lift_difference(0, 1);
   const auto rounded = DoubleView<LiftedMotion<3>>(motion).lift_difference(0, 1);
   const auto tracked = TrackedView<LiftedMotion<3>>(motion, beads).lift_difference(0, 1);
   const double tracked_scale = scale_to_unit(motion, std::span<const BeadId>(beads));

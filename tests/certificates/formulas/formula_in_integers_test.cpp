@@ -1,10 +1,15 @@
-#include "certificates/exact/exact_function.h"
+#include "certificates/formulas/formula_in_integers.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "certificates/exact/modular_gcd.h"
+#include "certificates/exact/wide_polynomial.h"
+#include "certificates/formulas/function_values.h"
+#include "certificates/types/relaxed_bead_in_sphere.h"
+#include "motions/curves/lifted_motion.h"
+#include "motions/views/integer_view.h"
 #include "tests/support/inputs/any_certificate.h"
 #include "tests/support/inputs/random_motion.h"
 
@@ -15,23 +20,26 @@ using test::Random;
 using test::Subject;
 
 template <class S>
-class ExactFunction : public testing::Test {};
+class FormulaInIntegers : public testing::Test {};
 
 using Subjects =
     testing::Types<Subject<Precedes, BezierMotion<1, 3>>, Subject<Orientation<2>, BezierMotion<2, 1>>,
                    Subject<Orientation<3>, BezierMotion<3, 3>>, Subject<PowerTest<2>, BezierMotion<2, 1>>,
                    Subject<PowerTest<3>, BezierMotion<3, 1>>, Subject<PowerTest<3>, BezierMotion<3, 3>>,
+                   Subject<PowerTest<2>, LiftedMotion<2>>, Subject<PowerTest<3>, LiftedMotion<3>>,
                    Subject<BeadInSphere<2>, BezierMotion<3, 1>>, Subject<BeadInSphere<3>, BezierMotion<3, 1>>,
                    Subject<BeadInSphere<3>, BezierMotion<3, 3>>, Subject<Contact, BezierMotion<3, 3>>>;
-TYPED_TEST_SUITE(ExactFunction, Subjects);
+TYPED_TEST_SUITE(FormulaInIntegers, Subjects);
 
-// By residues where they reach, as is said by how many bits there are at most; and on whole numbers.
+// The formula played, by residues where they reach, as is said by how many bits there are at most, against
+// the formula itself on whole numbers.
 template <class C, class M>
 void expect_same(const C& certificate, const M& motion) {
+  using Values = FunctionValues<C, CurvesOf<M>>;
   constexpr Channels channels = channels_of<C>;
-  const auto expected = function_of(certificate, IntegerView<M, channels>(motion, certificate.beads));
-  const CoefficientBits size = coefficient_bits(function_of(C{}, MagnitudeViewOf<M>()));
-  const ExactPolynomial function = exact_function_of(certificate, motion, size);
+  const auto expected = function_of(certificate, IntegerView<M>(motion, certificate.beads, channels));
+  const CoefficientBits& size = detail::known_formula<C, CurvesOf<M>>().coefficient_bits(M::degree);
+  const ExactPolynomial function = Values::exact(certificate, CurvesOf<M>(motion));
   if (function.wide() != nullptr) {  // what is known of it before its whole numbers are
     EXPECT_EQ(function.wide()->residues(), image_of(ExactPolynomial(expected).scaled()));
     const auto& leading = function.wide()->leading_digits();
@@ -42,15 +50,14 @@ void expect_same(const C& certificate, const M& motion) {
     }
   }
   EXPECT_EQ(function.scaled(), ExactPolynomial(expected).scaled());
-  // The same of the motion as curves of a degree known at run time.
-  EXPECT_EQ(exact_function_of(certificate, Curves<M::dimension>(motion), size).scaled(), function.scaled());
-  EXPECT_EQ(coefficient_bits(function_of(C{}, MagnitudeView<M::dimension, any_degree>(M::degree))).bits,
-            size.bits);
-  const int length_bits = whole_scale<channels>(motion, certificate.beads).bits + 1;
+  const Dyadic time(0.375);
+  const auto then = function_of(certificate, MomentView<M>(motion, certificate.beads, time, channels));
+  EXPECT_EQ(Values::sign_at(certificate, CurvesOf<M>(motion), time), then.scaled[0].sign());
+  const int length_bits = whole_scale(motion, certificate.beads, channels).bits + 1;
   EXPECT_LE(static_cast<int>(function.largest_bit_length()), size.bits + size.power * length_bits);
 }
 
-TYPED_TEST(ExactFunction, IsWhatWholeNumbersGive) {
+TYPED_TEST(FormulaInIntegers, IsWhatWholeNumbersGive) {
   using C = typename TypeParam::C;
   using M = typename TypeParam::M;
   Random random(901);
@@ -65,7 +72,7 @@ TYPED_TEST(ExactFunction, IsWhatWholeNumbersGive) {
 }
 
 // Every number at the end of its range, so that sums do not cancel by chance.
-TYPED_TEST(ExactFunction, HoldsTheLargestCoefficients) {
+TYPED_TEST(FormulaInIntegers, HoldsTheLargestCoefficients) {
   using C = typename TypeParam::C;
   using M = typename TypeParam::M;
   Random random(902);
@@ -86,7 +93,7 @@ TYPED_TEST(ExactFunction, HoldsTheLargestCoefficients) {
 }
 
 // From what few primes hold to what all of them do not.
-TYPED_TEST(ExactFunction, ReachesEveryWidth) {
+TYPED_TEST(FormulaInIntegers, ReachesEveryWidth) {
   using C = typename TypeParam::C;
   using M = typename TypeParam::M;
   Random random(903);
@@ -108,13 +115,25 @@ TYPED_TEST(ExactFunction, ReachesEveryWidth) {
   }
 }
 
-TYPED_TEST(ExactFunction, OfBeadsAtTheOriginIsZero) {
+TYPED_TEST(FormulaInIntegers, OfBeadsAtTheOriginIsZero) {
   using C = typename TypeParam::C;
   Random random(904);
   const typename TypeParam::M motion(TypeParam::beads);
   const auto certificate = test::random_certificate<C>(random);
   expect_same(certificate, motion);
-  EXPECT_TRUE(exact_function_of(certificate, motion, {}).is_zero());
+  using Values = FunctionValues<C, CurvesOf<typename TypeParam::M>>;
+  EXPECT_TRUE(Values::exact(certificate, CurvesOf<typename TypeParam::M>(motion)).is_zero());
+}
+
+// Numbers of a function's own, wide functions among them, whose digits are kept.
+TEST(FormulaInIntegers, OfRelaxedBeadsKnowsTheirRelaxation) {
+  Random random(905);
+  for (int i = 0; i < 100; ++i) {
+    auto motion = test::random_motion<BezierMotion<3, 1>>(random, 4, test::MotionKind::generic);
+    if (i % 2 == 0) motion.set_coordinate(0, 0, 0, 0x1p-300);
+    for (const double share : {0.5, 0.25, 0.5})
+      expect_same(RelaxedBeadInSphere<3>({0, 1, 2, 3}, Relaxation::of(share)), motion);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,85 @@
+#pragma once
+// A function of a few beads by its formula as it is played: what the kinds of numbers that are compiled once
+// for all functions are asked with.
+
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include "certificates/base/certificate.h"
+#include "certificates/formulas/known_formula.h"
+#include "motions/views/recording_view.h"
+
+namespace kds {
+
+struct BeadFunction {
+  const KnownFormula& known;       ///< bounds are those of all functions of the type
+  const RecordedFormula& formula;  ///< the type's, or one with numbers of this function's own
+  std::span<const BeadId> beads;
+  bool negative = false;  ///< the formula's negative
+};
+
+namespace detail {
+
+/// `places`: beads that are named by their places. `C`: Curves or LiftedCurves.
+template <class F, class C>
+[[nodiscard]] RecordedFormula recorded(const decltype(F{}.beads) & places) {
+  RecordedFormula formula;
+  const RecordingView<C::dimension, lifted<C>, channels_of<F>> view(formula);
+  formula.finish(F::formula(view, places).step);
+  return formula;
+}
+
+template <class F>
+[[nodiscard]] auto places_of(const F& function) {
+  auto places = function.beads;
+  std::iota(places.begin(), places.end(), BeadId{0});
+  return places;
+}
+
+template <class F, class C>
+[[nodiscard]] const KnownFormula& known_formula() {
+  static const KnownFormula known(recorded<F, C>(places_of(F{})), channels_of<F>, C::dimension, lifted<C>);
+  return known;
+}
+
+/// Of RelaxedBeads: numbers of their own go into the formula, mostly those of the last that the thread asked
+/// for.
+template <class F, class C>
+[[nodiscard]] const RecordedFormula& own_formula(const F& function) {
+  using Places = decltype(places_of(function));
+  thread_local std::optional<std::pair<Places, RecordedFormula>> last;
+  const Places places = places_of(function);
+  if (!last || last->first.relaxation != places.relaxation) last.emplace(places, recorded<F, C>(places));
+  return last->second;
+}
+
+template <class F>
+[[nodiscard]] bool is_negative(const F& function) {
+  if constexpr (requires { function.side(); }) {
+    return !function.side();
+  } else {
+    return false;
+  }
+}
+
+}  // namespace detail
+
+/// Calls `ask` with it, and answers what that answers.
+template <class C, class F, class Ask>
+decltype(auto) with_bead_function(const F& function, Ask ask) {
+  const KnownFormula& known = detail::known_formula<F, C>();
+  const std::span<const BeadId> beads(function.beads);
+  if constexpr (std::is_same_v<decltype(F{}.beads), std::array<BeadId, bead_places<F>>>) {
+    return ask(BeadFunction{known, known.formula(), beads, detail::is_negative(function)});
+  } else {
+    return ask(
+        BeadFunction{known, detail::own_formula<F, C>(function), beads, detail::is_negative(function)});
+  }
+}
+
+}  // namespace kds

@@ -1,0 +1,154 @@
+#include "certificates/formulas/formula_in_integers.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "certificates/exact/exact_work.h"
+#include "certificates/exact/recent_functions.h"
+#include "certificates/exact/wide_polynomial.h"
+#include "certificates/formulas/formula_player.h"
+#include "motions/curves/copied_curves.h"
+#include "motions/curves/lifted_motion.h"
+#include "motions/views/integer_view.h"
+
+namespace kds {
+
+namespace {
+
+/// What forming so many coefficients of so many bits takes.
+void spend_on_forming(std::size_t count, int bits) {
+  ExactWork::spend(count * count * (static_cast<std::size_t>(bits) / 64 + 1));
+}
+
+void negate(std::vector<Integer>& coefficients) {
+  for (Integer& x : coefficients) x = -x;
+}
+
+/// The formula's coefficients, `size` bounding them, of curves whose lengths are whole at this scale.
+template <class C>
+std::vector<Integer> whole_coefficients(const RecordedFormula& formula, std::span<const BeadId> beads,
+                                        const C& curves, const CoefficientBits& size,
+                                        const WholeScale& scale) {
+  const int bits = size.bits + size.power * (scale.bits + 1);
+  std::vector<Integer> scaled;
+  if (bits < FixedInteger::bits) {
+    const FixedView<C> view(curves, scale);
+    const auto& p = play(formula, ViewedBeads<FixedView<C>>(view, beads));
+    scaled.reserve(p.size());
+    for (const FixedInteger& c : p) scaled.push_back(c.whole_number());
+    spend_on_forming(scaled.size(), bits);
+    return scaled;
+  }
+  const std::size_t count = residues_for(bits);
+  if (count > residue_folds.size()) {
+    const IntegerView<C> view(curves, scale);
+    scaled = play(formula, ViewedBeads<IntegerView<C>>(view, beads));
+    spend_on_forming(scaled.size(), bits);
+    return scaled;
+  }
+
+  using Residual = std::array<std::uint64_t, residue_folds.size()>;
+  std::vector<Residual> residues;  // of each coefficient
+  for (std::size_t i = 0; i < count; ++i) {
+    const ResidueView<C> view(curves, scale, {residue_folds[i]});
+    const auto& p = play(formula, ViewedBeads<ResidueView<C>>(view, beads));
+    residues.resize(p.size());
+    for (std::size_t k = 0; k < p.size(); ++k) residues[k][i] = p[k].value;
+  }
+  scaled.reserve(residues.size());
+  for (const auto& coefficient : residues)
+    scaled.push_back(whole_number(std::span(coefficient).first(count)));
+  spend_on_forming(scaled.size(), bits);
+  return scaled;
+}
+
+/// The coefficients of a wide function's formula, from its beads' curves as they were when it was made.
+template <class C>
+class WideFunction final : public CoefficientSource {
+ public:
+  WideFunction(const BeadFunction& function, const C& curves, const CoefficientBits& size,
+               const WholeScale& scale)
+      : formula_(function.formula),
+        curves_(curves, function.beads),
+        beads_(function.beads.size()),
+        size_(size),
+        scale_(scale) {
+    std::iota(beads_.begin(), beads_.end(), BeadId{0});
+  }
+
+  /// All that the formula is of: the beads' curves and its own numbers.
+  [[nodiscard]] std::vector<double> numbers() const {
+    std::vector<double> numbers = curves_.numbers();
+    for (const FormulaStep& step : formula_.steps())
+      if (step.kind == FormulaStep::Kind::multiple) numbers.push_back(static_cast<double>(step.number));
+    return numbers;
+  }
+
+  [[nodiscard]] std::vector<LeadingDigits> leading_digits() const override {
+    const C curves = curves_.curves();
+    const DigitsView<C> view(curves, scale_);
+    const auto& p = play(formula_, ViewedBeads<DigitsView<C>>(view, beads_));
+    spend_on_forming(p.size(), LeadingDigits::most_bits);
+    return {p.begin(), p.end()};
+  }
+  [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {
+    const C curves = curves_.curves();
+    const ResidueView<C> view(curves, scale_, {fold});
+    const auto& p = play(formula_, ViewedBeads<ResidueView<C>>(view, beads_));
+    spend_on_forming(p.size(), Residue::bits);
+    return {p.begin(), p.end()};
+  }
+  [[nodiscard]] std::vector<Integer> whole() const override {
+    return whole_coefficients(formula_, beads_, curves_.curves(), size_, scale_);
+  }
+
+ private:
+  RecordedFormula formula_;
+  CopiedCurves<C> curves_;
+  std::vector<BeadId> beads_;  // numbered from 0
+  CoefficientBits size_;
+  WholeScale scale_;
+};
+
+}  // namespace
+
+template <class C>
+ExactPolynomial exact_function(const BeadFunction& function, const C& curves) {
+  const CoefficientBits& size = function.known.coefficient_bits(degree_of(curves));
+  const WholeScale scale = whole_scale(curves, function.beads, function.known.channels());
+  if (scale.bits < wide_length_bits) {
+    std::vector<Integer> scaled = whole_coefficients(function.formula, function.beads, curves, size, scale);
+    if (function.negative) negate(scaled);
+    return ExactPolynomial(std::move(scaled));
+  }
+  auto source = std::make_unique<WideFunction<C>>(function, curves, size, scale);
+  const std::vector<double> numbers = source->numbers();
+  return ExactPolynomial(ExactWork::current().recent_functions().of(&function.known, numbers,
+                                                                    std::move(source), function.negative));
+}
+
+template <class C>
+int exact_sign_at(const BeadFunction& function, const C& curves, const Dyadic& time) {
+  const MomentView<C> view(curves, function.beads, time, function.known.channels());
+  const int sign = play(function.formula, ViewedBeads<MomentView<C>>(view, function.beads))[0].sign();
+  return function.negative ? -sign : sign;
+}
+
+#define KDS_FOR(C)                                                                        \
+  template ExactPolynomial exact_function(const BeadFunction& function, const C& curves); \
+  template int exact_sign_at(const BeadFunction& function, const C& curves, const Dyadic& time);
+KDS_FOR(Curves<1>)
+KDS_FOR(Curves<2>)
+KDS_FOR(Curves<3>)
+KDS_FOR(LiftedCurves<2>)
+KDS_FOR(LiftedCurves<3>)
+#undef KDS_FOR
+
+}  // namespace kds

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace kds {
+
+/// What a function asks of beads besides their centres.
+struct Channels {
+  bool weights = false;
+  bool radii = false;
+};
+inline constexpr Channels all_channels{true, true};
+
+}  // namespace kds
