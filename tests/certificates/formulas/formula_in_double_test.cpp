@@ -31,6 +31,10 @@ using Subjects =
                    Subject<BallInSphere<3, 4>::Radical::Norm, BezierMotion<3, 1>>>;
 TYPED_TEST_SUITE(FormulaInDouble, Subjects);
 
+void expect_same(double a, double b) {
+  EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << a << " " << b;
+}
+
 // Played, a formula computes what it computes over a view, bit by bit.
 TYPED_TEST(FormulaInDouble, IsWhatTheFormulaGives) {
   using F = typename TypeParam::C;
@@ -64,9 +68,9 @@ TYPED_TEST(FormulaInDouble, IsWhatTheFormulaGives) {
       ASSERT_EQ(followed.polynomial.degree(), degree);
       for (std::size_t k = 0; k < rounded.scaled.size(); ++k) {
         const auto choose = static_cast<double>(binomial(degree, static_cast<int>(k)));
-        EXPECT_EQ(bounded.polynomial.bernstein[k], rounded.scaled[k] / choose);
-        EXPECT_EQ(followed.polynomial.bernstein[k], tracked.scaled[k].value / choose);
-        EXPECT_GE(followed.polynomial.value_error, tracked.scaled[k].error / choose);
+        expect_same(bounded.polynomial.bernstein[k], rounded.scaled[k] / choose);
+        expect_same(followed.polynomial.bernstein[k], tracked.scaled[k].value / choose);
+        EXPECT_FALSE(followed.polynomial.value_error < tracked.scaled[k].error / choose);
       }
 
       if constexpr (!lifted<M> || !channels_of<F>.weights) {

@@ -23,7 +23,11 @@ TEST(RecordedFormula, WritesDownEachStepInItsOrder) {
   RecordedFormula formula;
   const View view(formula);
   const auto d = view.difference(1, 0);
-  const auto square = dot(d, d) - elevate<2 * View::degree>(view.weight_difference(1, 0));
+  const auto x = d[0] * d[0];
+  const auto y = d[1] * d[1];
+  const auto sum = x + y;
+  const auto weight = view.weight_difference(1, 0);
+  const auto square = sum - elevate<2 * View::degree>(weight);
   formula.finish((-times(3, square)).step);
   EXPECT_EQ(kinds_of(formula), (std::vector{Kind::centre_difference, Kind::next_coordinate, Kind::product,
                                             Kind::product, Kind::sum, Kind::weight_difference, Kind::elevated,
