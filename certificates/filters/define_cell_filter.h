@@ -1,6 +1,7 @@
 #pragma once
 // Definition of CellFilter: included by the files that instantiate it, one a dimension.
 
+#include <cstdint>
 #include <type_traits>
 
 #include "certificates/filters/cell_filter.h"
@@ -10,12 +11,18 @@ namespace kds {
 
 namespace detail {
 
-inline bool has_long_vectors() {
+/// Of how many floats a processor's vectors are, and whether it has twice as many of them.
+enum class FloatVectors : std::uint8_t { four, eight, many_of_eight };
+
+inline FloatVectors vectors_of_processor() {
 #if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") != 0;
-#else
-  return false;
+  const bool has_many = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                        __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+                        __builtin_cpu_supports("avx512vl");
+  if (has_many) return FloatVectors::many_of_eight;
+  if (__builtin_cpu_supports("avx2")) return FloatVectors::eight;
 #endif
+  return FloatVectors::four;
 }
 
 template <class C>
@@ -23,16 +30,21 @@ class FilterOver final : public CellFilter<C::dimension> {
   static constexpr int dimension = C::dimension;
 
  public:
-  FilterOver(const MotionRef<dimension>& motion, bool long_vectors)
-      : motion_(motion), long_vectors_(long_vectors) {}
+  FilterOver(const MotionRef<dimension>& motion, FloatVectors vectors) : motion_(motion), vectors_(vectors) {}
 
   void positive_cells(const CellsInLanes<dimension>& cells, std::size_t beyond, const LengthUnit& unit,
                       Rounding rounding, PositiveBits& positive) const override {
     const C now = curves();
     const float charge = charge_of(rounding);
-    if (long_vectors_) return find_in_eight(now, cells, beyond, unit, bounds_, charge, positive);
-    for (std::size_t first = 0; first < cells_in_batch; first += 4)
-      find_in_four(now, cells, first, beyond, unit, bounds_, charge, positive);
+    switch (vectors_) {
+      case FloatVectors::many_of_eight:
+        return find_in_eight_avx512(now, cells, beyond, unit, bounds_, charge, positive);
+      case FloatVectors::eight:
+        return find_in_eight_avx2(now, cells, beyond, unit, bounds_, charge, positive);
+      case FloatVectors::four:
+        for (std::size_t first = 0; first < cells_in_batch; first += 4)
+          find_in_four(now, cells, first, beyond, unit, bounds_, charge, positive);
+    }
   }
   void four_positive_cells(const CellsInLanes<dimension>& cells, const LengthUnit& unit, Rounding rounding,
                            PositiveBits& positive) const override {
@@ -51,7 +63,7 @@ class FilterOver final : public CellFilter<C::dimension> {
 
   MotionRef<dimension> motion_;
   detail::FloatFilterBounds<C> bounds_;
-  bool long_vectors_;
+  FloatVectors vectors_;
 };
 
 template <int Dimension>
@@ -68,9 +80,9 @@ class FindsNothing final : public CellFilter<Dimension> {
 };
 
 template <int Dimension>
-std::unique_ptr<CellFilter<Dimension>> make_filter(const MotionRef<Dimension>& motion, bool long_vectors) {
+std::unique_ptr<CellFilter<Dimension>> make_filter(const MotionRef<Dimension>& motion, FloatVectors vectors) {
   const auto over = [&]<class C>(std::type_identity<C>) -> std::unique_ptr<CellFilter<Dimension>> {
-    return std::make_unique<FilterOver<C>>(motion, long_vectors);
+    return std::make_unique<FilterOver<C>>(motion, vectors);
   };
   if (motion.is_lifted()) return over(std::type_identity<LiftedCurves<Dimension>>{});
   switch (motion.degree()) {
@@ -87,12 +99,12 @@ std::unique_ptr<CellFilter<Dimension>> make_filter(const MotionRef<Dimension>& m
 
 template <int Dimension>
 std::unique_ptr<CellFilter<Dimension>> cell_filter_over(const MotionRef<Dimension>& motion) {
-  return detail::make_filter(motion, detail::has_long_vectors());
+  return detail::make_filter(motion, detail::vectors_of_processor());
 }
 
 template <int Dimension>
 std::unique_ptr<CellFilter<Dimension>> cell_filter_for_any_processor(const MotionRef<Dimension>& motion) {
-  return detail::make_filter(motion, false);
+  return detail::make_filter(motion, detail::FloatVectors::four);
 }
 
 }  // namespace kds

@@ -190,12 +190,20 @@ template <Motion M>
   detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, first, beyond, unit, bounds, charge, positive);
 }
 
-/// Eight at once: for processors with vectors as long as that, on others slower than twice four.
+/// Eight at once: for processors with vectors as long as that.
 template <Motion M>
-[[KDS_FLOAT_LANES_TARGETS]] void find_in_eight(const M& motion, const CellsInLanes<M::dimension>& cells,
-                                               std::size_t beyond, const LengthUnit& unit,
-                                               const detail::FloatFilterBounds<M>& bounds, float charge,
-                                               PositiveBits& positive) {
+[[KDS_EIGHT_FLOATS_AVX2]] void find_in_eight_avx2(const M& motion, const CellsInLanes<M::dimension>& cells,
+                                                  std::size_t beyond, const LengthUnit& unit,
+                                                  const detail::FloatFilterBounds<M>& bounds, float charge,
+                                                  PositiveBits& positive) {
+  detail::find_positive_cells<FloatLanes>(motion, cells, 0, beyond, unit, bounds, charge, positive);
+}
+template <Motion M>
+[[KDS_EIGHT_FLOATS_AVX512]] void find_in_eight_avx512(const M& motion,
+                                                      const CellsInLanes<M::dimension>& cells,
+                                                      std::size_t beyond, const LengthUnit& unit,
+                                                      const detail::FloatFilterBounds<M>& bounds,
+                                                      float charge, PositiveBits& positive) {
   detail::find_positive_cells<FloatLanes>(motion, cells, 0, beyond, unit, bounds, charge, positive);
 }
 
