@@ -33,7 +33,8 @@ template <class F>
 inline constexpr std::size_t bead_places = std::tuple_size_v<decltype(F{}.beads)>;
 
 /// Searches go four at a time in motions up to this degree, 0 to 3, and one at a time in others. Each takes a
-/// second or more to compile: 1 where the type says nothing. Power tests over lifted motion always go so.
+/// second or more to compile: 1 where the type says nothing. Over lifted motion types that ask for weights
+/// always go so.
 template <class F>
 inline constexpr int lanes_up_to_degree = [] {
   if constexpr (requires { F::lanes_up_to_degree; }) return F::lanes_up_to_degree;

@@ -1,9 +1,9 @@
 #pragma once
 // Polynomials whose coefficients are thousands of bits long because the numbers they are made from are of
-// wildly different size (formula_in_integers.h says from which width on). An answer seldom needs all those bits:
-// it is looked for in the coefficients' leading digits first (motions/numbers/leading_digits.h), whether
-// there are common factors modulo a prime, and only where these do not tell are the whole numbers formed.
-// Every answer is exact, or says that it is none.
+// wildly different size (formula_in_integers.h says from which width on). An answer seldom needs all those
+// bits: it is looked for in the coefficients' leading digits first (motions/numbers/leading_digits.h),
+// whether there are common factors modulo a prime, and only where these do not tell are the whole numbers
+// formed. Every answer is exact, or says that it is none.
 //
 // What has been found out is kept: for one thread.
 

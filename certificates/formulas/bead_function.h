@@ -1,9 +1,7 @@
 #pragma once
-// A function of a few beads by its formula as it is played: what the kinds of numbers that are compiled once
-// for all functions are asked with.
+// A function of a few beads together with its recorded formula: what all that plays formulas is asked with.
 
-#include <cstddef>
-#include <cstdint>
+#include <array>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -47,14 +45,15 @@ template <class F, class C>
   return known;
 }
 
-/// Of RelaxedBeads: numbers of their own go into the formula, mostly those of the last that the thread asked
-/// for.
+/// Where beads come with numbers that go into the formula, and count when they are compared (RelaxedBeads).
+/// The last is kept: in a run these numbers are mostly the same for all, and the formula is not written
+/// again.
 template <class F, class C>
 [[nodiscard]] const RecordedFormula& own_formula(const F& function) {
   using Places = decltype(places_of(function));
   thread_local std::optional<std::pair<Places, RecordedFormula>> last;
   const Places places = places_of(function);
-  if (!last || last->first.relaxation != places.relaxation) last.emplace(places, recorded<F, C>(places));
+  if (!last || last->first != places) last.emplace(places, recorded<F, C>(places));
   return last->second;
 }
 

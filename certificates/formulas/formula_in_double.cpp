@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "certificates/filters/tracked_moment.h"
@@ -22,7 +23,7 @@ void set_errors(BoundedPolynomial& p, double uniform_error) {
   p.local_error = uniform_error + local_rounding(p.degree()) * largest;
 }
 
-/// A formula's value where all is of degree 0, in numbers and not in rows of one.
+/// A formula's value where all is of degree 0: `play` in plain numbers, as each event asks for a few.
 template <class View>
 TrackedDouble value_at_moment(const RecordedFormula& formula, const View& view) {
   using Kind = FormulaStep::Kind;
@@ -50,7 +51,7 @@ TrackedDouble value_at_moment(const RecordedFormula& formula, const View& view) 
         value = view.radius_sum(step.a, step.b).scaled[0];
         break;
       case Kind::lift_difference:
-        break;  // not asked for: certain_sign_during
+        throw std::logic_error("lifts are no curves at a moment");
       case Kind::sum:
         value = values[step.a] + values[step.b];
         break;
@@ -133,15 +134,11 @@ int certain_sign_during(const BeadFunction& function, const C& curves, double lo
   return function.negative ? -sign : sign;
 }
 
-#define KDS_FOR(C)                                                                          \
+#define KDS_COMPILE(C)                                                                      \
   template BoundedFunction bounded_function(const BeadFunction& function, const C& curves); \
   template BoundedFunction tracked_function(const BeadFunction& function, const C& curves); \
   template int certain_sign_during(const BeadFunction& function, const C& curves, double lower, double upper);
-KDS_FOR(Curves<1>)
-KDS_FOR(Curves<2>)
-KDS_FOR(Curves<3>)
-KDS_FOR(LiftedCurves<2>)
-KDS_FOR(LiftedCurves<3>)
-#undef KDS_FOR
+KDS_FOR_EACH_PLAYED_MOTION(KDS_COMPILE)
+#undef KDS_COMPILE
 
 }  // namespace kds

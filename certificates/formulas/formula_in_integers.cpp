@@ -1,6 +1,5 @@
 #include "certificates/formulas/formula_in_integers.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -27,8 +26,12 @@ void spend_on_forming(std::size_t count, int bits) {
   ExactWork::spend(count * count * (static_cast<std::size_t>(bits) / 64 + 1));
 }
 
-void negate(std::vector<Integer>& coefficients) {
-  for (Integer& x : coefficients) x = -x;
+/// A value that was played, before the account is told of it: who watches that may ask for others.
+template <class Number>
+std::vector<Number> taken(const Coefficients<Number>& played, int bits) {
+  std::vector<Number> coefficients(played.begin(), played.end());
+  spend_on_forming(coefficients.size(), bits);
+  return coefficients;
 }
 
 /// The formula's coefficients, `size` bounding them, of curves whose lengths are whole at this scale.
@@ -94,16 +97,13 @@ class WideFunction final : public CoefficientSource {
   [[nodiscard]] std::vector<LeadingDigits> leading_digits() const override {
     const C curves = curves_.curves();
     const DigitsView<C> view(curves, scale_);
-    const auto& p = play(formula_, ViewedBeads<DigitsView<C>>(view, beads_));
-    spend_on_forming(p.size(), LeadingDigits::most_bits);
-    return {p.begin(), p.end()};
+    return taken<LeadingDigits>(play(formula_, ViewedBeads<DigitsView<C>>(view, beads_)),
+                                LeadingDigits::most_bits);
   }
   [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {
     const C curves = curves_.curves();
     const ResidueView<C> view(curves, scale_, {fold});
-    const auto& p = play(formula_, ViewedBeads<ResidueView<C>>(view, beads_));
-    spend_on_forming(p.size(), Residue::bits);
-    return {p.begin(), p.end()};
+    return taken<Residue>(play(formula_, ViewedBeads<ResidueView<C>>(view, beads_)), Residue::bits);
   }
   [[nodiscard]] std::vector<Integer> whole() const override {
     return whole_coefficients(formula_, beads_, curves_.curves(), size_, scale_);
@@ -125,7 +125,7 @@ ExactPolynomial exact_function(const BeadFunction& function, const C& curves) {
   const WholeScale scale = whole_scale(curves, function.beads, function.known.channels());
   if (scale.bits < wide_length_bits) {
     std::vector<Integer> scaled = whole_coefficients(function.formula, function.beads, curves, size, scale);
-    if (function.negative) negate(scaled);
+    if (function.negative) detail::negate<Integer>(scaled);
     return ExactPolynomial(std::move(scaled));
   }
   auto source = std::make_unique<WideFunction<C>>(function, curves, size, scale);
@@ -141,14 +141,10 @@ int exact_sign_at(const BeadFunction& function, const C& curves, const Dyadic& t
   return function.negative ? -sign : sign;
 }
 
-#define KDS_FOR(C)                                                                        \
+#define KDS_COMPILE(C)                                                                    \
   template ExactPolynomial exact_function(const BeadFunction& function, const C& curves); \
   template int exact_sign_at(const BeadFunction& function, const C& curves, const Dyadic& time);
-KDS_FOR(Curves<1>)
-KDS_FOR(Curves<2>)
-KDS_FOR(Curves<3>)
-KDS_FOR(LiftedCurves<2>)
-KDS_FOR(LiftedCurves<3>)
-#undef KDS_FOR
+KDS_FOR_EACH_PLAYED_MOTION(KDS_COMPILE)
+#undef KDS_COMPILE
 
 }  // namespace kds

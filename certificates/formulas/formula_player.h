@@ -1,12 +1,13 @@
 #pragma once
 // Plays a recorded formula in one kind of number, step by step: what the formula computes over a view of that
-// kind, operation by operation. For the few files of this folder that do so.
+// kind, operation by operation. For the few files of this folder that do so. Values lie in room that a thread
+// uses again and again: who plays a formula takes what it needs of its value, before anything else is asked.
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <span>
-#include <type_traits>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -20,8 +21,8 @@ namespace kds {
 template <class Number>
 class BeadSource {
  public:
-  /// The step's value, and those of the steps after it that are its other coordinates, to their places.
-  virtual void see(const FormulaStep* step, std::span<Coefficients<Number>> values) const = 0;
+  /// Puts the step's value, and those of the steps after it that are its other coordinates, in their places.
+  virtual void read(const FormulaStep* step, std::span<Coefficients<Number>> values) const = 0;
 
  protected:
   ~BeadSource() = default;
@@ -36,7 +37,7 @@ class ViewedBeads final : public BeadSource<typename View::Number> {
   /// `beads`: those that the formula names by their places; none, where the view tells no beads apart.
   explicit ViewedBeads(const View& view, std::span<const BeadId> beads = {}) : view_(view), beads_(beads) {}
 
-  void see(const FormulaStep* step, std::span<Coefficients<Number>> values) const override {
+  void read(const FormulaStep* step, std::span<Coefficients<Number>> values) const override {
     const BeadId i = beads_.empty() ? step->a : beads_[step->a];
     const BeadId j = beads_.empty() ? step->b : beads_[step->b];
     Coefficients<Number>& value = values[step->place];
@@ -48,8 +49,11 @@ class ViewedBeads final : public BeadSource<typename View::Number> {
       case Kind::radius_sum:
         return set(value, view_.radius_sum(i, j));
       case Kind::lift_difference:
-        if constexpr (LiftedView<View>) set(value, view_.lift_difference(i, j));
-        return;
+        if constexpr (LiftedView<View>) {
+          return set(value, view_.lift_difference(i, j));
+        } else {
+          throw std::logic_error("a formula asks for lifts of a motion that has none");
+        }
       default:
         for (auto& coordinate : view_.difference(i, j)) set(values[step++->place], std::move(coordinate));
     }
@@ -70,25 +74,8 @@ class ViewedBeads final : public BeadSource<typename View::Number> {
   std::span<const BeadId> beads_;
 };
 
-namespace detail {
-
-/// As a step of this number says; at a moment all degrees are 0.
-template <class Number>
-void elevate_to(std::int64_t number, const Coefficients<Number>& p, Coefficients<Number>& result) {
-  const std::size_t own = p.size() - 1;
-  const std::size_t to = number < 0 || own == 0 ? own * static_cast<std::size_t>(std::abs(number))
-                                                : static_cast<std::size_t>(number);
-  result.resize(to + 1);
-  std::copy(p.begin(), p.end(), result.begin());
-  for (std::size_t degree = own; degree < to; ++degree) {
-    result[degree + 1] = result[degree];
-    for (std::size_t k = degree; k > 0; --k) result[k] += result[k - 1];
-  }
-}
-
-}  // namespace detail
-
-/// The scaled coefficients of its value, there until the thread plays the next in this kind of number.
+/// The scaled coefficients of the formula's value, there until the thread plays the next in this kind of
+/// number.
 template <class Number>
 [[gnu::noinline]] Coefficients<Number>& play(const RecordedFormula& formula,
                                              const BeadSource<Number>& beads) {
@@ -107,10 +94,10 @@ template <class Number>
       case Kind::radius_difference:
       case Kind::radius_sum:
       case Kind::lift_difference:
-        beads.see(&step, values);
+        beads.read(&step, values);
         break;
       case Kind::next_coordinate:
-        break;  // seen with the first
+        break;  // read with the first
       case Kind::sum:
         start_from_a();
         detail::add_to<Number>(value, values[step.b]);
@@ -139,3 +126,7 @@ template <class Number>
 }
 
 }  // namespace kds
+
+// What formulas are played over.
+#define KDS_FOR_EACH_PLAYED_MOTION(compile) \
+  compile(Curves<1>) compile(Curves<2>) compile(Curves<3>) compile(LiftedCurves<2>) compile(LiftedCurves<3>)

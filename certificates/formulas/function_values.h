@@ -1,6 +1,7 @@
 #pragma once
-// A function of beads in every kind of number but lanes, over the curves of any motion. Its formula is
-// written down once, and played: no kind of number is compiled for it.
+// A function of beads in every kind of number, one function at a time, over the curves of any motion. Its
+// formula is written down once and played: nothing is compiled for it. (The filters that come first, lanes of
+// doubles and signs of radicals, do compile formulas: certificates/filters, certificates/search.)
 
 #include "certificates/formulas/bead_function.h"
 #include "certificates/formulas/formula_in_double.h"
@@ -12,6 +13,8 @@ namespace kds {
 /// `C`: Curves or LiftedCurves.
 template <class F, class C>
 struct FunctionValues {
+  static_assert(C::dimension >= 1 && C::dimension <= 3, "motions are of 1 to 3 dimensions");
+
   /// Of the formula in double under a motion of this degree. Kept: asked for again, it is at hand.
   [[nodiscard]] static const ErrorBound& error_bound(int degree) {
     return detail::known_formula<F, C>().error_bound(degree);

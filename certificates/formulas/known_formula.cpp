@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "certificates/formulas/formula_player.h"
+#include "motions/views/motion_view.h"
 
 namespace kds {
 
@@ -66,8 +68,10 @@ KnownFormula::Derived KnownFormula::derive(int degree) const {
       return over(std::integral_constant<int, 1>{});
     case 2:
       return over(std::integral_constant<int, 2>{});
-    default:
+    case 3:
       return over(std::integral_constant<int, 3>{});
+    default:
+      throw std::logic_error("a formula of other than 1 to 3 dimensions");
   }
 }
 

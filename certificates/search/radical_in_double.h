@@ -130,6 +130,10 @@ class CertificateInDouble final : public RadicalInDouble {
   using Norm = SignedPart<typename Certificate::Radical::Norm>;
   using View = TrackedMoment<C>;
   static constexpr Channels channels{.weights = false, .radii = true};
+  static_assert(!channels_of<typename Certificate::Radical::Rational>.weights &&
+                    !channels_of<typename Certificate::Radical::Root>.weights &&
+                    !channels_of<typename Certificate::Radical::Norm>.weights,
+                "a radical certificate is of centres and radii: it cannot ask for weights");
 
   [[nodiscard]] BoundedPolynomial bounded_norm() const {
     using Values = FunctionValues<Norm, C>;

@@ -26,8 +26,8 @@ class RelaxedSearch final : public detail::SearchOneByOne<Certificate, Curves<Di
     for (std::size_t i = 0; i < certificates.size(); ++i) {
       const Certificate& certificate = certificates[i];
       const DoubleView<Linear> view(linear);
-      const BoundedFunction function =
-          bounded_function(function_of(certificate, view).scaled, bound, view.largest_length());
+      const auto value = function_of(certificate, view);  // first: the view learns the lengths by it
+      const BoundedFunction function = bounded_function(value.scaled, bound, view.largest_length());
       if (function.positive) {
         ++stages.coefficients;
         failures[i] = {};

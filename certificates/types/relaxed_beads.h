@@ -1,24 +1,22 @@
 #pragma once
-// What the formulas of relaxed spheres are about: beads and a relaxation, and the whole numbers it stands
-// for.
+// What the formulas of relaxed spheres are about: beads and a relaxation.
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <tuple>
 #include <type_traits>
 
 #include "certificates/base/relaxation.h"
 #include "motions/base/bead.h"
-#include "motions/numbers/bernstein.h"
 
 namespace kds {
 
-/// By default the greatest relaxation there is, so that bounds
-/// derived from the formula hold for all.
+/// By default the greatest relaxation there is, so that bounds derived from the formula hold for all.
 template <std::size_t N>
 struct RelaxedBeads : std::array<BeadId, N> {
   Relaxation relaxation = Relaxation::greatest();
+
+  friend constexpr bool operator==(const RelaxedBeads&, const RelaxedBeads&) = default;
 };
 
 }  // namespace kds

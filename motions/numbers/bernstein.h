@@ -78,6 +78,18 @@ template <class Number>
   for (std::size_t k = 0; k < product.size(); ++k) product[k] = convolved<Number>(a, b, k);
 }
 
+/// `p`, written with the degree `to`.
+template <class Number>
+[[gnu::noinline]] void elevate_to(std::size_t to, const Coefficients<Number>& p,
+                                  Coefficients<Number>& result) {
+  result.resize(to + 1);
+  std::copy(p.begin(), p.end(), result.begin());
+  for (std::size_t degree = p.size() - 1; degree < to; ++degree) {
+    result[degree + 1] = result[degree];
+    for (std::size_t k = degree; k > 0; --k) result[k] += result[k - 1];
+  }
+}
+
 /// A whole number of times another number.
 template <class Number>
 constexpr void multiply_by(Number& x, std::int64_t factor) {
@@ -155,14 +167,9 @@ constexpr Bernstein<Number, To> elevate(const Bernstein<Number, From>& p) {
   if constexpr (To == From) {
     return p;
   } else if constexpr (From < 0) {
-    const std::size_t own = p.scaled.size() - 1, to = own * static_cast<std::size_t>(To / From);
     Bernstein<Number, To> result;
-    result.set_degree(static_cast<int>(to));
-    std::copy(p.scaled.begin(), p.scaled.end(), result.scaled.begin());
-    for (std::size_t degree = own; degree < to; ++degree) {
-      result.scaled[degree + 1] = result.scaled[degree];
-      for (std::size_t k = degree; k > 0; --k) result.scaled[k] += result.scaled[k - 1];
-    }
+    detail::elevate_to<Number>((p.scaled.size() - 1) * static_cast<std::size_t>(To / From), p.scaled,
+                               result.scaled);
     return result;
   } else {
     Bernstein<Number, From + 1> next;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 namespace kds {
 
@@ -61,6 +62,10 @@ void RecordedFormula::finish(std::uint16_t result) {
 std::uint16_t detail::record(RecordedFormula* formula, Kind kind, std::uint16_t a, std::uint16_t b,
                              std::int64_t number) {
   if (!formula) throw std::logic_error("a formula uses a polynomial that was never given a value");
+  constexpr std::int64_t most = std::int64_t{1} << 53;
+  if (number > most || number < -most)
+    throw std::invalid_argument("a formula takes " + std::to_string(number) +
+                                " times a polynomial: expected a whole number of at most 53 bits");
   return formula->add(kind, a, b, number);
 }
 

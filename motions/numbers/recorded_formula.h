@@ -27,7 +27,7 @@ struct FormulaStep {
     difference,
     negative,
     product,
-    elevated,  ///< a, to the degree `number`, or to -number times its own
+    elevated,  ///< a, to the degree `number`; to -number times its own where that is negative
     multiple   ///< `number` times a
   };
 
@@ -65,7 +65,8 @@ struct Recorded {};
 
 namespace detail {
 
-/// Throws std::logic_error where one of them was never given a value.
+/// Throws std::logic_error where one of them was never given a value, std::invalid_argument where a double
+/// does not hold the number.
 [[nodiscard]] std::uint16_t record(RecordedFormula* formula, FormulaStep::Kind kind, std::uint16_t a,
                                    std::uint16_t b = 0, std::int64_t number = 0);
 
@@ -110,7 +111,7 @@ Bernstein<Recorded, To> elevate(const Bernstein<Recorded, From>& p) {
   }
 }
 
-/// A whole number of times a polynomial.
+/// A whole number of times a polynomial: one of at most 53 bits, std::invalid_argument.
 template <int Degree>
 Bernstein<Recorded, Degree> times(std::int64_t factor, const Bernstein<Recorded, Degree>& p) {
   return {p.formula, detail::record(p.formula, FormulaStep::Kind::multiple, p.step, 0, factor)};

@@ -1,4 +1,5 @@
 #pragma once
+// Which numbers of a bead's curves a function looks at.
 
 namespace kds {
 

@@ -7,7 +7,7 @@
 //                  square
 //   MagnitudeView  the error bound's constants (magnitude.h); sees no motion at all
 //   IntegerView, ResidueView, MomentView   exact (integer_view.h)
-//   RecordingView  writes the formula down, for all of these to play (recording_view.h)
+//   RecordingView  writes the formula down, to be played over any of these (recording_view.h)
 //
 // Functions of certificates are homogeneous in lengths, so a common factor changes no sign. Every view
 // answers with differences to a bead: certificates do not depend on the origin, or have it as a bead, and the

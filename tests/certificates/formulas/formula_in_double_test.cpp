@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numeric>
+
 #include "certificates/filters/tracked_moment.h"
 #include "certificates/formulas/function_values.h"
 #include "certificates/search/define_certificate_search.h"
@@ -126,6 +129,19 @@ TEST(BeadFunction, WholeMultiplesAreNumbersOfNoLength) {
   EXPECT_EQ(search->sign_at(certificate, Dyadic(0.5)), 0);
   EXPECT_EQ(search->sign_at(certificate, Dyadic(0.25)), 1);
   EXPECT_EQ(search->sign_at(certificate, Dyadic(0.75)), -1);
+}
+
+struct TooManyTimesAsFar {
+  std::array<BeadId, 2> beads{};
+  template <MotionView View>
+  static auto formula(const View& view, const std::array<BeadId, 2>& beads) {
+    return times((std::int64_t{1} << 53) + 1, view.difference(beads[0], beads[1])[0]);
+  }
+};
+
+TEST(BeadFunction, AMultipleThatNoDoubleHoldsIsRefused) {
+  EXPECT_THROW(static_cast<void>(FunctionValues<TooManyTimesAsFar, Curves<2>>::error_bound(1)),
+               std::invalid_argument);
 }
 
 struct UnsetPolynomial {

@@ -131,6 +131,7 @@ template <int Size, Motion M>
 void expect_first_failures(unsigned seed) {
   test::Random random(seed);
   int failures = 0;
+  StageCounts filter_stages;
   for (int i = 0; i < test::rounds(60); ++i) {
     const auto kind = test::all_motion_kinds[static_cast<std::size_t>(i) % test::all_motion_kinds.size()];
     SCOPED_TRACE("seed " + std::to_string(seed) + ", round " + std::to_string(i));
@@ -139,8 +140,8 @@ void expect_first_failures(unsigned seed) {
     StageCounts stages;
     const Failure exact =
         test::first_failure(Kernel::exact, certificate, motion, Instant(), KnownAtStart::unknown, stages);
-    const Failure filtered =
-        test::first_failure(Kernel::filtered, certificate, motion, Instant(), KnownAtStart::unknown, stages);
+    const Failure filtered = test::first_failure(Kernel::filtered, certificate, motion, Instant(),
+                                                 KnownAtStart::unknown, filter_stages);
     ASSERT_EQ(exact.kind, filtered.kind);
     const ExactPolynomial function = test::exact_function(certificate, motion);
     if (exact.kind == Failure::Kind::later) {
@@ -156,6 +157,10 @@ void expect_first_failures(unsigned seed) {
     }
   }
   EXPECT_GE(failures, test::rounds(3));
+  if (M::degree == 1) {
+    EXPECT_GT(filter_stages.coefficients, 0U);  // the first filter of linear motion says something
+    EXPECT_GT(filter_stages.isolation, 0U);
+  }
 }
 
 TEST(RelaxedBeadInSphere, KernelsAgreeOnFirstFailures) {
