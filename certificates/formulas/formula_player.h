@@ -113,9 +113,13 @@ template <class Number>
       case Kind::product:
         detail::multiply<Number>(values[step.a], values[step.b], value);
         break;
-      case Kind::elevated:
-        detail::elevate_to<Number>(step.number, values[step.a], value);
+      case Kind::elevated: {
+        const std::size_t own = values[step.a].size() - 1;
+        const bool is_multiple = step.number < 0 || own == 0;  // at a moment all degrees are 0
+        const auto number = static_cast<std::size_t>(std::abs(step.number));
+        detail::elevate_to<Number>(is_multiple ? own * number : number, values[step.a], value);
         break;
+      }
       case Kind::multiple:
         start_from_a();
         for (Number& c : value) detail::multiply_by(c, step.number);
