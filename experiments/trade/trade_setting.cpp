@@ -64,7 +64,8 @@ namespace {
 /// at least: the CA of adjacent residues are bonded, and contacts of those residues are not asked about.
 void take_calpha(TradeSetting& setting, const TradeInput& input) {
   setting.calpha = true;
-  const BeadId apart = std::max<BeadId>(2, setting.settings.apart / std::max<BeadId>(1, input.largest_residue));
+  const BeadId apart =
+      std::max<BeadId>(2, setting.settings.apart / std::max<BeadId>(1, input.largest_residue));
   setting.has_own_apart = setting.structure == "contacts" && apart != setting.settings.apart;
   setting.settings.apart = apart;
 }
