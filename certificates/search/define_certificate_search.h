@@ -357,6 +357,9 @@ std::unique_ptr<CertificateSearch<Certificate>> filtered_search(const MotionRef<
 
 template <class Certificate, int Dimension>
 std::unique_ptr<CertificateSearch<Certificate>> search_over(const MotionRef<Dimension>& motion) {
+  static_assert(NamedCertificate<Certificate>,
+                "a certificate needs `static constexpr kds::CertificateType type`, `kds::Identity identity() "
+                "const` and `bool side() const`");
   static_assert(HasStaticFormula<Certificate, Dimension>,
                 "a certificate needs `template <kds::MotionView View> static auto formula(const View& view, "
                 "const std::array<kds::BeadId, N>& beads)`");

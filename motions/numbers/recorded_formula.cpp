@@ -65,7 +65,7 @@ std::uint16_t detail::record(RecordedFormula* formula, Kind kind, std::uint16_t 
   constexpr std::int64_t most = std::int64_t{1} << 53;
   if (number > most || number < -most)
     throw std::invalid_argument("a formula takes " + std::to_string(number) +
-                                " times a polynomial: expected a whole number of at most 53 bits");
+                                " times a polynomial: expected a whole number of at most 2^53 in size");
   return formula->add(kind, a, b, number);
 }
 

@@ -111,7 +111,7 @@ Bernstein<Recorded, To> elevate(const Bernstein<Recorded, From>& p) {
   }
 }
 
-/// A whole number of times a polynomial: one of at most 53 bits, std::invalid_argument.
+/// A whole number of times a polynomial: one of at most 2^53 in size, std::invalid_argument.
 template <int Degree>
 Bernstein<Recorded, Degree> times(std::int64_t factor, const Bernstein<Recorded, Degree>& p) {
   return {p.formula, detail::record(p.formula, FormulaStep::Kind::multiple, p.step, 0, factor)};
