@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <string_view>
+#include <string>
 #include <utility>
+#include <vector>
+
+#include "experiments/output/text.h"
 
 namespace kds {
 
@@ -50,7 +51,7 @@ std::string bench_csv(std::span<const BenchRow> rows) {
 }
 
 std::string bench_table(std::span<const BenchRow> rows) {
-  std::vector<std::array<std::string, 10>> lines{
+  std::vector<std::vector<std::string>> lines{
       {"name", "input", "n", "value", "unit", "peer", "ratio", "goal", "holds", "peer is"}};
   for (const BenchRow& row : rows) {
     const auto holds = row.holds();
@@ -58,18 +59,8 @@ std::string bench_table(std::span<const BenchRow> rows) {
                      figure(row.peer_value), figure(row.ratio()), figure(row.goal),
                      holds ? (*holds ? "yes" : "no") : "-", row.peer});
   }
-  constexpr std::string_view alignment = "<<>><>>><<";
-  std::array<std::size_t, alignment.size()> widths{};
-  for (const auto& line : lines)
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
   std::string text;
-  for (const auto& line : lines) {
-    std::string printed;
-    for (std::size_t i = 0; i < line.size(); ++i)
-      printed += alignment[i] == '<' ? fmt::format("{:<{}}  ", line[i], widths[i])
-                                     : fmt::format("{:>{}}  ", line[i], widths[i]);
-    text += printed.substr(0, printed.find_last_not_of(' ') + 1) + "\n";
-  }
+  for (const std::string& line : in_columns(lines, "<<>><>>><<")) text += line + "\n";
   return text;
 }
 

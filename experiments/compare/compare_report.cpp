@@ -143,26 +143,18 @@ std::string distinction(const Comparison& comparison, const CompareRow& row) {
 std::string compare_table(const Comparison& comparison) {
   std::vector<std::vector<std::string>> lines{compare_columns()};
   for (const CompareRow& row : comparison.rows) lines.push_back(compare_cells(row));
-  std::vector<std::size_t> widths(lines.front().size(), 0);
-  for (const auto& line : lines)
-    for (std::size_t c = 0; c < line.size(); ++c) widths[c] = std::max(widths[c], line[c].size());
-  const auto text_of_line = [&](const std::vector<std::string>& line) {
-    std::string text = "  ";
-    for (std::size_t c = 0; c + 1 < line.size(); ++c)
-      text +=
-          c == 0 ? fmt::format("{:<{}}", line[c], widths[c]) : fmt::format("{:>{}}", line[c], widths[c] + 2);
-    return text + "  " + line.back() + "\n";
-  };
+  const std::string numbers(lines.front().size() - 2, '>');
+  const std::vector<std::string> aligned = in_columns(lines, "<" + numbers + "<");
   std::string text, input, motion;
   for (std::size_t r = 0; r < comparison.rows.size(); ++r) {
     const CompareRow& row = comparison.rows[r];
     if (row.input != input || name_of(row.motion) != motion) {
       input = row.input;
       motion = name_of(row.motion);
-      text += fmt::format("{}{}, {} motion\n{}", text.empty() ? "" : "\n", one_line(input), motion,
-                          text_of_line(lines.front()));
+      text += fmt::format("{}{}, {} motion\n  {}\n", text.empty() ? "" : "\n", one_line(input), motion,
+                          aligned.front());
     }
-    text += text_of_line(lines[r + 1]);
+    text += "  " + aligned[r + 1] + "\n";
   }
   return text;
 }

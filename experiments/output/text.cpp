@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace kds {
 namespace {
@@ -88,6 +90,24 @@ std::string shell_words(const std::vector<std::string>& words) {
     text += '\'';
   }
   return text;
+}
+
+std::vector<std::string> in_columns(const std::vector<std::vector<std::string>>& lines,
+                                    std::string_view alignment) {
+  std::vector<std::size_t> widths(lines.empty() ? 0 : lines.front().size(), 0);
+  for (const std::vector<std::string>& line : lines)
+    for (std::size_t c = 0; c < line.size(); ++c) widths[c] = std::max(widths[c], line[c].size());
+  std::vector<std::string> aligned;
+  for (const std::vector<std::string>& line : lines) {
+    std::string text;
+    for (std::size_t c = 0; c < line.size(); ++c) {
+      if (c > 0) text += "  ";
+      const bool left = alignment[std::min(c, alignment.size() - 1)] == '<';
+      text += left ? fmt::format("{:<{}}", line[c], widths[c]) : fmt::format("{:>{}}", line[c], widths[c]);
+    }
+    aligned.push_back(text.substr(0, text.find_last_not_of(' ') + 1));
+  }
+  return aligned;
 }
 
 std::vector<std::string> split(std::string_view text, char separator) {

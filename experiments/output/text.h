@@ -26,6 +26,11 @@ namespace kds {
 /// Words as a shell reads them back.
 [[nodiscard]] std::string shell_words(const std::vector<std::string>& words);
 
+/// Lines of cells, all of as many: each column as wide as its widest cell, two spaces between, none at the
+/// end. `alignment` has '<' (left) or '>' for each column, the last of them for those after it too.
+[[nodiscard]] std::vector<std::string> in_columns(const std::vector<std::vector<std::string>>& lines,
+                                                  std::string_view alignment);
+
 /// The parts between separators, empty ones too; an empty text has one empty part.
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
 

@@ -130,22 +130,16 @@ std::string paper_text(std::span<const PaperTable> tables) {
     std::vector<std::vector<std::string>> lines{{""}};
     for (const PaperColumn& column : table.columns)
       lines[0].insert(lines[0].end(), {std::string(column.title), "paper"});
+    lines[0].emplace_back();  // notes
     for (const PaperRow& row : table.rows) {
       std::vector<std::string>& line = lines.emplace_back(std::vector{name_of(row)});
       for (std::size_t c = 0; c < table.columns.size(); ++c)
         line.insert(line.end(), {shown(row.ours[c]), shown(row.paper[c])});
+      line.push_back(row.note);
     }
     text += fmt::format("{}table {}: {}\n", text.empty() ? "" : "\n", table.number, table.title);
-    for (std::size_t l = 0; l < lines.size(); ++l) {
-      for (std::size_t c = 0; c < lines[l].size(); ++c) {
-        std::size_t width = 0;
-        for (const auto& line : lines) width = std::max(width, line[c].size());
-        text += c == 0 ? fmt::format("  {:<{}}", lines[l][c], width)
-                       : fmt::format("  {:>{}}", lines[l][c], width);
-      }
-      const std::string& note = l == 0 ? "" : table.rows[l - 1].note;
-      text += (note.empty() ? "" : "  " + note) + "\n";
-    }
+    for (const std::string& line : in_columns(lines, "<" + std::string(2 * table.columns.size(), '>') + "<"))
+      text += "  " + line + "\n";
     for (const Finding& finding : findings_of(table)) text += "  " + sentence_of(finding) + "\n";
   }
   return text;

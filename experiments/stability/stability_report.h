@@ -13,7 +13,7 @@ namespace kds {
 
 [[nodiscard]] Json stability_settings(const StabilityOptions& options);
 
-/// One object: settings, rows, holds, version, command, machine. Ends with a newline.
+/// One object: command, settings, rows, holds, version, machine. Ends with a newline.
 [[nodiscard]] std::string stability_json(std::string command, const StabilityOptions& options,
                                          std::span<const StabilityRow> rows);
 

@@ -32,9 +32,8 @@ struct CalphaModel {
                                                      BeadId apart) const;
 };
 
-/// None where some bead's residue is not known or has no CA, there are no other beads, or
-/// fewer than four residues. `radius` is the
-/// policy by which the beads of `necklaces` have got their `radii`.
+/// None where some bead's residue is not known or has no CA, there are no other beads, or fewer than four
+/// residues. `radius` is the policy by which the beads of `necklaces` have got their `radii`.
 [[nodiscard]] std::optional<CalphaModel> calpha_model(std::span<const Trajectory> necklaces,
                                                       std::span<const double> radii,
                                                       const std::string& radius);

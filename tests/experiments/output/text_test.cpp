@@ -56,5 +56,13 @@ TEST(TickLabel, ShowsSizesLegibly) {
   EXPECT_EQ(tick_label(9999999), "10⁷");
 }
 
+TEST(Text, ColumnsAreAsWideAsTheirWidestCell) {
+  EXPECT_EQ(in_columns({{"name", "n", "peer", "note"}, {"a", "12345", "1", ""}}, "<>"),
+            (std::vector<std::string>{"name      n  peer  note", "a     12345     1"}));
+  EXPECT_EQ(in_columns({{"a", "b"}, {"long", "longer"}}, "><"),
+            (std::vector<std::string>{"   a  b", "long  longer"}));
+  EXPECT_TRUE(in_columns({}, "<").empty());
+}
+
 }  // namespace
 }  // namespace kds
