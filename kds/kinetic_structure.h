@@ -14,7 +14,6 @@
 
 namespace kds {
 
-class BeadEdits;
 class Dyadic;
 
 class KineticStructure {
@@ -52,9 +51,6 @@ class KineticStructure {
   /// Compares with the structure built statically from exact positions at `time`, no failure time, or at an
   /// end of the step. What differs, or nothing.
   [[nodiscard]] virtual std::optional<std::string> audit(const Dyadic& time) = 0;
-
-  /// How its beads come, go and change course while time runs (bead_edits.h); null where they cannot.
-  [[nodiscard]] virtual BeadEdits* edits() { return nullptr; }
 
   StructureStatistics statistics;
   bool needs_after_batch = false;

@@ -166,17 +166,18 @@ void Simulator::change_motion(std::span<const BeadId> beads, const std::function
   require_standing_still();
   const std::vector<BeadId> once = each_once(beads);
   beads = once;
+  std::vector<CourseFollower*> followers;
   for (KineticStructure* structure : structures_) {
-    if (structure->edits() == nullptr)
+    followers.push_back(dynamic_cast<CourseFollower*>(structure));
+    if (followers.back() == nullptr)
       throw std::invalid_argument(fmt::format(
           "{}: its beads cannot change course within a step, only between two of them", structure->name()));
-    for (const BeadId bead : beads) static_cast<void>(structure->edits()->is_absent(bead));  // is one
-    structure->edits()->require_release(beads);
+    followers.back()->require_release(beads);
   }
   Running running(*this);
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     watch_.charge(s + 1);
-    structures_[s]->edits()->release(beads);
+    followers[s]->release(beads);
   }
   watch_.charge(Stopwatch::stopped);
   std::exception_ptr refused;  // structures go on along whatever curves there are then
@@ -187,7 +188,7 @@ void Simulator::change_motion(std::span<const BeadId> beads, const std::function
   }
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     watch_.charge(s + 1);
-    structures_[s]->edits()->take_up(beads);
+    followers[s]->take_up(beads);
   }
   running.end();
   watch_.charge(Stopwatch::stopped);

@@ -41,8 +41,8 @@ NodeGuards<Dimension>::NodeGuards(Simulator& simulator, KineticStructure& owner,
       held_by_(nodes) {}
 
 template <int Dimension>
-void NodeGuards<Dimension>::start_step(std::span<const ChordCandidate<Dimension>> held_by) {
-  for (const auto& candidate : held_by) held_by_[candidate.node] = {};
+void NodeGuards<Dimension>::start_step() {
+  std::fill(held_by_.begin(), held_by_.end(), HeldBy{});
   held_.clear();
   free_.clear();
   named_.clear();

@@ -35,8 +35,8 @@ class NodeGuards {
 
   [[nodiscard]] SignsJustAfter<Dimension>& signs() { return signs_; }
 
-  /// Forgets the certificates of these nodes, which alone held any: the simulator has dropped all.
-  void start_step(std::span<const ChordCandidate<Dimension>> held_by);
+  /// Forgets all certificates: the simulator has dropped them.
+  void start_step();
 
   /// The basis beads that are not known to stay must leave no sphere of their fellows.
   void enqueue_basis(NodeId node, const Basis& basis, unsigned stays);

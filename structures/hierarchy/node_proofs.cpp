@@ -26,7 +26,7 @@ NodeProofs<Dimension>::NodeProofs(const Simulator& simulator, const NecklaceTree
       slack_(tree) {}
 
 template <int Dimension>
-void NodeProofs<Dimension>::start_step() {
+void NodeProofs<Dimension>::take_curves() {
   if (!any_) return;
   paths_.set(curves_, radii_ == Radii::equal);
   slack_of_relaxed_.start_step(curves_);

@@ -40,8 +40,8 @@ class NodeProofs {
   NodeProofs(const Simulator& simulator, const NecklaceTree& tree, const Curves<Dimension>& curves,
              int degree, Radii radii, const Relaxation& relaxation = {});
 
-  /// The curves are those of the next step.
-  void start_step();
+  /// The curves are those of the next step, or of this one others than they were.
+  void take_curves();
   /// The node has got another basis.
   void forget(NodeId node) { slack_.forget(node); }
 

@@ -60,8 +60,11 @@ WrappedHierarchy<Dimension>::~WrappedHierarchy() = default;
 template <int Dimension>
 std::span<const EventKind> WrappedHierarchy<Dimension>::kinds() const {
   static constexpr std::array<IdRole, 2> roles{{{"node", 2, IdRole::Of::node}, {"basis", 0}}};
-  static constexpr std::array<EventKind, 3> kinds{
-      {{"enter", true, false, roles}, {"leave", true, false, roles}, {"pivot", true, false, roles}}};
+  static constexpr std::array<IdRole, 1> bead{{{"bead"}}};
+  static constexpr std::array<EventKind, 4> kinds{{{"enter", true, false, roles},
+                                                   {"leave", true, false, roles},
+                                                   {"pivot", true, false, roles},
+                                                   {"change", false, true, bead}}};
   return kinds;
 }
 
@@ -171,8 +174,8 @@ template <int Dimension>
 void WrappedHierarchy<Dimension>::start_step() {
   curves_ = motion_.curves();
   if (query_) ask_query();
-  guards_->start_step(proofs_->candidates());
-  proofs_->start_step();
+  guards_->start_step();
+  proofs_->take_curves();
   guarded_ = wide_;
   proofs_->add_unsettled(pairs_, bases_, guarded_);
   proofs_->take_out_resting(bases_, guarded_);
@@ -344,10 +347,51 @@ void WrappedHierarchy<Dimension>::record(NodeId id, const Basis& before) {
   simulator_.record(index_, change);
 }
 
+// Beads that change course.
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::require_release(std::span<const BeadId> beads) const {
+  for (const BeadId bead : beads)
+    if (bead >= motion_.bead_count()) throw std::invalid_argument("there is no bead " + std::to_string(bead));
+}
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::release(std::span<const BeadId> beads) {
+  std::vector<BeadId> sorted(beads.begin(), beads.end());
+  std::sort(sorted.begin(), sorted.end());
+  released_.clear();
+  for (NodeId id = 0; id < bases_.size(); ++id) {
+    const BeadRange& range = tree_.range(id);
+    const auto first = std::lower_bound(sorted.begin(), sorted.end(), range.first);
+    if (!keeps(id) || first == sorted.end() || *first > range.last) continue;
+    guards_->drop(id);
+    proofs_->forget(id);
+    released_.push_back(id);
+  }
+}
+
+/// Beads may be anywhere: what the basis was says nothing of what it is.
+template <int Dimension>
+void WrappedHierarchy<Dimension>::take_up(std::span<const BeadId> beads) {
+  for (const BeadId bead : beads) simulator_.record(index_, Change{changes, 1, {bead}});
+  curves_ = motion_.curves();
+  proofs_->take_curves();
+  for (const NodeId id : released_) {
+    const Basis before = bases_[id];
+    static_cast<void>(repair(id, no_bead));
+    guard_node(id, before, no_bead);
+  }
+  guards_->count_per_bead();
+}
+
 // Replayed changes, and the bases of a frame proved by their definition.
 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::apply(const Change& change) {
+  if (change.kind == changes) {
+    if (change.size != 1) throw std::invalid_argument("a change of course is of one bead");
+    return require_release({change.ids.data(), 1});
+  }
   if (change.size < 3 || change.size > 2 + full)
     throw std::invalid_argument("a basis has one to " + std::to_string(full) + " beads");
   const auto node = tree_.find({change.ids[0], change.ids[1]});

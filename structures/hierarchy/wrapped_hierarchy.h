@@ -7,6 +7,9 @@
 // is next, or by signs just after the event. Exact with any kernel but `fast`. Spheres may be relaxed: then
 // beads may be out by a share of the radius, and events are fewer.
 //
+// Beads can change course while time runs: a look at all certificates of the nodes that hold them, and of
+// each that is not right any more a repair. They cannot come and go: the tree is that of their necklaces.
+//
 // It is made of three parts, each with a file of its own: what is proved without certificates
 // (node_proofs.h), the certificates that are held (node_guards.h), the repair of a basis (basis_repair.h).
 
@@ -20,6 +23,7 @@
 
 #include "certificates/base/relaxation.h"
 #include "certificates/types/radii.h"
+#include "kds/bead_edits.h"
 #include "kds/kinetic_structure.h"
 #include "motions/base/bead_range.h"
 #include "motions/curves/motion_ref.h"
@@ -40,7 +44,7 @@ template <int Dimension>
 class NodeProofs;
 
 template <int Dimension>
-class WrappedHierarchy final : public KineticStructure {
+class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   static_assert(Dimension == 2 || Dimension == 3);
 
  public:
@@ -55,10 +59,10 @@ class WrappedHierarchy final : public KineticStructure {
                    const Relaxation& relaxation = {});
   ~WrappedHierarchy() override;
 
-  enum Kind : std::uint8_t { enter, leave, pivot };
+  enum Kind : std::uint8_t { enter, leave, pivot, changes };
 
   [[nodiscard]] std::string_view name() const override { return "wrapped"; }
-  /// Ids: the node's first and last bead, then its new basis.
+  /// Ids: the node's first and last bead, then its new basis; of a change of course the bead.
   [[nodiscard]] std::span<const EventKind> kinds() const override;
 
   [[nodiscard]] const NecklaceTree& tree() const { return tree_; }
@@ -114,6 +118,10 @@ class WrappedHierarchy final : public KineticStructure {
   void rebuild_roughly(NodeId node);
   void record(NodeId node, const Basis& before);
 
+  void require_release(std::span<const BeadId> beads) const override;
+  void release(std::span<const BeadId> beads) override;
+  void take_up(std::span<const BeadId> beads) override;
+
   Simulator& simulator_;
   MotionRef<Dimension> motion_;
   const Radii radii_;
@@ -129,6 +137,7 @@ class WrappedHierarchy final : public KineticStructure {
   NodeQuery query_;
   std::vector<NodeId> wide_, pairs_;  // those that are kept, of more than two beads and of two
   std::vector<NodeId> guarded_;
+  std::vector<NodeId> released_;  // that hold beads whose course changes
   enum class BasisFault : std::uint8_t { no, violated, improper };
   std::vector<BasisFault> faults_;   // a node
   std::vector<BeadId> beyond_;       // beads of a node that are not proved to stay inside

@@ -191,6 +191,7 @@ void PowerDiagram<Dimension>::change_motion(BeadId bead, const std::function<voi
 
 template <int Dimension>
 void PowerDiagram<Dimension>::require_release(std::span<const BeadId> beads) const {
+  BeadEdits::require_release(beads);
   parts_->editor.require_release(beads);
 }
 

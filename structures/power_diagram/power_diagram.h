@@ -69,7 +69,6 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   // besides is what leaves too few beads, or only such as stay in one plane (on one line), and all edits in a
   // step in which all beads do. Where other courses make them do, InputError, and the run is over.
 
-  [[nodiscard]] BeadEdits* edits() override { return this; }
   void leave_out(BeadId bead) override;
   void insert(BeadId bead) override { insert(bead, no_bead); }
   /// The bead is looked for from `near`, if given: that is quicker.

@@ -281,19 +281,18 @@ void KineticRun::redo(const Edit& edit) {
   edit.make();
 }
 
-BeadEdits& KineticRun::edits_of(std::size_t structure) const {
+BeadEdits& KineticRun::editable(std::size_t structure) const {
   KineticStructure& edited = *structures().at(structure);
-  if (edited.edits() == nullptr)
-    throw StructureRefusal(std::string(edited.name()), "its beads cannot come and go");
-  return *edited.edits();
+  if (BeadEdits* const edits = edits_of(edited)) return *edits;
+  throw StructureRefusal(std::string(edited.name()), "its beads cannot come and go");
 }
 
 void KineticRun::insert(std::size_t structure, BeadId bead) {
-  edit([this, structure, bead] { edits_of(structure).insert(bead); });
+  edit([this, structure, bead] { editable(structure).insert(bead); });
 }
 
 void KineticRun::erase(std::size_t structure, BeadId bead) {
-  edit([this, structure, bead] { edits_of(structure).erase(bead); });
+  edit([this, structure, bead] { editable(structure).erase(bead); });
 }
 
 void KineticRun::change_motion(std::vector<BeadId> beads,

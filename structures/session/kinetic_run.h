@@ -123,7 +123,7 @@ class KineticRun {
   void go_on_to(std::size_t step, double u);
   void edit(std::function<void()> make);
   void redo(const Edit& edit);
-  [[nodiscard]] BeadEdits& edits_of(std::size_t structure) const;
+  [[nodiscard]] BeadEdits& editable(std::size_t structure) const;
   void check_bends() const;
   void check_radii() const;
 

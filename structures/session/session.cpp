@@ -72,7 +72,7 @@ void Session::add_made(std::unique_ptr<RunningStructure> structure) {
 void Session::keep_only(std::size_t structure, std::span<const BeadId> beads) {
   KineticStructure& kept = *kinetic_.at(structure);
   const std::string name(kept.name());
-  BeadEdits* const edits = kept.edits();
+  BeadEdits* const edits = edits_of(kept);
   if (edits == nullptr) throw StructureRefusal(name, "is of all beads; it cannot be of some only");
   std::vector<char> among(scene_.bead_count(), 0);
   for (const BeadId bead : beads) {

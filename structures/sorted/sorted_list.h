@@ -33,7 +33,6 @@ class SortedList final : public KineticStructure, public BeadEdits {
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
-  [[nodiscard]] BeadEdits* edits() override { return this; }
   void leave_out(BeadId bead) override;
   void insert(BeadId bead) override;
   void erase(BeadId bead) override;

@@ -27,7 +27,7 @@ struct Parts {
         proofs(simulator, tree, curves, 1, radii),
         guards(simulator, owner, 0, motion, curves, radii, tree.node_count(), proofs),
         repair(kernel, radii, proofs, guards.signs()) {
-    proofs.start_step();
+    proofs.take_curves();
   }
 
   Simulator simulator;

@@ -11,8 +11,8 @@
 #include "certificates/exact/exact_time.h"
 #include "motions/base/input_error.h"
 #include "motions/numbers/exact_number.h"
+#include "structures/chord_cages/chord_hierarchy.h"
 #include "structures/contacts/contacts.h"
-#include "structures/hierarchy/wrapped_hierarchy.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "structures/sorted/sorted_list.h"
 #include "tests/support/inputs/moving_beads.h"
@@ -385,8 +385,7 @@ TEST(BeadEdits, AreRefusedByStructuresThatCannotFollow) {
   Simulator simulator;
   const std::vector<BeadRange> necklace{{0, 5}};
   SortedList<2> sorted(simulator, motion);
-  WrappedHierarchy<2> wrapped(simulator, motion, necklace, Radii::any);
-  static_assert(!EditableStructure<WrappedHierarchy<2>> && EditableStructure<SortedList<2>>);
+  const ChordHierarchy<StaticWrappedHierarchy<2>> chords(simulator, motion, necklace);
   simulator.build();
   simulator.enter_step();
   expect_refused([&] { simulator.change_motion(std::array<BeadId, 1>{3}, [] { FAIL(); }); },

@@ -464,7 +464,7 @@ TEST(KineticRun, ASubsetThatCannotBeLeavesAllAsItWas) {
   KineticRun run(beads_in(2), {.structures = {"sorted"}});
   run.keep_only(0, {1, 2, 3, 4});
   EXPECT_EQ(refusal_of([&] { run.keep_only(0, {1, 2, 9}); }), "sorted: bead 9 is left out already");
-  for (const BeadId bead : {3U, 4U}) EXPECT_FALSE(run.structures()[0]->edits()->is_absent(bead));
+  for (const BeadId bead : {3U, 4U}) EXPECT_FALSE(edits_of(*run.structures()[0])->is_absent(bead));
   run.keep_only(0, {4, 1});
   for (const Frame& frame : frames_of(2, 2)) run.push(frame);
   EXPECT_THAT(run.structure<SortedList<2>>(0).order(), testing::UnorderedElementsAre(1, 4));
