@@ -22,6 +22,8 @@
 
 namespace kds {
 
+class BeadEdits;
+
 /// The beads of a motion that its user sets.
 struct BeadsOfMotion {
   std::vector<std::size_t> necklaces = {};  ///< how many beads each has; none: all are of one
