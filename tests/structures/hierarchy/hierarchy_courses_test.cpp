@@ -139,7 +139,9 @@ class BentRun {
         break;
       case 3:  // nothing becomes of it
         simulator_.change_motion(beads, [] {});
-        if (of_.kernel != Kernel::fast) EXPECT_EQ(history_.events.size(), before + 1);
+        if (of_.kernel != Kernel::fast) {
+          EXPECT_EQ(history_.events.size(), before + 1);
+        }
         return;
       default:
         beads.clear();
