@@ -6,13 +6,12 @@
 #include <string>
 
 #include "certificates/types/precedes.h"
+#include "kds/simulator.h"
 #include "structures/tournament/tournament.h"
 
 namespace kds {
 
 namespace {
-
-enum Kind : std::uint8_t { overtake, first_end };
 
 /// Ahead is who is nearer to an end of an axis.
 template <int Axis>
@@ -40,7 +39,8 @@ template <int Dimension>
 class EnclosingBox<Dimension>::Ends {
  public:
   virtual ~Ends() = default;
-  virtual void start(std::uint32_t beads, std::vector<std::uint32_t>& certificates_of) = 0;
+  virtual void start(std::span<const char> absent, std::vector<std::uint32_t>& certificates_of) = 0;
+  /// no_bead where all are absent.
   [[nodiscard]] virtual BeadId at(bool high) const = 0;
   /// The first two ids of what is recorded of a failure.
   struct Overtaking {
@@ -48,6 +48,10 @@ class EnclosingBox<Dimension>::Ends {
     BeadId behind, ahead;
   };
   virtual Overtaking fail(std::uint32_t slot) = 0;
+  // As of a Tournament, of both.
+  virtual void give_up(BeadId bead) = 0;
+  virtual void set_present(BeadId bead, bool present) = 0;
+  virtual void hold_again() = 0;
   /// Whether the one lies beyond the other at this time.
   [[nodiscard]] virtual bool is_beyond(bool high, BeadId one, BeadId other, const Dyadic& time) const = 0;
 };
@@ -61,9 +65,9 @@ class EnclosingBox<Dimension>::EndsAlong final : public Ends {
         low_(table_, {false}, 0, 2),
         high_(table_, {true}, 1, 2) {}
 
-  void start(std::uint32_t beads, std::vector<std::uint32_t>& certificates_of) override {
+  void start(std::span<const char> absent, std::vector<std::uint32_t>& certificates_of) override {
     for (auto* end : {&low_, &high_}) {
-      end->start(beads);
+      end->start(static_cast<std::uint32_t>(certificates_of.size()), absent);
       end->each_contest([&](BeadId a, BeadId b) {
         ++certificates_of[a];
         ++certificates_of[b];
@@ -79,6 +83,15 @@ class EnclosingBox<Dimension>::EndsAlong final : public Ends {
     end.fail(place);
     return {high, contest.winner, contest.loser};
   }
+  void give_up(BeadId bead) override {
+    for (auto* end : {&low_, &high_}) end->give_up(bead);
+  }
+  void set_present(BeadId bead, bool present) override {
+    for (auto* end : {&low_, &high_}) end->set_present(bead, present);
+  }
+  void hold_again() override {
+    for (auto* end : {&low_, &high_}) end->hold_again();
+  }
   [[nodiscard]] bool is_beyond(bool high, BeadId one, BeadId other, const Dyadic& time) const override {
     return one != other && table_.search().sign_at(Nearer<Axis>{high}(one, other), time) > 0;
   }
@@ -90,7 +103,7 @@ class EnclosingBox<Dimension>::EndsAlong final : public Ends {
 
 template <int Dimension>
 EnclosingBox<Dimension>::EnclosingBox(Simulator& simulator, const MotionRef<Dimension>& motion)
-    : simulator_(simulator), motion_(motion), index_(simulator.add(*this)) {
+    : simulator_(simulator), motion_(motion), index_(simulator.add(*this)), present_(name(), motion) {
   axes_.push_back(std::make_unique<EndsAlong<0>>(*this));
   if constexpr (Dimension > 1) axes_.push_back(std::make_unique<EndsAlong<1>>(*this));
   if constexpr (Dimension > 2) axes_.push_back(std::make_unique<EndsAlong<2>>(*this));
@@ -102,22 +115,28 @@ EnclosingBox<Dimension>::~EnclosingBox() = default;
 template <int Dimension>
 std::span<const EventKind> EnclosingBox<Dimension>::kinds() const {
   static constexpr std::array<IdRole, 2> was_is{{{"was"}, {"is"}}};
-  static constexpr std::array<EventKind, 7> kinds{{{"overtake", false, false, was_is},
-                                                   {"min-x", true, false, was_is},
-                                                   {"max-x", true, false, was_is},
-                                                   {"min-y", true, false, was_is},
-                                                   {"max-y", true, false, was_is},
-                                                   {"min-z", true, false, was_is},
-                                                   {"max-z", true, false, was_is}}};
-  return std::span(kinds).first(first_end + 2 * Dimension);
+  static constexpr std::array<IdRole, 1> bead{{{"bead"}}};
+  static constexpr std::array<std::string_view, 6> ends{"min-x", "max-x", "min-y", "max-y", "min-z", "max-z"};
+  static constexpr auto kinds = [] {
+    std::array<EventKind, changes + 1> all;
+    all[overtake] = {"overtake", false, false, was_is};
+    for (std::size_t e = 0; e < 2 * Dimension; ++e) all[first_end + e] = {ends[e], true, false, was_is};
+    all[inserts] = {"insert", false, true, bead};
+    all[erases] = {"erase", false, true, bead};
+    all[changes] = {"change", false, true, bead};
+    return all;
+  }();
+  return kinds;
 }
 
 template <int Dimension>
 void EnclosingBox<Dimension>::build() {
   const Curves<Dimension> curves = motion_.curves();
-  ends_.assign(curves.bead_count() == 0 ? 0 : 2 * Dimension, 0);
+  present_.structure_is_built();
+  const std::vector<BeadId> beads = present_.all();
+  ends_.assign(curves.bead_count() == 0 ? 0 : 2 * Dimension, beads.empty() ? no_bead : beads[0]);
   for (std::size_t e = 0; e < ends_.size(); ++e) {
-    for (BeadId b = 1; b < curves.bead_count(); ++b)
+    for (const BeadId b : beads)
       if (is_nearer(curves, static_cast<int>(e / 2), e % 2 == 1, b, ends_[e])) ends_[e] = b;
   }
 }
@@ -125,8 +144,7 @@ void EnclosingBox<Dimension>::build() {
 template <int Dimension>
 void EnclosingBox<Dimension>::start_step() {
   std::vector<std::uint32_t> certificates_of(motion_.bead_count(), 0);
-  for (const auto& axis : axes_)
-    axis->start(static_cast<std::uint32_t>(certificates_of.size()), certificates_of);
+  for (const auto& axis : axes_) axis->start(present_.absent(), certificates_of);
   auto& most = statistics.certificates.per_bead_max;
   for (const std::uint32_t count : certificates_of) most = std::max<std::uint64_t>(most, count);
   needs_after_batch = true;
@@ -155,18 +173,57 @@ void EnclosingBox<Dimension>::after_batch() {
 
 template <int Dimension>
 void EnclosingBox<Dimension>::apply(const Change& change) {
-  const std::size_t beads = motion_.bead_count();
-  if (change.ids[0] >= beads || change.ids[1] >= beads) throw std::invalid_argument("there is no such bead");
-  if (change.kind == overtake) return;  // tournaments are not replayed, only what they tell
+  if (change.kind >= inserts) return present_.apply(change, inserts);
+  const auto [was, is] = std::array{change.ids[0], change.ids[1]};
+  if (change.kind == overtake) {  // tournaments are not replayed, only what they tell
+    present_.require(was, false);
+    return present_.require(is, false);
+  }
   BeadId& end = ends_[change.kind - first_end];
-  if (end != change.ids[0]) throw std::invalid_argument("the first bead is not at this end of the box");
-  end = change.ids[1];
+  if (end != was) throw std::invalid_argument("the first bead is not at this end of the box");
+  if (is != no_bead || present_.count() > 0) present_.require(is, false);
+  end = is;
+}
+
+// Beads that come, go and change course.
+
+template <int Dimension>
+void EnclosingBox<Dimension>::edit(Kind kind, BeadId bead) {
+  const Simulator::Entry entry(simulator_);
+  present_.require(bead, kind == inserts);
+  simulator_.require_standing_still();
+  simulator_.record(index_, Change{kind, 1, {bead}});
+  release({&bead, 1});
+  present_.set_absent(bead, kind == erases);
+  for (const auto& axis : axes_) axis->set_present(bead, kind == inserts);
+  hold_again();
+}
+
+template <int Dimension>
+void EnclosingBox<Dimension>::release(std::span<const BeadId> beads) {
+  for (const auto& axis : axes_)
+    for (const BeadId bead : beads) axis->give_up(bead);
+}
+
+template <int Dimension>
+void EnclosingBox<Dimension>::take_up(std::span<const BeadId> beads) {
+  for (const BeadId bead : beads)
+    if (!is_absent(bead)) simulator_.record(index_, Change{changes, 1, {bead}});
+  hold_again();
+}
+
+template <int Dimension>
+void EnclosingBox<Dimension>::hold_again() {
+  for (const auto& axis : axes_) axis->hold_again();
+  after_batch();
 }
 
 template <int Dimension>
 std::optional<std::string> EnclosingBox<Dimension>::audit(const Dyadic& time) {
   for (std::size_t e = 0; e < ends_.size(); ++e) {
-    for (BeadId b = 0; b < motion_.bead_count(); ++b) {
+    if (ends_[e] == no_bead ? present_.count() > 0 : is_absent(ends_[e]))
+      return "no bead of the box is its " + std::string(kinds()[first_end + e].name);
+    for (const BeadId b : present_.all()) {
       if (axes_[e / 2]->is_beyond(e % 2 == 1, b, ends_[e], time))
         return "bead " + std::to_string(b) + " lies beyond bead " + std::to_string(ends_[e]) + ", " +
                std::string(kinds()[first_end + e].name) + " of the box";

@@ -20,9 +20,10 @@ struct Extent {
 };
 
 template <int Dimension>
-std::vector<Extent> extents(const Curves<Dimension>& curves, int axis) {
+std::vector<Extent> extents(const Curves<Dimension>& curves, std::span<const char> absent, int axis) {
   std::vector<Extent> all;
   for (BeadId b = 0; b < curves.bead_count(); ++b) {
+    if (b < absent.size() && absent[b] != 0) continue;
     Extent extent{curves.coordinate(b, 0, axis), curves.coordinate(b, 0, axis), b};
     for (int k = 1; k <= curves.own_degree(); ++k) {
       extent.low = std::min(extent.low, curves.coordinate(b, k, axis));
@@ -38,11 +39,12 @@ std::vector<Extent> extents(const Curves<Dimension>& curves, int axis) {
 
 /// Along the axis on which they reach farthest, where the fewest beads are level.
 template <int Dimension>
-std::vector<Extent> widest_extents(const Curves<Dimension>& curves) {
-  std::vector<Extent> widest = extents(curves, 0);
+std::vector<Extent> widest_extents(const Curves<Dimension>& curves, std::span<const char> absent) {
+  std::vector<Extent> widest = extents(curves, absent, 0);
+  if (widest.empty()) return widest;
   const auto width = [](const std::vector<Extent>& e) { return e.back().low - e.front().low; };
   for (int axis = 1; axis < Dimension; ++axis) {
-    std::vector<Extent> other = extents(curves, axis);
+    std::vector<Extent> other = extents(curves, absent, axis);
     if (width(other) > width(widest)) widest = std::move(other);
   }
   return widest;
@@ -77,9 +79,9 @@ Distance distance(const Curves<Dimension>& curves, BeadId a, BeadId b) {
 }  // namespace
 
 template <int Dimension>
-std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<Dimension>& curves) {
-  if (curves.bead_count() < 2) return {};
-  const std::vector<Extent> sorted = widest_extents(curves);
+std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<Dimension>& curves,
+                                                   std::span<const char> absent) {
+  const std::vector<Extent> sorted = widest_extents(curves, absent);
   double limit = std::numeric_limits<double>::infinity();
   // Each two whose extents are not farther apart than the limit, which may shrink meanwhile.
   const auto each_near_pair = [&](auto visit) {
@@ -102,7 +104,7 @@ std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<Dimension>& curv
   return pairs;
 }
 
-template std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<2>&);
-template std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<3>&);
+template std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<2>&, std::span<const char>);
+template std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<3>&, std::span<const char>);
 
 }  // namespace kds

@@ -4,14 +4,17 @@
 // their distances these are few, whatever the number of beads; where all meet, all pairs.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "motions/curves/curves.h"
 
 namespace kds {
 
-/// Ascending, each pair too. Throws InputError where there are more than 10^8, which is too many to hold.
+/// Ascending, each pair too; of beads that are not marked as absent, if any are. Throws InputError where
+/// there are more than 10^8, which is too many to hold.
 template <int Dimension>
-[[nodiscard]] std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<Dimension>& curves);
+[[nodiscard]] std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<Dimension>& curves,
+                                                                 std::span<const char> absent = {});
 
 }  // namespace kds

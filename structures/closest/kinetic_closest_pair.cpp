@@ -1,13 +1,21 @@
 #include "structures/closest/kinetic_closest_pair.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "motions/curves/positions.h"
 #include "structures/closest/candidate_pairs.h"
 
 namespace kds {
+
+namespace {
+
+constexpr std::array<BeadId, 2> no_pair{no_bead, no_bead};
+
+}  // namespace
 
 template <int Dimension>
 KineticClosestPair<Dimension>::KineticClosestPair(Simulator& simulator, const MotionRef<Dimension>& motion)
@@ -15,20 +23,26 @@ KineticClosestPair<Dimension>::KineticClosestPair(Simulator& simulator, const Mo
       motion_(motion),
       index_(simulator.add(*this)),
       table_(simulator, *this, index_, 0, motion),
+      present_(name(), motion),
       tournament_(table_, Ahead{&candidates_}) {}
 
 template <int Dimension>
 std::span<const EventKind> KineticClosestPair<Dimension>::kinds() const {
   static constexpr std::array<IdRole, 2> was_is{{{"was", 2}, {"is", 2}}};
-  static constexpr std::array<EventKind, 2> kinds{
-      {{"overtake", false, false, was_is}, {"replace", true, false, was_is}}};
+  static constexpr std::array<IdRole, 1> bead{{{"bead"}}};
+  static constexpr std::array<EventKind, 5> kinds{{{"overtake", false, false, was_is},
+                                                   {"replace", true, false, was_is},
+                                                   {"insert", false, true, bead},
+                                                   {"erase", false, true, bead},
+                                                   {"change", false, true, bead}}};
   return kinds;
 }
 
 template <int Dimension>
 void KineticClosestPair<Dimension>::build() {
+  present_.structure_is_built();
   pair_.reset();
-  for (const Pair& pair : candidate_pairs(motion_.curves())) {
+  for (const Pair& pair : candidate_pairs(motion_.curves(), present_.absent())) {
     if (!pair_ || table_.search().sign_just_after(simulator_.kernel(), {pair, *pair_}, Instant(0),
                                                   statistics.stages) > 0)
       pair_ = pair;
@@ -37,7 +51,7 @@ void KineticClosestPair<Dimension>::build() {
 
 template <int Dimension>
 void KineticClosestPair<Dimension>::start_step() {
-  candidates_ = candidate_pairs(motion_.curves());
+  candidates_ = candidate_pairs(motion_.curves(), present_.absent());
   tournament_.start(static_cast<std::uint32_t>(candidates_.size()));
   needs_after_batch = true;
   std::vector<std::uint32_t> certificates_of(motion_.bead_count(), 0);
@@ -64,27 +78,75 @@ void KineticClosestPair<Dimension>::fail(unsigned, std::uint32_t slot) {
 
 template <int Dimension>
 void KineticClosestPair<Dimension>::after_batch() {
-  if (!pair_) return;
-  const Pair before = *pair_, now = candidates_[tournament_.winner()];
-  if (now == before) return;
-  pair_ = now;
-  simulator_.record(index_, Change{replace, 4, {before[0], before[1], now[0], now[1]}});
+  const std::optional<Pair> before = pair_;
+  pair_.reset();
+  if (!candidates_.empty()) pair_ = candidates_[tournament_.winner()];
+  if (pair_ == before) return;
+  const auto [i, j] = before.value_or(no_pair);
+  const auto [k, l] = pair_.value_or(no_pair);
+  simulator_.record(index_, Change{replace, 4, {i, j, k, l}});
 }
 
 template <int Dimension>
 void KineticClosestPair<Dimension>::apply(const Change& change) {
+  if (change.kind >= inserts) return present_.apply(change, inserts);
   const Pair before{change.ids[0], change.ids[1]}, now{change.ids[2], change.ids[3]};
-  for (const Pair& pair : {before, now})
-    if (pair[0] >= pair[1] || pair[1] >= motion_.bead_count())
-      throw std::invalid_argument("there is no such pair of beads");
-  if (change.kind == overtake) return;  // the tournament is not replayed, only what it tells
-  if (pair_ != before) throw std::invalid_argument("the first pair is not the closest");
-  pair_ = now;
+  const auto require_pair = [this](const Pair& pair) {
+    if (pair[0] >= pair[1]) throw std::invalid_argument("there is no such pair of beads");
+    for (const BeadId bead : pair) present_.require(bead, false);
+  };
+  if (change.kind == overtake) {  // the tournament is not replayed, only what it tells
+    require_pair(before);
+    return require_pair(now);
+  }
+  if (pair_.value_or(no_pair) != before) throw std::invalid_argument("the first pair is not the closest");
+  const bool none = now == no_pair && present_.count() < 2;
+  if (!none) require_pair(now);
+  pair_ = none ? std::nullopt : std::optional(now);
+}
+
+// Beads that come, go and change course.
+
+template <int Dimension>
+void KineticClosestPair<Dimension>::edit(Kind kind, BeadId bead) {
+  const Simulator::Entry entry(simulator_);
+  present_.require(bead, kind == inserts);
+  simulator_.require_standing_still();
+  PresentBeads<Dimension> present = present_;
+  present.set_absent(bead, kind == erases);
+  std::vector<Pair> candidates = candidate_pairs(motion_.curves(), present.absent());
+  present_ = std::move(present);
+  simulator_.record(index_, Change{kind, 1, {bead}});
+  if (candidates == candidates_) return;
+  tournament_.give_up_all();
+  start_among(std::move(candidates));
+}
+
+template <int Dimension>
+void KineticClosestPair<Dimension>::release(std::span<const BeadId>) {
+  tournament_.give_up_all();
+}
+
+template <int Dimension>
+void KineticClosestPair<Dimension>::take_up(std::span<const BeadId> beads) {
+  for (const BeadId bead : beads)
+    if (!is_absent(bead)) simulator_.record(index_, Change{changes, 1, {bead}});
+  start_among(candidate_pairs(motion_.curves(), present_.absent()));
+}
+
+template <int Dimension>
+void KineticClosestPair<Dimension>::start_among(std::vector<Pair> candidates) {
+  candidates_ = std::move(candidates);
+  tournament_.start(static_cast<std::uint32_t>(candidates_.size()));
+  after_batch();
 }
 
 template <int Dimension>
 std::optional<std::string> KineticClosestPair<Dimension>::audit(const Dyadic& time) {
+  if (!pair_ && present_.count() > 1) return "no pair is known as the closest";
   if (!pair_) return std::nullopt;
+  for (const BeadId bead : *pair_)
+    if (is_absent(bead)) return "bead " + std::to_string(bead) + " of the closest pair is absent";
   std::vector<decltype(exact_position(motion_.curves(), 0, time))> at;
   for (BeadId b = 0; b < motion_.bead_count(); ++b) at.push_back(exact_position(motion_.curves(), b, time));
   const auto square = [&](BeadId a, BeadId b, std::size_t axes) {
@@ -94,8 +156,7 @@ std::optional<std::string> KineticClosestPair<Dimension>::audit(const Dyadic& ti
     return sum;
   };
   const Rational least = square((*pair_)[0], (*pair_)[1], Dimension);
-  std::vector<BeadId> sorted(at.size());
-  for (BeadId b = 0; b < sorted.size(); ++b) sorted[b] = b;
+  std::vector<BeadId> sorted = present_.all();
   std::sort(sorted.begin(), sorted.end(), [&](BeadId a, BeadId b) { return at[a][0] < at[b][0]; });
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     for (std::size_t j = i + 1; j < sorted.size() && square(sorted[i], sorted[j], 1) < least; ++j) {

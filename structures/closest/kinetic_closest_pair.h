@@ -2,32 +2,39 @@
 // The closest pair of beads, by their centres, while they move: a kinetic tournament among the pairs that may
 // be the closest at some time of the step (candidate_pairs.h). Of pairs equally close for the rest of the
 // step the first by ids. Radii are not looked at: the pairs of balls that meet are what contacts are about.
+//
+// Beads that come, go and change course cost what the start of a step does; a bead that comes or goes, and is
+// of no candidate pair, a search for candidates alone.
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "certificates/types/closer.h"
+#include "kds/bead_edits.h"
 #include "kds/kinetic_structure.h"
+#include "kds/present_beads.h"
 #include "motions/curves/motion_ref.h"
 #include "structures/tournament/tournament.h"
 
 namespace kds {
 
 template <int Dimension>
-class KineticClosestPair final : public KineticStructure {
+class KineticClosestPair final : public KineticStructure, public BeadEdits {
  public:
   using Pair = std::array<BeadId, 2>;
 
-  /// Ids: the pair that was closest, or, further down in the tournament, closer; then the pair that is.
-  enum Kind : std::uint8_t { overtake, replace };
+  /// Ids: the pair that was closest, or, further down in the tournament, closer; then the pair that is; twice
+  /// no_bead where there is none. Of an edit: the bead; what it replaces follows.
+  enum Kind : std::uint8_t { overtake, replace, inserts, erases, changes };
 
   KineticClosestPair(Simulator& simulator, const MotionRef<Dimension>& motion);
 
   [[nodiscard]] std::string_view name() const override { return "closest"; }
   [[nodiscard]] std::span<const EventKind> kinds() const override;
-  /// Ascending; none where there are fewer than two beads.
+  /// Ascending; none where fewer than two beads are present.
   [[nodiscard]] const std::optional<Pair>& pair() const { return pair_; }
 
   void build() override;
@@ -36,6 +43,14 @@ class KineticClosestPair final : public KineticStructure {
   void after_batch() override;
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
+
+  // Throws InputError where an edit would leave more than 10^8 pairs that may be the closest: of insert and
+  // erase nothing is changed; after other curves the run is over.
+
+  void leave_out(BeadId bead) override { present_.leave_out(bead); }
+  void insert(BeadId bead) override { edit(inserts, bead); }
+  void erase(BeadId bead) override { edit(erases, bead); }
+  [[nodiscard]] bool is_absent(BeadId bead) const override { return present_.is_absent(bead); }
 
  private:
   /// Of candidates by their places in the list.
@@ -46,14 +61,23 @@ class KineticClosestPair final : public KineticStructure {
     }
   };
 
+  void release(std::span<const BeadId> beads) override;
+  void take_up(std::span<const BeadId> beads) override;
+  void edit(Kind kind, BeadId bead);
+  /// The tournament among other candidates, at the present time.
+  void start_among(std::vector<Pair> candidates);
+
   Simulator& simulator_;
   MotionRef<Dimension> motion_;
   std::size_t index_;
   CertificateTable<Closer> table_;
+  PresentBeads<Dimension> present_;
   std::vector<Pair> candidates_;
   Tournament<Ahead> tournament_;
   std::optional<Pair> pair_;
 };
+
+static_assert(EditableStructure<KineticClosestPair<2>>);
 
 extern template class KineticClosestPair<2>;
 extern template class KineticClosestPair<3>;

@@ -14,7 +14,7 @@ namespace kds {
 template <int Dimension>
 std::optional<std::string> contact_fault(const Curves<Dimension>& curves,
                                          const CertificateSearch<Contact>& search, const Dyadic& time,
-                                         const PairsAsked& asked, const std::vector<char>& absent,
+                                         const PairsAsked& asked, std::span<const char> absent,
                                          const ContactSet& contacts) {
   const double u = time.round_down();
   const Eigen::Matrix3Xd centers = approximate_positions(curves, u);
@@ -61,10 +61,10 @@ std::optional<std::string> contact_fault(const Curves<Dimension>& curves,
 }
 
 template std::optional<std::string> contact_fault(const Curves<2>&, const CertificateSearch<Contact>&,
-                                                  const Dyadic&, const PairsAsked&, const std::vector<char>&,
+                                                  const Dyadic&, const PairsAsked&, std::span<const char>,
                                                   const ContactSet&);
 template std::optional<std::string> contact_fault(const Curves<3>&, const CertificateSearch<Contact>&,
-                                                  const Dyadic&, const PairsAsked&, const std::vector<char>&,
+                                                  const Dyadic&, const PairsAsked&, std::span<const char>,
                                                   const ContactSet&);
 
 }  // namespace kds

@@ -3,8 +3,8 @@
 // function there, on integers where doubles do not tell.
 
 #include <optional>
+#include <span>
 #include <string>
-#include <vector>
 
 #include "certificates/search/certificate_search.h"
 #include "certificates/types/contact.h"
@@ -19,7 +19,7 @@ template <int Dimension>
 [[nodiscard]] std::optional<std::string> contact_fault(const Curves<Dimension>& curves,
                                                        const CertificateSearch<Contact>& search,
                                                        const Dyadic& time, const PairsAsked& asked,
-                                                       const std::vector<char>& absent,
+                                                       std::span<const char> absent,
                                                        const ContactSet& contacts);
 
 }  // namespace kds

@@ -26,7 +26,8 @@ Contacts<D>::Contacts(Simulator& simulator, const MotionRef<D>& motion, PairsAsk
       index_(simulator.add(*this)),
       family_(std::move(asked), motion.degree()),
       disjoint_(simulator, *this, index_, 0, motion, TouchPolicy::reported),
-      overlapping_(simulator, *this, index_, 1, motion) {}
+      overlapping_(simulator, *this, index_, 1, motion),
+      present_(name(), motion) {}
 
 template <int D>
 std::span<const EventKind> Contacts<D>::kinds() const {
@@ -54,9 +55,10 @@ void Contacts<D>::find_pairs(typename MovingFamily<D>::Resting resting, bool lis
       for (BeadId j = i + 1; j < beads; ++j)
         if (asked.asks({i, j})) pairs.unclear.push_back({i, j});
   }
-  if (absent_.empty()) return;
-  const auto names_absent = [this](const BeadPair& p) {
-    return absent_[p.first] != 0 || absent_[p.second] != 0;
+  const std::span<const char> absent = present_.absent();
+  if (absent.empty()) return;
+  const auto names_absent = [absent](const BeadPair& p) {
+    return absent[p.first] != 0 || absent[p.second] != 0;
   };
   std::erase_if(pairs.unclear, names_absent);
   std::erase_if(pairs.overlapping, names_absent);
@@ -64,7 +66,7 @@ void Contacts<D>::find_pairs(typename MovingFamily<D>::Resting resting, bool lis
 
 template <int D>
 void Contacts<D>::build() {
-  built_ = true;
+  present_.structure_is_built();
   contacts_.clear();
   family_.forget_rest();
   find_pairs(MovingFamily<D>::Resting::looked_at, true, pairs_);
@@ -130,37 +132,11 @@ void Contacts<D>::settle_now() {
 // Beads that come, go and change course.
 
 template <int D>
-bool Contacts<D>::is_absent(BeadId bead) const {
-  if (bead >= motion_.bead_count()) throw std::invalid_argument(fmt::format("there is no bead {}", bead));
-  return bead < absent_.size() && absent_[bead] != 0;
-}
-
-template <int D>
-void Contacts<D>::require_edit(BeadId bead, bool absent) const {
-  if (is_absent(bead) != absent)
-    throw std::invalid_argument(
-        fmt::format("bead {} is {} the beads that may be in contact", bead, absent ? "among" : "not among"));
-}
-
-template <int D>
-void Contacts<D>::set_absent(BeadId bead, bool absent) {
-  absent_.resize(motion_.bead_count(), 0);
-  absent_[bead] = absent ? 1 : 0;
-}
-
-template <int D>
-void Contacts<D>::leave_out(BeadId bead) {
-  require_edit(bead, false);
-  if (built_) throw std::invalid_argument("beads are left out before contacts are built");
-  set_absent(bead, true);
-}
-
-template <int D>
 void Contacts<D>::insert(BeadId bead) {
   const Simulator::Entry entry(simulator_);
-  require_edit(bead, true);
+  present_.require(bead, true);
   simulator_.require_standing_still();
-  set_absent(bead, false);
+  present_.set_absent(bead, false);
   simulator_.record(index_, {inserts, 1, {bead}});
   find_of({&bead, 1});
 }
@@ -168,12 +144,12 @@ void Contacts<D>::insert(BeadId bead) {
 template <int D>
 void Contacts<D>::erase(BeadId bead) {
   const Simulator::Entry entry(simulator_);
-  require_edit(bead, false);
+  present_.require(bead, false);
   simulator_.require_standing_still();
   drop_of({&bead, 1});
   for (const BeadPair& pair : contacts_.pairs())
     if (pair.first == bead || pair.second == bead) record(end, pair);
-  set_absent(bead, true);
+  present_.set_absent(bead, true);
   simulator_.record(index_, {erases, 1, {bead}});
 }
 
@@ -285,8 +261,7 @@ void Contacts<D>::apply(const Change& change) {
   if (change.size != (change.kind < inserts ? 2 : 1))
     throw std::invalid_argument("a change of contacts has other numbers of beads");
   if (change.kind >= inserts) {
-    require_edit(change.ids[0], change.kind == inserts);
-    if (change.kind != changes) set_absent(change.ids[0], change.kind == erases);
+    present_.apply(change, inserts);
     return;
   }
   const BeadPair pair{change.ids[0], change.ids[1]};
@@ -304,7 +279,8 @@ void Contacts<D>::apply(const Change& change) {
 
 template <int D>
 std::optional<std::string> Contacts<D>::audit(const Dyadic& time) {
-  return contact_fault<D>(motion_.curves(), disjoint_.search(), time, family_.asked(), absent_, contacts_);
+  return contact_fault<D>(motion_.curves(), disjoint_.search(), time, family_.asked(), present_.absent(),
+                          contacts_);
 }
 
 template class Contacts<2>;

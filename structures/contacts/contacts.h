@@ -20,6 +20,7 @@
 #include "certificates/types/contact.h"
 #include "kds/bead_edits.h"
 #include "kds/certificate_table.h"
+#include "kds/present_beads.h"
 #include "structures/contacts/contact_set.h"
 #include "structures/contacts/moving_family.h"
 
@@ -46,10 +47,10 @@ class Contacts final : public KineticStructure, public BeadEdits {
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
-  void leave_out(BeadId bead) override;
+  void leave_out(BeadId bead) override { present_.leave_out(bead); }
   void insert(BeadId bead) override;
   void erase(BeadId bead) override;
-  [[nodiscard]] bool is_absent(BeadId bead) const override;
+  [[nodiscard]] bool is_absent(BeadId bead) const override { return present_.is_absent(bead); }
 
  private:
   static constexpr std::uint32_t no_place = 0xffffffffU;  // nothing to watch any more
@@ -62,8 +63,6 @@ class Contacts final : public KineticStructure, public BeadEdits {
 
   void release(std::span<const BeadId> beads) override;
   void take_up(std::span<const BeadId> beads) override;
-  void require_edit(BeadId bead, bool absent) const;
-  void set_absent(BeadId bead, bool absent);
   [[nodiscard]] std::vector<char> marked(std::span<const BeadId> beads) const;
   /// Gives up all certificates that name some of them.
   void drop_of(std::span<const BeadId> beads);
@@ -84,11 +83,10 @@ class Contacts final : public KineticStructure, public BeadEdits {
   std::size_t index_;
   MovingFamily<Dimension> family_;
   CertificateTable<Contact> disjoint_, overlapping_;
+  PresentBeads<Dimension> present_;
   ContactSet contacts_;
   PairsOfBlocks pairs_;  // of the step
   std::vector<Happens> at_once_;
-  bool built_ = false;
-  std::vector<char> absent_;  // of each bead, if any was ever left out
   std::vector<std::uint32_t> certificates_of_bead_;
 };
 

@@ -54,27 +54,34 @@ ConvexHull::ConvexHull(Simulator& simulator, const MotionRef<2>& motion)
     : simulator_(simulator),
       motion_(motion),
       index_(simulator.add(*this)),
-      guards_(simulator, *this, index_, motion) {}
+      guards_(simulator, *this, index_, motion),
+      present_(name(), motion) {}
 
 std::span<const EventKind> ConvexHull::kinds() const {
   static constexpr std::array<IdRole, 3> corner{{{"corner"}, {"before"}, {"after"}}};
   static constexpr std::array<IdRole, 2> interchanged{{{"first"}, {"second"}}};
-  static constexpr std::array<EventKind, 3> kinds{{{"enter", true, false, corner},
+  static constexpr std::array<IdRole, 1> bead{{{"bead"}}};
+  static constexpr std::array<EventKind, 6> kinds{{{"enter", true, false, corner},
                                                    {"leave", true, false, corner},
-                                                   {"interchange", false, false, interchanged}}};
+                                                   {"interchange", false, false, interchanged},
+                                                   {"insert", false, true, bead},
+                                                   {"erase", false, true, bead},
+                                                   {"change", false, true, bead}}};
   return kinds;
 }
 
 void ConvexHull::build() {
+  present_.structure_is_built();
   const std::size_t beads = motion_.bead_count();
   const Kernel kernel = simulator_.kernel();
   const StaticHull hull = static_hull(
-      beads, [&](BeadId a, BeadId b) { return guards_.order_at_start(kernel, a, b, statistics.stages); },
+      present_.all(),
+      [&](BeadId a, BeadId b) { return guards_.order_at_start(kernel, a, b, statistics.stages); },
       [&](BeadId a, BeadId b, BeadId c) {
         return guards_.turn_at_start(kernel, {a, b, c}, statistics.stages);
       });
-  lower_.assign(beads, hull.lower);
-  upper_.assign(beads, hull.upper);
+  lower_.assign(beads, present_.absent(), hull.lower);
+  upper_.assign(beads, present_.absent(), hull.upper);
   corners_ = hull.circle();
   begin_with_least(corners_);
 }
@@ -133,17 +140,18 @@ void ConvexHull::change_corners(const Change& change) {
 }
 
 void ConvexHull::apply(const Change& change) {
+  if (change.kind >= inserts) return present_.apply(change, inserts);
   const auto [bead, before, after] = std::array{change.ids[0], change.ids[1], change.ids[2]};
-  const std::size_t beads = motion_.bead_count();
   if (change.kind == interchange) {  // halves are not replayed, only what they tell
-    if (bead >= beads || before >= beads) throw std::invalid_argument("there is no such bead");
-    return;
+    present_.require(bead, false);
+    return present_.require(before, false);
   }
   const std::size_t i = place_of(corners_, bead);
   const bool is_corner = i < corners_.size();
-  if (is_corner != (change.kind == leave) || bead >= beads)
+  if (is_corner != (change.kind == leave))
     throw std::invalid_argument(is_corner ? "the bead is a corner of the hull already"
                                           : "the bead is no corner of the hull");
+  if (change.kind == enter) present_.require(bead, false);
   if (change.kind == leave) {
     const std::size_t others = corners_.size() - 1;
     if (further(corners_, i, others) != before || further(corners_, i, 1) != after)
@@ -160,6 +168,31 @@ void ConvexHull::apply(const Change& change) {
   begin_with_least(corners_);
 }
 
+// Beads that come, go and change course.
+
+void ConvexHull::edit(Kind kind, BeadId bead) {
+  const Simulator::Entry entry(simulator_);
+  present_.require(bead, kind == inserts);
+  simulator_.require_standing_still();
+  simulator_.record(index_, Change{kind, 1, {bead}});
+  present_.set_absent(bead, kind == erases);
+  for (HalfHull* half : {&lower_, &upper_}) kind == inserts ? half->insert(bead) : half->erase(bead);
+  after_batch();
+}
+
+void ConvexHull::release(std::span<const BeadId> beads) {
+  for (HalfHull* half : {&lower_, &upper_})
+    for (const BeadId bead : beads)
+      if (!is_absent(bead)) half->give_up(bead);
+}
+
+void ConvexHull::take_up(std::span<const BeadId> beads) {
+  for (const BeadId bead : beads)
+    if (!is_absent(bead)) simulator_.record(index_, Change{changes, 1, {bead}});
+  for (HalfHull* half : {&lower_, &upper_}) half->hold_all();
+  after_batch();
+}
+
 std::optional<std::string> ConvexHull::audit(const Dyadic& time) {
   std::vector<std::array<Rational, 3>> at;
   for (BeadId b = 0; b < motion_.bead_count(); ++b) at.push_back(exact_position(motion_.curves(), b, time));
@@ -171,7 +204,9 @@ std::optional<std::string> ConvexHull::audit(const Dyadic& time) {
     const Rational ahead = (at[b][0] - at[a][0]) * (at[c][1] - at[a][1]);
     return ahead.compare((at[b][1] - at[a][1]) * (at[c][0] - at[a][0]));
   };
-  for (const BeadId corner : static_hull(at.size(), order, turn).circle()) {
+  for (const BeadId corner : corners_)
+    if (is_absent(corner)) return "corner " + std::to_string(corner) + " is absent";
+  for (const BeadId corner : static_hull(present_.all(), order, turn).circle()) {
     if (std::none_of(corners_.begin(), corners_.end(), [&](BeadId b) { return order(b, corner) == 0; }))
       return "bead " + std::to_string(corner) + " is a corner, but is not known as one";
   }

@@ -5,23 +5,30 @@
 // Only strict corners: a bead that lies on an edge for the rest of a step is none, and of beads that stay
 // together the least is the corner. One corner where all beads are together, two where all are on one line.
 // A corner that comes or goes is recorded when all that happens at that time has happened.
+//
+// A bead that comes walks along both halves to where it belongs, a few certificates a corner. One that goes
+// or changes course costs those of its neighbours on the halves, and of the beads under its edges, where it
+// is a corner; of all beads at once, what the start of a step does.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "kds/bead_edits.h"
 #include "kds/kinetic_structure.h"
+#include "kds/present_beads.h"
 #include "motions/curves/motion_ref.h"
 #include "structures/hull/half_hull.h"
 #include "structures/hull/hull_guards.h"
 
 namespace kds {
 
-class ConvexHull final : public KineticStructure {
+class ConvexHull final : public KineticStructure, public BeadEdits {
  public:
   /// Ids where a corner comes or goes: itself, then the corners before and after it, counterclockwise; itself
   /// where it is alone. Where two beads trade places along an axis, of which a half of the hull knows: first
-  /// the one that was first.
-  enum Kind : std::uint8_t { enter, leave, interchange };
+  /// the one that was first. Of an edit: the bead; the corners that it changes follow.
+  enum Kind : std::uint8_t { enter, leave, interchange, inserts, erases, changes };
 
   ConvexHull(Simulator& simulator, const MotionRef<2>& motion);
 
@@ -37,7 +44,15 @@ class ConvexHull final : public KineticStructure {
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
+  void leave_out(BeadId bead) override { present_.leave_out(bead); }
+  void insert(BeadId bead) override { edit(inserts, bead); }
+  void erase(BeadId bead) override { edit(erases, bead); }
+  [[nodiscard]] bool is_absent(BeadId bead) const override { return present_.is_absent(bead); }
+
  private:
+  void release(std::span<const BeadId> beads) override;
+  void take_up(std::span<const BeadId> beads) override;
+  void edit(Kind kind, BeadId bead);
   void change_corners(const Change& change);
 
   Simulator& simulator_;
@@ -45,7 +60,10 @@ class ConvexHull final : public KineticStructure {
   std::size_t index_;
   HullGuards guards_;
   HalfHull lower_{guards_, false}, upper_{guards_, true};
+  PresentBeads<2> present_;
   std::vector<BeadId> corners_;
 };
+
+static_assert(EditableStructure<ConvexHull>);
 
 }  // namespace kds

@@ -5,8 +5,9 @@
 
 namespace kds {
 
-void HalfHull::assign(std::size_t beads, const std::vector<BeadId>& chain) {
+void HalfHull::assign(std::size_t beads, std::span<const char> absent, const std::vector<BeadId>& chain) {
   beads_.assign(beads, {});
+  for (std::size_t b = 0; b < absent.size(); ++b) beads_[b].present = absent[b] == 0;
   first_ = chain.empty() ? no_bead : chain.front();
   for (std::size_t i = 0; i < chain.size(); ++i) {
     Bead& bead = beads_[chain[i]];
@@ -24,7 +25,8 @@ void HalfHull::start() {
     bead.after_left = bead.before_right = {};
     bead.turn = CertificateHandle::violated;
     bead.under.clear();
-    (bead.in_chain ? unheld_ : displaced_).push_back(b);
+    bead.place_under = not_under;
+    if (bead.present) (bead.in_chain ? unheld_ : displaced_).push_back(b);
   }
   hold_all();
 }
@@ -41,13 +43,44 @@ void HalfHull::fail(unsigned table, std::uint32_t place) {
   if (bead.in_chain) {
     unheld_.push_back(b);
   } else {
-    std::vector<BeadId>& under = beads_[bead.left].under;
-    beads_[under.back()].place_under = bead.place_under;
-    under[bead.place_under] = under.back();
-    under.pop_back();
+    take_away(b);
     displace(b);
   }
   hold_all();
+}
+
+void HalfHull::insert(BeadId b) {
+  beads_[b].present = true;
+  beads_[b].left = first_;
+  displaced_.push_back(b);
+  hold_all();
+}
+
+void HalfHull::erase(BeadId b) {
+  if (beads_[b].in_chain) {
+    take_out(b);
+  } else {
+    take_away(b);
+    release(b);
+  }
+  beads_[b].present = false;
+  hold_all();
+}
+
+void HalfHull::give_up(BeadId b) {
+  if (beads_[b].in_chain) {
+    const auto [left, right] = std::pair{beads_[b].left, beads_[b].right};
+    open_edge(b, b);
+    loosen(b);
+    if (left != no_bead) {
+      open_edge(left, left);
+      loosen(left);
+    }
+    if (right != no_bead) loosen(right);
+  } else if (beads_[b].place_under != not_under) {  // else it waits already
+    take_away(b);
+    displace(b);
+  }
 }
 
 /// Until nothing is missing.
@@ -79,13 +112,13 @@ void HalfHull::hold(BeadId v) {
 
 /// Where it belongs: under an edge, or in the chain.
 void HalfHull::place(BeadId b) {
-  if (first_ == no_bead) return insert(b, no_bead);
+  if (first_ == no_bead) return put_in(b, no_bead);
   Bead& bead = beads_[b];
   BeadId left = bead.left != no_bead && beads_[bead.left].in_chain ? bead.left : first_;
   while (true) {
     const Ordered ordered = guards_.watch_order(left, b, place_of(b), bead.after_left);
     if (ordered == Ordered::after) {
-      if (left == first_) return insert(b, no_bead);
+      if (left == first_) return put_in(b, no_bead);
       left = beads_[left].left;
       continue;
     }
@@ -93,7 +126,7 @@ void HalfHull::place(BeadId b) {
     const BeadId right = beads_[left].right;
     if (right == no_bead) {
       if (ordered == Ordered::together) return put_under(b, left);
-      return insert(b, left);
+      return put_in(b, left);
     }
     const Ordered ordered_right = guards_.watch_order(b, right, place_of(b, true), bead.before_right);
     if (ordered_right == Ordered::after) {
@@ -103,7 +136,7 @@ void HalfHull::place(BeadId b) {
     }
     if (ordered_right == Ordered::together && b < right) return stand_in(b, right);
     bead.turn = guards_.watch_turn({left, right, b}, upper_ ? -1 : 1, place_of(b));
-    if (bead.turn == CertificateHandle::violated) return insert(b, left);
+    if (bead.turn == CertificateHandle::violated) return put_in(b, left);
     return put_under(b, left);
   }
 }
@@ -116,7 +149,7 @@ void HalfHull::put_under(BeadId b, BeadId left) {
 }
 
 /// Into the chain; `after` none: as the first.
-void HalfHull::insert(BeadId b, BeadId after) {
+void HalfHull::put_in(BeadId b, BeadId after) {
   release(b);
   const BeadId right = after == no_bead ? first_ : beads_[after].right;
   beads_[b].in_chain = true;
@@ -128,19 +161,17 @@ void HalfHull::insert(BeadId b, BeadId after) {
   } else {
     open_edge(after, after);
     beads_[after].right = b;
-    guards_.drop(beads_[after].turn);
-    unheld_.push_back(after);
+    loosen(after);
   }
   if (right != no_bead) {
     beads_[right].left = b;
-    guards_.drop(beads_[right].turn);
-    unheld_.push_back(right);
+    loosen(right);
   }
   unheld_.push_back(b);
 }
 
-/// Out of the chain.
-void HalfHull::remove(BeadId v) {
+/// Out of the chain, which it leaves unheld around it.
+void HalfHull::take_out(BeadId v) {
   const BeadId left = beads_[v].left, right = beads_[v].right;
   open_edge(v, left != no_bead ? left : right);
   changed_ = true;
@@ -149,25 +180,29 @@ void HalfHull::remove(BeadId v) {
   } else {
     open_edge(left, left);
     beads_[left].right = right;
-    guards_.drop(beads_[left].turn);
-    unheld_.push_back(left);
+    loosen(left);
   }
   if (right != no_bead) {
     beads_[right].left = left;
-    guards_.drop(beads_[right].turn);
-    unheld_.push_back(right);
+    loosen(right);
   }
   beads_[v].in_chain = false;
   beads_[v].left = left != no_bead ? left : right;
   beads_[v].right = no_bead;
-  displace(v);
+  release(v);
+}
+
+/// It looks for another place.
+void HalfHull::remove(BeadId v) {
+  take_out(v);
+  displaced_.push_back(v);
 }
 
 /// For a bead of the chain that is together with it.
 void HalfHull::stand_in(BeadId b, BeadId vertex) {
   const BeadId left = beads_[vertex].left;
   remove(vertex);
-  insert(b, left);
+  put_in(b, left);
 }
 
 /// Nothing lies under the edge any more, and nothing is held of it; what lay there will look for its place
@@ -181,6 +216,20 @@ void HalfHull::open_edge(BeadId left, BeadId look_from) {
   beads_[left].under.clear();
 }
 
+/// Its turn is held anew, and the edge after it where that is open.
+void HalfHull::loosen(BeadId v) {
+  guards_.drop(beads_[v].turn);
+  unheld_.push_back(v);
+}
+
+/// From under its edge.
+void HalfHull::take_away(BeadId b) {
+  std::vector<BeadId>& under = beads_[beads_[b].left].under;
+  beads_[under.back()].place_under = beads_[b].place_under;
+  under[beads_[b].place_under] = under.back();
+  under.pop_back();
+}
+
 void HalfHull::displace(BeadId b) {
   release(b);
   displaced_.push_back(b);
@@ -188,6 +237,7 @@ void HalfHull::displace(BeadId b) {
 
 /// Nothing is held of it any more.
 void HalfHull::release(BeadId b) {
+  beads_[b].place_under = not_under;
   guards_.drop(beads_[b].after_left);
   guards_.drop(beads_[b].before_right);
   guards_.drop(beads_[b].turn);
@@ -205,6 +255,7 @@ void HalfHull::count_certificates(std::vector<std::uint32_t>& of_bead) const {
   };
   for (BeadId b = 0; b < beads_.size(); ++b) {
     const Bead& bead = beads_[b];
+    if (!bead.present) continue;
     const BeadId left = bead.left, right = bead.in_chain ? bead.right : beads_[left].right;
     if (!bead.in_chain) count({left, b});
     if (right != no_bead) count({b, right});

@@ -18,8 +18,13 @@
 //
 // Beads that stay together count as one, by the least of them: the others may lie under an edge at it, or,
 // where the chain is one bead, under that.
+//
+// Beads come and go as they go into the chain and leave it. Those that change course stay where they are, in
+// the chain or not, until what is held around them is held anew: in whatever order the chain is then, beads
+// leave it until (1) and (2) hold, before others are looked at.
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -31,12 +36,19 @@ class HalfHull {
  public:
   HalfHull(HullGuards& guards, bool upper) : guards_(guards), upper_(upper) {}
 
-  /// A chain of some of the beads, for start() to begin with.
-  void assign(std::size_t beads, const std::vector<BeadId>& chain);
+  /// Of beads of which some may be marked as absent: a chain of some of the others, for start() to begin
+  /// with.
+  void assign(std::size_t beads, std::span<const char> absent, const std::vector<BeadId>& chain);
   /// When a step starts.
   void start();
   /// The certificate at this place of this table fails now.
   void fail(unsigned table, std::uint32_t place);
+  // While time stands still within a step:
+  void insert(BeadId bead);
+  void erase(BeadId bead);
+  /// All that is held of a bead that is present is given up, until hold_all().
+  void give_up(BeadId bead);
+  void hold_all();
   [[nodiscard]] static bool is_upper(std::uint32_t place) { return place / 2 % 2 == 1; }
 
   /// From the first to the last bead.
@@ -47,7 +59,10 @@ class HalfHull {
   void count_certificates(std::vector<std::uint32_t>& of_bead) const;
 
  private:
+  static constexpr std::uint32_t not_under = 0xffffffffU;
+
   struct Bead {
+    bool present = true;
     bool in_chain = false;
     BeadId left = no_bead;   // the bead before it in the chain; or the left end of the edge it is under
     BeadId right = no_bead;  // the bead after it in the chain
@@ -55,17 +70,19 @@ class HalfHull {
     OrderGuard before_right;
     CertificateHandle turn = CertificateHandle::violated;  // in the chain: at it; else: it is not beyond
     std::vector<BeadId> under;                             // of the edge that begins at it
-    std::uint32_t place_under = 0;
+    std::uint32_t place_under = not_under;
   };
 
-  void hold_all();
   void hold(BeadId vertex);
   void place(BeadId bead);
   void put_under(BeadId bead, BeadId left);
-  void insert(BeadId bead, BeadId after);
+  void put_in(BeadId bead, BeadId after);
+  void take_out(BeadId vertex);
   void remove(BeadId vertex);
   void stand_in(BeadId bead, BeadId vertex);
   void open_edge(BeadId left, BeadId look_from);
+  void loosen(BeadId vertex);
+  void take_away(BeadId bead);
   void displace(BeadId bead);
   void release(BeadId bead);
   [[nodiscard]] std::uint32_t place_of(BeadId bead, bool right = false) const {

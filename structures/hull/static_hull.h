@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
-#include <numeric>
 #include <vector>
 
 #include "motions/base/bead.h"
@@ -23,12 +22,10 @@ struct StaticHull {
   }
 };
 
-/// `order(a, b)`: along the first axis, then the second, negative where a is before b, zero where they
-/// coincide. `turn(a, b, c)`: positive counterclockwise.
+/// Of beads that ascend at first. `order(a, b)`: along the first axis, then the second, negative where a is
+/// before b, zero where they coincide. `turn(a, b, c)`: positive counterclockwise.
 template <std::invocable<BeadId, BeadId> Order, std::invocable<BeadId, BeadId, BeadId> Turn>
-[[nodiscard]] StaticHull static_hull(std::size_t beads, Order order, Turn turn) {
-  std::vector<BeadId> sorted(beads);
-  std::iota(sorted.begin(), sorted.end(), BeadId{0});
+[[nodiscard]] StaticHull static_hull(std::vector<BeadId> sorted, Order order, Turn turn) {
   std::stable_sort(sorted.begin(), sorted.end(), [&](BeadId a, BeadId b) { return order(a, b) < 0; });
   sorted.erase(
       std::unique(sorted.begin(), sorted.end(), [&](BeadId a, BeadId b) { return order(a, b) == 0; }),

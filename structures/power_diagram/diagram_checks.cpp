@@ -37,7 +37,8 @@ bool is_wrong_just_after(DiagramState<Dimension>& state) {
   }
   return regularity_fault(
              state.triangulation, state.bead_count(), state.hidden.with_hosts(), false,
-             [&](const auto& function) { return state.sign_just_after(function); }, state.absent)
+             [&](const auto& function) { return state.sign_just_after(function); },
+             state.present_beads.absent())
       .has_value();
 }
 
@@ -50,7 +51,7 @@ std::optional<std::string> audit_of(const DiagramState<Dimension>& state, const 
   if (!frame || !state.flat) {
     const auto built =
         frame ? static_diagram_at_end(state, start ? 0 : state.motion.degree())
-              : static_diagram(state, std::span<const BeadId>(beads_present(state)), time, false);
+              : static_diagram(state, std::span<const BeadId>(state.present_beads.all()), time, false);
     if ((!frame || state.triangulation.is_valid()) && built.cells == state.triangulation.finite_cells() &&
         built.hidden == state.hidden.beads())
       return std::nullopt;
@@ -64,7 +65,7 @@ std::optional<std::string> audit_of(const DiagramState<Dimension>& state, const 
         const int sign = search.sign_at(function, time);
         return sign != 0 || frame ? sign : search.exact_function(function)->sign_after(time);
       },
-      state.absent);
+      state.present_beads.absent());
 }
 
 template bool is_wrong_just_after(DiagramState<2>&);

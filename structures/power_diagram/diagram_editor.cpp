@@ -14,27 +14,6 @@
 namespace kds {
 
 template <int Dimension>
-void DiagramEditor<Dimension>::set_absent(BeadId bead, bool absent) {
-  if (state_.is_absent(bead) == absent) return;
-  state_.absent.resize(state_.bead_count(), 0);
-  state_.absent[bead] = absent ? 1 : 0;
-  state_.absent_count += absent ? 1 : -1;
-}
-
-template <int Dimension>
-void DiagramEditor<Dimension>::require_bead(BeadId bead) const {
-  if (bead >= state_.bead_count()) throw std::invalid_argument("there is no bead " + std::to_string(bead));
-}
-
-template <int Dimension>
-void DiagramEditor<Dimension>::require_edit(BeadId bead, bool present) const {
-  require_bead(bead);
-  if (state_.is_absent(bead) == present)
-    throw std::invalid_argument("bead " + std::to_string(bead) +
-                                (present ? " is not in the diagram" : " is in the diagram already"));
-}
-
-template <int Dimension>
 void DiagramEditor<Dimension>::require_time() const {
   state_.simulator.require_standing_still();
   require_cells();
@@ -58,7 +37,7 @@ void DiagramEditor<Dimension>::require_release(std::span<const BeadId> beads) co
 /// A cell of others tells that these do not stay flat, nearly always the first one.
 template <int Dimension>
 bool DiagramEditor<Dimension>::is_flat_without(BeadId bead) const {
-  if (state_.bead_count() - state_.absent_count <= Dimension + 1) return true;
+  if (state_.present_beads.count() <= Dimension + 1) return true;
   constexpr int most_cells = 8;
   int looked_at = 0;
   for (CellId cell = 0; cell < state_.triangulation.cells().size() && looked_at < most_cells; ++cell) {
@@ -70,7 +49,7 @@ bool DiagramEditor<Dimension>::is_flat_without(BeadId bead) const {
     if (!stays_flat(beads)) return false;
     ++looked_at;
   }
-  std::vector<BeadId> others = beads_present(state_);
+  std::vector<BeadId> others = state_.present_beads.all();
   std::erase(others, bead);
   return stays_flat(others);
 }
@@ -92,28 +71,20 @@ std::optional<Dyadic> DiagramEditor<Dimension>::rational_now() const {
 }
 
 template <int Dimension>
-void DiagramEditor<Dimension>::leave_out(BeadId bead) {
-  require_edit(bead, true);
-  if (!state_.triangulation.cells().empty())
-    throw std::invalid_argument("beads are left out before the diagram is built");
-  set_absent(bead, true);
-}
-
-template <int Dimension>
 void DiagramEditor<Dimension>::insert(BeadId bead, BeadId near) {
-  require_edit(bead, false);
-  if (near != no_bead) require_edit(near, true);
+  state_.present_beads.require(bead, true);
+  if (near != no_bead) state_.present_beads.require(near, false);
   require_time();
   const CellId from = cell_near(near);
-  set_absent(bead, false);
+  state_.present_beads.set_absent(bead, false);
   put_in(bead, from);
 }
 
 template <int Dimension>
 void DiagramEditor<Dimension>::erase(BeadId bead) {
-  require_edit(bead, true);
+  state_.present_beads.require(bead, false);
   require_time();
-  if (state_.bead_count() - state_.absent_count <= Dimension + 1)
+  if (state_.present_beads.count() <= Dimension + 1)
     throw std::invalid_argument("the power diagram needs at least " + std::to_string(Dimension + 1) +
                                 " beads");
   if (state_.hidden.contains(bead)) return take_out_hidden(bead);
@@ -204,7 +175,7 @@ void DiagramEditor<Dimension>::move_elsewhere(BeadId bead) {
     take_out(bead, around_);
   }
   const CellId from = cell_near(near);
-  set_absent(bead, false);
+  state_.present_beads.set_absent(bead, false);
   put_in(bead, from);
 }
 
@@ -247,7 +218,7 @@ template <int Dimension>
 void DiagramEditor<Dimension>::take_out_hidden(BeadId bead) {
   hidden_.drop(bead);
   state_.hidden.show(bead);
-  set_absent(bead, true);
+  state_.present_beads.set_absent(bead, true);
   finish_edit(Events::erases, bead);
 }
 
@@ -272,7 +243,7 @@ auto DiagramEditor<Dimension>::fill_without(BeadId bead, std::span<const CellId>
 template <int Dimension>
 void DiagramEditor<Dimension>::take_out(BeadId bead, std::span<const CellId> hole) {
   state_.present = {};
-  set_absent(bead, true);
+  state_.present_beads.set_absent(bead, true);
   const auto try_at = [&](const Dyadic& time, bool soon_after) {
     const std::vector<Beads> made = fill_without(bead, hole, time);
     if (!exchange_.can_fill(hole, made) || (soon_after && !exchange_.is_regular(hole, made))) return false;
@@ -360,7 +331,7 @@ void DiagramEditor<Dimension>::apply(const Change& change) {
   }
   const BeadId bead = id[0];
   const bool repair = change.kind == Events::repairs;
-  require_edit(bead, change.kind != Events::inserts);
+  state_.present_beads.require(bead, change.kind == Events::inserts);
   const std::vector<CellId> hole = std::exchange(cleared_, {});
   const std::vector<Beads> made = std::exchange(filled_, {});
   if (change.kind == Events::changes) {
@@ -370,7 +341,7 @@ void DiagramEditor<Dimension>::apply(const Change& change) {
   if (!(hole.empty() && made.empty()) && !state_.triangulation.fits(hole, made))
     throw std::invalid_argument("the cells do not fill the place of those cleared");
   if (repair && hole.empty()) throw std::invalid_argument("a repair exchanges cells");
-  if (!repair) set_absent(bead, change.kind == Events::erases);
+  if (!repair) state_.present_beads.set_absent(bead, change.kind == Events::erases);
   if (!hole.empty()) {
     hidden_.forget_displaced();
     static_cast<void>(exchange_.exchange(hole, made));

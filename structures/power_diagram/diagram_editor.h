@@ -47,12 +47,7 @@ class DiagramEditor {
         rebuilder_(rebuilder),
         exchange_(state, facets, hidden) {}
 
-  /// Throws std::invalid_argument where there is no such bead, or it is not (or is) in the diagram.
-  void require_bead(BeadId bead) const;
-  void require_edit(BeadId bead, bool present) const;
-
   // What PowerDiagram says of them.
-  void leave_out(BeadId bead);
   void insert(BeadId bead, BeadId near);
   void erase(BeadId bead);
   void require_release(std::span<const BeadId> beads) const;
@@ -72,7 +67,6 @@ class DiagramEditor {
   [[nodiscard]] bool stays_flat(std::span<const BeadId> beads) const;
   /// The present time, if it is rational.
   [[nodiscard]] std::optional<Dyadic> rational_now() const;
-  void set_absent(BeadId bead, bool absent);
   void put_in(BeadId bead, CellId from);
   /// With the cells around it, whose hidden beads are displaced.
   void take_out(BeadId bead, std::span<const CellId> hole);

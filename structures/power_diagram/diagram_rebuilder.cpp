@@ -64,8 +64,9 @@ void DiagramRebuilder<Dimension>::build_from_control_points(int k) {
   const Eigen::Matrix3Xd points = control_points(state_.curves, k);
   const std::vector<double> weights = control_weights(state_.curves, k);
   RegularTriangulation<Dimension>& triangulation = state_.triangulation;
-  if (state_.absent_count == 0) return forget_steps(triangulation.build(points, weights));
-  const std::vector<BeadId> present = beads_present(state_);
+  if (state_.present_beads.count() == state_.bead_count())
+    return forget_steps(triangulation.build(points, weights));
+  const std::vector<BeadId> present = state_.present_beads.all();
   const auto built =
       static_diagram(state_, std::span<const BeadId>(present), Dyadic(k == 0 ? 0.0 : 1.0), true);
   triangulation.assign(state_.bead_count(), built.cells);
@@ -93,7 +94,7 @@ void DiagramRebuilder<Dimension>::forget_steps(const StaticTriangulation<Dimensi
 
 template <int Dimension>
 bool DiagramRebuilder<Dimension>::assign_static(const Dyadic& time) {
-  const std::vector<BeadId> present = beads_present(state_);
+  const std::vector<BeadId> present = state_.present_beads.all();
   const auto built = static_diagram(state_, std::span<const BeadId>(present), time, true);
   if (built.dimension < Dimension) return false;
   state_.affine_dimension = Dimension;

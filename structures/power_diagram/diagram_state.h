@@ -15,6 +15,7 @@
 #include "certificates/search/certificate_search.h"
 #include "certificates/search/hull_search.h"
 #include "kds/certificate_table.h"
+#include "kds/present_beads.h"
 #include "kds/simulator.h"
 #include "motions/curves/motion_ref.h"
 #include "structures/power_diagram/diagram_events.h"
@@ -43,6 +44,7 @@ struct DiagramState {
         motion(of),
         owner(diagram),
         index(structure),
+        present_beads(diagram.name(), of),
         searches_(search_over<PowerTest<Dimension>>(of), search_over<Orientation<Dimension>>(of),
                   same_turn_search(of), centroid_search(of)) {}
 
@@ -54,8 +56,7 @@ struct DiagramState {
   Curves<Dimension> curves;  ///< of the motion: taken when it is built, and when a step starts
   RegularTriangulation<Dimension> triangulation;
   HiddenBeads hidden;
-  std::vector<char> absent;  ///< of each bead, if any was ever left out
-  std::size_t absent_count = 0;
+  PresentBeads<Dimension> present_beads;
   int affine_dimension = Dimension;  ///< of the beads; below, no cells
   bool has_had_cells = false;
   bool flat = false;         ///< some cell is flat at the frame just reached
@@ -97,7 +98,11 @@ struct DiagramState {
   }
 
   [[nodiscard]] BeadId bead_count() const { return static_cast<BeadId>(motion.bead_count()); }
-  [[nodiscard]] bool is_absent(BeadId bead) const { return bead < absent.size() && absent[bead] != 0; }
+  /// The infinite bead is not.
+  [[nodiscard]] bool is_absent(BeadId bead) const {
+    const std::span<const char> absent = present_beads.absent();
+    return bead < absent.size() && absent[bead] != 0;
+  }
   [[nodiscard]] bool has_cells() const { return affine_dimension == Dimension; }
   void record(const Change& change) { simulator.record(index, change); }
 

@@ -41,7 +41,8 @@ PowerDiagram<Dimension>::~PowerDiagram() = default;
 
 template <int Dimension>
 void PowerDiagram<Dimension>::build() {
-  const std::size_t beads = parts_->state.bead_count() - parts_->state.absent_count;
+  parts_->state.present_beads.structure_is_built();
+  const std::size_t beads = parts_->state.present_beads.count();
   if (beads <= Dimension) {
     throw InputError("the power diagram needs at least " + std::to_string(Dimension + 1) +
                      " beads, the input has " + std::to_string(beads));
@@ -168,7 +169,7 @@ DiagramEdges PowerDiagram<Dimension>::edges_at_frame(bool first) const {
 
 template <int Dimension>
 void PowerDiagram<Dimension>::leave_out(BeadId bead) {
-  parts_->editor.leave_out(bead);
+  parts_->state.present_beads.leave_out(bead);
 }
 
 template <int Dimension>
@@ -185,7 +186,7 @@ void PowerDiagram<Dimension>::erase(BeadId bead) {
 
 template <int Dimension>
 void PowerDiagram<Dimension>::change_motion(BeadId bead, const std::function<void()>& set_curve) {
-  parts_->editor.require_edit(bead, true);
+  parts_->state.present_beads.require(bead, false);
   parts_->state.simulator.change_motion({&bead, 1}, set_curve);
 }
 
@@ -207,8 +208,7 @@ void PowerDiagram<Dimension>::take_up(std::span<const BeadId>) {
 
 template <int Dimension>
 bool PowerDiagram<Dimension>::is_absent(BeadId bead) const {
-  parts_->editor.require_bead(bead);
-  return parts_->state.is_absent(bead);
+  return parts_->state.present_beads.is_absent(bead);
 }
 
 template <int Dimension>

@@ -23,17 +23,6 @@ StaticTriangulation<Dimension> with_names(StaticTriangulation<Dimension> triangu
 }  // namespace
 
 template <int Dimension>
-std::vector<BeadId> beads_present(const DiagramState<Dimension>& state) {
-  std::vector<BeadId> beads;
-  beads.reserve(state.bead_count() - state.absent_count);
-  const BeadId count = state.bead_count();
-  for (BeadId b = 0; b < count; ++b) {
-    if (!state.is_absent(b)) beads.push_back(b);
-  }
-  return beads;
-}
-
-template <int Dimension>
 StaticTriangulation<Dimension> static_diagram(const DiagramState<Dimension>& state,
                                               std::span<const BeadId> beads, const Dyadic& time,
                                               bool oriented) {
@@ -53,7 +42,7 @@ StaticTriangulation<Dimension> static_diagram_at_end(const DiagramState<Dimensio
   const Curves<Dimension> curves = state.motion.curves();
   Eigen::Matrix3Xd points = control_points(curves, k);
   std::vector<double> weights = control_weights(curves, k);
-  const std::vector<BeadId> beads = beads_present(state);
+  const std::vector<BeadId> beads = state.present_beads.all();
   for (std::size_t i = 0; i < beads.size(); ++i) {  // each moves to the front
     points.col(static_cast<Eigen::Index>(i)) = points.col(Eigen::Index{beads[i]});
     weights[i] = weights[beads[i]];
@@ -69,8 +58,6 @@ DiagramEdges static_edges_at_end(const DiagramState<Dimension>& state, int k) {
   return static_edges<Dimension>(control_points(curves, k), control_weights(curves, k));
 }
 
-template std::vector<BeadId> beads_present(const DiagramState<2>&);
-template std::vector<BeadId> beads_present(const DiagramState<3>&);
 template StaticTriangulation<2> static_diagram(const DiagramState<2>&, std::span<const BeadId>, const Dyadic&,
                                                bool);
 template StaticTriangulation<3> static_diagram(const DiagramState<3>&, std::span<const BeadId>, const Dyadic&,

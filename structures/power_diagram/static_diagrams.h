@@ -3,7 +3,6 @@
 // CGAL: from exact positions at a time of the step, or from doubles at its ends.
 
 #include <span>
-#include <vector>
 
 #include "structures/power_diagram/diagram_state.h"
 #include "structures/triangulation/diagram_edges.h"
@@ -11,10 +10,6 @@
 namespace kds {
 
 class Dyadic;
-
-/// Beads that take part, ascending.
-template <int Dimension>
-[[nodiscard]] std::vector<BeadId> beads_present(const DiagramState<Dimension>& state);
 
 /// Of some beads, ascending. With `oriented`, infinite cells too, as they are; else finite ones, sorted.
 template <int Dimension>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -13,7 +12,8 @@ SortedList<D>::SortedList(Simulator& simulator, const MotionRef<D>& motion)
     : simulator_(simulator),
       motion_(motion),
       index_(simulator.add(*this)),
-      table_(simulator, *this, index_, 0, motion) {}
+      table_(simulator, *this, index_, 0, motion),
+      present_(name(), motion) {}
 
 template <int D>
 std::span<const EventKind> SortedList<D>::kinds() const {
@@ -30,9 +30,8 @@ std::span<const EventKind> SortedList<D>::kinds() const {
 template <int D>
 void SortedList<D>::build() {
   const Curves<D> curves = motion_.curves();
-  order_.resize(curves.bead_count());
-  std::iota(order_.begin(), order_.end(), BeadId{0});
-  std::erase_if(order_, [this](BeadId bead) { return is_absent(bead); });
+  present_.structure_is_built();
+  order_ = present_.all();
   // The first control points that differ decide just after u = 0.
   std::stable_sort(order_.begin(), order_.end(), [&](BeadId a, BeadId b) {
     int k = 0;
@@ -92,27 +91,6 @@ void SortedList<D>::give_up(std::size_t i) {
 // Beads that come, go and change course.
 
 template <int D>
-bool SortedList<D>::is_absent(BeadId bead) const {
-  if (bead >= motion_.bead_count()) throw std::invalid_argument("there is no bead " + std::to_string(bead));
-  return bead < absent_.size() && absent_[bead] != 0;
-}
-
-template <int D>
-void SortedList<D>::require_edit(BeadId bead, bool absent) const {
-  if (is_absent(bead) == absent) return;
-  throw std::invalid_argument("bead " + std::to_string(bead) +
-                              (absent ? " is in the list already" : " is not in the list"));
-}
-
-template <int D>
-void SortedList<D>::leave_out(BeadId bead) {
-  require_edit(bead, false);
-  if (!order_.empty()) throw std::invalid_argument("beads are left out before the list is built");
-  absent_.resize(motion_.bead_count(), 0);
-  absent_[bead] = 1;
-}
-
-template <int D>
 std::size_t SortedList<D>::place_for(BeadId bead) {
   const auto comes_first = [&](BeadId other) {
     const Precedes pair{{other, bead}};
@@ -126,7 +104,7 @@ std::size_t SortedList<D>::place_for(BeadId bead) {
 template <int D>
 void SortedList<D>::insert(BeadId bead) {
   const Simulator::Entry entry(simulator_);
-  require_edit(bead, true);
+  present_.require(bead, true);
   simulator_.require_standing_still();
   const std::size_t i = place_for(bead);
   simulator_.record(index_, Change{inserts, 2, {bead, i == 0 ? no_bead : order_[i - 1]}});
@@ -143,7 +121,7 @@ void SortedList<D>::insert(BeadId bead) {
 template <int D>
 void SortedList<D>::erase(BeadId bead) {
   const Simulator::Entry entry(simulator_);
-  require_edit(bead, false);
+  present_.require(bead, false);
   simulator_.require_standing_still();
   simulator_.record(index_, Change{erases, 1, {bead}});
   const std::size_t i = take_out(bead);
@@ -158,14 +136,13 @@ void SortedList<D>::erase(BeadId bead) {
 
 template <int D>
 void SortedList<D>::put_in(std::size_t i, BeadId bead) {
-  absent_[bead] = 0;
+  present_.set_absent(bead, false);
   order_.insert(order_.begin() + static_cast<std::ptrdiff_t>(i), bead);
 }
 
 template <int D>
 std::size_t SortedList<D>::take_out(BeadId bead) {
-  absent_.resize(motion_.bead_count(), 0);
-  absent_[bead] = 1;
+  present_.set_absent(bead, true);
   const auto at = std::find(order_.begin(), order_.end(), bead);
   return static_cast<std::size_t>(order_.erase(at) - order_.begin());
 }
@@ -197,12 +174,12 @@ void SortedList<D>::apply(const Change& change) {
   if (change.size != (change.kind == interchanges || change.kind == inserts ? 2 : 1))
     throw std::invalid_argument("a change of a list has other numbers of beads");
   if (change.kind != interchanges) {
-    require_edit(bead, change.kind == inserts);
+    present_.require(bead, change.kind == inserts);
     if (change.kind == erases) take_out(bead);
     if (change.kind != inserts) return;
     const BeadId before = change.ids[1];
     if (before == no_bead) return put_in(0, bead);
-    require_edit(before, false);
+    present_.require(before, false);
     const auto at = std::find(order_.begin(), order_.end(), before);
     return put_in(static_cast<std::size_t>(at - order_.begin()) + 1, bead);
   }
@@ -222,9 +199,8 @@ std::optional<std::string> SortedList<D>::audit(const Dyadic& time) {
              " are out of order";
     }
   }
-  const auto absent = static_cast<std::size_t>(std::count(absent_.begin(), absent_.end(), 1));
-  if (order_.size() + absent != motion_.bead_count())
-    return std::to_string(order_.size()) + " beads are in order, and " + std::to_string(absent) + " absent";
+  if (order_.size() != present_.count())
+    return std::to_string(order_.size()) + " beads are in order, of " + std::to_string(present_.count());
   return std::nullopt;
 }
 

@@ -11,6 +11,7 @@
 #include "certificates/types/precedes.h"
 #include "kds/bead_edits.h"
 #include "kds/certificate_table.h"
+#include "kds/present_beads.h"
 
 namespace kds {
 
@@ -33,15 +34,14 @@ class SortedList final : public KineticStructure, public BeadEdits {
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
-  void leave_out(BeadId bead) override;
+  void leave_out(BeadId bead) override { present_.leave_out(bead); }
   void insert(BeadId bead) override;
   void erase(BeadId bead) override;
-  [[nodiscard]] bool is_absent(BeadId bead) const override;
+  [[nodiscard]] bool is_absent(BeadId bead) const override { return present_.is_absent(bead); }
 
  private:
   void release(std::span<const BeadId> beads) override;
   void take_up(std::span<const BeadId> beads) override;
-  void require_edit(BeadId bead, bool absent) const;
   /// Where a bead that is absent belongs just after now.
   [[nodiscard]] std::size_t place_for(BeadId bead);
   void put_in(std::size_t i, BeadId bead);
@@ -56,8 +56,8 @@ class SortedList final : public KineticStructure, public BeadEdits {
   MotionRef<Dimension> motion_;
   std::size_t index_;
   CertificateTable<Precedes> table_;
+  PresentBeads<Dimension> present_;
   std::vector<BeadId> order_;
-  std::vector<char> absent_;               // of each bead, if any was ever left out
   std::vector<CertificateHandle> guards_;  // of the pair at i and i+1; violated: none yet
   std::vector<std::size_t> unguarded_;
 };

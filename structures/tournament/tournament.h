@@ -5,12 +5,16 @@
 // certificate fails the loser wins there, and its contests further up are held anew, as far as they change:
 // n - 1 certificates, of a contestant at most one a level.
 //
+// Contestants may be absent: who would meet one wins unopposed, without a certificate. One that comes, goes
+// or changes course while time runs costs at most one certificate a level, held anew at that time.
+//
 // Of contestants level with each other for the rest of a step the least wins.
 
 #include <algorithm>
 #include <bit>
 #include <concepts>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -25,24 +29,25 @@ class Tournament {
  public:
   using Certificate = std::invoke_result_t<const Ahead&, std::uint32_t, std::uint32_t>;
 
+  static constexpr std::uint32_t nobody = 0xffffffffU;
+
   /// Several may share a table: this one's places in it are `which`, `which` + `of`, ...
   Tournament(CertificateTable<Certificate>& table, Ahead ahead, std::uint32_t which = 0, std::uint32_t of = 1)
       : table_(table), ahead_(std::move(ahead)), which_(which), of_(of) {}
 
-  /// When a step starts: among so many contestants.
-  void start(std::uint32_t contestants) {
-    if (contestants_ != contestants || winner_.empty()) {
-      contestants_ = contestants;
-      winner_.resize(2 * std::size_t{contestants});
-      for (std::uint32_t i = 0; i < contestants; ++i) winner_[contestants + i] = i;
-    }
+  /// When a step starts, or, all contests being given up, within it: among so many contestants, but for those
+  /// that are marked as absent, if any are.
+  void start(std::uint32_t contestants, std::span<const char> absent = {}) {
+    contestants_ = contestants;
+    winner_.resize(2 * std::size_t{contestants});
+    for (std::uint32_t i = 0; i < contestants; ++i) set_present(i, i >= absent.size() || absent[i] == 0);
     guards_.assign(contestants, CertificateHandle::violated);
     if (contestants < 2) return;
     for (std::uint32_t first = std::bit_floor(contestants - 1); first > 0; first /= 2)
       hold_contests(first, std::min(2 * first, contestants));
   }
 
-  /// There must be contestants.
+  /// There must have been contestants; nobody where all are absent.
   [[nodiscard]] std::uint32_t winner() const { return winner_[1]; }
 
   /// The contest at a place of the table.
@@ -68,25 +73,62 @@ class Tournament {
     } while (winner_[node] != before);
   }
 
+  // Contestants that come, go and change course: first all of them give up their contests, then what they are
+  // about is other, then these are held again.
+
+  void give_up(std::uint32_t contestant) {
+    for (std::uint32_t node = (contestants_ + contestant) / 2; node > 0; node /= 2) {
+      drop(node);
+      given_up_.push_back(node);
+      if (winner_[node] != contestant) return;
+    }
+  }
+  void give_up_all() {
+    for (std::uint32_t node = 1; node < contestants_; ++node) drop(node);
+  }
+  void set_present(std::uint32_t contestant, bool present) {
+    winner_[contestants_ + contestant] = present ? contestant : nobody;
+  }
+  void hold_again() {
+    std::make_heap(given_up_.begin(), given_up_.end());
+    std::uint32_t held = 0;
+    while (!given_up_.empty()) {  // children before parents
+      std::pop_heap(given_up_.begin(), given_up_.end());
+      const std::uint32_t node = given_up_.back();
+      given_up_.pop_back();
+      if (node == held) continue;
+      held = node;
+      const std::uint32_t before = winner_[node];
+      hold_contest(node);
+      if (winner_[node] == before || node == 1) continue;
+      given_up_.push_back(node / 2);
+      std::push_heap(given_up_.begin(), given_up_.end());
+    }
+  }
+
   /// Calls `visit` with the two of every contest.
   template <std::invocable<std::uint32_t, std::uint32_t> Visit>
   void each_contest(Visit visit) const {
     for (std::uint32_t node = 1; node < contestants_; ++node)
-      visit(winner_[2 * std::size_t{node}], winner_[2 * std::size_t{node} + 1]);
+      if (is_contest(node)) visit(left(node), right(node));
   }
 
  private:
   // Node 1 is the root, 2i and 2i + 1 are the children of i, and leaves follow on the inner nodes.
 
+  [[nodiscard]] std::uint32_t left(std::uint32_t node) const { return winner_[2 * std::size_t{node}]; }
+  [[nodiscard]] std::uint32_t right(std::uint32_t node) const { return winner_[2 * std::size_t{node} + 1]; }
+  [[nodiscard]] bool is_contest(std::uint32_t node) const {
+    return left(node) != nobody && right(node) != nobody;
+  }
   [[nodiscard]] std::uint32_t loser(std::uint32_t node) const {
-    const std::uint32_t left = winner_[2 * std::size_t{node}], right = winner_[2 * std::size_t{node} + 1];
-    return winner_[node] == left ? right : left;
+    return winner_[node] == left(node) ? right(node) : left(node);
   }
 
   /// One of its children's: who won it before, if possible.
   void enter_contest(std::uint32_t node) {
-    const std::uint32_t left = winner_[2 * std::size_t{node}];
-    if (winner_[node] != winner_[2 * std::size_t{node} + 1]) winner_[node] = left;
+    if (winner_[node] == right(node) && right(node) != nobody) return;
+    winner_[node] = left(node) != nobody ? left(node) : right(node);
   }
 
   [[nodiscard]] bool stands(std::uint32_t node) const {
@@ -98,9 +140,15 @@ class Tournament {
     return table_.watch(ahead_(winner_[node], loser(node)), node * of_ + which_, known);
   }
 
-  void hold_contest(std::uint32_t node) {
+  void drop(std::uint32_t node) {
     table_.drop(guards_[node]);
+    guards_[node] = CertificateHandle::violated;
+  }
+
+  void hold_contest(std::uint32_t node) {
+    drop(node);
     enter_contest(node);
+    if (!is_contest(node)) return;
     guards_[node] = watch(node, KnownAtStart::unknown);
     if (!stands(node)) turn(node);
   }
@@ -116,13 +164,14 @@ class Tournament {
   void hold_contests(std::uint32_t first, std::uint32_t end) {
     for (std::uint32_t node = first; node < end; ++node) {
       enter_contest(node);
-      table_.enqueue_one_of_many(ahead_(winner_[node], loser(node)), node * of_ + which_,
-                                 KnownAtStart::unknown);
+      if (is_contest(node))
+        table_.enqueue_one_of_many(ahead_(winner_[node], loser(node)), node * of_ + which_,
+                                   KnownAtStart::unknown);
     }
     table_.watch_enqueued(
         [&](std::uint32_t place, CertificateHandle guard) { guards_[place / of_] = guard; });
     for (std::uint32_t node = first; node < end; ++node)
-      if (!stands(node)) turn(node);
+      if (is_contest(node) && !stands(node)) turn(node);
   }
 
   CertificateTable<Certificate>& table_;
@@ -131,6 +180,7 @@ class Tournament {
   std::uint32_t contestants_ = 0;
   std::vector<std::uint32_t> winner_;      // of a node
   std::vector<CertificateHandle> guards_;  // of an inner node's contest; violated: none
+  std::vector<std::uint32_t> given_up_;    // nodes whose contests are to be held again
 };
 
 }  // namespace kds

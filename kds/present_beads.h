@@ -1,0 +1,81 @@
+#pragma once
+// Which beads of a motion a structure is of whose beads come and go (bead_edits.h): all, but those that were
+// left out or have gone.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kds/change.h"
+#include "motions/curves/motion_ref.h"
+
+namespace kds {
+
+template <int Dimension>
+class PresentBeads {
+ public:
+  /// `structure`: its name, of static storage, for messages.
+  PresentBeads(std::string_view structure, const MotionRef<Dimension>& motion)
+      : structure_(structure), motion_(motion) {}
+
+  /// Throws std::invalid_argument where there is no such bead.
+  [[nodiscard]] bool is_absent(BeadId bead) const {
+    if (bead >= motion_.bead_count()) throw std::invalid_argument("there is no bead " + std::to_string(bead));
+    return bead < absent_.size() && absent_[bead] != 0;
+  }
+  [[nodiscard]] std::size_t count() const { return motion_.bead_count() - absent_count_; }
+  /// Ascending.
+  [[nodiscard]] std::vector<BeadId> all() const {
+    std::vector<BeadId> beads;
+    for (BeadId bead = 0; bead < motion_.bead_count(); ++bead)
+      if (!is_absent(bead)) beads.push_back(bead);
+    return beads;
+  }
+  /// Of each bead whether it is absent; empty where none ever was.
+  [[nodiscard]] std::span<const char> absent() const { return absent_; }
+
+  /// Throws std::invalid_argument where the bead is not absent, or not present, or there is none.
+  void require(BeadId bead, bool absent) const {
+    if (is_absent(bead) == absent) return;
+    refuse("bead " + std::to_string(bead) +
+           (absent ? " is among its beads already" : " is not among its beads"));
+  }
+  void set_absent(BeadId bead, bool absent) {
+    if (is_absent(bead) == absent) return;
+    absent_.resize(motion_.bead_count(), 0);
+    absent_[bead] = absent ? 1 : 0;
+    absent_count_ += absent ? 1 : std::size_t(-1);
+  }
+
+  /// What BeadEdits says of it; no more, once the structure says that it is built.
+  void leave_out(BeadId bead) {
+    require(bead, false);
+    if (built_) refuse("its beads are left out before it is built");
+    set_absent(bead, true);
+  }
+  void structure_is_built() { built_ = true; }
+
+  /// What a logged edit changes here. Of its kind are, in this order, `inserts`, erases and other curves.
+  void apply(const Change& edit, std::uint8_t inserts) {
+    const BeadId bead = edit.ids[0];
+    require(bead, edit.kind == inserts);
+    if (edit.kind <= inserts + 1) set_absent(bead, edit.kind != inserts);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw std::invalid_argument(std::string(structure_) + ": " + why);
+  }
+
+  std::string_view structure_;
+  MotionRef<Dimension> motion_;
+  std::vector<char> absent_;
+  std::size_t absent_count_ = 0;
+  bool built_ = false;
+};
+
+}  // namespace kds
