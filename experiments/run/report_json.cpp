@@ -44,6 +44,17 @@ Json stride_json(const StrideCertificate& stride) {
   return json;
 }
 
+Json approach_json(const RunReport& report) {
+  const ClosestApproach& approach = *report.approach;
+  Json json{{"beads", approach.beads},
+            {"step", approach.step},
+            {"u", approach.u},
+            {"distance", {approach.distance.lower, approach.distance.upper}}};
+  if (const auto& range = report.approach_in_all_frames)
+    json["distance_in_all_frames"] = {range->lower, range->upper};
+  return json;
+}
+
 Json run_json(const RunReport& report) {
   Json json;
   json["input"] = {{"files", report.files},           {"beads", report.beads},
@@ -68,6 +79,7 @@ Json run_json(const RunReport& report) {
                     {"exact_work", report.exact_work}};
   json["fingerprint"] = hex_digits(report.fingerprint);
   if (report.stride) json["stride"] = stride_json(*report.stride);
+  if (report.approach) json["closest_approach"] = approach_json(report);
   add_provenance(json, report.command_line);
   return json;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/events/closest_approach.h"
 #include "experiments/events/displacements.h"
 #include "experiments/events/event_bins.h"
 #include "experiments/events/event_places.h"
@@ -47,8 +48,11 @@ struct RunReport {
   std::uint64_t exact_work = 0;             ///< limb operations of exact arithmetic
   std::uint64_t fingerprint = 0;            ///< printed as 16 hex digits
   std::optional<StrideCertificate> stride;  ///< of --certify
-  std::string command_line;                 ///< that asks for the same run, without outputs
-  Displacements displacement;               ///< where it is looked at, else empty
+  std::optional<ClosestApproach> approach;  ///< where the run has the closest pair, not with `fast`
+  std::optional<DistanceRange> approach_in_all_frames;  ///< the least distance there, with --certify or
+                                                        ///< --tolerance
+  std::string command_line;                             ///< that asks for the same run, without outputs
+  Displacements displacement;                           ///< where it is looked at, else empty
 };
 
 }  // namespace kds

@@ -117,6 +117,17 @@ void add_stride(std::vector<std::pair<std::string, std::string>>& lines, const S
                   with_thousands(possible.size() - found.size())));
 }
 
+void add_approach(std::vector<std::pair<std::string, std::string>>& lines, const RunReport& report) {
+  const ClosestApproach& approach = *report.approach;
+  std::string text =
+      fmt::format("beads {} and {} come nearest: {:.6g} in step {}, at u = {:.6g}", approach.beads[0],
+                  approach.beads[1], approach.distance.upper, approach.step, approach.u);
+  if (const auto& range = report.approach_in_all_frames)
+    text += fmt::format("; over all frames the least distance is between {:.6g} and {:.6g}", range->lower,
+                        range->upper);
+  lines.emplace_back("closest", text);
+}
+
 }  // namespace
 
 std::string kind_label(const std::string& kind) { return kind == "wander" ? kind + " (internal)" : kind; }
@@ -157,6 +168,7 @@ std::vector<std::pair<std::string, std::string>> input_lines(const RunReport& re
       {"scene", scene},
       {"settings", fmt::format("{}", fmt::join(settings, ", "))}};
   if (report.stride) add_stride(lines, *report.stride);
+  if (report.approach) add_approach(lines, report);
   return lines;
 }
 

@@ -1,0 +1,58 @@
+#include "experiments/events/closest_approach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "structures/closest/kinetic_closest_pair.h"
+#include "structures/closest/least_distance.h"
+
+namespace kds {
+
+DistanceRange within_deviation(const DistanceRange& distance, double deviation) {
+  constexpr double more = 1 + 0x1p-50;
+  return {std::max(0.0, distance.lower * (2 - more) - 2 * deviation * more),
+          (distance.upper + 2 * deviation) * more};
+}
+
+ClosestApproachOfRun::ClosestApproachOfRun(Session& session, std::size_t structure)
+    : session_(session), structure_(structure) {
+  session_.simulator().listen(*this);
+}
+
+void ClosestApproachOfRun::on_event(const Event& event) {
+  if (event.structure_index == structure_ && event.change.kind == KineticClosestPair<3>::replace)
+    pairs_.push_back({event.ids()[2], event.ids()[3]});
+}
+
+void ClosestApproachOfRun::begin() {
+  const auto built = session_.elements(structure_, 0);
+  for (const CombinatorialElement& pair : built->all) pairs_.push_back({pair[1], pair[2]});
+}
+
+void ClosestApproachOfRun::end_step(std::size_t step) {
+  std::visit(
+      [&]<int Dimension>(const MotionRef<Dimension>& ref) {
+        if constexpr (Dimension > 1) {
+          for (const auto& [a, b] : pairs_) {
+            const LeastDistance nearest = least_distance(ref.curves(), a, b);
+            if (!least_) least_ = {{a, b}, step, nearest.at, {nearest.lower, nearest.upper}};
+            least_->distance.lower = std::min(least_->distance.lower, nearest.lower);
+            if (nearest.upper < least_->distance.upper)
+              least_ = {{a, b}, step, nearest.at, {least_->distance.lower, nearest.upper}};
+          }
+        }
+      },
+      session_.motion()->ref());
+  if (!pairs_.empty()) pairs_ = {pairs_.back()};
+}
+
+std::optional<std::size_t> place_of_closest(const Session& session) {
+  const auto& structures = session.structures();
+  const auto closest = std::find_if(structures.begin(), structures.end(),
+                                    [](const KineticStructure* s) { return s->name() == "closest"; });
+  if (closest == structures.end()) return std::nullopt;
+  return static_cast<std::size_t>(closest - structures.begin());
+}
+
+}  // namespace kds

@@ -1,0 +1,110 @@
+#include "structures/closest/least_distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace kds {
+
+namespace {
+
+constexpr int most_halvings = 48;
+
+template <int Dimension>
+using Vector = std::array<double, Dimension>;
+
+template <int Dimension>
+double length(const Vector<Dimension>& v) {
+  if constexpr (Dimension == 2) return std::hypot(v[0], v[1]);
+  if constexpr (Dimension == 3) return std::hypot(v[0], v[1], v[2]);
+}
+
+/// The difference of two centres on a part of the step.
+template <int Dimension>
+struct Part {
+  std::vector<Vector<Dimension>> points;
+  double from = 0;
+  int halvings = 0;
+
+  [[nodiscard]] double width() const { return std::ldexp(1.0, -halvings); }
+  [[nodiscard]] double middle() const { return from + 0.5 * width(); }
+
+  /// Keeps the half that comes later, returns the other (de Casteljau).
+  [[nodiscard]] Part split_off_first_half() {
+    Part first{points, from, ++halvings};
+    from += width();
+    for (std::size_t round = 1; round < points.size(); ++round) {
+      for (std::size_t k = 0; k + round < points.size(); ++k)
+        for (std::size_t axis = 0; axis < Dimension; ++axis)
+          points[k][axis] = 0.5 * points[k][axis] + 0.5 * points[k + 1][axis];
+      first.points[round] = points[0];
+    }
+    return first;
+  }
+  /// No difference in the part is shorter, but for rounding.
+  [[nodiscard]] double least_along(const Vector<Dimension>& direction) const {
+    const double norm = length<Dimension>(direction);
+    if (!(norm > 0)) return 0;
+    double least = HUGE_VAL;
+    for (const Vector<Dimension>& point : points) {
+      double along = 0;
+      for (std::size_t axis = 0; axis < Dimension; ++axis) along += direction[axis] / norm * point[axis];
+      least = std::min(least, along);
+    }
+    return least;
+  }
+};
+
+template <int Dimension>
+Part<Dimension> difference(const Curves<Dimension>& curves, BeadId a, BeadId b) {
+  Part<Dimension> whole;
+  for (int k = 0; k <= curves.own_degree(); ++k) {
+    Vector<Dimension>& point = whole.points.emplace_back();
+    for (int axis = 0; axis < Dimension; ++axis)
+      point[static_cast<std::size_t>(axis)] = curves.coordinate(b, k, axis) - curves.coordinate(a, k, axis);
+  }
+  return whole;
+}
+
+}  // namespace
+
+template <int Dimension>
+LeastDistance least_distance(const Curves<Dimension>& curves, BeadId a, BeadId b) {
+  std::vector<Part<Dimension>> parts{difference(curves, a, b)};
+  double extent = 0;
+  for (const Vector<Dimension>& point : parts.front().points)
+    extent = std::max(extent, length<Dimension>(point));
+  if (!(extent < HUGE_VAL)) return {0, HUGE_VAL, 0};
+  const double margin = 0x1p-40 * extent + 0x1p-1060;
+  LeastDistance least{HUGE_VAL, HUGE_VAL, 0};
+  const auto look_at = [&](const Vector<Dimension>& d, double u) {
+    const double distance = length<Dimension>(d) + margin;
+    if (!(distance < least.upper)) return;
+    least.upper = distance;
+    least.at = u;
+  };
+  look_at(parts.front().points.front(), 0);
+  look_at(parts.front().points.back(), 1);
+  while (!parts.empty()) {
+    Part<Dimension> later = std::move(parts.back());
+    parts.pop_back();
+    const Part<Dimension> whole = later;
+    Part<Dimension> first = later.split_off_first_half();
+    const Vector<Dimension>& middle = later.points.front();
+    look_at(middle, whole.middle());
+    const double lower = std::max(0.0, whole.least_along(middle) - margin);
+    if (lower >= least.upper * (1 - 0x1p-36) - 4 * margin || later.halvings > most_halvings) {
+      least.lower = std::min(least.lower, lower);
+    } else {
+      parts.push_back(std::move(first));
+      parts.push_back(std::move(later));
+    }
+  }
+  return least;
+}
+
+template LeastDistance least_distance(const Curves<2>&, BeadId, BeadId);
+template LeastDistance least_distance(const Curves<3>&, BeadId, BeadId);
+
+}  // namespace kds
