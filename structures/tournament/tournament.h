@@ -110,7 +110,7 @@ class Tournament {
   template <std::invocable<std::uint32_t, std::uint32_t> Visit>
   void each_contest(Visit visit) const {
     for (std::uint32_t node = 1; node < contestants_; ++node)
-      if (is_contest(node)) visit(left(node), right(node));
+      if (loser(node) != nobody) visit(left(node), right(node));
   }
 
  private:
@@ -118,9 +118,7 @@ class Tournament {
 
   [[nodiscard]] std::uint32_t left(std::uint32_t node) const { return winner_[2 * std::size_t{node}]; }
   [[nodiscard]] std::uint32_t right(std::uint32_t node) const { return winner_[2 * std::size_t{node} + 1]; }
-  [[nodiscard]] bool is_contest(std::uint32_t node) const {
-    return left(node) != nobody && right(node) != nobody;
-  }
+  /// Nobody where the winner is unopposed.
   [[nodiscard]] std::uint32_t loser(std::uint32_t node) const {
     return winner_[node] == left(node) ? right(node) : left(node);
   }
@@ -148,7 +146,7 @@ class Tournament {
   void hold_contest(std::uint32_t node) {
     drop(node);
     enter_contest(node);
-    if (!is_contest(node)) return;
+    if (loser(node) == nobody) return;
     guards_[node] = watch(node, KnownAtStart::unknown);
     if (!stands(node)) turn(node);
   }
@@ -164,14 +162,13 @@ class Tournament {
   void hold_contests(std::uint32_t first, std::uint32_t end) {
     for (std::uint32_t node = first; node < end; ++node) {
       enter_contest(node);
-      if (is_contest(node))
-        table_.enqueue_one_of_many(ahead_(winner_[node], loser(node)), node * of_ + which_,
-                                   KnownAtStart::unknown);
+      if (const std::uint32_t second = loser(node); second != nobody)
+        table_.enqueue_one_of_many(ahead_(winner_[node], second), node * of_ + which_, KnownAtStart::unknown);
     }
     table_.watch_enqueued(
         [&](std::uint32_t place, CertificateHandle guard) { guards_[place / of_] = guard; });
     for (std::uint32_t node = first; node < end; ++node)
-      if (is_contest(node) && !stands(node)) turn(node);
+      if (!stands(node) && loser(node) != nobody) turn(node);
   }
 
   CertificateTable<Certificate>& table_;

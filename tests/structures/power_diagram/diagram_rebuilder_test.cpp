@@ -48,9 +48,9 @@ TEST(DiagramRebuilder, FindsNoCellsInOnePlane) {
 TEST(StaticDiagrams, AreOfTheBeadsPresent) {
   BareRig<3> rig(random_beads<3>(2, 40, 0.05, 0.1));
   BareDiagram<3>& diagram = rig.structure;
-  for (const BeadId bead : {0U, 10U, 39U}) diagram.editor.leave_out(bead);
+  for (const BeadId bead : {0U, 10U, 39U}) diagram.state.present_beads.leave_out(bead);
   rig.simulator.build();
-  const std::vector<BeadId> present = beads_present(diagram.state);
+  const std::vector<BeadId> present = diagram.state.present_beads.all();
   EXPECT_EQ(present.size(), 37U);
   for (const int k : {0, 1}) {
     const auto at_end = static_diagram_at_end(diagram.state, k);

@@ -200,7 +200,7 @@ TEST(PowerDiagramEdits, RefusesBadCalls) {
   refused([&] { diagram.leave_out(5); }, "bead 5 is not among its beads");
   refused([&] { diagram.leave_out(6); }, "there is no bead 6");
   rig.simulator.build();
-  refused([&] { diagram.leave_out(4); }, "before the diagram is built");
+  refused([&] { diagram.leave_out(4); }, "before it is built");
   refused([&] { diagram.insert(5); }, "only within a step");
   rig.simulator.enter_step();
   rig.simulator.run_until(Dyadic(0.5));

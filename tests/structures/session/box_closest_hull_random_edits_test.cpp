@@ -1,0 +1,356 @@
+// Beads that come, go and change course in the enclosing box, the closest pair and the convex hull, on one
+// clock, at rational times, at the irrational times of events, and where many things happen at once. Two slow
+// twins: the same structures, made of the beads present and the curves that there are, and run to that time
+// from the start; and what exact positions a moment later say, looked at one by one.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "certificates/exact/exact_time.h"
+#include "structures/box/enclosing_box.h"
+#include "structures/closest/kinetic_closest_pair.h"
+#include "structures/hull/convex_hull.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/inputs/random_motion.h"
+#include "tests/support/judges/moving_points.h"
+#include "tests/support/rounds.h"
+#include "tests/support/text_of.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+
+using Beads = std::vector<BeadId>;
+
+// What exact positions say; of beads that tie the least.
+
+Beads ends_of(const ExactPoints& at, const Beads& present, std::size_t dimension) {
+  Beads ends;
+  for (std::size_t axis = 0; axis < dimension; ++axis) {
+    for (const bool high : {false, true}) {
+      BeadId end = no_bead;
+      for (const BeadId b : present)
+        if (end == no_bead || (high ? at[b][axis] > at[end][axis] : at[b][axis] < at[end][axis])) end = b;
+      ends.push_back(end);
+    }
+  }
+  return ends;
+}
+
+Beads closest_of(const ExactPoints& at, const Beads& present) {
+  Beads closest;
+  Rational least;
+  for (const BeadId a : present) {
+    for (const BeadId b : present) {
+      if (a >= b) continue;
+      Rational square = 0;
+      for (std::size_t axis = 0; axis < at[a].size(); ++axis)
+        square += (at[a][axis] - at[b][axis]) * (at[a][axis] - at[b][axis]);
+      if (!closest.empty() && least <= square) continue;
+      closest = {a, b};
+      least = square;
+    }
+  }
+  return closest;
+}
+
+/// Wraps a gift, counterclockwise from the least corner.
+Beads corners_of(const ExactPoints& at, const Beads& present) {
+  if (present.empty()) return {};
+  const auto first =
+      *std::min_element(present.begin(), present.end(), [&](BeadId a, BeadId b) { return at[a] < at[b]; });
+  Beads corners;
+  BeadId last = first;
+  do {
+    corners.push_back(last);
+    BeadId next = last;
+    for (const BeadId b : present) {
+      if (at[b] == at[last]) continue;
+      const Rational turn = next == last ? Rational(-1)
+                                         : (at[next][0] - at[last][0]) * (at[b][1] - at[last][1]) -
+                                               (at[next][1] - at[last][1]) * (at[b][0] - at[last][0]);
+      const bool is_between = turn == 0 && (at[next] < at[last] ? at[b] < at[next] : at[next] < at[b]);
+      if (turn < 0 || is_between) next = b;  // the farthest of those in line
+    }
+    last = next;
+  } while (at[last] != at[first]);
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+/// A structure, its answer, and what that is to be.
+struct Subject {
+  KineticStructure* structure;
+  BeadEdits* edits;
+  std::function<Beads()> answer;
+  std::function<Beads(const ExactPoints&, const Beads&)> right;
+
+  [[nodiscard]] Beads present(std::size_t beads) const {
+    Beads all;
+    for (BeadId b = 0; b < beads; ++b)
+      if (!edits->is_absent(b)) all.push_back(b);
+    return all;
+  }
+};
+
+struct None {
+  template <class M>
+  None(Simulator&, const M&) {}
+};
+
+/// All that there are in the dimension.
+template <int D>
+struct Structures {
+  template <class M>
+  Structures(Simulator& simulator, const M& motion)
+      : box(simulator, motion), closest(simulator, motion), hull(simulator, motion) {
+    all.push_back({&box, &box, [this] { return box.ends(); },
+                   [](const ExactPoints& at, const Beads& present) { return ends_of(at, present, D); }});
+    if constexpr (D > 1) {
+      const auto pair = [this] {
+        return closest.pair() ? Beads(closest.pair()->begin(), closest.pair()->end()) : Beads();
+      };
+      all.push_back({&closest, &closest, pair, closest_of});
+    }
+    if constexpr (D == 2) all.push_back({&hull, &hull, [this] { return hull.corners(); }, corners_of});
+  }
+
+  EnclosingBox<D> box;
+  std::conditional_t<(D > 1), KineticClosestPair<std::max(D, 2)>, None> closest;
+  std::conditional_t<D == 2, ConvexHull, None> hull;
+  std::vector<Subject> all;
+};
+
+enum class Scene { generic, grid };
+
+/// On a grid half of the beads rest: they tie for the rest of the step.
+template <class M>
+void set_curve(M& motion, BeadId b, Random& random, Scene scene) {
+  const bool rests = scene == Scene::grid && random() % 2 == 0;
+  for (int k = 0; k <= M::degree; ++k)
+    for (int axis = 0; axis < M::dimension; ++axis)
+      motion.set_coordinate(b, k, axis,
+                            rests && k > 0         ? motion.coordinate(b, 0, axis)
+                            : scene == Scene::grid ? pick(random, -2, 2)
+                                                   : 0x1p-16 * pick(random, -(1 << 17), 1 << 17));
+}
+
+/// Turns the bead's course at u, where it stays as it is; for straight ones.
+template <class M>
+void bend(M& motion, BeadId b, double u, Random& random) {
+  for (int axis = 0; axis < M::dimension; ++axis) {
+    const double d = 0x1p-8 * pick(random, -128, 128);
+    motion.set_coordinate(b, 0, axis, motion.coordinate(b, 0, axis) + u * d);
+    motion.set_coordinate(b, 1, axis, motion.coordinate(b, 1, axis) - (1 - u) * d);
+  }
+}
+
+struct Totals {
+  std::uint64_t edits = 0, at_no_dyadic_times = 0, empty = 0, turned = 0, events = 0;
+};
+
+template <class M>
+class EditedRun {
+ public:
+  static constexpr int dimension = M::dimension;
+
+  EditedRun(unsigned seed, Scene scene, Totals& totals, Kernel kernel = Kernel::filtered)
+      : random_(2 * seed + static_cast<unsigned>(scene)),
+        scene_(scene),
+        totals_(totals),
+        motion_(7 + seed % 6),
+        simulator_(kernel == Kernel::fast ? AuditMode::none : AuditMode::events, kernel),
+        structures_(simulator_, motion_) {
+    simulator_.listen(history_);
+    for (BeadId b = 0; b < motion_.bead_count(); ++b) set_curve(motion_, b, random_, scene_);
+    first_ = motion_;
+    leave_out_ = seed % 3 == 0 ? motion_.bead_count() : 2;
+    leave_some_out(structures_);
+  }
+
+  void run() {
+    simulator_.build();
+    for (int step = 0; step < 2; ++step) {
+      if (step > 0) go_on();
+      simulator_.enter_step();
+      compare();
+      edit();
+      for (int stand = 1; stand < 10; ++stand) {
+        double u = 0.1 * stand;
+        if (stand % 3 == 0) u = 0x1p-3 * std::floor(8 * u);  // where much happens at once on a grid
+        if (simulator_.now().lower() <= u) {
+          simulator_.run_until(Dyadic(u));
+          compare();
+          edit();
+        }
+        if (!simulator_.run_next()) continue;
+        totals_.at_no_dyadic_times += simulator_.now().exact().is_dyadic() ? 0 : 1;
+        compare();
+        edit();
+      }
+      simulator_.leave_step();
+      for (const Subject& s : structures_.all) EXPECT_TRUE(books_balance(s.structure->statistics));
+    }
+    simulator_.finish();
+    totals_.events += history_.events.size();
+  }
+
+  void expect_replay_goes_the_same_way() {
+    Simulator simulator;
+    Structures<dimension> again(simulator, first_);
+    leave_some_out(again);
+    simulator.build_for_replay();
+    for (std::size_t step = 0; step < 2; ++step) {
+      std::vector<Simulator::Replayed> events;
+      for (const Event& e : history_.of_step(step))
+        events.push_back({e.structure_index, e.lower, e.upper, e.change, "the log"});
+      simulator.replay_step(events);
+    }
+    EXPECT_EQ(simulator.fingerprint(), simulator_.fingerprint());
+    for (std::size_t s = 0; s < again.all.size(); ++s) {
+      EXPECT_EQ(again.all[s].answer(), structures_.all[s].answer());
+      EXPECT_EQ(again.all[s].present(motion_.bead_count()), structures_.all[s].present(motion_.bead_count()));
+    }
+  }
+
+  [[nodiscard]] std::uint64_t fingerprint() const { return simulator_.fingerprint(); }
+
+ private:
+  void leave_some_out(Structures<dimension>& structures) {
+    for (const Subject& s : structures.all)
+      for (BeadId b = 0; b < leave_out_; ++b) s.edits->leave_out(b);
+  }
+
+  void go_on() {
+    for (BeadId b = 0; b < motion_.bead_count(); ++b) {
+      std::array<double, dimension> from{};
+      for (int axis = 0; axis < dimension; ++axis)
+        from[static_cast<std::size_t>(axis)] = motion_.coordinate(b, M::degree, axis);
+      set_curve(motion_, b, random_, scene_);
+      for (int axis = 0; axis < dimension; ++axis)
+        motion_.set_coordinate(b, 0, axis, from[static_cast<std::size_t>(axis)]);
+    }
+  }
+
+  void edit() {
+    const auto count = static_cast<BeadId>(motion_.bead_count());
+    const bool all_go = random_() % 12 == 0, some_come = random_() % 6 == 0;
+    for (const Subject& s : structures_.all) {
+      for (BeadId i = 0; all_go && i < count; ++i)
+        if (const BeadId b = (5 * i + 2) % count; !s.edits->is_absent(b)) s.edits->erase(b);
+      if (all_go) compare();
+      for (BeadId i = 0; some_come && i < count; ++i)
+        if (const BeadId b = (3 * i + 1) % count; s.edits->is_absent(b)) s.edits->insert(b);
+      const auto b = static_cast<BeadId>(random_() % count);
+      s.edits->is_absent(b) ? s.edits->insert(b) : s.edits->erase(b);
+      ++totals_.edits;
+    }
+    compare();
+    change_courses();
+    compare();
+  }
+
+  void change_courses() {
+    const ExactTime& now = simulator_.now().exact();
+    const auto count = static_cast<BeadId>(motion_.bead_count());
+    const auto b = static_cast<BeadId>(random_() % count);
+    Beads beads{b};
+    const auto set_all = [&] {
+      for (const BeadId other : beads) set_curve(motion_, other, random_, scene_);
+    };
+    switch (random_() % 6) {
+      case 0:
+        return simulator_.change_motion(beads, set_all);
+      case 1:  // a turn, where numbers are short enough for one without rounding
+        if (M::degree > 1 || !now.is_dyadic()) return;
+        ++totals_.turned;
+        return simulator_.change_motion(beads, [&] { bend(motion_, b, now.lower().round_down(), random_); });
+      case 2:
+        beads = {b, (b + 1) % count, (b + 2) % count};
+        return simulator_.change_motion(beads, set_all);
+      case 3:
+        for (BeadId other = 0; other < count; ++other) beads.push_back(other);
+        if (random_() % 2 == 0) return simulator_.change_motion(beads, [] {});  // as they were
+        return simulator_.change_motion(beads, set_all);
+      default:
+        return;
+    }
+  }
+
+  void compare() {
+    if (simulator_.kernel() == Kernel::fast) return;
+    const Dyadic soon = next_on_grid(simulator_.now().exact(), 200);  // before anything else happens
+    const ExactPoints at = points_at(motion_, soon.rational());
+    Simulator simulator;
+    Structures<dimension> twins(simulator, motion_);
+    for (std::size_t s = 0; s < twins.all.size(); ++s)
+      for (BeadId b = 0; b < motion_.bead_count(); ++b)
+        if (structures_.all[s].edits->is_absent(b)) twins.all[s].edits->leave_out(b);
+    simulator.build();
+    simulator.enter_step();
+    simulator.run_until(soon);
+    for (std::size_t s = 0; s < twins.all.size(); ++s) {
+      const Subject& subject = structures_.all[s];
+      const Beads present = subject.present(motion_.bead_count());
+      totals_.empty += present.empty() ? 1 : 0;
+      EXPECT_EQ(subject.answer(), twins.all[s].answer()) << subject.structure->name();
+      EXPECT_EQ(subject.answer(), subject.right(at, present)) << subject.structure->name();
+    }
+  }
+
+  Random random_;
+  Scene scene_;
+  Totals& totals_;
+  std::size_t leave_out_ = 0;
+  M motion_, first_{0};
+  Simulator simulator_;
+  History history_;
+  Structures<dimension> structures_;
+};
+
+template <class M>
+void run_all(unsigned seeds) {
+  for (const Scene scene : {Scene::generic, Scene::grid}) {
+    Totals totals;
+    for (unsigned seed = 0; seed < seeds && !testing::Test::HasFailure(); ++seed) {
+      SCOPED_TRACE(text_of("seed ", seed, ", scene ", static_cast<int>(scene)));
+      EditedRun<M> run(seed, scene, totals);
+      run.run();
+      run.expect_replay_goes_the_same_way();
+    }
+    EXPECT_GT(totals.edits, 10 * seeds);
+    EXPECT_GT(totals.events, 40 * seeds);
+    EXPECT_GT(totals.empty, seeds);
+    EXPECT_EQ(totals.turned > 0, M::degree == 1);
+    EXPECT_GT(totals.at_no_dyadic_times, seeds);
+  }
+}
+
+TEST(BoxClosestHullRandomEdits, OnALine) { run_all<BezierMotion<1, 1>>(rounds(40U)); }
+TEST(BoxClosestHullRandomEdits, InThePlane) { run_all<BezierMotion<2, 1>>(rounds(20U)); }
+TEST(BoxClosestHullRandomEdits, InSpace) { run_all<Space>(rounds(20U)); }
+TEST(BoxClosestHullRandomEdits, OnQuadraticCurvesInThePlane) { run_all<BezierMotion<2, 2>>(rounds(8U)); }
+TEST(BoxClosestHullRandomEdits, OnCubicCurvesInSpace) { run_all<BezierMotion<3, 3>>(rounds(4U)); }
+
+TEST(BoxClosestHullRandomEdits, KernelsAgreeAndFastEnds) {
+  Totals totals;
+  for (const Scene scene : {Scene::generic, Scene::grid}) {
+    for (unsigned seed = 50; seed < 50 + rounds(6U); ++seed) {
+      using Run = EditedRun<BezierMotion<2, 1>>;
+      Run filtered(seed, scene, totals), exact(seed, scene, totals, Kernel::exact),
+          fast(seed, scene, totals, Kernel::fast);
+      filtered.run();
+      exact.run();
+      EXPECT_EQ(filtered.fingerprint(), exact.fingerprint());
+      fast.run();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kds
