@@ -44,14 +44,15 @@ Json stride_json(const StrideCertificate& stride) {
   return json;
 }
 
+std::vector<double> json_of(const DistanceRange& range) { return {range.lower, range.upper}; }
+
 Json approach_json(const RunReport& report) {
   const ClosestApproach& approach = *report.approach;
-  Json json{{"beads", approach.beads},
+  Json json{{"beads", std::vector<BeadId>(approach.beads.begin(), approach.beads.end())},
             {"step", approach.step},
             {"u", approach.u},
-            {"distance", {approach.distance.lower, approach.distance.upper}}};
-  if (const auto& range = report.approach_in_all_frames)
-    json["distance_in_all_frames"] = {range->lower, range->upper};
+            {"distance", json_of(approach.distance)}};
+  if (const auto& range = report.approach_in_all_frames) json["distance_in_all_frames"] = json_of(*range);
   return json;
 }
 
