@@ -73,8 +73,11 @@ template <int Dimension>
 LeastDistance least_distance(const Curves<Dimension>& curves, BeadId a, BeadId b) {
   std::vector<Part<Dimension>> parts{difference(curves, a, b)};
   double extent = 0;
-  for (const Vector<Dimension>& point : parts.front().points)
-    extent = std::max(extent, length<Dimension>(point));
+  for (const Vector<Dimension>& point : parts.front().points) {
+    double way = 0;
+    for (const double along : point) way += std::abs(along);
+    extent = std::max(extent, way);
+  }
   if (!(extent < HUGE_VAL)) return {0, HUGE_VAL, 0};
   const double margin = 0x1p-40 * extent + 0x1p-1060;
   LeastDistance least{HUGE_VAL, HUGE_VAL, 0};
