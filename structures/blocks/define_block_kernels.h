@@ -254,7 +254,8 @@ template <int Dimension, bool Equal>
   const std::int64_t within = asked.within ? std::int64_t{asked.apart} : std::int64_t{1} << 40;
   const std::int64_t between = asked.between ? least_all : least_none;
   const std::uint32_t never_along = asked.along_done ? 0 : 2;
-  // Without a branch in either loop: which groups meet, and which beads are near, nobody foretells.
+  // Which groups meet, and which beads are near, nobody foretells: no branch but the one that skips blocks of
+  // which no groups do, as next along a stretched chain.
   std::array<ComparedPair, block_pairs_at_once> compared;
   std::size_t meeting = 0;
   for (std::size_t p = 0; p < count;) {
@@ -271,9 +272,9 @@ template <int Dimension, bool Equal>
       const LanesApart* const lanes = lanes_apart.data() + (least - least_all);
       const std::uint32_t blocks_apart = std::min((same ? b - a : 2) | never_along, 2U);
       compared[p] = {16 * a, 16 * b, lanes};
-      meeting +=
-          append_bits(groups + meeting, static_cast<std::uint32_t>(16 * p),
-                      meeting_groups(ours, here.boxes[b]) & lanes->groups & groups_not_along[blocks_apart]);
+      const unsigned near =
+          meeting_groups(ours, here.boxes[b]) & lanes->groups & groups_not_along[blocks_apart];
+      if (near != 0) meeting += append_bits(groups + meeting, static_cast<std::uint32_t>(16 * p), near);
       ++p;
     } while (p < count && firsts[p] == a);
   }
