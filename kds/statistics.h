@@ -25,7 +25,7 @@ struct CertificateCounts {
 /// What some of an event's ids are: those of its first role come first.
 struct IdRole {
   enum class Of : std::uint8_t {
-    beads,   ///< beads, or no_bead: the infinite vertex
+    beads,   ///< beads, or no_bead: the infinite vertex, or none
     node,    ///< two: the first and the last bead below a node of a hierarchy
     number,  ///< no beads
   };

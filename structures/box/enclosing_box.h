@@ -7,8 +7,8 @@
 // the end changes hands once, if at all: changes are recorded when all that happens at that time has
 // happened.
 //
-// Beads come, go and change course at the cost of at most a certificate for each end and level of its
-// tournament.
+// A bead that comes, goes or changes course costs, for each end, at most the contests on one way to the root
+// of its tournament.
 
 #include <cstdint>
 #include <memory>

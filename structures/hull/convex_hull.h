@@ -6,9 +6,9 @@
 // together the least is the corner. One corner where all beads are together, two where all are on one line.
 // A corner that comes or goes is recorded when all that happens at that time has happened.
 //
-// A bead that comes walks along both halves to where it belongs, a few certificates a corner. One that goes
-// or changes course costs those of its neighbours on the halves, and of the beads under its edges, where it
-// is a corner; of all beads at once, what the start of a step does.
+// A bead that comes, or jumps, walks along both halves to where it belongs, a few certificates a corner. One
+// that goes or changes course costs its own certificates and, where it is on a half, those of its neighbours
+// there and of the beads under its edges.
 
 #include <cstdint>
 #include <span>

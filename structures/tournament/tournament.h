@@ -6,7 +6,8 @@
 // n - 1 certificates, of a contestant at most one a level.
 //
 // Contestants may be absent: who would meet one wins unopposed, without a certificate. One that comes, goes
-// or changes course while time runs costs at most one certificate a level, held anew at that time.
+// or changes course while time runs costs at most the contests on one way to the root, held anew at that
+// time.
 //
 // Of contestants level with each other for the rest of a step the least wins.
 
