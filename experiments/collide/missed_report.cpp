@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 
 namespace kds {

@@ -8,7 +8,7 @@
 
 #include "experiments/compare/compare_report.h"
 #include "experiments/events/event_places.h"
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 
 namespace kds {

@@ -9,8 +9,8 @@
 
 #include "experiments/events/event_bins.h"
 #include "experiments/events/event_places.h"
-#include "experiments/output/html_page.h"
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/html_page.h"
+#include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/run/summary_rows.h"
 

@@ -6,7 +6,7 @@
 
 #include "experiments/output/output_error.h"
 #include "experiments/output/output_files.h"
-#include "experiments/output/result_page.h"
+#include "experiments/output/page/result_page.h"
 #include "experiments/output/staged.h"
 #include "experiments/run/html_report.h"
 #include "structures/session/event_writers.h"

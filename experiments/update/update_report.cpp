@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 
 namespace kds {

@@ -1,6 +1,6 @@
 // Plots: where ticks stand, and what a page shows of values.
 
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/svg_plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/output/page_svg.h"
+#include "experiments/output/page/page_svg.h"
 #include "tests/experiments/sound_page.h"
 
 namespace kds {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/output/html_text.h"
+#include "experiments/output/page/html_text.h"
 #include "experiments/output/result_json.h"
 
 namespace kds {

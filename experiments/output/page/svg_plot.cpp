@@ -1,4 +1,4 @@
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/svg_plot.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,9 +8,9 @@
 #include <map>
 #include <string_view>
 
-#include "experiments/output/gnuplot.h"
-#include "experiments/output/html_text.h"
-#include "experiments/output/page_svg.h"
+#include "experiments/output/page/gnuplot.h"
+#include "experiments/output/page/html_text.h"
+#include "experiments/output/page/page_svg.h"
 #include "experiments/output/text.h"
 
 namespace kds {

@@ -1,4 +1,4 @@
-#include "experiments/output/html_page.h"
+#include "experiments/output/page/html_page.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
