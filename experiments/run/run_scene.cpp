@@ -9,6 +9,36 @@
 
 namespace kds {
 
+namespace {
+
+// Seconds of each structure, by round: kept, and built at every frame.
+struct Times {
+  std::vector<std::vector<double>> kept, built;
+};
+
+void add_round(Session& session, const Scene& scene, Times& times) {
+  std::vector<double> built;
+  for (std::size_t frame = 0; frame < scene.frame_count(); ++frame) session.time_static_builds(frame, built);
+  for (std::size_t s = 0; s < times.kept.size(); ++s) {
+    times.kept[s].push_back(session.simulator().seconds_of(s));
+    times.built[s].push_back(built[s]);
+  }
+}
+
+void add_times(const Times& times, RunReport& report) {
+  for (std::size_t s = 0; s < report.structures.size(); ++s) {
+    StructureReport& structure = report.structures[s];
+    structure.of_seconds = spread_of(times.kept[s]);
+    structure.of_static_seconds = spread_of(times.built[s]);
+    structure.seconds = structure.of_seconds.median;
+    structure.static_seconds = structure.of_static_seconds.median;
+    if (structure.of_static_seconds.least > 0)
+      structure.of_ratio = ratios_by_round(times.kept[s], times.built[s]);
+  }
+}
+
+}  // namespace
+
 RunReport run_scene(const RunOptions& options, const Progress& progress,
                     const std::function<void(const std::string&)>& warn, RunResults& results) {
   HeldWarnings warnings;
@@ -24,16 +54,23 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
     results.add_frame(frame, *session);
     if (frame == 0) return;
     counts.end_step(frame - 1, &results);
-    progress(frame, scene.step_count());
+    progress(frame, options.rounds * scene.step_count());
   });
 
   RunReport report = report_of(*session, scene, options, counts);
   if (options.certify) report.stride = certify_stride(options, scene);
-  std::vector<double> static_seconds;
-  for (std::size_t frame = 0; frame < scene.frame_count(); ++frame)
-    session->time_static_builds(frame, static_seconds);
-  for (std::size_t s = 0; s < report.structures.size(); ++s)
-    report.structures[s].static_seconds = static_seconds[s];
+  Times times{std::vector<std::vector<double>>(report.structures.size()),
+              std::vector<std::vector<double>>(report.structures.size())};
+  add_round(*session, scene, times);
+  for (std::size_t round = 1; round < options.rounds; ++round) {
+    const auto again = open_session(options, scene, AuditMode::none);
+    run_steps(*again, scene, options, [&](std::size_t frame) {
+      progress(round * scene.step_count() + frame, options.rounds * scene.step_count());
+    });
+    add_round(*again, scene, times);
+  }
+  report.rounds = options.rounds;
+  add_times(times, report);
   return report;
 }
 
