@@ -159,10 +159,11 @@ std::string plot_along_chain(const RunReport& report) {
   const auto name_of = [&report](std::size_t bead) {
     return bead_text(bead, bead < report.bead_names.size() ? report.bead_names[bead] : "");
   };
-  RowsPlot plot{"bead", static_cast<std::size_t>(report.beads), name_of, {}};
+  RowsPlot plot{"bead", 0, name_of, {}};
   for (const StructureReport& structure : report.structures) {
     const auto& counts = structure.places.by_bead;
     if (counts.empty()) continue;
+    plot.columns = counts.size();
     const auto most = std::ranges::max_element(counts);
     const std::string note = fmt::format("at most {} events, at {}", with_thousands(*most),
                                          name_of(static_cast<std::size_t>(most - counts.begin())));

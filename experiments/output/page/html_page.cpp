@@ -65,7 +65,6 @@ svg .hot { fill: var(--ink); fill-opacity: 0; stroke: none; }
 svg .hot:hover { fill-opacity: .08; }
 .s0 { color: var(--s0); } .s1 { color: var(--s1); } .s2 { color: var(--s2); } .s3 { color: var(--s3); }
 .s4 { color: var(--s4); } .s5 { color: var(--s5); } .s6 { color: var(--s6); } .s7 { color: var(--s7); }
-.word { display: inline-block; max-width: 100%; }
 .key { display: flex; flex-wrap: wrap; gap: .1rem 1.3rem; font-size: .92rem; max-width: none; }
 .key span::before { content: ""; display: inline-block; width: .75em; height: .75em; margin-right: .4em;
                     border-radius: 50%; background: currentColor; }
@@ -114,22 +113,11 @@ std::string links_to(const std::vector<std::string>& files) {
   return links.empty() ? "" : fmt::format("<p>Data: {}.</p>\n", fmt::join(links, ", "));
 }
 
-// Lines break between words, not behind the hyphens of an option.
-std::string unbroken_words(const std::string& text) {
-  std::string html;
-  for (const std::string& word : split(one_line(text), ' ')) {
-    const bool may_break = word.find('-') == std::string::npos;
-    html += (html.empty() ? "" : " ") +
-            (may_break ? html_escaped(word) : "<span class=\"word\">" + html_escaped(word) + "</span>");
-  }
-  return html;
-}
-
 std::string how_it_was_made(const Page& page) {
   const Machine machine = this_machine();
   std::string html;
   if (!page.command_line.empty())
-    html += fmt::format("<pre><code>{}</code></pre>\n", unbroken_words(page.command_line));
+    html += fmt::format("<pre><code>{}</code></pre>\n", html_escaped(page.command_line));
   html += links_to(page.data) + settings_of(page.settings);
   return html + fmt::format("<p>kds {} on {}, {} {}, {}; built with {}.</p>\n",
                             html_escaped(program_version()), html_escaped(machine.cpu), machine.cores,
@@ -168,7 +156,7 @@ std::string html_table(const std::vector<std::string>& columns, const std::vecto
     html += row.detail ? "<tr class=\"detail\">" : "<tr>";
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const std::string cell = c < row.cells.size() ? row.cells[c] : "";
-      html += c == 0 ? fmt::format("<th scope=\"row\">{}</th>", unbroken_words(cell))
+      html += c == 0 ? fmt::format("<th scope=\"row\">{}</th>", html_escaped(cell))
                      : fmt::format("<td>{}</td>", cell_text(cell));
     }
     html += "</tr>\n";

@@ -67,7 +67,8 @@ Drawing draw(const RowsPlot& plot, DrawingSize size) {
   std::string& script = drawing.script;
   const auto columns = static_cast<double>(plot.columns);
   script += linear('x', {-0.5, std::max(columns, 1.0) - 0.5}, x_ticks(size));
-  script += fmt::format("unset ytics\nunset grid\nset yrange [{}:0]\n", plot.rows.size());
+  script +=
+      fmt::format("unset ytics\nunset grid\nset yrange [{}:0]\n", std::max<std::size_t>(1, plot.rows.size()));
   std::string bars;
   for (std::size_t r = 0; r < plot.rows.size(); ++r) {
     const RowsPlot::Row& row = plot.rows[r];
@@ -80,13 +81,13 @@ Drawing draw(const RowsPlot& plot, DrawingSize size) {
     for (const Bin& bin : bins) means.push_back(bin.mean(row.values));
     const double most = means.empty() ? 0 : *std::ranges::max_element(means);
     if (!(most > 0)) continue;
-    script += fmt::format("$row{} << EOD\n", r);
+    script += fmt::format("$row{} << EOD\n{:.17g} {:.6f}\n", r, bins.front().left(), base);
     for (std::size_t b = 0; b < bins.size(); ++b) {
       const double top = base - kBars * means[b] / most;
       script += fmt::format("{:.17g} {:.6f}\n{:.17g} {:.6f}\n", bins[b].left(), top, bins[b].right(), top);
     }
-    script += "EOD\n";
-    bars += fmt::format("$row{} using 1:2 with filledcurves y={} linecolor {}, ", r, base, colour(0));
+    script += fmt::format("{:.17g} {:.6f}\nEOD\n", bins.back().right(), base);
+    bars += fmt::format("$row{} using 1:2 with filledcurves closed linecolor {}, ", r, colour(0));
   }
   if (!bins.empty()) {
     script += "$values << EOD\n";
