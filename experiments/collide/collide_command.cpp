@@ -42,7 +42,8 @@ Json settings_json(const CollideOptions& options) {
           {"method", options.methods},
           {"pairs", name_of(options.pairs)},
           {"apart", options.apart},
-          {"within", options.within}};
+          {"within", options.within},
+          {"rounds", options.rounds}};
 }
 
 std::string file_names(const CollideOptions& options) {
@@ -61,6 +62,7 @@ CollideTask task_of(const CollideOptions& options, const CollideFrames& frames) 
   task.query = {{frames.necklaces(), options.pairs != WhichPairs::between, options.apart,
                  options.pairs != WhichPairs::within},
                 options.within};
+  task.rounds = options.rounds;
   task.leave_out_refusing = options.all_methods;
   return task;
 }

@@ -17,6 +17,10 @@ constexpr std::array kFurtherOptions{
     OptionSpec{"--within", "X",
                "pairs whose surfaces are at most so far apart (default: 0, those that meet)"},
     OptionSpec{
+        "--rounds", "N",
+        "each method so often: times are the median, with the least and most (default: 3 where methods "
+        "are compared, else 1)"},
+    OptionSpec{
         "--out", "DIR",
         "write collide.json, collide.csv, pairs.csv, frames.csv and report.html there (default: none)"},
     OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
@@ -82,6 +86,9 @@ CollideOptions parse_collide_options(const Arguments& arguments) {
     options.apart = static_cast<BeadId>(parse_whole_number("--apart", *text, 1, 1'000'000'000));
   if (const auto text = parsed.value("--within"))
     options.within = parse_real("--within", *text, {0, std::numeric_limits<double>::max()});
+  options.rounds = options.methods.size() > 1 ? 3 : 1;
+  if (const auto text = parsed.value("--rounds"))
+    options.rounds = parse_whole_number("--rounds", *text, 1, 1000);
   options.destinations = {path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
   return options;
 }

@@ -27,7 +27,8 @@ struct CollideOptions {
   bool all_methods = true;           ///< nobody has named them
   WhichPairs pairs = WhichPairs::all;
   BeadId apart = 2;
-  double within = 0;  ///< pairs at most so far apart are looked for
+  double within = 0;       ///< pairs at most so far apart are looked for
+  std::size_t rounds = 3;  ///< each method so often in each frame
   Destinations destinations;
 };
 

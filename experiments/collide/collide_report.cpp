@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 
 namespace kds {
@@ -38,7 +38,12 @@ std::string closest_line(const CollideReport& report) {
 }
 
 std::string distance_plot(const CollideReport& report) {
-  LinePlot plot{"frame", "closest distance", Drawn::line, {{"closest pair", {}}}, true};
+  constexpr std::size_t few = 60;  // frames, that a line would make look like more
+  LinePlot plot{"frame",
+                "closest distance",
+                report.frames.size() > few ? Drawn::line : Drawn::points,
+                {{"closest pair", {}}},
+                true};
   for (const FrameFound& frame : report.frames)
     if (frame.closest)
       plot.curves.front().points.emplace_back(static_cast<double>(frame.stamp.number),
@@ -55,30 +60,36 @@ std::string findings(const CollideReport& report) {
   const auto telling =
       std::ranges::find_if(report.rows, [](const auto& row) { return row.pairs.has_value(); });
   if (telling != report.rows.end())
-    html += fmt::format(", in {} pairs of all frames", with_thousands(*telling->pairs));
+    html += fmt::format(": {} pairs in all of them together", with_thousands(*telling->pairs));
   html += ".";
   const auto closest =
       std::ranges::find_if(report.rows, [](const auto& row) { return row.closest.has_value(); });
   if (closest != report.rows.end()) {
     const ClosestPair& pair = closest->closest->pair;
-    html += fmt::format(" The closest pair, beads {} and {} in frame {}, is {} apart.", pair.first,
-                        pair.second, closest->closest->frame.number, short_decimal(pair.distance));
+    const std::string how = pair.sign > 0   ? fmt::format("are {} apart", short_decimal(pair.distance))
+                            : pair.sign < 0 ? fmt::format("overlap by {}", short_decimal(-pair.distance))
+                                            : "touch";
+    html += fmt::format(" The closest two, beads {} and {} in frame {}, {}.", pair.first, pair.second,
+                        closest->closest->frame.number, how);
   }
   html += "</p>\n";
   if (report.rows.size() > 1) {
-    const auto& quickest = *std::ranges::min_element(report.rows, {}, &CollideRow::seconds);
-    html += fmt::format("<p>{} was the fastest of the methods in this one run.</p>\n",
-                        html_escaped(quickest.method));
+    const auto& quickest =
+        *std::ranges::min_element(report.rows, {}, [](const CollideRow& row) { return row.seconds.median; });
+    html += fmt::format("<p><strong>{}</strong> was the fastest of the methods: {} s for all frames.</p>\n",
+                        html_escaped(quickest.method), spread_text(quickest.seconds));
   }
   return html;
 }
 
+std::vector<std::string> cells_of(const CollideRow& row) {
+  return {std::string(row.method),   count_or_dash(row.pairs), with_thousands(row.colliding_frames),
+          count_or_dash(row.family), spread_text(row.seconds), spread_text(row.closest_seconds)};
+}
+
 std::string table(const CollideReport& report) {
   std::vector<HtmlRow> rows;
-  for (const CollideRow& row : report.rows)
-    rows.push_back(
-        {{std::string(row.method), count_or_dash(row.pairs), with_thousands(row.colliding_frames),
-          count_or_dash(row.family), short_decimal(row.seconds), short_decimal(row.closest_seconds)}});
+  for (const CollideRow& row : report.rows) rows.push_back({cells_of(row)});
   return html_table({"method", "pairs", "colliding frames", "family", "seconds", "and for closest"}, rows);
 }
 
@@ -97,8 +108,12 @@ Json collide_rows_json(const CollideReport& report) {
                     {"closest", closest},
                     {"family", count_or_null(row.family)},
                     {"colliding_frames", row.colliding_frames},
-                    {"seconds", row.seconds},
-                    {"closest_seconds", row.closest_seconds}});
+                    {"seconds", row.seconds.median},
+                    {"seconds_least", row.seconds.least},
+                    {"seconds_most", row.seconds.most},
+                    {"closest_seconds", row.closest_seconds.median},
+                    {"closest_seconds_least", row.closest_seconds.least},
+                    {"closest_seconds_most", row.closest_seconds.most}});
   }
   return json;
 }
@@ -117,12 +132,16 @@ Json collide_frames_json(const CollideReport& report) {
 }
 
 std::string collide_csv(const CollideReport& report) {
-  std::string text = "method,pairs,frame,i,j,distance,family,colliding_frames,seconds,closest_seconds\n";
+  std::string text =
+      "method,pairs,frame,i,j,distance,family,colliding_frames,seconds,seconds_least,seconds_most,"
+      "closest_seconds,closest_seconds_least,closest_seconds_most\n";
   for (const CollideRow& row : report.rows)
-    text += fmt::format("{},{},{},{},{},{},{},{}\n", row.method, count_or_empty(row.pairs),
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", row.method, count_or_empty(row.pairs),
                         row.closest ? fmt::format("{}", row.closest->frame.number) : "",
                         pair_csv(row.closest ? std::optional(row.closest->pair) : std::nullopt),
-                        count_or_empty(row.family), row.colliding_frames, row.seconds, row.closest_seconds);
+                        count_or_empty(row.family), row.colliding_frames, row.seconds.median,
+                        row.seconds.least, row.seconds.most, row.closest_seconds.median,
+                        row.closest_seconds.least, row.closest_seconds.most);
   return text;
 }
 
@@ -137,12 +156,10 @@ std::string collide_frames_csv(const CollideReport& report) {
 std::string collide_table(const CollideReport& report) {
   std::string text =
       fmt::format("frames    {}\n{}\n", with_thousands(report.frames.size()), closest_line(report));
-  text += fmt::format("{:<10}{:>12}{:>18}{:>14}{:>14}{:>18}\n", "method", "pairs", "colliding frames",
-                      "family", "seconds", "and for closest");
-  for (const CollideRow& row : report.rows)
-    text += fmt::format("{:<10}{:>12}{:>18}{:>14}{:>14.6f}{:>18.6f}\n", row.method, count_or_dash(row.pairs),
-                        with_thousands(row.colliding_frames), count_or_dash(row.family), row.seconds,
-                        row.closest_seconds);
+  std::vector<std::vector<std::string>> lines{
+      {"method", "pairs", "colliding frames", "family", "seconds", "and for closest"}};
+  for (const CollideRow& row : report.rows) lines.push_back(cells_of(row));
+  for (const std::string& line : in_columns(lines, "<>")) text += line + "\n";
   return text;
 }
 
@@ -154,13 +171,17 @@ std::string collide_page(const CollideReport& report, const std::string& input, 
       "All methods decide exactly, and have found the same. <em>Pairs</em>: beads that have a point in "
       "common, or whose surfaces are at most as far apart as <code>--within</code> says, of all frames "
       "together; <em>family</em>: pairs of spheres of a hierarchy that prove all others disjoint, for the "
-      "power diagram its edges; <em>seconds</em>: to find the pairs in all frames, in this one run; "
-      "<code>kds bench collision</code> repeats its own. The distance of two beads is that of their "
+      "power diagram its edges; <em>seconds</em>: to find the pairs in all frames, the median of the "
+      "rounds, and in brackets the least and the most. The distance of two beads is that of their "
       "surfaces, below zero where they overlap.";
   std::string plots;
-  if (!map.empty()) plots += html_figure(map, "Which beads collide.");
+  if (!map.empty())
+    plots += html_figure(map, "Which beads collide: the stronger the colour, the more often.");
   if (const std::string distance = distance_plot(report); !distance.empty())
-    plots += html_figure(distance, "The closest distance of all pairs asked for, frame by frame.");
+    plots += html_figure(
+        distance,
+        "The distance of the closest pair asked for, frame by frame, in the file's unit of length; below "
+        "zero two beads overlap.");
   page.body = html_section("Plots", plots) + html_section("Figures", table(report));
   return html_page(page);
 }

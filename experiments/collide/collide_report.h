@@ -4,7 +4,7 @@
 #include <string>
 
 #include "experiments/collide/compare_detectors.h"
-#include "experiments/output/html_page.h"
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
 
 namespace kds {

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/result_page.h"
+#include "experiments/output/page/result_page.h"
 #include "experiments/output/staged.h"
 #include "experiments/program/table_results.h"
 

@@ -47,6 +47,10 @@ class Comparison {
       if (telling != found.end()) pairs_of_frame(frame, *telling->pairs);
       progress(k + 1, frames_.frame_count());
     }
+    for (std::size_t m = 0; m < methods_.size(); ++m) {
+      report_.rows[m].seconds = spread_of(methods_[m].seconds);
+      report_.rows[m].closest_seconds = spread_of(methods_[m].closest_seconds);
+    }
     return std::move(report_);
   }
 
@@ -60,18 +64,29 @@ class Comparison {
         warn(fmt::format("--method {} is left out: {}", method->name, *refusal));
         continue;
       }
-      detectors_.push_back(std::move(detector));
+      Rounds& rounds = methods_.emplace_back();
+      rounds.detectors.push_back(std::move(detector));
+      while (rounds.detectors.size() < task_.rounds)
+        rounds.detectors.push_back(method->make<Dimension>(task_.query));
+      rounds.seconds.resize(task_.rounds);
+      rounds.closest_seconds.resize(task_.rounds);
       CollideRow& row = report_.rows.emplace_back();
       row.method = method->name;
     }
   }
 
   std::vector<Detection> detect(const Balls<Dimension>& balls, const FrameStamp& stamp) {
-    std::vector<Detection> found(detectors_.size());
-    for (std::size_t m = 0; m < detectors_.size(); ++m) {
+    std::vector<Detection> found(methods_.size());
+    for (std::size_t round = 0; round < task_.rounds; ++round)
+      for (std::size_t m = 0; m < methods_.size(); ++m) {
+        Detector<Dimension>& detector = *methods_[m].detectors[round];
+        found[m] = {};
+        methods_[m].seconds[round] += seconds_of([&] { detector.detect(balls, found[m]); }).clock;
+        methods_[m].closest_seconds[round] +=
+            seconds_of([&] { detector.find_closest(balls, found[m]); }).clock;
+      }
+    for (std::size_t m = 0; m < methods_.size(); ++m) {
       CollideRow& row = report_.rows[m];
-      row.seconds += seconds_of([&] { detectors_[m]->detect(balls, found[m]); }).clock;
-      row.closest_seconds += seconds_of([&] { detectors_[m]->find_closest(balls, found[m]); }).clock;
       add(found[m], stamp, row);
       for (std::size_t other = 0; other < m; ++other)
         if (const auto what = difference(found[other], found[m]))
@@ -106,7 +121,12 @@ class Comparison {
 
   CollideFrames& frames_;
   const CollideTask& task_;
-  std::vector<std::unique_ptr<Detector<Dimension>>> detectors_;
+  // Each round has detectors of its own: what they keep from frame to frame is part of their cost.
+  struct Rounds {
+    std::vector<std::unique_ptr<Detector<Dimension>>> detectors;
+    std::vector<double> seconds, closest_seconds;
+  };
+  std::vector<Rounds> methods_;
   CollideReport report_;
 };
 

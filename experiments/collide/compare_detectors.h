@@ -10,6 +10,7 @@
 
 #include "experiments/collide/collide_frames.h"
 #include "experiments/collide/methods.h"
+#include "experiments/program/timing.h"
 
 namespace kds {
 
@@ -25,8 +26,8 @@ struct CollideRow {
   std::optional<std::uint64_t> pairs = 0;  ///< none where a method does not tell them
   std::optional<ClosestInFrame> closest;   ///< none where it does not tell of some frame
   std::optional<std::uint64_t> family;
-  double seconds = 0;          ///< to find collisions
-  double closest_seconds = 0;  ///< and then the closest pair, where that is another search
+  Spread seconds;          ///< of the rounds: to find collisions in all frames
+  Spread closest_seconds;  ///< and then the closest pairs, where that is another search
 };
 
 /// What was found in one frame, by all methods that tell.
@@ -48,6 +49,7 @@ using PairsOfFrame = std::function<void(const FrameRead&, std::span<const BeadPa
 struct CollideTask {
   std::vector<const Method*> methods;
   CollisionQuery query;
+  std::size_t rounds = 1;           ///< each method so often in each frame, in turn
   bool leave_out_refusing = false;  ///< a method that cannot answer goes, with a warning
 };
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/svg_plot.h"
 
 namespace kds {
 

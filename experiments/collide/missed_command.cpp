@@ -7,7 +7,7 @@
 
 #include "experiments/collide/missed_report.h"
 #include "experiments/output/output_files.h"
-#include "experiments/output/result_page.h"
+#include "experiments/output/page/result_page.h"
 #include "experiments/output/text.h"
 #include "experiments/program/option_lists.h"
 #include "experiments/program/option_names.h"

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 
 namespace kds {
@@ -47,6 +47,11 @@ std::string findings(std::span<const MissedRow> rows) {
     std::size_t end = first;
     while (end < rows.size() && rows[end].factor == rows[first].factor) ++end;
     const MissedRow &least = rows[first], &most = rows[end - 1];
+    if (least.contacts == 0) {
+      html += fmt::format("<p>With radii times {} there are no contacts to miss.</p>\n", least.factor);
+      first = end;
+      continue;
+    }
     html += fmt::format(
         "<p>With radii times {}, of {} contacts <strong>{}</strong> are missed by looking at {}",
         least.factor, with_thousands(least.contacts), percent_text(least), frames_at(least.stride));

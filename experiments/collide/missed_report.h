@@ -5,7 +5,7 @@
 #include <string>
 
 #include "experiments/collide/missed_contacts.h"
-#include "experiments/output/html_page.h"
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
 
 namespace kds {

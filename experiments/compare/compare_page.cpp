@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 
+#include "experiments/compare/compare_plots.h"
 #include "experiments/compare/compare_report.h"
-#include "experiments/events/event_places.h"
-#include "experiments/output/svg_plot.h"
 #include "experiments/output/text.h"
 
 namespace kds {
@@ -16,173 +16,160 @@ namespace kds {
 namespace {
 
 constexpr std::string_view kWords =
-    "An <em>event</em> changes the structure itself; <em>internal</em> ones are its bookkeeping. <em>Net "
-    "changes</em> are what is not the same at one frame and the next, whatever happened in between: nodes of "
-    "the wrapped hierarchy with another basis, cells of one power diagram that are not in the other, pairs "
-    "that meet in one frame only, ranks of the sorted list with another bead. <em>Efficiency</em> is events "
-    "a net change. Where all that changes changes once it is 1 for nodes and pairs, 0.2 for flips in space, "
-    "which exchange five cells, and 0.5 for interchanges. <em>Peak</em>, the most certificates at once, is "
-    "compactness; <em>on bead</em>, the most on one bead, is locality; the time an event takes, certificates "
-    "that never fail included, is responsiveness. Seconds are the median of the rounds, and in brackets the "
-    "least and the most.";
+    "A row is one structure in the run of one input, at one stride, on one motion. What is shown by kind, by "
+    "level and along the chain is of the smallest stride.";
 
-std::size_t least_stride(const Comparison& comparison) { return comparison.rows.front().stride; }
-std::size_t most_stride(const Comparison& comparison) { return comparison.rows.back().stride; }
-
-// "wrapped", or "wrapped, 300K.dcd, linear" where inputs and motions are several.
-std::string curve_name(const Comparison& comparison, const CompareRow& row) {
-  const std::string more = distinction(comparison, row);
-  return row.structure.name + (more.empty() ? "" : ", " + more);
+std::vector<std::pair<std::string, std::string>> terms() {
+  return {
+      {"event", "the structure itself changes, at an exact time between two frames (an external event)"},
+      {"internal", "events of the structure's bookkeeping, which are not counted among the events"},
+      {"a step, a ps", "events from one frame to the next, and for a picosecond where the file has times"},
+      {"net change",
+       "what is not the same at one frame and the next, whatever happened in between: nodes of the wrapped "
+       "hierarchy with another basis, cells of one power diagram alone, pairs that meet in one frame alone, "
+       "ranks of the sorted list with another bead"},
+      {"efficiency",
+       "events a net change. Where all that changes changes once it is 1 for nodes and pairs, 0.5 for "
+       "interchanges, and for flips 0.2 in space, 0.25 in the plane, as they exchange five or four cells; "
+       "what "
+       "is above was undone before the next frame"},
+      {"compactness", "the most certificates at once"},
+      {"locality", "the most certificates on one bead, at the start of a step"},
+      {"responsiveness (µs an event)",
+       "the time an event takes, internal ones and certificates that never fail included"},
+      {"seconds",
+       "spent on this structure: the median of the rounds, and in brackets the least and the most"},
+      {"share of a bead",
+       "of the events those that name it, of the wrapped hierarchy those whose new basis has it; an event "
+       "names "
+       "several beads, so that shares add up to more than 100%"}};
 }
 
-template <class Value>
-std::string over_strides(const Comparison& comparison, const char* label, const char* caption, Value value) {
-  LinePlot plot{"stride", label, Drawn::points, {}};
-  for (const CompareRow& row : comparison.rows) {
-    const std::optional<double> y = value(row);
-    if (!y) continue;
-    const std::string name = curve_name(comparison, row);
-    auto curve =
-        std::find_if(plot.curves.begin(), plot.curves.end(), [&](const Curve& c) { return c.name == name; });
-    if (curve == plot.curves.end()) curve = plot.curves.insert(curve, {name, {}});
-    curve->points.emplace_back(static_cast<double>(row.stride), *y);
-  }
-  return plot.curves.empty() ? "" : html_figure(svg_plot(plot), caption);
+using Figure = std::function<std::optional<double>(const CompareRow&)>;
+
+// Of one structure at one stride, over inputs and motions: "8.333", or "9.202 to 12.49"; empty if unknown.
+std::string figure_text(const Comparison& comparison, const std::string& structure, std::size_t stride,
+                        const Figure& figure) {
+  std::vector<double> values;
+  for (const CompareRow& row : comparison.rows)
+    if (row.structure.name == structure && row.stride == stride)
+      if (const std::optional<double> value = figure(row)) values.push_back(*value);
+  if (values.empty()) return "";
+  const auto [least, most] = std::ranges::minmax(values);
+  const std::string from = short_decimal(least), to = short_decimal(most);
+  return from == to ? from : from + " to " + to;
 }
 
-std::string plots_over_strides(const Comparison& comparison) {
-  if (least_stride(comparison) == most_stride(comparison)) return "";
-  return over_strides(
-             comparison, "events", "Events of the whole run, by stride.",
-             [](const CompareRow& row) { return std::optional(static_cast<double>(row.events())); }) +
-         over_strides(comparison, "events a step", "Events from one frame to the next, by stride.",
-                      [](const CompareRow& row) { return std::optional(row.events_per_step()); }) +
-         over_strides(comparison, "events a net change",
-                      "Events a net change, by stride: what is undone before the next frame counts here.",
-                      [](const CompareRow& row) { return row.efficiency(); });
+std::optional<double> a_step(const CompareRow& row) { return row.events_per_step(); }
+std::optional<double> efficiency(const CompareRow& row) { return row.efficiency(); }
+
+// Beside the same structure, input and motion at the smallest stride.
+std::optional<double> growth(const Comparison& comparison, const CompareRow& row) {
+  const auto first = std::ranges::find_if(comparison.rows, [&](const CompareRow& other) {
+    return other.stride == comparison.rows.front().stride && other.structure.name == row.structure.name &&
+           other.input == row.input && other.motion == row.motion;
+  });
+  if (first->events() == 0) return std::nullopt;
+  return row.events_per_step() / first->events_per_step();
 }
 
-// Of the rows at the least stride that have events.
-template <class Points>
-std::string by_place(const Comparison& comparison, const char* x_label, Drawn drawn, const char* caption,
-                     Points points_of) {
-  LinePlot plot{x_label, "% of events", drawn, {}};
-  for (const CompareRow& row : comparison.rows) {
-    if (row.stride != least_stride(comparison) || row.events() == 0) continue;
-    Curve curve{curve_name(comparison, row), points_of(row)};
-    for (auto& [x, y] : curve.points) y *= 100 / static_cast<double>(row.events());
-    if (!curve.points.empty()) plot.curves.push_back(std::move(curve));
-  }
-  return plot.curves.empty() ? "" : html_figure(svg_plot(plot), caption);
+std::string count_text(std::size_t count, const char* one) {
+  return fmt::format("{} {}{}", with_thousands(count), one, count == 1 ? "" : "s");
 }
 
-std::vector<std::pair<double, double>> points_by_level(const CompareRow& row) {
-  std::vector<std::pair<double, double>> points;
-  for (const std::uint64_t count : row.structure.places.by_level)
-    points.emplace_back(static_cast<double>(points.size()), static_cast<double>(count));
-  return points;
+std::string file_name(const ComparedInput& input) {
+  return std::filesystem::path(input.file).filename().string();
 }
 
-std::string plots_by_kind(const Comparison& comparison) {
-  std::string html;
-  for (const CompareRow& row : comparison.rows) {
-    if (row.stride != least_stride(comparison) || row.events() == 0) continue;
-    BarPlot plot{"events", {}};
-    for (const auto& [kind, count] : row.structure.events_by_kind)
-      if (count > 0) plot.bars.emplace_back(kind, static_cast<double>(count));
-    if (plot.bars.size() > 1)
-      html += html_figure(svg_plot(plot), fmt::format("Events of {} by kind, at stride {}.",
-                                                      html_escaped(curve_name(comparison, row)), row.stride));
-  }
-  return html;
-}
-
-std::string bead_text(const ComparedInput& input, std::size_t bead) {
-  const std::string& name = input.bead_names[bead];
-  return name.empty() ? fmt::format("bead {}", bead) : fmt::format("bead {}, {}", bead, name);
-}
-
-// The beads with the most events.
-std::string busiest_beads(const Comparison& comparison) {
-  constexpr std::size_t most = 5;
-  std::string html;
-  for (const CompareRow& row : comparison.rows) {
-    if (row.stride != least_stride(comparison) || row.events() == 0) continue;
-    const auto input = std::find_if(comparison.inputs.begin(), comparison.inputs.end(),
-                                    [&](const ComparedInput& i) { return i.file == row.input; });
-    std::vector<std::size_t> beads(row.structure.places.by_bead.size());
-    for (std::size_t b = 0; b < beads.size(); ++b) beads[b] = b;
-    const std::size_t shown = std::min(most, beads.size());
-    std::partial_sort(beads.begin(), beads.begin() + static_cast<std::ptrdiff_t>(shown), beads.end(),
-                      [&](std::size_t a, std::size_t b) {
-                        const auto& counts = row.structure.places.by_bead;
-                        return counts[a] != counts[b] ? counts[a] > counts[b] : a < b;
-                      });
-    html +=
-        fmt::format("<p>Most events of <strong>{}</strong> name ", html_escaped(curve_name(comparison, row)));
-    for (std::size_t i = 0; i < shown; ++i)
-      html += fmt::format("{}{} ({})", i == 0 ? "" : "; ", html_escaped(bead_text(*input, beads[i])),
-                          with_thousands(row.structure.places.by_bead[beads[i]]));
-    html += ".</p>\n";
-  }
-  return html;
-}
-
-// One structure beside another of the same run.
-std::string beside_the_first(const Comparison& comparison) {
+// From which frames to which, and of what.
+std::string scope(const Comparison& comparison) {
   const CompareRow& first = comparison.rows.front();
-  std::string text;
+  const std::string steps =
+      first.stride == 1 ? "From one frame to the next"
+                        : fmt::format("From every frame in {} to the next", with_thousands(first.stride));
+  const std::size_t inputs = comparison.inputs.size(), cases = cases_of(comparison).size();
+  if (cases == 1)
+    return fmt::format("{} of {} ({})", steps, html_escaped(file_name(comparison.inputs.front())),
+                       count_text(first.steps, "step"));
+  return fmt::format("{} of {} on {}", steps, count_text(inputs, "input"),
+                     count_text(cases / inputs, "motion"));
+}
+
+// Those that change most first.
+std::vector<std::string> structures_of(const Comparison& comparison) {
+  std::vector<std::pair<double, std::string>> found;
   for (const CompareRow& row : comparison.rows) {
-    if (&row == &first || row.stride != first.stride || row.input != first.input ||
-        row.motion != first.motion || first.events() == 0)
-      continue;
-    text += fmt::format(
-        "{}<strong>{}</strong> {} times as often", text.empty() ? "" : ", ", html_escaped(row.structure.name),
-        short_decimal(static_cast<double>(row.events()) / static_cast<double>(first.events())));
+    if (row.stride != comparison.rows.front().stride) continue;
+    const auto same = std::ranges::find(found, row.structure.name, &std::pair<double, std::string>::second);
+    double& most = (same != found.end() ? *same : found.emplace_back(0, row.structure.name)).first;
+    most = std::max(most, row.events_per_step());
   }
-  return text;
+  std::ranges::stable_sort(found, std::ranges::greater{}, &std::pair<double, std::string>::first);
+  std::vector<std::string> names;
+  for (auto& [most, name] : found) names.push_back(std::move(name));
+  return names;
 }
 
 std::string findings(const Comparison& comparison) {
-  const CompareRow& first = comparison.rows.front();
-  std::string html = fmt::format("<p>In {} {} of {} the <strong>{}</strong> structure changed {} times",
-                                 with_thousands(first.steps), first.steps == 1 ? "step" : "steps",
-                                 html_escaped(std::filesystem::path(first.input).filename().string()),
-                                 html_escaped(first.structure.name), with_thousands(first.events()));
-  const std::string others = beside_the_first(comparison);
-  html += (others.empty() ? "" : ", " + others) + ".</p>\n<ul>\n";
-  for (const CompareRow& row : comparison.rows) {
-    if (row.stride != least_stride(comparison)) continue;
-    html += fmt::format("<li><strong>{}</strong> changes {} times a step",
-                        html_escaped(curve_name(comparison, row)), short_decimal(row.events_per_step()));
-    const auto last =
-        std::find_if(comparison.rows.begin(), comparison.rows.end(), [&](const CompareRow& other) {
-          return other.stride == most_stride(comparison) && other.structure.name == row.structure.name &&
-                 other.input == row.input && other.motion == row.motion;
-        });
-    if (last->stride != row.stride && row.events() > 0)
-      html += fmt::format("; at stride {} a step has {} times as many events", with_thousands(last->stride),
-                          short_decimal(last->events_per_step() / row.events_per_step()));
-    if (const auto efficiency = row.efficiency())
-      html += fmt::format("; {} events a net change", short_decimal(*efficiency));
-    html += ".</li>\n";
+  const std::size_t first = comparison.rows.front().stride, last = comparison.rows.back().stride;
+  const std::vector<std::string> names = structures_of(comparison);
+  std::string html = "<p>" + scope(comparison), list;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto text = [&](std::size_t stride, const Figure& figure) {
+      return figure_text(comparison, names[k], stride, figure);
+    };
+    const std::string name = "<strong>" + html_escaped(names[k]) + "</strong>";
+    html += fmt::format("{} {}{} {} times",
+                        k == 0                  ? ""
+                        : k + 1 == names.size() ? " and"
+                                                : ",",
+                        name, k == 0 ? " changes" : "", text(first, a_step));
+    std::string line;
+    if (last != first) {
+      line = fmt::format(" changes {} times a step at stride {}", text(last, a_step), with_thousands(last));
+      if (const std::string times =
+              text(last, [&](const CompareRow& row) { return growth(comparison, row); });
+          !times.empty())
+        line += fmt::format(", {} times as often", times);
+    }
+    if (const std::string of_first = text(first, efficiency); !of_first.empty())
+      line += fmt::format("{} {} events a net change", line.empty() ? " takes" : ";", of_first);
+    if (const std::string of_last = text(last, efficiency); last != first && !of_last.empty())
+      line += fmt::format(", {} at stride {}", of_last, with_thousands(last));
+    if (!line.empty()) list += fmt::format("<li>{}{}.</li>\n", name, line);
   }
-  return html + "</ul>\n";
+  return html + ".</p>\n" + (list.empty() ? "" : "<ul>\n" + list + "</ul>\n");
 }
 
+// The strides of a structure one below the other, for each input and motion.
 std::string figures(const Comparison& comparison) {
-  std::vector<HtmlRow> rows;
-  for (const CompareRow& row : comparison.rows) {
-    HtmlRow& line = rows.emplace_back(HtmlRow{compare_cells(row)});
-    line.cells.front() = curve_name(comparison, row);
+  const std::vector<std::string> cases = cases_of(comparison);
+  std::vector<std::pair<std::string, HtmlRow>> lines;
+  for (const std::string& of_case : cases) {
+    if (cases.size() > 1) lines.emplace_back("", HtmlRow{{of_case}});
+    const std::size_t heading = lines.size();
+    for (const CompareRow& row : comparison.rows) {
+      if (distinction(comparison, row) != of_case) continue;
+      HtmlRow line{compare_cells(row), cases.size() > 1};
+      line.cells.erase(line.cells.begin() + 1);  // the stride, which stands in the first column
+      line.cells.front() = fmt::format("{}, stride {}", row.structure.name, with_thousands(row.stride));
+      const auto behind = std::find_if(lines.rbegin(), lines.rend() - static_cast<std::ptrdiff_t>(heading),
+                                       [&](const auto& other) { return other.first == row.structure.name; })
+                              .base();
+      const bool known = behind != lines.begin() + static_cast<std::ptrdiff_t>(heading);
+      lines.insert(known ? behind : lines.end(), {row.structure.name, std::move(line)});
+    }
   }
-  return html_table(compare_columns(), rows);
+  std::vector<HtmlRow> rows;
+  for (auto& [name, row] : lines) rows.push_back(std::move(row));
+  return html_table({"structure", "steps", "events", "a step", "a ps", "net changes", "internal",
+                     "efficiency", "compactness", "locality", "µs an event", "seconds", "by kind"},
+                    rows);
 }
 
 std::string title(const Comparison& comparison) {
   std::vector<std::string> names;
-  for (const ComparedInput& input : comparison.inputs)
-    names.push_back(std::filesystem::path(input.file).filename().string());
+  for (const ComparedInput& input : comparison.inputs) names.push_back(file_name(input));
   return fmt::format("kds compare: {}", fmt::join(names, ", "));
 }
 
@@ -192,15 +179,10 @@ std::string compare_page(const Comparison& comparison, Page page) {
   page.title = title(comparison);
   page.found = findings(comparison);
   page.words = kWords;
+  page.terms = terms();
   page.body = html_section("By stride", plots_over_strides(comparison));
-  page.body += html_section(
-      "Along the chain",
-      by_place(comparison, "bead", Drawn::staircase, "Share of the events that name a bead, along the chain.",
-               [](const CompareRow& row) { return means_along_chain(row.structure.places.by_bead); }) +
-          busiest_beads(comparison));
-  page.body +=
-      html_section("By level", by_place(comparison, "level of the tree, root 0", Drawn::points,
-                                        "Share of the events at each level of the tree.", points_by_level));
+  page.body += html_section("Along the chain", plots_along_chain(comparison));
+  page.body += html_section("By level", plots_by_level(comparison));
   page.body += html_section("By kind", plots_by_kind(comparison));
   page.body += html_section("Figures", figures(comparison));
   return html_page(page);

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "experiments/compare/compare_runs.h"
-#include "experiments/output/html_page.h"
+#include "experiments/output/page/html_page.h"
 
 namespace kds {
 

@@ -36,7 +36,9 @@ std::vector<std::string> kinds_of(const Comparison& comparison) {
 std::string kinds_text(const CompareRow& row) {
   std::string text;
   for (const auto& [kind, count] : row.structure.events_by_kind)
-    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", kind, with_thousands(count));
+    if (count > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", row.structure.label_of(kind),
+                          with_thousands(count));
   return text.empty() ? "-" : text;
 }
 
@@ -107,11 +109,6 @@ std::string compare_csv(const Comparison& comparison) {
   return text;
 }
 
-std::vector<std::string> compare_columns() {
-  return {"structure", "stride",       "steps", "events",  "a step",      "a ps",    "net changes",
-          "internal",  "a net change", "peak",  "on bead", "us an event", "seconds", "by kind"};
-}
-
 std::vector<std::string> compare_cells(const CompareRow& row) {
   const auto seconds = row.seconds_per_event();
   return {row.structure.name,
@@ -132,16 +129,18 @@ std::vector<std::string> compare_cells(const CompareRow& row) {
 
 std::string distinction(const Comparison& comparison, const CompareRow& row) {
   std::string text;
-  if (comparison.inputs.size() > 1) text = std::filesystem::path(row.input).filename().string();
-  if (comparison.rows.front().motion != comparison.rows.back().motion ||
-      std::any_of(comparison.rows.begin(), comparison.rows.end(),
-                  [&](const CompareRow& other) { return other.motion != row.motion; }))
-    text += (text.empty() ? "" : ", ") + std::string(name_of(row.motion));
+  if (std::ranges::any_of(comparison.rows,
+                          [&](const CompareRow& other) { return other.motion != row.motion; }))
+    text = name_of(row.motion);
+  if (comparison.inputs.size() > 1)
+    text += (text.empty() ? "" : ", ") + std::filesystem::path(row.input).filename().string();
   return text;
 }
 
 std::string compare_table(const Comparison& comparison) {
-  std::vector<std::vector<std::string>> lines{compare_columns()};
+  std::vector<std::vector<std::string>> lines{{"structure", "stride", "steps", "events", "a step", "a ps",
+                                               "net changes", "internal", "a net change", "peak", "on bead",
+                                               "us an event", "seconds", "by kind"}};
   for (const CompareRow& row : comparison.rows) lines.push_back(compare_cells(row));
   const std::string numbers(lines.front().size() - 2, '>');
   const std::vector<std::string> aligned = in_columns(lines, "<" + numbers + "<");

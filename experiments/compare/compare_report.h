@@ -17,11 +17,11 @@ namespace kds {
 /// For each input and motion a line a stride and structure.
 [[nodiscard]] std::string compare_table(const Comparison& comparison);
 
-/// What the rows of tables say in each column, the structure first.
-[[nodiscard]] std::vector<std::string> compare_columns();
+/// What the rows of tables say: structure, stride, steps, events, events a step and a ps, net changes,
+/// internal events, efficiency, compactness, locality, microseconds an event, seconds, and events by kind.
 [[nodiscard]] std::vector<std::string> compare_cells(const CompareRow& row);
 
-/// The input and motion of a row, as far as rows differ by them; empty where they do not.
+/// The motion and input of a row, as far as rows differ by them; empty where they do not.
 [[nodiscard]] std::string distinction(const Comparison& comparison, const CompareRow& row);
 
 }  // namespace kds

@@ -1,5 +1,7 @@
 #include "experiments/events/event_places.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <span>
 
@@ -36,18 +38,8 @@ void EventPlaces::on_event(const Event& event) {
   });
 }
 
-std::vector<std::pair<double, double>> means_along_chain(std::span<const std::uint64_t> by_bead) {
-  constexpr std::size_t most_points = 600;  // a plot is about as many pixels wide
-  const std::size_t width = std::max<std::size_t>(1, (by_bead.size() + most_points - 1) / most_points);
-  std::vector<std::pair<double, double>> points;
-  for (std::size_t first = 0; first < by_bead.size(); first += width) {
-    const auto some = by_bead.subspan(first, std::min(width, by_bead.size() - first));
-    std::uint64_t sum = 0;
-    for (const std::uint64_t count : some) sum += count;
-    points.emplace_back(static_cast<double>(first),
-                        static_cast<double>(sum) / static_cast<double>(some.size()));
-  }
-  return points;
+std::string bead_text(std::size_t bead, const std::string& name) {
+  return name.empty() ? fmt::format("bead {}", bead) : fmt::format("bead {}, {}", bead, name);
 }
 
 }  // namespace kds

@@ -2,8 +2,7 @@
 // Where along the chain, and how deep in its tree, structures change.
 
 #include <cstdint>
-#include <span>
-#include <utility>
+#include <string>
 #include <vector>
 
 #include "kds/event_log.h"
@@ -35,8 +34,7 @@ class EventPlaces final : public EventListener {
   std::vector<PlacesOfEvents> places_;
 };
 
-/// Bead, and events that name it; of long chains the first of some beads, and their mean.
-[[nodiscard]] std::vector<std::pair<double, double>> means_along_chain(
-    std::span<const std::uint64_t> by_bead);
+/// "bead 54, N of ALA 59 in chain A", or "bead 54" where `name` is empty.
+[[nodiscard]] std::string bead_text(std::size_t bead, const std::string& name);
 
 }  // namespace kds

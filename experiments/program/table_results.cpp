@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/result_page.h"
+#include "experiments/output/page/result_page.h"
 #include "experiments/output/staged.h"
 #include "experiments/program/taken_paths.h"
 

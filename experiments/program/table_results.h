@@ -6,7 +6,7 @@
 #include <string>
 
 #include "experiments/output/destinations.h"
-#include "experiments/output/html_page.h"
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
 #include "experiments/program/taken_paths.h"
 

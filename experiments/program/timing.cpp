@@ -40,6 +40,7 @@ class RepeatedWork {
 }  // namespace
 
 std::string spread_text(const Spread& spread) {
+  if (spread.least == spread.most) return short_decimal(spread.median);
   return fmt::format("{} ({} to {})", short_decimal(spread.median), short_decimal(spread.least),
                      short_decimal(spread.most));
 }

@@ -32,7 +32,7 @@ inline Spread spread_of(const std::vector<double>& values) {
   return {median_of(values), *least, *most};
 }
 
-/// "0.210 (0.204 to 0.233)".
+/// "0.210 (0.204 to 0.233)"; of one round, which has no spread, "0.210".
 [[nodiscard]] std::string spread_text(const Spread& spread);
 
 /// Seconds of a call, as `work` reports them. Short work is called often enough in a round to be measured,

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 #include "motions/base/csv_field.h"
 
@@ -17,8 +17,9 @@ std::string shown(const std::optional<double>& value) {
   constexpr double rounding = 1e-15;
   if (!value) return "-";
   if (std::abs(*value) < rounding) return "0";
-  if (*value == std::floor(*value) && *value >= 0 && *value < 1e15)
-    return with_thousands(static_cast<std::uint64_t>(*value));
+  const bool whole = *value == std::floor(*value);
+  if ((whole || *value >= 1000) && *value >= 0 && *value < 1e15)
+    return with_thousands(static_cast<std::uint64_t>(std::llround(*value)));
   return fmt::format("{:.4g}", *value);
 }
 
@@ -117,20 +118,14 @@ std::string questions_csv(std::span<const Question> questions) {
 std::string questions_text(std::span<const Question> questions) {
   std::string text;
   for (const Question& question : questions) {
-    std::size_t width = 0;
-    for (const QuestionRow& row : question.rows) width = std::max(width, row.subject.size());
-    text +=
-        fmt::format("{}{}: {}\n  {:<{}}", text.empty() ? "" : "\n", question.name, question.title, "", width);
-    for (const QuestionColumn& column : question.columns)
-      text += fmt::format("  {:>{}}", column.title, std::max<std::size_t>(9, column.title.size()));
-    text += "\n";
+    text += fmt::format("{}{}: {}\n", text.empty() ? "" : "\n", question.name, question.title);
+    std::vector<std::vector<std::string>> lines(1, {""});
+    for (const QuestionColumn& column : question.columns) lines[0].push_back(column.title);
     for (const QuestionRow& row : question.rows) {
-      text += fmt::format("  {:<{}}", row.subject, width);
-      for (std::size_t c = 0; c < question.columns.size(); ++c)
-        text += fmt::format("  {:>{}}", shown(row.values[c]),
-                            std::max<std::size_t>(9, question.columns[c].title.size()));
-      text += "\n";
+      std::vector<std::string>& line = lines.emplace_back(1, row.subject);
+      for (const auto& value : row.values) line.push_back(shown(value));
     }
+    for (const std::string& line : in_columns(lines, "<>")) text += "  " + line + "\n";
     text += "  " + question.answer + "\n";
     for (const std::string& finding : question.findings) text += "  " + finding + "\n";
   }

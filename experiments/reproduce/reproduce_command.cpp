@@ -9,7 +9,7 @@
 
 #include "experiments/output/destinations.h"
 #include "experiments/output/output_files.h"
-#include "experiments/output/result_page.h"
+#include "experiments/output/page/result_page.h"
 #include "experiments/output/staged.h"
 #include "experiments/output/text.h"
 #include "experiments/program/data_folder.h"

@@ -9,8 +9,9 @@
 
 #include "experiments/events/event_bins.h"
 #include "experiments/events/event_places.h"
-#include "experiments/output/html_page.h"
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/html_page.h"
+#include "experiments/output/page/rows_plot.h"
+#include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/run/summary_rows.h"
 
@@ -24,8 +25,10 @@ constexpr std::string_view kWords =
     "right. Between two frames every bead moves by a known polynomial, so nothing that happens in between "
     "is "
     "missed; internal events are bookkeeping and not in the total. <em>Kinetic / static</em> compares the "
-    "time with building the same structure from nothing at every frame. Times are of this one run, and "
-    "wander; <code>kds compare</code> and <code>kds bench</code> repeat theirs.";
+    "time with building the same structure from nothing at every frame. Times are "
+    "those of one run, and wander, unless <code>--rounds</code> asks for several: then they are the median, "
+    "and "
+    "in brackets the least and the most.";
 
 std::string title(const RunReport& report) {
   std::string names;
@@ -58,10 +61,10 @@ std::string findings(const RunReport& report) {
   }
   html += report.structures.empty() ? " nothing was maintained.</p>\n" : ".</p>\n";
   for (const StructureReport& structure : report.structures)
-    if (structure.static_seconds > 0)
+    if (report.rounds > 1 && structure.static_seconds > 0)
       html += fmt::format(
           "<p>Keeping the {} structure took {} times as long as building it anew at every frame.</p>\n",
-          html_escaped(structure.name), short_decimal(structure.seconds / structure.static_seconds));
+          html_escaped(structure.name), spread_text(structure.of_ratio));
   return html;
 }
 
@@ -144,7 +147,7 @@ std::string plots_by_kind(const RunReport& report) {
   for (const StructureReport& structure : report.structures) {
     BarPlot plot{"events", {}};
     for (const auto& [kind, count] : structure.events_by_kind)
-      if (count > 0) plot.bars.emplace_back(kind_label(kind), static_cast<double>(count));
+      if (count > 0) plot.bars.push_back({structure.label_of(kind), static_cast<double>(count)});
     if (!plot.bars.empty())
       html += html_figure(svg_plot(plot),
                           fmt::format("Events of the {} structure by kind.", html_escaped(structure.name)));
@@ -153,15 +156,24 @@ std::string plots_by_kind(const RunReport& report) {
 }
 
 std::string plot_along_chain(const RunReport& report) {
-  LinePlot plot{"bead", "events that name it", Drawn::staircase, {}};
+  const auto name_of = [&report](std::size_t bead) {
+    return bead_text(bead, bead < report.bead_names.size() ? report.bead_names[bead] : "");
+  };
+  RowsPlot plot{"bead", 0, name_of, {}};
   for (const StructureReport& structure : report.structures) {
-    if (structure.places.by_bead.empty()) continue;
-    plot.curves.push_back({structure.name, means_along_chain(structure.places.by_bead)});
+    const auto& counts = structure.places.by_bead;
+    if (counts.empty()) continue;
+    plot.columns = counts.size();
+    const auto most = std::ranges::max_element(counts);
+    const std::string note = fmt::format("at most {} events, at {}", with_thousands(*most),
+                                         name_of(static_cast<std::size_t>(most - counts.begin())));
+    plot.rows.push_back({structure.name, *most == 0 ? "no events" : note, {counts.begin(), counts.end()}});
   }
-  if (plot.curves.empty()) return "";
-  return html_figure(svg_plot(plot),
-                     "Events along the chain, an event at each bead that it names: of a node of the wrapped "
-                     "hierarchy, those of its new basis. Which residues beads are, kds info --beads tells.");
+  if (plot.rows.empty()) return "";
+  return html_figure(
+      svg_plot(plot),
+      "Events along the chain, each row on its own scale, an event at each bead that it names: of "
+      "a node of the wrapped hierarchy, those of its new basis.");
 }
 
 }  // namespace

@@ -49,6 +49,8 @@ constexpr std::array kRunOptions{
         "--certify", "",
         "with a stride in --frames or --tolerance: read all frames, and bound what may have been missed"},
     OptionSpec{"--audit", "WHEN", "compare with static builds: none, frames or events (default: none)"},
+    OptionSpec{"--rounds", "N",
+               "the run so often: times are the median, with the least and most (default: 1)"},
     OptionSpec{"--work", "LIMIT",
                "end the run where exact arithmetic takes more limb operations than this (default: no limit)"},
     OptionSpec{"--dump", "DIR",
@@ -125,6 +127,8 @@ RunOptions parse_run_options(const Arguments& arguments) {
   options.certify = parsed.has("--certify");
   refuse_needless_certificate(options);
   options.audit = chosen<AuditMode>(parsed, "--audit", audit_mode_names).value_or(options.audit);
+  if (const auto rounds = parsed.value("--rounds"))
+    options.rounds = parse_whole_number("--rounds", *rounds, 1, 1000);
   if (const auto limit = parsed.value("--work"))
     options.work = parse_whole_number("--work", *limit, 0, ExactWork::no_limit - 1);
   options.dump = path_of(parsed, "--dump");

@@ -10,26 +10,33 @@ void add_counts(Json& object, const NamedCounts& counts) {
   for (const auto& [name, value] : counts) object[name] = value;
 }
 
-Json structure_json(const StructureReport& structure) {
+Json structure_json(const StructureReport& structure, std::size_t rounds) {
   Json events{{"total", structure.events_total}};
   add_counts(events, structure.events_by_kind);
   Json stages = Json::object();
   add_counts(stages, structure.stages);
-  return {{"events", events},
-          {"certificates",
-           {{"created", structure.created},
-            {"never_failing", structure.never_failing},
-            {"cancelled", structure.cancelled},
-            {"failed", structure.failed},
-            {"touched", structure.touched},
-            {"peak", structure.peak},
-            {"per_bead_max", structure.per_bead_max}}},
-          {"stages", stages},
-          {"seconds", structure.seconds},
-          {"build_seconds", structure.build_seconds},
-          {"static_seconds", structure.static_seconds},
-          {"rebuilds", structure.rebuilds},
-          {"audits", {{"run", structure.audits_run}, {"failed", structure.audits_failed}}}};
+  Json json{{"events", events},
+            {"certificates",
+             {{"created", structure.created},
+              {"never_failing", structure.never_failing},
+              {"cancelled", structure.cancelled},
+              {"failed", structure.failed},
+              {"touched", structure.touched},
+              {"peak", structure.peak},
+              {"per_bead_max", structure.per_bead_max}}},
+            {"stages", stages},
+            {"seconds", structure.seconds},
+            {"build_seconds", structure.build_seconds},
+            {"static_seconds", structure.static_seconds},
+            {"rebuilds", structure.rebuilds},
+            {"audits", {{"run", structure.audits_run}, {"failed", structure.audits_failed}}}};
+  if (rounds > 1) {
+    json["seconds_least"] = structure.of_seconds.least;
+    json["seconds_most"] = structure.of_seconds.most;
+    json["static_seconds_least"] = structure.of_static_seconds.least;
+    json["static_seconds_most"] = structure.of_static_seconds.most;
+  }
+  return json;
 }
 
 Json stride_json(const StrideCertificate& stride) {
@@ -72,7 +79,7 @@ Json run_json(const RunReport& report) {
   for (const auto& [name, value] : report.settings) json["settings"][name] = value;
   json["structures"] = Json::object();
   for (const StructureReport& structure : report.structures)
-    json["structures"][structure.name] = structure_json(structure);
+    json["structures"][structure.name] = structure_json(structure, report.rounds);
   Json comparisons = Json::object();
   add_counts(comparisons, report.comparisons);
   json["engine"] = {{"seconds", report.engine_seconds},

@@ -21,7 +21,10 @@ StructureReport report_of(const KineticStructure& structure, double seconds, con
       const EventKind& kind = structure.kinds()[k];
       if (kind.external != external || kind.counted_apart) continue;
       report.events_by_kind.emplace_back(std::string(kind.name), s.events_by_kind[k]);
-      if (external) report.events_total += s.events_by_kind[k];
+      if (external)
+        report.events_total += s.events_by_kind[k];
+      else
+        report.internal_kinds.emplace_back(kind.name);
     }
   }
   report.course = course;

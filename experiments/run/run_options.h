@@ -46,6 +46,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> out;     ///< directory for summary.json, events.csv, report.html
   std::optional<std::filesystem::path> events;  ///< file for every event
   std::optional<std::filesystem::path> log;     ///< event log, for `kds replay`
+  std::size_t rounds = 1;                       ///< the run so often, for its times
   std::optional<std::uint64_t> work;            ///< most limb operations of exact arithmetic
   std::optional<std::string> json;              ///< file, or - for standard output
   bool quiet = false;

@@ -11,6 +11,7 @@
 #include "experiments/events/displacements.h"
 #include "experiments/events/event_bins.h"
 #include "experiments/events/event_places.h"
+#include "experiments/program/timing.h"
 #include "experiments/run/certify_stride.h"
 #include "motions/readers/frame_reader.h"
 
@@ -22,16 +23,22 @@ struct StructureReport {
   std::string name;                ///< sorted, wrapped, power
   std::uint64_t events_total = 0;  ///< external events
   NamedCounts events_by_kind;      ///< external kinds first, then internal ones, which the total leaves out
-  EventCourse course;              ///< external events, step by step
+  std::vector<std::string> internal_kinds;  ///< which of these are internal
+  EventCourse course;                       ///< external events, step by step
   std::uint64_t created = 0, never_failing = 0, cancelled = 0, failed = 0, touched = 0, peak = 0,
                 per_bead_max = 0;
   NamedCounts stages;  ///< how many certificates each stage of the cascade settled
   double seconds = 0;  ///< on this structure and its certificates after the first build
   double build_seconds = 0;
-  double static_seconds = 0;  ///< building the same structure statically at every frame (CGAL)
+  double static_seconds = 0;             ///< building the same structure statically at every frame (CGAL)
+  Spread of_seconds, of_static_seconds;  ///< both of the rounds, of which they are the medians
+  Spread of_ratio;                       ///< the first by the second, round by round; 0 where that is 0
   std::uint64_t rebuilds = 0;
   std::uint64_t audits_run = 0, audits_failed = 0;
   PlacesOfEvents places;  ///< where these are looked at, else empty
+
+  /// "overtake (internal)"; of other kinds their names.
+  [[nodiscard]] std::string label_of(const std::string& kind) const;
 };
 
 struct RunReport {
@@ -43,6 +50,7 @@ struct RunReport {
   std::vector<std::pair<std::string, std::string>>
       settings;  ///< motion, kernel, audit, select, chain, frames, radius, ...
   std::vector<StructureReport> structures;
+  std::size_t rounds = 1;                   ///< that times are of
   double engine_seconds = 0;                ///< queue and clock
   NamedCounts comparisons;                  ///< of failure times whose brackets overlap, by what settled them
   std::uint64_t exact_work = 0;             ///< limb operations of exact arithmetic
@@ -53,6 +61,7 @@ struct RunReport {
                                                         ///< --tolerance
   std::string command_line;                             ///< that asks for the same run, without outputs
   Displacements displacement;                           ///< where it is looked at, else empty
+  std::vector<std::string> bead_names;  ///< where they are looked at, else empty; empty ones where unknown
 };
 
 }  // namespace kds

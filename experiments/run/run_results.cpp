@@ -6,7 +6,7 @@
 
 #include "experiments/output/output_error.h"
 #include "experiments/output/output_files.h"
-#include "experiments/output/result_page.h"
+#include "experiments/output/page/result_page.h"
 #include "experiments/output/staged.h"
 #include "experiments/run/html_report.h"
 #include "structures/session/event_writers.h"
@@ -38,6 +38,7 @@ void RunResults::begin(const Scene& scene, Session& session) {
   scene_ = &scene;
   displacement_ = Displacements(bin_width(scene.step_count(), EventCourse::most_bins));
   places_.emplace(session, scene);
+  for (BeadId bead = 0; bead < scene.bead_count(); ++bead) bead_names_.push_back(scene.bead_name(bead));
   session.simulator().listen(*places_);
   if (!has_contacts(session))
     return files_->replace([](std::string_view name) { return name == contacts_file; });
@@ -82,6 +83,7 @@ void RunResults::deliver(RunReport report, const std::string& json, const std::s
     for (std::size_t s = 0; s < report.structures.size(); ++s)
       report.structures[s].places = places_->places()[s];
     report.displacement = displacement_;
+    report.bead_names = std::move(bead_names_);
     std::vector<std::string> data{std::string(kFiles[0]), std::string(kFiles[1])};
     if (contacts_) data.emplace_back(contacts_file);
     files_->write("report.html", html_report(report, data));

@@ -55,6 +55,7 @@ class RunResults {
   std::optional<EventsCsv> events_;
   std::optional<EventPlaces> places_;
   Displacements displacement_;
+  std::vector<std::string> bead_names_;
   std::optional<ContactsTable> contacts_;
   std::optional<AtomicFile> every_event_file_;
   std::unique_ptr<EventListener> every_event_;

@@ -19,6 +19,32 @@ std::optional<double> deviation_of_run(const RunOptions& options, const Scene& s
   return std::nullopt;
 }
 
+// Seconds of each structure, by round: kept, and built at every frame.
+struct Times {
+  std::vector<std::vector<double>> kept, built;
+};
+
+void add_round(Session& session, const Scene& scene, Times& times) {
+  std::vector<double> built;
+  for (std::size_t frame = 0; frame < scene.frame_count(); ++frame) session.time_static_builds(frame, built);
+  for (std::size_t s = 0; s < times.kept.size(); ++s) {
+    times.kept[s].push_back(session.simulator().seconds_of(s));
+    times.built[s].push_back(built[s]);
+  }
+}
+
+void add_times(const Times& times, RunReport& report) {
+  for (std::size_t s = 0; s < report.structures.size(); ++s) {
+    StructureReport& structure = report.structures[s];
+    structure.of_seconds = spread_of(times.kept[s]);
+    structure.of_static_seconds = spread_of(times.built[s]);
+    structure.seconds = structure.of_seconds.median;
+    structure.static_seconds = structure.of_static_seconds.median;
+    if (structure.of_static_seconds.least > 0)
+      structure.of_ratio = ratios_by_round(times.kept[s], times.built[s]);
+  }
+}
+
 }  // namespace
 
 RunReport run_scene(const RunOptions& options, const Progress& progress,
@@ -40,7 +66,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
     if (approach) frame == 0 ? approach->begin() : approach->end_step(frame - 1);
     if (frame == 0) return;
     counts.end_step(frame - 1, &results);
-    progress(frame, scene.step_count());
+    progress(frame, options.rounds * scene.step_count());
   });
 
   RunReport report = report_of(*session, scene, options, counts);
@@ -48,11 +74,18 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   if (approach) report.approach = approach->least();
   if (const auto deviation = deviation_of_run(options, scene, report); deviation && report.approach)
     report.approach_in_all_frames = within_deviation(report.approach->distance, *deviation);
-  std::vector<double> static_seconds;
-  for (std::size_t frame = 0; frame < scene.frame_count(); ++frame)
-    session->time_static_builds(frame, static_seconds);
-  for (std::size_t s = 0; s < report.structures.size(); ++s)
-    report.structures[s].static_seconds = static_seconds[s];
+  Times times{std::vector<std::vector<double>>(report.structures.size()),
+              std::vector<std::vector<double>>(report.structures.size())};
+  add_round(*session, scene, times);
+  for (std::size_t round = 1; round < options.rounds; ++round) {
+    const auto again = open_session(options, scene, AuditMode::none);
+    run_steps(*again, scene, options, [&](std::size_t frame) {
+      progress(round * scene.step_count() + frame, options.rounds * scene.step_count());
+    });
+    add_round(*again, scene, times);
+  }
+  report.rounds = options.rounds;
+  add_times(times, report);
   return report;
 }
 

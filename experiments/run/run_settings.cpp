@@ -50,7 +50,8 @@ std::vector<std::pair<std::string, std::string>> option_settings(const RunOption
           {"tightness", options.tightness ? fmt::format("{}", *options.tightness) : ""},
           {"relax", relax_of(options)},
           {"tolerance", tolerance_of(options)},
-          {"certify", options.certify ? "yes" : ""}};
+          {"certify", options.certify ? "yes" : ""},
+          {"rounds", options.rounds > 1 ? std::to_string(options.rounds) : ""}};
 }
 
 std::vector<std::string> option_arguments(const RunOptions& options) {
@@ -80,6 +81,7 @@ std::vector<std::string> option_arguments(const RunOptions& options) {
   if (options.relax) add("--relax", relax_of(options));
   if (options.tolerance) add("--tolerance", tolerance_of(options));
   if (options.certify) arguments.emplace_back("--certify");
+  if (options.rounds > 1) add("--rounds", std::to_string(options.rounds));
   return arguments;
 }
 

@@ -49,7 +49,7 @@ Figure count_named(NamedCounts StructureReport::*member, const std::string& name
 void add_kinds(std::vector<SummaryRow>& rows, const RunReport& report) {
   constexpr auto member = &StructureReport::events_by_kind;
   for (const std::string& name : names_of_any(report, member))
-    rows.push_back(row(report, kind_label(name), true, count_named(member, name)));
+    rows.push_back(row(report, kind_label(report, name), true, count_named(member, name)));
 }
 
 // The heading that a stage of the summary stands under; a size has none.
@@ -85,8 +85,18 @@ std::string per_step(const StructureReport& structure) {
                     : short_decimal(static_cast<double>(structure.events_total) / static_cast<double>(steps));
 }
 
-std::string ratio(const StructureReport& structure) {
-  return structure.static_seconds > 0 ? short_decimal(structure.seconds / structure.static_seconds) : "-";
+// Of several rounds with their spread.
+Figure time(double StructureReport::*member, Spread StructureReport::*spread, std::size_t rounds) {
+  if (rounds == 1) return time(member);
+  return [spread](const StructureReport& structure) { return spread_text(structure.*spread); };
+}
+
+Figure ratio(std::size_t rounds) {
+  return [rounds](const StructureReport& structure) {
+    if (!(structure.static_seconds > 0)) return std::string("-");
+    return rounds == 1 ? short_decimal(structure.seconds / structure.static_seconds)
+                       : spread_text(structure.of_ratio);
+  };
 }
 
 // Where they are not simply the first of a file, or their times are known.
@@ -130,7 +140,11 @@ void add_approach(std::vector<std::pair<std::string, std::string>>& lines, const
 
 }  // namespace
 
-std::string kind_label(const std::string& kind) { return kind == "wander" ? kind + " (internal)" : kind; }
+std::string kind_label(const RunReport& report, const std::string& kind) {
+  for (const StructureReport& structure : report.structures)
+    if (const std::string label = structure.label_of(kind); label != kind) return label;
+  return kind;
+}
 
 std::vector<SummaryRow> summary_rows(const RunReport& report) {
   std::vector<SummaryRow> rows;
@@ -144,10 +158,13 @@ std::vector<SummaryRow> summary_rows(const RunReport& report) {
   rows.push_back(row(report, "most at once", true, count(&StructureReport::peak)));
   rows.push_back(row(report, "most on one bead", true, count(&StructureReport::per_bead_max)));
   add_stages(rows, report);
-  rows.push_back(row(report, "seconds", false, time(&StructureReport::seconds)));
+  rows.push_back(row(report, "seconds", false,
+                     time(&StructureReport::seconds, &StructureReport::of_seconds, report.rounds)));
   rows.push_back(row(report, "first build", true, time(&StructureReport::build_seconds)));
-  rows.push_back(row(report, "static build at every frame", true, time(&StructureReport::static_seconds)));
-  rows.push_back(row(report, "kinetic / static", true, ratio));
+  rows.push_back(
+      row(report, "static build at every frame", true,
+          time(&StructureReport::static_seconds, &StructureReport::of_static_seconds, report.rounds)));
+  rows.push_back(row(report, "kinetic / static", true, ratio(report.rounds)));
   rows.push_back(row(report, "rebuilds", false, count(&StructureReport::rebuilds)));
   rows.push_back(row(report, "audits", false, count(&StructureReport::audits_run)));
   rows.push_back(row(report, "failed", true, count(&StructureReport::audits_failed)));

@@ -18,7 +18,7 @@ struct SummaryRow {
 [[nodiscard]] std::vector<SummaryRow> summary_rows(const RunReport& report);
 
 /// A kind of event as it is shown: internal ones, which the total leaves out, say so.
-[[nodiscard]] std::string kind_label(const std::string& kind);
+[[nodiscard]] std::string kind_label(const RunReport& report, const std::string& kind);
 
 /// What was run on: label and value.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> input_lines(const RunReport& report);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <vector>
 
 #include "experiments/output/text.h"
@@ -16,26 +15,14 @@ std::string comparison_table(const RunReport& report) {
     text += one_line(fmt::format("{:<10}{}", label, value)) + "\n";
   text += "\n";
 
-  const std::vector<SummaryRow> rows = summary_rows(report);
-  const auto label_of = [](const SummaryRow& row) { return (row.detail ? "  " : "") + row.label; };
-  std::size_t label_width = 0;
-  std::vector<std::size_t> widths;
-  for (const StructureReport& structure : report.structures) widths.push_back(structure.name.size());
-  for (const SummaryRow& row : rows) {
-    label_width = std::max(label_width, label_of(row).size());
-    for (std::size_t i = 0; i < row.cells.size(); ++i) widths[i] = std::max(widths[i], row.cells[i].size());
+  std::vector<std::vector<std::string>> lines(1, {""});
+  for (const StructureReport& structure : report.structures) lines[0].push_back(structure.name);
+  for (const SummaryRow& row : summary_rows(report)) {
+    std::vector<std::string>& line = lines.emplace_back(1, (row.detail ? "  " : "") + row.label);
+    line.insert(line.end(), row.cells.begin(), row.cells.end());
+    line.resize(lines[0].size());
   }
-
-  text += std::string(label_width, ' ');
-  for (std::size_t i = 0; i < widths.size(); ++i)
-    text += fmt::format("  {:>{}}", report.structures[i].name, widths[i]);
-  text += "\n";
-  for (const SummaryRow& row : rows) {
-    text += row.cells.empty() ? label_of(row) : fmt::format("{:<{}}", label_of(row), label_width);
-    for (std::size_t i = 0; i < row.cells.size(); ++i)
-      text += fmt::format("  {:>{}}", row.cells[i], widths[i]);
-    text += "\n";
-  }
+  for (const std::string& line : in_columns(lines, "<>")) text += line + "\n";
   text += fmt::format("\nengine {} s\nfingerprint {}\n", short_decimal(report.engine_seconds),
                       hex_digits(report.fingerprint));
   return text;

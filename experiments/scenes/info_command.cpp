@@ -46,7 +46,9 @@ TableResults describe(const Instance& instance, bool beads, const std::string& c
                    {"dimension", instance.dimension()},
                    {"degree", instance.degree},
                    {"weighted", instance.weighted()}};
+  json["settings"] = Json::object();  // none of them has a meaning here
   json["rows"] = Json::array();
+  json["warnings"] = Json::array();
   add_provenance(json, command_line);
   const std::string row = fmt::format("{},{},{},{}", instance.point_count(), instance.dimension(),
                                       instance.degree, instance.weighted());

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/result_page.h"
+#include "experiments/output/page/result_page.h"
 #include "experiments/output/text.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/table_results.h"

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "experiments/output/html_page.h"
+#include "experiments/output/page/html_page.h"
 #include "experiments/stability/stability_row.h"
 
 namespace kds {

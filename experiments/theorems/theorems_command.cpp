@@ -6,7 +6,7 @@
 #include <array>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/result_page.h"
+#include "experiments/output/page/result_page.h"
 #include "experiments/output/text.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/progress_bar.h"

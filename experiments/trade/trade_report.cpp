@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/trade/recommend.h"
 #include "motions/base/csv_field.h"

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "experiments/output/html_page.h"
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
 #include "experiments/trade/measure_trade.h"
 

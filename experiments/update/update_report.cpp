@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 
 namespace kds {
@@ -60,7 +60,7 @@ std::string plots(std::span<const UpdateRow> rows) {
   if (!several) {
     BarPlot plot{"microseconds a step", {}};
     for (const UpdateRow& row : rows)
-      plot.bars.emplace_back(row.technique, 1e6 * per_step(row, row.seconds.median));
+      plot.bars.push_back({row.technique, 1e6 * per_step(row, row.seconds.median)});
     return html_figure(svg_plot(plot), "Time of each technique from one frame to the next.");
   }
   std::string html =

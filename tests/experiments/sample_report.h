@@ -37,6 +37,7 @@ inline RunReport sample_report() {
   power.name = "power";
   power.events_total = 30;
   power.events_by_kind = {{"2-3", 17}, {"3-2", 13}, {"wander", 5}};
+  power.internal_kinds = {"wander"};
   power.course = course_of({10, 0, 20});
   power.stages = {{"coefficients", 40}, {"exact", 2}};
   power.rebuilds = 1;

@@ -84,7 +84,11 @@ TEST(Collide, RowsOfAllMethodsAgree) {
     // Beads 0 and 3 touch in frame 0 and overlap in frame 2.
     EXPECT_EQ(row["pairs"], 2) << row;
     EXPECT_EQ(row["colliding_frames"], 2) << row;
-    EXPECT_GE(row["seconds"], 0) << row;
+    for (const std::string what : {"seconds", "closest_seconds"}) {
+      EXPECT_GE(row[what + "_least"], 0) << row;
+      EXPECT_LE(row[what + "_least"], row[what]) << row;
+      EXPECT_LE(row[what], row[what + "_most"]) << row;
+    }
     if (row["closest"].is_null()) continue;
     telling.push_back(row["method"]);
     EXPECT_EQ(row["closest"]["i"], 0) << row;
@@ -100,6 +104,28 @@ TEST(Collide, RowsOfAllMethodsAgree) {
   EXPECT_EQ(json["frames"][0]["closest"]["distance"], 0);
   EXPECT_EQ(json["frames"][1]["pairs"], 0);
   EXPECT_NEAR(json["frames"][1]["closest"]["distance"].get<double>(), std::sqrt(5.0) - 2, 1e-12);
+}
+
+TEST(Collide, RoundsChangeNothingButTimes) {
+  const ScratchDirectory directory;
+  const std::string square = opening_square(directory);
+  const auto rows = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"collide", square, "--radius", "1", "--json", "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    Json json = Json::parse(run.out);
+    for (Json& row : json["rows"])
+      for (const std::string what : {"seconds", "closest_seconds"})
+        for (const std::string end : {"", "_least", "_most"}) row.erase(what + end);
+    return std::pair(json["rows"], json["settings"]["rounds"]);
+  };
+  const auto [three, rounds] = rows({});
+  EXPECT_EQ(rounds, 3);
+  EXPECT_EQ(rows({"--rounds", "1"}), std::pair(three, Json(1)));
+  EXPECT_EQ(rows({"--method", "auto"}).second, 1);
+  EXPECT_EQ(rows({"--method", "auto"}).first[0], three.back());
+  EXPECT_EQ(run_program({"collide", square, "--rounds", "0"}).code, 2);
 }
 
 TEST(Collide, InThePlaneAndBetweenTwo) {
@@ -174,7 +200,9 @@ TEST(Collide, OfATrajectoryWithPlots) {
   EXPECT_THAT(frames, HasSubstr("\n36,true,"));
   const std::string page = content_of(directory / "out/report.html");
   expect_sound(page);
-  for (const char* plot : {"by bead", "closest distance by frame"}) EXPECT_THAT(page, HasSubstr(plot));
+  for (const char* plot : {"by bead", "closest distance by frame", "overlap by 0."})
+    EXPECT_THAT(page, HasSubstr(plot));
+  EXPECT_THAT(page, Not(HasSubstr("class=\"curve\"")));  // ten frames are no line
   // Its page is not lost to another command's.
   const ProgramRun other = run_program({"update", data_file("trajectories/villin_hp36_300K.dcd"), "--frames",
                                         ":3", "--out", (directory / "out").string()});

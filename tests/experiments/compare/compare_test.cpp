@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 #include "experiments/compare/compare_options.h"
 #include "experiments/compare/compare_report.h"
 #include "experiments/compare/net_changes.h"
+#include "experiments/output/text.h"
 #include "motions/base/input_error.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
@@ -255,6 +257,44 @@ TEST(Compare, SeveralInputsWithAPage) {
   for (const char* part : {"<svg", "wrapped, ends.xyz", "How to read this", "Along the chain", "By level"})
     EXPECT_THAT(page, HasSubstr(part));
   EXPECT_EQ(Json::parse(content_of(scratch / "out/compare.json"))["inputs"][1]["frames"], 3);
+}
+
+// With many curves each structure has a plot of its own; inputs of one chain share the plot along it.
+TEST(Compare, ManyRowsStayLegible) {
+  const ScratchDirectory scratch;
+  const std::string again = (scratch / "again.dcd").string();
+  std::filesystem::copy_file(kDcd, again);
+  const ProgramRun run = run_program({"compare", kDcd, again, "--topology", kPdb, "--structures",
+                                      "box,wrapped,power", "--strides", "1,2", "--motions", "linear,hermite",
+                                      "--frames", ":9", "--rounds", "1", "--out", scratch / "out"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const std::string page = content_of(scratch / "out/report.html");
+  expect_sound(page);
+  EXPECT_EQ(count_of(page, "<div class=\"panels\">"), 3U);  // a step, in all, efficiency
+  for (const char* structure : {"box", "wrapped", "power"})
+    EXPECT_EQ(count_of(page, "<h3>" + std::string(structure) + "</h3>"), 3U);
+  EXPECT_EQ(count_of(page, "along the chain, each row"), 1U);
+  EXPECT_EQ(count_of(page, "<tr class=\"detail\"><th scope=\"row\">power, stride 2</th>"), 4U);
+  for (const char* part : {"wrapped, hermite, again.dcd: at most ", "overtake (internal)",
+                           "<dt>locality</dt>", "of 2 inputs on 2 motions <strong>power</strong> changes "})
+    EXPECT_THAT(page, HasSubstr(part));
+}
+
+TEST(Compare, TheFirstParagraphIsWhatWasFound) {
+  const ScratchDirectory scratch;
+  const ProgramRun run = run_program({"compare", kDcd, "--topology", kPdb, "--strides", "1,4", "--frames",
+                                      "100:140", "--rounds", "1", "--out", scratch / "out"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json rows = Json::parse(content_of(scratch / "out/compare.json"))["rows"];
+  const auto a_step = [&](std::size_t row) { return short_decimal(rows[row]["events_per_step"]); };
+  const std::string page = content_of(scratch / "out/report.html");
+  EXPECT_THAT(page,
+              HasSubstr("<p>From one frame to the next of villin_hp36_300K.dcd (39 steps) "
+                        "<strong>power</strong> changes " +
+                        a_step(1) + " times and <strong>wrapped</strong> " + a_step(0) + " times.</p>"));
+  EXPECT_THAT(page,
+              HasSubstr("<li><strong>power</strong> changes " + a_step(3) + " times a step at stride 4, "));
+  EXPECT_EQ(count_of(page, "<div class=\"panels\">"), 0U);
 }
 
 TEST(Compare, RefusesBeforeAnythingHasRun) {

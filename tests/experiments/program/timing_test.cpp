@@ -33,6 +33,11 @@ TEST(Timing, WorksGoInTurnsRoundByRound) {
   EXPECT_EQ(seconds, (std::vector<std::vector<double>>{{0.5, 0.5, 0.5}, {2}, {0.25, 0.25, 0.25}}));
 }
 
+TEST(Timing, OneRoundHasNoSpread) {
+  EXPECT_EQ(spread_text({0.21, 0.204, 0.233}), "0.210 (0.204 to 0.233)");
+  EXPECT_EQ(spread_text(spread_of({0.21})), "0.210");
+}
+
 TEST(Timing, RatiosAreOfOneRoundEach) {
   const Spread ratio = ratios_by_round({1, 4, 9}, {1, 2, 3});
   EXPECT_EQ(ratio.least, 1);

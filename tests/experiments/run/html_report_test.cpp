@@ -35,7 +35,27 @@ TEST(HtmlReport, BeginsWithWhatWasFound) {
       HasSubstr("<div class=\"found\">\n<p>In 3 motion steps of 36 beads the "
                 "<strong>wrapped</strong> structure changed 6 times (2.000 a step), the "
                 "<strong>power</strong> structure changed 30 times (10.00 a step, 5.000 times as often as "
-                "wrapped).</p>\n<p>Keeping the wrapped structure took 0.250 times"));
+                "wrapped).</p>\n</div>"));
+}
+
+// A single run's time is one draw: it stands in the table, and is no finding.
+TEST(HtmlReport, TimesOfSeveralRoundsHaveTheirSpread) {
+  RunReport report = test::sample_report();
+  EXPECT_THAT(html_report(report), Not(HasSubstr("Keeping the")));
+  report.rounds = 3;
+  report.structures[0].of_seconds = {0.5, 0.4, 0.75};
+  report.structures[0].of_static_seconds = {2, 1.5, 2.5};
+  report.structures[0].of_ratio = {0.25, 0.2, 0.3};
+  const std::string html = html_report(report);
+  EXPECT_THAT(html, HasSubstr("Keeping the wrapped structure took 0.250 (0.200 to 0.300) times as long"));
+  EXPECT_THAT(html, HasSubstr("<td>0.500 <small>(0.400 to 0.750)</small></td>"));
+  EXPECT_THAT(html, Not(HasSubstr("Keeping the power")));
+}
+
+TEST(HtmlReport, InternalKindsSaySo) {
+  const std::string html = html_report(test::sample_report());
+  EXPECT_EQ(count_of(html, "wander (internal)"), 3U);  // in the table, and in both widths of the plot
+  EXPECT_THAT(html, Not(HasSubstr("3-2 (internal)")));
 }
 
 TEST(HtmlReport, SaysHowItWasMadeAndLinksItsData) {
@@ -66,6 +86,9 @@ TEST(HtmlReport, PlacesAndDisplacementsWhereTheyAreKnown) {
   EXPECT_THAT(html, HasSubstr("Along the chain"));
   EXPECT_THAT(html, HasSubstr("farthest bead: 3"));
   EXPECT_THAT(html, HasSubstr("bead 2\nwrapped: 5"));
+  EXPECT_THAT(html, HasSubstr("wrapped: at most 5 events, at bead 2</text>"));
+  report.bead_names = {"N of ALA 59", "CA of ALA 59", "C of ALA 59"};
+  EXPECT_THAT(html_report(report), HasSubstr("bead 2, C of ALA 59\nwrapped: 5"));
 }
 
 // A bin's farthest is no mean.

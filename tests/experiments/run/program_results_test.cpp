@@ -42,6 +42,34 @@ TEST(Program, StandardOutputHoldsWhatWasAskedFor) {
             summary["fingerprint"]);
 }
 
+TEST(Program, RoundsChangeNothingButTimes) {
+  const auto summary = [](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"run",     kTrajectory, "--frames", ":9",
+                                       "--audit", "frames",    "--json",   "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return Json::parse(run.out);
+  };
+  const Json once = summary({}), thrice = summary({"--rounds", "3"});
+  EXPECT_EQ(once["fingerprint"], thrice["fingerprint"]);
+  EXPECT_THAT(once["settings"]["rounds"], "");
+  EXPECT_THAT(thrice["settings"]["rounds"], "3");
+  EXPECT_THAT(thrice["command"].get<std::string>(), HasSubstr(" --rounds 3"));
+  for (const auto& [name, structure] : thrice["structures"].items()) {
+    const Json& single = once["structures"][name];
+    for (const char* same : {"events", "certificates", "stages", "audits"})
+      EXPECT_EQ(structure[same], single[same]) << name;
+    EXPECT_FALSE(single.contains("seconds_least"));
+    for (const std::string what : {"seconds", "static_seconds"}) {
+      EXPECT_GT(structure[what + "_least"], 0) << name;
+      EXPECT_LE(structure[what + "_least"], structure[what]) << name;
+      EXPECT_LE(structure[what], structure[what + "_most"]) << name;
+    }
+  }
+  EXPECT_EQ(run_program({"run", kTrajectory, "--rounds", "0"}).code, 2);
+}
+
 TEST(Program, WritesItsReport) {
   const ScratchDirectory directory;
   const std::string report = (directory / "a/report").string();

@@ -175,6 +175,11 @@ TEST(Info, OfAnInstance) {
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("20 moving points, dimension 3, degree 2, weighted"));
   EXPECT_EQ(run_program({"info", data_file("kinetic/d1_n20_linear.txt"), "--radius", "1"}).code, 2);
+  const Json json =
+      Json::parse(run_program({"info", data_file("kinetic/d1_n20_linear.txt"), "--json", "-"}).out);
+  for (const char* member : {"command", "input", "settings", "rows", "warnings", "machine", "version"})
+    EXPECT_TRUE(json.contains(member)) << member;
+  EXPECT_TRUE(json["settings"].is_object());
 }
 
 TEST(Info, RefusesBeforeItReads) {

@@ -1,4 +1,4 @@
-#include "experiments/output/page_svg.h"
+#include "experiments/output/page/page_svg.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "experiments/output/html_text.h"
+#include "experiments/output/page/html_text.h"
 #include "experiments/output/text.h"
 
 namespace kds {

@@ -1,4 +1,4 @@
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/svg_plot.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,149 +8,14 @@
 #include <map>
 #include <string_view>
 
-#include "experiments/output/gnuplot.h"
-#include "experiments/output/html_text.h"
-#include "experiments/output/page_svg.h"
+#include "experiments/output/page/drawing.h"
+#include "experiments/output/page/html_text.h"
 #include "experiments/output/text.h"
 
 namespace kds {
 namespace {
 
 constexpr double kMarkSize = 0.8;  // about 4 pixels
-
-struct Drawing {
-  DrawingSize size;
-  std::string script;
-  TextsOf of = TextsOf::marks;
-  std::vector<std::string> texts;  ///< where the pointer rests
-};
-
-bool is_wide(const DrawingSize& size) { return size.width > 500; }
-DrawingSize wide(double height) { return {860, height, 64, 32, 26, 48}; }
-DrawingSize narrow(double height) { return {360, height, 64, 32, 26, 48}; }
-
-// gnuplot takes what stands between single quotes as it is; a quote is doubled.
-std::string gnuplot_text(std::string_view text) {
-  std::string result = "'";
-  for (const char c : one_line(text)) result += c == '\'' ? std::string("''") : std::string(1, c);
-  return result + "'";
-}
-
-std::string colour(std::size_t series) { return fmt::format("'#{:06x}'", series % series_colours); }
-
-std::string axes(const DrawingSize& size, std::string_view x_label, std::string_view y_label) {
-  const double right = size.width - size.right, top = size.height - size.top;
-  return fmt::format(
-      "reset\nset encoding utf8\n"
-      "set terminal svg size {0:.0f},{1:.0f} dynamic noenhanced font 'sans-serif,12.5'\n"
-      "set lmargin at screen {2:.6f}\nset rmargin at screen {3:.6f}\n"
-      "set bmargin at screen {4:.6f}\nset tmargin at screen {5:.6f}\n"
-      "set border 1 linecolor '#000008'\nset tics nomirror out scale 0.7 textcolor '#000008'\n"
-      "set ytics scale 0\nset xtics offset 0,0.4\nset grid ytics linetype 1 linecolor '#000009' linewidth "
-      "1\nunset key\n"
-      "set format '{6}'\n"
-      "set label {7} at screen {8:.6f}, screen {9:.6f} left textcolor '#000008'\n"
-      "set label {10} at screen {11:.6f}, screen {12:.6f} center textcolor '#000008'\n"
-      "set style fill solid 1 noborder\n",
-      size.width, size.height, size.left / size.width, right / size.width, size.bottom / size.height,
-      top / size.height, number_format, gnuplot_text(y_label), 2 / size.width, 1 - 9 / size.height,
-      gnuplot_text(x_label), (size.left + right) / 2 / size.width, 10 / size.height);
-}
-
-// Both widths by one process.
-std::string drawn(const std::vector<Drawing>& drawings, const std::vector<std::string>& names,
-                  const std::string& label) {
-  std::string script;
-  for (const Drawing& drawing : drawings) script += drawing.script + "set output\n";
-  const std::string output = run_gnuplot(script);
-  std::string html;
-  if (names.size() > 1) {
-    html += "<p class=\"key\">";
-    for (std::size_t s = 0; s < names.size(); ++s)
-      html += fmt::format("<span class=\"s{}\">{}</span> ", s % series_colours, html_escaped(names[s]));
-    html += "</p>\n";
-  }
-  constexpr std::string_view ending = "</svg>";
-  std::size_t start = 0;
-  for (const Drawing& drawing : drawings) {
-    const std::size_t end = std::min(output.find(ending, start), output.size());
-    html +=
-        page_svg(std::string_view(output).substr(start, end - start), drawing.size, drawing.of, drawing.texts,
-                 fmt::format("class=\"{}\" role=\"img\" aria-label=\"{}\"",
-                             is_wide(drawing.size) ? "wide" : "narrow", html_escaped(label)));
-    start = std::min(end + ending.size(), output.size());
-  }
-  return html;
-}
-
-struct Range {
-  double least = HUGE_VAL, most = -HUGE_VAL;
-  void add(double value) {
-    least = std::min(least, value);
-    most = std::max(most, value);
-  }
-  [[nodiscard]] bool empty() const { return least > most; }
-  // Wider than what doubles tell apart.
-  [[nodiscard]] bool wide() const { return least + 1e-9 * std::max(std::abs(least), std::abs(most)) < most; }
-  [[nodiscard]] Range around() const {
-    if (empty()) return {0, 1};
-    if (wide()) return *this;
-    const double by = least == 0 ? 1 : std::abs(least) / 2;
-    return {least - by, most + by};
-  }
-  // Marks stand off the edges.
-  [[nodiscard]] Range with_margin(bool logarithmic) const {
-    if (!logarithmic) return {least - 0.05 * (most - least), most + 0.05 * (most - least)};
-    const double by = std::max(1.1, std::pow(most / least, 0.06));
-    return {least / by, most * by};
-  }
-};
-
-std::string set_range(char axis, const Range& range) {
-  return fmt::format("set {}range [{:.17g}:{:.17g}]\n", axis, range.least, range.most);
-}
-
-std::string set_ticks(char axis, const std::vector<double>& values) {
-  return fmt::format("set {}tics ({:.17g})\n", axis, fmt::join(values, ","));
-}
-
-// Between ticks, `most` of them: 1, 2 or 5 times a power of ten.
-double step(const Range& range, int most) {
-  const double wanted = (range.most - range.least) / most;
-  const double power = std::pow(10, std::floor(std::log10(wanted)));
-  return power * (wanted <= power ? 1 : wanted <= 2 * power ? 2 : wanted <= 5 * power ? 5 : 10);
-}
-
-std::string linear(char axis, const Range& range, int most) {
-  return set_range(axis, range) + fmt::format("set {}tics {:.17g}\n", axis, step(range, most));
-}
-
-int x_ticks(const DrawingSize& size) { return is_wide(size) ? 8 : 4; }
-constexpr int kYTicks = 5;
-
-// Powers of ten, about `most` at the most; 1, 2 and 5 of each where there are less than two, and
-// round values where there are still less.
-std::string logarithmic(char axis, const Range& range, int most) {
-  const int first = static_cast<int>(std::floor(std::log10(range.least)));
-  const int last = static_cast<int>(std::ceil(std::log10(range.most)));
-  std::vector<double> ticks;
-  const auto add = [&](double value) {
-    if (range.least <= value && value <= range.most) ticks.push_back(value);
-  };
-  for (int k = first; k <= last; k += last - first > most ? (last - first) / most + 1 : 1)
-    add(std::pow(10, k));
-  if (ticks.size() < 2) {
-    ticks.clear();
-    for (int k = first; k <= last; ++k)
-      for (const double factor : {1.0, 2.0, 5.0}) add(factor * std::pow(10, k));
-  }
-  if (ticks.size() < 2) {
-    ticks.clear();
-    const double apart = step(range, most);
-    for (double k = std::ceil(range.least / apart); k * apart <= range.most; ++k) ticks.push_back(k * apart);
-  }
-  return set_range(axis, range) + fmt::format("set logscale {}\n", axis) + set_ticks(axis, ticks);
-}
 
 // The values of all curves where the pointer rests; of long ones not more than there are places for.
 std::map<double, std::string> values_of(const LinePlot& plot, const std::vector<double>& xs,
@@ -165,7 +30,8 @@ std::map<double, std::string> values_of(const LinePlot& plot, const std::vector<
   return values;
 }
 
-Drawing draw(const LinePlot& plot, const DrawingSize& size) {
+// `names` has that of each curve, at the place of its colour.
+Drawing draw(const LinePlot& plot, const DrawingSize& size, const std::vector<std::string>& names) {
   Drawing drawing{size, axes(size, plot.x_label, plot.y_label), TextsOf::strips, {}};
   std::string& script = drawing.script;
   std::vector<double> xs;
@@ -179,9 +45,9 @@ Drawing draw(const LinePlot& plot, const DrawingSize& size) {
   xs.erase(std::unique(xs.begin(), xs.end()), xs.end());
   if (!plot.below_zero) y = {0, y.most > 0 ? y.most : 1};
   y = y.around();
-  const double apart = step(y, kYTicks);
+  const double apart = tick_step(y, y_ticks);
   y = {std::floor(y.least / apart + 1e-9) * apart, std::ceil(y.most / apart - 1e-9) * apart};
-  script += linear('y', y, kYTicks);
+  script += linear('y', y, y_ticks);
 
   const bool marks = plot.drawn == Drawn::points;
   const bool spread = marks && xs.size() > 2 && xs.front() > 0 && xs.back() >= 8 * xs.front();
@@ -200,7 +66,9 @@ Drawing draw(const LinePlot& plot, const DrawingSize& size) {
     script += fmt::format("$curve{} << EOD\n", s);
     for (const auto& [px, py] : plot.curves[s].points) script += fmt::format("{:.17g} {:.17g}\n", px, py);
     script += "EOD\n";
-    curves += fmt::format("$curve{} using 1:2 with {} linecolor {}, ", s, style, colour(s));
+    const auto series =
+        static_cast<std::size_t>(std::ranges::find(names, plot.curves[s].name) - names.begin());
+    curves += fmt::format("$curve{} using 1:2 with {} linecolor {}, ", s, style, colour(series));
   }
   const auto values = values_of(plot, xs, is_wide(size) ? 300 : 100);
   if (!values.empty()) {
@@ -257,7 +125,7 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
 
   Drawing drawing{size, axes(size, plot.x_label, plot.y_label), TextsOf::marks, {}};
   std::string& script = drawing.script;
-  script += logarithmic('x', x, x_ticks(size)) + logarithmic('y', y, kYTicks);
+  script += logarithmic('x', x, x_ticks(size)) + logarithmic('y', y, y_ticks);
   Labels labels(size.left, size.width - size.right);
   std::map<std::size_t, std::string> marks;
   for (const PointPlot::Point& point : plot.points) {
@@ -292,11 +160,12 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
 Drawing draw(const BarPlot& plot, DrawingSize size) {
   std::size_t longest = 0;
   double most = 0;
-  for (const auto& [name, value] : plot.bars) {
-    longest = std::max(longest, name.size());
-    most = std::max(most, value);
+  for (const BarPlot::Bar& bar : plot.bars) {
+    longest = std::max(longest, bar.name.size());
+    most = std::max(most, bar.value);
   }
-  size.height = 28 * static_cast<double>(plot.bars.size()) + 34;
+  const double pitch = plot.series.size() > 1 ? 20 : 28;
+  size.height = pitch * static_cast<double>(plot.bars.size()) + 34;
   size.left = std::min(7.2 * static_cast<double>(longest) + 14, is_wide(size) ? 300.0 : 130.0);
   size.right = 90;
   size.top = 4;
@@ -307,18 +176,22 @@ Drawing draw(const BarPlot& plot, DrawingSize size) {
       fmt::format("set border 2\nunset grid\nunset xtics\nset xrange [0:{:.17g}]\nset yrange [{}:-0.5]\n",
                   most > 0 ? most : 1, static_cast<double>(plot.bars.size()) - 0.5);
   std::vector<std::string> names;
-  std::string data;
-  for (const auto& [name, value] : plot.bars) {
-    const std::size_t row = names.size();
+  std::map<std::size_t, std::string> of_series;
+  for (std::size_t row = 0; row < plot.bars.size(); ++row) {
+    const auto& [name, value, series] = plot.bars[row];
     script += fmt::format("set label {} at {:.17g},{} left offset 0.8,0 textcolor '#000008'\n",
                           gnuplot_text(tick_label(value)), value, row);
-    data += fmt::format("{0:.17g} {1} 0 {0:.17g} {2} {3}\n", value, row, static_cast<double>(row) - 0.36,
-                        static_cast<double>(row) + 0.36);
+    of_series[series] += fmt::format("{0:.17g} {1} 0 {0:.17g} {2} {3}\n", value, row,
+                                     static_cast<double>(row) - 0.36, static_cast<double>(row) + 0.36);
     names.push_back(gnuplot_text(name) + fmt::format(" {}", row));
   }
-  script += fmt::format(
-      "set ytics ({})\n$bars << EOD\n{}EOD\nplot {}NaN\n", fmt::join(names, ","), data,
-      names.empty() ? "" : "$bars using 1:2:3:4:5:6 with boxxyerror linecolor " + colour(0) + ", ");
+  script += fmt::format("set ytics ({})\n", fmt::join(names, ","));
+  std::string bars;
+  for (const auto& [series, data] : of_series) {
+    script += fmt::format("$bars{} << EOD\n{}EOD\n", series, data);
+    bars += fmt::format("$bars{} using 1:2:3:4:5:6 with boxxyerror linecolor {}, ", series, colour(series));
+  }
+  script += "plot " + bars + "NaN\n";
   return drawing;
 }
 
@@ -329,7 +202,7 @@ Drawing draw(const MapPlot& plot, DrawingSize size) {
   size.height = side + size.top + size.bottom;
   Drawing drawing{size, axes(size, plot.label, plot.label), TextsOf::squares, {}};
   const Range range{plot.from, plot.to};
-  drawing.script += linear('x', range, kYTicks) + linear('y', range, kYTicks) + "$squares << EOD\n";
+  drawing.script += linear('x', range, y_ticks) + linear('y', range, y_ticks) + "$squares << EOD\n";
   double most = 0;
   for (const MapPlot::Square& square : plot.squares) most = std::max(most, square.value);
   for (const auto& [x, y, value] : plot.squares) {
@@ -347,22 +220,59 @@ Drawing draw(const MapPlot& plot, DrawingSize size) {
   return drawing;
 }
 
+template <class Plot>
+std::string drawn_once(const Plot& plot, double height, const std::vector<std::string>& names,
+                       const std::string& label) {
+  return html_key(names) + drawn({{draw(plot, wide(height)), draw(plot, narrow(height))}}, {label}).front();
+}
+
+std::string label_of(const LinePlot& plot) { return plot.y_label + " by " + plot.x_label; }
+
+void add_names(const LinePlot& plot, std::vector<std::string>& names) {
+  for (const Curve& curve : plot.curves)
+    if (std::ranges::find(names, curve.name) == names.end()) names.push_back(curve.name);
+}
+
+Plotted drawings(const LinePlot& plot, const DrawingSize& size, const std::vector<std::string>& names) {
+  return {draw(plot, size, names), draw(plot, narrow(size.height), names)};
+}
+
 }  // namespace
 
 std::string svg_plot(const LinePlot& plot) {
   std::vector<std::string> names;
-  for (const Curve& curve : plot.curves) names.push_back(curve.name);
-  return drawn({draw(plot, wide(320)), draw(plot, narrow(320))}, names, plot.y_label + " by " + plot.x_label);
+  add_names(plot, names);
+  return html_key(names) + drawn({drawings(plot, wide(320), names)}, {label_of(plot)}).front();
 }
+
+std::string svg_plot(const PanelPlot& plot) {
+  constexpr DrawingSize panel{420, 220, 64, 20, 26, 48};
+  std::vector<std::string> all;
+  for (const PanelPlot::Panel& one : plot.panels) add_names(one.plot, all);
+  const bool one_key = all.size() <= series_colours;
+  std::vector<Plotted> plots;
+  std::vector<std::string> keys, labels;
+  for (const PanelPlot::Panel& one : plot.panels) {
+    std::vector<std::string> names;
+    add_names(one.plot, names);
+    keys.push_back(one_key ? "" : html_key(names));
+    labels.push_back(one.title + ": " + label_of(one.plot));
+    plots.push_back(drawings(one.plot, panel, one_key ? all : names));
+  }
+  std::string html = (one_key ? html_key(all) : "") + "<div class=\"panels\">\n";
+  const std::vector<std::string> svgs = drawn(plots, labels);
+  for (std::size_t k = 0; k < svgs.size(); ++k)
+    html +=
+        fmt::format("<div><h3>{}</h3>\n{}{}</div>\n", html_escaped(plot.panels[k].title), keys[k], svgs[k]);
+  return html + "</div>\n";
+}
+
 std::string svg_plot(const PointPlot& plot) {
-  return drawn({draw(plot, wide(350)), draw(plot, narrow(350))}, plot.series,
-               plot.y_label + " by " + plot.x_label);
+  return drawn_once(plot, 350, plot.series, plot.y_label + " by " + plot.x_label);
 }
-std::string svg_plot(const BarPlot& plot) {
-  return drawn({draw(plot, wide(0)), draw(plot, narrow(0))}, {}, plot.x_label);
-}
+std::string svg_plot(const BarPlot& plot) { return drawn_once(plot, 0, plot.series, plot.x_label); }
 std::string svg_plot(const MapPlot& plot) {
-  return drawn({draw(plot, wide(0)), draw(plot, narrow(0))}, {}, plot.value_label + " by " + plot.label);
+  return drawn_once(plot, 0, {}, plot.value_label + " by " + plot.label);
 }
 
 }  // namespace kds

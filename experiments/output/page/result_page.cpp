@@ -1,10 +1,10 @@
-#include "experiments/output/result_page.h"
+#include "experiments/output/page/result_page.h"
 
 #include <fmt/format.h>
 
 #include <array>
 
-#include "experiments/output/gnuplot.h"
+#include "experiments/output/page/gnuplot.h"
 #include "motions/base/input_error.h"
 
 namespace kds {

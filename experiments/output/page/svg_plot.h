@@ -29,6 +29,16 @@ struct LinePlot {
   bool below_zero = false;  ///< values may be; else the axis begins at 0
 };
 
+/// Small plots beside each other, below each other on narrow pages. A name has one colour in all of them;
+/// where there are more names than colours, each has a key of its own.
+struct PanelPlot {
+  struct Panel {
+    std::string title;
+    LinePlot plot;
+  };
+  std::vector<Panel> panels;
+};
+
 /// Points with their names beside them, those of one series in its colour; both axes logarithmic.
 struct PointPlot {
   struct Point {
@@ -41,10 +51,16 @@ struct PointPlot {
   std::vector<Point> points;
 };
 
-/// Bars from left to right, one below the other, each with its value.
+/// Bars from left to right, one below the other, each with its value, those of one series in its colour.
 struct BarPlot {
+  struct Bar {
+    std::string name;
+    double value;
+    std::size_t series = 0;
+  };
   std::string x_label;
-  std::vector<std::pair<std::string, double>> bars;
+  std::vector<Bar> bars;
+  std::vector<std::string> series = {};  ///< their names; none: nothing is to be told apart
 };
 
 /// Squares of equal size in a square, coloured by value; where there is none, nothing.
@@ -61,6 +77,7 @@ struct MapPlot {
 };
 
 [[nodiscard]] std::string svg_plot(const LinePlot& plot);
+[[nodiscard]] std::string svg_plot(const PanelPlot& plot);
 [[nodiscard]] std::string svg_plot(const PointPlot& plot);
 [[nodiscard]] std::string svg_plot(const BarPlot& plot);
 [[nodiscard]] std::string svg_plot(const MapPlot& plot);

@@ -1,6 +1,6 @@
 // Plots: where ticks stand, and what a page shows of values.
 
-#include "experiments/output/svg_plot.h"
+#include "experiments/output/page/svg_plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/output/page_svg.h"
+#include "experiments/output/page/page_svg.h"
 #include "tests/experiments/sound_page.h"
 
 namespace kds {
@@ -76,6 +76,43 @@ TEST(SvgPlot, EachSquareOfAMapHasItsValue) {
 TEST(SvgPlot, BarsHaveTheirNamesAndValues) {
   const std::string html = svg_plot(BarPlot{"events", {{"tip 'edge'", 1200}, {"`date` $b @c", 0}}});
   expect_ticks(html, {"tip 'edge'", "`date` $b @c", "1,200", "0"});
+}
+
+TEST(SvgPlot, BarsOfSeriesHaveTheirColoursAndAKey) {
+  const std::string html =
+      svg_plot(BarPlot{"events", {{"enter", 3, 0}, {"", 2, 1}, {"leave", 1, 1}}, {"300 K", "400 K"}});
+  test::expect_nested(html);
+  EXPECT_THAT(html, HasSubstr("<span class=\"s0\">300 K</span> <span class=\"s1\">400 K</span>"));
+  expect_ticks(html, {"enter", "leave", "3", "2", "1"});
+  EXPECT_EQ(count_of(html, "var(--s0)"), 2U);
+  EXPECT_EQ(count_of(html, "var(--s1)"), 4U);
+}
+
+LinePlot points_of(const std::vector<std::string>& names) {
+  LinePlot plot{"stride", "events", Drawn::points, {}};
+  for (const std::string& name : names) plot.curves.push_back({name, {{1, 2}, {4, 3}}});
+  return plot;
+}
+
+TEST(SvgPlot, PanelsShareTheirKeyAndColours) {
+  const std::string html =
+      svg_plot(PanelPlot{{{"<box>", points_of({"a", "b"})}, {"power", points_of({"b"})}}});
+  test::expect_nested(html);
+  EXPECT_EQ(count_of(html, "class=\"key\""), 1U);
+  EXPECT_EQ(count_of(html, "<svg class=\"wide\""), 2U);
+  EXPECT_EQ(count_of(html, "<svg class=\"narrow\""), 2U);
+  EXPECT_THAT(html, HasSubstr("<h3>&lt;box&gt;</h3>"));
+  EXPECT_EQ(count_of(html, "fill=\"var(--s0)\""), 4U);  // two marks of a, wide and narrow
+  EXPECT_EQ(count_of(html, "fill=\"var(--s1)\""), 8U);  // b is the same in both
+}
+
+TEST(SvgPlot, PanelsWithMoreNamesThanColoursHaveKeysOfTheirOwn) {
+  std::vector<std::string> first, second;
+  for (char name = 'a'; name < 'i'; ++name) first.emplace_back(1, name);
+  for (char name = 'i'; name < 'l'; ++name) second.emplace_back(1, name);
+  const std::string html = svg_plot(PanelPlot{{{"x", points_of(first)}, {"y", points_of(second)}}});
+  EXPECT_EQ(count_of(html, "class=\"key\""), 2U);
+  EXPECT_THAT(html, HasSubstr("<span class=\"s0\">i</span>"));
 }
 
 TEST(PageSvg, WhatIsNoDrawingIsAFailure) {

@@ -1,4 +1,4 @@
-#include "experiments/output/gnuplot.h"
+#include "experiments/output/page/gnuplot.h"
 
 #include <fmt/format.h>
 #include <spawn.h>

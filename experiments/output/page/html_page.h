@@ -4,9 +4,10 @@
 // as the reader's system is, legible from the width of a telephone on.
 
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "experiments/output/html_text.h"
+#include "experiments/output/page/html_text.h"
 #include "experiments/output/result_json.h"
 
 namespace kds {
@@ -16,6 +17,7 @@ struct Page {
   std::string found;  ///< HTML, paragraphs: what was found, in words and figures
   std::string body;   ///< HTML: plots and tables, section by section
   std::string words;  ///< HTML: what the words mean; may be empty
+  std::vector<std::pair<std::string, std::string>> terms;  ///< a word and what it means, text
   std::string command_line;
   Json settings;                  ///< an object; null where there are none
   std::vector<std::string> data;  ///< names of the files beside it

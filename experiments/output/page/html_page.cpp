@@ -1,4 +1,4 @@
-#include "experiments/output/html_page.h"
+#include "experiments/output/page/html_page.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,10 +16,10 @@ namespace {
 // Colours of series are told apart by the colour-blind too.
 constexpr std::string_view kStyle = R"(
 :root { color-scheme: light dark;
-  --page: #ffffff; --ink: #1f2933; --soft: #5b6570; --line: #dfe4ea; --tint: #f4f6f8; --link: #1d5fa8;
+  --page: #ffffff; --ink: #1f2933; --soft: #5b6570; --line: #dfe4ea; --tint: #f4f6f8; --shade: #1f29332e; --link: #1d5fa8;
   --s0: #2563a8; --s1: #c2600a; --s2: #2b7a4b; --s3: #8a3f8f; --s4: #c0392b; --s5: #5b6570; --s6: #0b7f92; --s7: #8a6d00; }
 @media (prefers-color-scheme: dark) { :root {
-  --page: #14181d; --ink: #e4e8ec; --soft: #9aa5b1; --line: #313a44; --tint: #1d232a; --link: #7db4f0;
+  --page: #14181d; --ink: #e4e8ec; --soft: #9aa5b1; --line: #313a44; --tint: #1d232a; --shade: #e4e8ec3a; --link: #7db4f0;
   --s0: #6aa8ee; --s1: #f0a04b; --s2: #63c08a; --s3: #cf92d6; --s4: #f0857a; --s5: #a7b1bc; --s6: #52c7d8; --s7: #d6b73a; } }
 * { box-sizing: border-box; }
 html { -webkit-text-size-adjust: 100%; }
@@ -28,6 +28,7 @@ body { margin: 0; background: var(--page); color: var(--ink);
 main { max-width: 58rem; margin: 0 auto; padding: 2.2rem 1.5rem 3rem; }
 h1 { font-size: 1.6rem; line-height: 1.25; margin: 0 0 1rem; overflow-wrap: anywhere; }
 h2 { font-size: 1.15rem; margin: 2.4rem 0 .7rem; }
+h3 { font-size: .95rem; margin: .5rem 0 .1rem; overflow-wrap: anywhere; }
 p { margin: .45rem 0; max-width: 46rem; }
 ul { margin: .45rem 0; padding-left: 1.3rem; max-width: 46rem; }
 li { margin: .2rem 0; }
@@ -37,19 +38,22 @@ dl { margin: .8rem 0 1.2rem; display: grid; grid-template-columns: max-content 1
      padding: .9rem 1.1rem; background: var(--tint); border-radius: .5rem; }
 dt { color: var(--soft); }
 dd { margin: 0; overflow-wrap: anywhere; }
-.scroll { overflow-x: auto; margin: .6rem 0 1.2rem; }
+.scroll { overflow-x: auto; margin: .6rem min(0px, (58rem - 100vw) / 2) 1.2rem 0;
+          background: linear-gradient(to left, var(--page) 30%, transparent) right / 2.5rem 100% no-repeat local,
+                      linear-gradient(to left, var(--shade), transparent) right / .8rem 100% no-repeat scroll; }
 table { border-collapse: separate; border-spacing: 0; font-size: .92rem; font-variant-numeric: tabular-nums; }
-th, td { padding: .26rem 0 .26rem 1.5rem; text-align: right; vertical-align: top; white-space: nowrap; }
+th, td { padding: .26rem 0 .26rem 1.2rem; text-align: right; vertical-align: top; white-space: nowrap; }
 td small { display: block; color: var(--soft); }
 thead th { border-bottom: 2px solid var(--ink); vertical-align: bottom; font-weight: 600; white-space: normal; }
 th:first-child { position: sticky; left: 0; background: var(--page); padding-left: 0; padding-right: .6rem;
-                 text-align: left; font-weight: 600; white-space: normal; min-width: 9rem; max-width: 19rem; }
+                 text-align: left; font-weight: 600; white-space: normal; min-width: 11rem; max-width: 19rem; }
 tbody th, tbody td { border-top: 1px solid var(--line); }
 tbody tr:first-child > * { border-top: 0; }
 tbody tr.detail > * { border-top: 0; }
 tbody tr.detail th:first-child { font-weight: 400; padding-left: 1.1rem; color: var(--soft); }
 figure { margin: .6rem 0 1.6rem; }
 figure svg { width: 100%; height: auto; }
+.panels { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(20rem, 100%), 1fr)); gap: .3rem 1.5rem; }
 svg.wide { display: block; }
 svg.narrow { display: none; }
 svg text { font-size: 12.5px; fill: var(--soft); }
@@ -75,7 +79,7 @@ footer { margin-top: 2.4rem; padding-top: .8rem; border-top: 1px solid var(--lin
   h1 { font-size: 1.3rem; }
   dl { grid-template-columns: 1fr; gap: 0; padding: .7rem .9rem; }
   dd { margin-bottom: .45rem; }
-  th:first-child { max-width: 9.5rem; }
+  th:first-child { min-width: 8rem; max-width: 9.5rem; }
   tbody th:first-child { min-width: 8rem; }
   th, td { padding-left: 1.1rem; }
   svg.wide { display: none; }
@@ -170,7 +174,8 @@ std::string html_terms(const std::vector<std::pair<std::string, std::string>>& t
 
 std::string html_page(const Page& page) {
   std::string body = fmt::format("<div class=\"found\">\n{}</div>\n{}", page.found, page.body);
-  if (!page.words.empty()) body += html_section("How to read this", "<p>" + page.words + "</p>\n");
+  body += html_section("How to read this",
+                       (page.words.empty() ? "" : "<p>" + page.words + "</p>\n") + html_terms(page.terms));
   body += html_section("How it was made", how_it_was_made(page));
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

@@ -1,4 +1,4 @@
-#include "experiments/output/html_text.h"
+#include "experiments/output/page/html_text.h"
 
 #include "experiments/output/text.h"
 
