@@ -10,6 +10,7 @@
 
 #include "certificates/exact/exact_time.h"
 #include "structures/hierarchy/wrapped_hierarchy.h"
+#include "tests/support/inputs/courses.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/rounds.h"
@@ -21,8 +22,6 @@ using namespace test;
 
 const std::vector<BeadRange> necklaces{{0, 4}, {5, 13}};
 constexpr BeadId bead_count = 14;
-
-enum class Places { generic, grid };
 
 struct Case {
   Radii radii = Radii::equal;
@@ -56,7 +55,7 @@ class BentRun {
   void run() {
     simulator_.build();
     for (int step = 0; step < 2; ++step) {
-      if (step > 0) go_on();
+      if (step > 0) carry_on(motion_, [&](BeadId b) { set_curve(b); });
       simulator_.enter_step();
       for (int stand = 0; stand < 12; ++stand) {
         const double u = 0x1p-4 * stand;
@@ -81,23 +80,11 @@ class BentRun {
  private:
   using Hierarchy = WrappedHierarchy<dimension>;
 
-  [[nodiscard]] double place() {
-    return of_.places == Places::grid ? pick(random_, -2, 2) : 0x1p-16 * pick(random_, -(1 << 17), 1 << 17);
-  }
   void set_curve(BeadId b) {
     for (int k = 0; k <= M::degree; ++k) {
-      for (int axis = 0; axis < dimension; ++axis) motion_.set_coordinate(b, k, axis, place());
+      for (int axis = 0; axis < dimension; ++axis)
+        motion_.set_coordinate(b, k, axis, draw_place(random_, of_.places));
       motion_.set_radius(b, k, of_.radii == Radii::equal ? 0.5 : 0.125 * (1 + b % 3));
-    }
-  }
-  void go_on() {
-    for (BeadId b = 0; b < bead_count; ++b) {
-      std::array<double, dimension> from{};
-      for (int axis = 0; axis < dimension; ++axis)
-        from[static_cast<std::size_t>(axis)] = motion_.coordinate(b, M::degree, axis);
-      set_curve(b);
-      for (int axis = 0; axis < dimension; ++axis)
-        motion_.set_coordinate(b, 0, axis, from[static_cast<std::size_t>(axis)]);
     }
   }
   /// Goes where the other goes.
@@ -106,15 +93,6 @@ class BentRun {
       for (int axis = 0; axis < dimension; ++axis)
         motion_.set_coordinate(b, k, axis, motion_.coordinate(other, k, axis));
   }
-  /// Turns where it is at u, of linear motion.
-  void bend(BeadId b, double u) {
-    for (int axis = 0; axis < dimension; ++axis) {
-      const double d = 0x1p-8 * pick(random_, -256, 256);
-      motion_.set_coordinate(b, 0, axis, motion_.coordinate(b, 0, axis) + u * d);
-      motion_.set_coordinate(b, 1, axis, motion_.coordinate(b, 1, axis) - (1 - u) * d);
-    }
-  }
-
   void edit() {
     ++totals_.edits;
     const std::size_t before = history_.events.size();
@@ -128,7 +106,7 @@ class BentRun {
         break;
       case 1:
         if (M::degree > 1 || !now.is_dyadic()) return;
-        simulator_.change_motion(beads, [&, u = now.lower().round_down()] { bend(b, u); });
+        simulator_.change_motion(beads, [&, u = now.lower().round_down()] { bend(motion_, b, u, random_); });
         break;
       case 2:
         beads = {next, b};

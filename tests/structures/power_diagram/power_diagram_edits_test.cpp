@@ -12,6 +12,7 @@
 #include "motions/numbers/exact_number.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "structures/triangulation/regular_triangulation.h"
+#include "tests/support/inputs/courses.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/rounds.h"
@@ -49,16 +50,6 @@ void set_curve(M& motion, BeadId b, Random& random, Scene scene) {
       w = 0x1p-20 * (random() % (heavy ? 1U << 22U : 1U << 18U));
     }
     motion.set_weight(b, k, w);
-  }
-}
-
-/// Turns the bead's linear course at u, where it stays as it is.
-template <class M>
-void bend(M& motion, BeadId b, double u, Random& random) {
-  for (int axis = 0; axis < M::dimension; ++axis) {
-    const double d = 0x1p-10 * pick(random, -512, 512);
-    motion.set_coordinate(b, 0, axis, motion.coordinate(b, 0, axis) + u * d);
-    motion.set_coordinate(b, 1, axis, motion.coordinate(b, 1, axis) - (1 - u) * d);
   }
 }
 
@@ -187,36 +178,27 @@ Space random_space(std::size_t beads, unsigned seed, double weight) {
 TEST(PowerDiagramEdits, RefusesBadCalls) {
   Rig<Diagram<Space>, Space> rig(random_space(6, 1, 0));
   auto& diagram = rig.structure;
-  const auto refused = [](auto call, const char* why) {
-    try {
-      call();
-    } catch (const std::invalid_argument& error) {
-      EXPECT_THAT(error.what(), HasSubstr(why));
-      return;
-    }
-    ADD_FAILURE() << "not refused: " << why;
-  };
   diagram.leave_out(5);
-  refused([&] { diagram.leave_out(5); }, "bead 5 is not among its beads");
-  refused([&] { diagram.leave_out(6); }, "there is no bead 6");
+  expect_edit_refused([&] { diagram.leave_out(5); }, "bead 5 is not among its beads");
+  expect_edit_refused([&] { diagram.leave_out(6); }, "there is no bead 6");
   rig.simulator.build();
-  refused([&] { diagram.leave_out(4); }, "before it is built");
-  refused([&] { diagram.insert(5); }, "only within a step");
+  expect_edit_refused([&] { diagram.leave_out(4); }, "before it is built");
+  expect_edit_refused([&] { diagram.insert(5); }, "only within a step");
   rig.simulator.enter_step();
   rig.simulator.run_until(Dyadic(0.5));
-  refused([&] { diagram.insert(4); }, "bead 4 is among its beads already");
-  refused([&] { diagram.insert(6); }, "there is no bead 6");
-  refused([&] { diagram.insert(5, 7); }, "there is no bead 7");
-  refused([&] { diagram.insert(5, 5); }, "bead 5 is not among its beads");
-  refused([&] { diagram.erase(5); }, "bead 5 is not among its beads");
-  refused([&] { diagram.erase(no_bead); }, "there is no bead");
-  refused([&] { diagram.change_motion(5, [] { FAIL(); }); }, "bead 5 is not among its beads");
+  expect_edit_refused([&] { diagram.insert(4); }, "bead 4 is among its beads already");
+  expect_edit_refused([&] { diagram.insert(6); }, "there is no bead 6");
+  expect_edit_refused([&] { diagram.insert(5, 7); }, "there is no bead 7");
+  expect_edit_refused([&] { diagram.insert(5, 5); }, "bead 5 is not among its beads");
+  expect_edit_refused([&] { diagram.erase(5); }, "bead 5 is not among its beads");
+  expect_edit_refused([&] { diagram.erase(no_bead); }, "there is no bead");
+  expect_edit_refused([&] { diagram.change_motion(5, [] { FAIL(); }); }, "bead 5 is not among its beads");
   diagram.erase(4);
-  refused([&] { diagram.erase(3); }, "at least 4 beads");
+  expect_edit_refused([&] { diagram.erase(3); }, "at least 4 beads");
   diagram.insert(5);
   diagram.insert(4);
   rig.simulator.leave_step();
-  refused([&] { diagram.erase(3); }, "only within a step");
+  expect_edit_refused([&] { diagram.erase(3); }, "only within a step");
   EXPECT_EQ(diagram.statistics.events_by_kind[Diagram<Space>::inserts], 2U);
   EXPECT_EQ(diagram.statistics.events_by_kind[Diagram<Space>::erases], 1U);
 }

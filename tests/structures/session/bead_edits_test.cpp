@@ -15,6 +15,7 @@
 #include "structures/contacts/contacts.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "structures/sorted/sorted_list.h"
+#include "tests/support/inputs/courses.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/rounds.h"
@@ -40,28 +41,14 @@ struct Structures {
   Contacts<Dimension> contacts;
 };
 
-enum class Scene { generic, grid };
-
 template <class M>
-void set_curve(M& motion, BeadId b, Random& random, Scene scene) {
+void set_curve(M& motion, BeadId b, Random& random, Places places) {
   for (int k = 0; k <= M::degree; ++k) {
     for (int axis = 0; axis < M::dimension; ++axis)
-      motion.set_coordinate(
-          b, k, axis,
-          scene == Scene::grid ? pick(random, -2, 2) : 0x1p-16 * pick(random, -(1 << 17), 1 << 17));
-    const double radius = scene == Scene::grid ? 0.5 : 0.125 * (1 + b % 3);
+      motion.set_coordinate(b, k, axis, draw_place(random, places));
+    const double radius = places == Places::grid ? 0.5 : 0.125 * (1 + b % 3);
     motion.set_radius(b, k, radius);
     motion.set_weight(b, k, radius * radius);
-  }
-}
-
-/// Turns the bead's course at u, where it stays as it is; not for cubic curves.
-template <class M>
-void bend(M& motion, BeadId b, double u, Random& random) {
-  for (int axis = 0; axis < M::dimension; ++axis) {
-    const double d = 0x1p-8 * pick(random, -128, 128);
-    motion.set_coordinate(b, 0, axis, motion.coordinate(b, 0, axis) + u * d);
-    motion.set_coordinate(b, 1, axis, motion.coordinate(b, 1, axis) - (1 - u) * d);
   }
 }
 
@@ -85,14 +72,14 @@ class EditedRun {
  public:
   static constexpr int dimension = M::dimension;
 
-  EditedRun(unsigned seed, Scene scene, Totals& totals, Kernel kernel = Kernel::filtered)
-      : random_(2 * seed + static_cast<unsigned>(scene)),
-        scene_(scene),
+  EditedRun(unsigned seed, Places places, Totals& totals, Kernel kernel = Kernel::filtered)
+      : random_(2 * seed + static_cast<unsigned>(places)),
+        places_(places),
         totals_(totals),
         motion_(dimension + 9),
         simulator_(kernel == Kernel::fast ? AuditMode::none : AuditMode::events, kernel),
         structures_(simulator_, motion_, motion_.bead_count()) {
-    for (BeadId b = 0; b < motion_.bead_count(); ++b) set_curve(motion_, b, random_, scene_);
+    for (BeadId b = 0; b < motion_.bead_count(); ++b) set_curve(motion_, b, random_, places_);
     for (BeadEdits* structure : structures_.all())
       for (BeadId b = 0; b < 3; ++b)
         if (random_() % 2 == 0) structure->leave_out(b);
@@ -101,7 +88,7 @@ class EditedRun {
   void run() {
     simulator_.build();
     for (int step = 0; step < 2; ++step) {
-      if (step > 0) go_on();
+      if (step > 0) carry_on(motion_, [&](BeadId b) { set_curve(motion_, b, random_, places_); });
       simulator_.enter_step();
       edit();
       compare(0);
@@ -130,17 +117,6 @@ class EditedRun {
   [[nodiscard]] std::uint64_t fingerprint() const { return simulator_.fingerprint(); }
 
  private:
-  void go_on() {
-    for (BeadId b = 0; b < motion_.bead_count(); ++b) {
-      std::array<double, dimension> from{};
-      for (int axis = 0; axis < dimension; ++axis)
-        from[static_cast<std::size_t>(axis)] = motion_.coordinate(b, M::degree, axis);
-      set_curve(motion_, b, random_, scene_);
-      for (int axis = 0; axis < dimension; ++axis)
-        motion_.set_coordinate(b, 0, axis, from[static_cast<std::size_t>(axis)]);
-    }
-  }
-
   void edit() {
     for (BeadEdits* structure : structures_.all()) {
       const auto b = static_cast<BeadId>(random_() % motion_.bead_count());
@@ -151,7 +127,7 @@ class EditedRun {
         try {
           structure->erase(b);
         } catch (const std::invalid_argument& refusal) {  // all left would stay in one plane, or on one line
-          EXPECT_EQ(scene_, Scene::grid) << refusal.what();
+          EXPECT_EQ(places_, Places::grid) << refusal.what();
           EXPECT_THAT(refusal.what(), HasSubstr("all beads stay"));
           EXPECT_FALSE(structure->is_absent(b));
         }
@@ -162,7 +138,7 @@ class EditedRun {
     std::vector<BeadId> beads{b};
     switch (random_() % 6) {
       case 0:
-        return simulator_.change_motion(beads, [&] { set_curve(motion_, b, random_, scene_); });
+        return simulator_.change_motion(beads, [&] { set_curve(motion_, b, random_, places_); });
       case 1:  // a turn, where numbers are short enough for one without rounding
         if (M::degree > 1 || !now.is_dyadic()) return;
         return simulator_.change_motion(beads, [&] { bend(motion_, b, now.lower().round_down(), random_); });
@@ -170,8 +146,8 @@ class EditedRun {
         beads = {b, static_cast<BeadId>((b + 1) % motion_.bead_count()),
                  static_cast<BeadId>((b + 2) % motion_.bead_count())};
         return simulator_.change_motion(beads, [&] {
-          set_curve(motion_, beads[0], random_, scene_);
-          set_curve(motion_, beads[1], random_, scene_);
+          set_curve(motion_, beads[0], random_, places_);
+          set_curve(motion_, beads[1], random_, places_);
         });
       case 3:  // all, as they were
         for (BeadId all = 0; all < motion_.bead_count(); ++all) beads.push_back(all);
@@ -193,14 +169,14 @@ class EditedRun {
     simulator.run_until(Dyadic(u));
     EXPECT_EQ(courses(motion_, structures_.sorted.order()), courses(motion_, twins.sorted.order()));
     EXPECT_EQ(structures_.contacts.pairs(), twins.contacts.pairs());
-    if (scene_ == Scene::grid) return;  // many power diagrams are right then: audits look at it
+    if (places_ == Places::grid) return;  // many power diagrams are right then: audits look at it
     const auto cells = structures_.power.at_frame(true), of_twin = twins.power.at_frame(true);
     EXPECT_EQ(cells.cells, of_twin.cells);
     EXPECT_EQ(cells.hidden, of_twin.hidden);
   }
 
   Random random_;
-  Scene scene_;
+  Places places_;
   Totals& totals_;
   M motion_;
   Simulator simulator_;
@@ -209,19 +185,19 @@ class EditedRun {
 
 template <class M>
 void run_all(unsigned seeds) {
-  for (const Scene scene : {Scene::generic, Scene::grid}) {
+  for (const Places places : {Places::generic, Places::grid}) {
     Totals totals;
     for (unsigned seed = 0; seed < seeds && !testing::Test::HasFailure(); ++seed) {
-      SCOPED_TRACE(testing::Message() << "seed " << seed << ", scene " << static_cast<int>(scene));
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", places " << static_cast<int>(places));
       try {
-        EditedRun<M>(seed, scene, totals).run();
+        EditedRun<M>(seed, places, totals).run();
       } catch (const InputError& error) {  // all left in one plane, or on one line
-        EXPECT_EQ(scene, Scene::grid) << error.what();
+        EXPECT_EQ(places, Places::grid) << error.what();
       }
     }
     EXPECT_GT(totals.edits, 20 * seeds);
     EXPECT_GT(totals.contacts, 5 * seeds);
-    if (scene == Scene::generic) {
+    if (places == Places::generic) {
       EXPECT_GT(totals.at_events, 5 * seeds);
     }
   }
@@ -234,8 +210,9 @@ TEST(BeadEdits, OnCubicCurves) { run_all<BezierMotion<3, 3>>(rounds(4U)); }
 TEST(BeadEdits, KernelsAgreeAndFastEnds) {
   Totals totals;
   for (unsigned seed = 50; seed < 50 + rounds(4U); ++seed) {
-    EditedRun<Space> filtered(seed, Scene::generic, totals),
-        exact(seed, Scene::generic, totals, Kernel::exact), fast(seed, Scene::generic, totals, Kernel::fast);
+    EditedRun<Space> filtered(seed, Places::generic, totals),
+        exact(seed, Places::generic, totals, Kernel::exact),
+        fast(seed, Places::generic, totals, Kernel::fast);
     filtered.run();
     exact.run();
     EXPECT_EQ(filtered.fingerprint(), exact.fingerprint());
@@ -301,7 +278,7 @@ TEST(BeadEdits, ErasedBeadsComeBackWhereTheyAreThen) {
 TEST(BeadEdits, AreReplayed) {
   Random random(7);
   Space motion(12);
-  for (BeadId b = 0; b < 12; ++b) set_curve(motion, b, random, Scene::generic);
+  for (BeadId b = 0; b < 12; ++b) set_curve(motion, b, random, Places::generic);
   Simulator simulator;
   Structures<3> structures(simulator, motion, 12);
   History history;
@@ -335,61 +312,50 @@ TEST(BeadEdits, AreReplayed) {
   EXPECT_EQ(replayed.power.at_frame(false).cells, structures.power.at_frame(false).cells);
 }
 
-template <class Call>
-void expect_refused(Call call, const char* why) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), HasSubstr(why));
-    return;
-  }
-  ADD_FAILURE() << "not refused: " << why;
-}
-
 TEST(BeadEdits, BadCallsAreRefusedAndChangeNothing) {
   Random random(3);
   BezierMotion<2, 1> motion(6);
-  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Scene::generic);
+  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Places::generic);
   Simulator simulator;
   Structures<2> structures(simulator, motion, 6);
   const std::array<BeadId, 1> third{3}, unknown{6};
   for (BeadEdits* structure : structures.all()) {
-    expect_refused([&] { structure->insert(3); }, "bead 3 is");
-    expect_refused([&] { structure->leave_out(6); }, "there is no bead 6");
+    expect_edit_refused([&] { structure->insert(3); }, "bead 3 is");
+    expect_edit_refused([&] { structure->leave_out(6); }, "there is no bead 6");
     structure->leave_out(5);
-    expect_refused([&] { structure->insert(5); }, "only within a step");
+    expect_edit_refused([&] { structure->insert(5); }, "only within a step");
   }
   simulator.build();
   for (BeadEdits* structure : structures.all()) {
-    expect_refused([&] { structure->leave_out(3); }, "are left out before");
-    expect_refused([&] { structure->erase(3); }, "only within a step");
+    expect_edit_refused([&] { structure->leave_out(3); }, "are left out before");
+    expect_edit_refused([&] { structure->erase(3); }, "only within a step");
   }
-  expect_refused([&] { simulator.change_motion(third, [] { FAIL(); }); }, "only within a step");
+  expect_edit_refused([&] { simulator.change_motion(third, [] { FAIL(); }); }, "only within a step");
   simulator.enter_step();
   for (BeadEdits* structure : structures.all()) {
-    expect_refused([&] { structure->erase(5); }, "bead 5 is not");
-    expect_refused([&] { structure->erase(6); }, "there is no bead 6");
+    expect_edit_refused([&] { structure->erase(5); }, "bead 5 is not");
+    expect_edit_refused([&] { structure->erase(6); }, "there is no bead 6");
   }
-  expect_refused([&] { simulator.change_motion(unknown, [] { FAIL(); }); }, "there is no bead 6");
+  expect_edit_refused([&] { simulator.change_motion(unknown, [] { FAIL(); }); }, "there is no bead 6");
   // A number that is none: the bead goes on as it did.
   EXPECT_THROW(simulator.change_motion(third, [&] { motion.set_coordinate(3, 1, 0, std::nan("")); }),
                std::invalid_argument);
   simulator.leave_step();
-  expect_refused([&] { structures.sorted.erase(3); }, "only within a step");
+  expect_edit_refused([&] { structures.sorted.erase(3); }, "only within a step");
 }
 
 TEST(BeadEdits, AreRefusedByStructuresThatCannotFollow) {
   Random random(3);
   BezierMotion<2, 1> motion(6);
-  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Scene::generic);
+  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Places::generic);
   Simulator simulator;
   const std::vector<BeadRange> necklace{{0, 5}};
   SortedList<2> sorted(simulator, motion);
   const ChordHierarchy<StaticWrappedHierarchy<2>> chords(simulator, motion, necklace);
   simulator.build();
   simulator.enter_step();
-  expect_refused([&] { simulator.change_motion(std::array<BeadId, 1>{3}, [] { FAIL(); }); },
-                 "wrapped: its beads cannot change course within a step, only between two of them");
+  expect_edit_refused([&] { simulator.change_motion(std::array<BeadId, 1>{3}, [] { FAIL(); }); },
+                      "wrapped: its beads cannot change course within a step, only between two of them");
   sorted.erase(3);  // that concerns nobody else
   simulator.leave_step();
 }
@@ -454,11 +420,11 @@ TEST(BeadEdits, ABeadWithoutWhichAllIsFlatChangesCourseAndIsNotErased) {
   run.simulator.run_until(Dyadic(0.5));
   run.simulator.change_motion(std::array<BeadId, 1>{3}, [&] { set_line(motion, 3, {1, -3}, {1, -2}); });
   const std::size_t told = run.history.events.size();
-  expect_refused([&] { run.power.erase(3); }, "without bead 3 all beads stay on one line");
+  expect_edit_refused([&] { run.power.erase(3); }, "without bead 3 all beads stay on one line");
   EXPECT_FALSE(run.power.is_absent(3));
   EXPECT_EQ(run.history.events.size(), told);
   run.power.erase(1);
-  expect_refused([&] { run.power.erase(0); }, "at least 3 beads");
+  expect_edit_refused([&] { run.power.erase(0); }, "at least 3 beads");
   run.simulator.leave_step();
 }
 
@@ -467,9 +433,9 @@ TEST(BeadEdits, AllStructuresAreAskedBeforeAnyChanges) {
   for (BeadId b = 0; b < 4; ++b) set_line(motion, b, {1.0 * b, 0}, {3.0 - b, 1});
   ListAndDiagram run(motion);  // all on one line
   const std::size_t told = run.history.events.size();
-  expect_refused([&] { run.simulator.change_motion(std::array<BeadId, 1>{3}, [] { FAIL(); }); },
-                 "in which all beads stay on one line");
-  expect_refused([&] { run.power.erase(3); }, "in which all beads stay on one line");
+  expect_edit_refused([&] { run.simulator.change_motion(std::array<BeadId, 1>{3}, [] { FAIL(); }); },
+                      "in which all beads stay on one line");
+  expect_edit_refused([&] { run.power.erase(3); }, "in which all beads stay on one line");
   EXPECT_EQ(run.history.events.size(), told);
   run.simulator.leave_step();
   EXPECT_THAT(run.sorted.order(), testing::ElementsAre(3, 2, 1, 0));
@@ -478,13 +444,13 @@ TEST(BeadEdits, AllStructuresAreAskedBeforeAnyChanges) {
 TEST(BeadEdits, ABeadNamedTwiceChangesOnce) {
   Random random(3);
   Plane motion(6);
-  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Scene::generic);
+  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Places::generic);
   Simulator simulator(AuditMode::events);
   Structures<2> structures(simulator, motion, 6);
   simulator.build();
   simulator.enter_step();
   simulator.change_motion(std::array<BeadId, 4>{3, 3, 1, 3},
-                          [&] { set_curve(motion, 3, random, Scene::generic); });
+                          [&] { set_curve(motion, 3, random, Places::generic); });
   EXPECT_EQ(structures.sorted.statistics.events_by_kind[SortedList<2>::changes], 2U);
   EXPECT_EQ(structures.power.statistics.events_by_kind[PowerDiagram<2>::changes], 2U);
   EXPECT_EQ(structures.contacts.statistics.events_by_kind[Contacts<2>::changes], 2U);
@@ -496,7 +462,7 @@ class Meddler final : public EventListener {
  public:
   Meddler(Simulator& simulator, SortedList<1>& list) : simulator_(simulator), list_(list) {}
   void on_event(const Event&) override {
-    expect_refused([&] { list_.erase(2); }, "between events");
+    expect_edit_refused([&] { list_.erase(2); }, "between events");
     EXPECT_THROW(static_cast<void>(simulator_.run_next()), std::logic_error);
     if (throws) throw std::runtime_error("enough");
   }
@@ -525,7 +491,7 @@ TEST(BeadEdits, AreNotForListenersAndAListenerThatThrowsEndsTheRun) {
     EXPECT_THROW(rig.simulator.run_step(), std::runtime_error);
     EXPECT_EQ(rig.history.events.size(), 1U);
     EXPECT_THROW(rig.simulator.run_step(), std::logic_error);
-    expect_refused([&] { rig.structure.erase(2); }, "between events");
+    expect_edit_refused([&] { rig.structure.erase(2); }, "between events");
   }
 }
 

@@ -12,6 +12,7 @@
 #include "structures/box/enclosing_box.h"
 #include "structures/closest/kinetic_closest_pair.h"
 #include "structures/hull/convex_hull.h"
+#include "tests/support/inputs/courses.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/text_of.h"
 
@@ -172,17 +173,6 @@ TEST(BoxClosestHullEdits, ABeadThatIsNeverOfTheClosestPairCostsNoCertificate) {
   rig.simulator.leave_step();
 }
 
-template <class Call>
-void expect_refused(Call call, const char* why) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), HasSubstr(why));
-    return;
-  }
-  ADD_FAILURE() << "not refused: " << why;
-}
-
 struct Structures {
   Structures(Simulator& simulator, const Plane& motion)
       : box(simulator, motion), closest(simulator, motion), hull(simulator, motion) {}
@@ -205,32 +195,32 @@ TEST(BoxClosestHullEdits, BadCallsAreRefusedAndChangeNothing) {
   simulator.listen(history);
   for (const auto& [structure, edits] : structures.all()) {
     const std::string name(structure->name());
-    expect_refused([&] { edits->insert(3); }, (name + ": bead 3 is among its beads already").c_str());
-    expect_refused([&] { edits->leave_out(6); }, "there is no bead 6");
+    expect_edit_refused([&] { edits->insert(3); }, (name + ": bead 3 is among its beads already").c_str());
+    expect_edit_refused([&] { edits->leave_out(6); }, "there is no bead 6");
     edits->leave_out(5);
-    expect_refused([&] { edits->leave_out(5); }, (name + ": bead 5 is not among its beads").c_str());
-    expect_refused([&] { edits->insert(5); }, "only within a step");
+    expect_edit_refused([&] { edits->leave_out(5); }, (name + ": bead 5 is not among its beads").c_str());
+    expect_edit_refused([&] { edits->insert(5); }, "only within a step");
   }
   simulator.build();
   for (const auto& [structure, edits] : structures.all()) {
-    expect_refused([&] { edits->leave_out(3); }, "its beads are left out before it is built");
-    expect_refused([&] { edits->erase(3); }, "only within a step");
+    expect_edit_refused([&] { edits->leave_out(3); }, "its beads are left out before it is built");
+    expect_edit_refused([&] { edits->erase(3); }, "only within a step");
   }
   simulator.enter_step();
   for (const auto& [structure, edits] : structures.all()) {
-    expect_refused([&] { edits->erase(5); }, "bead 5 is not among its beads");
-    expect_refused([&] { edits->insert(3); }, "bead 3 is among its beads already");
-    expect_refused([&] { edits->erase(6); }, "there is no bead 6");
-    expect_refused([&] { edits->insert(no_bead); }, "there is no bead");
+    expect_edit_refused([&] { edits->erase(5); }, "bead 5 is not among its beads");
+    expect_edit_refused([&] { edits->insert(3); }, "bead 3 is among its beads already");
+    expect_edit_refused([&] { edits->erase(6); }, "there is no bead 6");
+    expect_edit_refused([&] { edits->insert(no_bead); }, "there is no bead");
   }
-  expect_refused([&] { simulator.change_motion(Beads{3, 6}, [] { FAIL(); }); }, "there is no bead 6");
+  expect_edit_refused([&] { simulator.change_motion(Beads{3, 6}, [] { FAIL(); }); }, "there is no bead 6");
   EXPECT_THAT(history.events, IsEmpty());
   for (const auto& [structure, edits] : structures.all())
     for (BeadId b = 0; b < 6; ++b) EXPECT_EQ(edits->is_absent(b), b == 5) << structure->name();
   EXPECT_THAT(structures.box.ends(), ElementsAre(0, 1, 0, 2));
   EXPECT_THAT(structures.hull.corners(), ElementsAre(0, 1, 4, 2));
   simulator.leave_step();
-  expect_refused([&] { structures.box.erase(3); }, "only within a step");
+  expect_edit_refused([&] { structures.box.erase(3); }, "only within a step");
 }
 
 TEST(BoxClosestHullEdits, ChangesOfALogThatCannotBeAreRefused) {

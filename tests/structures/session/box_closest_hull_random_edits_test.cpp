@@ -14,6 +14,7 @@
 #include "structures/box/enclosing_box.h"
 #include "structures/closest/kinetic_closest_pair.h"
 #include "structures/hull/convex_hull.h"
+#include "tests/support/inputs/courses.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/moving_points.h"
@@ -126,28 +127,14 @@ struct Structures {
   std::vector<Subject> all;
 };
 
-enum class Scene { generic, grid };
-
 /// On a grid half of the beads rest: they tie for the rest of the step.
 template <class M>
-void set_curve(M& motion, BeadId b, Random& random, Scene scene) {
-  const bool rests = scene == Scene::grid && random() % 2 == 0;
+void set_curve(M& motion, BeadId b, Random& random, Places places) {
+  const bool rests = places == Places::grid && random() % 2 == 0;
   for (int k = 0; k <= M::degree; ++k)
     for (int axis = 0; axis < M::dimension; ++axis)
       motion.set_coordinate(b, k, axis,
-                            rests && k > 0         ? motion.coordinate(b, 0, axis)
-                            : scene == Scene::grid ? pick(random, -2, 2)
-                                                   : 0x1p-16 * pick(random, -(1 << 17), 1 << 17));
-}
-
-/// Turns the bead's course at u, where it stays as it is; for straight ones.
-template <class M>
-void bend(M& motion, BeadId b, double u, Random& random) {
-  for (int axis = 0; axis < M::dimension; ++axis) {
-    const double d = 0x1p-8 * pick(random, -128, 128);
-    motion.set_coordinate(b, 0, axis, motion.coordinate(b, 0, axis) + u * d);
-    motion.set_coordinate(b, 1, axis, motion.coordinate(b, 1, axis) - (1 - u) * d);
-  }
+                            rests && k > 0 ? motion.coordinate(b, 0, axis) : draw_place(random, places));
 }
 
 struct Totals {
@@ -159,15 +146,15 @@ class EditedRun {
  public:
   static constexpr int dimension = M::dimension;
 
-  EditedRun(unsigned seed, Scene scene, Totals& totals, Kernel kernel = Kernel::filtered)
-      : random_(2 * seed + static_cast<unsigned>(scene)),
-        scene_(scene),
+  EditedRun(unsigned seed, Places places, Totals& totals, Kernel kernel = Kernel::filtered)
+      : random_(2 * seed + static_cast<unsigned>(places)),
+        places_(places),
         totals_(totals),
         motion_(7 + seed % 6),
         simulator_(kernel == Kernel::fast ? AuditMode::none : AuditMode::events, kernel),
         structures_(simulator_, motion_) {
     simulator_.listen(history_);
-    for (BeadId b = 0; b < motion_.bead_count(); ++b) set_curve(motion_, b, random_, scene_);
+    for (BeadId b = 0; b < motion_.bead_count(); ++b) set_curve(motion_, b, random_, places_);
     first_ = motion_;
     leave_out_ = seed % 3 == 0 ? motion_.bead_count() : 2;
     leave_some_out(structures_);
@@ -176,7 +163,7 @@ class EditedRun {
   void run() {
     simulator_.build();
     for (int step = 0; step < 2; ++step) {
-      if (step > 0) go_on();
+      if (step > 0) carry_on(motion_, [&](BeadId b) { set_curve(motion_, b, random_, places_); });
       simulator_.enter_step();
       compare();
       edit();
@@ -226,17 +213,6 @@ class EditedRun {
       for (BeadId b = 0; b < leave_out_; ++b) s.edits->leave_out(b);
   }
 
-  void go_on() {
-    for (BeadId b = 0; b < motion_.bead_count(); ++b) {
-      std::array<double, dimension> from{};
-      for (int axis = 0; axis < dimension; ++axis)
-        from[static_cast<std::size_t>(axis)] = motion_.coordinate(b, M::degree, axis);
-      set_curve(motion_, b, random_, scene_);
-      for (int axis = 0; axis < dimension; ++axis)
-        motion_.set_coordinate(b, 0, axis, from[static_cast<std::size_t>(axis)]);
-    }
-  }
-
   void edit() {
     const auto count = static_cast<BeadId>(motion_.bead_count());
     const bool all_go = random_() % 12 == 0, some_come = random_() % 6 == 0;
@@ -261,7 +237,7 @@ class EditedRun {
     const auto b = static_cast<BeadId>(random_() % count);
     Beads beads{b};
     const auto set_all = [&] {
-      for (const BeadId other : beads) set_curve(motion_, other, random_, scene_);
+      for (const BeadId other : beads) set_curve(motion_, other, random_, places_);
     };
     switch (random_() % 6) {
       case 0:
@@ -304,7 +280,7 @@ class EditedRun {
   }
 
   Random random_;
-  Scene scene_;
+  Places places_;
   Totals& totals_;
   std::size_t leave_out_ = 0;
   M motion_, first_{0};
@@ -315,11 +291,11 @@ class EditedRun {
 
 template <class M>
 void run_all(unsigned seeds) {
-  for (const Scene scene : {Scene::generic, Scene::grid}) {
+  for (const Places places : {Places::generic, Places::grid}) {
     Totals totals;
     for (unsigned seed = 0; seed < seeds && !testing::Test::HasFailure(); ++seed) {
-      SCOPED_TRACE(text_of("seed ", seed, ", scene ", static_cast<int>(scene)));
-      EditedRun<M> run(seed, scene, totals);
+      SCOPED_TRACE(text_of("seed ", seed, ", places ", static_cast<int>(places)));
+      EditedRun<M> run(seed, places, totals);
       run.run();
       run.expect_replay_goes_the_same_way();
     }
@@ -339,11 +315,11 @@ TEST(BoxClosestHullRandomEdits, OnCubicCurvesInSpace) { run_all<BezierMotion<3, 
 
 TEST(BoxClosestHullRandomEdits, KernelsAgreeAndFastEnds) {
   Totals totals;
-  for (const Scene scene : {Scene::generic, Scene::grid}) {
+  for (const Places places : {Places::generic, Places::grid}) {
     for (unsigned seed = 50; seed < 50 + rounds(6U); ++seed) {
       using Run = EditedRun<BezierMotion<2, 1>>;
-      Run filtered(seed, scene, totals), exact(seed, scene, totals, Kernel::exact),
-          fast(seed, scene, totals, Kernel::fast);
+      Run filtered(seed, places, totals), exact(seed, places, totals, Kernel::exact),
+          fast(seed, places, totals, Kernel::fast);
       filtered.run();
       exact.run();
       EXPECT_EQ(filtered.fingerprint(), exact.fingerprint());

@@ -1,0 +1,56 @@
+#pragma once
+// Courses of beads that tests set, turn and carry on while time runs; and what every refused edit looks like.
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <stdexcept>
+
+#include "tests/support/inputs/random_motion.h"
+
+namespace kds::test {
+
+enum class Places {
+  generic,  ///< in [-2, 2], short enough for sums without rounding
+  grid      ///< whole, of few values: many ties
+};
+
+inline double draw_place(Random& random, Places places) {
+  return places == Places::grid ? pick(random, -2, 2) : 0x1p-16 * pick(random, -(1 << 17), 1 << 17);
+}
+
+/// Turns the bead's linear course at u, where it stays as it is.
+template <class M>
+void bend(M& motion, BeadId b, double u, Random& random) {
+  for (int axis = 0; axis < M::dimension; ++axis) {
+    const double d = 0x1p-8 * pick(random, -128, 128);
+    motion.set_coordinate(b, 0, axis, motion.coordinate(b, 0, axis) + u * d);
+    motion.set_coordinate(b, 1, axis, motion.coordinate(b, 1, axis) - (1 - u) * d);
+  }
+}
+
+/// Of the next step: each bead on the course that `set(bead)` gives it, but from where it has come to.
+template <class M, class Set>
+void carry_on(M& motion, Set set) {
+  for (BeadId b = 0; b < motion.bead_count(); ++b) {
+    std::array<double, M::dimension> from{};
+    for (int axis = 0; axis < M::dimension; ++axis)
+      from[static_cast<std::size_t>(axis)] = motion.coordinate(b, M::degree, axis);
+    set(b);
+    for (int axis = 0; axis < M::dimension; ++axis)
+      motion.set_coordinate(b, 0, axis, from[static_cast<std::size_t>(axis)]);
+  }
+}
+
+template <class Call>
+void expect_edit_refused(Call call, const char* why) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr(why));
+    return;
+  }
+  ADD_FAILURE() << "not refused: " << why;
+}
+
+}  // namespace kds::test
