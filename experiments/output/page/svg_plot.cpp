@@ -90,7 +90,7 @@ class Labels {
   Labels(double left, double right) : left_(left), right_(right) {}
 
   std::string label(double x, double y, const std::string& name) {
-    constexpr double letter = 6.2, line = 13;
+    constexpr double letter = 7, line = 13;
     const double length = letter * static_cast<double>(name.size());
     const bool to_the_left = x + 8 + length > right_;
     const Box box{to_the_left ? x - 8 - length : x + 8, to_the_left ? x - 8 : x + 8 + length, y};
@@ -166,7 +166,9 @@ Drawing draw(const BarPlot& plot, DrawingSize size) {
   }
   const double pitch = plot.series.size() > 1 ? 20 : 28;
   size.height = pitch * static_cast<double>(plot.bars.size()) + 34;
-  size.left = std::min(7.2 * static_cast<double>(longest) + 14, is_wide(size) ? 300.0 : 130.0);
+  constexpr double letter = 7.2, beside = 14;
+  size.left = std::min(letter * static_cast<double>(longest) + beside, is_wide(size) ? 300.0 : 140.0);
+  const auto room = static_cast<std::size_t>((size.left - beside) / letter + 0.5);
   size.right = 90;
   size.top = 4;
   size.bottom = 28;
@@ -183,7 +185,7 @@ Drawing draw(const BarPlot& plot, DrawingSize size) {
                           gnuplot_text(tick_label(value)), value, row);
     of_series[series] += fmt::format("{0:.17g} {1} 0 {0:.17g} {2} {3}\n", value, row,
                                      static_cast<double>(row) - 0.36, static_cast<double>(row) + 0.36);
-    names.push_back(gnuplot_text(name) + fmt::format(" {}", row));
+    names.push_back(gnuplot_text(shortened(name, room)) + fmt::format(" {}", row));
   }
   script += fmt::format("set ytics ({})\n", fmt::join(names, ","));
   std::string bars;
