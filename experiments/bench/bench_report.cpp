@@ -47,10 +47,10 @@ std::string findings(const std::string& subject, std::span<const BenchRow> rows)
   return html + "</p>\n";
 }
 
+std::string shown(const std::optional<double>& x) { return x ? short_decimal(*x) : "-"; }
+
 std::string value_text(const BenchRow& row) {
-  return row.spread ? fmt::format("{} ({} to {})", figure(row.value), figure(row.spread->least),
-                                  figure(row.spread->most))
-                    : figure(row.value);
+  return row.spread ? spread_text(*row.spread) : shown(row.value);
 }
 
 std::string ratios(std::span<const BenchRow> rows) {
@@ -141,8 +141,8 @@ std::string bench_page(const std::string& subject, std::span<const BenchRow> row
   for (const BenchRow& row : rows) {
     const auto holds = row.holds();
     lines.push_back({{row.name, row.input, with_thousands(row.n), value_text(row), row.unit,
-                      figure(row.ratio()), figure(row.goal), holds ? (*holds ? "yes" : "no") : "-",
-                      figure(row.peer_value), row.peer.empty() ? "-" : row.peer}});
+                      shown(row.ratio()), shown(row.goal), holds ? (*holds ? "yes" : "no") : "-",
+                      shown(row.peer_value), row.peer.empty() ? "-" : row.peer}});
   }
   page.body = html_section("Beside the peer", ratios(rows)) +
               html_section("Figures", html_table({"name", "input", "n", "value", "unit", "ratio", "goal",

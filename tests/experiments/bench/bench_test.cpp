@@ -74,7 +74,7 @@ TEST(BenchReport, TimesHaveTheirSpread) {
   test::expect_sound(page);
   EXPECT_THAT(
       page, testing::HasSubstr("<p><strong>1</strong> of 1 goal reached, in 1 measure of engine. At best, "));
-  EXPECT_THAT(page, testing::HasSubstr("<td>2000 <small>(1000 to 3000)</small></td>"));
+  EXPECT_THAT(page, testing::HasSubstr("<td>2,000 <small>(1,000 to 3,000)</small></td>"));
   EXPECT_THAT(page, testing::HasSubstr("a, x\nn: 3\nours / peer: 0.25"));
 }
 

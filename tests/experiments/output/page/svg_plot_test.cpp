@@ -78,6 +78,13 @@ TEST(SvgPlot, BarsHaveTheirNamesAndValues) {
   expect_ticks(html, {"tip 'edge'", "`date` $b @c", "1,200", "0"});
 }
 
+TEST(SvgPlot, NamesStandOnNoOtherPoint) {
+  const PointPlot apart{"x", "y", {"s"}, {{"first", 1, 1, 0}, {"", 10, 10, 0}}},
+      close{"x", "y", {"s"}, {{"first", 1, 1, 0}, {"", 1.1, 1, 0}, {"", 10, 10, 0}}};
+  EXPECT_EQ(count_of(svg_plot(apart), ">first</text>"), 1U);  // on wide pages
+  EXPECT_EQ(count_of(svg_plot(close), ">first</text>"), 0U);
+}
+
 TEST(SvgPlot, LongNamesOfBarsAreShortened) {
   const std::string name(80, 'w');
   const std::string html = svg_plot(BarPlot{"events", {{name, 3}, {"tip", 2}}});
