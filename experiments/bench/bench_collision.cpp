@@ -139,9 +139,10 @@ class Measured {
            const std::vector<double>& theirs, double goal, bool available) {
     if (!available) return;
     const double nanoseconds = 1e9 / static_cast<double>(radii_.size());
-    rows_.push_back({std::move(name), input_.name + std::string(remark), radii_.size(),
-                     median_of(ours) * nanoseconds, "ns/bead", std::string(peer),
-                     median_of(theirs) * nanoseconds, goal});
+    rows_.push_back(with_spread(
+        {std::move(name), input_.name + std::string(remark), radii_.size(), median_of(ours) * nanoseconds,
+         "ns/bead", std::string(peer), median_of(theirs) * nanoseconds, goal},
+        ours, nanoseconds));
   }
 
   const Input& input_;
@@ -235,10 +236,14 @@ void bench_far(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& row
   }
   const double nanoseconds = 1e9 / (static_cast<double>(2 * beads) * static_cast<double>(frames.size() - 4));
   const std::string peer = sum == sum ? "reading the positions" : "";
-  rows.push_back({"frame auto, distant necklaces", "two helices", 2 * beads, median_of(ours) * nanoseconds,
-                  "ns/bead", peer, median_of(reading) * nanoseconds, 1.5});
-  rows.push_back({"frame auto, declared speed", "two helices", 2 * beads, median_of(told) * nanoseconds,
-                  "ns/bead", peer, median_of(reading) * nanoseconds, 0.1});
+  rows.push_back(
+      with_spread({"frame auto, distant necklaces", "two helices", 2 * beads, median_of(ours) * nanoseconds,
+                   "ns/bead", peer, median_of(reading) * nanoseconds, 1.5},
+                  ours, nanoseconds));
+  rows.push_back(
+      with_spread({"frame auto, declared speed", "two helices", 2 * beads, median_of(told) * nanoseconds,
+                   "ns/bead", peer, median_of(reading) * nanoseconds, 0.1},
+                  told, nanoseconds));
 }
 
 /// Time a bead of ten times the beads.
@@ -266,9 +271,11 @@ void bench_growth(std::string_view model, std::size_t beads, std::size_t rounds,
   const double nanoseconds = 1e9 / static_cast<double>(2 * beads);
   // The goal is one of large scenes: small ones fit the caches.
   const std::optional<double> goal = beads >= 100000 ? std::optional(1.5) : std::nullopt;
-  rows.push_back({"static auto, ten times the beads", std::string(model), 10 * beads,
-                  median_of(seconds[1]) * nanoseconds / 10, "ns/bead", fmt::format("the same of {}", beads),
-                  median_of(seconds[0]) * nanoseconds, goal});
+  rows.push_back(
+      with_spread({"static auto, ten times the beads", std::string(model), 10 * beads,
+                   median_of(seconds[1]) * nanoseconds / 10, "ns/bead", fmt::format("the same of {}", beads),
+                   median_of(seconds[0]) * nanoseconds, goal},
+                  seconds[1], nanoseconds / 10));
   bench_contacts_growth(model, beads, goal, rounds, rows);
 }
 

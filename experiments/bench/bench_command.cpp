@@ -18,6 +18,8 @@
 #include "experiments/bench/bench_subjects.h"
 #include "experiments/bench/bench_trade.h"
 #include "experiments/bench/collision_peers.h"
+#include "experiments/output/output_files.h"
+#include "experiments/output/page/result_page.h"
 #include "experiments/output/text.h"
 #include "experiments/program/data_folder.h"
 #include "experiments/program/progress_bar.h"
@@ -41,7 +43,7 @@ constexpr std::array kOptions{
     OptionSpec{"--instances", "DIR",
                "certificates, engine: the folder of moving-point files (default: kinetic in that of --data)"},
     OptionSpec{"--rounds", "N", "interleaved runs of ours and the peer, at least 5 (default: 5)"},
-    OptionSpec{"--out", "DIR", "write bench.json and bench.csv there (default: none)"},
+    OptionSpec{"--out", "DIR", "write bench.json, bench.csv and report.html there (default: none)"},
     OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
@@ -195,7 +197,13 @@ int bench_command(const Arguments& arguments) {
   }
   destinations.json = parsed.value("--json");
   destinations.quiet = parsed.has("--quiet");
-  check_table_destinations(destinations, "bench");
+  TakenPaths taken;
+  if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
+  check_table_destinations(destinations, "bench", taken);
+  if (destinations.out) {
+    check_directory(*destinations.out, "--out", {"report.html"});
+    check_page(*destinations.out, "bench.json");
+  }
 
   ProgressBar bar(!destinations.quiet);
   if (subject.what_is_missing != nullptr && !destinations.quiet && !subject.what_is_missing().empty())
@@ -203,9 +211,13 @@ int bench_command(const Arguments& arguments) {
   const Rows rows =
       subject.bench(inputs, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
   bar.erase();
+  const std::string command_line = "kds bench " + shell_words(arguments);
+  const Json settings = settings_json(subject.name, inputs);
   deliver_table(destinations, "bench",
-                {bench_json("kds bench " + shell_words(arguments), settings_json(subject.name, inputs), rows),
-                 bench_csv(rows), bench_table(rows)});
+                {bench_json(command_line, settings, rows), bench_csv(rows), bench_table(rows), [&] {
+                   return bench_page(std::string(subject.name), rows,
+                                     made_by("bench", command_line, settings));
+                 }});
   return 0;
 }
 

@@ -73,9 +73,10 @@ void bench_contacts(const BenchChain& chain, double radius_factor, std::optional
     peer.push_back(seconds_of_cell_list(larger));
   }
   const double nanoseconds = 1e9 / static_cast<double>(bead_steps);
-  rows.push_back({fmt::format("contacts, {} r", radius_factor), chain.name, larger.radii.size(),
-                  median_of(ours) * nanoseconds, "ns/bead", "cell list", median_of(peer) * nanoseconds,
-                  goal});
+  rows.push_back(with_spread(
+      {fmt::format("contacts, {} r", radius_factor), chain.name, larger.radii.size(),
+       median_of(ours) * nanoseconds, "ns/bead", "cell list", median_of(peer) * nanoseconds, goal},
+      ours, nanoseconds));
 }
 
 void bench_contacts_growth(std::string_view model, std::size_t beads, std::optional<double> goal,
@@ -92,12 +93,14 @@ void bench_contacts_growth(std::string_view model, std::size_t beads, std::optio
         run_steps(*session, scene);
       }));
     }
-    return median_of(runs);
+    return runs;
   };
   const double nanoseconds = 1e9 / static_cast<double>(2 * beads);
-  rows.push_back({"contacts, ten times the beads", std::string(model), 10 * beads,
-                  seconds(10 * beads) * nanoseconds / 10, "ns/bead", fmt::format("the same of {}", beads),
-                  seconds(beads) * nanoseconds, goal});
+  const std::vector<double> large = seconds(10 * beads), small = seconds(beads);
+  rows.push_back(with_spread(
+      {"contacts, ten times the beads", std::string(model), 10 * beads, median_of(large) * nanoseconds / 10,
+       "ns/bead", fmt::format("the same of {}", beads), median_of(small) * nanoseconds, goal},
+      large, nanoseconds / 10));
 }
 
 }  // namespace kds

@@ -83,16 +83,19 @@ class Measured {
     const double nodes = static_cast<double>(built.tree().node_count() * later.size());
     const double cgal = median_of(peer) / nodes * 1e9;
     const auto row = [&](const char* name, const std::vector<double>& seconds, std::optional<double> factor) {
-      rows_.push_back({name, input_.name, input_.radii.size(), median_of(seconds) / nodes * 1e9, "ns/node",
-                       std::string(sphere_peer), cgal, factor ? std::optional(1 / *factor) : std::nullopt});
+      rows_.push_back(
+          with_spread({name, input_.name, input_.radii.size(), median_of(seconds) / nodes * 1e9, "ns/node",
+                       std::string(sphere_peer), cgal, factor ? std::optional(1 / *factor) : std::nullopt},
+                      seconds, 1e9 / nodes));
     };
     row("wrapped build", build, input_.build);
     row("wrapped update", update, input_.update);
     row("wrapped update, naive", by_naive, std::nullopt);
     row("wrapped update, cascade", by_cascade, std::nullopt);
     row("wrapped trusted update", trust, input_.trust);
-    rows_.push_back({"layered build", input_.name, input_.radii.size(), median_of(layer) / nodes * 1e9,
-                     "ns/node", "", std::nullopt, 10.0});
+    rows_.push_back(with_spread({"layered build", input_.name, input_.radii.size(),
+                                 median_of(layer) / nodes * 1e9, "ns/node", "", std::nullopt, 10.0},
+                                layer, 1e9 / nodes));
   }
 
  private:
@@ -127,8 +130,9 @@ void all_threads(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& r
   }
   const double nanoseconds = 1e9 / static_cast<double>(hierarchy.tree().node_count());
   const auto row = [&](const char* name, const std::array<std::vector<double>, 2>& seconds) {
-    rows.push_back({name, "random-chain", beads, median_of(seconds[1]) * nanoseconds, "ns/node", "one thread",
-                    median_of(seconds[0]) * nanoseconds, std::nullopt});
+    rows.push_back(with_spread({name, "random-chain", beads, median_of(seconds[1]) * nanoseconds, "ns/node",
+                                "one thread", median_of(seconds[0]) * nanoseconds, std::nullopt},
+                               seconds[1], nanoseconds));
   };
   row("wrapped build, all threads", build);
   row("wrapped update, all threads", update);
@@ -161,8 +165,10 @@ void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& ro
                    queries);
     peer.push_back(seconds_to_wrap<3>(hierarchy.tree().ranges(), both, radii).processor);
   }
-  rows.push_back({"lazy update and query", "far helices", radii.size(), median_of(ours) * 1e9, "ns/frame",
-                  apart > 0 ? std::string(sphere_peer) : "", median_of(peer) * 1e9, 1.0 / 25});
+  rows.push_back(
+      with_spread({"lazy update and query", "far helices", radii.size(), median_of(ours) * 1e9, "ns/frame",
+                   apart > 0 ? std::string(sphere_peer) : "", median_of(peer) * 1e9, 1.0 / 25},
+                  ours, 1e9));
 }
 
 }  // namespace

@@ -64,9 +64,11 @@ void bench_kinetic_steps(const BenchChain& chain, std::size_t rounds, std::optio
                          .processor;
   }
   const double nanoseconds = 1e9 / static_cast<double>(tree.node_count() * scene.step_count());
-  rows.push_back({"wrapped kinetic step", chain.name, chain.radii.size(), median_of(ours) * nanoseconds,
-                  "ns/node", std::string(sphere_peer), median_of(peer) * nanoseconds,
-                  factor ? std::optional(1 / *factor) : std::nullopt});
+  rows.push_back(
+      with_spread({"wrapped kinetic step", chain.name, chain.radii.size(), median_of(ours) * nanoseconds,
+                   "ns/node", std::string(sphere_peer), median_of(peer) * nanoseconds,
+                   factor ? std::optional(1 / *factor) : std::nullopt},
+                  ours, nanoseconds));
 }
 
 void bench_kinetic_events(const BenchChain& chain, std::vector<BenchRow>& rows) {

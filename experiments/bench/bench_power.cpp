@@ -68,21 +68,23 @@ void measure(const Input& input, std::size_t rounds, std::vector<BenchRow>& rows
   }
   const double microseconds = 1e6 / static_cast<double>(input.frames.size() - 1);
   const double cgal = median_of(peer) * microseconds;
-  const auto row = [&](std::string name, double value, std::string_view other, double other_value,
-                       std::optional<double> goal) {
-    rows.push_back({std::move(name), input.name, input.weights.size(), value, "us/frame", std::string(other),
-                    other_value, goal});
+  const auto row = [&](std::string name, const std::vector<double>& seconds, std::string_view other,
+                       double other_value, std::optional<double> goal) {
+    rows.push_back(
+        with_spread({std::move(name), input.name, input.weights.size(), median_of(seconds) * microseconds,
+                     "us/frame", std::string(other), other_value, goal},
+                    seconds, microseconds));
   };
   double best = cgal;
   UpdateTechnique best_technique = UpdateTechnique::rebuild;
   for (const UpdateTechnique t : techniques) {
     const double value = median_of(ours[t]) * microseconds;
     if (t == UpdateTechnique::automatic) {
-      row("auto to rebuild", value, peer_name(input.dimension), cgal, 1.05);
-      row("auto to best", value, name_of(best_technique), best, 1.1);
+      row("auto to rebuild", ours[t], peer_name(input.dimension), cgal, 1.05);
+      row("auto to best", ours[t], name_of(best_technique), best, 1.1);
       continue;
     }
-    row(std::string(name_of(t)), value, peer_name(input.dimension), cgal,
+    row(std::string(name_of(t)), ours[t], peer_name(input.dimension), cgal,
         t == UpdateTechnique::kinetic ? input.goal : std::nullopt);
     if (value < best) {
       best = value;
@@ -109,9 +111,10 @@ void measure_regular(const Input& input, std::size_t rounds, std::vector<BenchRo
     peer.push_back(seconds_to_build_frames(input));
     ours.push_back(seconds_by(UpdateTechnique::kinetic, input));
   }
-  rows.push_back({"regular", input.name, input.weights.size(), 1e6 * median_of(ours), "us/frame",
-                  fmt::format("{} at both frames", peer_name(input.dimension)), 1e6 * median_of(peer),
-                  input.goal});
+  rows.push_back(with_spread(
+      {"regular", input.name, input.weights.size(), 1e6 * median_of(ours), "us/frame",
+       fmt::format("{} at both frames", peer_name(input.dimension)), 1e6 * median_of(peer), input.goal},
+      ours, 1e6));
 }
 
 /// What the kinetic step is asked to be on a trajectory, by its name's start.

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
+#include "experiments/program/timing.h"
 
 namespace kds {
 
@@ -21,6 +23,7 @@ struct BenchRow {
   /// unit; none where no figure is asked for.
   std::optional<double> goal;
   bool goal_in_unit = false;
+  std::optional<Spread> spread = {};  ///< of the value over the rounds, in its unit; none where it is a count
 
   /// None beside nothing.
   [[nodiscard]] std::optional<double> ratio() const {
@@ -32,10 +35,15 @@ struct BenchRow {
   }
 };
 
+/// The row with the spread of its value: that of ours by round, times what the value is in.
+[[nodiscard]] BenchRow with_spread(BenchRow row, const std::vector<double>& seconds, double units);
+
 /// Ends with a newline.
 [[nodiscard]] std::string bench_json(std::string command, Json settings, std::span<const BenchRow> rows);
 /// A header and one line a row.
 [[nodiscard]] std::string bench_csv(std::span<const BenchRow> rows);
 [[nodiscard]] std::string bench_table(std::span<const BenchRow> rows);
+/// `page` says how it was made.
+[[nodiscard]] std::string bench_page(const std::string& subject, std::span<const BenchRow> rows, Page page);
 
 }  // namespace kds

@@ -28,6 +28,12 @@ class CountedTurns final : public bench::Turns {
   std::map<std::string, double> figures_;
 };
 
+// With the spread of its value, noted as NAME_least and NAME_most.
+BenchRow with_spread(BenchRow row, const CountedTurns& turns, const std::string& name) {
+  row.spread = Spread{row.value, *turns.figure(name + "_least"), *turns.figure(name + "_most")};
+  return row;
+}
+
 template <class AddRows>
 std::vector<BenchRow> rows_of(const std::vector<bench::Subject>& subjects, std::size_t rounds,
                               const std::function<void(std::size_t, std::size_t)>& progress,
@@ -58,9 +64,10 @@ std::vector<BenchRow> bench_certificates(const SubjectBenchOptions& options,
       subjects, options.rounds, progress,
       [](const bench::Subject& subject, const CountedTurns& turns, auto& rows) {
         const auto peer = turns.figure("peer_ns");
-        rows.push_back({subject.name, subject.input, subject.beads, *turns.figure("ns"), "ns",
-                        peer ? subject.peer : "", peer,
-                        subject.most_ns ? subject.most_ns : subject.most_ratio, subject.most_ns.has_value()});
+        rows.push_back(with_spread(
+            {subject.name, subject.input, subject.beads, *turns.figure("ns"), "ns", peer ? subject.peer : "",
+             peer, subject.most_ns ? subject.most_ns : subject.most_ratio, subject.most_ns.has_value()},
+            turns, "ns"));
       });
 }
 
@@ -74,10 +81,13 @@ std::vector<BenchRow> bench_engine(const SubjectBenchOptions& options,
   return rows_of(
       subjects, options.rounds, progress,
       [](const bench::Subject& subject, const CountedTurns& turns, auto& rows) {
-        rows.push_back({subject.name + ", an event", subject.input, subject.beads, *turns.figure("ns"), "ns",
-                        "", std::nullopt, subject.most_ns, true});
-        rows.push_back({subject.name + ", a run", subject.input, subject.beads, *turns.figure("run_us"), "us",
-                        subject.peer, turns.figure("build_us"), subject.most_ratio});
+        rows.push_back(with_spread({subject.name + ", an event", subject.input, subject.beads,
+                                    *turns.figure("ns"), "ns", "", std::nullopt, subject.most_ns, true},
+                                   turns, "ns"));
+        rows.push_back(
+            with_spread({subject.name + ", a run", subject.input, subject.beads, *turns.figure("run_us"),
+                         "us", subject.peer, turns.figure("build_us"), subject.most_ratio},
+                        turns, "run_us"));
       });
 }
 

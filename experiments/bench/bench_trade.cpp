@@ -65,9 +65,11 @@ void add_levers(const BenchChain& chain, std::size_t rounds, std::vector<BenchRo
   }
   const double nanoseconds = 1e9 / static_cast<double>(nodes * scene.step_count());
   for (std::size_t i = 0; i < levers.size(); ++i)
-    rows.push_back({levers[i].name, chain.name, chain.radii.size(), median_of(ours[i]) * nanoseconds,
-                    "ns/node", "wrapped, exact events", median_of(exact) * nanoseconds,
-                    levers[i].factor ? std::optional(1 / *levers[i].factor) : std::nullopt});
+    rows.push_back(
+        with_spread({levers[i].name, chain.name, chain.radii.size(), median_of(ours[i]) * nanoseconds,
+                     "ns/node", "wrapped, exact events", median_of(exact) * nanoseconds,
+                     levers[i].factor ? std::optional(1 / *levers[i].factor) : std::nullopt},
+                    ours[i], nanoseconds));
 }
 
 // Balls a quarter larger than those of `--radius auto`, so that some meet; no pairs within four beads.
@@ -120,8 +122,10 @@ void add_swept_contacts(BenchChain chain, std::size_t rounds, std::vector<BenchR
                     kept > 0 ? peer : "", of_peer / beads, most});
   };
   row("tests/bead", swept_tests, "static query", static_tests, goal);
-  row("ns/bead", median_of(swept) * 1e9, "static query", median_of(at_rest) * 1e9, std::nullopt);
-  row("ns/bead", median_of(swept) * 1e9, "moving boxes", median_of(boxes) * 1e9, std::nullopt);
+  for (const auto& [peer, seconds] : {std::pair("static query", at_rest), std::pair("moving boxes", boxes)}) {
+    row("ns/bead", median_of(swept) * 1e9, peer, median_of(seconds) * 1e9, std::nullopt);
+    rows.back() = with_spread(std::move(rows.back()), swept, 1e9 / beads);
+  }
 }
 
 }  // namespace

@@ -57,9 +57,9 @@ void run_instance(Turns& turns, const std::filesystem::path& file, Kernel kernel
   }
   const double run = median_of(runs);
   turns.note("events", static_cast<double>(events));
-  turns.note("ns", run / static_cast<double>(events) * 1e9);
+  turns.note_spread("ns", runs, 1e9 / static_cast<double>(events));
   turns.note("events_per_second", static_cast<double>(events) / run);
-  turns.note("run_us", run * 1e6);
+  turns.note_spread("run_us", runs, 1e6);
   turns.note("build_us", median_of(static_builds) * 1e6);
   turns.note("static_builds", median_of(ratios));
 }

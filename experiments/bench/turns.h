@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -33,9 +34,17 @@ class Turns {
   /// Of this process so far; none where nobody counts.
   [[nodiscard]] virtual std::uint64_t allocations() const { return 0; }
 
+  /// NAME, the median, NAME_least and NAME_most, of values each times `units`.
+  void note_spread(const std::string& name, const std::vector<double>& values, double units) {
+    const Spread spread = spread_of(values);
+    note(name, spread.median * units);
+    note(name + "_least", spread.least * units);
+    note(name + "_most", spread.most * units);
+  }
+
   /// Of `items` each: `ours` does them all, `peer` says how many seconds it took for as many (or no_peer).
-  /// Notes medians: `ns` and `peer_ns` an item, `ratio` = ours / peer; `items`, `allocations` of ours an
-  /// item.
+  /// Notes medians: `ns`, with its spread, and `peer_ns` an item, `ratio` = ours / peer; `items`,
+  /// `allocations` of ours an item.
   template <class Ours, class Peer>
   void take(std::size_t items, const Ours& ours, const Peer& peer) {
     std::vector<double> our_seconds, peer_seconds, ratios;
@@ -52,7 +61,7 @@ class Turns {
     }
     const auto n = static_cast<double>(items);
     note("items", n);
-    note("ns", median_of(our_seconds) / n * 1e9);
+    note_spread("ns", our_seconds, 1e9 / n);
     note("allocations", static_cast<double>(allocated) / (n * static_cast<double>(our_seconds.size())));
     if (std::isnan(ratios.front())) return;
     note("peer_ns", median_of(peer_seconds) / n * 1e9);

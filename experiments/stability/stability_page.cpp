@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/stability/stability_report.h"
 
@@ -55,11 +57,17 @@ class Together {
              micros(&KernelSeconds::filtered), micros(&KernelSeconds::exact), failing_ == 0 ? "yes" : "NO"}};
   }
 
- private:
-  [[nodiscard]] std::string micros(double KernelSeconds::*kernel) const {
+  /// Median over the rows that are not refused; none where all are.
+  [[nodiscard]] std::optional<double> microseconds(double KernelSeconds::*kernel) const {
     std::vector<double> values;
     for (const KernelSeconds& seconds : seconds_) values.push_back(1e6 * (seconds.*kernel));
-    return values.empty() ? "-" : short_decimal(median(std::move(values)));
+    return values.empty() ? std::nullopt : std::optional(median(std::move(values)));
+  }
+
+ private:
+  [[nodiscard]] std::string micros(double KernelSeconds::*kernel) const {
+    const std::optional<double> value = microseconds(kernel);
+    return value ? short_decimal(*value) : "-";
   }
 
   std::size_t rows_ = 0, failing_ = 0;
@@ -69,7 +77,7 @@ class Together {
 
 // A line for all rows that `name` calls the same, in the order of their first.
 template <class Name>
-std::string table(std::span<const StabilityRow> rows, const Name& name) {
+std::vector<std::pair<std::string, Together>> grouped(std::span<const StabilityRow> rows, const Name& name) {
   std::vector<std::pair<std::string, Together>> groups;
   for (const StabilityRow& row : rows) {
     const std::string group = name(row);
@@ -78,6 +86,12 @@ std::string table(std::span<const StabilityRow> rows, const Name& name) {
     if (place == groups.end()) place = groups.insert(place, {group, {}});
     place->second.add(row);
   }
+  return groups;
+}
+
+template <class Name>
+std::string table(std::span<const StabilityRow> rows, const Name& name) {
+  const auto groups = grouped(rows, name);
   if (groups.empty()) return "";
   std::vector<HtmlRow> lines;
   for (const auto& [group, together] : groups) lines.push_back(together.line(group));
@@ -86,12 +100,31 @@ std::string table(std::span<const StabilityRow> rows, const Name& name) {
                     lines);
 }
 
+std::string subject_of(const StabilityRow& row) {
+  return fmt::format("{} {}D, degree {}", row.subject, row.dimension, row.degree);
+}
+
 std::string subjects(std::span<const StabilityRow> rows, bool structures) {
-  return table(rows, [&](const StabilityRow& row) {
-    return row.structure == structures
-               ? fmt::format("{} {}D, degree {}", row.subject, row.dimension, row.degree)
-               : "";
-  });
+  const auto name = [&](const StabilityRow& row) {
+    return row.structure == structures ? subject_of(row) : "";
+  };
+  PointPlot plot{"us exact", "us", {"filtered", "fast"}, {}};
+  for (const auto& [subject, together] : grouped(rows, name)) {
+    const auto exact = together.microseconds(&KernelSeconds::exact),
+               filtered = together.microseconds(&KernelSeconds::filtered),
+               fast = together.microseconds(&KernelSeconds::fast);
+    if (!exact || !(*exact > 0)) continue;
+    plot.points.push_back({subject, *exact, *filtered, 0});
+    plot.points.push_back({subject, *exact, *fast, 1});
+  }
+  const std::string figure =
+      plot.points.size() < 4
+          ? ""
+          : html_figure(svg_plot(plot),
+                        fmt::format("Microseconds of {} in the kernels filtered and fast, beside those "
+                                    "in the kernel exact; both axes are logarithmic.",
+                                    structures ? "a run" : "a search"));
+  return figure + table(rows, name);
 }
 
 std::string failing_rows(std::span<const StabilityRow> rows) {

@@ -24,6 +24,12 @@ std::string gnuplot_text(std::string_view text) {
 
 std::string colour(std::size_t series) { return fmt::format("'#{:06x}'", series % series_colours); }
 
+std::string shortened(std::string text, std::size_t most) {
+  if (text.size() <= most) return text;
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0) == 0x80) --most;
+  return text.substr(0, most) + "…";
+}
+
 std::string axes(const DrawingSize& size, std::string_view x_label, std::string_view y_label) {
   const double right = size.width - size.right, top = size.height - size.top;
   return fmt::format(

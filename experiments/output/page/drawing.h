@@ -39,6 +39,8 @@ struct Plotted {
 /// Between single quotes, as gnuplot takes it.
 [[nodiscard]] std::string gnuplot_text(std::string_view text);
 [[nodiscard]] std::string colour(std::size_t series);
+/// No more than `most` bytes of it, with an ellipsis behind them, and no half characters.
+[[nodiscard]] std::string shortened(std::string text, std::size_t most);
 
 /// Margins, labels, style: what every script begins with.
 [[nodiscard]] std::string axes(const DrawingSize& size, std::string_view x_label, std::string_view y_label);

@@ -18,7 +18,8 @@ void check_page(const std::filesystem::path& directory, std::string_view own) {
       Result{"compare.json", "kds compare"},     Result{"collide.json", "kds collide"},
       Result{"missed.json", "kds missed"},       Result{"reproduce.json", "kds reproduce"},
       Result{"theorems.json", "kds theorems"},   Result{"trade.json", "kds trade"},
-      Result{"questions.json", "kds questions"}, Result{"stability.json", "kds stability"}};
+      Result{"questions.json", "kds questions"}, Result{"stability.json", "kds stability"},
+      Result{"bench.json", "kds bench"}};
   for (const auto& [file, command] : results) {
     std::error_code ignored;
     if (file != own && std::filesystem::exists(directory / file, ignored))

@@ -16,13 +16,6 @@ constexpr double kRow = 62;          // pixels: a name, and bars below it
 constexpr double kBars = 34 / kRow;  // of a row
 constexpr std::size_t kLetters = 7;  // pixels a letter takes, at most on average
 
-// No more than so many bytes, and no half characters.
-std::string shortened(std::string text, std::size_t most) {
-  if (text.size() <= most) return text;
-  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0) == 0x80) --most;
-  return text.substr(0, most) + "…";
-}
-
 std::string heading(const RowsPlot::Row& row, const DrawingSize& size) {
   const auto room = static_cast<std::size_t>(size.width - size.left - size.right) / kLetters;
   const std::string with_note = row.note.empty() ? row.name : row.name + ": " + row.note;

@@ -84,17 +84,21 @@ Drawing draw(const LinePlot& plot, const DrawingSize& size, const std::vector<st
   return drawing;
 }
 
-// Names beside points, where they do not stand on one another; in pixels.
+// Names beside points, where they stand on no other name or point; in pixels.
 class Labels {
  public:
   Labels(double left, double right) : left_(left), right_(right) {}
 
+  void add_mark(double x, double y) { marks_.emplace_back(x, y); }
+
   std::string label(double x, double y, const std::string& name) {
-    constexpr double letter = 6.2, line = 13;
+    constexpr double letter = 7, line = 13, mark = 4;
     const double length = letter * static_cast<double>(name.size());
     const bool to_the_left = x + 8 + length > right_;
     const Box box{to_the_left ? x - 8 - length : x + 8, to_the_left ? x - 8 : x + 8 + length, y};
     if (box.from < left_) return "";
+    for (const auto& [at, level] : marks_)
+      if (box.from - mark < at && at < box.to + mark && std::abs(box.y - level) < line / 2) return "";
     for (const Box& other : boxes_)
       if (box.from < other.to && other.from < box.to && std::abs(box.y - other.y) < line) return "";
     boxes_.push_back(box);
@@ -106,6 +110,7 @@ class Labels {
     double from, to, y;
   };
   double left_, right_;
+  std::vector<std::pair<double, double>> marks_;
   std::vector<Box> boxes_;
 };
 
@@ -127,17 +132,23 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
   std::string& script = drawing.script;
   script += logarithmic('x', x, x_ticks(size)) + logarithmic('y', y, y_ticks);
   Labels labels(size.left, size.width - size.right);
+  const auto share = [](const Range& range, double value) {
+    return std::log(value / range.least) / std::log(range.most / range.least);
+  };
+  const auto pixels = [&](const PointPlot::Point& point) {
+    return std::pair(size.left + share(x, point.x) * (size.width - size.left - size.right),
+                     -share(y, std::max(point.y, bottom)) * (size.height - size.top - size.bottom));
+  };
+  for (const PointPlot::Point& point : plot.points) {
+    const auto [across, down] = pixels(point);
+    labels.add_mark(across, down);
+  }
   std::map<std::size_t, std::string> marks;
   for (const PointPlot::Point& point : plot.points) {
     const double at_y = std::max(point.y, bottom);
-    const auto share = [](const Range& range, double value) {
-      return std::log(value / range.least) / std::log(range.most / range.least);
-    };
+    const auto [across, down] = pixels(point);
     const std::string where =
-        is_wide(size) && !point.name.empty()
-            ? labels.label(size.left + share(x, point.x) * (size.width - size.left - size.right),
-                           -share(y, at_y) * (size.height - size.top - size.bottom), point.name)
-            : "";
+        is_wide(size) && !point.name.empty() ? labels.label(across, down, point.name) : "";
     if (!where.empty())
       script += fmt::format("set label {} at {:.17g},{:.17g} {} textcolor '#000008'\n",
                             gnuplot_text(point.name), point.x, at_y, where);
@@ -166,7 +177,9 @@ Drawing draw(const BarPlot& plot, DrawingSize size) {
   }
   const double pitch = plot.series.size() > 1 ? 20 : 28;
   size.height = pitch * static_cast<double>(plot.bars.size()) + 34;
-  size.left = std::min(7.2 * static_cast<double>(longest) + 14, is_wide(size) ? 300.0 : 130.0);
+  constexpr double letter = 7.2, beside = 14;
+  size.left = std::min(letter * static_cast<double>(longest) + beside, is_wide(size) ? 300.0 : 140.0);
+  const auto room = static_cast<std::size_t>((size.left - beside) / letter + 0.5);
   size.right = 90;
   size.top = 4;
   size.bottom = 28;
@@ -183,7 +196,7 @@ Drawing draw(const BarPlot& plot, DrawingSize size) {
                           gnuplot_text(tick_label(value)), value, row);
     of_series[series] += fmt::format("{0:.17g} {1} 0 {0:.17g} {2} {3}\n", value, row,
                                      static_cast<double>(row) - 0.36, static_cast<double>(row) + 0.36);
-    names.push_back(gnuplot_text(name) + fmt::format(" {}", row));
+    names.push_back(gnuplot_text(shortened(name, room)) + fmt::format(" {}", row));
   }
   script += fmt::format("set ytics ({})\n", fmt::join(names, ","));
   std::string bars;

@@ -15,6 +15,7 @@
 #include "experiments/program/command_line.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
+#include "tests/experiments/sound_page.h"
 
 namespace kds {
 namespace {
@@ -61,7 +62,20 @@ TEST(BenchReport, RatioGoalAndWhatHolds) {
   EXPECT_EQ(json["rows"][2]["peer"], nullptr);
   EXPECT_EQ(json["rows"][3]["goal"], nullptr);
   EXPECT_EQ(json["rows"][3]["holds"], nullptr);
-  EXPECT_THAT(bench_csv(std::array{held}), testing::HasSubstr("a,x,3,2,ns,peer,10,0.2,0.25,true"));
+  EXPECT_THAT(bench_csv(std::array{held}), testing::HasSubstr("a,x,3,2,ns,peer,10,0.2,0.25,true,,\n"));
+}
+
+TEST(BenchReport, TimesHaveTheirSpread) {
+  const BenchRow row = with_spread({"a", "x", 3, 2000, "ns", "peer", 8000, 0.5}, {3e-6, 1e-6, 2e-6}, 1e9);
+  const Json json = Json::parse(bench_json("kds bench engine", {}, std::array{row}));
+  EXPECT_DOUBLE_EQ(json["rows"][0]["value_least"], 1000);
+  EXPECT_DOUBLE_EQ(json["rows"][0]["value_most"], 3000);
+  const std::string page = bench_page("engine", std::array{row}, {});
+  test::expect_sound(page);
+  EXPECT_THAT(
+      page, testing::HasSubstr("<p><strong>1</strong> of 1 goal reached, in 1 measure of engine. At best, "));
+  EXPECT_THAT(page, testing::HasSubstr("<td>2,000 <small>(1,000 to 3,000)</small></td>"));
+  EXPECT_THAT(page, testing::HasSubstr("a, x\nn: 3\nours / peer: 0.25"));
 }
 
 TEST(BenchReport, ColumnsOfTheTableAreAligned) {
@@ -112,6 +126,12 @@ TEST(Bench, HierarchiesGiveARowForEachMeasureAndInput) {
       EXPECT_EQ(row["holds"].get<bool>(), judged <= row["goal"].get<double>());
     }
   }
+  for (const Json& row : json["rows"]) {
+    EXPECT_EQ(row["value_least"].is_null(), row["unit"] == "events/step");
+    if (row["value_least"].is_null()) continue;
+    EXPECT_LE(row["value_least"], row["value"]);
+    EXPECT_LE(row["value"], row["value_most"]);
+  }
   EXPECT_EQ(names.size(), 12U);
   EXPECT_EQ(inputs.size(), 14U);  // six inputs, equal and unequal radii, a query, a rotation
 }
@@ -128,6 +148,8 @@ TEST(Bench, PowerGivesARowForEachTechniqueAndInput) {
     inputs.insert(row["input"]);
     EXPECT_GT(row["value"].get<double>(), 0);
     EXPECT_EQ(row["unit"], "us/frame");
+    EXPECT_LE(row["value_least"], row["value"]);
+    EXPECT_LE(row["value"], row["value_most"]);
     EXPECT_DOUBLE_EQ(row["ratio"].get<double>(),
                      row["value"].get<double>() / row["peer_value"].get<double>());
     if (!row["goal"].is_null()) goals.insert(row["name"]);
@@ -151,6 +173,8 @@ TEST(Bench, CollisionGivesARowForEachDetectorMotionAndInput) {
     inputs.insert(row["input"]);
     peers.insert(row["peer"]);
     EXPECT_EQ(row["unit"], "ns/bead");
+    EXPECT_LE(row["value_least"], row["value"]);
+    EXPECT_LE(row["value"], row["value_most"]);
     EXPECT_GT(row["value"].get<double>(), 0);
     // Contacts have a goal on other trajectories, growth has one from 100,000 beads on.
     const std::string name = row["name"];
@@ -179,6 +203,8 @@ TEST(Bench, CertificatesGiveARowEachWithTheGoalsThatThereAre) {
     names.insert(row["name"]);
     EXPECT_GT(row["value"].get<double>(), 0);
     EXPECT_EQ(row["unit"], "ns");
+    EXPECT_LE(row["value_least"], row["value"]);
+    EXPECT_LE(row["value"], row["value_most"]);
     EXPECT_EQ(row["peer"].is_null(), row["ratio"].is_null());
     if (row["goal"].is_null()) continue;
     goals.insert(row["name"]);

@@ -417,6 +417,22 @@ TEST(StabilityPage, SaysFirstHowManyAuditsFailed) {
               HasSubstr("Of 2,468 audits <strong>10 failed</strong>"));
 }
 
+TEST(StabilityPage, TimesOfKernelsBesideEachOther) {
+  std::vector<StabilityRow> rows(2);
+  rows[0].subject = "contact";
+  rows[1].subject = "power_test";
+  for (StabilityRow& row : rows) {
+    row.cases = 1;
+    row.seconds.fast = 1e-6;
+    row.seconds.filtered = 2e-6;
+    row.seconds.exact = 5e-5;
+  }
+  const std::string page = stability_page(rows, {});
+  EXPECT_THAT(page, HasSubstr("us exact: 50\nus: 2</title>"));
+  EXPECT_THAT(page, HasSubstr("us exact: 50\nus: 1</title>"));
+  EXPECT_THAT(stability_page(std::vector{rows[0]}, {}), Not(HasSubstr("<svg")));
+}
+
 // Thousands of rows are no page: they stand together, but for those that do not hold.
 TEST(StabilityPage, SumsBySubjectAndByExtreme) {
   StabilityRow row;

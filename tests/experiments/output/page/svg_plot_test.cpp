@@ -78,6 +78,21 @@ TEST(SvgPlot, BarsHaveTheirNamesAndValues) {
   expect_ticks(html, {"tip 'edge'", "`date` $b @c", "1,200", "0"});
 }
 
+TEST(SvgPlot, NamesStandOnNoOtherPoint) {
+  const PointPlot apart{"x", "y", {"s"}, {{"first", 1, 1, 0}, {"", 10, 10, 0}}},
+      close{"x", "y", {"s"}, {{"first", 1, 1, 0}, {"", 1.1, 1, 0}, {"", 10, 10, 0}}};
+  EXPECT_EQ(count_of(svg_plot(apart), ">first</text>"), 1U);  // on wide pages
+  EXPECT_EQ(count_of(svg_plot(close), ">first</text>"), 0U);
+}
+
+TEST(SvgPlot, LongNamesOfBarsAreShortened) {
+  const std::string name(80, 'w');
+  const std::string html = svg_plot(BarPlot{"events", {{name, 3}, {"tip", 2}}});
+  EXPECT_THAT(html, Not(HasSubstr(name)));
+  EXPECT_EQ(count_of(html, "w…</text>"), 2U);
+  expect_ticks(html, {"tip"});
+}
+
 TEST(SvgPlot, BarsOfSeriesHaveTheirColoursAndAKey) {
   const std::string html =
       svg_plot(BarPlot{"events", {{"enter", 3, 0}, {"", 2, 1}, {"leave", 1, 1}}, {"300 K", "400 K"}});
