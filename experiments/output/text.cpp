@@ -58,8 +58,8 @@ std::string tick_label(double value) {
     const std::string digits = fmt::format("{:.4g}", mantissa);
     return digits == "1" ? power : digits == "-1" ? "-" + power : digits + "·" + power;
   }
-  if (size >= 1000 && value == std::floor(value))
-    return (value < 0 ? "-" : "") + with_thousands(static_cast<std::uint64_t>(size));
+  if (size >= 1000)
+    return (value < 0 ? "-" : "") + with_thousands(static_cast<std::uint64_t>(std::llround(size)));
   return fmt::format("{:.4g}", value);
 }
 

@@ -51,7 +51,8 @@ std::string column_text(const RowsPlot& plot, const Bin& bin) {
 }
 
 Drawing draw(const RowsPlot& plot, DrawingSize size) {
-  size.left = size.right = 10;
+  size.left = 10;
+  size.right = 24;  // for a tick's label
   size.top = 0;
   size.height = kRow * static_cast<double>(plot.rows.size()) + size.bottom;
   const std::vector<Bin> bins = bins_of(plot.columns, is_wide(size) ? 400 : 160);

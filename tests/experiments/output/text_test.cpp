@@ -49,6 +49,8 @@ TEST(TickLabel, ShowsSizesLegibly) {
   EXPECT_EQ(tick_label(-3), "-3");
   EXPECT_EQ(tick_label(12000), "12,000");
   EXPECT_EQ(tick_label(-1234), "-1,234");
+  EXPECT_EQ(tick_label(1403.75), "1,404");
+  EXPECT_EQ(tick_label(123456.5), "123,457");
   EXPECT_EQ(tick_label(0.25), "0.25");
   EXPECT_EQ(tick_label(1e6), "10⁶");
   EXPECT_EQ(tick_label(3e-7), "3·10⁻⁷");
