@@ -78,8 +78,8 @@ LeastDistance least_distance(const Curves<Dimension>& curves, BeadId a, BeadId b
     for (const double along : point) way += std::abs(along);
     extent = std::max(extent, way);
   }
-  if (!(extent < HUGE_VAL)) return {0, HUGE_VAL, 0};
   const double margin = 0x1p-40 * extent + 0x1p-1060;
+  if (!(extent + 8 * margin < HUGE_VAL)) return {0, HUGE_VAL, 0};
   LeastDistance least{HUGE_VAL, HUGE_VAL, 0};
   const auto look_at = [&](const Vector<Dimension>& d, double u) {
     const double distance = length<Dimension>(d) + margin;

@@ -368,6 +368,8 @@ void WrappedHierarchy<Dimension>::release(std::span<const BeadId> beads) {
     proofs_->forget(id);
     released_.push_back(id);
   }
+  guards_->forget_named_if(
+      [this](NodeId id) { return std::binary_search(released_.begin(), released_.end(), id); });
 }
 
 /// Beads may be anywhere: what the basis was says nothing of what it is.
