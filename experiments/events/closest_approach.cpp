@@ -30,21 +30,25 @@ void ClosestApproachOfRun::begin() {
   for (const CombinatorialElement& pair : built->all) pairs_.push_back({pair[1], pair[2]});
 }
 
-void ClosestApproachOfRun::end_step(std::size_t step) {
+void ClosestApproachOfRun::end_step(std::size_t frame) {
   std::visit(
       [&]<int Dimension>(const MotionRef<Dimension>& ref) {
         if constexpr (Dimension > 1) {
           for (const auto& [a, b] : pairs_) {
             const LeastDistance nearest = least_distance(ref.curves(), a, b);
-            if (!least_) least_ = {{a, b}, step, nearest.at, {nearest.lower, nearest.upper}};
+            if (!least_) least_ = {{a, b}, frame, nearest.at, {nearest.lower, nearest.upper}};
             least_->distance.lower = std::min(least_->distance.lower, nearest.lower);
             if (nearest.upper < least_->distance.upper)
-              least_ = {{a, b}, step, nearest.at, {least_->distance.lower, nearest.upper}};
+              least_ = {{a, b}, frame, nearest.at, {least_->distance.lower, nearest.upper}};
           }
         }
       },
       session_.motion()->ref());
   if (!pairs_.empty()) pairs_ = {pairs_.back()};
+}
+
+std::optional<ClosestApproach> ClosestApproachOfRun::least() const {
+  return least_ && least_->distance.upper < HUGE_VAL ? least_ : std::nullopt;
 }
 
 std::optional<std::size_t> place_of_closest(const Session& session) {

@@ -19,9 +19,9 @@ struct DistanceRange {
 
 struct ClosestApproach {
   std::array<BeadId, 2> beads{};  ///< ascending
-  std::size_t step = 0;
-  double u = 0;            ///< in the step
-  DistanceRange distance;  ///< the least of the run, rounded outward; of these beads it is at most `upper`
+  std::size_t frame = 0;          ///< by its number in the file: the step begins there
+  double u = 0;                   ///< in the step: these beads are no farther apart than `distance.upper`
+  DistanceRange distance;         ///< the least of the run, rounded outward
 };
 
 /// The same of beads each of which is always within `deviation` of where the run has it.
@@ -35,10 +35,10 @@ class ClosestApproachOfRun final : public EventListener {
   void on_event(const Event& event) override;
   /// The structures have been built.
   void begin();
-  /// The step has been run, and its motion is still there.
-  void end_step(std::size_t step);
-  /// None before a step, and of a single bead.
-  [[nodiscard]] const std::optional<ClosestApproach>& least() const { return least_; }
+  /// The step that begins with this frame has been run, and its motion is still there.
+  void end_step(std::size_t frame);
+  /// None before a step, of a single bead, and where doubles cannot hold the distance.
+  [[nodiscard]] std::optional<ClosestApproach> least() const;
 
  private:
   Session& session_;

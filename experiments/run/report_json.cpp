@@ -56,7 +56,7 @@ std::vector<double> json_of(const DistanceRange& range) { return {range.lower, r
 Json approach_json(const RunReport& report) {
   const ClosestApproach& approach = *report.approach;
   Json json{{"beads", std::vector<BeadId>(approach.beads.begin(), approach.beads.end())},
-            {"step", approach.step},
+            {"frame", approach.frame},
             {"u", approach.u},
             {"distance", json_of(approach.distance)}};
   if (const auto& range = report.approach_in_all_frames) json["distance_in_all_frames"] = json_of(*range);

@@ -11,11 +11,13 @@ namespace kds {
 
 namespace {
 
-/// How far beads may be from where all frames have them; none where the run has them there.
+/// How far beads may be from where all frames have them; none where the run has them there, or where frames
+/// are left out that nobody has looked at.
 std::optional<double> deviation_of_run(const RunOptions& options, const Scene& scene,
                                        const RunReport& report) {
   if (report.stride) return report.stride->deviation.largest;
-  if (options.tolerance) return options.tolerance->length(scene.radii());
+  if (options.tolerance && options.reading.frames.stride == 1)
+    return options.tolerance->length(scene.radii());
   return std::nullopt;
 }
 
@@ -63,7 +65,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   run_steps(*session, scene, options, [&](std::size_t frame) {
     if (frame == 0) warnings.release(warn);
     results.add_frame(frame, *session);
-    if (approach) frame == 0 ? approach->begin() : approach->end_step(frame - 1);
+    if (approach) frame == 0 ? approach->begin() : approach->end_step(scene.frame_number(frame - 1));
     if (frame == 0) return;
     counts.end_step(frame - 1, &results);
     progress(frame, options.rounds * scene.step_count());
