@@ -57,10 +57,10 @@ struct RunReport {
   std::uint64_t fingerprint = 0;            ///< printed as 16 hex digits
   std::optional<StrideCertificate> stride;  ///< of --certify
   std::optional<ClosestApproach> approach;  ///< where the run has the closest pair, not with `fast`
-  std::optional<DistanceRange> approach_in_all_frames;  ///< the least distance there, with --certify or
-                                                        ///< --tolerance
-  std::string command_line;                             ///< that asks for the same run, without outputs
-  Displacements displacement;                           ///< where it is looked at, else empty
+  /// The least distance there: with --certify, or with --tolerance where no frame is left out.
+  std::optional<DistanceRange> approach_in_all_frames;
+  std::string command_line;             ///< that asks for the same run, without outputs
+  Displacements displacement;           ///< where it is looked at, else empty
   std::vector<std::string> bead_names;  ///< where they are looked at, else empty; empty ones where unknown
 };
 

@@ -130,8 +130,8 @@ void add_stride(std::vector<std::pair<std::string, std::string>>& lines, const S
 void add_approach(std::vector<std::pair<std::string, std::string>>& lines, const RunReport& report) {
   const ClosestApproach& approach = *report.approach;
   std::string text =
-      fmt::format("beads {} and {} come nearest: {:.6g} in step {}, at u = {:.6g}", approach.beads[0],
-                  approach.beads[1], approach.distance.upper, approach.step, approach.u);
+      fmt::format("beads {} and {} come nearest, to {:.6g}, at u = {:.3g} of the step from frame {}",
+                  approach.beads[0], approach.beads[1], approach.distance.upper, approach.u, approach.frame);
   if (const auto& range = report.approach_in_all_frames)
     text += fmt::format("; over all frames the least distance is between {:.6g} and {:.6g}", range->lower,
                         range->upper);

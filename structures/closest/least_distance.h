@@ -15,7 +15,8 @@ struct LeastDistance {
   double at = 0;                ///< a time at which the distance is at most `upper`
 };
 
-/// Where doubles overflow nothing is known: from 0 to infinity.
+/// Where doubles overflow nothing is known: from 0 to infinity. Of two beads that turn around each other at
+/// nearly one distance parts are many: milliseconds at degree 15, seconds at degree 61.
 template <int Dimension>
 [[nodiscard]] LeastDistance least_distance(const Curves<Dimension>& curves, BeadId a, BeadId b);
 

@@ -7,8 +7,9 @@
 // is next, or by signs just after the event. Exact with any kernel but `fast`. Spheres may be relaxed: then
 // beads may be out by a share of the radius, and events are fewer.
 //
-// Beads can change course while time runs: a look at all certificates of the nodes that hold them, and of
-// each that is not right any more a repair. They cannot come and go: the tree is that of their necklaces.
+// Beads can change course while time runs: a look at all paths and nodes, certificates of those nodes that
+// hold the beads, and a repair where one is not right any more. They cannot come and go: the tree is that of
+// their necklaces.
 //
 // It is made of three parts, each with a file of its own: what is proved without certificates
 // (node_proofs.h), the certificates that are held (node_guards.h), the repair of a basis (basis_repair.h).

@@ -54,7 +54,7 @@ TEST(ClosestApproach, IsThatOfAllPairs) {
   EXPECT_NEAR(distance.upper, least.upper, 1e-9);
   EXPECT_FALSE(found.contains("distance_in_all_frames"));
   const LeastDistance of_pair =
-      least_distance(Curves<3>(steps.at(found["step"])), found["beads"][0], found["beads"][1]);
+      least_distance(Curves<3>(steps.at(found["frame"])), found["beads"][0], found["beads"][1]);
   EXPECT_NEAR(of_pair.upper, least.upper, 1e-9);
   EXPECT_NEAR(of_pair.at, found["u"].get<double>(), 1e-3);
 }
@@ -76,6 +76,12 @@ TEST(ClosestApproach, IntervalsHoldThatOfAllFrames) {
     EXPECT_LT(interval.lower, own.lower);
     EXPECT_GT(interval.upper, own.upper);
   }
+}
+
+TEST(ClosestApproach, NothingIsSaidOfFramesThatNobodyLookedAt) {
+  const Json found = summary_of("4:161:40", {"--tolerance", "0.001"})["closest_approach"];
+  EXPECT_FALSE(found.contains("distance_in_all_frames"));
+  EXPECT_EQ(found["frame"].get<int>() % 40, 4);
 }
 
 TEST(ClosestApproach, FastPromisesNothing) {

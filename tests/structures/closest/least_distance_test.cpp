@@ -121,6 +121,11 @@ TEST(LeastDistance, IsUnknownWhereDoublesOverflow) {
       least_distance(Curves<3>(moving({{-huge, 0, 0}, {huge, 0, 0}}, {{0, 0, 0}, {1, 0, 0}})), 0, 1);
   EXPECT_EQ(least.lower, 0);
   EXPECT_EQ(least.upper, HUGE_VAL);
+  // The distance is a double, its margin is not.
+  const Points apart{{-0.5 * huge, 0, 0}, {0.5 * huge, 0, 0}};
+  const LeastDistance nearly = least_distance(Curves<3>(moving(apart, apart)), 0, 1);
+  EXPECT_EQ(nearly.lower, 0);
+  EXPECT_EQ(nearly.upper, HUGE_VAL);
 }
 
 }  // namespace

@@ -293,6 +293,22 @@ TEST(HierarchyCourses, AreReplayed) {
   EXPECT_THROW(replay.replay_step(std::span(events).last(1)), std::invalid_argument);
 }
 
+TEST(HierarchyCourses, ChangesThatChangeNothingAddNoCertificates) {
+  Random random(5);
+  const Space motion = random_motion<Space>(random, bead_count, MotionKind::generic);
+  Rig<WrappedHierarchy<3>, Space> rig(motion, AuditMode::none, Kernel::filtered, necklaces, Radii::equal);
+  rig.simulator.build();
+  rig.simulator.enter_step();
+  rig.simulator.run_until(Dyadic(0.5));
+  rig.simulator.change_motion(std::array<BeadId, 1>{3}, [] {});
+  const CertificateCounts before = rig.structure.statistics.certificates;
+  for (int k = 0; k < 50; ++k) rig.simulator.change_motion(std::array<BeadId, 1>{3}, [] {});
+  EXPECT_GT(before.alive, 0U);
+  EXPECT_EQ(rig.structure.statistics.certificates.alive, before.alive);
+  EXPECT_EQ(rig.structure.statistics.certificates.per_bead_max, before.per_bead_max);
+  rig.simulator.leave_step();
+}
+
 TEST(HierarchyCourses, ThereMustBeSuchABead) {
   Points at;
   for (int i = 0; i < 4; ++i) at.push_back({1.0 * i, 0, 0});
