@@ -296,7 +296,7 @@ TEST(HierarchyCourses, AreReplayed) {
 TEST(HierarchyCourses, ChangesThatChangeNothingAddNoCertificates) {
   Random random(5);
   const Space motion = random_motion<Space>(random, bead_count, MotionKind::generic);
-  Rig<WrappedHierarchy<3>, Space> rig(motion, AuditMode::none, Kernel::filtered, necklaces, Radii::equal);
+  Rig<WrappedHierarchy<3>, Space> rig(motion, AuditMode::none, Kernel::filtered, necklaces, Radii::any);
   rig.simulator.build();
   rig.simulator.enter_step();
   rig.simulator.run_until(Dyadic(0.5));
