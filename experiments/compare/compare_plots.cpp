@@ -21,7 +21,7 @@ namespace {
 
 using Points = std::vector<std::pair<double, double>>;
 
-bool at_least_stride(const Comparison& comparison, const CompareRow& row) {
+bool at_smallest_stride(const Comparison& comparison, const CompareRow& row) {
   return row.stride == comparison.rows.front().stride;
 }
 
@@ -124,7 +124,7 @@ std::string along_chain(const Comparison& comparison, const std::vector<const Co
   for (const CompareRow& row : by_structure(comparison)) {
     const bool here =
         std::ranges::any_of(inputs, [&](const ComparedInput* input) { return input->file == row.input; });
-    if (!here || !at_least_stride(comparison, row) || row.events() == 0) continue;
+    if (!here || !at_smallest_stride(comparison, row) || row.events() == 0) continue;
     const std::vector<std::size_t> beads = busiest(row, listed);
     if (beads.empty()) continue;
     RowsPlot::Row& bars = plot.rows.emplace_back(RowsPlot::Row{curve_name(comparison, row), "", {}});
@@ -177,7 +177,7 @@ std::string plots_by_kind(const Comparison& comparison) {
   const std::vector<std::string> cases = cases_of(comparison);
   std::vector<std::pair<std::string, BarPlot>> plots;  // by structure
   for (const CompareRow& row : comparison.rows) {
-    if (!at_least_stride(comparison, row) || row.events() + row.internal() == 0) continue;
+    if (!at_smallest_stride(comparison, row) || row.events() + row.internal() == 0) continue;
     const std::string& name = row.structure.name;
     auto plot = std::ranges::find(plots, name, &std::pair<std::string, BarPlot>::first);
     if (plot == plots.end()) plot = plots.insert(plot, {name, {"events a step", {}, cases}});
@@ -214,7 +214,7 @@ std::string plots_by_level(const Comparison& comparison) {
       plot_of(comparison, {"level of the tree, root 0", "% of events", Drawn::points, {}},
               [&](const CompareRow& row) {
                 Points points;
-                if (!at_least_stride(comparison, row) || row.events() == 0) return points;
+                if (!at_smallest_stride(comparison, row) || row.events() == 0) return points;
                 for (const std::uint64_t count : row.structure.places.by_level)
                   points.emplace_back(static_cast<double>(points.size()),
                                       100 * static_cast<double>(count) / static_cast<double>(row.events()));

@@ -27,13 +27,10 @@ struct Part {
   double from = 0;
   int halvings = 0;
 
-  [[nodiscard]] double width() const { return std::ldexp(1.0, -halvings); }
-  [[nodiscard]] double middle() const { return from + 0.5 * width(); }
-
   /// Keeps the half that comes later, returns the other (de Casteljau).
   [[nodiscard]] Part split_off_first_half() {
     Part first{points, from, ++halvings};
-    from += width();
+    from += std::ldexp(1.0, -halvings);
     for (std::size_t round = 1; round < points.size(); ++round) {
       for (std::size_t k = 0; k + round < points.size(); ++k)
         for (std::size_t axis = 0; axis < Dimension; ++axis)
@@ -92,11 +89,11 @@ LeastDistance least_distance(const Curves<Dimension>& curves, BeadId a, BeadId b
   while (!parts.empty()) {
     Part<Dimension> later = std::move(parts.back());
     parts.pop_back();
-    const Part<Dimension> whole = later;
     Part<Dimension> first = later.split_off_first_half();
     const Vector<Dimension>& middle = later.points.front();
-    look_at(middle, whole.middle());
-    const double lower = std::max(0.0, whole.least_along(middle) - margin);
+    look_at(middle, later.from);
+    const double lower =
+        std::max(0.0, std::min(first.least_along(middle), later.least_along(middle)) - margin);
     if (lower >= least.upper * (1 - 0x1p-36) - 4 * margin || later.halvings > most_halvings) {
       least.lower = std::min(least.lower, lower);
     } else {

@@ -3,8 +3,9 @@
 //
 // Let d(u) be their difference, in Bernstein form on a part of the step. For any unit vector n and all u
 // there, |d(u)| >= n d(u) >= min_k n d_k; and no distance is larger than one at some u. Parts are halved, n
-// being the direction of d in the middle, until both bounds are within 2^-36 of each other or of the rounding
-// of all that is computed, which has a margin of 2^-40 of the largest control point.
+// being the direction of d in the middle and d_k the control points of both halves, until both bounds are
+// within 2^-36 of each other or of the rounding of all that is computed, which has a margin of 2^-40 of the
+// largest control point.
 
 #include "motions/curves/curves.h"
 
