@@ -236,6 +236,22 @@ inline constexpr std::array<std::uint16_t, 3> groups_not_along{0xffff & ~0x8c63,
 inline constexpr std::array<std::uint16_t, farthest_along + 1> firsts_along{0xffff, 0xffff, 0xffff, 0xffff,
                                                                             0xffff, 0x7777, 0x3333, 0x1111};
 
+// Of scenes larger than a cache, each block is far from the one before: it is fetched while others are
+// compared.
+inline constexpr std::size_t fetched_ahead = 8;
+
+template <int Dimension>
+KDS_BLOCK_INLINE void fetch_boxes(const Blocks<Dimension>& blocks, std::uint32_t block) {
+  const char* const boxes = reinterpret_cast<const char*>(blocks.boxes + block);
+  __builtin_prefetch(boxes);
+  __builtin_prefetch(boxes + 64);
+}
+template <bool Equal, int Dimension>
+KDS_BLOCK_INLINE void fetch_beads(const Blocks<Dimension>& blocks, std::uint32_t first) {
+  for (const float* const axis : blocks.centers) __builtin_prefetch(axis + first);
+  if constexpr (!Equal) __builtin_prefetch(blocks.radii + first);
+}
+
 struct ComparedPair {
   std::uint32_t first, second;  // beads
   const LanesApart* lanes;
@@ -263,6 +279,7 @@ template <int Dimension, bool Equal>
     const std::uint32_t necklace = necklaces[a];
     const auto ours = spread_groups(here.boxes[a]);
     do {
+      fetch_boxes(here, seconds[std::min(p + fetched_ahead, count - 1)]);
       const std::uint32_t b = seconds[p];
       const std::int64_t along = within - 16 * (std::int64_t{b} - std::int64_t{a});
       const bool same = necklaces[b] == necklace;
@@ -285,6 +302,7 @@ template <int Dimension, bool Equal>
   for (std::size_t k = 0; k < meeting; ++k) {
     const std::uint32_t group = groups[k];
     const ComparedPair& pair = compared[group / 16];
+    fetch_beads<Equal>(here, compared[groups[std::min(k + fetched_ahead, meeting - 1)] / 16].second);
     const unsigned bits = near_beads<Equal>(here, std::size_t{pair.first} + (group & 12),
                                             std::size_t{pair.second} + 4 * (group & 3), limit) &
                           pair.lanes->beads[group % 16];

@@ -27,6 +27,15 @@ constexpr double work_of_sorted_block = 230, work_of_turned_block = 45;
 constexpr std::size_t fewest_beads_to_choose = 2000;
 constexpr std::size_t gathered_blocks = 64;  // at most, are copied at once
 
+// Of a scene larger than a cache, so many pairs before it is looked at.
+constexpr std::size_t fetched_ahead = 2 * sample_stride;
+template <int Dimension>
+void fetch(const BlockNode<Dimension>& node) {
+  const char* const bytes = reinterpret_cast<const char*>(&node);
+  for (std::size_t line = 0; line < sizeof node; line += alignof(BlockNode<Dimension>))
+    __builtin_prefetch(bytes + line);
+}
+
 // Every `spread`-th bit from the lowest.
 std::uint64_t spread_bits(std::uint64_t bits, int spread) {
   std::uint64_t result = 0;
@@ -335,6 +344,7 @@ auto BlockTree<Dimension>::search(const Balls<Dimension>& balls, bool may_give_u
   block_pairs_.count = 0;
   const auto expand = [&](std::size_t k) {
     const std::uint32_t a = nodes_.first[k], b = nodes_.second[k];
+    fetch(levels_[0][nodes_.second[std::min(k + fetched_ahead, nodes_.count - 1)]]);
     if (candidate_count_ > most_candidates_ || !asks(a, b, 0)) return;
     block_pairs_.reserve(children_of_node * children_of_node);
     const std::size_t before = block_pairs_.count;
