@@ -3,12 +3,12 @@
 
 namespace kds::test {
 
-/// All of them; a fifth under the sanitizers, which are many times slower and look for faults of memory, not
+/// All of them; a tenth under the sanitizers, which are many times slower and look for faults of memory, not
 /// of geometry.
 template <class Count>
 [[nodiscard]] constexpr Count rounds(Count all) {
 #ifdef KDS_SANITIZED
-  return all < 5 ? 1 : all / 5;
+  return all < 10 ? 1 : all / 10;
 #else
   return all;
 #endif

@@ -251,7 +251,7 @@ TEST(Bench, FindsItsDataFromAnyFolder) {
     EXPECT_EQ(run.code, 0) << run.err;
     return Json::parse(run.out)["rows"].size();
   };
-  EXPECT_GT(rows("bench certificates --json - --quiet"), 10U);
+  EXPECT_GT(rows("bench trade --json - --quiet"), 10U);
   EXPECT_EQ(rows("bench engine --data . --json - --quiet"), 6U);  // one instance, three kernels
 }
 

@@ -13,6 +13,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
+#include "tests/support/rounds.h"
 
 namespace kds {
 namespace {
@@ -250,7 +251,7 @@ TEST(Trade, AStrideIsWrongByWhatItLeavesOut) {
   TradeTask task;
   task.wants = {Want::diagram};
   task.rounds = 1;
-  task.sampling.times = 500;
+  task.sampling.times = rounds(500U);
   const std::vector<TradeRow> rows = measure_trade(
       finest, task, [](auto, auto) {}, [](auto&) {});
   const TradeErrors& errors = row_of(rows, "power --stride 8").errors;
