@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "certificates/search/ball_in_sphere_search.h"
-#include "certificates/search/relaxed_ball_in_sphere_search.h"
-#include "certificates/search/relaxed_bead_in_sphere_search.h"
+#include "certificates/searches/ball_in_sphere_search.h"
+#include "certificates/searches/relaxed_ball_in_sphere_search.h"
+#include "certificates/searches/relaxed_bead_in_sphere_search.h"
 #include "certificates/types/relaxed_membership.h"
 #include "kds/certificate_tables.h"
 #include "structures/enclosing_sphere/basis.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "certificates/search/relaxed_bead_in_sphere_search.h"
+#include "certificates/searches/relaxed_bead_in_sphere_search.h"
 #include "certificates/types/bead_in_sphere.h"
 #include "motions/curves/any_degree_motion.h"
 #include "tests/support/inputs/random_motion.h"

@@ -1,4 +1,4 @@
-#include "certificates/search/relaxed_bead_in_sphere_search.h"
+#include "certificates/searches/relaxed_bead_in_sphere_search.h"
 
 #include "certificates/search/define_certificate_search.h"
 
