@@ -1,5 +1,6 @@
 #include "structures/box/enclosing_box.h"
 #include "structures/session/dump_files.h"
+#include "structures/session/make_of_motion.h"
 #include "structures/session/own_structures.h"
 #include "structures/triangulation/static_build.h"
 
@@ -16,14 +17,7 @@ class BoxInRun final : public RunningStructure {
   [[nodiscard]] KineticStructure& kinetic() override { return box_; }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override { return {dump_box(box_.ends())}; }
   [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t) const override {
-    CombinatorialElements elements{1, {}};
-    for (const BeadId bead : box_.ends()) {
-      CombinatorialElement& element = elements.all.emplace_back();
-      element.fill(no_bead);
-      element[0] = static_cast<BeadId>(elements.all.size() - 1);
-      element[1] = bead;
-    }
-    return elements;
+    return elements_in_order(box_.ends());
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     return seconds_to_box(scene_.centers(frame)).clock;
@@ -40,14 +34,7 @@ StructureSpec box_structure() {
   StructureSpec spec;
   spec.name = "box";
   spec.order = 12;
-  spec.make = [](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,
-                 const StructureSettings&) {
-    return std::visit(
-        [&]<int D>(const MotionRef<D>& ref) -> std::unique_ptr<RunningStructure> {
-          return std::make_unique<BoxInRun<D>>(simulator, scene, ref);
-        },
-        motion);
-  };
+  spec.make = make_of_motion<BoxInRun, 1>();
   return spec;
 }
 

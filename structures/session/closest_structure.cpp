@@ -2,6 +2,7 @@
 
 #include "structures/closest/kinetic_closest_pair.h"
 #include "structures/session/dump_files.h"
+#include "structures/session/make_of_motion.h"
 #include "structures/session/own_structures.h"
 #include "structures/triangulation/regular_triangulation.h"
 
@@ -21,12 +22,7 @@ class ClosestInRun final : public RunningStructure {
   }
   [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t) const override {
     CombinatorialElements elements{1, {}};
-    if (const auto& pair = closest_.pair()) {
-      CombinatorialElement& element = elements.all.emplace_back();
-      element.fill(no_bead);
-      element[0] = 0;
-      std::copy(pair->begin(), pair->end(), element.begin() + 1);
-    }
+    if (const auto& pair = closest_.pair()) elements.add({0}, *pair);
     return elements;
   }
   /// One edge of the Delaunay triangulation is the closest pair.
@@ -50,18 +46,7 @@ StructureSpec closest_structure() {
     if (scene.dimension() < 2) return needs_plane_or_space(scene);
     return std::nullopt;
   };
-  spec.make = [](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,
-                 const StructureSettings&) {
-    return std::visit(
-        [&]<int D>(const MotionRef<D>& ref) -> std::unique_ptr<RunningStructure> {
-          if constexpr (D == 1) {
-            return nullptr;
-          } else {
-            return std::make_unique<ClosestInRun<D>>(simulator, scene, ref);
-          }
-        },
-        motion);
-  };
+  spec.make = make_of_motion<ClosestInRun, 2>();
   return spec;
 }
 

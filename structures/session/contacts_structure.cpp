@@ -5,6 +5,7 @@
 #include "kds/seconds.h"
 #include "structures/collision/cell_list.h"
 #include "structures/contacts/contacts.h"
+#include "structures/session/make_of_motion.h"
 #include "structures/session/own_structures.h"
 #include "structures/session/session.h"
 
@@ -23,12 +24,7 @@ class ContactsInRun final : public RunningStructure {
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override { return {}; }
   [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t) const override {
     CombinatorialElements elements{2, {}};
-    for (const BeadPair& pair : contacts_.pairs()) {
-      CombinatorialElement& element = elements.all.emplace_back();
-      element.fill(no_bead);
-      element[0] = pair.first;
-      element[1] = pair.second;
-    }
+    for (const BeadPair& pair : contacts_.pairs()) elements.add({pair.first, pair.second});
     return elements;
   }
   [[nodiscard]] std::vector<Change> built() const override {
@@ -78,20 +74,13 @@ StructureSpec contacts_structure() {
       return "the points of an instance have no radii, and contacts are of balls; expected a trajectory";
     return std::nullopt;
   };
-  spec.make = [](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,
-                 const StructureSettings& settings) {
-    return std::visit(
-        [&]<int D>(const MotionRef<D>& ref) -> std::unique_ptr<RunningStructure> {
-          if constexpr (D == 1) {
-            return nullptr;
-          } else {
-            const PairsAsked asked{scene.necklaces(), true, settings.apart, true};
-            if (simulator.kernel() == Kernel::exact) check_exact_pairs(asked);
-            return std::make_unique<ContactsInRun<D>>(simulator, scene, ref, asked);
-          }
-        },
-        motion);
-  };
+  spec.make =
+      make_of_motion<2>([]<int D>(Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
+                                  const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
+        const PairsAsked asked{scene.necklaces(), true, settings.apart, true};
+        if (simulator.kernel() == Kernel::exact) check_exact_pairs(asked);
+        return std::make_unique<ContactsInRun<D>>(simulator, scene, ref, asked);
+      });
   return spec;
 }
 

@@ -18,11 +18,7 @@ class HullInRun final : public RunningStructure {
   }
   [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t) const override {
     CombinatorialElements elements{1, {}};
-    for (const BeadId bead : hull_.corners()) {
-      CombinatorialElement& element = elements.all.emplace_back();
-      element.fill(no_bead);
-      element[0] = bead;
-    }
+    for (const BeadId bead : hull_.corners()) elements.add({bead});
     return elements;
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {

@@ -3,6 +3,7 @@
 #include "kds/seconds.h"
 #include "structures/session/chords_in_run.h"
 #include "structures/session/dump_files.h"
+#include "structures/session/make_of_motion.h"
 #include "structures/session/own_structures.h"
 
 namespace kds {
@@ -39,18 +40,11 @@ StructureSpec layered_structure() {
   spec.order = 25;
   spec.refusal = refusal_of_spheres;
   spec.has_events = [](const StructureSettings&) { return false; };
-  spec.make = [](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,
-                 const StructureSettings& settings) {
-    return std::visit(
-        [&]<int D>(const MotionRef<D>& ref) -> std::unique_ptr<RunningStructure> {
-          if constexpr (D == 1) {
-            return nullptr;
-          } else {
-            return std::make_unique<LayeredInRun<D>>(simulator, scene, ref, settings.nodes, std::nullopt);
-          }
-        },
-        motion);
-  };
+  spec.make =
+      make_of_motion<2>([]<int D>(Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
+                                  const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
+        return std::make_unique<LayeredInRun<D>>(simulator, scene, ref, settings.nodes, std::nullopt);
+      });
   return spec;
 }
 

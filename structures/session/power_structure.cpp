@@ -1,5 +1,6 @@
 #include "structures/power_diagram/power_diagram.h"
 #include "structures/session/dump_files.h"
+#include "structures/session/make_of_motion.h"
 #include "structures/session/own_structures.h"
 #include "structures/triangulation/regular_triangulation.h"
 
@@ -22,9 +23,7 @@ class PowerInRun final : public RunningStructure {
     CombinatorialElements elements{Dimension + 1, {}};
     for (CellBeads<Dimension> cell : diagram_.at_frame(frame == 0).cells) {
       std::sort(cell.begin(), cell.end());
-      CombinatorialElement& element = elements.all.emplace_back();
-      element.fill(no_bead);
-      std::copy(cell.begin(), cell.end(), element.begin());
+      elements.add({}, cell);
     }
     return elements;
   }
@@ -49,18 +48,7 @@ StructureSpec power_structure() {
     if (scene.dimension() < 2) return needs_plane_or_space(scene);
     return std::nullopt;
   };
-  spec.make = [](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,
-                 const StructureSettings&) {
-    return std::visit(
-        [&]<int D>(const MotionRef<D>& ref) -> std::unique_ptr<RunningStructure> {
-          if constexpr (D == 1) {
-            return nullptr;
-          } else {
-            return std::make_unique<PowerInRun<D>>(simulator, scene, ref);
-          }
-        },
-        motion);
-  };
+  spec.make = make_of_motion<PowerInRun, 2>();
   return spec;
 }
 

@@ -8,6 +8,18 @@
 
 namespace kds {
 
+void CombinatorialElements::add(std::initializer_list<BeadId> place, std::span<const BeadId> what) {
+  CombinatorialElement& element = all.emplace_back();
+  element.fill(no_bead);
+  std::copy(what.begin(), what.end(), std::copy(place.begin(), place.end(), element.begin()));
+}
+
+CombinatorialElements elements_in_order(std::span<const BeadId> beads) {
+  CombinatorialElements elements{1, {}};
+  for (BeadId k = 0; k < beads.size(); ++k) elements.add({k}, beads.subspan(k, 1));
+  return elements;
+}
+
 void StructureRegistry::add(StructureSpec spec) {
   if (find(spec.name) != nullptr)
     throw std::logic_error("there is a structure '" + spec.name + "' already: give one of them another name");

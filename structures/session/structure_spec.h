@@ -5,8 +5,10 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,7 +35,12 @@ struct CombinatorialElements {
   /// Places are all different.
   std::size_t place_ids = 0;
   std::vector<CombinatorialElement> all;  ///< in any order
+
+  /// One more, of at most six ids together.
+  void add(std::initializer_list<BeadId> place, std::span<const BeadId> what = {});
 };
+/// Of beads in an order: where the k-th place is, and who is there.
+[[nodiscard]] CombinatorialElements elements_in_order(std::span<const BeadId> beads);
 
 /// A structure in a run, and what differs between structures outside the simulator.
 class RunningStructure {

@@ -4,6 +4,7 @@
 #include "structures/hierarchy/wrapped_hierarchy.h"
 #include "structures/session/chords_in_run.h"
 #include "structures/session/dump_files.h"
+#include "structures/session/make_of_motion.h"
 #include "structures/session/own_structures.h"
 #include "structures/triangulation/static_build.h"
 
@@ -57,11 +58,7 @@ class WrappedInRun final : public RunningStructure {
       if (!hierarchy_.keeps(id)) continue;
       const BeadRange& range = hierarchy_.tree().range(id);
       const Basis& basis = hierarchy_.basis(id);
-      CombinatorialElement& element = elements.all.emplace_back();
-      element.fill(no_bead);
-      element[0] = range.first;
-      element[1] = range.last;
-      std::copy(basis.begin(), basis.end(), element.begin() + 2);
+      elements.add({range.first, range.last}, {basis.begin(), basis.end()});
     }
     return elements;
   }
@@ -116,21 +113,14 @@ StructureSpec wrapped_structure() {
   spec.by_default = [](const Scene& scene) { return scene.has_radii(); };
   spec.refusal = refusal_of_spheres;
   spec.has_events = [](const StructureSettings& settings) { return settings.between == Between::events; };
-  spec.make = [](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,
-                 const StructureSettings& settings) {
-    return std::visit(
-        [&]<int D>(const MotionRef<D>& ref) -> std::unique_ptr<RunningStructure> {
-          if constexpr (D == 1) {
-            return nullptr;
-          } else {
-            if (settings.between == Between::chord)
-              return std::make_unique<WrappedChordsInRun<D>>(simulator, scene, ref, settings.nodes,
-                                                             settings.tightness);
-            return std::make_unique<WrappedInRun<D>>(simulator, scene, ref, settings.nodes, settings.relax);
-          }
-        },
-        motion);
-  };
+  spec.make =
+      make_of_motion<2>([]<int D>(Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
+                                  const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
+        if (settings.between == Between::chord)
+          return std::make_unique<WrappedChordsInRun<D>>(simulator, scene, ref, settings.nodes,
+                                                         settings.tightness);
+        return std::make_unique<WrappedInRun<D>>(simulator, scene, ref, settings.nodes, settings.relax);
+      });
   return spec;
 }
 
