@@ -1,6 +1,9 @@
 #include "structures/triangulation/exact_triangulation.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Filtered_kernel.h>
+#include <CGAL/Lazy_exact_nt.h>
+#include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
 
@@ -36,16 +39,27 @@ struct ExactPowerTest {
   }
   template <class Point, class... Third>
   static auto whole(const Point& p, const Third&... z) -> WholePoint<2 + sizeof...(Third)> {
-    return {mpq_numref(p.x().get_mpq_t()), mpq_numref(p.y().get_mpq_t()), mpq_numref(z.get_mpq_t())...,
-            mpq_numref(p.weight().get_mpq_t())};
+    return {whole_number(p.x()), whole_number(p.y()), whole_number(z)..., whole_number(p.weight())};
+  }
+  template <class Number>
+  static mpz_srcptr whole_number(const Number& x) {
+    return mpq_numref(x.exact().get_mpq_t());
   }
 };
 
-using Rationals = CGAL::Exact_predicates_exact_constructions_kernel;
+/// Rationals, each with an interval around it. (Points that know their numbers only on demand, as CGAL's own
+/// exact kernel has them, are made anew for each predicate.)
+using Rationals = CGAL::Filtered_kernel<CGAL::Simple_cartesian<CGAL::Lazy_exact_nt<CGAL::Epeck_ft>>, false>;
+
+struct AsItIs {
+  template <class Point>
+  const Point& operator()(const Point& point) const {
+    return point;
+  }
+};
 
 template <class Approximate>
-using FilteredPowerTest =
-    CGAL::Filtered_predicate<ExactPowerTest, Approximate, Rationals::C2E, Rationals::C2F>;
+using FilteredPowerTest = CGAL::Filtered_predicate<ExactPowerTest, Approximate, AsItIs, Rationals::C2F>;
 
 /// CGAL's exact numbers for points whose coordinates are whole.
 struct Geometry : Rationals {
@@ -100,7 +114,7 @@ Geometry::FT to_cgal(const Rational& x, mp_bitcnt_t places) {
 /// Points are looked for as over CGAL's own exact numbers.
 template <>
 struct CGAL::Triangulation_structural_filtering_traits<kds::Geometry>
-    : CGAL::Triangulation_structural_filtering_traits<kds::Rationals> {};
+    : CGAL::Triangulation_structural_filtering_traits<CGAL::Epeck> {};
 
 namespace kds {
 
