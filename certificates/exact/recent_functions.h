@@ -1,14 +1,15 @@
 #pragma once
-// The wide functions that were asked for last. The same few beads' function is asked for again and again
-// where doubles do not decide: searched, compared, its sign looked at after each event. What has been found
-// out about it, digits, square-free part and roots, stays with it. A function is known by all numbers that it
-// is made from, so that nothing ever goes out of date.
+// The functions that were asked for last, first of all the wide ones. The same few beads' function is asked
+// for again and again where doubles do not decide: searched, compared, its sign looked at after each event.
+// What has been found out about it, digits, square-free part and roots, stays with it. A function is known by
+// all numbers that it is made from, so that nothing ever goes out of date.
 
 #include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
 
+#include "certificates/exact/recent_coefficients.h"
 #include "certificates/exact/wide_polynomial.h"
 
 namespace kds {
@@ -21,6 +22,9 @@ class RecentFunctions {
                                                          const std::vector<double>& numbers,
                                                          std::unique_ptr<const CoefficientSource> source,
                                                          bool negative = false);
+
+  /// Of functions that are not wide.
+  [[nodiscard]] RecentCoefficients& ordinary() { return ordinary_; }
 
  private:
   struct Known {
@@ -35,6 +39,7 @@ class RecentFunctions {
   };
 
   std::array<Shelf, 64> shelves_;
+  RecentCoefficients ordinary_;
 };
 
 }  // namespace kds

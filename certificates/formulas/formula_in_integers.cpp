@@ -117,6 +117,37 @@ class WideFunction final : public CoefficientSource {
   WholeScale scale_;
 };
 
+/// All numbers that go into a function.
+template <class C>
+std::vector<double> numbers_of(const BeadFunction& function, const C& curves) {
+  std::vector<double> numbers;
+  numbers.reserve(64);
+  each_control(curves, function.beads, function.known.channels(),
+               [&](double value, int) { numbers.push_back(value); });
+  if (&function.formula != &function.known.formula()) {
+    for (const FormulaStep& step : function.formula.steps())
+      if (step.kind == FormulaStep::Kind::multiple) numbers.push_back(static_cast<double>(step.number));
+  }
+  return numbers;
+}
+
+/// The coefficients, formed or kept from when they were.
+template <class C>
+std::vector<Integer> ordinary_coefficients(const BeadFunction& function, const C& curves,
+                                           const CoefficientBits& size, const WholeScale& scale) {
+  RecentCoefficients& recent = ExactWork::current().recent_functions().ordinary();
+  const std::vector<double> numbers = numbers_of(function, curves);
+  const RecentCoefficients::Key key{&function.known, numbers};
+  if (const std::vector<Integer>* known = recent.of(key)) {
+    std::vector<Integer> coefficients = *known;
+    ExactWork::spend(coefficients.size());
+    return coefficients;
+  }
+  std::vector<Integer> formed = whole_coefficients(function.formula, function.beads, curves, size, scale);
+  recent.keep(key, formed);
+  return formed;
+}
+
 }  // namespace
 
 template <class C>
@@ -124,7 +155,7 @@ ExactPolynomial exact_function(const BeadFunction& function, const C& curves) {
   const CoefficientBits& size = function.known.coefficient_bits(degree_of(curves));
   const WholeScale scale = whole_scale(curves, function.beads, function.known.channels());
   if (scale.bits < wide_length_bits) {
-    std::vector<Integer> scaled = whole_coefficients(function.formula, function.beads, curves, size, scale);
+    std::vector<Integer> scaled = ordinary_coefficients(function, curves, size, scale);
     if (function.negative) detail::negate<Integer>(scaled);
     return ExactPolynomial(std::move(scaled));
   }

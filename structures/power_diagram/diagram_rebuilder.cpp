@@ -215,6 +215,7 @@ bool DiagramRebuilder<Dimension>::try_to_rebuild() {
   std::vector<ExactTime> before;  // a rebuild must be before these
   add_beginnings(before);
   drop_all();
+  facets_.remember();
   state_.present = {};
   bool solid = false;  // at some time
   const auto is_late = [&](const Dyadic& time) {
@@ -232,6 +233,7 @@ bool DiagramRebuilder<Dimension>::try_to_rebuild() {
     std::vector<ExactTime> more = contradictions(time);
     if (state_.doubt != Doubt::wrong && more.empty()) {
       state_.clear_doubt();
+      facets_.forget_known();
       coarsest_that_worked_ = bits;
       record(time);
       return true;
@@ -239,6 +241,7 @@ bool DiagramRebuilder<Dimension>::try_to_rebuild() {
     before.insert(before.end(), more.begin(), more.end());
     drop_all();
   }
+  facets_.forget_known();
   state_.clear_doubt();
   if (!solid) return false;
   if (state_.simulator.kernel() == Kernel::fast) {  // doubles contradict themselves

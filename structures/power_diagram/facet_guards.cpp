@@ -58,11 +58,45 @@ void FacetGuards<Dimension>::enqueue(const FacetCertificates<Dimension + 1>& cer
   // failures of one time are handled, and what a flip makes.
   const FacetId place = std::min(facet_id(cell, i), state_.triangulation.beyond(cell, i));
   const BeadId beyond = state_.apex(cell, i);
+  const auto make = [&](auto& certificate) { certificates.make(beyond, certificate); };
   if (certificates.on_hull(beyond)) {
-    certificates.make(beyond, orientations_.one_of_many(place, known));
+    enqueue_in(orientations_, place, known, make);
   } else {
-    certificates.make(beyond, power_tests_.one_of_many(place, known));
+    enqueue_in(power_tests_, place, known, make);
   }
+}
+
+template <int Dimension>
+template <class Certificate, class Make>
+void FacetGuards<Dimension>::enqueue_in(CertificateTable<Certificate>& table, FacetId place,
+                                        KnownAtStart birth, Make make) {
+  if (known_ && birth == KnownAtStart::unknown) {
+    Certificate certificate;
+    make(certificate);
+    if (const Failure* failure = known_->of(certificate)) {
+      ++state_.owner.statistics.stages.shared;
+      return table.enqueue_known(certificate, place, *failure);
+    }
+  }
+  make(table.one_of_many(place, birth));
+}
+
+template <int Dimension>
+template <class Certificate>
+void FacetGuards<Dimension>::remember(const CertificateTable<Certificate>& table, FacetId facet,
+                                      CertificateHandle guard) {
+  Failure failure;
+  if (has_slot(guard)) {
+    failure = {Failure::Kind::later, table.time(slot_of(guard))};
+  } else if (guard == CertificateHandle::zero) {
+    failure.kind = Failure::Kind::zero;
+  } else if (guard == CertificateHandle::violated) {
+    failure.kind = Failure::Kind::at_birth;
+  }
+  const CellId cell = cell_of(facet);
+  Certificate certificate;
+  FacetCertificates(state_.beads_of(cell)).make(state_.apex(cell, index_of(facet)), certificate);
+  known_->add(certificate, failure);
 }
 
 template <int Dimension>
@@ -179,11 +213,14 @@ void FacetGuards<Dimension>::watch_enqueued() {
     set_guard(cell_of(facet), index_of(facet), {guard, about});
   };
   power_tests_.watch_enqueued([&](FacetId facet, CertificateHandle guard) {
+    if (known_) remember(power_tests_, facet, guard);
     take(facet, guard, About::power);
     if (guard == CertificateHandle::zero) watch_cells_beside(cell_of(facet), index_of(facet));
   });
-  orientations_.watch_enqueued(
-      [&](FacetId facet, CertificateHandle guard) { take(facet, guard, About::hull); });
+  orientations_.watch_enqueued([&](FacetId facet, CertificateHandle guard) {
+    if (known_) remember(orientations_, facet, guard);
+    take(facet, guard, About::hull);
+  });
 }
 
 /// Where a power test is zero for the whole step.

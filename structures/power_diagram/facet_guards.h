@@ -16,6 +16,7 @@
 #include "structures/power_diagram/facet_filter.h"
 #include "structures/power_diagram/facet_guard.h"
 #include "structures/power_diagram/facet_slack.h"
+#include "structures/power_diagram/known_failures.h"
 
 namespace kds {
 
@@ -59,6 +60,12 @@ class FacetGuards {
     }
   }
   void drop_all();
+  /// From now on what is found out about certificates is kept, and asked for before they are searched: while
+  /// time stands still and all diagrams that follow are of the same curves.
+  void remember() {
+    if (all_move() && !known_ && state_.simulator.kernel() != Kernel::fast) known_.emplace();
+  }
+  void forget_known() { known_.reset(); }
   /// Another triangulation follows: nothing is known of its cells and facets, and none is guarded.
   void forget_cells();
 
@@ -155,6 +162,11 @@ class FacetGuards {
   void enqueue(CellId cell, int i);
   void enqueue(const FacetCertificates<Dimension + 1>& certificates, CellId cell, int i, KnownAtStart known);
   void watch_enqueued();
+  /// One certificate of a facet, searched for with others, or known.
+  template <class Certificate, class Make>
+  void enqueue_in(CertificateTable<Certificate>& table, FacetId place, KnownAtStart birth, Make make);
+  template <class Certificate>
+  void remember(const CertificateTable<Certificate>& table, FacetId facet, CertificateHandle guard);
   /// With the filter, or, without lanes, one facet at a time.
   template <bool in_lanes>
   void watch_all_moving();
@@ -185,6 +197,7 @@ class FacetGuards {
   LengthUnit unit_;  // near the cells' lengths in this step
   std::vector<std::uint8_t> ends_positive_;
   FacetSlack<Dimension> slack_;
+  std::optional<KnownFailures> known_;
   std::vector<char> moving_;  // of each bead; empty: all move
   std::vector<CellId> flipped_;
 };

@@ -64,6 +64,7 @@ void PowerDiagram<Dimension>::start_step() {
   const bool wrong = state.flat && is_wrong_just_after(state);
   state.clear_doubt();
   // Also where it is wrong: its certificates tell how soon a rebuild must be.
+  if (wrong) facets.remember();
   if (state.has_cells()) rebuilder.watch_all();
   if ((wrong || !state.has_cells()) && !rebuilder.try_to_rebuild()) {
     // All beads stay in one plane, or on one line: no cells, no events.

@@ -1,17 +1,90 @@
 #include "structures/triangulation/exact_triangulation.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Filtered_kernel.h>
+#include <CGAL/Lazy_exact_nt.h>
+#include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
 
 #include "motions/base/floating_point_guard.h"
 #include "structures/triangulation/cgal_triangulations.h"
+#include "structures/triangulation/whole_power_test.h"
 
 namespace kds {
 
 namespace {
 
-using Geometry = CGAL::Exact_predicates_exact_constructions_kernel;
+/// A power test of whole numbers, after CGAL's own filter: what CGAL does with rationals takes several times
+/// as long.
+struct ExactPowerTest {
+  using result_type = CGAL::Oriented_side;
+
+  template <class Point>
+  CGAL::Oriented_side operator()(const Point& p, const Point& q, const Point& r, const Point& s,
+                                 const Point& t) const {
+    return CGAL::enum_cast<CGAL::Oriented_side>(-room<3>().sign(
+        {whole(p, p.z()), whole(q, q.z()), whole(r, r.z()), whole(s, s.z()), whole(t, t.z())}));
+  }
+  template <class Point>
+  CGAL::Oriented_side operator()(const Point& p, const Point& q, const Point& r, const Point& t) const {
+    return CGAL::enum_cast<CGAL::Oriented_side>(room<2>().sign({whole(p), whole(q), whole(r), whole(t)}));
+  }
+
+ private:
+  template <int Dimension>
+  static WholePowerTest<Dimension>& room() {
+    thread_local WholePowerTest<Dimension> test;
+    return test;
+  }
+  template <class Point, class... Third>
+  static auto whole(const Point& p, const Third&... z) -> WholePoint<2 + sizeof...(Third)> {
+    return {whole_number(p.x()), whole_number(p.y()), whole_number(z)..., whole_number(p.weight())};
+  }
+  template <class Number>
+  static mpz_srcptr whole_number(const Number& x) {
+    return mpq_numref(x.exact().get_mpq_t());
+  }
+};
+
+/// Rationals, each with an interval around it. (Points that know their numbers only on demand, as CGAL's own
+/// exact kernel has them, are made anew for each predicate.)
+using Rationals = CGAL::Filtered_kernel<CGAL::Simple_cartesian<CGAL::Lazy_exact_nt<CGAL::Epeck_ft>>, false>;
+
+struct AsItIs {
+  template <class Point>
+  const Point& operator()(const Point& point) const {
+    return point;
+  }
+};
+
+template <class Approximate>
+using FilteredPowerTest = CGAL::Filtered_predicate<ExactPowerTest, Approximate, AsItIs, Rationals::C2F>;
+
+/// CGAL's exact numbers for points whose coordinates are whole.
+struct Geometry : Rationals {
+  struct Power_side_of_oriented_power_sphere_3 : Rationals::Power_side_of_oriented_power_sphere_3 {
+    using Rationals::Power_side_of_oriented_power_sphere_3::operator();
+    CGAL::Oriented_side operator()(const Weighted_point_3& p, const Weighted_point_3& q,
+                                   const Weighted_point_3& r, const Weighted_point_3& s,
+                                   const Weighted_point_3& t) const {
+      return FilteredPowerTest<Approximate_kernel::Power_side_of_oriented_power_sphere_3>()(p, q, r, s, t);
+    }
+  };
+  struct Power_side_of_oriented_power_circle_2 : Rationals::Power_side_of_oriented_power_circle_2 {
+    using Rationals::Power_side_of_oriented_power_circle_2::operator();
+    CGAL::Oriented_side operator()(const Weighted_point_2& p, const Weighted_point_2& q,
+                                   const Weighted_point_2& r, const Weighted_point_2& t) const {
+      return FilteredPowerTest<Approximate_kernel::Power_side_of_oriented_power_circle_2>()(p, q, r, t);
+    }
+  };
+  [[nodiscard]] static Power_side_of_oriented_power_sphere_3 power_side_of_oriented_power_sphere_3_object() {
+    return {};
+  }
+  [[nodiscard]] static Power_side_of_oriented_power_circle_2 power_side_of_oriented_power_circle_2_object() {
+    return {};
+  }
+};
 
 // Twos in the denominator.
 mp_bitcnt_t binary_places(const Rational& x) { return mpz_scan1(mpq_denref(x.data()), 0); }
@@ -35,6 +108,15 @@ Geometry::FT to_cgal(const Rational& x, mp_bitcnt_t places) {
 }
 
 }  // namespace
+
+}  // namespace kds
+
+/// Points are looked for as over CGAL's own exact numbers.
+template <>
+struct CGAL::Triangulation_structural_filtering_traits<kds::Geometry>
+    : CGAL::Triangulation_structural_filtering_traits<CGAL::Epeck> {};
+
+namespace kds {
 
 template <int Dimension>
 StaticTriangulation<Dimension> static_triangulation(std::span<const ExactBead> beads, bool oriented) {

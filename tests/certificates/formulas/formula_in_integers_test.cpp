@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "certificates/exact/exact_work.h"
 #include "certificates/exact/modular_gcd.h"
+#include "certificates/exact/recent_coefficients.h"
 #include "certificates/exact/wide_polynomial.h"
 #include "certificates/formulas/function_values.h"
 #include "certificates/types/relaxed_bead_in_sphere.h"
@@ -113,6 +115,48 @@ TYPED_TEST(FormulaInIntegers, ReachesEveryWidth) {
     motion.set_coordinate(1, 0, 0, std::ldexp(1.0, -spread));
     expect_same(test::random_certificate<C>(random), motion);
   }
+}
+
+// What was formed is kept: by numbers, whatever beads they are of, and not for others.
+TYPED_TEST(FormulaInIntegers, IsThatOfTheNumbersItIsAskedOf) {
+  using C = typename TypeParam::C;
+  using M = typename TypeParam::M;
+  Random random(906);
+  ExactWork account;
+  const ExactWork::Open open(account);
+  for (int i = 0; i < 30; ++i) {
+    auto motion = test::random_motion<M>(random, TypeParam::beads, test::MotionKind::generic);
+    const auto certificate = test::random_certificate<C>(random);
+    expect_same(certificate, motion);
+    const std::uint64_t first = account.done();
+    expect_same(certificate, motion);
+    EXPECT_LT(account.done() - first, 100U);  // it was not formed again
+    const auto bead = certificate.beads[0];
+    motion.set_coordinate(bead, M::degree, 0, motion.coordinate(bead, M::degree, 0) + 1);
+    expect_same(certificate, motion);
+    for (BeadId b = 0; b < motion.bead_count(); ++b)
+      for (int k = 0; k <= M::degree; ++k) motion.set_coordinate(b, k, 0, -motion.coordinate(b, k, 0));
+    expect_same(certificate, motion);
+  }
+}
+
+TEST(RecentCoefficients, AreKnownByFormulaAndEveryNumber) {
+  RecentCoefficients recent;
+  const int a = 0, b = 0;
+  const std::vector<double> numbers{1, 0, 2}, others{1, -0.0, 2}, more{1, 0, 2, 0};
+  const std::vector<Integer> coefficients{Integer(3), Integer(-4)};
+  EXPECT_EQ(recent.of({&a, numbers}), nullptr);
+  recent.keep({&a, numbers}, coefficients);
+  ASSERT_NE(recent.of({&a, numbers}), nullptr);
+  EXPECT_EQ(*recent.of({&a, numbers}), coefficients);
+  EXPECT_EQ(recent.of({&b, numbers}), nullptr);
+  EXPECT_EQ(recent.of({&a, others}), nullptr);
+  EXPECT_EQ(recent.of({&a, more}), nullptr);
+  EXPECT_EQ(recent.of({&a, {}}), nullptr);
+  recent.keep({&b, numbers}, {Integer(5)});  // the same place
+  EXPECT_EQ(recent.of({&a, numbers}), nullptr);
+  ASSERT_NE(recent.of({&b, numbers}), nullptr);
+  EXPECT_EQ(*recent.of({&b, numbers}), std::vector<Integer>{Integer(5)});
 }
 
 TYPED_TEST(FormulaInIntegers, OfBeadsAtTheOriginIsZero) {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "motions/models/model.h"
 #include "structures/power_diagram/diagram_events.h"
@@ -46,6 +48,26 @@ std::vector<Eigen::Matrix3Xd> whole_lattice(const Eigen::Matrix3d& by) {
   return {points, by * points, by * by * points};
 }
 
+/// Rings of beads one above the other, turned about a slanted axis and stretched.
+std::vector<Eigen::Matrix3Xd> rings() {
+  Eigen::Matrix3Xd points(3, 24);
+  for (Eigen::Index b = 0; b < points.cols(); ++b) {
+    const double angle = 2 * 3.14159265358979 * double(b % 8) / 8;
+    points.col(b) = Eigen::Vector3d(3 * std::cos(angle), 3 * std::sin(angle), 0.75 * double(b / 8));
+  }
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.25, Eigen::Vector3d(1, 2, 2) / 3).toRotationMatrix();
+  return {points, turn * points, turn * Eigen::Vector3d(1, 1.25, 1).asDiagonal() * points};
+}
+
+/// A lattice in one plane that turns in space: it has a diagram for what its coordinates were rounded by.
+std::vector<Eigen::Matrix3Xd> turning_plane() {
+  Eigen::Matrix3Xd points(3, 16);
+  for (Eigen::Index b = 0; b < points.cols(); ++b)
+    points.col(b) = Eigen::Vector3d(2 * double(b % 4), 2 * double(b / 4), 0);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.125, Eigen::Vector3d(2, 3, 6) / 7).toRotationMatrix();
+  return {points, turn * points, turn * turn * points};
+}
+
 struct Scene {
   std::string name;
   std::vector<Eigen::Matrix3Xd> frames;
@@ -60,6 +82,8 @@ std::vector<Scene> scenes() {
           {"grid that wanders", model("grid", 27, models::ShapeMotion::wander)},
           {"helix", model("helix", 24, models::ShapeMotion::rotate)},
           {"grill", model("grill", 24, models::ShapeMotion::rotate)},
+          {"rings", rings()},
+          {"turning plane", turning_plane()},
           {"one bead moves", one_moves()},
           {"sheared", whole_lattice(shear)},
           {"scaled", whole_lattice(scale)},

@@ -1,0 +1,52 @@
+#include "structures/triangulation/whole_power_test.h"
+
+namespace kds {
+
+template <int Dimension>
+void WholePowerTest<Dimension>::set_minor(Integer& minor, const Integer& a, const Integer& b,
+                                          const Integer& c, const Integer& d) {
+  mpz_mul(minor.data(), a.data(), b.data());
+  mpz_submul(minor.data(), c.data(), d.data());
+}
+
+template <int Dimension>
+int WholePowerTest<Dimension>::sign(const std::array<WholePoint<Dimension>, rows + 1>& points) {
+  constexpr std::size_t lift = rows - 1;
+  const WholePoint<Dimension>& t = points[rows];
+  for (std::size_t i = 0; i < rows; ++i) {
+    mpz_ptr square = row_[i][lift].data();
+    mpz_sub(square, t[lift], points[i][lift]);
+    for (std::size_t axis = 0; axis < lift; ++axis) {
+      mpz_ptr difference = row_[i][axis].data();
+      mpz_sub(difference, points[i][axis], t[axis]);
+      mpz_addmul(square, difference, difference);
+    }
+  }
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t j = i + 1; j < rows; ++j)
+      set_minor(of_pair_[i][j], row_[i][0], row_[j][1], row_[j][0], row_[i][1]);
+  }
+  // By the last column, in space by the one before it, too.
+  mpz_set_ui(determinant_.data(), 0);
+  for (std::size_t out = 0; out < rows; ++out) {
+    std::array<std::size_t, rows - 1> left{};
+    for (std::size_t i = 0, next = 0; i < rows; ++i) {
+      if (i != out) left[next++] = i;
+    }
+    mpz_srcptr minor = of_pair_[left[0]][left[1]].data();
+    if constexpr (Dimension == 3) {
+      mpz_mul(minor_.data(), row_[left[0]][2].data(), of_pair_[left[1]][left[2]].data());
+      mpz_submul(minor_.data(), row_[left[1]][2].data(), of_pair_[left[0]][left[2]].data());
+      mpz_addmul(minor_.data(), row_[left[2]][2].data(), of_pair_[left[0]][left[1]].data());
+      minor = minor_.data();
+    }
+    const bool even = (out + lift) % 2 == 0;
+    (even ? mpz_addmul : mpz_submul)(determinant_.data(), row_[out][lift].data(), minor);
+  }
+  return determinant_.sign();
+}
+
+template class WholePowerTest<2>;
+template class WholePowerTest<3>;
+
+}  // namespace kds
