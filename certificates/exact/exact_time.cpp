@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "certificates/exact/wide_polynomial.h"
 #include "certificates/exact/wide_roots.h"
 
 namespace kds {
@@ -86,17 +88,21 @@ double rough(const ExactTime& time) {
 
 ExactTime::ExactTime(ExactPolynomial square_free, RootInterval interval)
     : polynomial_(std::move(square_free)), root_(std::move(interval)) {
-  if (!is_dyadic()) sign_lower_ = polynomial_.sign_at(root_.lower);
+  if (!is_dyadic() && root_.sign_at_lower == 0) root_.sign_at_lower = polynomial_.sign_at(root_.lower);
 }
 
 void ExactTime::refine() {
   if (is_dyadic()) return;
-  if (polynomial_.wide() != nullptr) return narrow_root(*polynomial_.wide(), root_, sign_lower_);
+  // Halving takes a step a bit: too long for a root of another scale, or for one of thousands of digits.
+  constexpr unsigned few_places = 256;
+  if (polynomial_.wide() == nullptr && root_.upper.exponent() > few_places)
+    polynomial_ = ExactPolynomial(std::make_shared<const WidePolynomial>(polynomial_.scaled()));
+  if (polynomial_.wide() != nullptr) return narrow_root(*polynomial_.wide(), root_);
   Dyadic middle = Dyadic::midpoint(root_.lower, root_.upper);
   const int sign = polynomial_.sign_at(middle);
   if (sign == 0) {
     root_ = {middle, middle};
-  } else if (sign == sign_lower_) {
+  } else if (sign == root_.sign_at_lower) {
     root_.lower = std::move(middle);
   } else {
     root_.upper = std::move(middle);
@@ -105,7 +111,8 @@ void ExactTime::refine() {
 
 bool ExactTime::narrow_to(const Dyadic& lower, const Dyadic& upper) {
   if (is_dyadic() || lower < root_.lower || root_.upper < upper) return false;
-  if (polynomial_.sign_at(lower) != sign_lower_ || polynomial_.sign_at(upper) != -sign_lower_) return false;
+  if (polynomial_.sign_at(lower) != root_.sign_at_lower || polynomial_.sign_at(upper) != -root_.sign_at_lower)
+    return false;
   root_.lower = lower;
   root_.upper = upper;
   return true;

@@ -190,6 +190,16 @@ Dyadic split_point(const Dyadic& lower, const Dyadic& upper) {
 
 namespace {
 
+/// The one of a polynomial and its negative with which is kept what is known of both.
+const WidePolynomial& own_of(const WidePolynomial& polynomial) {
+  return polynomial.opposite() ? *polynomial.opposite() : polynomial;
+}
+/// A root of that one, with the sign that this one has, or the other way round.
+RootInterval seen_by(const WidePolynomial& polynomial, RootInterval root) {
+  if (polynomial.opposite()) root.sign_at_lower = -root.sign_at_lower;
+  return root;
+}
+
 /// All roots in [0,1], found once.
 std::vector<RootInterval>& all_roots(const WidePolynomial& square_free) {
   std::optional<std::vector<RootInterval>>& known = square_free.found().roots;
@@ -215,7 +225,8 @@ void cut(RootInterval& root, const Dyadic& point, const WidePolynomial& square_f
   if (sign == 0) {
     root.lower = root.upper = point;
   } else {
-    (sign == square_free.sign_at(root.lower) ? root.lower : root.upper) = point;
+    if (root.sign_at_lower == 0) root.sign_at_lower = square_free.sign_at(root.lower);
+    (sign == root.sign_at_lower ? root.lower : root.upper) = point;
   }
 }
 
@@ -223,11 +234,12 @@ void cut(RootInterval& root, const Dyadic& point, const WidePolynomial& square_f
 
 void visit_wide_roots(const WidePolynomial& square_free, const Dyadic& lower, const Dyadic& upper,
                       const RootVisitor& visit) {
-  for (RootInterval& root : all_roots(square_free)) {
-    cut(root, lower, square_free);
+  const WidePolynomial& own = own_of(square_free);
+  for (RootInterval& root : all_roots(own)) {
+    cut(root, lower, own);
     if (root.lower < lower) continue;
-    cut(root, upper, square_free);
-    if (upper < root.upper || !visit(root)) return;
+    cut(root, upper, own);
+    if (upper < root.upper || !visit(seen_by(square_free, root))) return;
   }
 }
 
@@ -240,19 +252,39 @@ bool has_digits(const RootInterval& root, unsigned digits) {
 
 namespace {
 
-/// The known root that lies in this interval, which is of the same polynomial, is known as well from now on.
-void keep(const RootInterval& narrowed, const WidePolynomial& polynomial) {
-  auto& roots = polynomial.found().roots;
-  if (!roots) return;
+/// Of intervals in ascending order that do not overlap, the last one that begins at `at` or before.
+RootInterval* beginning_before(std::vector<RootInterval>& roots, const Dyadic& at) {
   const auto next =
-      std::upper_bound(roots->begin(), roots->end(), narrowed.lower,
-                       [](const Dyadic& at, const RootInterval& root) { return at < root.lower; });
-  if (next == roots->begin()) return;
-  RootInterval& known = *std::prev(next);
-  if (known.lower <= narrowed.lower && narrowed.upper <= known.upper) known = narrowed;
+      std::upper_bound(roots.begin(), roots.end(), at,
+                       [](const Dyadic& lower, const RootInterval& root) { return lower < root.lower; });
+  return next == roots.begin() ? nullptr : &*std::prev(next);
 }
 
-void narrow(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lower) {
+bool lies_in(const RootInterval& root, const Dyadic& lower, const Dyadic& upper) {
+  return lower <= root.lower && root.upper <= upper;
+}
+
+/// The known root that lies in this interval, which is of the same polynomial, is known as well from now on.
+/// Where not all roots are known, the last few are that were narrowed.
+void keep(const RootInterval& root, const WidePolynomial& polynomial) {
+  const RootInterval narrowed = seen_by(polynomial, root);
+  auto& [roots, some_roots, square_free, common] = polynomial.found();
+  if (roots) {
+    RootInterval* known = beginning_before(*roots, narrowed.lower);
+    if (known != nullptr && lies_in(narrowed, known->lower, known->upper)) *known = narrowed;
+    return;
+  }
+  for (RootInterval& known : some_roots) {
+    if (!lies_in(narrowed, known.lower, known.upper)) continue;
+    known = narrowed;
+    return;
+  }
+  constexpr std::size_t few = 16;
+  if (some_roots.size() == few) some_roots.erase(some_roots.begin());
+  some_roots.push_back(narrowed);
+}
+
+void narrow(const WidePolynomial& polynomial, RootInterval& root) {
   unsigned& digits = root.digits;
   const auto take = [&](Dyadic point) {  // whether the root is after it
     const int sign = polynomial.sign_at(point);
@@ -260,7 +292,7 @@ void narrow(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lo
       root.lower = root.upper = std::move(point);
       return false;
     }
-    const bool after = sign == sign_at_lower;
+    const bool after = sign == root.sign_at_lower;
     (after ? root.lower : root.upper) = std::move(point);
     return after;
   };
@@ -283,9 +315,16 @@ void narrow(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lo
 
 }  // namespace
 
-void narrow_root(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lower) {
-  narrow(polynomial, root, sign_at_lower);
+void narrow_root(const WidePolynomial& polynomial, RootInterval& root) {
+  narrow(polynomial, root);
   keep(root, polynomial);
+}
+
+RootInterval known_root(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper) {
+  auto& [roots, some_roots, square_free, common] = polynomial.found();
+  for (const RootInterval& known : roots ? *roots : some_roots)
+    if (lies_in(known, lower, upper)) return seen_by(polynomial, known);
+  return {lower, upper};
 }
 
 }  // namespace kds

@@ -13,10 +13,14 @@ namespace kds {
 void visit_wide_roots(const WidePolynomial& square_free, const Dyadic& lower, const Dyadic& upper,
                       const RootVisitor& visit);
 
-/// Narrows the interval of a root, at whose lower end the polynomial has this sign and at whose upper end the
-/// other. Its `digits` say how many binary digits a step is worth that is guessed from the values at both
-/// ends: 1 at first, then what the step before has made of it. Who visits the root later finds it narrowed.
-void narrow_root(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lower);
+/// Narrows the interval of a root at which the polynomial changes its sign, which is known at the lower end.
+/// Its `digits` say how many binary digits a step is worth that is guessed from the values at both ends: 1 at
+/// first, then what the step before has made of it. Who visits the root later finds it narrowed.
+void narrow_root(const WidePolynomial& polynomial, RootInterval& root);
+
+/// The only root in [lower, upper], at which the polynomial changes its sign: as narrow as it is known.
+[[nodiscard]] RootInterval known_root(const WidePolynomial& polynomial, const Dyadic& lower,
+                                      const Dyadic& upper);
 
 /// The interval is shorter than 2^-digits times what it is away from 0 or 1, whichever is nearer.
 [[nodiscard]] bool has_digits(const RootInterval& root, unsigned digits);

@@ -247,6 +247,11 @@ class Source final : public CoefficientSource {
     for (const Integer& x : p_) digits.push_back(LeadingDigits::of(x));
     return digits;
   }
+  [[nodiscard]] std::vector<LongDigits> digits(std::size_t words) const override {
+    std::vector<LongDigits> digits;
+    for (const Integer& x : p_) digits.emplace_back(x, 64 * words);
+    return digits;
+  }
   [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {
     std::vector<Residue> image;
     for (const Integer& x : p_) image.push_back({mpz_fdiv_ui(x.data(), Residue::modulus(fold)), fold});
@@ -300,6 +305,10 @@ class Failing final : public CoefficientSource {
   [[nodiscard]] std::vector<LeadingDigits> leading_digits() const override {
     LeadingDigits unknown = LeadingDigits::of(Integer(1));
     unknown.error = 5;
+    return {unknown, unknown};
+  }
+  [[nodiscard]] std::vector<LongDigits> digits(std::size_t) const override {
+    const LongDigits unknown(Integer(1), 5, 0, LongDigits::unlimited);
     return {unknown, unknown};
   }
   [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {
