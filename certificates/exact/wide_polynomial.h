@@ -10,9 +10,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <list>
 #include <memory>
 #include <optional>
 #include <tuple>
+#include <variant>
 #include <vector>
 
 #include "certificates/exact/root_interval.h"
@@ -77,10 +79,19 @@ class WidePolynomial {
   /// The sign of the first coefficient that is not 0.
   [[nodiscard]] int first_sign() const;
 
+  /// A part of [0,1] in which roots have not been looked for (wide_roots.h).
+  struct Part {
+    Dyadic lower, upper;
+    int sign_at_lower = 0, sign_at_upper = 0;
+    bool with_lower = false;  ///< a root at its lower end is one of its own
+    unsigned digits = 2;      ///< of the next step towards a cluster
+    std::size_t bits = 256;   ///< to look at it closely with
+  };
   /// What others have found out about it.
   struct Found {
-    std::optional<std::vector<RootInterval>> roots;  ///< in [0,1], isolated and narrowed (wide_roots.h)
-    std::vector<RootInterval> some_roots;            ///< that were narrowed while not all were known
+    /// All that there are in [0,1], isolated and narrowed, and where others may be; ascending. None at first.
+    std::list<std::variant<RootInterval, Part>> roots;
+    std::vector<RootInterval> some_roots;  ///< that were narrowed where others have not been looked for
     /// Its part without multiple roots; null where it is that itself.
     std::optional<std::shared_ptr<const WidePolynomial>> square_free;
     /// What it has in common with others: the last few of those that it has something in common with.
