@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "certificates/exact/wide_polynomial.h"
 #include "certificates/exact/wide_roots.h"
 
 namespace kds {
@@ -86,17 +88,21 @@ double rough(const ExactTime& time) {
 
 ExactTime::ExactTime(ExactPolynomial square_free, RootInterval interval)
     : polynomial_(std::move(square_free)), root_(std::move(interval)) {
-  if (!is_dyadic()) sign_lower_ = polynomial_.sign_at(root_.lower);
+  if (!is_dyadic() && root_.sign_at_lower == 0) root_.sign_at_lower = polynomial_.sign_at(root_.lower);
 }
 
 void ExactTime::refine() {
   if (is_dyadic()) return;
-  if (polynomial_.wide() != nullptr) return narrow_root(*polynomial_.wide(), root_, sign_lower_);
+  // Halving takes a step a bit: too long for a root of another scale, or for one of thousands of digits.
+  constexpr unsigned few_places = 256;
+  if (polynomial_.wide() == nullptr && root_.upper.exponent() > few_places)
+    polynomial_ = ExactPolynomial(std::make_shared<const WidePolynomial>(polynomial_.scaled()));
+  if (polynomial_.wide() != nullptr) return narrow_root(*polynomial_.wide(), root_);
   Dyadic middle = Dyadic::midpoint(root_.lower, root_.upper);
   const int sign = polynomial_.sign_at(middle);
   if (sign == 0) {
     root_ = {middle, middle};
-  } else if (sign == sign_lower_) {
+  } else if (sign == root_.sign_at_lower) {
     root_.lower = std::move(middle);
   } else {
     root_.upper = std::move(middle);
@@ -105,7 +111,8 @@ void ExactTime::refine() {
 
 bool ExactTime::narrow_to(const Dyadic& lower, const Dyadic& upper) {
   if (is_dyadic() || lower < root_.lower || root_.upper < upper) return false;
-  if (polynomial_.sign_at(lower) != sign_lower_ || polynomial_.sign_at(upper) != -sign_lower_) return false;
+  if (polynomial_.sign_at(lower) != root_.sign_at_lower || polynomial_.sign_at(upper) != -root_.sign_at_lower)
+    return false;
   root_.lower = lower;
   root_.upper = upper;
   return true;
@@ -190,6 +197,52 @@ int sign_at(const ExactPolynomial& function, ExactTime& time) {
   return sign_after(function, time);
 }
 
+namespace {
+
+// The sign just after a root of the function if it is the only one around, as is known or Descartes' rule
+// tells of `simple`, its square-free part. Else 0.
+int sign_after_own_root(const ExactPolynomial& function, const ExactPolynomial& simple,
+                        const ExactTime& time) {
+  if (const WidePolynomial* wide = simple.wide()) {
+    if (const auto known = known_roots_around(*wide, time.lower(), time.upper())) {
+      const auto& [count, root] = *known;
+      if (count != 1) return 0;
+      if (root.lower == root.upper) return function.sign_after(root.upper);
+      // There is no other root to this end, and mostly it has fewer digits than the time's.
+      if (const int sign = function.sign_at(root.upper)) return sign;
+      return function.sign_at(time.upper());
+    }
+  }
+  if (!simple.has_few_roots_between(time.lower(), time.upper())) return 0;
+  const int sign = function.sign_at(time.upper());
+  if (sign != 0 && simple.wide() != nullptr) {
+    // An end may be another root of the function's.
+    const int at_lower = simple.sign_at(time.lower());
+    if (at_lower != 0 && simple.sign_at(time.upper()) == -at_lower)
+      keep_root(*simple.wide(), {time.lower(), time.upper(), 1, at_lower});
+  }
+  return sign;
+}
+
+// The sign at a time where the function is known to have no root in its interval. Else 0, and the time is
+// narrowed, or a known root.
+int sign_apart_from_known(const ExactPolynomial& function, const ExactPolynomial& simple, ExactTime& time) {
+  const auto known = known_roots_around(*simple.wide(), time.lower(), time.upper());
+  if (known && known->count > 0) {
+    ExactTime root(simple, known->first);
+    refine_both(time, root);
+    return 0;
+  }
+  if (known) {
+    for (const Dyadic& end : {time.upper(), time.lower()})
+      if (const int sign = function.sign_at(end)) return sign;
+  }
+  time.refine();
+  return 0;
+}
+
+}  // namespace
+
 int sign_after(const ExactPolynomial& function, ExactTime& time) {
   if (function.is_zero()) return 0;
   if (time.is_dyadic()) return function.sign_after(time.lower());
@@ -208,11 +261,9 @@ int sign_after(const ExactPolynomial& function, ExactTime& time) {
   }
   const ExactPolynomial simple = function.square_free();
   if (is_root(ExactPolynomial::gcd(time.polynomial(), simple), time)) {
-    // Narrow until the time is the only root around; then the upper end tells.
+    // Narrow until the time is the only root around.
     while (true) {
-      if (simple.has_few_roots_between(time.lower(), time.upper())) {
-        if (const int sign = function.sign_at(time.upper())) return sign;
-      }
+      if (const int sign = sign_after_own_root(function, simple, time)) return sign;
       time.refine();
       if (time.is_dyadic()) return function.sign_after(time.lower());
     }
@@ -223,7 +274,11 @@ int sign_after(const ExactPolynomial& function, ExactTime& time) {
     const bool exactly =
         time.polynomial().wide() == nullptr || has_digits({time.lower(), time.upper()}, few_digits);
     if (const int sign = sign_all_over(function, time, exactly)) return sign;
-    time.refine();
+    if (simple.wide() == nullptr) {
+      time.refine();
+    } else if (const int sign = sign_apart_from_known(function, simple, time)) {
+      return sign;
+    }
     if (time.is_dyadic()) return function.sign_after(time.lower());
   }
 }

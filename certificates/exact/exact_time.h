@@ -36,7 +36,6 @@ class ExactTime {
  private:
   ExactPolynomial polynomial_;
   RootInterval root_;
-  int sign_lower_ = 0;
 };
 
 /// Sign of `function` at the time itself. Narrows `time`.

@@ -4,13 +4,19 @@
 #include <stdexcept>
 
 #include "certificates/exact/exact_time.h"
+#include "certificates/exact/wide_polynomial.h"
+#include "certificates/exact/wide_roots.h"
 
 namespace kds {
 
 ExactTime exact_time(const ExactPolynomial& function, const FailureTime& time) {
   const Dyadic lower(time.lower);
   if (time.lower == time.upper) return ExactTime(lower);
-  if (time.isolating) return {function, {lower, Dyadic(time.upper)}};
+  if (time.isolating) {
+    const Dyadic upper(time.upper);
+    if (function.wide() != nullptr) return {function, known_root(*function.wide(), lower, upper)};
+    return {function, {lower, upper}};
+  }
   ExactPolynomial simple = function.square_free();
   auto roots = isolate_roots(simple, lower, Dyadic(time.upper));
   if (time.ordinal >= roots.size()) throw std::logic_error("a failure time's bracket holds too few roots");

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -23,13 +24,60 @@ Longs cut(const std::vector<Integer>& c, std::size_t bits) {
   return result;
 }
 
-/// Calls `answer(bits)` for more and more bits, until it has one; at last without a limit.
+/// Numbers of one kind: of so many words, or of any number of bits.
+template <int Words>
+struct InWords {
+  using Number = FixedDigits<Words>;
+  static constexpr bool exact = false;
+
+  [[nodiscard]] static const std::vector<Number>& coefficients(const WidePolynomial& p) {
+    return p.in_words<Words>();
+  }
+  [[nodiscard]] static Number of(const Integer& x) { return Number(x); }
+  [[nodiscard]] static Number between(const Integer& low, const Integer& high) {
+    return Number::between(low, high);
+  }
+  [[nodiscard]] static LongDigits long_digits(const Number& x) { return x.long_digits(); }
+};
+struct InBits {
+  using Number = LongDigits;
+  std::size_t bits;
+  bool exact = bits == LongDigits::unlimited;
+
+  [[nodiscard]] Longs coefficients(const WidePolynomial& p) const { return cut(p.whole(), bits); }
+  [[nodiscard]] Number of(const Integer& x) const { return {x, bits}; }
+  [[nodiscard]] Number between(const Integer& low, const Integer& high) const {
+    return Number::between(low, high, bits);
+  }
+  [[nodiscard]] static LongDigits long_digits(Number x) { return x; }
+};
+
+/// Calls `answer` with numbers of at least so many bits, or about.
+template <class Answer>
+auto with_bits(std::size_t bits, Answer answer) {
+  if (bits <= 256) return answer(InWords<4>{});
+  if (bits <= 512) return answer(InWords<8>{});
+  if (bits <= 1024) return answer(InWords<16>{});
+  if (bits <= 2048) return answer(InWords<32>{});
+  return answer(InBits{bits});
+}
+
+/// Calls `answer` with numbers of more and more bits, until it has one; at last without a limit.
 template <class Answer>
 auto to_enough_bits(std::size_t bits, std::size_t all, Answer answer) {
   for (; bits < all; bits *= 2) {
-    if (auto found = answer(bits)) return std::move(*found);
+    if (auto found = with_bits(bits, answer)) return std::move(*found);
   }
-  return std::move(*answer(LongDigits::unlimited));
+  return std::move(*answer(InBits{LongDigits::unlimited}));
+}
+
+/// The polynomial as seen between two ends, in such numbers: its first coefficients, if not all are wanted.
+template <class Numbers>
+auto seen_in(const Numbers& numbers, const WidePolynomial& polynomial, const detail::Ends& ends,
+             std::size_t wanted = std::numeric_limits<std::size_t>::max()) {
+  return detail::seen_on(numbers.coefficients(polynomial), numbers.of(1), numbers.of(ends.lower),
+                         numbers.of(ends.upper), numbers.of(ends.above_lower), numbers.of(ends.above_upper),
+                         wanted);
 }
 
 std::size_t bits_at(const WidePolynomial& polynomial, unsigned exponent) {
@@ -46,11 +94,10 @@ LongDigits value_at(const WidePolynomial& polynomial, const Dyadic& u, std::size
   if (!value.has_digits(digits)) {
     value = to_enough_bits(
         std::max<std::size_t>(256, 2 * digits), bits_at(polynomial, u.exponent()) / 2,
-        [&](std::size_t bits) -> std::optional<LongDigits> {
-          LongDigits at_u = detail::value_of(cut(polynomial.whole(), bits), LongDigits(1, bits),
-                                             LongDigits(later, bits), LongDigits(earlier, bits));
-          return bits == LongDigits::unlimited || at_u.has_digits(digits) ? std::optional(std::move(at_u))
-                                                                          : std::nullopt;
+        [&](const auto& numbers) -> std::optional<LongDigits> {
+          LongDigits at_u = numbers.long_digits(detail::value_of(
+              numbers.coefficients(polynomial), numbers.of(1), numbers.of(later), numbers.of(earlier)));
+          return numbers.exact || at_u.has_digits(digits) ? std::optional(std::move(at_u)) : std::nullopt;
         });
   }
   value.scale(-static_cast<std::int64_t>(u.exponent()) * static_cast<std::int64_t>(degree));
@@ -64,20 +111,23 @@ int sign_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dy
   const std::size_t digits = places - std::min(places, width_of(ends.upper - ends.lower));
   // Bits far below what the interval leaves open tell nothing.
   constexpr std::size_t spare_bits = 128;
-  const std::size_t bits = digits + spare_bits;
-  return detail::value_of(cut(polynomial.whole(), bits), LongDigits(1, bits),
-                          LongDigits::between(ends.lower, ends.upper, bits),
-                          LongDigits::between(ends.above_upper, ends.above_lower, bits))
-      .certain_sign();
+  return with_bits(digits + spare_bits, [&](const auto& numbers) {
+    return detail::value_of(numbers.coefficients(polynomial), numbers.of(1),
+                            numbers.between(ends.lower, ends.upper),
+                            numbers.between(ends.above_upper, ends.above_lower))
+        .certain_sign();
+  });
 }
 
 Halves seen_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper,
                     std::size_t bits) {
   const detail::Ends ends(lower, upper);
   if (bits >= bits_at(polynomial, ends.exponent) / 2) bits = LongDigits::unlimited;
-  const Longs seen = detail::seen_on(cut(polynomial.whole(), bits), LongDigits(1, bits),
-                                     LongDigits(ends.lower, bits), LongDigits(ends.upper, bits),
-                                     LongDigits(ends.above_lower, bits), LongDigits(ends.above_upper, bits));
+  const Longs seen = with_bits(bits, [&](const auto& numbers) {
+    Longs longs;
+    for (const auto& x : seen_in(numbers, polynomial, ends)) longs.push_back(numbers.long_digits(x));
+    return longs;
+  });
   // In units of what the worst of them is wrong by, a little less.
   constexpr std::int64_t spare_bits = 8;
   std::optional<std::int64_t> unit;
@@ -110,12 +160,9 @@ Variations exact_variations(const WidePolynomial& polynomial, const Dyadic& lowe
   if (const Variations rough = polynomial.variations_on(lower, upper); enough(rough)) return rough;
   const detail::Ends ends(lower, upper);
   return to_enough_bits(
-      256, bits_at(polynomial, ends.exponent) / 2, [&](std::size_t bits) -> std::optional<Variations> {
-        const auto seen =
-            detail::seen_on(cut(polynomial.whole(), bits), LongDigits(1, bits), LongDigits(ends.lower, bits),
-                            LongDigits(ends.upper, bits), LongDigits(ends.above_lower, bits),
-                            LongDigits(ends.above_upper, bits));
-        const Variations v = detail::variations_of(seen, std::nullopt, std::nullopt);
+      256, bits_at(polynomial, ends.exponent) / 2, [&](const auto& numbers) -> std::optional<Variations> {
+        const Variations v =
+            detail::variations_of(seen_in(numbers, polynomial, ends), std::nullopt, std::nullopt);
         return enough(v) ? std::optional(v) : std::nullopt;
       });
 }
@@ -129,18 +176,17 @@ Integer newton_cell(const WidePolynomial& polynomial, const Dyadic& from, const 
   using Step = std::pair<LongDigits, LongDigits>;
   const Step step = to_enough_bits(
       std::max<std::size_t>(256, 2 * digits), bits_at(polynomial, ends.exponent) / 2,
-      [&](std::size_t bits) -> std::optional<Step> {
-        auto seen =
-            detail::seen_on(cut(polynomial.whole(), bits), LongDigits(1, bits), LongDigits(ends.lower, bits),
-                            LongDigits(ends.upper, bits), LongDigits(ends.above_lower, bits),
-                            LongDigits(ends.above_upper, bits), 2);
-        Step found{seen[0], seen[0]};
-        found.first *= LongDigits(multiplicity, bits);
-        found.second *= LongDigits(degree, bits);
-        seen[1] *= LongDigits(-1, bits);
-        found.second += seen[1];
-        const bool enough = bits == LongDigits::unlimited ||
-                            (found.first.has_digits(digits) && found.second.has_digits(digits));
+      [&](const auto& numbers) -> std::optional<Step> {
+        const auto seen = seen_in(numbers, polynomial, ends, 2);
+        auto value = seen[0], slope = seen[1];
+        slope *= numbers.of(-1);
+        value *= numbers.of(degree);
+        slope += value;
+        value = seen[0];
+        value *= numbers.of(multiplicity);
+        Step found{numbers.long_digits(value), numbers.long_digits(slope)};
+        const bool enough =
+            numbers.exact || (found.first.has_digits(digits) && found.second.has_digits(digits));
         return enough ? std::optional(std::move(found)) : std::nullopt;
       });
   Integer length = step.first.number(), slope = step.second.number();

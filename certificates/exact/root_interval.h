@@ -10,7 +10,8 @@ namespace kds {
 /// An interval with one root and no root at its ends; or, where lower == upper, the root itself.
 struct RootInterval {
   Dyadic lower, upper;
-  unsigned digits = 1;  ///< what the next step of narrowing it is worth (narrow_root)
+  unsigned digits = 1;    ///< what the next step of narrowing it is worth (narrow_root)
+  int sign_at_lower = 0;  ///< of the polynomial, if it is known
 };
 
 /// Takes one root; returns whether the next one is wanted.

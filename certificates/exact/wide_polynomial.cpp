@@ -53,11 +53,49 @@ const std::vector<LeadingDigits>& WidePolynomial::leading_digits() const {
   if (whole_ || !std::all_of(digits.begin(), digits.end(), is_precise)) {
     // What the coefficients are made from may cancel nearly all.
     digits.clear();
-    for (const Integer& x : whole()) digits.push_back(LeadingDigits::of(x));
+    if (const std::vector<LongDigits>* formed = formed_to(LeadingDigits::most_bits)) {
+      for (const LongDigits& x : *formed) digits.push_back(x.leading_digits());
+    } else {
+      for (const Integer& x : whole()) digits.push_back(LeadingDigits::of(x));
+    }
   }
   leading_ = std::move(digits);
   return *leading_;
 }
+
+const std::vector<LongDigits>* WidePolynomial::formed_to(std::size_t bits) const {
+  const auto are_right = [&] {
+    return std::all_of(formed_.begin(), formed_.end(),
+                       [bits](const LongDigits& x) { return x.has_digits(bits); });
+  };
+  if (whole_) return nullptr;
+  if (formed_words_ != 0 && are_right()) return &formed_;
+  for (const std::size_t words : CoefficientSource::word_counts) {
+    if (words <= formed_words_) continue;
+    formed_ = source_->digits(words);
+    formed_words_ = words;
+    if (are_right()) return &formed_;
+  }
+  return nullptr;
+}
+
+template <int Words>
+const std::vector<FixedDigits<Words>>& WidePolynomial::in_words() const {
+  auto& known = std::get<InWords<Words>>(in_words_);
+  if (known) return *known;
+  if (opposite_) return known.emplace(negatives_of(opposite_->in_words<Words>()));
+  std::vector<FixedDigits<Words>> digits;
+  if (const std::vector<LongDigits>* formed = formed_to(32 * Words)) {
+    for (const LongDigits& x : *formed) digits.emplace_back(x);
+  } else {
+    for (const Integer& x : whole()) digits.emplace_back(x);
+  }
+  return known.emplace(std::move(digits));
+}
+template const std::vector<FixedDigits<4>>& WidePolynomial::in_words() const;
+template const std::vector<FixedDigits<8>>& WidePolynomial::in_words() const;
+template const std::vector<FixedDigits<16>>& WidePolynomial::in_words() const;
+template const std::vector<FixedDigits<32>>& WidePolynomial::in_words() const;
 
 const std::vector<Residue>& WidePolynomial::residues() const {
   if (!residues_)

@@ -7,14 +7,19 @@
 //
 // What has been found out is kept: for one thread.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <list>
 #include <memory>
 #include <optional>
+#include <tuple>
+#include <variant>
 #include <vector>
 
 #include "certificates/exact/root_interval.h"
 #include "motions/numbers/exact_number.h"
+#include "motions/numbers/fixed_digits.h"
 #include "motions/numbers/leading_digits.h"
 #include "motions/numbers/modular.h"
 
@@ -25,6 +30,9 @@ class CoefficientSource {
  public:
   virtual ~CoefficientSource() = default;
   [[nodiscard]] virtual std::vector<LeadingDigits> leading_digits() const = 0;
+  /// By numbers of so many words, one of `word_counts`.
+  [[nodiscard]] virtual std::vector<LongDigits> digits(std::size_t words) const = 0;
+  static constexpr std::array<std::size_t, 2> word_counts{8, 16};
   /// Modulo 2^61 - fold.
   [[nodiscard]] virtual std::vector<Residue> residues(std::uint64_t fold) const = 0;
   [[nodiscard]] virtual std::vector<Integer> whole() const = 0;
@@ -48,6 +56,9 @@ class WidePolynomial {
 
   [[nodiscard]] const std::vector<Integer>& whole() const;
   [[nodiscard]] const std::vector<LeadingDigits>& leading_digits() const;
+  /// By numbers of 4, 8, 16 or 32 words, of which half are right, or the coefficient is exact.
+  template <int Words>
+  [[nodiscard]] const std::vector<FixedDigits<Words>>& in_words() const;
   /// Modulo the first of the primes.
   [[nodiscard]] const std::vector<Residue>& residues() const;
   /// The degree that it is written with, plus 1.
@@ -68,9 +79,19 @@ class WidePolynomial {
   /// The sign of the first coefficient that is not 0.
   [[nodiscard]] int first_sign() const;
 
+  /// A part of [0,1] in which roots have not been looked for (wide_roots.h).
+  struct Part {
+    Dyadic lower, upper;
+    int sign_at_lower = 0, sign_at_upper = 0;
+    bool with_lower = false;  ///< a root at its lower end is one of its own
+    unsigned digits = 2;      ///< of the next step towards a cluster
+    std::size_t bits = 256;   ///< to look at it closely with
+  };
   /// What others have found out about it.
   struct Found {
-    std::optional<std::vector<RootInterval>> roots;  ///< in [0,1], isolated and narrowed (wide_roots.h)
+    /// All that there are in [0,1], isolated and narrowed, and where others may be; ascending. None at first.
+    std::list<std::variant<RootInterval, Part>> roots;
+    std::vector<RootInterval> some_roots;  ///< that were narrowed where others have not been looked for
     /// Its part without multiple roots; null where it is that itself.
     std::optional<std::shared_ptr<const WidePolynomial>> square_free;
     /// What it has in common with others: the last few of those that it has something in common with.
@@ -83,10 +104,19 @@ class WidePolynomial {
   [[nodiscard]] Found& found() const { return opposite_ ? opposite_->found_ : found_; }
 
  private:
+  /// Of which so many leading bits are right, or null where that takes the whole coefficients.
+  [[nodiscard]] const std::vector<LongDigits>* formed_to(std::size_t bits) const;
+
+  template <int Words>
+  using InWords = std::optional<std::vector<FixedDigits<Words>>>;
+
   std::unique_ptr<const CoefficientSource> source_;
   std::shared_ptr<const WidePolynomial> opposite_;
   mutable std::optional<std::vector<Integer>> whole_;
   mutable std::optional<std::vector<LeadingDigits>> leading_;
+  mutable std::vector<LongDigits> formed_;  // by so many words
+  mutable std::size_t formed_words_ = 0;
+  mutable std::tuple<InWords<4>, InWords<8>, InWords<16>, InWords<32>> in_words_;
   mutable std::optional<std::vector<Residue>> residues_;
   mutable Found found_;
 };

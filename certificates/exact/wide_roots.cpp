@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <iterator>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "certificates/exact/bernstein_parts.h"
 #include "certificates/exact/precise_values.h"
@@ -15,6 +15,8 @@ namespace kds {
 namespace {
 
 using Level = std::int64_t;
+using Part = WidePolynomial::Part;
+using Stretches = decltype(WidePolynomial::Found::roots);
 
 /// Which scale a number between 0 and 1 is of: 0 from 1/2 on, -1 from 1/4 on, and so on towards 0; the same
 /// upwards towards 1.
@@ -65,19 +67,46 @@ Integer straight_zero(const LongDigits& at_lower, const LongDigits& at_upper, co
 /// that the step points to, the other parts have no root, and the number of digits doubles with each step.
 class Isolation {
  public:
-  Isolation(const WidePolynomial& polynomial, const RootVisitor& visit)
-      : polynomial_(polynomial), visit_(visit) {}
+  /// Looks for roots from `from` to `to`.
+  Isolation(const WidePolynomial& polynomial, const Dyadic& from, const Dyadic& to)
+      : polynomial_(polynomial), from_(from), to_(to) {}
 
-  struct Part {
-    Dyadic lower, upper;
-    int sign_at_lower = 0, sign_at_upper = 0;
-    unsigned digits = fewest_digits;  ///< of the next step towards a cluster
-    std::size_t bits = first_bits;    ///< to look at it closely with
-  };
+  /// What a part is made of: up to the first root wanted, roots and parts without any; then parts as they
+  /// are.
+  [[nodiscard]] Stretches of(Part part) && {
+    visit(std::move(part));
+    return std::move(stretches_);
+  }
 
-  // Roots in the open interval, and at `lower` if `with_lower`; false if the visitor wants no more.
-  bool visit(Part part, bool with_lower) {
-    if (part.sign_at_lower == 0 && with_lower && !visit_({part.lower, part.lower})) return false;
+  /// Roots may be wanted that are in this part.
+  [[nodiscard]] static bool is_wanted(const Part& part, const Dyadic& from, const Dyadic& to) {
+    return from < part.upper && (part.lower < to || (part.lower == to && has_root_at_lower(part)));
+  }
+
+ private:
+  static constexpr unsigned fewest_digits = 2, most_digits = 2048;
+
+  [[nodiscard]] static bool has_root_at_lower(const Part& part) {
+    return part.with_lower && part.sign_at_lower == 0;
+  }
+
+  /// Whether the part is left as it is.
+  bool puts_off(const Part& part) {
+    if (!is_done_ && is_wanted(part, from_, to_)) return false;
+    stretches_.emplace_back(part);
+    return true;
+  }
+
+  void add(RootInterval root) {
+    is_done_ = from_ < root.upper || (root.lower == root.upper && root.lower == from_);
+    stretches_.emplace_back(std::move(root));
+  }
+
+  void visit(Part part) {
+    if (puts_off(part)) return;
+    if (has_root_at_lower(part)) add({part.lower, part.lower});
+    part.with_lower = false;
+    if (puts_off(part)) return;
     while (true) {
       const Variations rough =
           polynomial_.variations_on(part.lower, part.upper, part.sign_at_lower, part.sign_at_upper);
@@ -85,18 +114,16 @@ class Isolation {
       if (unclear && is_of_one_scale(part))
         return visit_closely(seen_closely(polynomial_, part.lower, part.upper, part.bits), part);
       const Variations variations = unclear ? exact_variations(polynomial_, part.lower, part.upper) : rough;
-      if (variations.most == 0) return true;
-      if (has_one_root(part, variations)) return visit_({part.lower, part.upper});
+      if (variations.most == 0) return;
+      if (has_one_root(part, variations)) return add({part.lower, part.upper, 1, part.sign_at_lower});
       if (!narrow_to_cluster(part, variations)) break;
     }
     const Dyadic middle = split_point(part.lower, part.upper);
-    const auto [left, right] = split(part, middle, polynomial_.sign_at(middle));
-    return visit(left, false) && visit(right, true);
+    auto [left, right] = split(part, middle, polynomial_.sign_at(middle));
+    right.with_lower = true;
+    visit(left);
+    visit(right);
   }
-
- private:
-  static constexpr unsigned fewest_digits = 2, most_digits = 2048;
-  static constexpr std::size_t first_bits = 256;
 
   [[nodiscard]] static bool is_unclear(const Variations& v) { return v.least < 2 && v.least != v.most; }
   [[nodiscard]] static bool is_of_one_scale(const Part& part) {
@@ -107,30 +134,34 @@ class Isolation {
   }
   [[nodiscard]] static std::pair<Part, Part> split(const Part& part, const Dyadic& point, int sign) {
     const unsigned digits = std::max(fewest_digits, part.digits / 2);
-    return {{part.lower, point, part.sign_at_lower, sign, digits, part.bits},
-            {point, part.upper, sign, part.sign_at_upper, digits, part.bits}};
+    return {{part.lower, point, part.sign_at_lower, sign, false, digits, part.bits},
+            {point, part.upper, sign, part.sign_at_upper, false, digits, part.bits}};
   }
 
   // The same, roots at `lower` left out, where leading digits do not tell: by the part's number of bits of
   // the polynomial as seen on it, which is halved; by twice as many where they do not tell either.
-  bool visit_closely(Halves seen, Part part) {
+  void visit_closely(Halves seen, Part part) {
+    if (puts_off(part)) return;
     const Variations variations = seen.variations(part.sign_at_lower, part.sign_at_upper);
-    if (variations.most == 0) return true;
-    if (has_one_root(part, variations)) return visit_({part.lower, part.upper});
+    if (variations.most == 0) return;
+    if (has_one_root(part, variations)) return add({part.lower, part.upper, 1, part.sign_at_lower});
     if (is_unclear(variations)) {
       // Halving has made the part small beside what its numbers are wrong by, or they were too short at once.
       if (seen.depth() == 0) part.bits *= 2;
       return visit_closely(seen_closely(polynomial_, part.lower, part.upper, part.bits), part);
     }
-    if (narrow_to_cluster(part, variations)) return visit(part, false);
+    if (narrow_to_cluster(part, variations)) return visit(part);
     const Dyadic middle = Dyadic::midpoint(part.lower, part.upper);
     const Halves left_half = seen.halve();
     const std::optional<int> known = left_half.sign_at_upper();
     const int sign = known ? *known : polynomial_.sign_at(middle);
-    const auto [left, right] = split(part, middle, sign);
-    if (!visit_closely(left_half, left)) return false;
-    if (sign == 0 && !visit_({middle, middle})) return false;
-    return visit_closely(std::move(seen), right);
+    auto [left, right] = split(part, middle, sign);
+    visit_closely(left_half, left);
+    right.with_lower = sign == 0;
+    if (puts_off(right)) return;
+    if (sign == 0) add({middle, middle});
+    right.with_lower = false;
+    visit_closely(std::move(seen), right);
   }
 
   /// Narrows the part to one around a cluster that holds all changes of sign.
@@ -167,7 +198,9 @@ class Isolation {
   }
 
   const WidePolynomial& polynomial_;
-  const RootVisitor& visit_;
+  const Dyadic &from_, &to_;
+  bool is_done_ = false;  // the first root wanted is found
+  Stretches stretches_;
 };
 
 }  // namespace
@@ -190,22 +223,31 @@ Dyadic split_point(const Dyadic& lower, const Dyadic& upper) {
 
 namespace {
 
-/// All roots in [0,1], found once.
-std::vector<RootInterval>& all_roots(const WidePolynomial& square_free) {
-  std::optional<std::vector<RootInterval>>& known = square_free.found().roots;
-  if (!known) {
-    const Dyadic start(0.0), end(1.0);
-    std::vector<RootInterval> roots;
-    const RootVisitor keep = [&roots](RootInterval root) {
-      roots.push_back(std::move(root));
-      return true;
-    };
-    const int sign_at_end = square_free.sign_at(end);
-    Isolation(square_free, keep).visit({start, end, square_free.sign_at(start), sign_at_end}, true);
-    if (sign_at_end == 0) roots.push_back({end, end});
-    known = std::move(roots);
-  }
-  return *known;
+/// The one of a polynomial and its negative with which is kept what is known of both.
+const WidePolynomial& own_of(const WidePolynomial& polynomial) {
+  return polynomial.opposite() ? *polynomial.opposite() : polynomial;
+}
+/// A root of that one, with the sign that this one has, or the other way round.
+RootInterval seen_by(const WidePolynomial& polynomial, RootInterval root) {
+  if (polynomial.opposite()) root.sign_at_lower = -root.sign_at_lower;
+  return root;
+}
+
+/// What is known of the roots in [0,1], which begins with where they may be.
+Stretches& stretches_of(const WidePolynomial& own) {
+  Stretches& known = own.found().roots;
+  if (!known.empty()) return known;
+  const Dyadic start(0.0), end(1.0);
+  const int sign_at_start = own.sign_at(start), sign_at_end = own.sign_at(end);
+  known.emplace_back(Part{start, end, sign_at_start, sign_at_end, true});
+  // What is at the end stays, so that this is done once.
+  known.emplace_back(sign_at_end == 0 ? Stretches::value_type(RootInterval{end, end})
+                                      : Stretches::value_type(Part{end, end, sign_at_end, sign_at_end}));
+  return known;
+}
+
+bool lies_in(const RootInterval& root, const Dyadic& lower, const Dyadic& upper) {
+  return lower <= root.lower && root.upper <= upper;
 }
 
 /// Cuts a root's interval at a point, so that it is on one side of it.
@@ -215,7 +257,8 @@ void cut(RootInterval& root, const Dyadic& point, const WidePolynomial& square_f
   if (sign == 0) {
     root.lower = root.upper = point;
   } else {
-    (sign == square_free.sign_at(root.lower) ? root.lower : root.upper) = point;
+    if (root.sign_at_lower == 0) root.sign_at_lower = square_free.sign_at(root.lower);
+    (sign == root.sign_at_lower ? root.lower : root.upper) = point;
   }
 }
 
@@ -223,12 +266,47 @@ void cut(RootInterval& root, const Dyadic& point, const WidePolynomial& square_f
 
 void visit_wide_roots(const WidePolynomial& square_free, const Dyadic& lower, const Dyadic& upper,
                       const RootVisitor& visit) {
-  for (RootInterval& root : all_roots(square_free)) {
-    cut(root, lower, square_free);
+  const WidePolynomial& own = own_of(square_free);
+  Stretches& stretches = stretches_of(own);
+  for (auto at = stretches.begin(); at != stretches.end();) {
+    if (const Part* part = std::get_if<Part>(&*at)) {
+      if (part->upper <= lower) {
+        ++at;
+        continue;
+      }
+      if (!Isolation::is_wanted(*part, lower, upper)) return;
+      Stretches found = Isolation(own, lower, upper).of(*part);
+      const auto next = stretches.erase(at);
+      at = found.empty() ? next : found.begin();
+      stretches.splice(next, found);
+      continue;
+    }
+    RootInterval& root = std::get<RootInterval>(*at++);
+    cut(root, lower, own);
     if (root.lower < lower) continue;
-    cut(root, upper, square_free);
-    if (upper < root.upper || !visit(root)) return;
+    cut(root, upper, own);
+    if (upper < root.upper || !visit(seen_by(square_free, root))) return;
   }
+}
+
+std::optional<RootsAround> known_roots_around(const WidePolynomial& square_free, const Dyadic& lower,
+                                              const Dyadic& upper) {
+  const WidePolynomial::Found& found = square_free.found();
+  for (const RootInterval& root : found.some_roots)
+    if (lies_in({lower, upper}, root.lower, root.upper)) return RootsAround{1, seen_by(square_free, root)};
+  if (found.roots.empty()) return std::nullopt;
+  RootsAround around;
+  for (const auto& stretch : found.roots) {
+    if (const Part* part = std::get_if<Part>(&stretch)) {
+      if (lower < part->upper && part->lower < upper) return std::nullopt;
+      continue;
+    }
+    const RootInterval& root = std::get<RootInterval>(stretch);
+    if (root.upper <= lower || upper <= root.lower) continue;
+    if (around.count++ == 0) around.first = seen_by(square_free, root);
+    if (around.count == 2) break;
+  }
+  return around;
 }
 
 bool has_digits(const RootInterval& root, unsigned digits) {
@@ -240,19 +318,7 @@ bool has_digits(const RootInterval& root, unsigned digits) {
 
 namespace {
 
-/// The known root that lies in this interval, which is of the same polynomial, is known as well from now on.
-void keep(const RootInterval& narrowed, const WidePolynomial& polynomial) {
-  auto& roots = polynomial.found().roots;
-  if (!roots) return;
-  const auto next =
-      std::upper_bound(roots->begin(), roots->end(), narrowed.lower,
-                       [](const Dyadic& at, const RootInterval& root) { return at < root.lower; });
-  if (next == roots->begin()) return;
-  RootInterval& known = *std::prev(next);
-  if (known.lower <= narrowed.lower && narrowed.upper <= known.upper) known = narrowed;
-}
-
-void narrow(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lower) {
+void narrow(const WidePolynomial& polynomial, RootInterval& root) {
   unsigned& digits = root.digits;
   const auto take = [&](Dyadic point) {  // whether the root is after it
     const int sign = polynomial.sign_at(point);
@@ -260,7 +326,7 @@ void narrow(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lo
       root.lower = root.upper = std::move(point);
       return false;
     }
-    const bool after = sign == sign_at_lower;
+    const bool after = sign == root.sign_at_lower;
     (after ? root.lower : root.upper) = std::move(point);
     return after;
   };
@@ -283,9 +349,39 @@ void narrow(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lo
 
 }  // namespace
 
-void narrow_root(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lower) {
-  narrow(polynomial, root, sign_at_lower);
-  keep(root, polynomial);
+// The known root in whose interval this one lies is known as well from now on; of those that have not been
+// looked for, the last few.
+void keep_root(const WidePolynomial& polynomial, const RootInterval& root) {
+  const RootInterval narrowed = seen_by(polynomial, root);
+  WidePolynomial::Found& found = polynomial.found();
+  const auto keep_in = [&](RootInterval* known) {
+    if (known == nullptr || !lies_in(narrowed, known->lower, known->upper)) return false;
+    *known = narrowed;
+    return true;
+  };
+  for (auto& stretch : found.roots)
+    if (keep_in(std::get_if<RootInterval>(&stretch))) return;
+  for (RootInterval& some : found.some_roots)
+    if (keep_in(&some)) return;
+  constexpr std::size_t few = 16;
+  if (found.some_roots.size() == few) found.some_roots.erase(found.some_roots.begin());
+  found.some_roots.push_back(narrowed);
+}
+
+void narrow_root(const WidePolynomial& polynomial, RootInterval& root) {
+  narrow(polynomial, root);
+  keep_root(polynomial, root);
+}
+
+RootInterval known_root(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper) {
+  const WidePolynomial::Found& found = polynomial.found();
+  for (const auto& stretch : found.roots) {
+    const auto* known = std::get_if<RootInterval>(&stretch);
+    if (known != nullptr && lies_in(*known, lower, upper)) return seen_by(polynomial, *known);
+  }
+  for (const RootInterval& known : found.some_roots)
+    if (lies_in(known, lower, upper)) return seen_by(polynomial, known);
+  return {lower, upper};
 }
 
 }  // namespace kds

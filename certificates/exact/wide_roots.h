@@ -4,19 +4,37 @@
 // and 1 - 2^-10000, and pairs of them as close together: where halving would take a step for each binary
 // digit, scales are searched by halving exponents, and digits doubled from step to step. Exact.
 
+#include <optional>
+
 #include "certificates/exact/wide_polynomial.h"
 
 namespace kds {
 
 /// Visits the roots of a square-free polynomial in [lower, upper], lower < upper, ascending; their intervals
-/// are disjoint but for touching ends.
+/// are disjoint but for touching ends. Those that the visitor does not want are not looked for.
 void visit_wide_roots(const WidePolynomial& square_free, const Dyadic& lower, const Dyadic& upper,
                       const RootVisitor& visit);
 
-/// Narrows the interval of a root, at whose lower end the polynomial has this sign and at whose upper end the
-/// other. Its `digits` say how many binary digits a step is worth that is guessed from the values at both
-/// ends: 1 at first, then what the step before has made of it. Who visits the root later finds it narrowed.
-void narrow_root(const WidePolynomial& polynomial, RootInterval& root, int sign_at_lower);
+/// Roots of a square-free polynomial whose intervals reach into (lower, upper), as far as they are narrowed:
+/// how many, 2 standing for more, and the first. Nothing where not all there are known.
+struct RootsAround {
+  int count = 0;
+  RootInterval first;
+};
+[[nodiscard]] std::optional<RootsAround> known_roots_around(const WidePolynomial& square_free,
+                                                            const Dyadic& lower, const Dyadic& upper);
+
+/// Notes what was found out otherwise: an interval with one root, at which the polynomial changes its sign.
+void keep_root(const WidePolynomial& polynomial, const RootInterval& root);
+
+/// Narrows the interval of a root at which the polynomial changes its sign, which is known at the lower end.
+/// Its `digits` say how many binary digits a step is worth that is guessed from the values at both ends: 1 at
+/// first, then what the step before has made of it. Who visits the root later finds it narrowed.
+void narrow_root(const WidePolynomial& polynomial, RootInterval& root);
+
+/// The only root in [lower, upper], at which the polynomial changes its sign: as narrow as it is known.
+[[nodiscard]] RootInterval known_root(const WidePolynomial& polynomial, const Dyadic& lower,
+                                      const Dyadic& upper);
 
 /// The interval is shorter than 2^-digits times what it is away from 0 or 1, whichever is nearer.
 [[nodiscard]] bool has_digits(const RootInterval& root, unsigned digits);

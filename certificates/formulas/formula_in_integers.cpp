@@ -100,6 +100,9 @@ class WideFunction final : public CoefficientSource {
     return taken<LeadingDigits>(play(formula_, ViewedBeads<DigitsView<C>>(view, beads_)),
                                 LeadingDigits::most_bits);
   }
+  [[nodiscard]] std::vector<LongDigits> digits(std::size_t words) const override {
+    return words == word_counts[0] ? in_words<word_counts[0]>() : in_words<word_counts[1]>();
+  }
   [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {
     const C curves = curves_.curves();
     const ResidueView<C> view(curves, scale_, {fold});
@@ -110,6 +113,18 @@ class WideFunction final : public CoefficientSource {
   }
 
  private:
+  template <std::size_t Words>
+  [[nodiscard]] std::vector<LongDigits> in_words() const {
+    const C curves = curves_.curves();
+    const WordsView<C, Words> view(curves, scale_);
+    const auto& p = play(formula_, ViewedBeads<WordsView<C, Words>>(view, beads_));
+    std::vector<LongDigits> coefficients;
+    coefficients.reserve(p.size());
+    for (const auto& c : p) coefficients.push_back(c.long_digits());
+    spend_on_forming(coefficients.size(), 64 * static_cast<int>(Words));
+    return coefficients;
+  }
+
   RecordedFormula formula_;
   CopiedCurves<C> curves_;
   std::vector<BeadId> beads_;  // numbered from 0

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace kds {
 
@@ -74,6 +75,11 @@ LongDigits::LongDigits(const Integer& value, std::size_t most_bits) : most_bits_
   exponent_ = static_cast<std::int64_t>(below);
 }
 
+LongDigits::LongDigits(Integer value, std::uint64_t error, std::int64_t exponent, std::size_t most_bits)
+    : value_(std::move(value)), error_(error), exponent_(exponent), most_bits_(most_bits) {
+  cut();
+}
+
 LongDigits::LongDigits(const LeadingDigits& number)
     : value_(static_cast<std::uint64_t>(number.magnitude >> 64U)),
       error_(number.error),
@@ -93,6 +99,13 @@ LongDigits LongDigits::between(const Integer& low, const Integer& high, std::siz
   const Integer units = length >> static_cast<std::size_t>(all.exponent_);
   all.error_ += mpz_get_ui(units.data()) + 1;
   return all;
+}
+
+LeadingDigits LongDigits::leading_digits() const {
+  LeadingDigits leading = LeadingDigits::of(value_);
+  leading.error += shifted_down(error_, static_cast<std::size_t>(leading.exponent));
+  leading.exponent += exponent_;
+  return leading;
 }
 
 int LongDigits::certain_sign() const { return mpz_cmpabs_ui(value_.data(), error_) <= 0 ? 0 : value_.sign(); }

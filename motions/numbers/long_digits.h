@@ -18,9 +18,13 @@ class LongDigits {
   /// Zero.
   explicit LongDigits(std::size_t most_bits = unlimited) : most_bits_(most_bits) {}
   LongDigits(const Integer& value, std::size_t most_bits);
+  /// |x - value 2^exponent| <= error 2^exponent, error below 2^63.
+  LongDigits(Integer value, std::uint64_t error, std::int64_t exponent, std::size_t most_bits);
   explicit LongDigits(const LeadingDigits& number);
   /// All numbers between two, from 0 on.
   [[nodiscard]] static LongDigits between(const Integer& low, const Integer& high, std::size_t most_bits);
+
+  [[nodiscard]] LeadingDigits leading_digits() const;
 
   /// 1 or -1 if that is the sign for certain, else 0.
   [[nodiscard]] int certain_sign() const;

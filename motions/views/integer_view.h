@@ -4,7 +4,8 @@
 //
 //   FixedView      whole numbers of a fixed width (fixed_integer.h)
 //   ResidueView    the same modulo a prime (modular.h)
-//   DigitsView  their leading digits (leading_digits.h)
+//   DigitsView     their leading digits (leading_digits.h)
+//   WordsView      so many words of them (fixed_digits.h)
 //   IntegerView    whole numbers of any width
 //   MomentView     whole numbers, at one dyadic time: polynomials of degree 0
 
@@ -19,6 +20,7 @@
 #include "motions/curves/lifted_motion.h"
 #include "motions/numbers/bernstein.h"
 #include "motions/numbers/exact_number.h"
+#include "motions/numbers/fixed_digits.h"
 #include "motions/numbers/fixed_integer.h"
 #include "motions/numbers/leading_digits.h"
 #include "motions/numbers/modular.h"
@@ -86,6 +88,13 @@ struct Residues {
 struct RoundedIntegers {
   using Number = LeadingDigits;
   [[nodiscard]] static LeadingDigits of(long long x) { return LeadingDigits::of(x); }
+};
+
+/// So many words of whole numbers.
+template <int Words>
+struct IntegersInWords {
+  using Number = FixedDigits<Words>;
+  [[nodiscard]] static Number of(long long x) { return Number::of(x); }
 };
 
 template <Motion M, class Ring>
@@ -171,6 +180,8 @@ template <Motion M>
 using ResidueView = ExactView<M, Residues>;
 template <Motion M>
 using DigitsView = ExactView<M, RoundedIntegers>;
+template <Motion M, int Words>
+using WordsView = ExactView<M, IntegersInWords<Words>>;
 
 template <Motion M>
 class MomentView {

@@ -56,7 +56,7 @@ void expect_isolated(const ExactPolynomial& p, const Dyadic& lower, const Dyadic
   const sturm::Sequence judge(without_root_at_one(power_form(p)));
   EXPECT_EQ(static_cast<int>(found.size()), judge.roots_on(lower.rational(), upper.rational()));
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const auto& [low, high, digits] = found[i];
+    const auto& [low, high, digits, sign] = found[i];
     EXPECT_TRUE(lower <= low && high <= upper);
     if (i > 0) {
       EXPECT_TRUE(found[i - 1].upper <= low);
@@ -116,7 +116,7 @@ TEST(ExactPolynomial, IsolatesRootsOfHighDegrees) {
   const auto roots = isolate_roots(p, Dyadic(0.0), Dyadic(1.0));
   ASSERT_EQ(roots.size(), 80U);
   for (int i = 1; i <= 80; ++i) {
-    const auto& [low, high, digits] = roots[static_cast<std::size_t>(i) - 1];
+    const auto& [low, high, digits, sign] = roots[static_cast<std::size_t>(i) - 1];
     EXPECT_LT(low.rational(), Rational(i, 97));
     EXPECT_GT(high.rational(), Rational(i, 97));
   }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "certificates/exact/exact_time.h"
+#include "certificates/exact/instant.h"
 #include "certificates/exact/precise_values.h"
 #include "certificates/exact/recent_functions.h"
 #include "certificates/exact/wide_roots.h"
@@ -238,6 +239,90 @@ TEST(WildPolynomials, WideOrNotIsTheSame) {
   }
 }
 
+// Roots are looked for as they are asked for, in whatever order: those of a polynomial that is not wide.
+TEST(WildPolynomials, RootsAskedForInAnyOrderAreAllThereAre) {
+  Random random(1206);
+  for (int i = 0; i < 60 && !testing::Test::HasFailure(); ++i) {
+    const Scaled scaled =
+        random() % 2 == 0
+            ? cluster(random, test::pick(random, 2, 4), static_cast<unsigned>(test::pick(random, 1, 60)))
+            : test::product(test::random_linear(random), wild(random, test::pick(random, 1, 7), 150));
+    SCOPED_TRACE("seed 1206, case " + std::to_string(i) + ": " + test::describe(scaled));
+    if (ExactPolynomial(scaled).is_zero()) continue;
+    const ExactPolynomial plain = ExactPolynomial(scaled).square_free(), p = wide(scaled).square_free();
+    for (int round = 0; round < 8; ++round) {
+      const int low = test::pick(random, 0, 15), high = test::pick(random, low + 1, 16);
+      const Dyadic lower(low / 16.0), upper(high / 16.0);
+      const auto most = static_cast<std::size_t>(test::pick(random, 1, 3));
+      std::vector<RootInterval> found;
+      visit_roots(p, lower, upper, [&](RootInterval root) {
+        found.push_back(std::move(root));
+        return found.size() < most;
+      });
+      const auto expected = isolate_roots(plain, lower, upper);
+      ASSERT_EQ(found.size(), std::min(most, expected.size()));
+      for (std::size_t r = 0; r < found.size(); ++r) {
+        ExactTime a(p, found[r]), b(plain, expected[r]);
+        EXPECT_EQ(ExactTime::compare(a, b), 0);
+      }
+    }
+  }
+}
+
+// The sign after a root that a function has in common with others, asked for the first time and again.
+TEST(WildPolynomials, SignsAfterCommonRootsAreThoseOfOrdinaryPolynomials) {
+  Random random(1207);
+  int asked = 0;
+  for (int i = 0; i < 60 && !testing::Test::HasFailure(); ++i) {
+    const Scaled common = random() % 2 == 0 ? test::random_linear(random) : wild(random, 2, 100);
+    const Scaled a = test::product(common, wild(random, 2, 200));
+    Scaled b = test::product(common, wild(random, 3, 200));
+    if (random() % 2 == 0) b = test::product(b, common);
+    SCOPED_TRACE("seed 1207, case " + std::to_string(i) + ": " + test::describe(a) + ", " +
+                 test::describe(b));
+    const ExactPolynomial plain_a(a), plain_b(b), wide_a = wide(a), wide_b = wide(b);
+    if (plain_a.is_zero() || plain_b.is_zero()) continue;
+    for (const RootInterval& root : isolate_roots(plain_a.square_free(), Dyadic(0.0), Dyadic(1.0))) {
+      if (root.lower == Dyadic(1.0)) continue;
+      ExactTime time(plain_a.square_free(), root), same(wide_a.square_free(), root);
+      const int after = sign_after(plain_b, time), at = sign_at(plain_b, time);
+      for (int round = 0; round < 3; ++round) {
+        EXPECT_EQ(sign_after(wide_b, same), after);
+        EXPECT_EQ(sign_at(wide_b, same), at);
+        asked += at == 0 ? 1 : 0;
+        if (round == 1) static_cast<void>(isolate_roots(wide_b.square_free(), Dyadic(0.0), Dyadic(1.0)));
+        same = ExactTime(wide_a.square_free(), root);
+      }
+    }
+  }
+  EXPECT_GT(asked, 100);
+}
+
+// A comparison begins with what another one has found out, also where doubles isolated the root.
+TEST(WildPolynomials, RootsInBracketsOfDoublesStayNarrow) {
+  const Integer scale = Integer(1) << 200U;
+  const ExactPolynomial p = wide(test::product(test::linear(scale + 3, 3 * scale), test::linear(9, 7)));
+  const FailureTime bracket{0.25, 0.5, 0, true};
+  ExactTime first = exact_time(p, bracket);
+  while (!has_digits({first.lower(), first.upper()}, 64)) first.refine();
+  ExactTime again = exact_time(p, bracket);
+  EXPECT_TRUE(has_digits({again.lower(), again.upper()}, 64));
+  EXPECT_EQ(ExactTime::compare(first, again), 0);
+}
+
+// Halving would take a step for each binary place.
+TEST(WildPolynomials, OrdinaryRootsOfAnotherScaleTakeFewSteps) {
+  const Integer far = Integer(1) << 3000U;
+  ExactTime time(ExactPolynomial(test::linear(3, 7 * far)), {Dyadic(0.0), Dyadic(1.0)});
+  int steps = 0;
+  for (; !has_digits({time.lower(), time.upper()}, 64) && steps < 1000; ++steps) time.refine();
+  EXPECT_LT(steps, 500);
+  EXPECT_LT(time.lower().rational(), Rational(3, 7 * far));
+  EXPECT_LT(Rational(3, 7 * far), time.upper().rational());
+  ExactTime other(ExactPolynomial(test::linear(3, 7 * far + 1)), {Dyadic(0.0), Dyadic(1.0)});
+  EXPECT_EQ(ExactTime::compare(time, other), 1);
+}
+
 // Says the coefficients of a polynomial, and counts how often it is asked for all digits.
 class Source final : public CoefficientSource {
  public:
@@ -245,6 +330,11 @@ class Source final : public CoefficientSource {
   [[nodiscard]] std::vector<LeadingDigits> leading_digits() const override {
     std::vector<LeadingDigits> digits;
     for (const Integer& x : p_) digits.push_back(LeadingDigits::of(x));
+    return digits;
+  }
+  [[nodiscard]] std::vector<LongDigits> digits(std::size_t words) const override {
+    std::vector<LongDigits> digits;
+    for (const Integer& x : p_) digits.emplace_back(x, 64 * words);
     return digits;
   }
   [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {
@@ -300,6 +390,10 @@ class Failing final : public CoefficientSource {
   [[nodiscard]] std::vector<LeadingDigits> leading_digits() const override {
     LeadingDigits unknown = LeadingDigits::of(Integer(1));
     unknown.error = 5;
+    return {unknown, unknown};
+  }
+  [[nodiscard]] std::vector<LongDigits> digits(std::size_t) const override {
+    const LongDigits unknown(Integer(1), 5, 0, LongDigits::unlimited);
     return {unknown, unknown};
   }
   [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {

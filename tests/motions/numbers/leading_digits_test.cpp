@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "motions/numbers/fixed_digits.h"
 #include "motions/numbers/long_digits.h"
 
 namespace kds {
@@ -45,6 +46,15 @@ void expect_encloses(const LongDigits& x, const Rational& exact) {
   if (x.certain_sign() != 0) {
     EXPECT_EQ(x.certain_sign(), exact.sign());
   }
+  if (x.is_zero()) {
+    EXPECT_EQ(exact, 0);
+  }
+}
+
+template <int Words>
+void expect_encloses(const FixedDigits<Words>& x, const Rational& exact) {
+  expect_encloses(x.long_digits(), exact);
+  EXPECT_EQ(x.certain_sign(), x.long_digits().certain_sign());
   if (x.is_zero()) {
     EXPECT_EQ(exact, 0);
   }
@@ -102,6 +112,72 @@ TEST(LongDigits, HoldsTheExactNumberWhateverTheBits) {
       1103, [](const Integer& x) { return LongDigits(x, LongDigits::unlimited); });
 }
 
+template <int Words>
+void expect_sums_of_products_enclosed(std::uint64_t seed) {
+  Random random(seed);
+  for (int i = 0; i < 1000 && !testing::Test::HasFailure(); ++i) {
+    // Products so far apart that most are below the last word of others, and some that cancel.
+    FixedDigits<Words> sum;
+    Rational exact = 0;
+    for (int term = 0; term < 10; ++term) {
+      Integer a = random_integer(random) << static_cast<unsigned>(pick(random, 0, 1500));
+      Integer b = random_integer(random);
+      add_product(sum, FixedDigits<Words>(a), FixedDigits<Words>(b));
+      exact += Rational(Integer(a * b));
+      if (random() % 2 != 0) continue;
+      FixedDigits<Words> other(a);
+      other <<= 3;
+      add_product(sum, other, FixedDigits<Words>(Integer(-b)));
+      exact -= Rational(Integer((a * b) << 3));
+    }
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(i));
+    expect_encloses(sum, exact);
+  }
+}
+
+template <int Words>
+void expect_fixed_digits_right(std::uint64_t seed) {
+  expect_expressions_enclosed<FixedDigits<Words>>(seed,
+                                                  [](const Integer& x) { return FixedDigits<Words>(x); });
+  expect_sums_of_products_enclosed<Words>(seed);
+  Random random(seed);
+  for (int i = 0; i < 1000 && !testing::Test::HasFailure(); ++i) {
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(i));
+    const Integer low = abs(random_integer(random)), high = low + abs(random_integer(random));
+    const auto all = FixedDigits<Words>::between(low, high);
+    for (const Integer& x : {low, high, Integer((low + high) / 2)}) expect_encloses(all, x);
+    // From longer digits, whose exponents are no multiples of 64.
+    LongDigits longer(high, static_cast<std::size_t>(pick(random, 64, 3000)));
+    const int power = pick(random, -500, 500);
+    longer.scale(power);
+    expect_encloses(FixedDigits<Words>(longer), Rational(high) * power_of_two(power));
+    // As many digits as there is room for but one word.
+    const FixedDigits<Words> alone(high);
+    EXPECT_TRUE(alone.long_digits().has_digits(64 * (Words - 1) - 1));
+  }
+}
+
+TEST(FixedDigits, HoldsTheExactNumberWhateverTheWords) {
+  expect_fixed_digits_right<4>(1105);
+  expect_fixed_digits_right<8>(1106);
+  expect_fixed_digits_right<16>(1107);
+  expect_fixed_digits_right<32>(1108);
+}
+
+TEST(FixedDigits, KeepsWhatFits) {
+  using Four = FixedDigits<4>;
+  const Integer wide = (Integer(1) << 250) + 1;
+  EXPECT_EQ(Four(wide).long_digits().number(), wide);
+  EXPECT_TRUE((Four(wide) - Four(wide)).is_zero());
+  EXPECT_TRUE(Four(Integer(5) << 1000).long_digits().has_digits(5000));
+  EXPECT_FALSE(Four((Integer(5) << 1000) + 1).long_digits().has_digits(300));
+  // All words are right where nothing cancels, whatever is far below.
+  Four sum(Integer(1) << 1000);
+  add_product(sum, Four(Integer(-3)), Four(Integer(1) << 100));
+  EXPECT_TRUE(sum.long_digits().has_digits(190));
+  EXPECT_EQ(sum.certain_sign(), 1);
+}
+
 TEST(LongDigits, HoldsAllNumbersBetweenTwo) {
   Random random(1104);
   for (int i = 0; i < 3000 && !testing::Test::HasFailure(); ++i) {
@@ -124,6 +200,18 @@ TEST(LongDigits, IsExactWithoutALimit) {
   EXPECT_EQ(x.error(), 0U);
   EXPECT_EQ(x.number(), (Integer(3) << 5000) - 1);
   EXPECT_TRUE(x.has_digits(6000));
+}
+
+TEST(LongDigits, GivesTheirLeadingDigits) {
+  Random random(1109);
+  for (int i = 0; i < 3000 && !testing::Test::HasFailure(); ++i) {
+    const Integer first = random_integer(random), second = random_integer(random);
+    const auto bits = static_cast<std::size_t>(pick(random, 64, 2000));
+    LongDigits x(first, bits);
+    x *= LongDigits(second, bits);
+    SCOPED_TRACE("case " + std::to_string(i));
+    expect_encloses(x.leading_digits(), Rational(Integer(first * second)));
+  }
 }
 
 TEST(LeadingDigits, KeepsWhatFits) {
