@@ -132,11 +132,12 @@ class WideFunction final : public CoefficientSource {
   WholeScale scale_;
 };
 
-/// All numbers that go into a function.
+/// All numbers that go into a function; first of what kind its curves are, since others may have as many.
 template <class C>
 std::vector<double> numbers_of(const BeadFunction& function, const C& curves) {
   std::vector<double> numbers;
   numbers.reserve(64);
+  numbers.push_back(lifted<C> ? -degree_of(curves) : degree_of(curves));
   each_control(curves, function.beads, function.known.channels(),
                [&](double value, int) { numbers.push_back(value); });
   if (&function.formula != &function.known.formula()) {
