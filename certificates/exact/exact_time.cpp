@@ -14,14 +14,17 @@ namespace kds {
 namespace {
 
 // After so many bisections a gcd is tried: they are cheaper while times differ, wasted where they are equal.
-// A wide polynomial's root, of any scale, is narrowed to so many digits before.
+// A wide polynomial's root, of any scale, is narrowed to so many digits before. A time with so many binary
+// places is narrow enough: of one at which thousands of functions vanish each would ask for a few more, and
+// numbers would grow with how many are asked about.
 constexpr int bisections_before_gcd = 4;
-constexpr unsigned digits_before_gcd = 64;
+constexpr unsigned digits_before_gcd = 64, most_places_before_gcd = 256;
 
 bool wants_gcd(const ExactTime& time, int bisections) {
   if (time.is_dyadic()) return true;
-  return time.polynomial().wide() == nullptr ? bisections >= bisections_before_gcd
-                                             : has_digits({time.lower(), time.upper()}, digits_before_gcd);
+  if (time.polynomial().wide() != nullptr) return has_digits({time.lower(), time.upper()}, digits_before_gcd);
+  return bisections >= bisections_before_gcd ||
+         std::min(time.lower().exponent(), time.upper().exponent()) >= most_places_before_gcd;
 }
 
 // Whether the time is a root of this polynomial, and the only one in its interval, because it was made from

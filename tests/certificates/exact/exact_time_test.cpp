@@ -311,5 +311,20 @@ TEST(DyadicBetween, LiesBetween) {
   }
 }
 
+// What happens at one time is asked about once for each function that vanishes there.
+TEST(ExactTime, DoesNotGrowWithHowManyFunctionsVanishAtIt) {
+  const ExactPolynomial p({Integer(2), Integer(1), Integer(-7)});
+  auto roots = isolate_roots(p, Dyadic(0.0), Dyadic(1.0));
+  ASSERT_EQ(roots.size(), 1U);
+  ExactTime time(p, roots[0]);
+  for (int i = 0; i < 1000; ++i) {
+    const ExactPolynomial same({Integer(2 * (i + 1)), Integer(i + 1), Integer(-7 * (i + 1))});
+    ASSERT_EQ(sign_at(same, time), 0);
+    ASSERT_EQ(sign_after(same, time), -1);
+  }
+  EXPECT_LT(time.upper().exponent(), 600U);
+  EXPECT_GT(time.upper().exponent(), 20U);
+}
+
 }  // namespace
 }  // namespace kds
