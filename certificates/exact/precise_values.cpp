@@ -155,16 +155,30 @@ Halves seen_closely(const WidePolynomial& polynomial, const Dyadic& lower, const
   return {scaled, error};
 }
 
-Variations exact_variations(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper) {
-  const auto enough = [](const Variations& v) { return v.least == v.most || v.least >= 2; };
-  if (const Variations rough = polynomial.variations_on(lower, upper); enough(rough)) return rough;
+namespace {
+
+bool is_enough(const Variations& v) { return v.least == v.most || v.least >= 2; }
+
+}  // namespace
+
+Variations variations_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper,
+                              std::size_t& bits) {
   const detail::Ends ends(lower, upper);
+  const std::size_t first = bits;
+  std::size_t tried = 0;
   return to_enough_bits(
-      256, bits_at(polynomial, ends.exponent) / 2, [&](const auto& numbers) -> std::optional<Variations> {
+      first, bits_at(polynomial, ends.exponent) / 2, [&](const auto& numbers) -> std::optional<Variations> {
+        bits = first << tried++;
         const Variations v =
             detail::variations_of(seen_in(numbers, polynomial, ends), std::nullopt, std::nullopt);
-        return enough(v) ? std::optional(v) : std::nullopt;
+        return is_enough(v) ? std::optional(v) : std::nullopt;
       });
+}
+
+Variations exact_variations(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper) {
+  if (const Variations rough = polynomial.variations_on(lower, upper); is_enough(rough)) return rough;
+  std::size_t bits = 256;
+  return variations_closely(polynomial, lower, upper, bits);
 }
 
 Integer newton_cell(const WidePolynomial& polynomial, const Dyadic& from, const Dyadic& to, int multiplicity,

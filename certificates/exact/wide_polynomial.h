@@ -85,7 +85,7 @@ class WidePolynomial {
     int sign_at_lower = 0, sign_at_upper = 0;
     bool with_lower = false;  ///< a root at its lower end is one of its own
     unsigned digits = 2;      ///< of the next step towards a cluster
-    std::size_t bits = 256;   ///< to look at it closely with
+    std::size_t bits = 256;   ///< with which it, or the part that it is of, was looked at closely
   };
   /// What others have found out about it.
   struct Found {

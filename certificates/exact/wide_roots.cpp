@@ -113,7 +113,8 @@ class Isolation {
       const bool unclear = is_unclear(rough);
       if (unclear && is_of_one_scale(part))
         return visit_closely(seen_closely(polynomial_, part.lower, part.upper, part.bits), part);
-      const Variations variations = unclear ? exact_variations(polynomial_, part.lower, part.upper) : rough;
+      const Variations variations =
+          unclear ? variations_closely(polynomial_, part.lower, part.upper, part.bits) : rough;
       if (variations.most == 0) return;
       if (has_one_root(part, variations)) return add({part.lower, part.upper, 1, part.sign_at_lower});
       if (!narrow_to_cluster(part, variations)) break;
@@ -188,7 +189,7 @@ class Isolation {
       Variations inside =
           polynomial_.variations_on(around.lower, around.upper, around.sign_at_lower, around.sign_at_upper);
       if (inside.least != inside.most && inside.most >= variations)
-        inside = exact_variations(polynomial_, around.lower, around.upper);
+        inside = variations_closely(polynomial_, around.lower, around.upper, around.bits);
       if (inside.least != variations || inside.most != variations) continue;
       around.digits = std::min(2 * digits, most_digits);
       part = std::move(around);
