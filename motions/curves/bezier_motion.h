@@ -3,9 +3,11 @@
 // degrees.
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "motions/base/finite.h"
+#include "motions/curves/linear_ends.h"
 #include "motions/curves/motion.h"
 
 namespace kds {
@@ -31,6 +33,15 @@ class BezierMotion {
     records_[bead].control[k][axis] = finite(value);
   }
   void set_weight(BeadId bead, int k, double value) { records_[bead].control[k][dimension] = finite(value); }
+  /// All beads from one frame to the next (linear_ends.h). Throws as finite() does; then its control points
+  /// mean nothing.
+  void set_ends(const double* start, const double* end, const double* radii) requires(degree == 1) {
+    static_assert(sizeof(Record) == 2 * (dimension + 1) * sizeof(double));
+    if (records_.empty()) return;
+    if (!set_linear_ends<dimension>(start, end, radii, records_.size(), records_[0].control[0],
+                                    radii_[0].control))
+      (void)finite(std::numeric_limits<double>::infinity());
+  }
   [[nodiscard]] double radius(BeadId bead, int k) const { return radii_[bead].control[k]; }
   [[nodiscard]] const double* radii(BeadId bead) const { return radii_[bead].control; }
   void set_radius(BeadId bead, int k, double value) { radii_[bead].control[k] = finite(value); }

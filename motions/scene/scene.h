@@ -105,12 +105,12 @@ class Scene {
   template <Motion M>
   void load(std::size_t step, M& motion) const {
     hold_for_step(step);
-    if (M::degree == 1 && is_sampled()) {
-      load_between_frames(step, motion);
-    } else {
+    if (M::degree != 1 || !is_sampled()) {
       for (BeadId b = 0; b < bead_count(); ++b) {
         for (int k = 0; k <= degree_; ++k) set_control_point(step, b, k, motion);
       }
+    } else if constexpr (M::degree == 1) {
+      motion.set_ends(frame(step).data(), frame(step + 1).data(), radii_.data());
     }
     if constexpr (lifted<M>) motion.set_drift(drift<M>(step));
   }
@@ -144,19 +144,6 @@ class Scene {
       motion.set_coordinate(b, k, axis, coordinate(step, b, k, axis));
     motion.set_weight(b, k, weight(b, k));
     motion.set_radius(b, k, has_radii_ ? radii_[b] : 0);
-  }
-  /// The same on straight lines, where it is a good part of a step.
-  template <Motion M>
-  void load_between_frames(std::size_t step, M& motion) const {
-    for (BeadId b = 0; b < bead_count(); ++b) {
-      const double radius = radii_[b];
-      for (int k = 0; k <= 1; ++k) {
-        const double* const center = frame(step + static_cast<std::size_t>(k)).data() + 3 * std::size_t{b};
-        for (int axis = 0; axis < M::dimension; ++axis) motion.set_coordinate(b, k, axis, center[axis]);
-        motion.set_weight(b, k, radius * radius);
-        motion.set_radius(b, k, radius);
-      }
-    }
   }
   /// The mean displacement; any vector makes a motion, this one dips weights the least on average.
   template <Motion M>

@@ -13,7 +13,7 @@ void bring_to(StaticWrappedHierarchy<D>& hierarchy, const Balls<D>& balls) {
   (void)hierarchy.update(balls);
 }
 template <int D>
-void bring_to(LayeredHierarchy<D>& hierarchy, const Balls<D>& balls) {
+void bring_to(LayeredHierarchy<D>& hierarchy, const BallRows<D>& balls) {
   hierarchy.build(balls);
 }
 

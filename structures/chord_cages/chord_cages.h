@@ -28,6 +28,7 @@ template <class Hierarchy>
 class ChordCages {
  public:
   static constexpr int dimension = Hierarchy::dimension;
+  using BallsAt = typename Hierarchy::BallsAt;
 
   /// `keep_bases`: those of each step's start, too, where there are any.
   ChordCages(std::span<const BeadRange> necklaces, int degree, bool keep_bases = false);
@@ -43,7 +44,7 @@ class ChordCages {
   [[nodiscard]] OutwardCages<dimension> cages(int k) const {
     return cages_[static_cast<std::size_t>(k)].outward();
   }
-  [[nodiscard]] const Balls<dimension>& balls(int k) const { return balls_[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] const BallsAt& balls(int k) const { return balls_[static_cast<std::size_t>(k)]; }
   /// Its bases are of the last control point: the step's end, or, before any step, where beads are built.
   /// The cages it had are those here.
   [[nodiscard]] const Hierarchy& hierarchy() const { return hierarchy_; }
@@ -56,7 +57,7 @@ class ChordCages {
   void take(int k, const Curves<dimension>& curves);
 
   Hierarchy hierarchy_;
-  std::vector<Balls<dimension>> balls_;       // of each control point
+  std::vector<BallsAt> balls_;                // of each control point
   std::vector<TakenCages<Hierarchy>> cages_;  // likewise
   std::vector<Basis> start_bases_;
   bool keep_bases_;

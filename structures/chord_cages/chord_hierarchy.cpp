@@ -48,7 +48,7 @@ template <int D>
 std::optional<std::string> not_as_built(const ChordCages<LayeredHierarchy<D>>& cages, const Curves<D>& curves,
                                         const Dyadic& time) {
   LayeredHierarchy<D> built = cages.hierarchy();
-  built.build(Balls<D>(curves, time == Dyadic(0.0) ? 0 : curves.own_degree()));
+  built.build(BallRows<D>(curves, time == Dyadic(0.0) ? 0 : curves.own_degree()));
   TakenCages<LayeredHierarchy<D>> taken;
   taken.take(built, {});
   for (NodeId node = 0; node < cages.tree().node_count(); ++node) {

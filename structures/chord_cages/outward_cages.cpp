@@ -21,7 +21,8 @@ constexpr double of_radius = 0x1p-49, of_center = 0x1p-51;
 }  // namespace
 
 template <class Hierarchy>
-void TakenCages<Hierarchy>::take(Hierarchy& hierarchy, const Balls<dimension>& balls) {
+void TakenCages<Hierarchy>::take(Hierarchy& hierarchy,
+                                 [[maybe_unused]] const typename Hierarchy::BallsAt& balls) {
   hierarchy.exchange_cages(cages_);
   if constexpr (std::is_same_v<Hierarchy, StaticWrappedHierarchy<dimension>>) {
     wider_ = hierarchy.wider_than_cages();

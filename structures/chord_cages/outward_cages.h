@@ -3,12 +3,14 @@
 // balls of their nodes exactly. Rounded when they are asked for: a run that only brings cages along does not
 // pay for it.
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include "structures/enclosing_sphere/cage.h"
+#include "structures/enclosing_sphere/four_balls.h"
 #include "structures/hierarchy/layered_hierarchy.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
 #include "structures/necklace/balls.h"
@@ -32,6 +34,15 @@ class OutwardCages {
     cage.radius = (cage.radius + wider_) * factor_ + of_center_ * size;
     return cage;
   }
+  /// Four side by side, each the same double for double.
+  [[nodiscard, gnu::always_inline]] FourBalls<Dimension> four(
+      const std::array<NodeId, Lanes::width>& nodes) const {
+    FourBalls<Dimension> balls({&cages_[nodes[0]], &cages_[nodes[1]], &cages_[nodes[2]], &cages_[nodes[3]]});
+    Lanes size = abs(balls.center[0]);
+    for (std::size_t axis = 1; axis < Dimension; ++axis) size += abs(balls.center[axis]);
+    balls.radius = (balls.radius + Lanes(wider_)) * Lanes(factor_) + Lanes(of_center_) * size;
+    return balls;
+  }
 
  private:
   std::span<const Cage<Dimension>> cages_;
@@ -45,7 +56,7 @@ class TakenCages {
   static constexpr int dimension = Hierarchy::dimension;
 
   /// `balls` are those the hierarchy was just brought to; it makes its cages anew with the next.
-  void take(Hierarchy& hierarchy, const Balls<dimension>& balls);
+  void take(Hierarchy& hierarchy, const typename Hierarchy::BallsAt& balls);
   [[nodiscard]] OutwardCages<dimension> outward() const;
 
  private:

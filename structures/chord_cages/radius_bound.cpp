@@ -181,26 +181,17 @@ template <bool of_points, int D, std::size_t M>
   using Numbers = std::array<Lanes, static_cast<std::size_t>(D)>;
   std::array<const Basis*, Lanes::width> bases;
   for (std::size_t lane = 0; lane < Lanes::width; ++lane) bases[lane] = &step.start_bases[nodes[lane]];
-  const auto gather = [&](const double* values, std::size_t j) __attribute__((always_inline)) {
-    return Lanes(Lanes::Vector{values[bases[0]->beads[j]], values[bases[1]->beads[j]],
-                               values[bases[2]->beads[j]], values[bases[3]->beads[j]]});
+  const auto row = [&bases](const Balls<D>& balls, std::size_t j) __attribute__((always_inline)) {
+    const BallRow<D>* const rows = balls.rows();
+    return FourBalls<D>({rows + bases[0]->beads[j], rows + bases[1]->beads[j], rows + bases[2]->beads[j],
+                         rows + bases[3]->beads[j]});
   };
-  const auto of_cages = [&](const OutwardCages<D>& cages, Numbers& center, Lanes& radius)
-      __attribute__((always_inline)) {
-    const Cage<D> a = cages[nodes[0]], b = cages[nodes[1]], c = cages[nodes[2]], d = cages[nodes[3]];
-    for (std::size_t axis = 0; axis < D; ++axis)
-      center[axis] = Lanes::Vector{a.center[axis], b.center[axis], c.center[axis], d.center[axis]};
-    radius = Lanes::Vector{a.radius, b.radius, c.radius, d.radius};
-  };
-  Numbers start_center, end_center;
-  Lanes start_radius, end_radius;
-  of_cages(step.start_cages, start_center, start_radius);
-  of_cages(step.end_cages, end_center, end_radius);
+  const FourBalls<D> start_cages = step.start_cages.four(nodes), end_cages = step.end_cages.four(nodes);
   BasisBalls<Lanes, D, M> balls;
   for (std::size_t j = 0; j <= M; ++j) {
-    for (std::size_t axis = 0; axis < D; ++axis)
-      balls.center[j][axis] = gather(step.start.coordinates(axis), j);
-    if (!of_points) balls.radius[j] = gather(step.start.radii(), j);
+    const FourBalls<D> members = row(step.start, j);
+    for (std::size_t axis = 0; axis < D; ++axis) balls.center[j][axis].v = members.center[axis].v;
+    balls.radius[j].v = members.radius.v;
   }
   const std::array<Lanes, M + 1> weights = weights_of<of_points>(balls);
   Lanes least = weights[0], of_start(0.0), of_end(0.0), mixed(0.0);  // variances
@@ -210,10 +201,11 @@ template <bool of_points, int D, std::size_t M>
   Lanes start_mean_radius(0.0), end_mean_radius(0.0);
   for (std::size_t j = 0; j <= M; ++j) {
     least = Lanes::min(least, weights[j]);
+    const FourBalls<D> there = row(step.end, j);
     Numbers at_start, at_end;
     for (std::size_t axis = 0; axis < D; ++axis) {
-      at_start[axis] = balls.center[j][axis] - start_center[axis];
-      at_end[axis] = gather(step.end.coordinates(axis), j) - end_center[axis];
+      at_start[axis] = balls.center[j][axis] - start_cages.center[axis];
+      at_end[axis] = there.center[axis] - end_cages.center[axis];
       start_mean[axis] += weights[j] * at_start[axis];
       end_mean[axis] += weights[j] * at_end[axis];
     }
@@ -221,7 +213,7 @@ template <bool of_points, int D, std::size_t M>
     of_end += weights[j] * dot(at_end, at_end);
     mixed += weights[j] * dot(at_start, at_end);
     if constexpr (!of_points) {
-      const Lanes r = balls.radius[j], s = gather(step.end.radii(), j);
+      const Lanes r = balls.radius[j], s = there.radius;
       start_mean_radius += weights[j] * r;
       end_mean_radius += weights[j] * s;
       of_start -= weights[j] * r * r;
@@ -240,14 +232,15 @@ template <bool of_points, int D, std::size_t M>
     of_end += end_mean_radius * end_mean_radius;
     mixed += start_mean_radius * end_mean_radius;
   }
-  const Lanes start_rho = start_radius - start_mean_radius, end_rho = end_radius - end_mean_radius;
+  const Lanes start_rho = start_cages.radius - start_mean_radius,
+              end_rho = end_cages.radius - end_mean_radius;
   const Lanes g0 = start_rho * start_rho - of_start, g2 = end_rho * end_rho - of_end,
               g1 = start_rho * end_rho - mixed;
   const Lanes bulge = Lanes(2.0) * g1 - g0 - g2;
-  const Lanes greatest = Lanes::max(start_radius, end_radius);
+  const Lanes greatest = Lanes::max(start_cages.radius, end_cages.radius);
   const Lanes most = Lanes::max(g0, g2) + Lanes::max(Lanes(0.25) * bulge, Lanes(0.0)) +
                      Lanes(rounding) * (greatest * greatest);
-  const Lanes allowed = most_allowed(Lanes::min(start_radius, end_radius), greatest,
+  const Lanes allowed = most_allowed(Lanes::min(start_cages.radius, end_cages.radius), greatest,
                                      Lanes::min(start_mean_radius, end_mean_radius),
                                      Lanes::max(start_mean_radius, end_mean_radius), tightness);
   // A comparison with what is no number is false. Lengths whose squares lose digits prove nothing.
@@ -272,13 +265,16 @@ template <bool of_points, int D, std::size_t M>
 template <bool of_points, int D>
 void look_at_all(const LinearStep<D>& step, double tightness, std::vector<NodeId>& loose) {
   constexpr std::size_t at_a_time = 512;
-  std::array<std::array<NodeId, at_a_time>, Basis::max_size> nodes;
+  std::array<std::array<NodeId, at_a_time + 1>, Basis::max_size> nodes;
   for (std::size_t first = 0; first < step.start_bases.size(); first += at_a_time) {
     std::array<std::size_t, Basis::max_size> count{};
     const std::size_t end = std::min(step.start_bases.size(), first + at_a_time);
-    for (std::size_t node = first; node < end; ++node) {
-      const std::size_t m = step.start_bases[node].size - 1U;
-      nodes[m][count[m]++] = static_cast<NodeId>(node);
+    for (std::size_t node = first; node < end; ++node) {  // no branch, and no count to wait for
+      const std::size_t size = step.start_bases[node].size;
+      for (std::size_t m = 0; m < Basis::max_size; ++m) {
+        nodes[m][count[m]] = static_cast<NodeId>(node);
+        count[m] += size == m + 1 ? 1 : 0;
+      }
     }
     loose.insert(loose.end(), nodes[0].begin(), nodes[0].begin() + static_cast<std::ptrdiff_t>(count[0]));
     look_at<of_points, D, 1>(step, {nodes[1].data(), count[1]}, tightness, loose);

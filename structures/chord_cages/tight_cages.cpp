@@ -27,7 +27,7 @@ void TightCages<D>::prove(const ChordCages<StaticWrappedHierarchy<D>>& cages, co
   }
   CagePiece<D> whole;
   whole.cages.resize(static_cast<std::size_t>(cages.degree()) + 1);
-  there_ = cages.balls(0);
+  if (!loose_.empty()) there_ = cages.balls(0);
   for (const NodeId node : loose_) {
     whole.bases = {cages.start_bases()[node], cages.hierarchy().basis(node)};
     for (int k = 0; k <= cages.degree(); ++k) whole.cages[static_cast<std::size_t>(k)] = cages.cages(k)[node];

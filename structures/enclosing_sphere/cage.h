@@ -2,15 +2,13 @@
 // The sphere of a node of a hierarchy, as its loops hold it.
 
 #include "structures/enclosing_sphere/sphere_of_points.h"
+#include "structures/necklace/ball_rows.h"
 #include "structures/necklace/sphere.h"
 
 namespace kds {
 
 template <int Dimension>
-struct Cage {
-  Point<Dimension> center{};
-  double radius = 0;
-};
+using Cage = BallRow<Dimension>;
 
 /// For people; `wider` by the common radius of beads where the cage is of their centres.
 template <int Dimension>

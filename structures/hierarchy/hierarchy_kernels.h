@@ -12,6 +12,7 @@
 
 #include "structures/enclosing_sphere/pivot_sphere.h"
 #include "structures/enclosing_sphere/scan_targets.h"
+#include "structures/hierarchy/lane_nodes.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
 
 namespace kds::detail {
@@ -129,29 +130,24 @@ class NodeWrapper {
   // Nodes of two beads.
   void trust_pairs(const NodeId* nodes, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
-      const BeadRange range = tree.range(nodes[i]);
-      cages[nodes[i]] = cage_of_pair(range);
-      if (!is_basis(range, cages[nodes[i]])) cages[nodes[i]] = trusted_cage<Form>(balls, bases[nodes[i]]);
+      const auto sphere = sphere_of_both(tree.range(nodes[i]));
+      cages[nodes[i]] = {sphere.center, sphere.radius};
+      if (!sphere.certain) cages[nodes[i]] = trusted_cage<Form>(balls, bases[nodes[i]]);
     }
   }
   void wrap_pairs(const NodeId* nodes, std::size_t count, Start start) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const NodeId node = nodes[i];
-      const BeadRange range = tree.range(node);
-      Cage<Dimension>& cage = cages[node];
-      cage = cage_of_pair(range);
-      double size = 0;
-      for (std::size_t axis = 0; axis < Dimension; ++axis) size = std::max(size, std::abs(cage.center[axis]));
-      loose[node] = !(size * 0x1p-22 <= cage.radius);
-      const Pending before{node, bases[node]};
-      Basis& basis = bases[node];
-      basis.size = 2;
-      basis.beads[0] = range.first;
-      basis.beads[1] = range.last;
-      if (!is_basis(range, cage) && !decide_nested_pair(node, range)) decide_in_exact_numbers(node);
-      if (start == Start::old_bases && (before.old.size != 2 || basis.size != 2)) finish(before, start);
+    if (start == Start::children) {
+      wrap_pairs_one_by_one(nodes, count, start);
+      counts.changed += count;
+      return;
     }
-    if (start == Start::children) counts.changed += count;
+    std::array<NodeId, nodes_at_a_time> left;
+    for (std::size_t i = 0; i < count; i += nodes_at_a_time) {
+      const std::size_t some = std::min(nodes_at_a_time, count - i);
+      const std::size_t lefts = keep_pairs<Form::of_points, Dimension>(
+          nodes + i, some, tree.ranges().data(), balls.rows(), bases, cages, loose, left.data());
+      wrap_pairs_one_by_one(left.data(), lefts, start);
+    }
   }
 
  private:
@@ -160,30 +156,27 @@ class NodeWrapper {
     Basis old;
   };
 
-  // Of two balls of which none holds the other.
-  [[gnu::always_inline]] Cage<Dimension> cage_of_pair(const BeadRange& range) const {
-    Cage<Dimension> cage;
-    Point<Dimension> d;
-    for (std::size_t axis = 0; axis < Dimension; ++axis)
-      d[axis] = 0.5 * (balls.coordinates(axis)[range.last] - balls.coordinates(axis)[range.first]);
-    cage.radius = std::sqrt(dot(d, d));
-    double share = 1;
-    if constexpr (!Form::of_points) {
-      const double a = balls.radii()[range.first], b = balls.radii()[range.last];
-      share += 0.5 * (b - a) / cage.radius;
-      cage.radius += 0.5 * (a + b);
+  void wrap_pairs_one_by_one(const NodeId* nodes, std::size_t count, Start start) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const NodeId node = nodes[i];
+      const BeadRange range = tree.range(node);
+      const auto sphere = sphere_of_both(range);
+      cages[node] = {sphere.center, sphere.radius};
+      loose[node] = sphere.loose ? 1 : 0;
+      const Pending before{node, bases[node]};
+      Basis& basis = bases[node];
+      basis.size = 2;
+      basis.beads[0] = range.first;
+      basis.beads[1] = range.last;
+      if (!sphere.certain && !decide_nested_pair(node, range)) decide_in_exact_numbers(node);
+      finish(before, start);
     }
-    for (std::size_t axis = 0; axis < Dimension; ++axis)
-      cage.center[axis] = balls.coordinates(axis)[range.first] + share * d[axis];
-    return cage;
   }
-  // Both are needed, for certain.
-  [[gnu::always_inline]] bool is_basis(const BeadRange& range, const Cage<Dimension>& cage) const {
-    const bool sized = (cage.radius >= 0x1p-150) & (cage.radius <= 0x1p150);
-    if constexpr (Form::of_points) return sized;
-    const double a = balls.radii()[range.first], b = balls.radii()[range.last];
-    // The radius is greater than both, by more than it errs.
-    return sized & (cage.radius > (a < b ? b : a) * (1 + 0x1p-40));
+  [[gnu::always_inline]] PairSphere<double, Dimension> sphere_of_both(const BeadRange& range) const {
+    BasisBalls<double, Dimension, 1> both;
+    both.center = {center_of(balls, range.first), center_of(balls, range.last)};
+    both.radius = {balls.radii()[range.first], balls.radii()[range.last]};
+    return sphere_of_pair<Form::of_points, Dimension, double>(both);
   }
 
   // If one ball holds the other for certain, it is the basis.
@@ -254,15 +247,7 @@ class NodeWrapper {
       std::array<const Basis*, Lanes::width> four;
       for (std::size_t lane = 0; lane < Lanes::width; ++lane)
         four[lane] = &bases[pending[places[std::min(i + lane, count - 1)]].node];
-      const auto gather = [&](const double* values, std::size_t j) __attribute__((always_inline)) {
-        return Lanes(Lanes::Vector{values[four[0]->beads[j]], values[four[1]->beads[j]],
-                                   values[four[2]->beads[j]], values[four[3]->beads[j]]});
-      };
-      for (std::size_t j = 0; j <= M; ++j) {
-        for (std::size_t axis = 0; axis < Dimension; ++axis)
-          members.center[j][axis] = gather(balls.coordinates(axis), j);
-        if (!Form::of_points) members.radius[j] = gather(balls.radii(), j);
-      }
+      gather(balls.rows(), four, members);
       const BasisSphere<Lanes, Dimension> sphere = Form::template sphere<bounds>(members);
       for (std::size_t lane = 0; lane < Lanes::width && i + lane < count; ++lane) {
         Sphere& one = spheres[places[i + lane]];

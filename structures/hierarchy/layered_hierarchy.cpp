@@ -1,72 +1,85 @@
 #include "structures/hierarchy/layered_hierarchy.h"
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 
 #include "motions/base/floating_point_guard.h"
-#include "structures/enclosing_sphere/rounded_up.h"
 #include "structures/hierarchy/parallel_passes.h"
+#include "structures/hierarchy/sphere_of_two.h"
 
 namespace kds {
 
 namespace {
 
-// The bound. With u = 2^-53, `distance` errs by less than 4u of itself, where its square neither over- nor
-// underflows. One sphere lies in the other only if that is true in spite of it. Where it all but does the
-// centre is its own, and the radius no less. Else the centre, each of its
-// coordinates rounded once or twice, is where it should be up to 6u of the distance and u of itself, and the
-// radius, rounded four times, is larger than all that needs by 2^-49 of itself and 2^-51 of the coordinates.
-template <int Dimension>
-Cage<Dimension> around(const Cage<Dimension>& a, const Cage<Dimension>& b) {
-  const Point<Dimension> d = detail::minus(b.center, a.center);
-  const double square = detail::dot(d, d);
-  const bool sized = square >= 0x1p-900 && square <= 0x1p900;
-  const double distance = sized ? std::sqrt(square) : distance_rounded_up<Dimension>(a.center, b.center);
-  const double wider = b.radius - a.radius;
-  if (distance * (1 + 0x1p-48) <= std::abs(wider)) return wider > 0 ? b : a;
-  if (!(std::abs(wider) >= 0)) return a;  // both radii have overflowed
-  // On the line of centres: both far ends on the sphere.
-  const double share = std::clamp(0.5 * (1 + wider / distance), 0.0, 1.0);
-  Cage<Dimension> cage;
-  double size = 0;
-  for (std::size_t axis = 0; axis < Dimension; ++axis) {
-    cage.center[axis] = a.center[axis] + share * d[axis];
-    size += std::abs(cage.center[axis]);
-  }
-  const double reach = std::max(0.5 * (distance + (a.radius + b.radius)), std::max(a.radius, b.radius));
-  cage.radius = reach * (1 + 0x1p-49) + 0x1p-51 * size;
-  if (sized) return cage;
-  for (std::size_t axis = 0; axis < Dimension; ++axis)
-    cage.center[axis] = (1 - share) * a.center[axis] + share * b.center[axis];
-  cage.radius = std::max(reach_rounded_up<Dimension>(cage.center, a.center, a.radius),
-                         reach_rounded_up<Dimension>(cage.center, b.center, b.radius));
-  return cage;
-}
-
 struct Nothing {
   Nothing& operator+=(const Nothing&) { return *this; }
 };
+
+// Nodes of one height.
+template <int Dimension, class Four>
+[[KDS_LONG_LANES_TARGETS]] void wrap(std::span<const Four> merges, const Cage<Dimension>* left_spheres,
+                                     const Cage<Dimension>* right_spheres, Cage<Dimension>* cages) {
+  for (const Four& four : merges) {
+    typename FourBalls<Dimension>::Rows left, right;
+    std::array<Cage<Dimension>*, Lanes::width> wrapped;
+    for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+      left[lane] = left_spheres + four.left[lane];
+      right[lane] = right_spheres + four.right[lane];
+      wrapped[lane] = cages + four.node[lane];
+    }
+    FourBalls<Dimension> spheres;
+    const Lanes::Mask usual =
+        spheres_of_two(FourBalls<Dimension>(left), FourBalls<Dimension>(right), spheres);
+    spheres.store(wrapped);
+    if (Lanes::all(usual)) continue;
+    for (std::size_t lane = 0; lane < Lanes::width; ++lane)
+      if (usual[lane] == 0) *wrapped[lane] = sphere_of_two(*left[lane], *right[lane]);
+  }
+}
 
 }  // namespace
 
 template <int Dimension>
 LayeredHierarchy<Dimension>::LayeredHierarchy(std::span<const BeadRange> necklaces)
-    : tree_(necklaces), order_(tree_), cages_(tree_.node_count()) {}
-
-template <int Dimension>
-void LayeredHierarchy<Dimension>::build(const Balls<Dimension>& balls, Threads threads) {
-  const FloatingPointGuard to_nearest;
-  const auto bead = [&balls](BeadId b) {
-    return Cage<Dimension>{detail::center_of(balls, b), balls.radii()[b]};
-  };
-  over_runs<Nothing>(order_, threads, [&](std::size_t run) {
-    for (const BottomUpOrder::Group& group : order_.groups(order_.runs()[run])) {
+    : tree_(necklaces), order_(tree_), cages_(tree_.node_count()) {
+  for (const BottomUpOrder::Run& run : order_.runs()) {
+    for (const BottomUpOrder::Group& group : order_.groups(run)) {
+      Height& height = heights_.emplace_back();
       for (const NodeId node : order_.nodes(group)) {
         const NodeId left = tree_.left(node), right = tree_.right(node);
         const BeadRange& range = tree_.range(node);
-        cages_[node] = around(left == NecklaceTree::leaf ? bead(range.first) : cages_[left],
-                              right == NecklaceTree::leaf ? bead(range.last) : cages_[right]);
+        if (left == NecklaceTree::leaf) {  // the larger half
+          height.of_beads.append(node, range.first, range.last);
+        } else if (right == NecklaceTree::leaf) {
+          height.of_both.append(node, left, range.last);
+        } else {
+          height.of_nodes.append(node, left, right);
+        }
       }
+    }
+  }
+}
+
+template <int Dimension>
+void LayeredHierarchy<Dimension>::Merges::append(NodeId node, std::uint32_t left, std::uint32_t right) {
+  if (count_ % Lanes::width == 0) fours_.emplace_back();
+  for (std::size_t lane = count_++ % Lanes::width; lane < Lanes::width; ++lane) {
+    fours_.back().node[lane] = node;
+    fours_.back().left[lane] = left;
+    fours_.back().right[lane] = right;
+  }
+}
+
+template <int Dimension>
+void LayeredHierarchy<Dimension>::build(const BallRows<Dimension>& balls, Threads threads) {
+  const FloatingPointGuard to_nearest;
+  const BallRow<Dimension>* const beads = balls.rows();
+  Cage<Dimension>* const cages = cages_.data();
+  over_runs<Nothing>(order_, threads, [&](std::size_t run) {
+    for (std::uint32_t group = order_.runs()[run].first; group < order_.runs()[run].end; ++group) {
+      const Height& height = heights_[group];
+      wrap(height.of_beads.fours(), beads, beads, cages);
+      wrap(height.of_both.fours(), cages, beads, cages);
+      wrap(height.of_nodes.fours(), cages, cages, cages);
     }
     return Nothing{};
   });

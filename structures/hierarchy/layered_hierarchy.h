@@ -1,18 +1,21 @@
 #pragma once
 // Layered hierarchy of a scene at one time: at every internal node of the balanced tree over a necklace the
-// smallest sphere around the spheres of its two children (the paper's section 2.2). A few nanoseconds a node.
+// smallest sphere around the spheres of its two children (the paper's section 2.2). A few nanoseconds a node,
+// four at a time. The centre is rounded: of the smallest sphere up to some ulps.
 //
 // A sphere as it stands, centre and radius doubles, holds those of its children as they stand, and so its
 // beads, exactly: radii are rounded up, by less than 2^-48 of the radius and 2^-50 of the centre's
 // coordinates for each level.
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "structures/enclosing_sphere/cage.h"
 #include "structures/hierarchy/bottom_up_order.h"
 #include "structures/hierarchy/threads.h"
-#include "structures/necklace/balls.h"
+#include "structures/necklace/ball_rows.h"
 #include "structures/necklace/necklace_tree.h"
 
 namespace kds {
@@ -21,6 +24,7 @@ template <int Dimension>
 class LayeredHierarchy {
  public:
   static constexpr int dimension = Dimension;
+  using BallsAt = BallRows<Dimension>;
 
   explicit LayeredHierarchy(std::span<const BeadRange> necklaces);
 
@@ -32,11 +36,30 @@ class LayeredHierarchy {
     cages_.swap(others);
   }
 
-  void build(const Balls<Dimension>& balls, Threads threads = Threads::one);
+  void build(const BallRows<Dimension>& balls, Threads threads = Threads::one);
 
  private:
+  /// Nodes and what is below them, in fours: where there are fewer, the last of them again.
+  class Merges {
+   public:
+    struct Four {
+      std::array<std::uint32_t, 4> node, left, right;
+    };
+    void append(NodeId node, std::uint32_t left, std::uint32_t right);
+    [[nodiscard]] std::span<const Four> fours() const { return fours_; }
+
+   private:
+    std::vector<Four> fours_;
+    std::size_t count_ = 0;
+  };
+  /// Nodes of one height: of two beads, of a node and a bead, of two nodes.
+  struct Height {
+    Merges of_beads, of_both, of_nodes;
+  };
+
   NecklaceTree tree_;
   BottomUpOrder order_;
+  std::vector<Height> heights_;  // of each group of the order
   std::vector<Cage<Dimension>> cages_;
 };
 

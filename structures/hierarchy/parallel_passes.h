@@ -13,20 +13,19 @@ namespace kds {
 /// `pass(run)` does a run's groups in their order and returns what it counted; the sum of all.
 template <class Counts, class Pass>
 Counts over_runs(const BottomUpOrder& order, Threads threads, const Pass& pass) {
-  const auto runs = order.runs();
-  std::vector<Counts> counts(runs.size());
-  const auto do_run = [&](std::size_t i) { counts[i] = pass(i); };
-  if (threads == Threads::one) {
-    for (std::size_t i = 0; i + 1 < runs.size(); ++i) do_run(i);
-  } else {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, runs.size() - 1, 1),
-                      [&](const tbb::blocked_range<std::size_t>& some) {
-                        const FloatingPointGuard of_worker;
-                        for (std::size_t i = some.begin(); i < some.end(); ++i) do_run(i);
-                      });
-  }
-  do_run(runs.size() - 1);
+  const std::size_t runs = order.runs().size();
   Counts sum{};
+  if (threads == Threads::one) {
+    for (std::size_t i = 0; i < runs; ++i) sum += pass(i);
+    return sum;
+  }
+  std::vector<Counts> counts(runs);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, runs - 1, 1),
+                    [&](const tbb::blocked_range<std::size_t>& some) {
+                      const FloatingPointGuard of_worker;
+                      for (std::size_t i = some.begin(); i < some.end(); ++i) counts[i] = pass(i);
+                    });
+  counts.back() = pass(runs - 1);
   for (const Counts& c : counts) sum += c;
   return sum;
 }

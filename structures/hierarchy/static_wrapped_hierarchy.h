@@ -7,8 +7,8 @@
 // bead tests at worst to build or update, a few a node where beads clearly inside are settled by the cages of
 // children.
 
-#include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -62,6 +62,7 @@ template <int Dimension>
 class StaticWrappedHierarchy {
  public:
   static constexpr int dimension = Dimension;
+  using BallsAt = Balls<Dimension>;
 
   explicit StaticWrappedHierarchy(std::span<const BeadRange> necklaces);
 
@@ -81,8 +82,13 @@ class StaticWrappedHierarchy {
   /// centre has lost digits far from the origin.
   template <class Visit>
   void visit_loose(const Visit& visit) const {
-    for (auto at = loose_.begin(); (at = std::find(at, loose_.end(), 1)) != loose_.end(); ++at)
-      visit(static_cast<NodeId>(at - loose_.begin()));
+    const std::uint8_t* const begin = loose_.data();
+    for (std::size_t node = 0; node < loose_.size(); ++node) {
+      const void* const next = std::memchr(begin + node, 1, loose_.size() - node);
+      if (next == nullptr) return;
+      node = static_cast<std::size_t>(static_cast<const std::uint8_t*>(next) - begin);
+      visit(static_cast<NodeId>(node));
+    }
   }
   /// The smallest sphere around the node's balls; after Update::trust or lazy around those of its basis.
   [[nodiscard]] Sphere sphere(NodeId node) const;

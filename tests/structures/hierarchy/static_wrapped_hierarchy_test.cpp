@@ -101,6 +101,31 @@ TEST(StaticWrappedHierarchy, IsExactOnTrajectories) {
   }
 }
 
+// Built they are looked at one by one, updated four at a time.
+TYPED_TEST(StaticWrappedHierarchyIn, PairsUpdatedAreThoseBuilt) {
+  constexpr int d = TypeParam::value;
+  std::mt19937 random(57 + d);
+  for (int round = 0; round < 60; ++round) {
+    for (std::size_t which = 0; which < hard_ball_sets; ++which) {
+      const auto pairs = static_cast<BeadId>(1 + random() % 9);
+      std::vector<BeadRange> necklaces;
+      for (BeadId pair = 0; pair < pairs; ++pair) necklaces.push_back({2 * pair, 2 * pair + 1});
+      const BallSet before = hard_ball_set(random, random() % hard_ball_sets, 2 * pairs, true, d == 2);
+      const BallSet set = hard_ball_set(random, which, 2 * pairs, round % 2 == 0, d == 2);
+      StaticWrappedHierarchy<d> built(necklaces), updated(necklaces);
+      built.build(Balls<d>(set.centers, set.radii));
+      updated.build(Balls<d>(before.centers, before.radii));
+      updated.update(Balls<d>(set.centers, set.radii));
+      expect_same(built, updated);
+      std::vector<NodeId> loose, loose_of_updated;
+      built.visit_loose([&](NodeId node) { loose.push_back(node); });
+      updated.visit_loose([&](NodeId node) { loose_of_updated.push_back(node); });
+      EXPECT_EQ(loose, loose_of_updated);
+      if (this->HasFailure()) FAIL() << set.name;
+    }
+  }
+}
+
 // Larger than what one thread does at a time, and with cages that are skipped.
 TEST(StaticWrappedHierarchy, ThreadsGiveTheSameBits) {
   std::mt19937 random(17);
@@ -248,32 +273,6 @@ TEST(StaticWrappedHierarchy, TrustedBasesHaveABoundOnWhatSticksOut) {
     expect_same(fresh, trusting);
     expect_same(fresh, lazy);
     EXPECT_EQ(lazy.stick_out(0, 1), 0);
-  }
-}
-
-TEST(LayeredHierarchy, HoldsItsChildrenTouchingThem) {
-  std::mt19937 random(3);
-  const BallSet set = hard_ball_set(random, 0, 100, false, false);
-  const std::vector<BeadRange> necklace{{0, 99}};
-  LayeredHierarchy<3> layered(necklace);
-  const Balls<3> balls(set.centers, set.radii);
-  layered.build(balls);
-  const NecklaceTree& tree = layered.tree();
-  for (NodeId node = 0; node < tree.node_count(); ++node) {
-    const Sphere cage = layered.sphere(node);
-    double reach[2];
-    double radius[2];
-    for (int side = 0; side < 2; ++side) {
-      const NodeId child = side == 0 ? tree.left(node) : tree.right(node);
-      const BeadId bead = side == 0 ? tree.range(node).first : tree.range(node).last;
-      const Sphere part = child == NecklaceTree::leaf ? Sphere{set.centers.col(bead), set.radii[bead]}
-                                                      : layered.sphere(child);
-      reach[side] = (part.center - cage.center).norm() + part.radius;
-      radius[side] = part.radius;
-      EXPECT_LE(reach[side], cage.radius * (1 + 1e-13));
-    }
-    if (cage.radius == radius[0] || cage.radius == radius[1]) continue;  // one holds the other
-    for (const double r : reach) EXPECT_NEAR(r, cage.radius, 1e-13 * cage.radius);
   }
 }
 

@@ -1,0 +1,66 @@
+#include "motions/curves/linear_ends.h"
+
+#include "motions/numbers/lanes.h"
+
+namespace kds {
+
+namespace {
+
+/// Zero times what is not finite is NaN.
+template <int Dimension>
+double set_one_by_one(const double* center, double weight, double* point) {
+  double none = 0 * weight;
+  for (int axis = 0; axis < Dimension; ++axis) {
+    point[axis] = center[axis];
+    none += 0 * center[axis];
+  }
+  point[Dimension] = weight;
+  return none;
+}
+
+[[gnu::always_inline]] inline void set_row(const double* center, double weight, double* point, Lanes& none) {
+  Lanes::Vector row = Lanes::load(center);  // and the next bead's first number, in the weight's place
+  row[3] = weight;
+  none += Lanes(0.0) * Lanes(row);
+  __builtin_memcpy(point, &row, sizeof row);
+}
+
+/// In space, all beads but the last: behind each there is one more number.
+[[KDS_LANES_TARGETS]] double set_rows(const double* start, const double* end, const double* radii,
+                                      std::size_t beads, double* points, double* own_radii) {
+  Lanes none(0.0);
+  for (std::size_t b = 0; b < beads; ++b) {
+    const double radius = radii[b], weight = radius * radius;
+    set_row(start + 3 * b, weight, points + 8 * b, none);
+    set_row(end + 3 * b, weight, points + 8 * b + 4, none);
+    own_radii[2 * b] = own_radii[2 * b + 1] = radius;
+  }
+  return none.v[0] + none.v[1] + none.v[2] + none.v[3];
+}
+
+}  // namespace
+
+template <int Dimension>
+bool set_linear_ends(const double* start, const double* end, const double* radii, std::size_t beads,
+                     double* points, double* own_radii) {
+  double none = 0;
+  std::size_t done = 0;
+  if (Dimension == 3 && beads > 1) {
+    done = beads - 1;
+    none = set_rows(start, end, radii, done, points, own_radii);
+  }
+  constexpr std::size_t numbers = Dimension + 1;
+  for (std::size_t b = done; b < beads; ++b) {
+    const double radius = radii[b], weight = radius * radius;
+    none += set_one_by_one<Dimension>(start + 3 * b, weight, points + 2 * numbers * b);
+    none += set_one_by_one<Dimension>(end + 3 * b, weight, points + 2 * numbers * b + numbers);
+    own_radii[2 * b] = own_radii[2 * b + 1] = radius;
+  }
+  return none == 0;  // an infinite radius has an infinite weight
+}
+
+template bool set_linear_ends<1>(const double*, const double*, const double*, std::size_t, double*, double*);
+template bool set_linear_ends<2>(const double*, const double*, const double*, std::size_t, double*, double*);
+template bool set_linear_ends<3>(const double*, const double*, const double*, std::size_t, double*, double*);
+
+}  // namespace kds

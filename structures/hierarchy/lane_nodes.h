@@ -1,0 +1,71 @@
+#pragma once
+// Nodes of a static wrapped hierarchy four side by side: the balls of their bases, and nodes of two beads,
+// half of all, where both are the basis as they were.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "structures/enclosing_sphere/cage.h"
+#include "structures/enclosing_sphere/four_balls.h"
+#include "structures/enclosing_sphere/sphere_of_pair.h"
+#include "structures/necklace/necklace_tree.h"
+
+namespace kds::detail {
+
+template <int Dimension, std::size_t M>
+[[gnu::always_inline]] inline void set_ball(BasisBalls<Lanes, Dimension, M>& members, std::size_t j,
+                                            const FourBalls<Dimension>& four) {
+  // Not whole arrays: g++ 12 would copy them in halves, and wait for those when it loads them.
+  for (std::size_t axis = 0; axis < Dimension; ++axis) members.center[j][axis].v = four.center[axis].v;
+  members.radius[j].v = four.radius.v;
+}
+
+/// The balls of four bases of M + 1.
+template <int Dimension, std::size_t M>
+[[gnu::always_inline]] inline void gather(const BallRow<Dimension>* rows,
+                                          const std::array<const Basis*, Lanes::width>& bases,
+                                          BasisBalls<Lanes, Dimension, M>& members) {
+  for (std::size_t j = 0; j <= M; ++j)
+    set_ball(members, j,
+             FourBalls<Dimension>({rows + bases[0]->beads[j], rows + bases[1]->beads[j],
+                                   rows + bases[2]->beads[j], rows + bases[3]->beads[j]}));
+}
+
+/// Of nodes of two beads those that are left: where both were not the basis, or may not be it any more.
+/// Others have their cages, which are not loose; of those that are left both may be anything.
+template <bool of_points, int Dimension>
+[[KDS_LANES_TARGETS]] std::size_t keep_pairs(const NodeId* nodes, std::size_t count, const BeadRange* ranges,
+                                             const BallRow<Dimension>* rows, const Basis* bases,
+                                             Cage<Dimension>* cages, std::uint8_t* loose, NodeId* left) {
+  std::size_t lefts = 0;
+  for (std::size_t i = 0; i < count; i += Lanes::width) {
+    typename FourBalls<Dimension>::Rows first, last;
+    std::array<Cage<Dimension>*, Lanes::width> wrapped;
+    bool both = true;
+    for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+      const NodeId node = nodes[std::min(i + lane, count - 1)];
+      first[lane] = rows + ranges[node].first;
+      last[lane] = rows + ranges[node].last;
+      wrapped[lane] = cages + node;
+      loose[node] = 0;
+      both &= bases[node].size == 2;
+    }
+    BasisBalls<Lanes, Dimension, 1> members;
+    set_ball(members, 0, FourBalls<Dimension>(first));
+    set_ball(members, 1, FourBalls<Dimension>(last));
+    const auto sphere = sphere_of_pair<of_points, Dimension, Lanes>(members);
+    FourBalls<Dimension> spheres;
+    for (std::size_t axis = 0; axis < Dimension; ++axis) spheres.center[axis].v = sphere.center[axis].v;
+    spheres.radius.v = sphere.radius.v;
+    spheres.store(wrapped);
+    const Lanes::Mask kept = sphere.certain & ~sphere.loose;
+    if (both && Lanes::all(kept)) continue;
+    for (std::size_t lane = 0; lane < std::min(Lanes::width, count - i); ++lane)
+      if (kept[lane] == 0 || bases[nodes[i + lane]].size != 2) left[lefts++] = nodes[i + lane];
+  }
+  return lefts;
+}
+
+}  // namespace kds::detail

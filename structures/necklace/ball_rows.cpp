@@ -1,0 +1,104 @@
+#include "structures/necklace/ball_rows.h"
+
+#include <string>
+#include <utility>
+
+#include "motions/base/input_error.h"
+#include "motions/numbers/lanes.h"
+
+namespace kds {
+
+namespace {
+
+using Row = Lanes::Vector;
+using Bits = Lanes::Mask;
+
+template <int D>
+[[gnu::always_inline]] inline Row row_of(const Curves<D>& curves, BeadId bead, int k) {
+  const double* const point = curves.control_point(bead, k);
+  if constexpr (D == 2) return Row{point[0], point[1], curves.radius(bead, k), 0};
+  Row row = Lanes::load(point);
+  row[3] = curves.radius(bead, k);  // in the weight's place
+  return row;
+}
+template <int D>
+[[gnu::always_inline]] inline Bits bits_of(const BallRow<D>& row) {
+  return reinterpret_cast<Bits>(Lanes::load(row.center.data()));
+}
+
+/// What was seen of rows that were copied, number by number.
+struct Copied {
+  Bits changed{};  // bits that are others than before
+  Bits wrong{};    // its sign bit is set where one is not finite
+};
+
+// No branch, and no sum to wait for.
+template <int D>
+[[KDS_LANES_TARGETS]] void copy_rows(const Curves<D>& curves, int k, BallRow<D>* rows, Copied& result) {
+  constexpr long long exponent = 0x7ffLL << 52, one = 1LL << 52;
+  Copied copied;
+  for (BeadId b = 0; b < curves.bead_count(); ++b) {
+    const Row row = row_of(curves, b, k);
+    const Bits bits = reinterpret_cast<Bits>(row);
+    copied.changed |= bits ^ bits_of(rows[b]);
+    copied.wrong |= (bits & exponent) + one;
+    __builtin_memcpy(static_cast<void*>(rows + b), &row, sizeof row);
+  }
+  result = copied;
+}
+
+template <int D>
+[[KDS_LANES_TARGETS]] bool are_rows_of(const Curves<D>& curves, int k, const BallRow<D>* rows) {
+  Bits other{};
+  for (BeadId b = 0; b < curves.bead_count(); ++b)
+    other |= reinterpret_cast<Bits>(row_of(curves, b, k)) ^ bits_of(rows[b]);
+  if (D == 2) other[3] = 0;  // nobody's
+  return !Lanes::any(other);
+}
+
+template <int D>
+[[noreturn]] void refuse(const BallRow<D>* rows) {
+  for (BeadId b = 0;; ++b) {
+    for (const double x : rows[b].center)
+      if (x - x != 0) throw InputError("bead " + std::to_string(b) + ": expected finite coordinates");
+    const double r = rows[b].radius;
+    if (!(r >= 0 && r - r == 0))
+      throw InputError("bead " + std::to_string(b) + ": expected a finite radius, not negative");
+  }
+}
+
+}  // namespace
+
+template <int D>
+bool BallRows<D>::move_to(const Curves<D>& curves, int k) {
+  const std::size_t beads = curves.bead_count();
+  const bool others = rows_.size() != beads + padding;
+  rows_.resize(beads + padding);
+  Copied copied;
+  copy_rows(curves, k, rows_.data(), copied);
+  bool wrong = false;
+  for (std::size_t i = 0; i <= D; ++i) wrong |= copied.wrong[i] < 0;
+  const bool others_radii = others || copied.changed[D] != 0;
+  if (others_radii) {
+    equal_radii_ = true;
+    for (std::size_t b = 0; b < beads; ++b) {
+      equal_radii_ &= rows_[b].radius == rows_[0].radius;
+      wrong |= !(rows_[b].radius >= 0);
+    }
+  }
+  if (wrong) {
+    const auto rows = std::exchange(rows_, {});
+    refuse(rows.data());
+  }
+  return others_radii;
+}
+
+template <int D>
+bool BallRows<D>::are_at(const Curves<D>& curves, int k) const {
+  return size() == curves.bead_count() && are_rows_of(curves, k, rows_.data());
+}
+
+template class BallRows<2>;
+template class BallRows<3>;
+
+}  // namespace kds

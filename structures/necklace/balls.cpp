@@ -1,0 +1,40 @@
+#include "structures/necklace/balls.h"
+
+#include "motions/numbers/lanes.h"
+
+namespace kds {
+
+namespace {
+
+/// Four by four: behind the last bead there is room.
+template <int D>
+[[KDS_LANES_TARGETS]] void spread_rows(const BallRow<D>* rows, std::size_t beads,
+                                       const std::array<double*, static_cast<std::size_t>(D)>& centers) {
+  for (std::size_t b = 0; b < beads; b += Lanes::width) {
+    const auto numbers = Lanes::transposed(rows[b].center.data(), rows[b + 1].center.data(),
+                                           rows[b + 2].center.data(), rows[b + 3].center.data());
+    for (std::size_t axis = 0; axis < D; ++axis)
+      __builtin_memcpy(centers[axis] + b, &numbers[axis].v, sizeof numbers[axis].v);
+  }
+}
+
+}  // namespace
+
+template <int D>
+void Balls<D>::move_to(const Curves<D>& curves, int k) {
+  const bool others_radii = BallRows<D>::move_to(curves, k);
+  std::array<double*, static_cast<std::size_t>(D)> centers;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    centers_[axis].resize(rows_.size());
+    centers[axis] = centers_[axis].data();
+  }
+  spread_rows(rows_.data(), size(), centers);
+  if (!others_radii) return;
+  radii_.resize(rows_.size());
+  for (std::size_t b = 0; b < size(); ++b) radii_[b] = rows_[b].radius;
+}
+
+template class Balls<2>;
+template class Balls<3>;
+
+}  // namespace kds

@@ -1,0 +1,153 @@
+#include "structures/necklace/balls.h"
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "motions/curves/bezier_motion.h"
+#include "tests/support/inputs/random_motion.h"
+
+namespace kds {
+namespace {
+
+using namespace test;
+
+template <int D, Motion M>
+void expect_at(const Balls<D>& balls, const M& motion, int k) {
+  ASSERT_EQ(balls.size(), motion.bead_count());
+  bool equal = true;
+  for (BeadId b = 0; b < balls.size(); ++b) {
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      const double x = motion.coordinate(b, k, static_cast<int>(axis));
+      EXPECT_EQ(balls.coordinates(axis)[b], x);
+      EXPECT_EQ(balls.rows()[b].center[axis], x);
+    }
+    EXPECT_EQ(balls.radii()[b], motion.radius(b, k));
+    EXPECT_EQ(balls.rows()[b].radius, motion.radius(b, k));
+    equal = equal && motion.radius(b, k) == motion.radius(0, k);
+  }
+  EXPECT_EQ(balls.equal_radii(), equal);
+  EXPECT_TRUE(balls.are_at(Curves<D>(motion), k));
+}
+
+template <Motion M>
+void set_radii(M& motion, Random& random, bool equal) {
+  for (BeadId b = 0; b < motion.bead_count(); ++b) {
+    const double radius = equal ? 0.5 : uniform(random, 0, 2);
+    for (int k = 0; k <= degree_of(motion); ++k) motion.set_radius(b, k, radius);
+  }
+}
+
+// From one motion to another in the same memory: more beads, fewer, other radii, the same.
+template <Motion M>
+void expect_to_follow(Random& random) {
+  constexpr int d = M::dimension;
+  Balls<d> balls;
+  for (const std::size_t beads : {5, 1, 8, 8, 8, 3, 13}) {
+    for (const bool equal : {true, true, false, false, true}) {
+      M motion = random_motion<M>(random, beads, MotionKind::generic);
+      set_radii(motion, random, equal);
+      for (int k = 0; k <= degree_of(motion); ++k) {
+        balls.move_to(Curves<d>(motion), k);
+        expect_at(balls, motion, k);
+        BallRows<d> rows(Curves<d>(motion), k);
+        EXPECT_TRUE(rows.are_at(Curves<d>(motion), k));
+        EXPECT_EQ(rows.size(), beads);
+        EXPECT_EQ(rows.equal_radii(), balls.equal_radii());
+      }
+    }
+  }
+}
+
+TEST(Balls, FollowAMotion) {
+  Random random(1);
+  expect_to_follow<BezierMotion<2, 1>>(random);
+  expect_to_follow<BezierMotion<3, 1>>(random);
+  expect_to_follow<BezierMotion<2, 3>>(random);
+  expect_to_follow<BezierMotion<3, 3>>(random);
+}
+
+TEST(Balls, AreAtAMotionBitForBit) {
+  Random random(2);
+  auto motion = random_motion<BezierMotion<3, 1>>(random, 6, MotionKind::generic);
+  const Curves<3> curves(motion);
+  const Balls<3> balls(curves, 1);
+  EXPECT_FALSE(balls.are_at(curves, 0));
+  for (BeadId b = 0; b < 6; ++b) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = motion.coordinate(b, 1, axis);
+      motion.set_coordinate(b, 1, axis, std::nextafter(x, 10));
+      EXPECT_FALSE(balls.are_at(curves, 1)) << b;
+      motion.set_coordinate(b, 1, axis, x);
+      EXPECT_TRUE(balls.are_at(curves, 1)) << b;
+    }
+    const double radius = motion.radius(b, 1), weight = motion.weight(b, 1);
+    motion.set_radius(b, 1, radius + 1);
+    EXPECT_FALSE(balls.are_at(curves, 1)) << b;
+    motion.set_radius(b, 1, radius);
+    motion.set_weight(b, 1, weight + 1);  // nothing to balls
+    EXPECT_TRUE(balls.are_at(curves, 1)) << b;
+  }
+  const auto fewer = random_motion<BezierMotion<3, 1>>(random, 5, MotionKind::generic);
+  EXPECT_FALSE(balls.are_at(Curves<3>(fewer), 1));
+}
+
+// What a motion's type refuses itself comes in through other memory.
+template <int D>
+struct RawMotion {
+  static constexpr int dimension = D, degree = 1;
+  std::vector<std::array<double, 2 * (D + 1)>> points;
+  std::vector<std::array<double, 2>> own_radii;
+  explicit RawMotion(std::size_t beads) : points(beads), own_radii(beads) {}
+  std::size_t bead_count() const { return points.size(); }
+  double coordinate(BeadId b, int k, int axis) const { return control_point(b, k)[axis]; }
+  double weight(BeadId b, int k) const { return control_point(b, k)[D]; }
+  const double* control_point(BeadId b, int k) const { return points[b].data() + (D + 1) * k; }
+  double radius(BeadId b, int k) const { return own_radii[b][static_cast<std::size_t>(k)]; }
+  const double* radii(BeadId b) const { return own_radii[b].data(); }
+};
+
+template <int D>
+void expect_refusal(const RawMotion<D>& motion, const std::string& message) {
+  Balls<D> balls;
+  for (int again = 0; again < 2; ++again) {
+    EXPECT_THAT([&] { balls.move_to(Curves<D>(motion), 1); },
+                testing::ThrowsMessage<InputError>(testing::HasSubstr(message)));
+  }
+}
+
+template <int D>
+void expect_refusals() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (BeadId b = 0; b < 6; ++b) {
+    const std::string name = "bead " + std::to_string(b) + ": ";
+    for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
+      for (std::size_t axis = 0; axis < D; ++axis) {
+        RawMotion<D> motion(6);
+        motion.points[b][D + 1 + axis] = bad;
+        expect_refusal(motion, name + "expected finite coordinates");
+      }
+      RawMotion<D> motion(6);
+      motion.own_radii[b][1] = bad;
+      expect_refusal(motion, name + "expected a finite radius, not negative");
+      motion.own_radii[b][1] = 0;
+      motion.points[b][2 * D + 1] = bad;  // a weight
+      EXPECT_NO_THROW(Balls<D>(Curves<D>(motion), 1));
+    }
+    RawMotion<D> motion(6);
+    motion.own_radii[b][1] = -0x1p-1074;
+    expect_refusal(motion, name + "expected a finite radius, not negative");
+  }
+}
+
+TEST(Balls, NameTheBeadThatIsNone) {
+  expect_refusals<2>();
+  expect_refusals<3>();
+}
+
+}  // namespace
+}  // namespace kds
