@@ -84,6 +84,7 @@ void StraightenedFrames::straighten_bead(Eigen::Index bead, std::size_t first, s
 bool StraightenedFrames::is_within(const Eigen::Vector3d& point, const Eigen::Vector3d& sample) const {
   const Eigen::Vector3d apart = point - sample;
   if (most_square_ > 0) return apart.squaredNorm() <= most_square_;
+  if (!apart.allFinite()) return false;
   // A difference is rounded by 2^-53 of itself in each coordinate, its length by little more, and near the
   // smallest doubles by one of these.
   const double length = apart.stableNorm();

@@ -28,7 +28,7 @@ class StraightenedFrames {
  public:
   static constexpr std::size_t block = 16;
   /// Means are of so many frames before and after.
-  static constexpr std::size_t reach = 3;
+  static constexpr std::size_t reach = 5;
 
   explicit StraightenedFrames(double tolerance);
 
