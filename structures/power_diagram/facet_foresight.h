@@ -1,11 +1,10 @@
 #pragma once
 // Facets that are known to hold for some steps ahead if all their beads go straight on (motion_ahead.h), and
 // rest for as long as these do: in the steps that follow they are not looked at. So it is with cells, which
-// are known to stay positive. Of each facet one of its cells keeps until when; of each cell the least of that
-// is compared with the present step, an array against one number, and its beads are asked only whether they
-// have turned.
+// are known to stay positive. Of each facet one of its two cells keeps until when. Where a step starts all
+// cells are asked at once, without a branch, which of their beads have turned, and what has to be looked at.
 //
-// Where too many beads turn from step to step nothing is looked at ahead.
+// Where too many beads turn from step to step nothing is looked at ahead, and only a few beads are watched.
 
 #include <algorithm>
 #include <array>
