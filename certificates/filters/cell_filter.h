@@ -22,10 +22,12 @@ using CellsInLanes =
     std::array<std::array<BeadId, 2 * (static_cast<std::size_t>(Dimension) + 1)>, cells_in_batch>;
 
 /// Of each cell one bit for each bead beyond, in that order: its power test with the cell is proven positive
-/// all over the step. One more bit: the cell is proven positive where the step ends.
+/// all over the step. Two more: the cell is proven positive where the step ends, and all over the step.
 using PositiveBits = std::array<std::uint32_t, cells_in_batch>;
 template <int Dimension>
 inline constexpr unsigned positive_at_end = 2U << Dimension;
+template <int Dimension>
+inline constexpr unsigned positive_throughout = 4U << Dimension;
 
 template <int Dimension>
 class CellFilter {
@@ -40,9 +42,13 @@ class CellFilter {
                                    Rounding rounding, PositiveBits& positive) const = 0;
 };
 
+/// Of cells with no beads beyond them, what is told of all over the step costs more than of its end alone.
+enum class OfBareCells : std::uint8_t { end, whole_step };
+
 /// Where nothing is compiled for the motion's degree it finds nothing positive.
 template <int Dimension>
-[[nodiscard]] std::unique_ptr<CellFilter<Dimension>> cell_filter_over(const MotionRef<Dimension>& motion);
+[[nodiscard]] std::unique_ptr<CellFilter<Dimension>> cell_filter_over(const MotionRef<Dimension>& motion,
+                                                                      OfBareCells bare = OfBareCells::end);
 /// The same as on processors without long vectors, for tests.
 template <int Dimension>
 [[nodiscard]] std::unique_ptr<CellFilter<Dimension>> cell_filter_for_any_processor(

@@ -30,7 +30,10 @@ class FilterOver final : public CellFilter<C::dimension> {
   static constexpr int dimension = C::dimension;
 
  public:
-  FilterOver(const MotionRef<dimension>& motion, FloatVectors vectors) : motion_(motion), vectors_(vectors) {}
+  FilterOver(const MotionRef<dimension>& motion, FloatVectors vectors, OfBareCells bare)
+      : motion_(motion), vectors_(vectors) {
+    bounds_.whole_steps = bare == OfBareCells::whole_step;
+  }
 
   void positive_cells(const CellsInLanes<dimension>& cells, std::size_t beyond, const LengthUnit& unit,
                       Rounding rounding, PositiveBits& positive) const override {
@@ -80,9 +83,10 @@ class FindsNothing final : public CellFilter<Dimension> {
 };
 
 template <int Dimension>
-std::unique_ptr<CellFilter<Dimension>> make_filter(const MotionRef<Dimension>& motion, FloatVectors vectors) {
+std::unique_ptr<CellFilter<Dimension>> make_filter(const MotionRef<Dimension>& motion, FloatVectors vectors,
+                                                   OfBareCells bare) {
   const auto over = [&]<class C>(std::type_identity<C>) -> std::unique_ptr<CellFilter<Dimension>> {
-    return std::make_unique<FilterOver<C>>(motion, vectors);
+    return std::make_unique<FilterOver<C>>(motion, vectors, bare);
   };
   if (motion.is_lifted()) return over(std::type_identity<LiftedCurves<Dimension>>{});
   switch (motion.degree()) {
@@ -98,13 +102,14 @@ std::unique_ptr<CellFilter<Dimension>> make_filter(const MotionRef<Dimension>& m
 }  // namespace detail
 
 template <int Dimension>
-std::unique_ptr<CellFilter<Dimension>> cell_filter_over(const MotionRef<Dimension>& motion) {
-  return detail::make_filter(motion, detail::vectors_of_processor());
+std::unique_ptr<CellFilter<Dimension>> cell_filter_over(const MotionRef<Dimension>& motion,
+                                                        OfBareCells bare) {
+  return detail::make_filter(motion, detail::vectors_of_processor(), bare);
 }
 
 template <int Dimension>
 std::unique_ptr<CellFilter<Dimension>> cell_filter_for_any_processor(const MotionRef<Dimension>& motion) {
-  return detail::make_filter(motion, detail::FloatVectors::four);
+  return detail::make_filter(motion, detail::FloatVectors::four, OfBareCells::end);
 }
 
 }  // namespace kds

@@ -2,7 +2,8 @@
 // Which power tests of a cell's beads and the beads beyond its facets are positive all over a step, by their
 // Bernstein coefficients in float: eight cells at once (four where the processor has no AVX2), and what the
 // tests of a cell share is worked out once. Part of that is the cell's orientation: whether it is positive
-// where the step ends comes with it. What is not found positive is not known. No allocation.
+// where the step ends, and all over it, comes with it. What is not found positive is not known. No
+// allocation.
 //
 // The bound of the errors. Let m be the largest difference in a row of the determinant, rounded to float, M
 // the largest of all rows, and weights differ by no more than m^2. Any number computed on the way has from
@@ -40,15 +41,15 @@ template <class View, class RowOf>
   }
 }
 
-template <std::size_t Coefficients>
+template <std::size_t Coefficients, std::size_t OfOrientation>
 struct FloatPowerBound {
   std::array<float, Coefficients> coefficient;
-  float orientation_at_end;
+  std::array<float, OfOrientation> orientation;  ///< the last one is that at the end of the step
 };
 
 /// `C`: Curves or LiftedCurves.
 template <class C>
-void derive_float_power_bound(int degree, std::span<float> coefficient, float& orientation_at_end) {
+void derive_float_power_bound(int degree, std::span<float> coefficient, std::span<float> orientation) {
   constexpr double inflation = 1 + 0x1p-8;
   using View = MagnitudeViewOf<C, MagnitudeIn<24>>;
   const PowerRow<View> row(View(degree), 1, 0);
@@ -56,18 +57,19 @@ void derive_float_power_bound(int degree, std::span<float> coefficient, float& o
   const auto magnitudes = cofactors.with(row);
   for (std::size_t k = 0; k < coefficient.size(); ++k)
     coefficient[k] = static_cast<float>(magnitudes.scaled[k].error * inflation);
-  const auto& scaled = cofactors.lift.scaled;
-  orientation_at_end = static_cast<float>(scaled[scaled.size() - 1].error * inflation);
+  for (std::size_t k = 0; k < orientation.size(); ++k)
+    orientation[k] = static_cast<float>(cofactors.lift.scaled[k].error * inflation);
 }
 
 template <Motion M>
 [[nodiscard]] auto float_power_bound() {
   constexpr std::size_t lift_degree = lifted<M> ? 1 : 2 * M::degree;
-  FloatPowerBound<static_cast<std::size_t>(M::dimension * M::degree) + lift_degree + 1> bound{};
+  constexpr std::size_t centre_degree = M::dimension * M::degree;
+  FloatPowerBound<centre_degree + lift_degree + 1, centre_degree + 1> bound{};
   if constexpr (M::degree == 0) {  // where beads are: the orientation alone
-    derive_float_power_bound<Curves<M::dimension>>(0, {}, bound.orientation_at_end);
+    derive_float_power_bound<Curves<M::dimension>>(0, {}, bound.orientation);
   } else {
-    derive_float_power_bound<CurvesOf<M>>(M::degree, bound.coefficient, bound.orientation_at_end);
+    derive_float_power_bound<CurvesOf<M>>(M::degree, bound.coefficient, bound.orientation);
   }
   return bound;
 }
@@ -79,6 +81,8 @@ template <Motion M>
 struct FloatFilterBounds {
   FloatPowerBoundOf<M> of_step = float_power_bound<M>();
   FloatPowerBoundOf<FixedCurves<M::dimension, 0>> at_end = float_power_bound<FixedCurves<M::dimension, 0>>();
+  bool whole_steps =
+      false;  ///< of cells with no beads beyond them, too; else these are seen at the end alone
 };
 
 template <class FloatLanes>
@@ -115,28 +119,40 @@ class RowSizes {
 
 namespace detail {
 
-/// Of cells with no beads beyond them.
+/// A determinant's bits: whether it is positive where the motion ends, and all over it.
+template <int Dimension, class FloatLanes, class Polynomial, std::size_t Coefficients>
+[[gnu::always_inline]] inline typename FloatLanes::Mask orientation_bits(
+    const Polynomial& orientation, const std::array<float, Coefficients>& bound, const FloatLanes& scale) {
+  typename FloatLanes::Mask at_end{}, all = scale >= scale;
+  for (std::size_t k = 0; k < Coefficients; ++k) {
+    at_end = orientation.scaled[k] > FloatLanes(bound[k]) * scale;
+    all &= at_end;
+  }
+  return (at_end & static_cast<int>(positive_at_end<Dimension>)) |
+         (all & static_cast<int>(positive_throughout<Dimension>));
+}
+
+/// Of cells with no beads beyond them. Of a motion of degree 0 only where it ends.
 template <class FloatLanes, Motion M>
-[[gnu::always_inline]] inline void find_positive_at_end(const M& motion,
-                                                        const CellsInLanes<M::dimension>& all_cells,
-                                                        std::size_t first, const LengthUnit& unit,
-                                                        const FloatFilterBounds<M>& bounds, float charge,
-                                                        PositiveBits& positive) {
-  using End = FixedCurves<M::dimension, 0>;
-  using View = FloatLanesView<End, FloatLanes>;
-  const End end(motion.at_end());
+[[gnu::always_inline]] inline void find_positive_orientations(const M& motion,
+                                                              const CellsInLanes<M::dimension>& all_cells,
+                                                              std::size_t first, const LengthUnit& unit,
+                                                              const FloatPowerBoundOf<M>& bound, float charge,
+                                                              PositiveBits& positive) {
+  using View = FloatLanesView<M, FloatLanes>;
   RowSizes<FloatLanes> sizes;
   const auto cofactors = power_cofactors<View>([&](std::size_t place) __attribute__((always_inline)) {
-    const View view(end, &all_cells[first], place, unit);
+    const View view(motion, &all_cells[first], place, unit);
     const PowerRow<View> row(view, 1, 0);
     sizes.take(view);
     return row;
   });
-  const typename FloatLanes::Mask bits =
-      cofactors.lift.scaled.back() >
-      FloatLanes(charge * bounds.at_end.orientation_at_end) * sizes.error_scale_without_lift();
+  const auto bits = orientation_bits<M::dimension>(cofactors.lift, bound.orientation,
+                                                   FloatLanes(charge) * sizes.error_scale_without_lift());
+  constexpr unsigned told =
+      positive_at_end<M::dimension> | (M::degree == 0 ? 0U : positive_throughout<M::dimension>);
   for (std::size_t lane = 0; lane < FloatLanes::width; ++lane)
-    positive[first + lane] = bits[lane] != 0 ? positive_at_end<M::dimension> : 0;
+    positive[first + lane] = static_cast<std::uint32_t>(bits[lane]) & told;
 }
 
 /// As many cells from the first on as there are lanes; of each as many beads beyond it.
@@ -144,8 +160,16 @@ template <class FloatLanes, Motion M>
 [[gnu::always_inline]] inline void find_positive_cells(
     const M& motion, const CellsInLanes<M::dimension>& all_cells, std::size_t first, std::size_t beyond,
     const LengthUnit& unit, const FloatFilterBounds<M>& bounds, float charge, PositiveBits& positive) {
-  if (beyond == 0)
-    return find_positive_at_end<FloatLanes>(motion, all_cells, first, unit, bounds, charge, positive);
+  if (beyond == 0) {
+    if constexpr (!lifted<M>) {
+      if (bounds.whole_steps)
+        return find_positive_orientations<FloatLanes>(motion, all_cells, first, unit, bounds.of_step, charge,
+                                                      positive);
+    }
+    const FixedCurves<M::dimension, 0> end(motion.at_end());
+    return find_positive_orientations<FloatLanes>(end, all_cells, first, unit, bounds.at_end, charge,
+                                                  positive);
+  }
   using View = FloatLanesView<M, FloatLanes>;
   constexpr std::size_t vertices = M::dimension + 1;
   const auto& bound = bounds.of_step;
@@ -158,10 +182,8 @@ template <class FloatLanes, Motion M>
     return row;
   };
   const auto cofactors = power_cofactors<View>(row_of);
-  typename FloatLanes::Mask bits =
-      (cofactors.lift.scaled.back() >
-       FloatLanes(charge * bound.orientation_at_end) * cell_sizes.error_scale_without_lift()) &
-      static_cast<int>(positive_at_end<M::dimension>);
+  typename FloatLanes::Mask bits = orientation_bits<M::dimension>(
+      cofactors.lift, bound.orientation, FloatLanes(charge) * cell_sizes.error_scale_without_lift());
   int bit = 1;
   for (std::size_t place = vertices; place < vertices + beyond; ++place, bit += bit) {
     const View view(motion, cells, place, unit);

@@ -1,7 +1,8 @@
 #include "motions/scene/straightened_frames.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
-#include <utility>
 
 #include "motions/base/floating_point_guard.h"
 
@@ -11,44 +12,119 @@ namespace {
 
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 
-/// Puts a bead's frames between two onto the chord, or halves.
-void straighten_bead(const std::vector<FrameRead>& samples, Eigen::Index bead, std::size_t first,
-                     std::size_t last, double tolerance, std::vector<FrameRead>& straight) {
-  if (last - first < 2) return;
-  const Eigen::Vector3d from = samples[first].positions.col(bead), to = samples[last].positions.col(bead);
-  const auto point_at = [&](std::size_t k) -> Eigen::Vector3d {
-    const double share = static_cast<double>(k - first) / static_cast<double>(last - first);
-    return from + share * (to - from);  // at rest where it is
-  };
-  for (std::size_t k = first + 1; k < last; ++k) {
-    // A difference is rounded by 2^-53 of itself in each coordinate, its length by little more, and near the
-    // smallest doubles by one of these.
-    const double apart = (point_at(k) - samples[k].positions.col(bead)).stableNorm();
-    if (apart == 0 || apart * (1 + 0x1p-45) + smallest <= tolerance) continue;
-    const std::size_t middle = first + (last - first) / 2;
-    straighten_bead(samples, bead, first, middle, tolerance, straight);
-    straighten_bead(samples, bead, middle, last, tolerance, straight);
-    return;
-  }
-  for (std::size_t k = first + 1; k < last; ++k) straight[k].positions.col(bead) = point_at(k);
-}
-
 }  // namespace
 
-void StraightenedFrames::rewind() {
-  ready_.clear();
-  place_ = 0;
+StraightenedFrames::StraightenedFrames(double tolerance) : tolerance_(tolerance), most_square_(0) {
+  // Differences, squares and sums are rounded by less than 2^-49 in all, where none is among the smallest.
+  if (tolerance > 0x1p-400 && tolerance < 0x1p400) most_square_ = tolerance * tolerance * (1 - 0x1p-45);
 }
 
-void StraightenedFrames::straighten(std::vector<FrameRead>& samples, std::size_t begun) {
+void StraightenedFrames::rewind() {
+  samples_.clear();
+  begin_ = 0;
+  ready_.clear();
+  place_ = 0;
+  grid_ = 0;
+}
+
+void StraightenedFrames::go_to_next_block() {
+  if (ready_.empty()) return;
+  begin_ += ready_.size() - 1;
+  const std::size_t past = begin_ - std::min(begin_, reach);
+  samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(past));
+  begin_ -= past;
+}
+
+void StraightenedFrames::straighten_block() {
   const FloatingPointGuard to_nearest;
-  ready_ = samples;
-  place_ = begun;
-  if (samples.size() == begun) return;
-  const Eigen::Index beads = samples.front().positions.cols();
-  for (Eigen::Index bead = 0; bead < beads; ++bead)
-    straighten_bead(samples, bead, 0, samples.size() - 1, tolerance_, ready_);
-  last_ = std::move(samples.back());
+  if (samples_.empty()) return;
+  const std::size_t end = std::min(begin_ + block + 1, samples_.size());
+  std::vector<FrameRead> straight(samples_.begin() + static_cast<std::ptrdiff_t>(begin_),
+                                  samples_.begin() + static_cast<std::ptrdiff_t>(end));
+  const bool first = ready_.empty();
+  if (first) {
+    const double farthest = straight.front().positions.cwiseAbs().maxCoeff();
+    const double length = std::min(tolerance_, farthest);
+    grid_ = length > 0x1p-900 && length < 0x1p900 ? std::ldexp(1.0, std::ilogb(length) - 20) : 0;
+  } else {
+    straight.front().positions = ready_.back().positions;
+  }
+  place_ = first ? 0 : 1;
+  ready_ = std::move(straight);
+  const Eigen::Index beads = ready_.front().positions.cols();
+  for (Eigen::Index bead = 0; bead < beads; ++bead) {
+    if (first) ready_.front().positions.col(bead) = knot(begin_, bead);
+    straighten_bead(bead, 0, block);
+  }
+}
+
+/// The bead's frames behind `first`, which is done, as many as there are up to that length, a power of two.
+void StraightenedFrames::straighten_bead(Eigen::Index bead, std::size_t first, std::size_t length) {
+  const std::size_t last = first + length;
+  if (last < ready_.size()) {
+    const Eigen::Vector3d from = ready_[first].positions.col(bead), to = knot(begin_ + last, bead);
+    const auto point_at = [&](std::size_t k) -> Eigen::Vector3d {
+      const double share = static_cast<double>(k - first) / static_cast<double>(length);
+      return from + share * (to - from);  // at rest where it is
+    };
+    bool within = true;
+    for (std::size_t k = first + 1; k < last && within; ++k)
+      within = is_within(point_at(k), samples_[begin_ + k].positions.col(bead));
+    if (within) {
+      for (std::size_t k = first + 1; k < last; ++k) ready_[k].positions.col(bead) = point_at(k);
+      ready_[last].positions.col(bead) = to;
+      return;
+    }
+  }
+  if (length == 1) return;
+  straighten_bead(bead, first, length / 2);
+  straighten_bead(bead, first + length / 2, length / 2);
+}
+
+bool StraightenedFrames::is_within(const Eigen::Vector3d& point, const Eigen::Vector3d& sample) const {
+  const Eigen::Vector3d apart = point - sample;
+  if (most_square_ > 0) return apart.squaredNorm() <= most_square_;
+  if (!apart.allFinite()) return false;
+  // A difference is rounded by 2^-53 of itself in each coordinate, its length by little more, and near the
+  // smallest doubles by one of these.
+  const double length = apart.stableNorm();
+  return length == 0 || length * (1 + 0x1p-45) + smallest <= tolerance_;
+}
+
+Eigen::Vector3d StraightenedFrames::on_grid(const Eigen::Vector3d& point) const {
+  Eigen::Vector3d rounded = point;
+  for (double& x : rounded) {
+    const double steps = x / grid_;
+    if (std::abs(steps) < 0x1p52)
+      x = std::nearbyint(steps) * grid_;  // else, as where there is none, it stays
+  }
+  return rounded;
+}
+
+Eigen::Vector3d StraightenedFrames::knot(std::size_t sample, Eigen::Index bead) const {
+  const auto at = [&](std::size_t k) { return samples_[k].positions.col(bead); };
+  const Eigen::Vector3d here = at(sample);
+  if (tolerance_ == 0) return here;
+  const std::size_t before = std::min(reach, sample), after = std::min(reach, samples_.size() - 1 - sample);
+  Eigen::Array<bool, 3, 1> stays(true, true, true);
+  for (std::size_t k = sample - before; k <= sample + after; ++k)
+    stays = stays && at(k).array() == here.array();
+  const auto settled = [&](const Eigen::Vector3d& point) -> Eigen::Vector3d {
+    return stays.select(here.array(), on_grid(point).array());
+  };
+  // Nearer samples count for more, by even steps.
+  const std::size_t around = std::min(before, after);
+  const auto all = static_cast<double>((around + 1) * (around + 1));
+  Eigen::Vector3d mean = static_cast<double>(around + 1) / all * here;
+  for (std::size_t k = 1; k <= around; ++k)
+    mean += static_cast<double>(around + 1 - k) / all * (at(sample - k) + at(sample + k));
+  const Eigen::Vector3d at_mean = settled(mean);
+  if (is_within(at_mean, here)) return at_mean;
+  const Eigen::Vector3d away = mean - here;
+  const Eigen::Vector3d pulled = settled(here + (1 - 0x1p-10) * tolerance_ / away.stableNorm() * away);
+  if (is_within(pulled, here)) return pulled;
+  const Eigen::Vector3d at_sample = settled(here);
+  return is_within(at_sample, here) ? at_sample : here;
 }
 
 }  // namespace kds

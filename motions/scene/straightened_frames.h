@@ -2,12 +2,20 @@
 // Frames with fewer turns: each bead goes on along one straight line, over as many frames as that stays
 // within a tolerance of where the frames have it.
 //
-// Frames are taken in blocks of 16 steps. A bead moves along the chord of its positions at both ends of a
-// block if none of those in between is farther from it than the tolerance; else the block is halved for this
-// bead, and so on: where beads turn are frames that many have in common. Between frames the files' motion and
-// this one are both linear, so that a bead is never farther from where it was than at a frame. Exact for the
-// doubles that are handed on: what is not certainly within the tolerance is halved.
+// Frames are taken in blocks of 16 steps. A bead moves along a chord from one end of a block to the other if
+// at none of the frames there it is farther from where it was than the tolerance; else the block is halved
+// for this bead, and so on: where beads turn are frames that many have in common. A chord does not lead from
+// sample to sample but from mean to mean of the samples around its ends, as far as these are within the
+// tolerance: what vibrates is nearer to such a chord, which so goes on for longer. At the first frame and the
+// last means are the samples, and so they are of a coordinate that stays.
+//
+// Between frames the files' motion and this one are both linear, so that a bead is never farther from where
+// it was than at a frame. Exact for the doubles that are handed on: what is not certainly within the
+// tolerance is not taken. Ends of chords are on a grid, 2^-20 of the tolerance or finer, so that a chord's
+// steps are all the same double: a structure sees without a look at other frames that the bead goes straight
+// on.
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -19,8 +27,10 @@ namespace kds {
 class StraightenedFrames {
  public:
   static constexpr std::size_t block = 16;
+  /// Means are of so many frames before and after.
+  static constexpr std::size_t reach = 5;
 
-  explicit StraightenedFrames(double tolerance) : tolerance_(tolerance) {}
+  explicit StraightenedFrames(double tolerance);
 
   /// The next frame of those that `read(frame)` reads, false behind the last.
   template <class Read>
@@ -37,20 +47,27 @@ class StraightenedFrames {
  private:
   template <class Read>
   void fill(Read read) {
-    std::vector<FrameRead> samples;
-    if (!ready_.empty()) samples.push_back(std::move(last_));
-    const std::size_t begun = samples.size();
-    for (FrameRead frame; samples.size() <= block && read(frame);)
-      samples.push_back({frame.stamp, std::move(frame.positions), {}});
-    straighten(samples, begun);
+    go_to_next_block();
+    for (FrameRead frame; samples_.size() <= begin_ + block + reach && read(frame);)
+      samples_.push_back({frame.stamp, std::move(frame.positions), {}});
+    straighten_block();
   }
-  /// Of a block, whose first frame has been handed on if `begun` is 1.
-  void straighten(std::vector<FrameRead>& samples, std::size_t begun);
+  void go_to_next_block();
+  void straighten_block();
+  void straighten_bead(Eigen::Index bead, std::size_t first, std::size_t length);
+  /// Certainly, with all that is rounded.
+  [[nodiscard]] bool is_within(const Eigen::Vector3d& point, const Eigen::Vector3d& sample) const;
+  [[nodiscard]] Eigen::Vector3d on_grid(const Eigen::Vector3d& point) const;
+  /// Where a chord may end: near the mean of the samples around this one, and within the tolerance of it.
+  [[nodiscard]] Eigen::Vector3d knot(std::size_t sample, Eigen::Index bead) const;
 
   double tolerance_;
-  std::vector<FrameRead> ready_;  ///< of the present block
-  std::size_t place_ = 0;         ///< of the next in it
-  FrameRead last_;                ///< the last one, as it was read
+  double most_square_;              ///< of a distance within the tolerance; 0: squares may not be doubles
+  double grid_ = 0;                 ///< 0: none yet
+  std::vector<FrameRead> samples_;  ///< of the present block and around it
+  std::size_t begin_ = 0;           ///< the block's first
+  std::vector<FrameRead> ready_;    ///< of the present block
+  std::size_t place_ = 0;           ///< of the next in it
 };
 
 }  // namespace kds

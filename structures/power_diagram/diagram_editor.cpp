@@ -125,6 +125,7 @@ void DiagramEditor<Dimension>::release(std::span<const BeadId> beads) {
                [this](BeadId bead) { return !state_.is_absent(bead); });
   std::sort(released_.begin(), released_.end());
   if (released_.empty()) return;
+  facets_.forget_courses();
   numbers_before_ = numbers_of_released();
   if (const auto time = rational_now()) before_ = positions_of_released(*time);
   state_.present = {};

@@ -170,9 +170,9 @@ class FacetFilter {
   FacetFilter(const CellFilter<Dimension>& filter, const LengthUnit& unit, Rounding rounding)
       : filter_(filter), unit_(unit), rounding_(rounding) {}
 
-  /// Those facets of a finite cell, one bit each, that are wanted, of finite_facets, or none. Tells `found`
-  /// of this cell or earlier ones: `found.doubt(facet)` of a facet that is not found positive,
-  /// `found.at_end(cell)` of a cell that is, where the step ends.
+  /// Those facets of a finite cell, one bit each, that are wanted, of finite_facets, or none. Tells of this
+  /// cell or earlier ones, by `found(cell, wanted, doubts, orientation)`: facets that are not found positive,
+  /// and whether the cell is, of positive_at_end and positive_throughout.
   template <class Found>
   void look_at(const TriangulationCell<Dimension>& cell, CellId id, unsigned wanted, Found& found) {
     const unsigned count = count_of<Dimension>(wanted);
@@ -212,9 +212,10 @@ class FacetFilter {
     const unsigned all = (1U << facets) - 1;
     for (std::size_t lane = 0; lane < batch.waiting; ++lane) {
       count_ += count_of<Dimension>(positive[lane] & all);
+      unsigned doubts = 0;
       for (unsigned left = ~positive[lane] & all; left != 0; left &= left - 1)
-        found.doubt(facet_id(batch.cells[lane], facet_at(batch.wanted[lane], std::countr_zero(left))));
-      found.at_end(batch.cells[lane], (positive[lane] & positive_at_end<Dimension>) != 0);
+        doubts |= 1U << facet_at(batch.wanted[lane], std::countr_zero(left));
+      found(batch.cells[lane], batch.wanted[lane], doubts, positive[lane]);
     }
     batch.waiting = 0;
   }

@@ -14,13 +14,21 @@ FacetGuards<Dimension>::FacetGuards(State& state)
       power_tests_(state.simulator, state.owner, state.index, powers, state.motion, TouchPolicy::reported),
       orientations_(state.simulator, state.owner, state.index, orientations, state.motion,
                     TouchPolicy::reported),
-      filter_(cell_filter_over(state.motion)) {}
+      filter_(cell_filter_over(state.motion)),
+      filter_ahead_(cell_filter_over<Dimension>(foresight_.ahead(), OfBareCells::whole_step)),
+      hull_ahead_(search_over<Orientation<Dimension>, Dimension>(foresight_.ahead())) {}
 
 template <int Dimension>
 void FacetGuards<Dimension>::start_step() {
   // Tolerances take weights as constant.
   if (state_.simulator.kernel() != Kernel::exact && !state_.motion.is_lifted() && all_move())
     slack_.start_step(state_.curves, state_.triangulation);
+  if (state_.simulator.kernel() == Kernel::exact || state_.motion.is_lifted() ||
+      state_.motion.degree() != 1 || !all_move() || slack_.any()) {
+    foresight_.forget_all();
+  } else {
+    foresight_.start_step(state_.curves, state_.triangulation);
+  }
   guarded_ = false;
   ends_positive_.clear();
 }
@@ -30,12 +38,15 @@ void FacetGuards<Dimension>::move_only(std::vector<char> moving) {
   moving_ = std::move(moving);
   flipped_.clear();
   ends_positive_.clear();  // steps of other beads end elsewhere
-  if (!all_move()) slack_.forget_all();
+  if (all_move()) return;
+  slack_.forget_all();
+  foresight_.forget_all();
 }
 
 template <int Dimension>
 void FacetGuards<Dimension>::forget_cells() {
   slack_.forget_all();
+  foresight_.forget_all();
   ends_positive_.clear();
   notes_ = Notes::any;
 }
@@ -117,24 +128,20 @@ void FacetGuards<Dimension>::watch_all() {
 template <int Dimension>
 template <bool in_lanes>
 void FacetGuards<Dimension>::watch_all_moving() {
-  /// What FacetFilter finds.
-  struct Finding {
-    FacetGuards& guards;
-    void doubt(FacetId facet) const { guards.enqueue(cell_of(facet), index_of(facet)); }
-    void at_end(CellId cell, bool positive) const { guards.ends_positive_[cell] = positive ? 1 : 0; }
-  };
-  Finding finding{*this};
+  const auto found = taking_doubts();
   FacetFilter<Dimension> positive(*filter_, unit_, rounding_of(state_.simulator.kernel()));
   RegularTriangulation<Dimension>& triangulation = state_.triangulation;
   const auto cells = triangulation.cells();
   const auto look_at = [&](CellId cell, unsigned facets, unsigned finite) {
     if constexpr (in_lanes)
-      if (finite != 0) positive.look_at(cells[cell], cell, facets & finite, finding);
+      if (finite != 0) positive.look_at(cells[cell], cell, facets & finite, found);
     for (unsigned left = facets & ~finite; left != 0; left &= left - 1) enqueue(cell, std::countr_zero(left));
   };
   const auto finite_of = [&](CellId cell) { return in_lanes ? finite_facets(cells[cell]) : 0; };
   std::uint64_t at_rest = 0;
-  if (slack_.any()) {
+  if (foresight_.any()) {
+    at_rest = watch_with_foresight(positive);
+  } else if (slack_.any()) {
     note_resting();
     std::uint64_t others = 0;
     slack_.for_the_others(triangulation, [&](CellId cell, unsigned facets) {
@@ -154,10 +161,94 @@ void FacetGuards<Dimension>::watch_all_moving() {
       look_at(cell, cover_.facets_of(cells[cell], cell, finite == all_facets<Dimension>), finite);
     }
   }
-  if constexpr (in_lanes) positive.finish(finding);
+  if constexpr (in_lanes) positive.finish(found);
   power_tests_.hold_never(at_rest + positive.count());
   state_.owner.statistics.stages.coefficients += positive.count();
   state_.owner.statistics.stages.slack += at_rest;
+}
+
+/// Facets that are not found positive get certificates.
+template <int Dimension>
+auto FacetGuards<Dimension>::taking_doubts() {
+  return [this](CellId cell, unsigned, unsigned doubts, unsigned orientation) {
+    for (; doubts != 0; doubts &= doubts - 1) enqueue(cell, std::countr_zero(doubts));
+    ends_positive_[cell] = (orientation & positive_at_end<Dimension>) != 0 ? 1 : 0;
+  };
+}
+
+template <int Dimension>
+std::uint64_t FacetGuards<Dimension>::watch_with_foresight(FacetFilter<Dimension>& positive) {
+  RegularTriangulation<Dimension>& triangulation = state_.triangulation;
+  const auto cells = triangulation.cells();
+  notes_ = Notes::any;
+  std::uint64_t others = 0;
+  const auto found = taking_doubts();
+  const auto found_ahead = [&](CellId cell, unsigned wanted, unsigned doubts, unsigned orientation) {
+    const bool stays_positive = (orientation & positive_throughout<Dimension>) != 0;
+    foresight_.proved(cell, wanted & ~doubts, stays_positive);
+    others += count_of<Dimension>(doubts);
+    if (doubts != 0 || !stays_positive) positive.look_at(cells[cell], cell, doubts, found);
+  };
+  FacetFilter<Dimension> ahead(*filter_ahead_, unit_, rounding_of(state_.simulator.kernel()));
+  on_hull_.clear();
+  of_hull_.clear();
+  const auto rests = [&](CellId cell) { triangulation.note_all(cell, resting_note); };
+  foresight_.for_the_others(triangulation, rests, [&](CellId cell, unsigned facets) {
+    const unsigned finite = finite_facets(cells[cell]);
+    if ((facets & ~finite) != 0) {
+      others += count_of<Dimension>(facets & ~finite);
+      for (unsigned left = facets & ~finite; left != 0; left &= left - 1)
+        look_at_hull(cell, std::countr_zero(left));
+    }
+    if (finite == 0 && state_.is_infinite(cell)) {
+      foresight_.proved(cell, 0, true);  // it cannot be anything else
+    } else {
+      ahead.look_at(cells[cell], cell, facets & finite, found_ahead);
+    }
+  });
+  ahead.finish(found_ahead);
+  others -= watch_hull_ahead();
+  for (CellId cell = 0; cell < ends_positive_.size(); ++cell)
+    if (foresight_.stays_positive(cell)) ends_positive_[cell] = 1;
+  return triangulation.live_count() * (Dimension + 1) / 2 - others;
+}
+
+template <int Dimension>
+void FacetGuards<Dimension>::look_at_hull(CellId cell, int i) {
+  Orientation<Dimension> orientation;
+  FacetCertificates(state_.beads_of(cell)).make(state_.apex(cell, i), orientation);
+  if (std::all_of(orientation.beads.begin(), orientation.beads.end(),
+                  [this](BeadId bead) { return foresight_.ahead().is_known(bead); })) {
+    of_hull_.push_back(orientation);
+    on_hull_.push_back(facet_id(cell, i));
+  } else {
+    enqueue(cell, i);
+  }
+}
+
+/// Returns how many hold in this step.
+template <int Dimension>
+std::uint64_t FacetGuards<Dimension>::watch_hull_ahead() {
+  births_.assign(on_hull_.size(), KnownAtStart::unknown);
+  failures_.resize(on_hull_.size());
+  StageCounts stages;  // those that count are of this step
+  hull_ahead_->first_failures(state_.simulator.kernel(), of_hull_, Instant(0), births_, stages,
+                              TouchPolicy::reported, failures_);
+  std::uint64_t hold = 0;
+  for (std::size_t n = 0; n < on_hull_.size(); ++n) {
+    constexpr int all = MotionAhead<Dimension>::steps;
+    const Failure& failure = failures_[n];
+    int steps = failure.kind == Failure::Kind::never ? all : 0;
+    if (failure.kind == Failure::Kind::later) steps = static_cast<int>(failure.time.lower * all);
+    const CellId cell = cell_of(on_hull_[n]);
+    if (steps == 0) {
+      enqueue(cell, index_of(on_hull_[n]));
+    } else {
+      foresight_.proved(cell, 1U << index_of(on_hull_[n]), false, steps);
+      ++hold;
+    }
+  }
+  return hold;
 }
 
 /// Notes of all facets that they rest: cells whose notes say so already are not touched.
@@ -272,6 +363,7 @@ void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
       const auto [other, k] = state_.across(cell, i);
       slack_.forget(cell, i);
       slack_.forget(other, k);
+      foresight_.forget(cell, i, other, k);
       const auto at = std::find(cells.begin(), cells.end(), other) - cells.begin();
       if (at == static_cast<std::ptrdiff_t>(cells.size())) {
         if ((hold[c % few_cells] >> i & 1U) != 0) {

@@ -14,6 +14,7 @@
 #include "motions/views/length_unit.h"
 #include "structures/power_diagram/diagram_state.h"
 #include "structures/power_diagram/facet_filter.h"
+#include "structures/power_diagram/facet_foresight.h"
 #include "structures/power_diagram/facet_guard.h"
 #include "structures/power_diagram/facet_slack.h"
 #include "structures/power_diagram/known_failures.h"
@@ -68,6 +69,8 @@ class FacetGuards {
   void forget_known() { known_.reset(); }
   /// Another triangulation follows: nothing is known of its cells and facets, and none is guarded.
   void forget_cells();
+  /// Beads are about to go on along other curves.
+  void forget_courses() { foresight_.forget_all(); }
 
   /// A certificate that fails, or touches zero, and what asks for a flip.
   struct Failed {
@@ -170,6 +173,11 @@ class FacetGuards {
   /// With the filter, or, without lanes, one facet at a time.
   template <bool in_lanes>
   void watch_all_moving();
+  [[nodiscard]] auto taking_doubts();
+  /// What is not known from steps before is looked at ahead, and then as it is. Returns how many are known.
+  std::uint64_t watch_with_foresight(FacetFilter<Dimension>& positive);
+  void look_at_hull(CellId cell, int i);
+  [[nodiscard]] std::uint64_t watch_hull_ahead();
   void watch_marked();
   void note_resting();
   void hold_inner(CellId cell, int i);
@@ -198,6 +206,14 @@ class FacetGuards {
   std::vector<std::uint8_t> ends_positive_;
   FacetSlack<Dimension> slack_;
   std::optional<KnownFailures> known_;
+  FacetForesight<Dimension> foresight_;
+  std::unique_ptr<CellFilter<Dimension>> filter_ahead_;
+  std::unique_ptr<CertificateSearch<Orientation<Dimension>>> hull_ahead_;
+  // Facets of the hull that are looked at ahead, and all that goes with it.
+  std::vector<FacetId> on_hull_;
+  std::vector<Orientation<Dimension>> of_hull_;
+  std::vector<KnownAtStart> births_;
+  std::vector<Failure> failures_;
   std::vector<char> moving_;  // of each bead; empty: all move
   std::vector<CellId> flipped_;
 };

@@ -44,13 +44,30 @@ bool is_positive_at_end(const M& motion, const TriangulationCell<M::dimension>& 
              ->sign_at(Orientation<M::dimension>(cell.vertex, 1), Dyadic(1.0)) > 0;
 }
 
+/// On integers, at some times of the step.
+template <Motion M>
+bool is_positive_throughout(const M& motion, const TriangulationCell<M::dimension>& cell) {
+  const auto search = search_over<Orientation<M::dimension>>(MotionRef<M::dimension>(motion));
+  bool positive = true;
+  for (int k = 0; k <= 16; ++k)
+    positive = positive && search->sign_at(Orientation<M::dimension>(cell.vertex, 1), Dyadic(k / 16.0)) > 0;
+  return positive;
+}
+
 template <int dimension>
 struct Found {
   std::set<FacetId> doubts;
-  std::map<CellId, bool> ends;
+  std::map<CellId, bool> ends, throughout;
 
-  void doubt(FacetId facet) { EXPECT_TRUE(doubts.insert(facet).second) << facet; }
-  void at_end(CellId cell, bool positive) { EXPECT_TRUE(ends.emplace(cell, positive).second) << cell; }
+  void operator()(CellId cell, unsigned, unsigned doubtful, unsigned orientation) {
+    for (int i = 0; i <= dimension; ++i) {
+      if ((doubtful >> i & 1U) != 0) {
+        EXPECT_TRUE(doubts.insert(facet_id(cell, i)).second) << cell << ' ' << i;
+      }
+    }
+    EXPECT_TRUE(ends.emplace(cell, (orientation & positive_at_end<dimension>) != 0).second) << cell;
+    EXPECT_TRUE(throughout.emplace(cell, (orientation & positive_throughout<dimension>) != 0).second);
+  }
 };
 
 /// A cell of the first beads, another beyond each facet, and the same turned over.
@@ -84,6 +101,7 @@ void expect_right(const M& motion, std::span<const TriangulationCell<M::dimensio
     for (int i = 0; i <= M::dimension; ++i)
       EXPECT_TRUE(doubts.contains(facet_id(id, i)) || holds(motion, cells[id], i)) << id << ' ' << i;
     EXPECT_TRUE(!all.ends[id] || is_positive_at_end(motion, cells[id])) << id;
+    EXPECT_TRUE(!all.throughout[id] || is_positive_throughout(motion, cells[id])) << id;
   }
   found += positive.count();
   // Of some facets, or none, the same is found.
@@ -99,6 +117,16 @@ void expect_right(const M& motion, std::span<const TriangulationCell<M::dimensio
       EXPECT_EQ(some.doubts.contains(facet_id(id, i)),
                 (wanted[id] >> i & 1U) != 0 && doubts.contains(facet_id(id, i)));
     EXPECT_TRUE(!some.ends.at(id) || is_positive_at_end(motion, cells[id])) << id;
+  }
+  // So it is of cells alone, where that is asked for.
+  if constexpr (!lifted<M>) {
+    const auto whole = cell_filter_over(MotionRef<M::dimension>(motion), OfBareCells::whole_step);
+    Found<M::dimension> bare;
+    FacetFilter positive_bare(*whole, unit, Rounding::charged);
+    for (CellId id = 0; id < cells.size(); ++id) positive_bare.look_at(cells[id], id, 0, bare);
+    positive_bare.finish(bare);
+    EXPECT_EQ(bare.throughout, all.throughout);
+    EXPECT_EQ(bare.ends, all.ends);
   }
   // A few at a time the same are found.
   std::vector<CellId> few;
