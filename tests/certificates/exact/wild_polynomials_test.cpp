@@ -295,7 +295,7 @@ TEST(WildPolynomials, SignsAfterCommonRootsAreThoseOfOrdinaryPolynomials) {
       }
     }
   }
-  EXPECT_GT(asked, 100);
+  EXPECT_GT(asked, 60);
 }
 
 // A comparison begins with what another one has found out, also where doubles isolated the root.

@@ -132,7 +132,7 @@ void expect_first_failures(unsigned seed) {
   test::Random random(seed);
   int failures = 0;
   StageCounts filter_stages;
-  for (int i = 0; i < test::rounds(60); ++i) {
+  for (int i = 0; i < test::rounds(120); ++i) {
     const auto kind = test::all_motion_kinds[static_cast<std::size_t>(i) % test::all_motion_kinds.size()];
     SCOPED_TRACE("seed " + std::to_string(seed) + ", round " + std::to_string(i));
     const auto motion = test::random_motion<M>(random, Size + 1, kind);

@@ -97,7 +97,7 @@ template <Motion M>
 Seen judge_random(unsigned seed, std::size_t size) {
   test::Random random(seed);
   Seen seen;
-  for (int i = 0; i < test::rounds(1500); ++i) {
+  for (int i = 0; i < test::rounds(3000); ++i) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", round " + std::to_string(i));
     const M motion = balls_near<M>(random, size + 1);
     const double u = 0.125 * test::pick(random, 0, 7);

@@ -115,8 +115,8 @@ TEST(Detectors, OfTenThousandRandomNecklaces) {
   ask_all_about_necklaces<2>(5000, 30);
 }
 TEST(Detectors, OfLongRandomNecklaces) {
-  ask_all_about_necklaces<3>(12, 1500);
-  ask_all_about_necklaces<2>(12, 1500);
+  ask_all_about_necklaces<3>(20, 1500);
+  ask_all_about_necklaces<2>(20, 1500);
 }
 
 // Rows of a grid to and fro; beads of radius 0.5 touch those beside them, exactly.
