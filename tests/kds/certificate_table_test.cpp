@@ -21,6 +21,7 @@ std::unique_ptr<CertificateSearch<BallInSphere<2, 1>>> search_over(const MotionR
   return radical_search_over<BallInSphere<2, 1>>(motion);
 }
 
+namespace certificate_table_test {
 namespace {
 
 using test::all_kernels;
@@ -346,12 +347,14 @@ struct Follows {
 };
 
 }  // namespace
+}  // namespace certificate_table_test
 
 template <>
-std::unique_ptr<CertificateSearch<Follows>> search_over(const MotionRef<1>&) {
+std::unique_ptr<CertificateSearch<certificate_table_test::Follows>> search_over(const MotionRef<1>&) {
   return nullptr;  // nobody gets so far as to search
 }
 
+namespace certificate_table_test {
 namespace {
 
 TEST(CertificateTables, OfTwoTypesOfOneNumberAreRefused) {
@@ -433,4 +436,5 @@ TEST(CertificateTables, OfRadicalsShareTheQueue) {
 }
 
 }  // namespace
+}  // namespace certificate_table_test
 }  // namespace kds

@@ -10,7 +10,7 @@
 
 #include "tests/support/judges/linear_queue.h"
 
-namespace kds {
+namespace kds::event_queue_test {
 namespace {
 
 using test::LinearQueue;
@@ -306,4 +306,4 @@ TEST(EventQueueFetch, LeavesAFewAlone) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::event_queue_test

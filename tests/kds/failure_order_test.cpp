@@ -8,7 +8,7 @@
 #include "kds/event_queue.h"
 #include "tests/support/inputs/polynomial_source.h"
 
-namespace kds {
+namespace kds::failure_order_test {
 namespace {
 
 using namespace test;
@@ -302,4 +302,4 @@ TEST_P(RandomFailures, TheQueueDoesNotCareForTheOrderOfInsertion) {
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomFailures, testing::Range(1U, 13U));
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::failure_order_test

@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace kds {
+namespace kds::fingerprint_test {
 namespace {
 
 struct Event {
@@ -82,4 +82,4 @@ TEST(Fingerprint, Golden) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::fingerprint_test

@@ -14,7 +14,7 @@
 #include "motions/curves/bezier_motion.h"
 #include "tests/support/inputs/script.h"
 
-namespace kds {
+namespace kds::proved_table_test {
 namespace {
 
 /// Is proved until a time that the test sets, and notes from when on.
@@ -110,4 +110,4 @@ TEST_F(ProvedTableTest, WhatDoesNotReachBeyondThePresentTimeIsViolated) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::proved_table_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/inputs/script.h"
 
-namespace kds {
+namespace kds::simulator_audit_test {
 namespace {
 
 using namespace test;
@@ -154,4 +154,4 @@ TEST_F(AuditedTest, AFailedAuditThrowsWithStepAndTime) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::simulator_audit_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/inputs/script.h"
 
-namespace kds {
+namespace kds::simulator_replay_test {
 namespace {
 
 using namespace test;
@@ -121,4 +121,4 @@ TEST(SimulatorReplay, SaysWhereAChangeCannotBeMade) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::simulator_replay_test

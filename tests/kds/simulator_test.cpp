@@ -7,7 +7,7 @@
 #include "certificates/exact/exact_time.h"
 #include "tests/support/inputs/script.h"
 
-namespace kds {
+namespace kds::simulator_test {
 namespace {
 
 using namespace test;
@@ -412,4 +412,4 @@ TEST_F(SimulatorTest, TimeIsChargedToStructures) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::simulator_test

@@ -12,7 +12,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::table_constants_test {
 namespace {
 
 using test::MotionKind;
@@ -226,4 +226,4 @@ TEST(TableConstants, InTheMidstOfAStepTheyAreRefused) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::table_constants_test

@@ -13,7 +13,7 @@
 #include "motions/curves/bezier_motion.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::user_certificate_test {
 namespace {
 
 struct CagesInOrder {
@@ -109,4 +109,4 @@ TEST(UserCertificates, OfEightBeadsAreNamedByAllOfThem) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::user_certificate_test

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace kds {
+namespace kds::stage_counts_test {
 namespace {
 
 TEST(Stages, AreEachListedOnce) {
@@ -48,4 +48,4 @@ TEST(Stages, AreThoseOfTheDocuments) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::stage_counts_test

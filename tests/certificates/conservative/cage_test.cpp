@@ -6,8 +6,9 @@
 #include "certificates/conservative/cage_cage.h"
 #include "certificates/conservative/cage_in_cage.h"
 #include "tests/support/inputs/ball_motions.h"
+#include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::cage_test {
 namespace {
 
 using test::Random;
@@ -214,14 +215,14 @@ TEST(Cages, AreNeverProvedTooLong) {
   Random random(782);
   int broken = 0;
   double share = 0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < test::rounds(60); ++i) {
     SCOPED_TRACE("seed 782, round " + std::to_string(i));
     expect_conservative<2, 1>(random, broken, share);
     expect_conservative<3, 1>(random, broken, share);
     expect_conservative<3, 3>(random, broken, share);
     if (testing::Test::HasFailure()) return;
   }
-  EXPECT_GT(broken, 60);
+  EXPECT_GT(broken, test::rounds(60));
   EXPECT_GT(share / broken, 0.8);  // and long enough to be of use
 }
 
@@ -293,4 +294,4 @@ TEST(Cages, KnowTheLimitsOfDoubles) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::cage_test

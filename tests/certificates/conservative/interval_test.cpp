@@ -6,7 +6,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/rational_geometry.h"
 
-namespace kds {
+namespace kds::interval_test {
 namespace {
 
 using test::Random;
@@ -148,4 +148,4 @@ TEST(MeanValues, HoldValuesAndDerivatives) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::interval_test

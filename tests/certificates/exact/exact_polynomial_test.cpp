@@ -5,7 +5,7 @@
 #include "tests/support/inputs/polynomials.h"
 #include "tests/support/judges/sturm.h"
 
-namespace kds {
+namespace kds::exact_polynomial_test {
 namespace {
 
 namespace sturm = test::sturm;
@@ -243,4 +243,4 @@ TEST(ExactPolynomial, MeasuresItsCoefficients) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::exact_polynomial_test

@@ -16,6 +16,7 @@
 #include "tests/support/searches.h"
 
 namespace kds {
+namespace exact_properties_test {
 namespace {
 
 namespace sturm = test::sturm;
@@ -200,6 +201,9 @@ struct AnyCurve {
 };
 
 }  // namespace
+}  // namespace exact_properties_test
+
+using exact_properties_test::AnyCurve;
 
 template <>
 std::unique_ptr<CertificateSearch<AnyCurve<6>>> search_over(const MotionRef<2>& motion) {
@@ -210,6 +214,7 @@ std::unique_ptr<CertificateSearch<AnyCurve<15>>> search_over(const MotionRef<2>&
   return std::make_unique<detail::SearchInLanes<AnyCurve<15>, FixedCurves<2, 3>>>(motion);
 }
 
+namespace exact_properties_test {
 namespace {
 
 // A polynomial times a positive number as a certificate's function; none where control points would be no
@@ -424,4 +429,5 @@ TEST_P(ExactProperties, HoldAsSturmSays) {
 INSTANTIATE_TEST_SUITE_P(Parts, ExactProperties, testing::Range(0U, parts));
 
 }  // namespace
+}  // namespace exact_properties_test
 }  // namespace kds

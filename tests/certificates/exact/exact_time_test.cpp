@@ -7,7 +7,7 @@
 #include "tests/support/inputs/polynomials.h"
 #include "tests/support/judges/sturm.h"
 
-namespace kds {
+namespace kds::exact_time_test {
 namespace {
 
 namespace sturm = test::sturm;
@@ -327,4 +327,4 @@ TEST(ExactTime, DoesNotGrowWithHowManyFunctionsVanishAtIt) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::exact_time_test

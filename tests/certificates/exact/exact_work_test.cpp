@@ -7,7 +7,7 @@
 #include "certificates/exact/exact_time.h"
 #include "certificates/exact/recent_functions.h"
 
-namespace kds {
+namespace kds::exact_work_test {
 namespace {
 
 struct Named {
@@ -101,4 +101,4 @@ TEST(ExactWork, CallsItsWatcherAsWorkGoesOn) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::exact_work_test

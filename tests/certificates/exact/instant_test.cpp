@@ -6,7 +6,7 @@
 
 #include "certificates/exact/exact_time.h"
 
-namespace kds {
+namespace kds::instant_test {
 namespace {
 
 TEST(Instant, OfABracketAloneDecidesNothing) {
@@ -31,4 +31,4 @@ TEST(Instant, OfALongDyadicHasABracketAndIsExact) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::instant_test

@@ -5,7 +5,7 @@
 #include "tests/support/inputs/polynomials.h"
 #include "tests/support/judges/sturm.h"
 
-namespace kds {
+namespace kds::modular_gcd_test {
 namespace {
 
 namespace sturm = test::sturm;
@@ -117,4 +117,4 @@ TEST(ModularGcd, QuotientsAreWholeOrNone) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::modular_gcd_test

@@ -14,7 +14,7 @@
 #include "tests/support/inputs/polynomials.h"
 #include "tests/support/judges/sturm.h"
 
-namespace kds {
+namespace kds::wild_polynomials_test {
 namespace {
 
 namespace sturm = test::sturm;
@@ -439,4 +439,4 @@ TEST(RecentFunctions, KnowsAFunctionByAllItsNumbers) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::wild_polynomials_test

@@ -9,7 +9,7 @@
 #include "tests/support/inputs/polynomials.h"
 #include "tests/support/judges/sturm.h"
 
-namespace kds {
+namespace kds::bounded_polynomial_test {
 namespace {
 
 namespace sturm = test::sturm;
@@ -253,4 +253,4 @@ TEST_P(BoundedPolynomials, NothingIsProvedOfWhatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::bounded_polynomial_test

@@ -7,7 +7,7 @@
 #include "tests/support/inputs/any_certificate.h"
 #include "tests/support/inputs/random_motion.h"
 
-namespace kds {
+namespace kds::error_bound_test {
 namespace {
 
 using test::MotionKind;
@@ -129,4 +129,4 @@ TEST(ErrorBound, CoversEvaluation) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::error_bound_test

@@ -14,7 +14,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/rational_geometry.h"
 
-namespace kds {
+namespace kds::moment_lanes_test {
 namespace {
 
 template <Motion M>
@@ -104,4 +104,4 @@ TEST(MomentLanes, SpeakForAllFour) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::moment_lanes_test

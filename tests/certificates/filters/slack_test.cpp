@@ -9,7 +9,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/rational_geometry.h"
 
-namespace kds {
+namespace kds::slack_test {
 namespace {
 
 using test::Random;
@@ -102,4 +102,4 @@ TEST(Tolerance, IsTheDistanceToContactNearly) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::slack_test

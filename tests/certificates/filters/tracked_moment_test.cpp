@@ -9,7 +9,7 @@
 #include "certificates/types/ball_in_sphere.h"
 #include "tests/support/inputs/random_motion.h"
 
-namespace kds {
+namespace kds::tracked_moment_test {
 namespace {
 
 using namespace test;
@@ -88,4 +88,4 @@ TEST(TrackedMoment, SignsHoldAllTheTime) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::tracked_moment_test

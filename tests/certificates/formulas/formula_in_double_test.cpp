@@ -15,7 +15,7 @@
 #include "tests/support/inputs/any_certificate.h"
 #include "tests/support/inputs/random_motion.h"
 
-namespace kds {
+namespace kds::formula_in_double_test {
 namespace {
 
 using test::Random;
@@ -161,4 +161,4 @@ TEST(BeadFunction, APolynomialThatWasNeverSetIsAnError) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::formula_in_double_test

@@ -15,7 +15,7 @@
 #include "tests/support/inputs/any_certificate.h"
 #include "tests/support/inputs/random_motion.h"
 
-namespace kds {
+namespace kds::formula_in_integers_test {
 namespace {
 
 using test::Random;
@@ -181,4 +181,4 @@ TEST(FormulaInIntegers, OfRelaxedBeadsKnowsTheirRelaxation) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::formula_in_integers_test

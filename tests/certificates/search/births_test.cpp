@@ -8,7 +8,7 @@
 #include "tests/support/judges/judged_failure.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::births_test {
 namespace {
 
 using Kind = Failure::Kind;
@@ -269,4 +269,4 @@ TEST(FailureTimes, WithoutTheirRootAreRefused) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::births_test

@@ -10,7 +10,7 @@
 #include "tests/support/judges/searched_constants.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::constant_axis_test {
 namespace {
 
 using test::difference;
@@ -100,4 +100,4 @@ TEST(ConstantAxis, CylindersAreAsJudged) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::constant_axis_test

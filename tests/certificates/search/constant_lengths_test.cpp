@@ -12,7 +12,7 @@
 #include "tests/support/judges/searched_constants.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::constant_lengths_test {
 namespace {
 
 using test::difference;
@@ -275,4 +275,4 @@ TEST(ConstantLengths, OverLiftedMotionWeightsAreRefusedAndLengthsAreNot) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::constant_lengths_test

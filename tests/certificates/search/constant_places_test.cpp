@@ -10,7 +10,7 @@
 #include "tests/support/judges/searched_constants.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::constant_places_test {
 namespace {
 
 using test::difference;
@@ -224,4 +224,4 @@ TEST(ConstantPlaces, ABeadThatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::constant_places_test

@@ -14,7 +14,7 @@
 #include "motions/curves/any_degree_motion.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::degree_limit_test {
 namespace {
 
 template <class Certificate, int Dimension>
@@ -88,4 +88,4 @@ TEST(DegreeOfMotion, IsThatOfTheSearch) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::degree_limit_test

@@ -9,7 +9,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/judged_failure.h"
 
-namespace kds {
+namespace kds::failure_search_test {
 namespace {
 
 namespace sturm = test::sturm;
@@ -315,4 +315,4 @@ TEST(LastRoot, IsToldWhereNoOtherFollows) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::failure_search_test

@@ -7,7 +7,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::fast_test {
 namespace {
 
 using test::Subject;
@@ -68,4 +68,4 @@ TYPED_TEST(FastKernel, SaysWhatFilteredSaysOfGenericMotion) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::fast_test

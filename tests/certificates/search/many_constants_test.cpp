@@ -8,7 +8,7 @@
 #include "tests/support/judges/searched_constants.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::many_constants_test {
 namespace {
 
 using test::difference;
@@ -144,4 +144,4 @@ TEST(ManyConstants, OfAllScalesAreAsJudged) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::many_constants_test

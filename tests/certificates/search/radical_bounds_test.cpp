@@ -6,7 +6,7 @@
 #include "motions/views/integer_view.h"
 #include "tests/support/inputs/ball_motions.h"
 
-namespace kds {
+namespace kds::radical_bounds_test {
 namespace {
 
 using test::Random;
@@ -77,4 +77,4 @@ TYPED_TEST(RadicalBounds, HoldAtAllScales) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::radical_bounds_test

@@ -9,7 +9,7 @@
 #include "tests/support/inputs/ball_motions.h"
 #include "tests/support/judges/judged_failure.h"
 
-namespace kds {
+namespace kds::radical_search_test {
 namespace {
 
 namespace sturm = test::sturm;
@@ -531,4 +531,4 @@ TEST(RadicalSearch, ABasisThatTurnedOverTouchesNothing) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::radical_search_test

@@ -9,7 +9,7 @@
 #include "tests/support/judges/judged_failure.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::rounded_search_test {
 namespace {
 
 using test::Scaled;
@@ -100,4 +100,4 @@ TEST(RoundedSearch, DecidesNothingAtDoubleRoots) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::rounded_search_test

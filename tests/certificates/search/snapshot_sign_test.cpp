@@ -7,7 +7,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/rational_geometry.h"
 
-namespace kds {
+namespace kds::snapshot_sign_test {
 namespace {
 
 template <int Dimension, class Certificate>
@@ -70,4 +70,4 @@ TEST(Placed, CentersAndWeightsAsGiven) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::snapshot_sign_test

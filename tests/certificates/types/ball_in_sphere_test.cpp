@@ -6,7 +6,7 @@
 #include "tests/support/inputs/ball_motions.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::ball_in_sphere_test {
 namespace {
 
 using test::BallShape;
@@ -96,4 +96,4 @@ TEST(BallInSphere, FailsJustBeforeItGoesOutOfUse) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::ball_in_sphere_test

@@ -8,7 +8,7 @@
 #include "tests/support/judges/rational_geometry.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::bead_in_sphere_test {
 namespace {
 
 using test::identity_with;
@@ -176,4 +176,4 @@ TEST(BeadInSphere, HasAnIdentityByBeads) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::bead_in_sphere_test

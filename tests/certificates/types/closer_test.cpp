@@ -6,7 +6,7 @@
 #include "tests/support/judges/rational_geometry.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::closer_test {
 namespace {
 
 Rational square(const test::RationalPoint& a, const test::RationalPoint& b) {
@@ -46,4 +46,4 @@ TEST(Closer, HasOneIdentityBothWays) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::closer_test

@@ -6,7 +6,7 @@
 #include "tests/support/judges/rational_geometry.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::contact_test {
 namespace {
 
 using test::identity_with;
@@ -110,4 +110,4 @@ TEST(Contact, HasAnIdentityByBeads) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::contact_test

@@ -5,7 +5,7 @@
 #include "tests/support/inputs/ball_motions.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::membership_test {
 namespace {
 
 struct Answer {
@@ -73,4 +73,4 @@ TYPED_TEST(Memberships, AreJudgedByTheRightCertificate) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::membership_test

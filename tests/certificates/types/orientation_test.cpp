@@ -8,7 +8,7 @@
 #include "tests/support/judges/rational_geometry.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::orientation_test {
 namespace {
 
 using test::identity_with;
@@ -83,4 +83,4 @@ TEST(Orientation, HasAnIdentityByType) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::orientation_test

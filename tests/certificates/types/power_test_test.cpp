@@ -8,7 +8,7 @@
 #include "tests/support/judges/rational_geometry.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::power_test_test {
 namespace {
 
 using test::identity_with;
@@ -148,4 +148,4 @@ TEST(SortBeads, BringsTheLastToItsPlace) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::power_test_test

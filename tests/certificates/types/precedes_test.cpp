@@ -9,7 +9,7 @@
 #include "tests/support/judges/rational_geometry.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::precedes_test {
 namespace {
 
 TEST(Precedes, IsTheOrderAlongTheFirstAxis) {
@@ -58,4 +58,4 @@ TEST(Identity, OrdersTypesFirst) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::precedes_test

@@ -10,7 +10,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::relaxed_bead_in_sphere_test {
 namespace {
 
 using Points = std::vector<std::array<double, 3>>;
@@ -172,4 +172,4 @@ TEST(RelaxedBeadInSphere, KernelsAgreeOnFirstFailures) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::relaxed_bead_in_sphere_test

@@ -11,7 +11,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/searches.h"
 
-namespace kds {
+namespace kds::relaxed_membership_test {
 namespace {
 
 using test::Ball;
@@ -151,4 +151,4 @@ TEST(RelaxedMembership, PutsTheFarthestFirst) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::relaxed_membership_test

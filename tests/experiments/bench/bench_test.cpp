@@ -17,7 +17,7 @@
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
 
-namespace kds {
+namespace kds::bench_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -273,4 +273,4 @@ TEST(Bench, RefusesWhatItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::bench_test

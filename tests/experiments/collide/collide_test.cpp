@@ -14,7 +14,7 @@
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
 
-namespace kds::test {
+namespace kds::test::collide_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -298,4 +298,4 @@ TEST(Collide, MethodsThatDisagreeAreAnInternalFailure) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::collide_test

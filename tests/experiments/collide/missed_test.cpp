@@ -12,7 +12,7 @@
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
 
-namespace kds::test {
+namespace kds::test::missed_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -152,4 +152,4 @@ TEST(Missed, WritesFilesAndAPage) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::missed_test

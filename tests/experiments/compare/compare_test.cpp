@@ -22,7 +22,7 @@
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
 
-namespace kds::test {
+namespace kds::test::compare_test {
 namespace {
 
 using testing::ElementsAre;
@@ -315,4 +315,4 @@ TEST(Compare, RefusesBeforeAnythingHasRun) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::compare_test

@@ -13,7 +13,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/support/inputs/moving_beads.h"
 
-namespace kds::test {
+namespace kds::test::closest_approach_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -100,4 +100,4 @@ TEST(ClosestApproach, DeviationsAreAddedOutward) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::closest_approach_test

@@ -12,7 +12,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds::test {
+namespace kds::test::event_table_test {
 namespace {
 
 using testing::ElementsAre;
@@ -230,4 +230,4 @@ TEST(InfoBeads, IsATableOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::event_table_test

@@ -9,7 +9,7 @@
 
 #include "experiments/events/event_bins.h"
 
-namespace kds {
+namespace kds::events_csv_test {
 namespace {
 
 // Three steps of two structures, or of the first of them.
@@ -71,4 +71,4 @@ TEST(EventBins, AreNeverMoreThanAskedFor) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::events_csv_test

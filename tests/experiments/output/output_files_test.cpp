@@ -13,7 +13,7 @@
 #include "motions/base/input_error.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds {
+namespace kds::output_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -178,4 +178,4 @@ TEST(OutputFiles, RefusesADirectoryWithoutPermission) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::output_files_test

@@ -22,7 +22,7 @@
 #include "motions/base/input_error.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds {
+namespace kds::replace_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -239,4 +239,4 @@ TEST(UnfinishedFile, SignalsThatDoNotEndAProgramDoNot) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::replace_file_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace kds {
+namespace kds::text_test {
 namespace {
 
 TEST(Text, GroupsThousands) {
@@ -67,4 +67,4 @@ TEST(Text, ColumnsAreAsWideAsTheirWidestCell) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::text_test

@@ -15,7 +15,7 @@
 #include "experiments/update/update_options.h"
 #include "motions/base/input_error.h"
 
-namespace kds {
+namespace kds::parse_options_fuzz_test {
 namespace {
 
 const std::vector<std::string> kWords{"--beads",
@@ -199,4 +199,4 @@ TEST(CollideOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::parse_options_fuzz_test

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace kds {
+namespace kds::power_fit_test {
 namespace {
 
 using Points = std::vector<std::pair<double, double>>;
@@ -66,4 +66,4 @@ TEST(PowerFit, NoneOfTwoPointsOrOfOneX) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::power_fit_test

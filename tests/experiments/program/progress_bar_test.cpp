@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-namespace kds {
+namespace kds::progress_bar_test {
 namespace {
 
 TEST(ProgressBar, IsSilentWhereTheStreamIsNoTerminal) {
@@ -20,4 +20,4 @@ TEST(ProgressBar, IsSilentWhereTheStreamIsNoTerminal) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::progress_bar_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace kds {
+namespace kds::timing_test {
 namespace {
 
 TEST(Timing, AsManyRoundsAsAreAskedFor) {
@@ -48,4 +48,4 @@ TEST(Timing, RatiosAreOfOneRoundEach) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::timing_test

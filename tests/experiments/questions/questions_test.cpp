@@ -21,7 +21,7 @@
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
 
-namespace kds::test {
+namespace kds::test::questions_test {
 namespace {
 
 using testing::HasSubstr;
@@ -244,4 +244,4 @@ TEST(Questions, NothingIsWrittenOntoTheData) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::questions_test

@@ -20,7 +20,7 @@
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
 
-namespace kds::test {
+namespace kds::test::reproduce_test {
 namespace {
 
 using testing::HasSubstr;
@@ -237,4 +237,4 @@ TEST(Reproduce, Refusals) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::reproduce_test

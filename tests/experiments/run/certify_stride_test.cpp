@@ -12,7 +12,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds::test {
+namespace kds::test::certify_stride_test {
 namespace {
 
 using testing::HasSubstr;
@@ -170,4 +170,4 @@ TEST(CertifyStride, NeedsAStride) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::certify_stride_test

@@ -11,7 +11,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds::test {
+namespace kds::test::chord_run_test {
 namespace {
 
 using testing::HasSubstr;
@@ -87,4 +87,4 @@ TEST(ChordRun, RefusesWhatHasNoEventsAndWhatDoesNotGoTogether) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::chord_run_test

@@ -13,7 +13,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds::test {
+namespace kds::test::contacts_run_test {
 namespace {
 
 using testing::HasSubstr;
@@ -126,4 +126,4 @@ TEST(ContactsRun, Refusals) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::contacts_run_test

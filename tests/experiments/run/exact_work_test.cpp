@@ -15,7 +15,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds::test {
+namespace kds::test::exact_work_test {
 namespace {
 
 using testing::HasSubstr;
@@ -106,4 +106,4 @@ TEST(ExactWorkOfRuns, IsToldOfWhereItIsExtraordinary) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::exact_work_test

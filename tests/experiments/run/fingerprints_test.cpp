@@ -24,7 +24,7 @@
 #include "tests/experiments/scratch_directory.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::fingerprints_test {
 namespace {
 
 using test::ProgramRun;
@@ -176,4 +176,4 @@ TEST(Fingerprints, OfModelsFiltered) { replay_all(Source::model, "filtered"); }
 TEST(Fingerprints, OfModelsExact) { replay_all(Source::model, "exact"); }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::fingerprints_test

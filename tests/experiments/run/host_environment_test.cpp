@@ -11,7 +11,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/support/inputs/host_environment.h"
 
-namespace kds {
+namespace kds::host_environment_test {
 namespace {
 
 using test::data_file;
@@ -59,4 +59,4 @@ TEST(HostEnvironment, LeavesTheHistoryAndStays) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::host_environment_test

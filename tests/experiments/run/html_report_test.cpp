@@ -11,7 +11,7 @@
 #include "tests/experiments/sample_report.h"
 #include "tests/experiments/sound_page.h"
 
-namespace kds {
+namespace kds::html_report_test {
 namespace {
 
 using test::count_of;
@@ -147,4 +147,4 @@ TEST(HtmlReport, NoEventsAreNoFailure) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::html_report_test

@@ -8,7 +8,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds {
+namespace kds::levers_run_test {
 namespace {
 
 using namespace test;
@@ -130,4 +130,4 @@ TEST(LeversRun, NoResultReplacesWhatARunIsReadFrom) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::levers_run_test

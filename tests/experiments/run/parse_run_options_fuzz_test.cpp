@@ -10,7 +10,7 @@
 #include "experiments/run/parse_run_options.h"
 #include "motions/base/input_error.h"
 
-namespace kds {
+namespace kds::parse_run_options_fuzz_test {
 namespace {
 
 constexpr std::array kWords{
@@ -68,4 +68,4 @@ TEST(RunOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::parse_run_options_fuzz_test

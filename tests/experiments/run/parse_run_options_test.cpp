@@ -7,7 +7,7 @@
 
 #include "motions/base/input_error.h"
 
-namespace kds {
+namespace kds::parse_run_options_test {
 namespace {
 
 using testing::ElementsAre;
@@ -175,4 +175,4 @@ TEST(RunOptions, HelpHasALineForEachOption) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::parse_run_options_test

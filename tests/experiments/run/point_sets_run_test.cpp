@@ -12,7 +12,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds::test {
+namespace kds::test::point_sets_run_test {
 namespace {
 
 using testing::HasSubstr;
@@ -100,4 +100,4 @@ TEST(PointSetsRun, AreComparedFromFrameToFrame) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::point_sets_run_test

@@ -13,7 +13,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds::test {
+namespace kds::test::program_process_test {
 namespace {
 
 using testing::HasSubstr;
@@ -148,4 +148,4 @@ TEST(Program, WhatAKilledRunLeftIsClearedByTheNext) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::program_process_test

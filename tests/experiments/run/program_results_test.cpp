@@ -15,7 +15,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds::test {
+namespace kds::test::program_results_test {
 namespace {
 
 using testing::HasSubstr;
@@ -293,4 +293,4 @@ TEST(Program, NamedPipesAreNoOutputs) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::program_results_test

@@ -18,7 +18,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds::test {
+namespace kds::test::program_scenes_test {
 namespace {
 
 using testing::HasSubstr;
@@ -355,4 +355,4 @@ TEST(Program, RunsTheChainsOfAComplexOnOneClock) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::program_scenes_test

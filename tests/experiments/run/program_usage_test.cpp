@@ -12,7 +12,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds::test {
+namespace kds::test::program_usage_test {
 namespace {
 
 using testing::HasSubstr;
@@ -157,4 +157,4 @@ TEST(Program, PipesAndDevicesAreRefusedAtOnce) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::program_usage_test

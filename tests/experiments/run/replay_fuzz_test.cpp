@@ -21,7 +21,7 @@
 #include "tests/experiments/scratch_directory.h"
 #include "tests/support/rounds.h"
 
-namespace kds::test {
+namespace kds::test::replay_fuzz_test {
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -236,4 +236,4 @@ TEST(ReplayFuzz, SpoiledHeadersAreRefused) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::replay_fuzz_test

@@ -10,7 +10,7 @@
 
 #include "tests/experiments/sample_report.h"
 
-namespace kds {
+namespace kds::report_json_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -94,4 +94,4 @@ TEST(ReportJson, ReplayAddsItsVerdict) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::report_json_test

@@ -6,7 +6,7 @@
 #include "experiments/output/text.h"
 #include "tests/experiments/sample_report.h"
 
-namespace kds {
+namespace kds::table_test {
 namespace {
 
 using testing::ContainsRegex;
@@ -91,4 +91,4 @@ TEST(Table, OneStructureOfOddFiguresStillPrints) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::table_test

@@ -12,7 +12,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds::test {
+namespace kds::test::generate_test {
 namespace {
 
 using models::ShapeMotion;
@@ -214,4 +214,4 @@ TEST(Generate, TellsInFilesToo) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::generate_test

@@ -13,7 +13,7 @@
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds::test {
+namespace kds::test::info_test {
 namespace {
 
 using testing::ElementsAre;
@@ -202,4 +202,4 @@ TEST(Info, RefusesBeforeItReads) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::info_test

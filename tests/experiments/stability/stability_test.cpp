@@ -25,7 +25,7 @@
 #include "tests/experiments/scratch_directory.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::stability_test {
 namespace {
 
 using testing::ElementsAre;
@@ -538,4 +538,4 @@ TEST(StabilityProgram, HelpNamesEveryOption) {
 }  // namespace outside
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::stability_test

@@ -19,7 +19,7 @@
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
 
-namespace kds::test {
+namespace kds::test::theorems_test {
 namespace {
 
 using testing::HasSubstr;
@@ -208,4 +208,4 @@ TEST(Theorems, RefusesWhatIsNoTheorem) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::theorems_test

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace kds {
+namespace kds::calpha_model_test {
 namespace {
 
 /// Three residues of one chain, of 3, 1 and 2 beads, on the x axis.
@@ -77,4 +77,4 @@ TEST(CalphaModel, TellsContactsOfResidues) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::calpha_model_test

@@ -5,7 +5,7 @@
 #include "experiments/trade/match_contacts.h"
 #include "experiments/trade/match_events.h"
 
-namespace kds {
+namespace kds::matching_test {
 namespace {
 
 TimedEvent event(double time, std::uint8_t kind, BeadId a, BeadId b) { return {time, {kind, 2, {a, b}}}; }
@@ -67,4 +67,4 @@ TEST(MatchContacts, AreFoundWhereTheyShareTime) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::matching_test

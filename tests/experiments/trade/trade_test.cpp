@@ -15,7 +15,7 @@
 #include "tests/experiments/sound_page.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::trade_test {
 namespace {
 
 using namespace test;
@@ -329,4 +329,4 @@ TEST(TradeCommand, RefusesWhatItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::trade_test

@@ -13,7 +13,7 @@
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
 
-namespace kds::test {
+namespace kds::test::update_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -228,4 +228,4 @@ TEST(Update, RefusesBeforeItReads) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::update_test

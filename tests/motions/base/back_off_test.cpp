@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace kds {
+namespace kds::back_off_test {
 namespace {
 
 unsigned skipped(BackOff& back_off) {
@@ -39,4 +39,4 @@ TEST(BackOff, BeginsAnewAfterASuccess) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::back_off_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/inputs/host_environment.h"
 
-namespace kds {
+namespace kds::floating_point_guard_test {
 namespace {
 
 // What the processor is to compute when the test runs, and not the compiler before.
@@ -55,4 +55,4 @@ TEST_P(Host, DiffersFromTheDefault) {
 INSTANTIATE_TEST_SUITE_P(All, Host, testing::ValuesIn(test::host_environments));
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::floating_point_guard_test

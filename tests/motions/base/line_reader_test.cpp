@@ -7,7 +7,7 @@
 #include "motions/base/text_input.h"
 #include "tests/motions/test_files.h"
 
-namespace kds {
+namespace kds::line_reader_test {
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -102,4 +102,4 @@ TEST(LineReader, AFileThatGrowsEndsWhereItEnded) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::line_reader_test

@@ -9,7 +9,7 @@
 
 #include "tests/motions/test_files.h"
 
-namespace kds {
+namespace kds::text_input_test {
 namespace {
 
 TEST(TextInput, NumbersTakeUpTheirField) {
@@ -74,4 +74,4 @@ TEST(TextInput, SaysWhyAFileCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::text_input_test

@@ -15,7 +15,7 @@
 #include "motions/curves/snapshot.h"
 #include "tests/support/inputs/random_motion.h"
 
-namespace kds {
+namespace kds::curves_test {
 namespace {
 
 template <Motion M>
@@ -238,4 +238,4 @@ TEST(AnyDegreeMotion, KeepsItsControlPoints) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::curves_test

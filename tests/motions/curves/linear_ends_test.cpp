@@ -9,7 +9,7 @@
 #include "motions/curves/bezier_motion.h"
 #include "tests/support/inputs/random_motion.h"
 
-namespace kds {
+namespace kds::linear_ends_test {
 namespace {
 
 using test::Random;
@@ -88,4 +88,4 @@ TYPED_TEST(LinearEnds, AreFiniteWhateverBeadIsNot) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::linear_ends_test

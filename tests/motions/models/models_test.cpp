@@ -17,7 +17,7 @@
 #include "motions/models/spiral.h"
 #include "tests/motions/test_files.h"
 
-namespace kds::models {
+namespace kds::models::models_test {
 namespace {
 
 TEST(Elementary, AgreesWithTheLibrary) {
@@ -235,4 +235,4 @@ TEST(ModelWandering, DoesNotMakeWorseWhatIsWrongAlready) {
 }
 
 }  // namespace
-}  // namespace kds::models
+}  // namespace kds::models::models_test

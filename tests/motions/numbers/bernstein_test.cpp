@@ -13,7 +13,7 @@
 #include "motions/numbers/tracked_double.h"
 #include "tests/support/judges/sturm.h"
 
-namespace kds {
+namespace kds::bernstein_test {
 namespace {
 
 namespace sturm = test::sturm;
@@ -188,4 +188,4 @@ TEST(Binomial, IsPascalsTriangle) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::bernstein_test

@@ -7,7 +7,7 @@
 
 #include "motions/numbers/exact_number.h"
 
-namespace kds {
+namespace kds::coefficients_test {
 namespace {
 
 Coefficients<double> counting(std::size_t size) {
@@ -72,4 +72,4 @@ TEST(Coefficients, KeepWhatTheyHaveWhenTheyGrowAndShrink) {
 static_assert(std::is_same_v<Coefficients<Integer>, std::vector<Integer>>);
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::coefficients_test

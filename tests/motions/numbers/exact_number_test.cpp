@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace kds {
+namespace kds::exact_number_test {
 namespace {
 
 constexpr double huge = std::numeric_limits<double>::max();
@@ -163,4 +163,4 @@ TEST(Dyadic, ComparesAndHalvesAsRationals) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::exact_number_test

@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace kds {
+namespace kds::fixed_integer_test {
 namespace {
 
 /// A number of about so many bits, and the same in a fixed width.
@@ -67,4 +67,4 @@ TEST(FixedInteger, ShiftsByAnyNumberOfPlaces) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::fixed_integer_test

@@ -11,7 +11,7 @@
 
 #include "motions/numbers/rational.h"
 
-namespace kds::test {
+namespace kds::test::integer_test {
 namespace {
 
 __extension__ using Wide = __int128;
@@ -135,4 +135,4 @@ TEST(Rational, CountsAsFractionsDo) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::test::integer_test

@@ -2,17 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "motions/numbers/fixed_digits.h"
 #include "motions/numbers/long_digits.h"
+#include "tests/support/inputs/random.h"
 
-namespace kds {
+namespace kds::leading_digits_test {
 namespace {
 
-using Random = std::mt19937_64;
-
-int pick(Random& random, int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); }
+using test::pick;
+using test::Random;
 
 Rational power_of_two(std::int64_t exponent) {
   const Integer power = Integer(1) << static_cast<unsigned>(std::abs(exponent));
@@ -224,4 +222,4 @@ TEST(LeadingDigits, KeepsWhatFits) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::leading_digits_test

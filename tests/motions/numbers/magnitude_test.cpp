@@ -8,7 +8,7 @@
 
 #include "motions/numbers/exact_number.h"
 
-namespace kds {
+namespace kds::magnitude_test {
 namespace {
 
 // A number rounded, exactly, and as a magnitude for inputs at most `size` apart.
@@ -92,4 +92,4 @@ TEST(MagnitudeTest, UnlikePowersAreRefused) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::magnitude_test

@@ -2,13 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
 #include <vector>
 
-namespace kds {
+#include "tests/support/inputs/random.h"
+
+namespace kds::modular_test {
 namespace {
 
-using Random = std::mt19937_64;
+using test::Random;
 
 Integer modulus(std::size_t i) { return Residue::modulus(residue_folds[i]); }
 
@@ -115,4 +116,4 @@ TEST(Residue, WholeNumbersComeBack) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::modular_test

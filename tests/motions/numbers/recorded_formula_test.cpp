@@ -7,7 +7,7 @@
 
 #include "motions/views/recording_view.h"
 
-namespace kds {
+namespace kds::recorded_formula_test {
 namespace {
 
 using Kind = FormulaStep::Kind;
@@ -86,4 +86,4 @@ TEST(RecordedFormula, HoldsSixtyFiveThousandSteps) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::recorded_formula_test

@@ -7,7 +7,7 @@
 
 #include "motions/numbers/exact_number.h"
 
-namespace kds {
+namespace kds::tracked_double_test {
 namespace {
 
 struct Followed {
@@ -72,4 +72,4 @@ TEST(TrackedDouble, IsSharpWhereNumbersAreOfUnlikeSize) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::tracked_double_test

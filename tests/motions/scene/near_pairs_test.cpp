@@ -12,7 +12,7 @@
 
 #include "motions/numbers/exact_number.h"
 
-namespace kds {
+namespace kds::near_pairs_test {
 namespace {
 
 using Pairs = std::set<std::pair<BeadId, BeadId>>;
@@ -104,4 +104,4 @@ TEST(NearPairs, AreFewWhereBallsAreSpread) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::near_pairs_test

@@ -12,7 +12,7 @@
 #include "motions/readers/vdw_radii.h"
 #include "tests/motions/test_files.h"
 
-namespace kds {
+namespace kds::radii_test {
 namespace {
 
 Trajectory necklace(const std::vector<std::vector<double>>& frames, double y = 0) {
@@ -161,4 +161,4 @@ TEST(VdwRadii, Table) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::radii_test

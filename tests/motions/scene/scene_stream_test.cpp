@@ -12,7 +12,7 @@
 #include "motions/scene/scene.h"
 #include "tests/motions/test_files.h"
 
-namespace kds {
+namespace kds::scene_stream_test {
 namespace {
 
 std::string xyz_frames(std::mt19937& random, std::size_t frames, std::size_t beads, bool flat,
@@ -124,4 +124,4 @@ TEST(SceneStream, TellsOfAFileThatLosesFramesMeanwhile) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::scene_stream_test

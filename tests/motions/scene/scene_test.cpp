@@ -7,7 +7,7 @@
 
 #include "motions/base/input_error.h"
 
-namespace kds {
+namespace kds::scene_test {
 namespace {
 
 Trajectory random_trajectory(std::mt19937_64& random, const std::string& file, int beads,
@@ -269,4 +269,4 @@ TEST(Scene, WeightsTooSmallAreTold) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::scene_test

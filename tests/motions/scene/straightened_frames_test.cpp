@@ -9,7 +9,7 @@
 
 #include "motions/numbers/exact_number.h"
 
-namespace kds {
+namespace kds::straightened_frames_test {
 namespace {
 
 using Frames = std::vector<Eigen::Matrix3Xd>;
@@ -188,4 +188,4 @@ TEST(StraightenedFrames, DoNotRoundBeadsTogether) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::straightened_frames_test

@@ -9,7 +9,7 @@
 #include "motions/base/input_error.h"
 #include "motions/curves/positions.h"
 
-namespace kds {
+namespace kds::stride_deviation_test {
 namespace {
 
 class Frames final : public FrameReader {
@@ -156,4 +156,4 @@ TEST(StrideDeviation, RefusesOtherFrames) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::stride_deviation_test

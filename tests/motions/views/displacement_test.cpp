@@ -5,7 +5,7 @@
 #include "motions/curves/positions.h"
 #include "tests/support/inputs/random_motion.h"
 
-namespace kds {
+namespace kds::displacement_test {
 namespace {
 
 using test::Random;
@@ -80,4 +80,4 @@ TEST(Displacements, ChangedWeightsAndRadiiAreNeverTolerated) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::displacement_test

@@ -8,7 +8,7 @@
 #include "motions/numbers/exact_number.h"
 #include "tests/support/inputs/random_motion.h"
 
-namespace kds {
+namespace kds::motion_ahead_test {
 namespace {
 
 template <int dimension>
@@ -113,4 +113,4 @@ TEST(MotionAhead, LooksAtSomeAlone) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::motion_ahead_test

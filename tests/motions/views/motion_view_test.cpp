@@ -13,7 +13,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/sturm.h"
 
-namespace kds {
+namespace kds::motion_view_test {
 namespace {
 
 namespace sturm = test::sturm;
@@ -359,4 +359,4 @@ TEST(LiftedMotion, LiftsAreLinear) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::motion_view_test

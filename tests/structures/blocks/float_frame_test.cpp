@@ -15,7 +15,7 @@
 #include "tests/structures/collision/collision_scenes.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::float_frame_test {
 namespace {
 
 using namespace test;
@@ -27,23 +27,23 @@ struct Pair {
 
 /// Two balls that touch, or overlap by a rounding, at the edge of a scene that two others make wide: the
 /// floats are as coarse as they get, and both centres about half a float from one.
-Pair touching_pair(Chance& chance) {
+Pair touching_pair(Random& random) {
   Pair pair{Eigen::Matrix3Xd(3, 4), {0, 0, 0, 0}};
   pair.centers.col(2).setConstant(-1);
   pair.centers.col(3).setConstant(1);
-  const double reach = std::exp2(uniform(chance, -30, -1));
-  Eigen::Vector3d direction(uniform(chance, -1, 1), uniform(chance, -1, 1), uniform(chance, -1, 1));
-  if (chance() % 3 == 0) direction = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(chance() % 3));
+  const double reach = std::exp2(uniform(random, -30, -1));
+  Eigen::Vector3d direction(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+  if (random() % 3 == 0) direction = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(random() % 3));
   direction.normalize();
   const double half_float = 0x1p-25 * (1 - 1e-6);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const double sign = direction[axis] < 0 ? -1 : 1;
-    const double edge = std::round(uniform(chance, 0.5, 0.99) * 0x1p24) * 0x1p-24;
+    const double edge = std::round(uniform(random, 0.5, 0.99) * 0x1p24) * 0x1p-24;
     // Rounded to floats, the two move apart by up to a float.
     pair.centers(axis, 0) = sign * (edge - half_float);
     pair.centers(axis, 1) = pair.centers(axis, 0) + direction[axis] * reach;
   }
-  pair.radii[0] = uniform(chance, 0, 1) * reach;
+  pair.radii[0] = uniform(random, 0, 1) * reach;
   const double distance = (pair.centers.col(0) - pair.centers.col(1)).norm();
   pair.radii[1] = std::max(0.0, distance - pair.radii[0]);
   while (compare_distance(pair.centers.col(0), pair.centers.col(1), pair.radii[0], pair.radii[1]) > 0)
@@ -71,13 +71,13 @@ std::array<std::vector<float>, 3> places_in(const FloatFrame<3>& frame, const Ba
 }
 
 TEST(FloatFrame, BallsThatTouchAreNearInFloats) {
-  Chance chance(1);
+  Random random(1);
   double tightest = 1, tightest_turned = 1;
   for (unsigned k = 0; k < rounds(100000U); ++k) {
-    const Pair pair = touching_pair(chance);
+    const Pair pair = touching_pair(random);
     const Balls<3> balls(pair.centers, pair.radii);
     std::optional<Axes<3>> axes;
-    if (k % 2 == 1) axes = random_axes<3>(chance);
+    if (k % 2 == 1) axes = random_axes<3>(random);
     const FloatFrame<3> frame = fit_float_frame(scene_box(balls), 0, axes);
     const auto places = places_in(frame, balls);
     const auto r = static_cast<float>(frame.float_radius(pair.radii[0]));
@@ -100,12 +100,12 @@ TEST(FloatFrame, BallsThatTouchAreNearInFloats) {
 }
 
 TEST(FloatFrame, CoordinatesErrByLessThanClaimed) {
-  Chance chance(2);
+  Random random(2);
   for (unsigned k = 0; k < rounds(3000U); ++k) {
-    const CollisionScene scene = random_scene(chance, 5);
+    const CollisionScene scene = random_scene(random, 5);
     const Balls<3> balls(scene.centers, scene.radii);
     std::optional<Axes<3>> axes;
-    if (k % 2 == 1) axes = random_axes<3>(chance);
+    if (k % 2 == 1) axes = random_axes<3>(random);
     const FloatFrame<3> frame = fit_float_frame(scene_box(balls), 0, axes);
     ASSERT_GE(frame.bound, 0x1p-30);
     const auto places = places_in(frame, balls);
@@ -131,17 +131,17 @@ TEST(FloatFrame, CoordinatesErrByLessThanClaimed) {
 }
 
 TEST(FloatFrame, StrayedIsNoLessThanExactly) {
-  Chance chance(3);
+  Random random(3);
   for (unsigned k = 0; k < rounds(2000U); ++k) {
-    const CollisionScene scene = random_scene(chance, 40);
+    const CollisionScene scene = random_scene(random, 40);
     BlockTree<3> tree(scene.asked);
-    if (k % 2 == 1) tree.turn(random_axes<3>(chance));
+    if (k % 2 == 1) tree.turn(random_axes<3>(random));
     (void)tree.pairs(Balls<3>(scene.centers, scene.radii));
     Eigen::Matrix3Xd moved = scene.centers;
-    const double size = moved.cwiseAbs().maxCoeff() * std::exp2(uniform(chance, -60, 1));
+    const double size = moved.cwiseAbs().maxCoeff() * std::exp2(uniform(random, -60, 1));
     for (Eigen::Index b = 0; b < moved.cols(); ++b)
       moved.col(b) +=
-          size * Eigen::Vector3d(uniform(chance, -1, 1), uniform(chance, -1, 1), uniform(chance, -1, 1));
+          size * Eigen::Vector3d(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
     if (!moved.allFinite()) continue;
     Rational farthest = 0;
     for (Eigen::Index b = 0; b < moved.cols(); ++b) {
@@ -164,4 +164,4 @@ TEST(FloatFrame, StrayedIsNoLessThanExactly) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::float_frame_test

@@ -10,7 +10,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
 
-namespace kds {
+namespace kds::enclosing_box_test {
 namespace {
 
 using namespace test;
@@ -155,4 +155,4 @@ TEST(EnclosingBox, RefusesChangesThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::enclosing_box_test

@@ -10,7 +10,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/cages_hold.h"
 
-namespace kds {
+namespace kds::chord_cages_test {
 namespace {
 
 using namespace test;
@@ -263,4 +263,4 @@ TEST(RoundedUp, IsNeverTooSmall) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::chord_cages_test

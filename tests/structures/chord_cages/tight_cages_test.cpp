@@ -10,7 +10,7 @@
 #include "tests/support/judges/enclosing_ball.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::tight_cages_test {
 namespace {
 
 using namespace test;
@@ -157,4 +157,4 @@ TEST(TightCages, CountsInARun) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::tight_cages_test

@@ -12,7 +12,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
 
-namespace kds {
+namespace kds::kinetic_closest_pair_test {
 namespace {
 
 using namespace test;
@@ -219,4 +219,4 @@ TEST(KineticClosestPair, RefusesChangesThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::kinetic_closest_pair_test

@@ -15,7 +15,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::least_distance_test {
 namespace {
 
 using namespace test;
@@ -129,4 +129,4 @@ TEST(LeastDistance, IsUnknownWhereDoublesOverflow) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::least_distance_test

@@ -16,7 +16,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/ball_gaps.h"
 
-namespace kds {
+namespace kds::closest_pair_test {
 namespace {
 
 using namespace test;
@@ -424,4 +424,4 @@ TEST(BeadPairs, AreAsGiven) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::closest_pair_test

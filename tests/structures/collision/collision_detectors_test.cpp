@@ -11,7 +11,7 @@
 #include "tests/structures/collision/collision_scenes.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::collision_detectors_test {
 
 void PrintTo(const BeadPair& pair, std::ostream* out) { *out << pair.first << "-" << pair.second; }
 
@@ -45,8 +45,8 @@ void expect_all_right(const CollisionScene& scene) {
     if (!counts) counts = sequence.counts();
     EXPECT_EQ(counts->group_pairs, sequence.counts().group_pairs) << with;
     EXPECT_EQ(counts->candidates, sequence.counts().candidates) << with;
-    Chance chance(scene.radii.size());
-    sequence.turn(random_axes<Dimension>(chance));
+    Random random(scene.radii.size());
+    sequence.turn(random_axes<Dimension>(random));
     ASSERT_EQ(sequence.pairs(balls), expected) << "blocks in sequence, turned, " << with;
     ASSERT_TRUE(balls.size() == 0 || sequence.frame().axes) << with;
     if (!turned_counts) turned_counts = sequence.counts();
@@ -61,8 +61,8 @@ void expect_all_right(const CollisionScene& scene) {
 
 TEST(CollisionDetectors, RandomScenesOfAllSizesAndPlaces) {
   for (unsigned seed = 0; seed < rounds(600U); ++seed) {
-    Chance chance(seed);
-    const CollisionScene scene = random_scene(chance, seed % 50 == 0 ? 400 : 60);
+    Random random(seed);
+    const CollisionScene scene = random_scene(random, seed % 50 == 0 ? 400 : 60);
     SCOPED_TRACE("seed " + std::to_string(seed));
     expect_all_right<3>(scene);
     expect_all_right<2>(scene);
@@ -106,10 +106,11 @@ TEST(CollisionDetectors, AllCoincideOrTouch) {
 }
 
 TEST(CollisionDetectors, SequenceIsGivenUpWhereItCostsTooMuch) {
-  Chance chance(1);
+  Random random(1);
   CollisionScene gas{"gas", Eigen::Matrix3Xd(3, 4000), std::vector<double>(4000, 0.4), {}};
   for (Eigen::Index b = 0; b < 4000; ++b)
-    gas.centers.col(b) = 14 * Eigen::Vector3d(uniform(chance), uniform(chance), uniform(chance));
+    gas.centers.col(b) =
+        14 * Eigen::Vector3d(uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1));
   gas.asked.necklaces = {{0, 3999}};
   const Balls<3> balls(gas.centers, gas.radii);
   BlockTree<3> tree(gas.asked);
@@ -191,12 +192,12 @@ TEST(CollisionDetectors, BoxesAreTurnedToTheBonds) {
 }
 
 TEST(CollisionDetectors, ScenesThatFloatsDoNotTellApartAreLeftToCells) {
-  Chance chance(1);
+  Random random(1);
   CollisionScene far{
       "far", Eigen::Matrix3Xd(3, 2000), std::vector<double>(2000, 0.5), {{{0, 999}, {1000, 1999}}}};
   for (Eigen::Index b = 0; b < 2000; ++b)
-    far.centers.col(b) = Eigen::Vector3d(10 * uniform(chance) + (b < 1000 ? 0 : 1e8), 10 * uniform(chance),
-                                         10 * uniform(chance));
+    far.centers.col(b) = Eigen::Vector3d(10 * uniform(random, 0, 1) + (b < 1000 ? 0 : 1e8),
+                                         10 * uniform(random, 0, 1), 10 * uniform(random, 0, 1));
   const Balls<3> balls(far.centers, far.radii);
   AutoDetector<3> detector(far.asked);
   const auto expected = all_pairs(far.centers, far.radii, far.asked, 3);
@@ -216,4 +217,4 @@ TEST(CollisionDetectors, WrongUseIsRefused) {
 
 }  // namespace
 
-}  // namespace kds
+}  // namespace kds::collision_detectors_test

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -14,14 +13,9 @@
 #include "structures/collision/pairs_asked.h"
 #include "structures/necklace/ball_distance.h"
 #include "structures/necklace/balls.h"
+#include "tests/support/inputs/random.h"
 
 namespace kds::test {
-
-using Chance = std::mt19937_64;
-
-inline double uniform(Chance& chance, double low = 0, double high = 1) {
-  return std::uniform_real_distribution<double>(low, high)(chance);
-}
 
 struct CollisionScene {
   std::string name;
@@ -45,27 +39,27 @@ inline std::vector<BeadPair> all_pairs(const Eigen::Matrix3Xd& centers, const st
 }
 
 /// One necklace, two, or many, some of one bead.
-inline PairsAsked some_pairs(Chance& chance, std::size_t beads) {
+inline PairsAsked some_pairs(Random& random, std::size_t beads) {
   PairsAsked asked;
-  const std::uint64_t form = chance() % 4;
+  const std::uint64_t form = random() % 4;
   for (std::size_t first = 0; first < beads;) {
     std::size_t count = beads - first;
     if (form == 1) count = std::min(count, (beads + 1) / 2);
-    if (form == 2) count = std::min<std::size_t>(count, 1 + chance() % 20);
+    if (form == 2) count = std::min<std::size_t>(count, 1 + random() % 20);
     asked.necklaces.push_back({static_cast<BeadId>(first), static_cast<BeadId>(first + count - 1)});
     first += count;
   }
-  asked.apart = static_cast<BeadId>(chance() % 2 == 0 ? 2 : 1 + chance() % 20);
-  asked.within = chance() % 4 != 0;
-  asked.between = chance() % 4 != 0;
+  asked.apart = static_cast<BeadId>(random() % 2 == 0 ? 2 : 1 + random() % 20);
+  asked.within = random() % 4 != 0;
+  asked.between = random() % 4 != 0;
   return asked;
 }
 
 /// Any orthonormal axes.
 template <int Dimension>
-Axes<Dimension> random_axes(Chance& chance) {
+Axes<Dimension> random_axes(Random& random) {
   const Eigen::Matrix<double, Dimension, Dimension> m =
-      Eigen::Matrix<double, Dimension, Dimension>::NullaryExpr([&chance] { return uniform(chance, -1, 1); });
+      Eigen::Matrix<double, Dimension, Dimension>::NullaryExpr([&random] { return uniform(random, -1, 1); });
   const Eigen::Matrix<double, Dimension, Dimension> q = m.householderQr().householderQ();
   Axes<Dimension> axes;
   for (Eigen::Index i = 0; i < Dimension; ++i)
@@ -76,17 +70,17 @@ Axes<Dimension> random_axes(Chance& chance) {
 
 /// A chain of random steps or points anywhere, of any size and place, radii equal, mixed or partly zero,
 /// whole numbers that touch exactly among them.
-inline CollisionScene random_scene(Chance& chance, std::size_t most_beads) {
+inline CollisionScene random_scene(Random& random, std::size_t most_beads) {
   CollisionScene scene;
-  const std::size_t beads = 1 + chance() % most_beads;
-  scene.asked = some_pairs(chance, beads);
+  const std::size_t beads = 1 + random() % most_beads;
+  scene.asked = some_pairs(random, beads);
   scene.centers.resize(3, static_cast<Eigen::Index>(beads));
   scene.radii.resize(beads);
-  const std::uint64_t places = chance() % 4, sizes = chance() % 4;
-  const double box = std::cbrt(static_cast<double>(beads)) * uniform(chance, 0.5, 4);
+  const std::uint64_t places = random() % 4, sizes = random() % 4;
+  const double box = std::cbrt(static_cast<double>(beads)) * uniform(random, 0.5, 4);
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
   for (std::size_t b = 0; b < beads; ++b) {
-    Eigen::Vector3d step(uniform(chance, -1, 1), uniform(chance, -1, 1), uniform(chance, -1, 1));
+    Eigen::Vector3d step(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
     if (places == 0) {
       at = box * step;
     } else if (places == 1) {
@@ -99,27 +93,27 @@ inline CollisionScene random_scene(Chance& chance, std::size_t most_beads) {
     scene.centers.col(static_cast<Eigen::Index>(b)) = at;
     double& radius = scene.radii[b];
     radius = 0.5;
-    if (sizes == 1) radius = uniform(chance, 0, 1);
-    if (sizes == 2) radius = 0.5 * static_cast<double>(chance() % 3);
-    if (sizes == 3 && chance() % 10 == 0) radius = std::exp(uniform(chance, -20, 3));
+    if (sizes == 1) radius = uniform(random, 0, 1);
+    if (sizes == 2) radius = 0.5 * static_cast<double>(random() % 3);
+    if (sizes == 3 && random() % 10 == 0) radius = std::exp(uniform(random, -20, 3));
   }
   scene.name = "places " + std::to_string(places) + ", sizes " + std::to_string(sizes);
   // Sizes and places where floats, or doubles, over- and underflow, or see little.
   constexpr double smallest = std::numeric_limits<double>::denorm_min();
   const std::vector<double> scales{1,       1,        1,     0x1p100, 0x1p-100,
                                    0x1p140, 0x1p-160, 1e300, 1e-300,  1e4 * smallest};
-  const double scale = scales[chance() % scales.size()];
+  const double scale = scales[random() % scales.size()];
   scene.centers *= scale;
   for (double& r : scene.radii) r *= scale;
   scene.name += ", scale " + std::to_string(std::log2(scale));
-  if (chance() % 3 == 0) {
+  if (random() % 3 == 0) {
     const std::vector<double> offsets{1e3, 1e7, 1e12, 1e16};
-    const double offset = offsets[chance() % offsets.size()] * scale;
+    const double offset = offsets[random() % offsets.size()] * scale;
     if (std::isfinite(offset * 1e4))
-      scene.centers.row(static_cast<Eigen::Index>(chance() % 2)).array() += offset;
+      scene.centers.row(static_cast<Eigen::Index>(random() % 2)).array() += offset;
     scene.name += ", offset " + std::to_string(std::log2(offset));
   }
-  if (beads > 2 && chance() % 8 == 0) {
+  if (beads > 2 && random() % 8 == 0) {
     scene.centers.col(1) *= -1e7;  // one far away: a wide frame for all the others
     if (!scene.centers.allFinite()) scene.centers.col(1).setConstant(-1.7e308);
     scene.name += ", one far";

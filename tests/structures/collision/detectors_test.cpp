@@ -13,7 +13,7 @@
 #include "tests/support/judges/colliding_pairs.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::detectors_test {
 namespace {
 
 using namespace test;
@@ -213,4 +213,4 @@ TEST(Detectors, TheDiagramRefusesWhatItDoesNotAnswer) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::detectors_test

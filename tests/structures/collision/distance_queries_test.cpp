@@ -13,7 +13,7 @@
 #include "tests/structures/collision/collision_scenes.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::distance_queries_test {
 namespace {
 
 using namespace test;
@@ -43,7 +43,7 @@ void expect_right(DistanceQueries<Dimension>& queries, const PairsAsked& asked,
 }
 
 template <int Dimension>
-void expect_right_in_motion(const CollisionScene& scene, Chance& chance) {
+void expect_right_in_motion(const CollisionScene& scene, Random& random) {
   DistanceQueries<Dimension> queries(scene.asked);
   Balls<Dimension> balls(scene.centers, scene.radii);
   Eigen::Matrix3Xd centers = scene.centers;
@@ -51,7 +51,7 @@ void expect_right_in_motion(const CollisionScene& scene, Chance& chance) {
   // The pair that was closest may be the farthest in the next frame.
   for (const double step : {0.0, 1e-3 * size, size}) {
     for (Eigen::Index b = 0; step > 0 && b < centers.cols(); ++b)
-      for (Eigen::Index axis = 0; axis < 3; ++axis) centers(axis, b) += uniform(chance, -step, step);
+      for (Eigen::Index axis = 0; axis < 3; ++axis) centers(axis, b) += uniform(random, -step, step);
     balls.move_to(centers);
     expect_right(queries, scene.asked, balls);
   }
@@ -59,11 +59,11 @@ void expect_right_in_motion(const CollisionScene& scene, Chance& chance) {
 
 TEST(DistanceQueries, RandomScenesOfAllSizesAndPlaces) {
   for (unsigned seed = 0; seed < rounds(16U); ++seed) {
-    Chance chance(seed);
-    const CollisionScene scene = random_scene(chance, 40);
+    Random random(seed);
+    const CollisionScene scene = random_scene(random, 40);
     SCOPED_TRACE("seed " + std::to_string(seed));
-    expect_right_in_motion<3>(scene, chance);
-    expect_right_in_motion<2>(scene, chance);
+    expect_right_in_motion<3>(scene, random);
+    expect_right_in_motion<2>(scene, random);
     if (HasFailure()) return;
   }
 }
@@ -100,8 +100,8 @@ TEST(DistanceQueries, MorePairsEquallyFarApartThanAreListed) {
 }
 
 TEST(DistanceQueries, BesideKeptPairs) {
-  Chance chance(7);
-  CollisionScene scene = random_scene(chance, 300);
+  Random random(7);
+  CollisionScene scene = random_scene(random, 300);
   scene.radii.assign(scene.radii.size(), 0.01);
   AutoDetector<3> detector(scene.asked);
   for (int frame = 0; frame < 20; ++frame) {
@@ -113,4 +113,4 @@ TEST(DistanceQueries, BesideKeptPairs) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::distance_queries_test

@@ -12,7 +12,7 @@
 #include "tests/structures/collision/collision_scenes.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::kept_lists_test {
 namespace {
 
 using namespace test;
@@ -21,36 +21,36 @@ enum class Moves { rest, slow, fast, slow_then_jump, one_teleports, all_fly_on, 
 constexpr unsigned moves_count = 9;
 
 /// How far the farthest bead goes in this frame.
-double move(CollisionScene& scene, Moves moves, int frame, Chance& chance) {
+double move(CollisionScene& scene, Moves moves, int frame, Random& random) {
   const Eigen::Matrix3Xd before = scene.centers;
   const double unit = 0.5;
   double step = 0;
   if (moves == Moves::slow || moves == Moves::slow_then_jump) step = 0.01 * unit;
   if (moves == Moves::fast) step = unit;
-  if (moves == Moves::any && chance() % 3 != 0) step = unit * std::exp(uniform(chance, -8, 1));
+  if (moves == Moves::any && random() % 3 != 0) step = unit * std::exp(uniform(random, -8, 1));
   for (Eigen::Index b = 0; b < scene.centers.cols(); ++b)
     scene.centers.col(b) +=
-        step * Eigen::Vector3d(uniform(chance, -1, 1), uniform(chance, -1, 1), uniform(chance, -1, 1));
+        step * Eigen::Vector3d(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
   if (moves == Moves::tail) {
     scene.centers.array() += 1e-4;
     for (Eigen::Index b = scene.centers.cols() * 9 / 10; b < scene.centers.cols(); ++b)
       scene.centers.col(b) +=
-          unit * Eigen::Vector3d(uniform(chance, -1, 1), uniform(chance, -1, 1), uniform(chance, -1, 1));
+          unit * Eigen::Vector3d(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
   }
   if (moves == Moves::together) scene.centers.row(0).array() += 0.05;
   if (moves == Moves::all_fly_on) scene.centers *= 1.01;
   if ((moves == Moves::slow_then_jump && frame % 12 == 11) || moves == Moves::one_teleports)
-    scene.centers.col(static_cast<Eigen::Index>(chance() % scene.radii.size())) *= uniform(chance, -2, 2);
+    scene.centers.col(static_cast<Eigen::Index>(random() % scene.radii.size())) *= uniform(random, -2, 2);
   return (scene.centers - before).colwise().norm().maxCoeff() * (1 + 1e-12);
 }
 
 /// How many repairs there were.
 template <int Dimension>
 std::uint64_t follow(unsigned seed) {
-  Chance chance(seed);
+  Random random(seed);
   CollisionScene scene;
   do {
-    scene = random_scene(chance, 80);
+    scene = random_scene(random, 80);
   } while (scene.centers.cwiseAbs().maxCoeff() > 1e5 || scene.centers.cwiseAbs().maxCoeff() < 1e-5);
   const auto moves = static_cast<Moves>(seed % moves_count);
   constexpr int frames = 40;
@@ -58,7 +58,7 @@ std::uint64_t follow(unsigned seed) {
   std::vector<std::vector<BeadPair>> expected;
   double speed = 0;
   for (int k = 0; k < frames; ++k) {
-    if (k > 0) speed = std::max(speed, move(scene, moves, k, chance));
+    if (k > 0) speed = std::max(speed, move(scene, moves, k, random));
     balls.emplace_back(scene.centers, scene.radii);
     expected.push_back(all_pairs(scene.centers, scene.radii, scene.asked, Dimension));
   }
@@ -95,14 +95,14 @@ TEST(KeptLists, SamePairsAtEveryFrameHoweverBeadsMove) {
 
 /// A gas, which is put in spatial order, its last beads in a corner; or straight chains side by side whose
 /// beads touch exactly.
-CollisionScene many_beads(Chance& chance, int dimension, bool gas, bool equal) {
+CollisionScene many_beads(Random& random, int dimension, bool gas, bool equal) {
   constexpr Eigen::Index beads = 4000;
   CollisionScene scene{
       gas ? "gas" : "chains", Eigen::Matrix3Xd(3, beads), std::vector<double>(beads, 0.5), {}};
   const double size = dimension == 2 ? 100 : 20;
   for (Eigen::Index b = 0; b < beads; ++b) {
     const auto along = static_cast<double>(b % 100), chain = static_cast<double>(b / 100);
-    const Eigen::Vector3d anywhere(uniform(chance), uniform(chance), uniform(chance));
+    const Eigen::Vector3d anywhere(uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1));
     scene.centers.col(b) = Eigen::Vector3d(along, chain, 0);
     if (gas)
       scene.centers.col(b) = size * (b < 3800 ? anywhere : Eigen::Vector3d(0.3 * anywhere.array() + 1));
@@ -115,15 +115,15 @@ CollisionScene many_beads(Chance& chance, int dimension, bool gas, bool equal) {
 // A tail swings, a bead goes out of the frame of floats and comes back, again and again, all others creep.
 template <int Dimension>
 void swing_tail(bool gas, bool equal) {
-  Chance chance(1);
-  CollisionScene scene = many_beads(chance, Dimension, gas, equal);
+  Random random(1);
+  CollisionScene scene = many_beads(random, Dimension, gas, equal);
   AutoDetector<Dimension> detector(scene.asked);
   CellList<Dimension> cells(scene.asked);
   constexpr std::uint64_t frames = 40;
   for (std::uint64_t k = 0; k < frames; ++k) {
     for (Eigen::Index b = 3800; b < 4000; ++b)
       scene.centers.col(b) +=
-          0.3 * Eigen::Vector3d(uniform(chance, -1, 1), uniform(chance, -1, 1), uniform(chance, -1, 1));
+          0.3 * Eigen::Vector3d(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
     scene.centers.row(0).array() += 0.002;
     if (k % 10 == 7) scene.centers.col(100) *= -1e3;
     if (k % 10 == 8) scene.centers.col(100) /= -1e3;
@@ -174,12 +174,12 @@ TEST(KeptLists, DistantNecklacesAreNotReadWithADeclaredSpeed) {
 
 // Two clouds at some distance: a skin as wide as that would have all pairs of them to keep.
 TEST(KeptLists, SkinsAreNotWidenedUntilEverythingIsNear) {
-  Chance chance(1);
+  Random random(1);
   constexpr Eigen::Index count = 6000;
   Eigen::Matrix3Xd centers(3, 2 * count);
   for (Eigen::Index b = 0; b < centers.cols(); ++b)
-    centers.col(b) = Eigen::Vector3d(uniform(chance, 0, 20) + (b < count ? 0 : 40), uniform(chance, 0, 20),
-                                     uniform(chance, 0, 20));
+    centers.col(b) = Eigen::Vector3d(uniform(random, 0, 20) + (b < count ? 0 : 40), uniform(random, 0, 20),
+                                     uniform(random, 0, 20));
   const std::vector<double> radii(2 * count, 0.1);
   const PairsAsked asked{{{0, count - 1}, {count, 2 * count - 1}}, false, 2, true};
   AutoDetector<3> detector(asked);
@@ -223,14 +223,14 @@ TEST(KeptLists, ChangedRadiiAreNoticed) {
 }
 
 TEST(KeptLists, SlowMotionKeepsAndFastMotionDoesNot) {
-  Chance chance(1);
+  Random random(1);
   for (const double step : {0.001, 2.0}) {
     Eigen::Matrix3Xd centers = straight(300, 0);
     const std::vector<double> radii(300, 0.5);
     AutoDetector<3> detector({{{0, 299}}, true, 2, true});
     for (int k = 0; k < 60; ++k) {
       for (Eigen::Index b = 0; b < centers.cols(); ++b)
-        centers.col(b) += step * Eigen::Vector3d(uniform(chance, -1, 1), uniform(chance, -1, 1), 0);
+        centers.col(b) += step * Eigen::Vector3d(uniform(random, -1, 1), uniform(random, -1, 1), 0);
       ASSERT_EQ(detector.pairs(Balls<3>(centers, radii)),
                 all_pairs(centers, radii, detector.tree().asked(), 3));
     }
@@ -243,4 +243,4 @@ TEST(KeptLists, SlowMotionKeepsAndFastMotionDoesNot) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::kept_lists_test

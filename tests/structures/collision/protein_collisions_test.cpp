@@ -7,7 +7,7 @@
 #include "tests/structures/collision/detectors.h"
 #include "tests/support/inputs/moving_beads.h"
 
-namespace kds {
+namespace kds::protein_collisions_test {
 namespace {
 
 using namespace test;
@@ -101,4 +101,4 @@ TEST(ProteinCollisions, BetweenChains) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::protein_collisions_test

@@ -10,7 +10,7 @@
 #include "motions/models/shapes.h"
 #include "structures/collision/hierarchy_search.h"
 
-namespace kds {
+namespace kds::separating_family_test {
 namespace {
 
 using testing::HasSubstr;
@@ -142,4 +142,4 @@ TEST(SeparatingFamily, SizesOfPackedGrids) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::separating_family_test

@@ -15,7 +15,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
 
-namespace kds {
+namespace kds::contacts_test {
 namespace {
 
 using namespace test;
@@ -492,4 +492,4 @@ TEST(Contacts, RefuseChangesThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::contacts_test

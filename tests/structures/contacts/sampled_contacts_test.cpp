@@ -9,7 +9,7 @@
 #include "structures/session/session.h"
 #include "tests/support/inputs/moving_beads.h"
 
-namespace kds {
+namespace kds::sampled_contacts_test {
 namespace {
 
 using namespace test;
@@ -101,4 +101,4 @@ TEST(SampledContacts, OfAProteinMostAreMissedBetweenFrames) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::sampled_contacts_test

@@ -10,7 +10,7 @@
 #include "tests/support/judges/cages_hold.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::swept_contacts_test {
 namespace {
 
 using namespace test;
@@ -130,4 +130,4 @@ TEST(SweptContacts, RefusesCurves) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::swept_contacts_test

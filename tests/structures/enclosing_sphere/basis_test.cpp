@@ -11,7 +11,7 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/judges/exact_checks.h"
 
-namespace kds {
+namespace kds::basis_test {
 namespace {
 
 using namespace test;
@@ -201,4 +201,4 @@ TEST(BeadNames, NamesInfinity) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::basis_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/inputs/ball_sets.h"
 
-namespace kds {
+namespace kds::enclosing_sphere_test {
 namespace {
 
 using namespace test;
@@ -81,4 +81,4 @@ TEST(Balls, RefuseWhatIsNoNumberAndNameTheBead) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::enclosing_sphere_test

@@ -8,7 +8,7 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/judges/exact_checks.h"
 
-namespace kds {
+namespace kds::exact_sphere_test {
 namespace {
 
 using namespace test;
@@ -84,4 +84,4 @@ TEST(ExactSphereOf, SquaresMayLeaveTheRangeOfDouble) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::exact_sphere_test

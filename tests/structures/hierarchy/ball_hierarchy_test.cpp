@@ -14,7 +14,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
 
-namespace kds {
+namespace kds::ball_hierarchy_test {
 namespace {
 
 using namespace test;
@@ -359,4 +359,4 @@ TEST(NodeSelection, WhatAQueryAsksFor) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::ball_hierarchy_test

@@ -18,7 +18,7 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/property_runs.h"
 
-namespace kds {
+namespace kds::hierarchy_cgal_test {
 namespace {
 
 using namespace test;
@@ -129,4 +129,4 @@ TEST(CagesBesideCgal, OfHardSets) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::hierarchy_cgal_test

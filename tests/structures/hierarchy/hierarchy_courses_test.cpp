@@ -15,7 +15,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::hierarchy_courses_test {
 namespace {
 
 using namespace test;
@@ -323,4 +323,4 @@ TEST(HierarchyCourses, ThereMustBeSuchABead) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::hierarchy_courses_test

@@ -12,7 +12,7 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 
-namespace kds {
+namespace kds::hierarchy_parts_test {
 namespace {
 
 using namespace test;
@@ -129,4 +129,4 @@ TEST(NodeGuards, HoldACertificateUntilItIsDropped) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::hierarchy_parts_test

@@ -10,7 +10,7 @@
 #include "structures/necklace/balls.h"
 #include "tests/support/inputs/ball_sets.h"
 
-namespace kds {
+namespace kds::layered_hierarchy_test {
 namespace {
 
 using namespace test;
@@ -164,4 +164,4 @@ TEST(LayeredHierarchy, HoldsItsChildrenTouchingThem) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::layered_hierarchy_test

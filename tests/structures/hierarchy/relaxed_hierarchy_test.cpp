@@ -12,7 +12,7 @@
 #include "tests/support/judges/exact_checks.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::relaxed_hierarchy_test {
 namespace {
 
 using namespace test;
@@ -377,4 +377,4 @@ TEST(RelaxedHierarchy, AProteinWithTwoSizesOfBeads) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::relaxed_hierarchy_test

@@ -8,7 +8,7 @@
 #include "tests/support/inputs/ball_sets.h"
 #include "tests/support/inputs/moving_beads.h"
 
-namespace kds {
+namespace kds::static_wrapped_hierarchy_test {
 namespace {
 
 using namespace test;
@@ -277,4 +277,4 @@ TEST(StaticWrappedHierarchy, TrustedBasesHaveABoundOnWhatSticksOut) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::static_wrapped_hierarchy_test

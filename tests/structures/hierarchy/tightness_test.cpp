@@ -11,7 +11,7 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::tightness_test {
 namespace {
 
 using namespace test;
@@ -119,4 +119,4 @@ TEST(Tightness, RatiosOfKnownCages) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::tightness_test

@@ -12,7 +12,7 @@
 #include "tests/support/judges/exact_checks.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::wrapped_hierarchy_test {
 namespace {
 
 using namespace test;
@@ -507,4 +507,4 @@ TEST(WrappedHierarchy, NodesRestInSlowMotion) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::wrapped_hierarchy_test

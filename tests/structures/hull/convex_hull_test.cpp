@@ -16,7 +16,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
 
-namespace kds {
+namespace kds::convex_hull_test {
 namespace {
 
 using namespace test;
@@ -302,4 +302,4 @@ TEST(ConvexHull, RefusesChangesThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::convex_hull_test

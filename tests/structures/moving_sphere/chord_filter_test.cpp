@@ -12,7 +12,7 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 
-namespace kds {
+namespace kds::chord_filter_test {
 namespace {
 
 using namespace test;
@@ -159,4 +159,4 @@ TEST(SteadyNodes, RadiiCanBeLeftOut) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::chord_filter_test

@@ -20,7 +20,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/integer_search.h"
 
-namespace kds {
+namespace kds::gap_root_test {
 namespace {
 
 using namespace test;
@@ -285,4 +285,4 @@ TEST(SphereCrossing, SignsOfAFastBall) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::gap_root_test

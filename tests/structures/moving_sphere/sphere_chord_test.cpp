@@ -19,7 +19,7 @@
 #include "tests/support/judges/integer_search.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::sphere_chord_test {
 namespace {
 
 using namespace test;
@@ -524,4 +524,4 @@ TEST(SpherePath, PrunesCertificatesInSlowMotion) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::sphere_chord_test

@@ -14,7 +14,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::sphere_slack_test {
 namespace {
 
 using namespace test;
@@ -174,4 +174,4 @@ TEST(NodeSlack, ABeadThatGoesAwayAndBackWithinAStep) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::sphere_slack_test

@@ -11,7 +11,7 @@
 #include "tests/support/judges/ball_gaps.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::ball_distance_test {
 namespace {
 
 using namespace test;
@@ -120,4 +120,4 @@ TEST(ExactTotal, WhatOverOrUnderflowsIsNotExact) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::ball_distance_test

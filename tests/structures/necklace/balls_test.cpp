@@ -11,7 +11,7 @@
 #include "motions/curves/bezier_motion.h"
 #include "tests/support/inputs/random_motion.h"
 
-namespace kds {
+namespace kds::balls_test {
 namespace {
 
 using namespace test;
@@ -150,4 +150,4 @@ TEST(Balls, NameTheBeadThatIsNone) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::balls_test

@@ -12,7 +12,7 @@
 #include "motions/readers/write_trajectory.h"
 #include "structures/necklace/necklace.h"
 
-namespace kds::models {
+namespace kds::models::model_necklaces_test {
 namespace {
 
 NecklaceReport validate_frame(const Eigen::Matrix3Xd& frame) {
@@ -146,4 +146,4 @@ TEST(TightnessPoints, MakeTheLayeredHierarchyAsWideAsLemma25Says) {
 }
 
 }  // namespace
-}  // namespace kds::models
+}  // namespace kds::models::model_necklaces_test

@@ -15,7 +15,7 @@
 #include "motions/scene/radii.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::necklace_test {
 namespace {
 
 using List = std::vector<Violation>;
@@ -253,4 +253,4 @@ TEST(Necklace, ManyBeadsTakeLittleTime) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::necklace_test

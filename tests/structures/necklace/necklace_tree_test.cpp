@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-namespace kds {
+namespace kds::necklace_tree_test {
 namespace {
 
 std::size_t height(const NecklaceTree& tree, NodeId node) {
@@ -97,4 +97,4 @@ TEST(NecklaceTree, FindsExactlyItsNodes) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::necklace_tree_test

@@ -4,7 +4,7 @@
 #include "motions/base/input_error.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::degenerate_diagram_test {
 namespace {
 
 using namespace test;
@@ -138,4 +138,4 @@ TEST(PowerDiagram, FastAlwaysEnds) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::degenerate_diagram_test

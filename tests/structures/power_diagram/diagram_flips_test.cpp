@@ -6,7 +6,7 @@
 
 #include "tests/structures/power_diagram/bare_diagram.h"
 
-namespace kds {
+namespace kds::diagram_flips_test {
 namespace {
 
 using namespace test;
@@ -42,4 +42,4 @@ TEST(DiagramFlips, AreUndone) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::diagram_flips_test

@@ -8,7 +8,7 @@
 #include "structures/power_diagram/static_diagrams.h"
 #include "tests/structures/power_diagram/bare_diagram.h"
 
-namespace kds {
+namespace kds::diagram_rebuilder_test {
 namespace {
 
 using namespace test;
@@ -66,4 +66,4 @@ TEST(StaticDiagrams, AreOfTheBeadsPresent) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::diagram_rebuilder_test

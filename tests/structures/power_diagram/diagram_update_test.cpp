@@ -11,7 +11,7 @@
 #include "motions/curves/positions.h"
 #include "tests/support/inputs/moving_beads.h"
 
-namespace kds {
+namespace kds::diagram_update_test {
 namespace {
 
 using namespace test;
@@ -291,4 +291,4 @@ TEST(DiagramUpdate, TooFewBeads) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::diagram_update_test

@@ -18,7 +18,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::facet_filter_test {
 namespace {
 
 /// On integers.
@@ -429,4 +429,4 @@ TEST(FacetFilter, OfAFewAreFinite) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::facet_filter_test

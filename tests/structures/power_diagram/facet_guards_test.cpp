@@ -6,7 +6,7 @@
 
 #include "tests/structures/power_diagram/bare_diagram.h"
 
-namespace kds {
+namespace kds::facet_guards_test {
 namespace {
 
 using namespace test;
@@ -112,4 +112,4 @@ TEST(FacetGuards, AreGivenUpInDoubtWhereTheyFailNow) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::facet_guards_test

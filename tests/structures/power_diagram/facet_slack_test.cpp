@@ -12,7 +12,7 @@
 #include "structures/triangulation/facet_certificate.h"
 #include "tests/support/inputs/random_motion.h"
 
-namespace kds {
+namespace kds::facet_slack_test {
 namespace {
 
 constexpr std::size_t beads = 150;
@@ -103,4 +103,4 @@ TEST(FacetSlack, HoldWhereBeadsStrayLess) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::facet_slack_test

@@ -4,7 +4,7 @@
 #include "motions/base/input_error.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::flat_frames_test {
 namespace {
 
 using namespace test;
@@ -183,4 +183,4 @@ TEST(PowerDiagram, FlatAtTwoTimesIsNotFlatForGood) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::flat_frames_test

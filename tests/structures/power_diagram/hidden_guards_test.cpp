@@ -6,7 +6,7 @@
 
 #include "tests/structures/power_diagram/bare_diagram.h"
 
-namespace kds {
+namespace kds::hidden_guards_test {
 namespace {
 
 using namespace test;
@@ -77,4 +77,4 @@ TEST(HiddenGuards, WalksArriveFromAnywhere) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::hidden_guards_test

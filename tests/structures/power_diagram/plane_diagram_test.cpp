@@ -14,7 +14,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
 
-namespace kds {
+namespace kds::plane_diagram_test {
 namespace {
 
 using namespace test;
@@ -240,4 +240,4 @@ TEST(PlaneDiagram, KernelsHouseHiddenBeadsAtVerticesAlike) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::plane_diagram_test

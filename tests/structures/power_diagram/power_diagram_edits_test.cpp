@@ -17,7 +17,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::power_diagram_edits_test {
 namespace {
 
 using namespace test;
@@ -382,4 +382,4 @@ TEST(PowerDiagramEdits, CostFollowsTheDegree) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::power_diagram_edits_test

@@ -17,7 +17,7 @@
 #if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
 #include <malloc.h>
 
-namespace kds {
+namespace kds::power_diagram_memory_test {
 namespace {
 
 using namespace test;
@@ -94,6 +94,6 @@ TEST(PowerDiagramMemory, IsBelowOneAndAHalfKilobytesABead) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::power_diagram_memory_test
 
 #endif

@@ -12,7 +12,7 @@
 #include "tests/structures/power_diagram/audited_diagram.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::power_diagram_test {
 namespace {
 
 using namespace test;
@@ -235,4 +235,4 @@ TEST(PowerDiagram, RefusesASecondEdgeBetweenTwoBeads) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::power_diagram_test

@@ -12,7 +12,7 @@
 #include "structures/power_diagram/power_diagram.h"
 #include "tests/support/inputs/moving_beads.h"
 
-namespace kds {
+namespace kds::regular_scenes_test {
 namespace {
 
 using namespace test;
@@ -129,4 +129,4 @@ TEST(RegularScenes, WhatHappensBesideABlockIsNotLost) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::regular_scenes_test

@@ -1,7 +1,7 @@
 // Beads that creep, rest, or all move alike.
 #include "tests/structures/power_diagram/audited_diagram.h"
 
-namespace kds {
+namespace kds::slow_diagram_test {
 namespace {
 
 using namespace test;
@@ -61,4 +61,4 @@ TEST(PowerDiagram, ATranslationGivesNoEvent) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::slow_diagram_test

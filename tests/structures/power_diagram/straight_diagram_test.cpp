@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "tests/structures/power_diagram/audited_diagram.h"
+#include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::straight_diagram_test {
 namespace {
 
 using namespace test;
@@ -72,7 +73,7 @@ std::uint64_t expect_as_exact(const std::vector<M>& steps, AuditMode audits) {
 
 template <class M>
 void expect_as_exact_however_many_turn() {
-  for (unsigned seed = 0; seed < 8; ++seed) {
+  for (unsigned seed = 0; seed < rounds(8U, 2U); ++seed) {
     SCOPED_TRACE(seed);
     Walk walk;
     walk.turning = std::array{0.0, 0.04, 0.1, 0.9}[seed % 4];
@@ -92,7 +93,7 @@ TEST(PowerDiagram, FacetsOfBeadsThatGoStraightOnRest) {
 
 // Events where steps meet, where beads turn, and at other times that are shared.
 TEST(PowerDiagram, FacetsRestAlsoWhereMuchHappensAtOnce) {
-  for (unsigned seed = 0; seed < 12; ++seed) {
+  for (unsigned seed = 0; seed < rounds(12U, 2U); ++seed) {
     SCOPED_TRACE(seed);
     const Walk walk{1, 6, 1, seed % 2 == 0 ? 0.1 : 0.02, 0.5, false};
     const auto steps = steps_of<BezierMotion<3, 1>>(walk, 24, 9, seed);
@@ -118,7 +119,7 @@ TEST(PowerDiagram, WhatIsRoundedDoesNotRest) {
 // A course that changes within a step ends what was known of its bead, whether or not it is taken up again.
 TEST(PowerDiagram, FacetsDoNotRestAcrossAChangeOfCourse) {
   using M = BezierMotion<3, 1>;
-  for (unsigned seed = 0; seed < 3; ++seed) {
+  for (unsigned seed = 0; seed < rounds(3U); ++seed) {
     SCOPED_TRACE(seed);
     Walk walk;
     walk.turning = 0;
@@ -155,4 +156,4 @@ TEST(PowerDiagram, FacetsDoNotRestAcrossAChangeOfCourse) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::straight_diagram_test

@@ -13,7 +13,7 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 
-namespace kds {
+namespace kds::weighted_diagram_test {
 namespace {
 
 using namespace test;
@@ -118,4 +118,4 @@ TEST(LiftedDiagram, CommonDriftChangesNothing) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::weighted_diagram_test

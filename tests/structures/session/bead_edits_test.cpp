@@ -20,7 +20,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::bead_edits_test {
 namespace {
 
 using namespace test;
@@ -496,4 +496,4 @@ TEST(BeadEdits, AreNotForListenersAndAListenerThatThrowsEndsTheRun) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::bead_edits_test

@@ -16,7 +16,7 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/text_of.h"
 
-namespace kds {
+namespace kds::box_closest_hull_edits_test {
 namespace {
 
 using namespace test;
@@ -276,4 +276,4 @@ TEST(BoxClosestHullEdits, AuditsLookAtThePresentAlone) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::box_closest_hull_edits_test

@@ -21,7 +21,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
 
-namespace kds {
+namespace kds::box_closest_hull_random_edits_test {
 namespace {
 
 using namespace test;
@@ -329,4 +329,4 @@ TEST(BoxClosestHullRandomEdits, KernelsAgreeAndFastEnds) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::box_closest_hull_random_edits_test

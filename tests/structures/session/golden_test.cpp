@@ -9,7 +9,7 @@
 #include "structures/sorted/sorted_list.h"
 #include "tests/support/inputs/moving_beads.h"
 
-namespace kds {
+namespace kds::golden_test {
 namespace {
 
 using namespace test;
@@ -71,4 +71,4 @@ TEST(Golden, Wrapped) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::golden_test

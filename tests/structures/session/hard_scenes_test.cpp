@@ -13,7 +13,7 @@
 #include "motions/base/input_error.h"
 #include "structures/session/session.h"
 
-namespace kds {
+namespace kds::hard_scenes_test {
 namespace {
 
 using namespace test;
@@ -95,4 +95,4 @@ TEST(HardScenes, OfBallsOnALatticeInHermiteMotion) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::hard_scenes_test

@@ -12,7 +12,7 @@
 #include "tests/support/inputs/host_environment.h"
 #include "tests/support/inputs/moving_beads.h"
 
-namespace kds {
+namespace kds::host_environment_test {
 namespace {
 
 using namespace test;
@@ -109,4 +109,4 @@ TEST_P(InHost, ClosestPair) {
 INSTANTIATE_TEST_SUITE_P(All, InHost, testing::ValuesIn(host_environments));
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::host_environment_test

@@ -19,7 +19,7 @@
 #include "structures/sorted/sorted_list.h"
 #include "tests/support/inputs/random_motion.h"
 
-namespace kds {
+namespace kds::kinetic_run_test {
 namespace {
 
 using namespace test;
@@ -525,4 +525,4 @@ TEST(EventWriters, CsvHasItsHeaderWithoutEventsTimesOrFrames) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::kinetic_run_test

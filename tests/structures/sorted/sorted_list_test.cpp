@@ -10,7 +10,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
 
-namespace kds {
+namespace kds::sorted_list_test {
 namespace {
 
 using namespace test;
@@ -265,4 +265,4 @@ TEST(SortedList, SortsAlongTheFirstAxis) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::sorted_list_test

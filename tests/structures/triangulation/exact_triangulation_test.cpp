@@ -13,7 +13,7 @@
 #include "tests/support/judges/cgal_triangulation.h"
 #include "tests/support/judges/exact_checks.h"
 
-namespace kds {
+namespace kds::exact_triangulation_test {
 namespace {
 
 using namespace test;
@@ -132,4 +132,4 @@ TEST(ExactTriangulation, IsRightInThePlane) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::exact_triangulation_test

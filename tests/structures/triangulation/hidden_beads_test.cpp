@@ -14,7 +14,7 @@
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::hidden_beads_test {
 namespace {
 
 using namespace test;
@@ -233,4 +233,4 @@ TEST(HiddenBead, RandomMotions) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::hidden_beads_test

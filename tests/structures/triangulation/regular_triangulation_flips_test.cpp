@@ -9,7 +9,7 @@
 #include "tests/support/judges/triangulation_checks.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::regular_triangulation_flips_test {
 namespace {
 
 using namespace test;
@@ -224,4 +224,4 @@ TEST(RegularTriangulation, FlipsBeforeABuildAreForgotten) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::regular_triangulation_flips_test

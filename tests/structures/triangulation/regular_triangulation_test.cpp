@@ -9,7 +9,7 @@
 #include "structures/triangulation/snapshot_faults.h"
 #include "tests/support/judges/triangulation_checks.h"
 
-namespace kds {
+namespace kds::regular_triangulation_test {
 namespace {
 
 using namespace test;
@@ -231,4 +231,4 @@ TEST(RegularTriangulation, PointsFollowAMotion) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::regular_triangulation_test

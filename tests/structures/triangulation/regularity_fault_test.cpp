@@ -9,7 +9,7 @@
 #include "certificates/search/snapshot_sign.h"
 #include "structures/triangulation/snapshot_faults.h"
 
-namespace kds {
+namespace kds::regularity_fault_test {
 namespace {
 
 using testing::HasSubstr;
@@ -70,4 +70,4 @@ TEST(RegularityFault, IsFound) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::regularity_fault_test

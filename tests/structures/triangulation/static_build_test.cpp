@@ -7,7 +7,7 @@
 #include "structures/necklace/necklace_tree.h"
 #include "tests/support/judges/triangulation_checks.h"
 
-namespace kds {
+namespace kds::static_build_test {
 namespace {
 
 TEST(StaticBuild, TakesTime) {
@@ -19,4 +19,4 @@ TEST(StaticBuild, TakesTime) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::static_build_test

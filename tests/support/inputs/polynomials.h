@@ -2,22 +2,17 @@
 // Random polynomials in scaled Bernstein form with whole coefficients, made to be hard to isolate.
 
 #include <cstdint>
-#include <random>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "motions/numbers/exact_number.h"
+#include "tests/support/inputs/random.h"
 
 namespace kds::test {
 
 using Scaled = std::vector<Integer>;
-using Random = std::mt19937_64;
-
-inline int pick(Random& random, int low, int high) {
-  return std::uniform_int_distribution<int>(low, high)(random);
-}
 
 inline Scaled product(const Scaled& a, const Scaled& b) {
   Scaled c(a.size() + b.size() - 1);
@@ -207,24 +202,6 @@ inline std::pair<Scaled, Scaled> close_relatives(Random& random) {
   const Scaled near = rational ? linear(p * s + change, q * s)
                                : quadratic(2 * q * q * s, -4 * p * q * s, (2 * p * p - 1) * s + change);
   return {product(common, random_linear(random)), product(common, near)};
-}
-
-/// A dyadic in [0,1], often a special one.
-inline Dyadic random_dyadic(Random& random) {
-  switch (pick(random, 0, 4)) {
-    case 0:
-      return Dyadic(0.0);
-    case 1:
-      return Dyadic(0.5);
-    case 2: {
-      const int bits = pick(random, 1, 6);
-      return Dyadic(Integer(pick(random, 0, 1 << bits)), static_cast<unsigned>(bits));
-    }
-    default: {
-      const auto bits = static_cast<unsigned>(pick(random, 20, 64));
-      return Dyadic(Integer(random()) >> (64 - bits), bits);
-    }
-  }
 }
 
 inline std::string describe(std::span<const Integer> p) {

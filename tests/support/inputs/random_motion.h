@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "motions/curves/bezier_motion.h"
-#include "tests/support/inputs/polynomials.h"
+#include "tests/support/inputs/random.h"
 
 namespace kds::test {
 
@@ -29,10 +29,6 @@ inline constexpr std::array all_motion_kinds{
     MotionKind::generic,    MotionKind::grid,        MotionKind::coincident,  MotionKind::collinear,
     MotionKind::planar,     MotionKind::cospherical, MotionKind::at_rest,     MotionKind::ulp_steps,
     MotionKind::tiny_steps, MotionKind::far_away,    MotionKind::mixed_scales};
-
-inline double uniform(Random& random, double low = -1, double high = 1) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 template <Motion M>
 M random_motion(Random& random, std::size_t beads, MotionKind kind) {

@@ -11,7 +11,7 @@
 
 #include "tests/experiments/sound_page.h"
 
-namespace kds {
+namespace kds::rows_plot_test {
 namespace {
 
 using test::count_of;
@@ -55,4 +55,4 @@ TEST(RowsPlot, NothingToShowIsNoFailure) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::rows_plot_test

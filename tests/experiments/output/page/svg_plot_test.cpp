@@ -13,7 +13,7 @@
 #include "experiments/output/page/page_svg.h"
 #include "tests/experiments/sound_page.h"
 
-namespace kds {
+namespace kds::svg_plot_test {
 namespace {
 
 using test::count_of;
@@ -183,4 +183,4 @@ TEST(SvgPlot, LongCurvesHaveNoMorePlacesThanPixels) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::svg_plot_test
