@@ -9,7 +9,7 @@
 
 #include "kds/change.h"
 #include "kds/statistics.h"
-#include "motions/readers/frame_stamp.h"
+#include "motions/frames/frame_stamp.h"
 
 namespace kds {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "motions/readers/frame_reader.h"
+#include "motions/frames/frame_reader.h"
 
 namespace kds {
 

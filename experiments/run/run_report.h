@@ -13,7 +13,7 @@
 #include "experiments/events/event_places.h"
 #include "experiments/program/timing.h"
 #include "experiments/run/certify_stride.h"
-#include "motions/readers/frame_reader.h"
+#include "motions/frames/frame_reader.h"
 
 namespace kds {
 

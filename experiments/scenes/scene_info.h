@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/readers/trajectory.h"
+#include "motions/frames/trajectory.h"
 #include "structures/necklace/necklace.h"
 
 namespace kds {

@@ -8,7 +8,7 @@
 
 #include "experiments/trade/match_contacts.h"
 #include "motions/base/bead_range.h"
-#include "motions/readers/trajectory.h"
+#include "motions/frames/trajectory.h"
 
 namespace kds {
 

@@ -10,7 +10,7 @@
 
 #include "experiments/trade/calpha_model.h"
 #include "experiments/trade/trade_setting.h"
-#include "motions/readers/trajectory.h"
+#include "motions/frames/trajectory.h"
 #include "motions/scene/scene.h"
 #include "motions/scene/stride_deviation.h"
 #include "structures/collision/pairs_asked.h"

@@ -9,7 +9,7 @@
 
 #include "experiments/program/timing.h"
 #include "motions/base/input_error.h"
-#include "motions/readers/every_nth.h"
+#include "motions/frames/every_nth.h"
 #include "structures/power_diagram/diagram_update.h"
 #include "structures/session/session.h"
 #include "structures/triangulation/snapshot_faults.h"

@@ -10,7 +10,7 @@
 
 #include "experiments/program/timing.h"
 #include "experiments/update/update_options.h"
-#include "motions/readers/trajectory.h"
+#include "motions/frames/trajectory.h"
 #include "structures/triangulation/regular_triangulation.h"
 
 namespace kds {

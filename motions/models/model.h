@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "motions/readers/trajectory.h"
+#include "motions/frames/trajectory.h"
 
 namespace kds::models {
 

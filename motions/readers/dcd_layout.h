@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/readers/frame_selection.h"
+#include "motions/frames/frame_selection.h"
 
 namespace kds {
 

@@ -10,7 +10,7 @@
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
-#include "motions/readers/chain_breaks.h"
+#include "motions/frames/chain_breaks.h"
 #include "motions/readers/reader_registry.h"
 
 namespace kds {

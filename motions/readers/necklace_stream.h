@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "motions/readers/frame_reader.h"
-#include "motions/readers/read_trajectory.h"
+#include "motions/frames/frame_reader.h"
+#include "motions/frames/trajectory.h"
+#include "motions/readers/read_options.h"
 
 namespace kds {
 

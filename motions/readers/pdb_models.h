@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "motions/base/line_reader.h"
-#include "motions/readers/frame_selection.h"
-#include "motions/readers/periodic.h"
+#include "motions/frames/frame_selection.h"
+#include "motions/frames/periodic.h"
 
 namespace kds {
 

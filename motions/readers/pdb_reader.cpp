@@ -8,7 +8,7 @@
 
 #include "motions/base/file_ending.h"
 #include "motions/base/input_error.h"
-#include "motions/readers/frame_selection.h"
+#include "motions/frames/frame_selection.h"
 #include "motions/readers/polymer_selection.h"
 #include "motions/readers/structure_models.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/readers/read_trajectory.h"
+#include "motions/readers/read_options.h"
 
 namespace gemmi {
 struct Atom;

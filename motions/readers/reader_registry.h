@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/readers/frame_reader.h"
+#include "motions/frames/frame_reader.h"
 
 namespace kds {
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
-#include "motions/readers/frame_selection.h"
-#include "motions/readers/periodic.h"
+#include "motions/frames/frame_selection.h"
+#include "motions/frames/periodic.h"
 
 namespace kds {
 

@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <string_view>
 
-#include "motions/readers/trajectory.h"
+#include "motions/frames/trajectory.h"
 
 namespace kds {
 

@@ -9,7 +9,7 @@
 #include "motions/base/input_error.h"
 #include "motions/base/line_reader.h"
 #include "motions/base/text_input.h"
-#include "motions/readers/frame_selection.h"
+#include "motions/frames/frame_selection.h"
 #include "motions/readers/vdw_radii.h"
 
 namespace kds {

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "motions/readers/frame_reader.h"
-#include "motions/readers/read_trajectory.h"
+#include "motions/frames/frame_reader.h"
+#include "motions/readers/read_options.h"
 
 namespace kds {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "motions/readers/trajectory.h"
+#include "motions/frames/trajectory.h"
 
 namespace kds {
 

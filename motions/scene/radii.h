@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/readers/trajectory.h"
+#include "motions/frames/trajectory.h"
 
 namespace kds {
 

@@ -17,7 +17,7 @@
 #include "motions/curves/bezier_motion.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/readers/instance.h"
-#include "motions/readers/trajectory.h"
+#include "motions/frames/trajectory.h"
 #include "motions/scene/scene_stream.h"
 
 namespace kds {

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include "motions/readers/frame_reader.h"
+#include "motions/frames/frame_reader.h"
 
 namespace kds {
 

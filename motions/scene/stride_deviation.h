@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "motions/base/bead.h"
-#include "motions/readers/frame_reader.h"
+#include "motions/frames/frame_reader.h"
 #include "motions/scene/scene.h"
 
 namespace kds {

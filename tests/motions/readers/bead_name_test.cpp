@@ -4,7 +4,7 @@
 
 #include "motions/readers/read_trajectory.h"
 
-namespace kds {
+namespace kds::bead_name_test {
 namespace {
 
 TEST(BeadName, GoesToTextAndBack) {
@@ -35,4 +35,4 @@ TEST(BeadName, OfAllBeadsOfAFile) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::bead_name_test

@@ -6,7 +6,7 @@
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
 
-namespace kds {
+namespace kds::dcd_reader_test {
 namespace {
 
 using test::DcdMaker;
@@ -312,4 +312,4 @@ TEST(DcdReader, SameCoordinatesAsTheModelsOfAPdbFile) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::dcd_reader_test

@@ -4,7 +4,7 @@
 
 #include "tests/motions/test_files.h"
 
-namespace kds {
+namespace kds::instance_test {
 namespace {
 
 Instance read(std::string_view text) { return read_instance(test::write_file("d1.txt", text)); }
@@ -67,4 +67,4 @@ TEST(InstanceFile, IsToldByItsFirstLine) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::instance_test

@@ -4,7 +4,7 @@
 #include "tests/motions/test_files.h"
 #include "tests/support/rounds.h"
 
-namespace kds {
+namespace kds::mmcif_reader_test {
 namespace {
 
 Trajectory read(std::string_view text, const ReadOptions& options = {}) {
@@ -163,4 +163,4 @@ TEST(MmcifReader, CutFileOfTheRealWorld) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::mmcif_reader_test

@@ -6,7 +6,7 @@
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
 
-namespace kds {
+namespace kds::pdb_reader_test {
 namespace {
 
 using test::pdb_line;
@@ -294,4 +294,4 @@ TEST(PdbModels, LargeTopology) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::pdb_reader_test

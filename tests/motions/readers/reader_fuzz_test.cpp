@@ -10,7 +10,7 @@
 #include "motions/scene/radii.h"
 #include "tests/motions/test_files.h"
 
-namespace kds {
+namespace kds::reader_fuzz_test {
 namespace {
 
 using namespace std::string_view_literals;
@@ -174,4 +174,4 @@ TEST(ReaderFuzz, Topology) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::reader_fuzz_test

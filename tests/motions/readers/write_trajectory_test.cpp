@@ -14,7 +14,7 @@
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
 
-namespace kds {
+namespace kds::write_trajectory_test {
 namespace {
 
 Trajectory of_frames(std::vector<Eigen::Matrix3Xd> frames) {
@@ -105,4 +105,4 @@ TEST(PdbReader, ACoarseGrainedModelIsReadByItsCa) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::write_trajectory_test

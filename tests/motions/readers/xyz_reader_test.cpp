@@ -3,7 +3,7 @@
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
 
-namespace kds {
+namespace kds::xyz_reader_test {
 namespace {
 
 Trajectory read(std::string_view text, const ReadOptions& options = {}) {
@@ -110,4 +110,4 @@ TEST(ReadTrajectory, UnknownEnding) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::xyz_reader_test

@@ -2,12 +2,23 @@
 // Which frames of a file a run asks for.
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "motions/readers/read_trajectory.h"
-
 namespace kds {
+
+/// 0-based frames first, first+stride, ... below last.
+struct FrameRange {
+  std::size_t first = 0;
+  std::optional<std::size_t> last = {};  ///< excluded; none: to the end
+  std::size_t stride = 1;                ///< at least 1
+};
+
+/// From the text of --frames, FIRST:LAST:STRIDE; parts may be left empty (":100", "10:", "::2"), a lone
+/// number has no meaning. Throws InputError naming the option.
+[[nodiscard]] FrameRange parse_frame_range(std::string_view text);
 
 /// What a file turned out to hold.
 struct FramesHeld {

@@ -1,4 +1,4 @@
-#include "motions/readers/periodic.h"
+#include "motions/frames/periodic.h"
 
 #include <Eigen/LU>
 #include <array>

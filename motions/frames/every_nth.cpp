@@ -1,4 +1,4 @@
-#include "motions/readers/every_nth.h"
+#include "motions/frames/every_nth.h"
 
 namespace kds {
 

@@ -1,4 +1,4 @@
-#include "motions/readers/frame_selection.h"
+#include "motions/frames/frame_selection.h"
 
 #include <fmt/format.h>
 
@@ -15,6 +15,34 @@ std::string where_it_ends(const std::string& file, std::size_t whole) {
 }
 
 }  // namespace
+
+FrameRange parse_frame_range(std::string_view text) {
+  const auto refuse = [&](std::string_view why) {
+    return InputError(
+        fmt::format("--frames: {} in {}, expected FIRST:LAST:STRIDE (whole numbers from 0, each may "
+                    "be left out)",
+                    why, in_quotes(text)));
+  };
+  std::vector<std::string_view> parts;
+  for (std::string_view rest = text;;) {
+    const std::size_t colon = rest.find(':');
+    parts.push_back(rest.substr(0, colon));
+    if (colon == std::string_view::npos) break;
+    rest.remove_prefix(colon + 1);
+  }
+  if (parts.size() == 1) throw refuse("no colon");
+  if (parts.size() > 3) throw refuse("too many colons");
+  const auto number = [&](std::size_t i) -> std::optional<std::size_t> {
+    if (i >= parts.size() || parts[i].empty()) return std::nullopt;
+    const auto value = parse_count(parts[i]);
+    if (!value) throw refuse(fmt::format("{} is no whole number", in_quotes(parts[i])));
+    return value;
+  };
+  const FrameRange range{number(0).value_or(0), number(1), number(2).value_or(1)};
+  if (range.stride == 0) throw refuse("a stride of 0");
+  if (range.last && *range.last <= range.first) throw refuse("no frame");
+  return range;
+}
 
 FramesAsked select_frames(const std::string& file, const FrameRange& range, const FramesHeld& held,
                           std::vector<std::string>& warnings) {

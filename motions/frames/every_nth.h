@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "motions/readers/trajectory.h"
+#include "motions/frames/trajectory.h"
 
 namespace kds {
 

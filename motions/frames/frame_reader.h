@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "motions/readers/frame_stamp.h"
-#include "motions/readers/periodic.h"
+#include "motions/frames/frame_stamp.h"
+#include "motions/frames/periodic.h"
 
 namespace kds {
 

@@ -1,4 +1,4 @@
-#include "motions/readers/periodic.h"
+#include "motions/frames/periodic.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace kds {
+namespace kds::periodic_test {
 namespace {
 
 using Frames = std::vector<Eigen::Matrix3Xd>;
@@ -119,4 +119,4 @@ TEST(Periodic, CellOfATruncatedOctahedron) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::periodic_test

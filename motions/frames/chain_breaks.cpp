@@ -1,4 +1,4 @@
-#include "motions/readers/chain_breaks.h"
+#include "motions/frames/chain_breaks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,8 +1,8 @@
-#include "motions/readers/every_nth.h"
+#include "motions/frames/every_nth.h"
 
 #include <gtest/gtest.h>
 
-namespace kds {
+namespace kds::every_nth_test {
 namespace {
 
 Trajectory numbered(std::size_t frames) {
@@ -30,4 +30,4 @@ TEST(EveryNth, OneAtRestAndAllFramesStay) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::every_nth_test

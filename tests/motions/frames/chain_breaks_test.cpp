@@ -1,8 +1,8 @@
-#include "motions/readers/chain_breaks.h"
+#include "motions/frames/chain_breaks.h"
 
 #include <gtest/gtest.h>
 
-namespace kds {
+namespace kds::chain_breaks_test {
 namespace {
 
 Eigen::Matrix3Xd on_a_line(const std::vector<double>& places) {
@@ -38,4 +38,4 @@ TEST(ChainBreaks, Description) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::chain_breaks_test

@@ -1,10 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "motions/readers/frame_selection.h"
-#include "motions/readers/read_trajectory.h"
+#include "motions/frames/frame_selection.h"
 #include "tests/motions/test_files.h"
 
-namespace kds {
+namespace kds::frame_range_test {
 namespace {
 
 using Frames = std::vector<std::size_t>;
@@ -96,4 +95,4 @@ TEST(FrameRange, FileThatEndsInsideAFrame) {
 }
 
 }  // namespace
-}  // namespace kds
+}  // namespace kds::frame_range_test
