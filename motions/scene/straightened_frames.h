@@ -13,7 +13,8 @@
 // it was than at a frame. Exact for the doubles that are handed on: what is not certainly within the
 // tolerance is not taken. Ends of chords are on a grid, 2^-20 of the tolerance or finer, so that a chord's
 // steps are all the same double: a structure sees without a look at other frames that the bead goes straight
-// on.
+// on. (Coordinates at rest, and those too large for the grid, stay as they are: a chord that begins or ends
+// there may have steps that differ by what is rounded.)
 
 #include <Eigen/Core>
 #include <cstddef>

@@ -28,20 +28,20 @@ template <int D>
 
 /// What was seen of rows that were copied, number by number.
 struct Copied {
-  Bits changed{};  // bits that are others than before
-  Bits wrong{};    // its sign bit is set where one is not finite
+  Bits changed{};         // bits that are others than before
+  Bits finite = ~Bits{};  // negative where all are
 };
 
 // No branch, and no sum to wait for.
 template <int D>
 [[KDS_LANES_TARGETS]] void copy_rows(const Curves<D>& curves, int k, BallRow<D>* rows, Copied& result) {
-  constexpr long long exponent = 0x7ffLL << 52, one = 1LL << 52;
+  constexpr long long exponent = 0x7ffLL << 52;
   Copied copied;
   for (BeadId b = 0; b < curves.bead_count(); ++b) {
     const Row row = row_of(curves, b, k);
     const Bits bits = reinterpret_cast<Bits>(row);
     copied.changed |= bits ^ bits_of(rows[b]);
-    copied.wrong |= (bits & exponent) + one;
+    copied.finite &= (bits & exponent) - exponent;
     __builtin_memcpy(static_cast<void*>(rows + b), &row, sizeof row);
   }
   result = copied;
@@ -77,7 +77,7 @@ bool BallRows<D>::move_to(const Curves<D>& curves, int k) {
   Copied copied;
   copy_rows(curves, k, rows_.data(), copied);
   bool wrong = false;
-  for (std::size_t i = 0; i <= D; ++i) wrong |= copied.wrong[i] < 0;
+  for (std::size_t i = 0; i <= D; ++i) wrong |= copied.finite[i] >= 0;
   const bool others_radii = others || copied.changed[D] != 0;
   if (others_radii) {
     equal_radii_ = true;
