@@ -12,6 +12,7 @@ namespace kds {
 
 /// Visits the roots of a square-free polynomial in [lower, upper], lower < upper, ascending; their intervals
 /// are disjoint but for touching ends. Those that the visitor does not want are not looked for.
+/// It may narrow roots, but visits none of the same polynomial.
 void visit_wide_roots(const WidePolynomial& square_free, const Dyadic& lower, const Dyadic& upper,
                       const RootVisitor& visit);
 

@@ -132,7 +132,7 @@ class WideFunction final : public CoefficientSource {
   WholeScale scale_;
 };
 
-/// All numbers that go into a function; first of what kind its curves are, since others may have as many.
+/// All numbers that go into a function; first of what kind its curves are.
 template <class C>
 std::vector<double> numbers_of(const BeadFunction& function, const C& curves) {
   std::vector<double> numbers;

@@ -36,7 +36,8 @@ void MotionAhead<Dimension>::look_at(const Curves<Dimension>& curves, std::size_
   const std::size_t beads = curves.bead_count();
   straight_ = 0;
   ++step_;
-  if (every_ != every) courses_.assign((beads + every - 1) / every, {});
+  const std::size_t watched = (beads + every - 1) / every;
+  if (every_ != every || courses_.size() != watched) courses_.assign(watched, {});
   every_ = every;
   if (every == 1) {
     records_.resize(beads);

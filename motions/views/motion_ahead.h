@@ -24,7 +24,8 @@ class MotionAhead {
   /// As many as that: a power of two, so that products are exact.
   static constexpr unsigned steps = 4;
 
-  /// At the start of a step of a linear motion. Beads that were not looked at in the step before have turned.
+  /// At the start of a step of a linear motion. Beads that were not looked at in the step before have turned,
+  /// and all of them where there are more or fewer.
   void look_at(const Curves<DimensionValue>& curves) { look_at(curves, 1); }
   /// The same of a few beads alone, for those who want to know the share of those that went straight on:
   /// nothing else may be asked then, and little memory is taken.

@@ -4,7 +4,8 @@ namespace kds {
 
 namespace {
 
-/// A facet has five beads, and four steps ahead.
+/// Of the beads: a facet rests only if all of its four or five go straight on, and where fewer do, looking
+/// ahead costs more than it saves.
 constexpr double worth_a_look = 0.7;
 constexpr int steps_in_mean = 8;
 

@@ -67,7 +67,7 @@ class FacetForesight {
   }
   /// Whether a cell is known to stay positive in this step.
   [[nodiscard]] bool stays_positive(CellId cell) const {
-    return cell < positive_until_.size() && positive_until_[cell] > step_;
+    return used_ && cell < positive_until_.size() && positive_until_[cell] > step_;
   }
   /// Nothing is known, and in this step nothing more is looked at ahead.
   void forget_all();

@@ -55,6 +55,17 @@ TEST(MotionAhead, TellsWhoTurned) {
   expect_to_tell_who_turned<3>();
 }
 
+TEST(MotionAhead, MoreOrFewerBeadsHaveAllTurned) {
+  MotionAhead<3> ahead;
+  for (const BeadId beads : {6U, 9U, 3U}) {
+    const Step<3> at_rest(beads);
+    for (const int turned : {-1, 0}) {
+      ahead.look_at(Curves<3>(at_rest));
+      for (BeadId b = 0; b < beads; ++b) EXPECT_EQ(ahead.turned(b), turned) << b << " of " << beads;
+    }
+  }
+}
+
 // By rationals, for numbers of all sizes: a bead that is known is where it is said to be after those steps,
 // and one that is not is nowhere near the others.
 TEST(MotionAhead, IsExactOrFarAway) {

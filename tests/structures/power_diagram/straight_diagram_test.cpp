@@ -158,7 +158,7 @@ TEST(PowerDiagram, FacetsDoNotRestAcrossAChangeOfCourse) {
 // Beads come and go while others go straight on: what is known of facets that stay is not that of new ones.
 TEST(PowerDiagram, FacetsRestWhileBeadsComeAndGo) {
   using M = BezierMotion<3, 1>;
-  for (unsigned seed = 0; seed < 4; ++seed) {
+  for (unsigned seed = 0; seed < rounds(4U); ++seed) {
     SCOPED_TRACE(seed);
     Walk walk;
     walk.turning = seed % 2 == 0 ? 0 : 0.03;
