@@ -38,17 +38,18 @@ namespace detail {
 inline constexpr double unit_roundoff = 0x1p-53;
 inline constexpr std::array<double, 4> root_of{0, 1, 1.4143, 1.7321};
 
-template <class N, std::size_t Size>
+// Of numbers: those of polynomials are in motions/.
+template <LanesOrDouble N, std::size_t Size>
 [[gnu::always_inline]] inline N dot(const std::array<N, Size>& a, const std::array<N, Size>& b) {
   N sum = a[0] * b[0];
   for (std::size_t i = 1; i < Size; ++i) sum = sum + a[i] * b[i];
   return sum;
 }
-template <class N>
+template <LanesOrDouble N>
 [[gnu::always_inline]] inline std::array<N, 3> cross(const std::array<N, 3>& a, const std::array<N, 3>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-template <class N, std::size_t Size>
+template <LanesOrDouble N, std::size_t Size>
 [[gnu::always_inline]] inline std::array<N, Size> minus(const std::array<N, Size>& a,
                                                         const std::array<N, Size>& b) {
   std::array<N, Size> d;
