@@ -32,6 +32,17 @@ inline constexpr Channels channels_of = [] {
 template <class F>
 inline constexpr std::size_t bead_places = std::tuple_size_v<decltype(F{}.beads)>;
 
+/// What a formula is about: beads and, where that is no plain array, what else is in it.
+template <class F>
+using BeadsOf = decltype(F{}.beads);
+
+/// The same with a bead's place, 0, 1, 2 ..., for each bead: how formulas over lanes name them.
+template <class F>
+[[nodiscard]] constexpr BeadsOf<F> in_places(BeadsOf<F> beads = {}) {
+  for (std::size_t place = 0; place < bead_places<F>; ++place) beads[place] = static_cast<BeadId>(place);
+  return beads;
+}
+
 /// Searches go four at a time in motions up to this degree, 0 to 3, and one at a time in others. Each takes a
 /// second or more to compile: 1 where the type says nothing. Over lifted motion types that ask for weights
 /// always go so.

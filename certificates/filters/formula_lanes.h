@@ -34,9 +34,8 @@ namespace detail {
 template <class Certificate, Motion M, int Degree>
 [[gnu::always_inline]] inline void evaluate_in_line(
     const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
-    const Lanes& sides, const LanesBound<Degree>& bound, double charge, ScaledLanes<Degree>& lanes) {
-  decltype(Certificate{}.beads) places{};
-  for (std::size_t p = 0; p < places.size(); ++p) places[p] = static_cast<BeadId>(p);
+    const Lanes& sides, const LanesBound<Degree>& bound, double charge, ScaledLanes<Degree>& lanes,
+    const BeadsOf<Certificate>& places = in_places<Certificate>()) {
   const LanesView<M, bead_places<Certificate>, channels_of<Certificate>> view(motion, tuples);
   const auto function = Certificate::formula(view, places);
 
@@ -56,12 +55,13 @@ template <class Certificate, Motion M, int Degree>
 
 }  // namespace detail
 
-/// `sides`: 1 or -1, by which a lane's formula is multiplied.
+/// `sides`: 1 or -1, by which a lane's formula is multiplied; `places`: by which it names its beads.
 template <class Certificate, Motion M, int Degree>
 [[KDS_LANES_TARGETS]] void evaluate_lanes(
     const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
-    const Lanes& sides, const LanesBound<Degree>& bound, Rounding rounding, ScaledLanes<Degree>& lanes) {
-  detail::evaluate_in_line<Certificate>(motion, tuples, sides, bound, charge_of(rounding), lanes);
+    const Lanes& sides, const LanesBound<Degree>& bound, Rounding rounding, ScaledLanes<Degree>& lanes,
+    const BeadsOf<Certificate>& places) {
+  detail::evaluate_in_line<Certificate>(motion, tuples, sides, bound, charge_of(rounding), lanes, places);
 }
 
 }  // namespace kds

@@ -81,15 +81,13 @@ inline const MomentBound moment_bound = derive_moment_bound<Function, Dimension>
 template <class Function, Motion M>
 requires(!channels_of<Function>.weights && !channels_of<Function>.radii)  //
     [[KDS_LANES_TARGETS]] void positive_at_moment(
-        const M& motion,
-        const typename LanesMomentView<M, std::tuple_size_v<decltype(Function{}.beads)>>::Tuples& tuples,
-        const Lanes& sides, double lower, double upper, bool& all_positive) {
+        const M& motion, const typename LanesMomentView<M, bead_places<Function>>::Tuples& tuples,
+        const Lanes& sides, double lower, double upper, bool& all_positive,
+        const BeadsOf<Function>& places = in_places<Function>()) {
   constexpr int degree = M::degree;
   all_positive = false;
   if (!((2 * degree) * (upper - lower) + (4 * degree + 4) * 0x1p-53 <= 0x1p-25)) return;
-  decltype(Function{}.beads) places{};
-  for (std::size_t p = 0; p < places.size(); ++p) places[p] = static_cast<BeadId>(p);
-  const LanesMomentView<M, std::tuple_size_v<decltype(places)>> view(motion, tuples, upper);
+  const LanesMomentView<M, bead_places<Function>> view(motion, tuples, upper);
   const Lanes value = sides * Function::formula(view, places).scaled[0];
   const auto& bound = detail::moment_bound<Function, M::dimension>;
   const Lanes length = view.largest_length();

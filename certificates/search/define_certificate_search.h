@@ -40,7 +40,8 @@ class LanesFilter {
 
   explicit LanesFilter(const ErrorBound& bound) : bound_(bound) {}
 
-  /// Up to four certificates, named by their places. What it leaves open it asks `alone(place)` for.
+  /// Up to four certificates that differ in beads alone, named by their places. What it leaves open it asks
+  /// `alone(place)` for.
   template <class Alone>
   void first_failures(Kernel kernel, const C& curves, std::span<const Certificate> certificates,
                       std::span<const std::size_t> places, const Instant& now,
@@ -53,7 +54,8 @@ class LanesFilter {
       if (known[places[lane]] == KnownAtStart::at_own_root) lanes_now.at_own_root |= 1U << lane;
     }
     ScaledLanes<degree> functions;
-    evaluate_lanes<Certificate>(curves, tuples, sides, bound_, rounding_of(kernel), functions);
+    evaluate_lanes<Certificate>(curves, tuples, sides, bound_, rounding_of(kernel), functions,
+                                in_places<Certificate>(certificates[places[0]].beads));
     if (Lanes::all(functions.positive)) {
       for (const std::size_t place : places) failures[place] = {};
       stages.coefficients += places.size();
@@ -87,14 +89,26 @@ class LanesFilter {
     }
   }
 
+  /// Whether certificates differ in beads alone, and not in what else their formulas are about.
+  [[nodiscard]] static bool of_one_formula(const Certificate& a, const Certificate& b) {
+    if constexpr (std::is_same_v<BeadsOf<Certificate>, std::array<BeadId, bead_places<Certificate>>>) {
+      return true;
+    } else {
+      return in_places<Certificate>(a.beads) == in_places<Certificate>(b.beads);
+    }
+  }
+
   /// Whether up to four are certainly positive all over [lower, upper].
   [[nodiscard]] static bool all_positive(const C& curves, std::span<const Certificate> some, double lower,
                                          double upper) {
     bool positive = false;
     if constexpr (!channels_of<Certificate>.weights && !channels_of<Certificate>.radii) {
+      for (const Certificate& one : some)
+        if (!of_one_formula(one, some.front())) return false;
       constexpr Places places{0, 1, 2, 3};
       const auto [tuples, sides] = in_lanes(some, std::span(places).first(some.size()));
-      positive_at_moment<Certificate>(curves, tuples, sides, lower, upper, positive);
+      positive_at_moment<Certificate>(curves, tuples, sides, lower, upper, positive,
+                                      in_places<Certificate>(some.front().beads));
     }
     return positive;
   }
@@ -284,6 +298,7 @@ class SearchInLanes final : public SearchOneByOne<Certificate, CurvesOf<C>> {
     for (std::size_t i = 0; i < certificates.size(); ++i) {
       if (i + Lanes::width < certificates.size()) fetch_early(certificates[i + Lanes::width], curves);
       if (!shared.is_to_search(kernel, i, known[i], now, stages, failures)) continue;
+      if (count > 0 && !Filter::of_one_formula(certificates[i], certificates[places[0]])) search();
       places[count++] = i;
       if (count == Lanes::width) search();
     }

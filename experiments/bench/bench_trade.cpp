@@ -19,11 +19,11 @@ namespace {
 /// How many times as fast as the exact run each lever is to be, by the start of a trajectory's name.
 struct Factors {
   std::string_view name;
-  double chord, tight, layered;
+  double chord, tight, layered, relaxed;
   double swept;  ///< static queries that a swept one may cost
 };
-constexpr std::array kFactors{Factors{"villin", 5, 3, 13, 1.1}, Factors{"random100", 3.4, 2, 13, 1.1},
-                              Factors{"dhodh", 6.5, 1.5, 13, 1.45}};
+constexpr std::array kFactors{Factors{"villin", 5, 3, 13, 2, 1.1}, Factors{"random100", 3.4, 2, 13, 2, 1.1},
+                              Factors{"dhodh", 6.5, 1.5, 13, 2, 1.45}};
 
 const Factors* factors_of(std::string_view name) {
   const auto* const found = std::ranges::find_if(
@@ -42,10 +42,12 @@ std::vector<Lever> levers_of(const Factors* factors) {
   const auto factor = [factors](double Factors::*which) {
     return factors == nullptr ? std::nullopt : std::optional(factors->*which);
   };
-  std::vector<Lever> levers(3);
+  std::vector<Lever> levers(4);
   levers[0] = {"wrapped, chord cages", "wrapped", {}, factor(&Factors::chord)};
   levers[1] = {"wrapped, chord cages within 0.01", "wrapped", {}, factor(&Factors::tight)};
   levers[2] = {"layered, chord cages", "layered", {}, factor(&Factors::layered)};
+  levers[3] = {"wrapped, relaxed by 0.03", "wrapped", {}, factor(&Factors::relaxed)};
+  levers[3].settings.relax = Relaxation::of(0.03);
   levers[0].settings.between = levers[1].settings.between = Between::chord;
   levers[1].settings.tightness = 0.01;
   return levers;

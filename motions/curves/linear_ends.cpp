@@ -18,24 +18,27 @@ double set_one_by_one(const double* center, double weight, double* point) {
   return none;
 }
 
-[[gnu::always_inline]] inline void set_row(const double* center, double weight, double* point, Lanes& none) {
+/// `wrong`: its sign bits are set where a number is not finite. No sum to wait for.
+[[gnu::always_inline]] inline void set_row(const double* center, double weight, double* point,
+                                           Lanes::Mask& wrong) {
+  constexpr long long exponent = 0x7ffLL << 52, one = 1LL << 52;
   Lanes::Vector row = Lanes::load(center);  // and the next bead's first number, in the weight's place
   row[3] = weight;
-  none += Lanes(0.0) * Lanes(row);
+  wrong |= (reinterpret_cast<Lanes::Mask>(row) & exponent) + one;
   __builtin_memcpy(point, &row, sizeof row);
 }
 
-/// In space, all beads but the last: behind each there is one more number.
-[[KDS_LANES_TARGETS]] double set_rows(const double* start, const double* end, const double* radii,
-                                      std::size_t beads, double* points, double* own_radii) {
-  Lanes none(0.0);
+/// In space, all beads but the last: behind each there is one more number. Whether all is finite.
+[[KDS_LANES_TARGETS]] bool set_rows(const double* start, const double* end, const double* radii,
+                                    std::size_t beads, double* points, double* own_radii) {
+  Lanes::Mask wrong{};
   for (std::size_t b = 0; b < beads; ++b) {
     const double radius = radii[b], weight = radius * radius;
-    set_row(start + 3 * b, weight, points + 8 * b, none);
-    set_row(end + 3 * b, weight, points + 8 * b + 4, none);
+    set_row(start + 3 * b, weight, points + 8 * b, wrong);
+    set_row(end + 3 * b, weight, points + 8 * b + 4, wrong);
     own_radii[2 * b] = own_radii[2 * b + 1] = radius;
   }
-  return none.v[0] + none.v[1] + none.v[2] + none.v[3];
+  return ((wrong[0] | wrong[1]) | (wrong[2] | wrong[3])) >= 0;
 }
 
 }  // namespace
@@ -45,9 +48,10 @@ bool set_linear_ends(const double* start, const double* end, const double* radii
                      double* points, double* own_radii) {
   double none = 0;
   std::size_t done = 0;
+  bool finite = true;
   if (Dimension == 3 && beads > 1) {
     done = beads - 1;
-    none = set_rows(start, end, radii, done, points, own_radii);
+    finite = set_rows(start, end, radii, done, points, own_radii);
   }
   constexpr std::size_t numbers = Dimension + 1;
   for (std::size_t b = done; b < beads; ++b) {
@@ -56,7 +60,7 @@ bool set_linear_ends(const double* start, const double* end, const double* radii
     none += set_one_by_one<Dimension>(end + 3 * b, weight, points + 2 * numbers * b + numbers);
     own_radii[2 * b] = own_radii[2 * b + 1] = radius;
   }
-  return none == 0;  // an infinite radius has an infinite weight
+  return finite && none == 0;  // an infinite radius has an infinite weight
 }
 
 template bool set_linear_ends<1>(const double*, const double*, const double*, std::size_t, double*, double*);

@@ -14,8 +14,10 @@ namespace kds {
 template <int Dimension>
 class BasisRepair {
  public:
-  BasisRepair(Kernel kernel, Radii radii, NodeProofs<Dimension>& proofs, SignsJustAfter<Dimension>& signs)
-      : kernel_(kernel), radii_(radii), proofs_(proofs), signs_(signs) {}
+  /// `relaxed`: beads escape when they are out by a share of the radius.
+  BasisRepair(Kernel kernel, Radii radii, bool relaxed, NodeProofs<Dimension>& proofs,
+              SignsJustAfter<Dimension>& signs)
+      : kernel_(kernel), radii_(radii), relaxed_(relaxed), proofs_(proofs), signs_(signs) {}
 
   /// The basis just after now of the beads of `old`, of which one may be to spare, and of a bead that has
   /// escaped from its sphere, or none. `failed`: the bead is the one whose certificate fails now. Nothing
@@ -31,6 +33,7 @@ class BasisRepair {
 
   Kernel kernel_;
   Radii radii_;
+  bool relaxed_;
   NodeProofs<Dimension>& proofs_;
   SignsJustAfter<Dimension>& signs_;
 };

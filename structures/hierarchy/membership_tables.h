@@ -6,7 +6,6 @@
 
 #include "certificates/searches/ball_in_sphere_search.h"
 #include "certificates/searches/relaxed_ball_in_sphere_search.h"
-#include "certificates/searches/relaxed_bead_in_sphere_search.h"
 #include "certificates/types/relaxed_membership.h"
 #include "kds/certificate_tables.h"
 #include "structures/enclosing_sphere/basis.h"

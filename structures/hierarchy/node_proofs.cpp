@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "motions/numbers/lanes.h"
+#include "structures/enclosing_sphere/basis_edit.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/moving_sphere/beads_beyond.h"
 #include "structures/moving_sphere/chord_filter.h"
@@ -198,31 +199,89 @@ BeadId NodeProofs<Dimension>::risen_bead(const Basis& old, const Basis& next, Be
 }
 
 template <int Dimension>
-unsigned NodeProofs<Dimension>::proved_bases(std::span<const Basis> bases, BeadId newcomer) {
+typename NodeProofs<Dimension>::ChordsAhead NodeProofs<Dimension>::chords_ahead(
+    std::span<const Basis> bases) const {
   const double from = simulator_.now().lower();
-  Period soon{from, from + 0x1p-16 * (1 - from)};
+  ChordsAhead ahead;
+  Period& soon = ahead.soon;
+  soon = {from, from + 0x1p-16 * (1 - from)};
   if (!(soon.to > simulator_.now().upper())) soon.to = 1;
   std::array<Basis, Lanes::width> asked;
   std::array<Period, Lanes::width> periods;
-  std::array<SphereChord<Dimension>, Lanes::width> chords;
   asked.fill(bases.front());
-  std::copy(bases.begin(), bases.end(), asked.begin());
   periods.fill(soon);
-  const bool alone = bases.size() == 1;
-  if (alone) periods[1] = rest_of_step();
-  sphere_chords<Dimension>(paths_, asked, periods, chords);
-  if (alone) {
-    relax(bases.front(), chords[1]);
-    chord_cache_.keep(bases.front(), periods[1], chords[1]);
+  std::copy(bases.begin(), bases.end(), asked.begin());
+  if (2 * bases.size() <= Lanes::width) {
+    for (std::size_t i = 0; i < bases.size(); ++i) {
+      asked[bases.size() + i] = bases[i];
+      periods[bases.size() + i] = rest_of_step();
+    }
   }
+  sphere_chords<Dimension>(paths_, asked, periods, ahead.chords);
+  return ahead;
+}
+
+/// That of the basis in this place will be asked for, perhaps.
+template <int Dimension>
+void NodeProofs<Dimension>::keep_rest(std::span<const Basis> bases, std::size_t place, ChordsAhead& ahead) {
+  if (2 * bases.size() > Lanes::width) return;
+  SphereChord<Dimension>& chord = ahead.chords[bases.size() + place];
+  relax(bases[place], chord);
+  chord_cache_.keep(bases[place], rest_of_step(), chord);
+}
+
+template <int Dimension>
+unsigned NodeProofs<Dimension>::proved_bases(std::span<const Basis> bases, BeadId newcomer) {
+  ChordsAhead ahead = chords_ahead(bases);
+  if (bases.size() == 1) keep_rest(bases, 0, ahead);
   unsigned proved = 0;
   for (std::size_t i = 0; i < bases.size(); ++i) {
-    unsigned stay = chords[i].stays;
+    const SphereChord<Dimension>& chord = ahead.chords[i];
+    unsigned stay = chord.stays;
     for (std::size_t place = 0; place < bases[i].size; ++place)
       if (bases[i].beads[place] == newcomer) stay |= 1U << place;
-    if (chords[i].proved && stay == all_of(bases[i])) proved |= 1U << i;
+    if (chord.proved && stay == all_of(bases[i])) proved |= 1U << i;
   }
   return proved;
+}
+
+template <int Dimension>
+std::optional<Basis> NodeProofs<Dimension>::proved_basis_with(const Basis& old, BeadId bead) {
+  constexpr std::size_t most_of_one_size = 6;
+  // Those that leave few out come first, as they do most often.
+  for (std::size_t size = std::min<std::size_t>(old.size, full - 1); size > 0; --size) {
+    std::array<Basis, most_of_one_size> next;
+    std::size_t count = 0;
+    for (unsigned kept = 1; kept < 1U << old.size; ++kept) {
+      if (static_cast<std::size_t>(std::popcount(kept)) != size) continue;
+      Basis& one = next[count++];
+      for (std::size_t place = 0; place < old.size; ++place)
+        if ((kept >> place & 1U) != 0) one.beads[one.size++] = old.beads[place];
+      insert_bead(one, bead);
+    }
+    for (std::size_t first = 0; first < count; first += Lanes::width) {
+      const auto bases = std::span(next).subspan(first, std::min(Lanes::width, count - first));
+      ChordsAhead ahead = chords_ahead(bases);
+      std::array<Period, Lanes::width> periods;
+      periods.fill(ahead.soon);
+      for (std::size_t i = 0; i < bases.size(); ++i) {
+        const SphereChord<Dimension>& chord = ahead.chords[i];
+        if (!chord.proved || chord.stays != all_of(bases[i])) continue;
+        left_out_.clear();
+        for (const BeadId b : old)
+          if (!bases[i].contains(b)) left_out_.push_back(b);
+        if (!left_out_.empty()) {
+          std::array<SphereChord<Dimension>, Lanes::width> chords;
+          chords.fill(chord);
+          keep_beyond<Dimension>(paths_, bases[i], chords, periods, left_out_);
+        }
+        if (!left_out_.empty()) continue;
+        keep_rest(bases, i, ahead);
+        return bases[i];
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 template <int Dimension>

@@ -85,6 +85,9 @@ class NodeProofs {
   /// A bit for each of up to four that is proved to be the basis of its beads just after now, if the newcomer
   /// does not have to be. Of one alone the chord is known then.
   [[nodiscard]] unsigned proved_bases(std::span<const Basis> bases, BeadId newcomer);
+  /// The basis of the smallest sphere around those of a basis and a bead just after now, if it is proved to
+  /// be of the bead and some of the others, the rest strictly inside: no other basis will do then.
+  [[nodiscard]] std::optional<Basis> proved_basis_with(const Basis& old, BeadId bead);
   /// Whether `crossing` proves anything: radii unequal, motion linear, kernel `filtered`.
   [[nodiscard]] bool proves_crossings() const { return proves_crossings_; }
   /// The first failure of the certificate of a bead and a basis of two or more. At its own root it is known
@@ -104,6 +107,15 @@ class NodeProofs {
                                           const SphereChord<Dimension>* chord, const Period& rest,
                                           BeadId risen, std::vector<BeadId>& beyond);
   [[nodiscard]] unsigned look_closely(const Basis& basis, double until, std::vector<BeadId>& beyond);
+
+  /// The chords of up to four bases of one size from now on for a little while; of one or two they are
+  /// followed by those until the end of the step, for the cache.
+  struct ChordsAhead {
+    Period soon;
+    std::array<SphereChord<Dimension>, 4> chords;
+  };
+  [[nodiscard]] ChordsAhead chords_ahead(std::span<const Basis> bases) const;
+  void keep_rest(std::span<const Basis> bases, std::size_t place, ChordsAhead& ahead);
 
   void relax(const Basis& basis, SphereChord<Dimension>& chord) const {
     chord.enlarge(enlarged_by_);
@@ -125,6 +137,7 @@ class NodeProofs {
   GapRoots<Dimension> gap_roots_;
   std::vector<ChordCandidate<Dimension>> candidates_;
   std::vector<BeadId> beyond_;
+  std::vector<BeadId> left_out_;
   std::vector<std::uint8_t> apart_from_next_;  // flags of beads
 };
 

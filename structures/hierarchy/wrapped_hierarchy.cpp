@@ -49,8 +49,8 @@ WrappedHierarchy<Dimension>::WrappedHierarchy(Simulator& simulator, const Motion
                                                       relaxation)),
       guards_(std::make_unique<NodeGuards<Dimension>>(simulator, *this, index_, motion, curves_, radii,
                                                       tree_.node_count(), *proofs_, relaxation)),
-      repair_(
-          std::make_unique<BasisRepair<Dimension>>(simulator.kernel(), radii, *proofs_, guards_->signs())) {
+      repair_(std::make_unique<BasisRepair<Dimension>>(simulator.kernel(), radii, relaxation.any(), *proofs_,
+                                                       guards_->signs())) {
   sort_kept_nodes();
 }
 
@@ -122,6 +122,7 @@ void WrappedHierarchy<Dimension>::build_node(NodeId id, const Balls<Dimension>& 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::build() {
   curves_ = motion_.curves();
+  proofs_->take_curves();
   if (query_) kept_.assign(bases_.size(), 0);  // it has not asked yet
   const Balls<Dimension> balls = balls_at_start(curves_);
   SignsJustAfter<Dimension>& signs = guards_->signs();

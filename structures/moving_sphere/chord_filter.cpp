@@ -9,9 +9,13 @@ namespace {
 
 template <int D, int K, bool equal>
 [[KDS_LONG_LANES_TARGETS]] void look(const BeadPaths<D>& paths, std::span<const BeadRange> nodes,
-                                     std::span<const Basis> bases, const ChordLanes<D>& chords,
+                                     std::span<const Basis> bases, double enlarged_by,
+                                     std::span<const double> raised_by, ChordLanes<D>& chords,
                                      std::array<bool, 4>& all_inside, std::array<std::size_t, 4>& ends,
                                      std::vector<BeadId>& beyond) {
+  chords.enlarge(enlarged_by);
+  for (std::size_t lane = 0; lane < raised_by.size(); ++lane)
+    for (Lanes& limit : chords.limit) limit.v[lane] += raised_by[lane];
   for (std::size_t lane = 0; lane < nodes.size(); ++lane) {
     const std::size_t before = beyond.size();
     if (chords.proved[lane] != 0) {
@@ -37,13 +41,10 @@ void look_in_degree(const BeadPaths<D>& paths, std::span<const BeadRange> nodes,
   constexpr Period step;
   ChordLanes<D> chords;
   find_chords(paths, bases, PeriodLanes({&step, 1}), chords);
-  chords.enlarge(enlarged_by);
-  for (std::size_t lane = 0; lane < raised_by.size(); ++lane)
-    for (Lanes& limit : chords.limit) limit.v[lane] += raised_by[lane];
   if (paths.equal_radii()) {
-    look<D, K, true>(paths, nodes, bases, chords, first.steady, first.ends, beyond);
+    look<D, K, true>(paths, nodes, bases, enlarged_by, raised_by, chords, first.steady, first.ends, beyond);
   } else {
-    look<D, K, false>(paths, nodes, bases, chords, first.steady, first.ends, beyond);
+    look<D, K, false>(paths, nodes, bases, enlarged_by, raised_by, chords, first.steady, first.ends, beyond);
   }
   const long all = (1L << bases.front().size) - 1;
   for (std::size_t lane = 0; lane < nodes.size(); ++lane) {

@@ -19,7 +19,7 @@ struct ChordLanes {
   Lanes::Mask proved, stays, rises{};
 
   /// As SphereChord::enlarge.
-  void enlarge(double factor) {
+  [[gnu::always_inline]] void enlarge(double factor) {
     if (!(factor > 1)) return;
     const Lanes by =
         Lanes::choose((limit[0] > Lanes(0.0)) & (limit[1] > Lanes(0.0)), Lanes(factor), Lanes(1.0));

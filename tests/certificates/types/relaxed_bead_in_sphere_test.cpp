@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "certificates/searches/relaxed_bead_in_sphere_search.h"
 #include "certificates/types/bead_in_sphere.h"
 #include "motions/curves/any_degree_motion.h"
 #include "tests/support/inputs/random_motion.h"
@@ -169,6 +168,35 @@ TEST(RelaxedBeadInSphere, KernelsAgreeOnFirstFailures) {
   expect_first_failures<4, BezierMotion<3, 1>>(743);
   expect_first_failures<4, BezierMotion<3, 3>>(744);
   expect_first_failures<3, BezierMotion<2, 3>>(745);
+}
+
+// Four certificates of unlike relaxations side by side fail when each does alone.
+TEST(RelaxedBeadInSphere, ABatchTellsRelaxationsApart) {
+  test::Random random(746);
+  std::size_t failures = 0;
+  for (int i = 0; i < test::rounds(60); ++i) {
+    SCOPED_TRACE("seed 746, round " + std::to_string(i));
+    const auto motion = test::random_motion<BezierMotion<3, 1>>(random, 4, test::MotionKind::generic);
+    std::vector<RelaxedBeadInSphere<3>> batch;
+    for (const double share : {0.03, 0.03, 0.75, 0.25, 0.25, 0.25, 0.03}) {
+      batch.push_back(first_beads<3>(Relaxation::of(share)));
+    }
+    const std::vector<KnownAtStart> known(batch.size(), KnownAtStart::unknown);
+    std::vector<Failure> together(batch.size());
+    StageCounts stages;
+    search_over<RelaxedBeadInSphere<3>>(MotionRef<3>(motion))
+        ->first_failures(Kernel::filtered, batch, Instant(), known, stages, TouchPolicy::ignored, together);
+    for (std::size_t k = 0; k < batch.size(); ++k) {
+      const Failure alone =
+          test::first_failure(Kernel::filtered, batch[k], motion, Instant(), KnownAtStart::unknown, stages);
+      ASSERT_EQ(together[k].kind, alone.kind);
+      if (alone.kind != Failure::Kind::later) continue;
+      ++failures;
+      EXPECT_EQ(together[k].time.lower, alone.time.lower);
+      EXPECT_EQ(together[k].time.upper, alone.time.upper);
+    }
+  }
+  EXPECT_GT(failures, 0U);
 }
 
 }  // namespace
