@@ -84,8 +84,10 @@ class WidePolynomial {
     Dyadic lower, upper;
     int sign_at_lower = 0, sign_at_upper = 0;
     bool with_lower = false;  ///< a root at its lower end is one of its own
-    unsigned digits = 2;      ///< of the next step towards a cluster
-    std::size_t bits = 256;   ///< with which it, or the part that it is of, was looked at closely
+    int changes = 0;          ///< of sign there, where they are known
+    unsigned digits = 0;      ///< by which it has been narrowed without losing one
+    std::size_t bits =
+        LeadingDigits::most_bits;  ///< with which it, or the part that it is of, was looked at closely
   };
   /// What others have found out about it.
   struct Found {
