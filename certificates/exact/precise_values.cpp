@@ -114,14 +114,22 @@ LongDigits value_at(const WidePolynomial& polynomial, const Dyadic& u, std::size
   return value;
 }
 
-int sign_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper) {
-  const detail::Ends ends(lower, upper);
+namespace {
+
+/// Binary digits that both ends of an interval have in common, as seen from 0 or 1, whichever is nearer.
+std::size_t digits_of(const detail::Ends& ends) {
   const auto width_of = [](const Integer& x) { return mpz_sizeinbase(x.data(), 2); };
   const std::size_t places = std::min(width_of(ends.upper), width_of(ends.above_lower));
-  const std::size_t digits = places - std::min(places, width_of(ends.upper - ends.lower));
+  return places - std::min(places, width_of(ends.upper - ends.lower));
+}
+
+}  // namespace
+
+int sign_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper) {
+  const detail::Ends ends(lower, upper);
   // Bits far below what the interval leaves open tell nothing.
   constexpr std::size_t spare_bits = 128;
-  return with_bits(digits + spare_bits, [&](const auto& numbers) {
+  return with_bits(digits_of(ends) + spare_bits, [&](const auto& numbers) {
     return detail::value_of(numbers.coefficients(polynomial), numbers.of(1),
                             numbers.between(ends.lower, ends.upper),
                             numbers.between(ends.above_upper, ends.above_lower))
@@ -188,7 +196,8 @@ Variations variations_closely(const WidePolynomial& polynomial, const Dyadic& lo
 
 Variations exact_variations(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper) {
   if (const Variations rough = polynomial.variations_on(lower, upper); is_enough(rough)) return rough;
-  std::size_t bits = 256;
+  // Numbers of fewer digits do not tell the ends apart.
+  std::size_t bits = std::bit_ceil(std::max<std::size_t>(256, digits_of(detail::Ends(lower, upper))));
   return variations_closely(polynomial, lower, upper, bits);
 }
 

@@ -56,7 +56,8 @@ class WidePolynomial {
 
   [[nodiscard]] const std::vector<Integer>& whole() const;
   [[nodiscard]] const std::vector<LeadingDigits>& leading_digits() const;
-  /// By numbers of 4, 8, 16 or 32 words, of which half are right, or the coefficient is exact.
+  /// By numbers of 4, 8, 16 or 32 words, of which half are right, but for coefficients that others
+  /// outweigh.
   template <int Words>
   [[nodiscard]] const std::vector<FixedDigits<Words>>& in_words() const;
   /// Modulo the first of the primes.
@@ -106,7 +107,7 @@ class WidePolynomial {
   [[nodiscard]] Found& found() const { return opposite_ ? opposite_->found_ : found_; }
 
  private:
-  /// Of which so many leading bits are right, or null where that takes the whole coefficients.
+  /// Of which so many leading bits are right, where they matter, or null where that takes the whole ones.
   [[nodiscard]] const std::vector<LongDigits>* formed_to(std::size_t bits) const;
 
   template <int Words>

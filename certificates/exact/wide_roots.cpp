@@ -354,20 +354,20 @@ void narrow(const WidePolynomial& polynomial, RootInterval& root) {
 
 }  // namespace
 
-// The known root in whose interval this one lies is known as well from now on; of those that have not been
-// looked for, the last few.
+// The known root in whose interval this one lies is known as well from now on, wherever it is kept; of those
+// that have not been looked for, the last few.
 void keep_root(const WidePolynomial& polynomial, const RootInterval& root) {
   const RootInterval narrowed = seen_by(polynomial, root);
   WidePolynomial::Found& found = polynomial.found();
+  bool kept = false;
   const auto keep_in = [&](RootInterval* known) {
-    if (known == nullptr || !lies_in(narrowed, known->lower, known->upper)) return false;
+    if (known == nullptr || !lies_in(narrowed, known->lower, known->upper)) return;
     *known = narrowed;
-    return true;
+    kept = true;
   };
-  for (auto& stretch : found.roots)
-    if (keep_in(std::get_if<RootInterval>(&stretch))) return;
-  for (RootInterval& some : found.some_roots)
-    if (keep_in(&some)) return;
+  for (auto& stretch : found.roots) keep_in(std::get_if<RootInterval>(&stretch));
+  for (RootInterval& some : found.some_roots) keep_in(&some);
+  if (kept) return;
   constexpr std::size_t few = 16;
   if (found.some_roots.size() == few) found.some_roots.erase(found.some_roots.begin());
   found.some_roots.push_back(narrowed);
