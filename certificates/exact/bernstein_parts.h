@@ -114,21 +114,19 @@ struct Ends {
 };
 
 /// The polynomial as seen on an interval, times a positive number: with u = lower (1-s) + upper s and 1-u =
-/// above_lower (1-s) + above_upper s. Of its coefficients only the first ones, if not all are wanted.
+/// above_lower (1-s) + above_upper s.
 template <class Number>
 std::vector<Number> seen_on(const std::vector<Number>& c, const Number& one, const Number& lower,
-                            const Number& upper, const Number& above_lower, const Number& above_upper,
-                            std::size_t wanted = std::numeric_limits<std::size_t>::max()) {
+                            const Number& upper, const Number& above_lower, const Number& above_upper) {
   // Horner in u with the growing power of (1-u), both linear forms in (1-s, s).
-  wanted = std::min(wanted, c.size());
-  ExactWork::spend(wanted * c.size() * (limbs_of(c.back()) + limbs_of(above_lower)));
-  std::vector<Number> value(wanted);
-  std::vector<Number> power(wanted);
+  ExactWork::spend(c.size() * c.size() * (limbs_of(c.back()) + limbs_of(above_lower)));
+  std::vector<Number> value(c.size());
+  std::vector<Number> power(c.size());
   value[0] = c.back();
   power[0] = one;
   for (std::size_t size = 2; size <= c.size(); ++size) {
     const Number& next = c[c.size() - size];
-    for (std::size_t i = std::min(size, wanted); i-- > 0;) {
+    for (std::size_t i = size; i-- > 0;) {
       power[i] *= above_lower;
       value[i] *= lower;
       if (i > 0) {

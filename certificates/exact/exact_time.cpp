@@ -286,10 +286,21 @@ int sign_after(const ExactPolynomial& function, ExactTime& time) {
   }
 }
 
+namespace {
+
+// Descartes' rule tells at a first look that there is no root between 0 and 1.
+bool has_no_changes(const ExactPolynomial& function) {
+  const WidePolynomial* wide = function.wide();
+  return wide != nullptr ? wide->variations_on(Dyadic(0.0), Dyadic(1.0)).most == 0
+                         : function.sign_variations() == 0;
+}
+
+}  // namespace
+
 std::optional<ExactFailure> first_failure_after(const ExactPolynomial& function, const ExactTime& now,
                                                 TouchPolicy touches) {
   const Dyadic end(1.0);
-  if (!(now.upper() < end) || function.is_zero() || function.sign_variations() == 0) return std::nullopt;
+  if (!(now.upper() < end) || function.is_zero() || has_no_changes(function)) return std::nullopt;
   const bool from_root = now.is_dyadic() && function.sign_at(now.upper()) == 0;
   const ExactPolynomial simple = function.square_free();
   std::optional<ExactFailure> failure;

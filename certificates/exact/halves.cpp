@@ -1,5 +1,6 @@
 #include "certificates/exact/halves.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "certificates/exact/bernstein_parts.h"
@@ -65,9 +66,27 @@ Variations Halves::variations(int sign_at_lower, int sign_at_upper) const {
   return count.value();
 }
 
-std::optional<int> Halves::sign_at_upper() const {
-  if (!is_certain(c_.back(), error_)) return std::nullopt;
-  return c_.back().sign();
+std::optional<int> Halves::sign_of(const Integer& x) const {
+  return is_certain(x, error_) ? std::optional(x.sign()) : std::nullopt;
+}
+
+std::optional<Halves::Cells> Halves::cells_of_cluster(int multiplicity, unsigned digits) const {
+  // Coefficients next to each other are apart by the slope over the degree.
+  const auto steps = [&](const Integer& value, const Integer& next) -> std::optional<Integer> {
+    const Integer fall = (value - next) * static_cast<long>(c_.size() - 1);
+    if (value == 0 || fall.sign() != value.sign()) return std::nullopt;
+    return Integer(((value * multiplicity) << digits) / fall);
+  };
+  const std::optional<Integer> from_lower = steps(c_.front(), c_[1]);
+  const std::optional<Integer> from_upper = steps(c_.back(), c_[c_.size() - 2]);
+  if (!from_lower || !from_upper) return std::nullopt;
+  const Integer end = (Integer(1) << digits) - 1, other = end - *from_upper;
+  Cells cells{std::min(*from_lower, other) - 1, std::max(*from_lower, other) + 1};
+  constexpr int most = 8;
+  if (cells.last - cells.first >= most || cells.first > end || cells.last < 0) return std::nullopt;
+  if (cells.first < 0) cells.first = 0;
+  if (cells.last > end) cells.last = end;
+  return cells;
 }
 
 Halves Halves::halve() {

@@ -28,8 +28,16 @@ class Halves {
 
   /// The signs at both ends may be given.
   [[nodiscard]] Variations variations(int sign_at_lower, int sign_at_upper) const;
-  /// The sign at the upper end, if it is certain.
-  [[nodiscard]] std::optional<int> sign_at_upper() const;
+  /// The sign at an end, if it is certain.
+  [[nodiscard]] std::optional<int> sign_at_lower() const { return sign_of(c_.front()); }
+  [[nodiscard]] std::optional<int> sign_at_upper() const { return sign_of(c_.back()); }
+  /// Where in 2^digits equal parts a cluster of so many roots would be by the values and slopes at both ends
+  /// (Newton's step for a root of that multiplicity), with a part more on each side; none where these do not
+  /// agree. No proof.
+  struct Cells {
+    Integer first, last;
+  };
+  [[nodiscard]] std::optional<Cells> cells_of_cluster(int multiplicity, unsigned digits) const;
   /// Becomes its right half; the left one.
   [[nodiscard]] Halves halve();
   /// How many times it has been halved.
@@ -37,6 +45,8 @@ class Halves {
 
  private:
   Halves() = default;
+
+  [[nodiscard]] std::optional<int> sign_of(const Integer& x) const;
 
   std::vector<Integer> c_;
   Integer error_;

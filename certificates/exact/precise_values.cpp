@@ -52,6 +52,18 @@ struct InBits {
   [[nodiscard]] static LongDigits long_digits(Number x) { return x; }
 };
 
+/// The leading digits.
+struct InLeadingDigits {
+  using Number = LeadingDigits;
+  static constexpr bool exact = false;
+
+  [[nodiscard]] static const std::vector<Number>& coefficients(const WidePolynomial& p) {
+    return p.leading_digits();
+  }
+  [[nodiscard]] static Number of(const Integer& x) { return Number::of(x); }
+  [[nodiscard]] static LongDigits long_digits(const Number& x) { return LongDigits(x); }
+};
+
 /// Calls `answer` with numbers of at least so many bits, or about.
 template <class Answer>
 auto with_bits(std::size_t bits, Answer answer) {
@@ -71,13 +83,11 @@ auto to_enough_bits(std::size_t bits, std::size_t all, Answer answer) {
   return std::move(*answer(InBits{LongDigits::unlimited}));
 }
 
-/// The polynomial as seen between two ends, in such numbers: its first coefficients, if not all are wanted.
+/// The polynomial as seen between two ends, in such numbers.
 template <class Numbers>
-auto seen_in(const Numbers& numbers, const WidePolynomial& polynomial, const detail::Ends& ends,
-             std::size_t wanted = std::numeric_limits<std::size_t>::max()) {
+auto seen_in(const Numbers& numbers, const WidePolynomial& polynomial, const detail::Ends& ends) {
   return detail::seen_on(numbers.coefficients(polynomial), numbers.of(1), numbers.of(ends.lower),
-                         numbers.of(ends.upper), numbers.of(ends.above_lower), numbers.of(ends.above_upper),
-                         wanted);
+                         numbers.of(ends.upper), numbers.of(ends.above_lower), numbers.of(ends.above_upper));
 }
 
 std::size_t bits_at(const WidePolynomial& polynomial, unsigned exponent) {
@@ -104,14 +114,22 @@ LongDigits value_at(const WidePolynomial& polynomial, const Dyadic& u, std::size
   return value;
 }
 
-int sign_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper) {
-  const detail::Ends ends(lower, upper);
+namespace {
+
+/// Binary digits that both ends of an interval have in common, as seen from 0 or 1, whichever is nearer.
+std::size_t digits_of(const detail::Ends& ends) {
   const auto width_of = [](const Integer& x) { return mpz_sizeinbase(x.data(), 2); };
   const std::size_t places = std::min(width_of(ends.upper), width_of(ends.above_lower));
-  const std::size_t digits = places - std::min(places, width_of(ends.upper - ends.lower));
+  return places - std::min(places, width_of(ends.upper - ends.lower));
+}
+
+}  // namespace
+
+int sign_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper) {
+  const detail::Ends ends(lower, upper);
   // Bits far below what the interval leaves open tell nothing.
   constexpr std::size_t spare_bits = 128;
-  return with_bits(digits + spare_bits, [&](const auto& numbers) {
+  return with_bits(digits_of(ends) + spare_bits, [&](const auto& numbers) {
     return detail::value_of(numbers.coefficients(polynomial), numbers.of(1),
                             numbers.between(ends.lower, ends.upper),
                             numbers.between(ends.above_upper, ends.above_lower))
@@ -123,11 +141,12 @@ Halves seen_closely(const WidePolynomial& polynomial, const Dyadic& lower, const
                     std::size_t bits) {
   const detail::Ends ends(lower, upper);
   if (bits >= bits_at(polynomial, ends.exponent) / 2) bits = LongDigits::unlimited;
-  const Longs seen = with_bits(bits, [&](const auto& numbers) {
+  const auto look = [&](const auto& numbers) {
     Longs longs;
     for (const auto& x : seen_in(numbers, polynomial, ends)) longs.push_back(numbers.long_digits(x));
     return longs;
-  });
+  };
+  const Longs seen = bits <= LeadingDigits::most_bits ? look(InLeadingDigits{}) : with_bits(bits, look);
   // In units of what the worst of them is wrong by, a little less.
   constexpr std::int64_t spare_bits = 8;
   std::optional<std::int64_t> unit;
@@ -177,38 +196,9 @@ Variations variations_closely(const WidePolynomial& polynomial, const Dyadic& lo
 
 Variations exact_variations(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper) {
   if (const Variations rough = polynomial.variations_on(lower, upper); is_enough(rough)) return rough;
-  std::size_t bits = 256;
+  // Numbers of fewer digits do not tell the ends apart.
+  std::size_t bits = std::bit_ceil(std::max<std::size_t>(256, digits_of(detail::Ends(lower, upper))));
   return variations_closely(polynomial, lower, upper, bits);
-}
-
-Integer newton_cell(const WidePolynomial& polynomial, const Dyadic& from, const Dyadic& to, int multiplicity,
-                    unsigned digits) {
-  const detail::Ends ends(from, to);
-  const auto degree = static_cast<long>(polynomial.size() - 1);
-  // The first two coefficients on the way are value and value + slope / degree, times binomials: the step is
-  // multiplicity * value / -slope.
-  using Step = std::pair<LongDigits, LongDigits>;
-  const Step step = to_enough_bits(
-      std::max<std::size_t>(256, 2 * digits), bits_at(polynomial, ends.exponent) / 2,
-      [&](const auto& numbers) -> std::optional<Step> {
-        const auto seen = seen_in(numbers, polynomial, ends, 2);
-        auto value = seen[0], slope = seen[1];
-        slope *= numbers.of(-1);
-        value *= numbers.of(degree);
-        slope += value;
-        value = seen[0];
-        value *= numbers.of(multiplicity);
-        Step found{numbers.long_digits(value), numbers.long_digits(slope)};
-        const bool enough =
-            numbers.exact || (found.first.has_digits(digits) && found.second.has_digits(digits));
-        return enough ? std::optional(std::move(found)) : std::nullopt;
-      });
-  Integer length = step.first.number(), slope = step.second.number();
-  if (slope == 0 || slope.sign() != length.sign()) return -1;
-  const std::int64_t apart = step.first.exponent() - step.second.exponent();
-  (apart > 0 ? length : slope) <<= static_cast<std::size_t>(std::abs(apart));
-  const Integer cell = (length << digits) / slope;
-  return cell < (Integer(1) << digits) ? cell : Integer(-1);
 }
 
 }  // namespace kds

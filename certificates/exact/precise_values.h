@@ -27,10 +27,4 @@ namespace kds {
 [[nodiscard]] Variations variations_closely(const WidePolynomial& polynomial, const Dyadic& lower,
                                             const Dyadic& upper, std::size_t& bits);
 
-/// Where a cluster of so many roots between `from` and `to` would be by the value and the slope at `from`
-/// (Newton's step for a root of that multiplicity): the number of one of `2^digits` equal parts on the way
-/// from there, or -1 where that points elsewhere. No proof. `from` must not be a root.
-[[nodiscard]] Integer newton_cell(const WidePolynomial& polynomial, const Dyadic& from, const Dyadic& to,
-                                  int multiplicity, unsigned digits);
-
 }  // namespace kds

@@ -1,6 +1,7 @@
 #include "certificates/exact/wide_polynomial.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "certificates/exact/bernstein_parts.h"
@@ -11,8 +12,47 @@ namespace kds {
 
 namespace {
 
-/// Half of the bits that there is room for are right, or it is 0.
-bool is_precise(const LeadingDigits& x) { return x.magnitude >> (LeadingDigits::most_bits / 2) >= x.error; }
+/// So many leading bits are right, or it is exact.
+bool has_digits(const LeadingDigits& x, std::size_t digits) { return x.magnitude >> digits >= x.error; }
+bool has_digits(const LongDigits& x, std::size_t digits) { return x.has_digits(digits); }
+
+std::int64_t top_bit(const LeadingDigits& x) { return x.top_bit(); }
+std::int64_t top_bit(const LongDigits& x) {
+  return x.exponent() +
+         static_cast<std::int64_t>(std::max<std::size_t>(
+             mpz_sizeinbase(x.number().data(), 2), static_cast<std::size_t>(std::bit_width(x.error())))) +
+         1;
+}
+
+/// Whether of each coefficient so many leading bits are right, or others, one before and one after it, have
+/// as many and outweigh it by as many bits, wherever in (0,1) the polynomial is looked at: it lies below
+/// Newton's polygon.
+template <class Number>
+bool suffice(const std::vector<Number>& c, std::size_t digits) {
+  struct Corner {
+    std::int64_t place, top;
+    /// What line from here to another is above at a place, in as many times the distance of both.
+    [[nodiscard]] bool is_below(const Corner& from, const Corner& to) const {
+      return (top - from.top) * (to.place - from.place) <= (to.top - from.top) * (place - from.place);
+    }
+  };
+  std::vector<Corner> polygon, doubtful;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Corner corner{static_cast<std::int64_t>(k), top_bit(c[k])};
+    if (!has_digits(c[k], digits)) {
+      doubtful.push_back({corner.place, corner.top + static_cast<std::int64_t>(digits)});
+    } else if (!c[k].is_zero()) {
+      while (polygon.size() > 1 && polygon.back().is_below(polygon[polygon.size() - 2], corner))
+        polygon.pop_back();
+      polygon.push_back(corner);
+    }
+  }
+  return std::all_of(doubtful.begin(), doubtful.end(), [&](const Corner& x) {
+    const auto after =
+        std::find_if(polygon.begin(), polygon.end(), [&](const Corner& y) { return y.place > x.place; });
+    return after != polygon.begin() && after != polygon.end() && x.is_below(*(after - 1), *after);
+  });
+}
 
 /// All numbers between two, from 0 on.
 LeadingDigits between(const Integer& low, const Integer& high) {
@@ -50,10 +90,11 @@ const std::vector<LeadingDigits>& WidePolynomial::leading_digits() const {
   // Kept only when they are complete: forming them may end in an exception.
   std::vector<LeadingDigits> digits;
   if (!whole_) digits = source_->leading_digits();
-  if (whole_ || !std::all_of(digits.begin(), digits.end(), is_precise)) {
+  constexpr std::size_t enough = LeadingDigits::most_bits / 2;
+  if (whole_ || !suffice(digits, enough)) {
     // What the coefficients are made from may cancel nearly all.
     digits.clear();
-    if (const std::vector<LongDigits>* formed = formed_to(LeadingDigits::most_bits)) {
+    if (const std::vector<LongDigits>* formed = formed_to(enough)) {
       for (const LongDigits& x : *formed) digits.push_back(x.leading_digits());
     } else {
       for (const Integer& x : whole()) digits.push_back(LeadingDigits::of(x));
@@ -64,17 +105,13 @@ const std::vector<LeadingDigits>& WidePolynomial::leading_digits() const {
 }
 
 const std::vector<LongDigits>* WidePolynomial::formed_to(std::size_t bits) const {
-  const auto are_right = [&] {
-    return std::all_of(formed_.begin(), formed_.end(),
-                       [bits](const LongDigits& x) { return x.has_digits(bits); });
-  };
   if (whole_) return nullptr;
-  if (formed_words_ != 0 && are_right()) return &formed_;
+  if (formed_words_ != 0 && suffice(formed_, bits)) return &formed_;
   for (const std::size_t words : CoefficientSource::word_counts) {
     if (words <= formed_words_) continue;
     formed_ = source_->digits(words);
     formed_words_ = words;
-    if (are_right()) return &formed_;
+    if (suffice(formed_, bits)) return &formed_;
   }
   return nullptr;
 }

@@ -56,7 +56,8 @@ class WidePolynomial {
 
   [[nodiscard]] const std::vector<Integer>& whole() const;
   [[nodiscard]] const std::vector<LeadingDigits>& leading_digits() const;
-  /// By numbers of 4, 8, 16 or 32 words, of which half are right, or the coefficient is exact.
+  /// By numbers of 4, 8, 16 or 32 words, of which half are right, but for coefficients that others
+  /// outweigh.
   template <int Words>
   [[nodiscard]] const std::vector<FixedDigits<Words>>& in_words() const;
   /// Modulo the first of the primes.
@@ -84,8 +85,10 @@ class WidePolynomial {
     Dyadic lower, upper;
     int sign_at_lower = 0, sign_at_upper = 0;
     bool with_lower = false;  ///< a root at its lower end is one of its own
-    unsigned digits = 2;      ///< of the next step towards a cluster
-    std::size_t bits = 256;   ///< with which it, or the part that it is of, was looked at closely
+    int changes = 0;          ///< of sign there, where they are known
+    unsigned digits = 0;      ///< by which it has been narrowed without losing one
+    std::size_t bits =
+        LeadingDigits::most_bits;  ///< with which it, or the part that it is of, was looked at closely
   };
   /// What others have found out about it.
   struct Found {
@@ -104,7 +107,7 @@ class WidePolynomial {
   [[nodiscard]] Found& found() const { return opposite_ ? opposite_->found_ : found_; }
 
  private:
-  /// Of which so many leading bits are right, or null where that takes the whole coefficients.
+  /// Of which so many leading bits are right, where they matter, or null where that takes the whole ones.
   [[nodiscard]] const std::vector<LongDigits>* formed_to(std::size_t bits) const;
 
   template <int Words>

@@ -62,9 +62,10 @@ Integer straight_zero(const LongDigits& at_lower, const LongDigits& at_upper, co
   return cell < cells ? cell : Integer(cells - 1);
 }
 
-/// Splits intervals until they hold one root or none. Roots that lie close together are approached as one
-/// multiple root (Sagraloff's Descartes with Newton's steps): as long as all changes of sign are in the part
-/// that the step points to, the other parts have no root, and the number of digits doubles with each step.
+/// Splits intervals until they hold one root or none: by scales, then by halves, which take additions alone.
+/// Where halving loses no change of sign for long, roots lie close together, and are approached as one
+/// multiple root (Sagraloff's Descartes with Newton's steps): if all changes of sign are in the part that the
+/// step points to, the rest has no root, and the number of digits doubles.
 class Isolation {
  public:
   /// Looks for roots from `from` to `to`.
@@ -84,12 +85,14 @@ class Isolation {
   }
 
  private:
-  static constexpr unsigned fewest_digits = 2, most_digits = 2048;
+  // A look at a part takes about as long as so many halvings of what was seen.
+  static constexpr unsigned fewest_digits = 16, most_digits = 2048;
 
   [[nodiscard]] static bool has_root_at_lower(const Part& part) {
     return part.with_lower && part.sign_at_lower == 0;
   }
 
+  [[nodiscard]] bool is_past(const Part& part) const { return !(from_ < part.upper); }
   /// Whether the part is left as it is.
   bool puts_off(const Part& part) {
     if (!is_done_ && is_wanted(part, from_, to_)) return false;
@@ -98,7 +101,7 @@ class Isolation {
   }
 
   void add(RootInterval root) {
-    is_done_ = from_ < root.upper || (root.lower == root.upper && root.lower == from_);
+    is_done_ |= from_ < root.upper || (root.lower == root.upper && root.lower == from_);
     stretches_.emplace_back(std::move(root));
   }
 
@@ -107,18 +110,14 @@ class Isolation {
     if (has_root_at_lower(part)) add({part.lower, part.lower});
     part.with_lower = false;
     if (puts_off(part)) return;
-    while (true) {
-      const Variations rough =
-          polynomial_.variations_on(part.lower, part.upper, part.sign_at_lower, part.sign_at_upper);
-      const bool unclear = is_unclear(rough);
-      if (unclear && is_of_one_scale(part))
-        return visit_closely(seen_closely(polynomial_, part.lower, part.upper, part.bits), part);
-      const Variations variations =
-          unclear ? variations_closely(polynomial_, part.lower, part.upper, part.bits) : rough;
-      if (variations.most == 0) return;
-      if (has_one_root(part, variations)) return add({part.lower, part.upper, 1, part.sign_at_lower});
-      if (!narrow_to_cluster(part, variations)) break;
-    }
+    if (is_of_one_scale(part))
+      return visit_closely(seen_closely(polynomial_, part.lower, part.upper, part.bits), part);
+    Variations variations =
+        polynomial_.variations_on(part.lower, part.upper, part.sign_at_lower, part.sign_at_upper);
+    if (is_unclear(variations))
+      variations = variations_closely(polynomial_, part.lower, part.upper, part.bits);
+    if (variations.most == 0) return;
+    if (has_one_root(part, variations)) return add({part.lower, part.upper, 1, part.sign_at_lower});
     const Dyadic middle = split_point(part.lower, part.upper);
     auto [left, right] = split(part, middle, polynomial_.sign_at(middle));
     right.with_lower = true;
@@ -128,74 +127,79 @@ class Isolation {
 
   [[nodiscard]] static bool is_unclear(const Variations& v) { return v.least < 2 && v.least != v.most; }
   [[nodiscard]] static bool is_of_one_scale(const Part& part) {
-    return split_point(part.lower, part.upper) == Dyadic::midpoint(part.lower, part.upper);
+    return !(part.lower == Dyadic(0.0)) && !(part.upper == Dyadic(1.0)) &&
+           split_point(part.lower, part.upper) == Dyadic::midpoint(part.lower, part.upper);
   }
   [[nodiscard]] static bool has_one_root(const Part& part, const Variations& v) {
     return part.sign_at_lower != 0 && part.sign_at_upper != 0 && v.least == 1 && v.most == 1;
   }
   [[nodiscard]] static std::pair<Part, Part> split(const Part& part, const Dyadic& point, int sign) {
-    const unsigned digits = std::max(fewest_digits, part.digits / 2);
-    return {{part.lower, point, part.sign_at_lower, sign, false, digits, part.bits},
-            {point, part.upper, sign, part.sign_at_upper, false, digits, part.bits}};
+    Part left = part, right = part;
+    left.upper = right.lower = point;
+    left.sign_at_upper = right.sign_at_lower = sign;
+    return {std::move(left), std::move(right)};
   }
 
-  // The same, roots at `lower` left out, where leading digits do not tell: by the part's number of bits of
-  // the polynomial as seen on it, which is halved; by twice as many where they do not tell either.
+  // The same of a part of one scale, roots at `lower` left out: by the polynomial as seen on it, which is
+  // halved; by twice as many bits where they do not tell. What comes later is put off where it takes another
+  // look.
   void visit_closely(Halves seen, Part part) {
-    if (puts_off(part)) return;
+    if (is_past(part) && puts_off(part)) return;
     const Variations variations = seen.variations(part.sign_at_lower, part.sign_at_upper);
     if (variations.most == 0) return;
     if (has_one_root(part, variations)) return add({part.lower, part.upper, 1, part.sign_at_lower});
     if (is_unclear(variations)) {
+      if (puts_off(part)) return;
       // Halving has made the part small beside what its numbers are wrong by, or they were too short at once.
       if (seen.depth() == 0) part.bits *= 2;
       return visit_closely(seen_closely(polynomial_, part.lower, part.upper, part.bits), part);
     }
-    if (narrow_to_cluster(part, variations)) return visit(part);
+    if (variations.least == variations.most) {
+      part.digits = variations.least == part.changes ? part.digits + 1 : 0;
+      part.changes = variations.least;
+      if (part.digits >= fewest_digits) {
+        if (puts_off(part)) return;
+        if (std::optional<Halves> closer = narrow_to_cluster(seen, part))
+          return visit_closely(std::move(*closer), std::move(part));
+      }
+    }
     const Dyadic middle = Dyadic::midpoint(part.lower, part.upper);
     const Halves left_half = seen.halve();
-    const std::optional<int> known = left_half.sign_at_upper();
-    const int sign = known ? *known : polynomial_.sign_at(middle);
+    const int sign = sign_of(left_half.sign_at_upper(), middle);
     auto [left, right] = split(part, middle, sign);
     visit_closely(left_half, left);
-    right.with_lower = sign == 0;
-    if (puts_off(right)) return;
     if (sign == 0) add({middle, middle});
-    right.with_lower = false;
     visit_closely(std::move(seen), right);
   }
 
-  /// Narrows the part to one around a cluster that holds all changes of sign.
-  [[nodiscard]] bool narrow_to_cluster(Part& part, const Variations& counted) const {
-    if (part.sign_at_lower == 0 || part.sign_at_upper == 0 || counted.least != counted.most ||
-        !is_of_one_scale(part))
-      return false;
-    const int variations = counted.least;
+  /// Narrows the part to one that holds all its changes of sign, a cluster, if both ends point there, and
+  /// returns the polynomial as seen on that.
+  [[nodiscard]] std::optional<Halves> narrow_to_cluster(const Halves& seen, Part& part) const {
     const unsigned digits = part.digits;
+    part.digits /= 2;
+    const std::optional<Halves::Cells> cluster = seen.cells_of_cluster(part.changes, digits);
+    if (!cluster) return std::nullopt;
     const Cells cells(part.lower, part.upper, digits);
-    const Integer last = (Integer(1) << digits) - 1;
-    for (const bool upwards : {true, false}) {
-      Integer cell = upwards ? newton_cell(polynomial_, part.lower, part.upper, variations, digits)
-                             : newton_cell(polynomial_, part.upper, part.lower, variations, digits);
-      if (cell < 0) continue;
-      if (!upwards) cell = last - cell;
-      Part around = part;
-      // The cell and its neighbours, of which there are at least four.
-      if (cell > 0) around.lower = cells.border(cell - 1);
-      if (cell < last) around.upper = cells.border(cell + 2 > last ? Integer(last + 1) : Integer(cell + 2));
-      around.sign_at_lower = polynomial_.sign_at(around.lower);
-      around.sign_at_upper = polynomial_.sign_at(around.upper);
-      if (around.sign_at_lower == 0 || around.sign_at_upper == 0) continue;
-      Variations inside =
-          polynomial_.variations_on(around.lower, around.upper, around.sign_at_lower, around.sign_at_upper);
-      if (inside.least != inside.most && inside.most >= variations)
-        inside = variations_closely(polynomial_, around.lower, around.upper, around.bits);
-      if (inside.least != variations || inside.most != variations) continue;
-      around.digits = std::min(2 * digits, most_digits);
-      part = std::move(around);
-      return true;
+    Part around = part;
+    around.lower = cells.border(cluster->first);
+    around.upper = cells.border(cluster->last + 1);
+    around.digits = std::min(2 * digits, most_digits);
+    while (true) {
+      Halves closer = seen_closely(polynomial_, around.lower, around.upper, around.bits);
+      around.sign_at_lower = sign_of(closer.sign_at_lower(), around.lower);
+      around.sign_at_upper = sign_of(closer.sign_at_upper(), around.upper);
+      if (around.sign_at_lower == 0 || around.sign_at_upper == 0) return std::nullopt;
+      const Variations inside = closer.variations(around.sign_at_lower, around.sign_at_upper);
+      if (inside.most < part.changes) return std::nullopt;
+      if (inside.least == part.changes) {
+        part = std::move(around);
+        return closer;
+      }
+      around.bits *= 2;
     }
-    return false;
+  }
+  [[nodiscard]] int sign_of(const std::optional<int>& known, const Dyadic& u) const {
+    return known ? *known : polynomial_.sign_at(u);
   }
 
   const WidePolynomial& polynomial_;
@@ -350,20 +354,20 @@ void narrow(const WidePolynomial& polynomial, RootInterval& root) {
 
 }  // namespace
 
-// The known root in whose interval this one lies is known as well from now on; of those that have not been
-// looked for, the last few.
+// The known root in whose interval this one lies is known as well from now on, wherever it is kept; of those
+// that have not been looked for, the last few.
 void keep_root(const WidePolynomial& polynomial, const RootInterval& root) {
   const RootInterval narrowed = seen_by(polynomial, root);
   WidePolynomial::Found& found = polynomial.found();
+  bool kept = false;
   const auto keep_in = [&](RootInterval* known) {
-    if (known == nullptr || !lies_in(narrowed, known->lower, known->upper)) return false;
+    if (known == nullptr || !lies_in(narrowed, known->lower, known->upper)) return;
     *known = narrowed;
-    return true;
+    kept = true;
   };
-  for (auto& stretch : found.roots)
-    if (keep_in(std::get_if<RootInterval>(&stretch))) return;
-  for (RootInterval& some : found.some_roots)
-    if (keep_in(&some)) return;
+  for (auto& stretch : found.roots) keep_in(std::get_if<RootInterval>(&stretch));
+  for (RootInterval& some : found.some_roots) keep_in(&some);
+  if (kept) return;
   constexpr std::size_t few = 16;
   if (found.some_roots.size() == few) found.some_roots.erase(found.some_roots.begin());
   found.some_roots.push_back(narrowed);

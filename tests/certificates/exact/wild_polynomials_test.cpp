@@ -186,6 +186,25 @@ TEST(WildPolynomials, WhatTwoHaveInCommonIsKept) {
             0);
 }
 
+// A root that was noted before roots were looked for is known twice: who narrows it until it is apart from a
+// time would wait for ever for one that stays as it was.
+TEST(WildPolynomials, RootsKnownTwiceAreNarrowedTwice) {
+  const Integer scale = Integer(1) << 200U;
+  const auto p = std::make_shared<const WidePolynomial>(test::linear(scale + 3, 3 * scale));
+  const Dyadic lower(0.25), upper(0.5);
+  keep_root(*p, {lower, upper, 1, p->sign_at(lower)});
+  ASSERT_EQ(isolate_roots(ExactPolynomial(p), Dyadic(0.0), Dyadic(1.0)).size(), 1U);
+  for (int round = 0; round < 8; ++round) {
+    const auto around = known_roots_around(*p, lower, upper);
+    ASSERT_TRUE(around && around->count == 1);
+    RootInterval root = around->first;
+    narrow_root(*p, root);
+    const auto again = known_roots_around(*p, root.lower, root.upper);
+    ASSERT_TRUE(again && again->count == 1);
+    EXPECT_TRUE(again->first.lower == root.lower && again->first.upper == root.upper);
+  }
+}
+
 // Who looks for it again finds a root as narrow as it was left.
 TEST(WildPolynomials, RootsStayNarrow) {
   const Integer scale = Integer(1) << 200U;
