@@ -58,6 +58,18 @@ KDS_BLOCK_INLINE Row4 floats_of(const double* from, double factor, double term) 
   return __builtin_convertvector(four * factor + term, Row4);
 }
 
+// The processor itself fetches what comes next only to the end of its page.
+inline constexpr std::size_t doubles_fetched_ahead = 256;
+
+/// Doubles of a later block than that of bead `from`; there may be none.
+template <int Dimension>
+KDS_BLOCK_INLINE void fetch_doubles(const BlockSource<Dimension>& source, std::size_t from) {
+  constexpr std::size_t doubles_in_line = 8;
+  for (const double* const axis : source.centers)
+    for (std::size_t k = 0; k < beads_in_block; k += doubles_in_line)
+      __builtin_prefetch(axis + from + doubles_fetched_ahead + k);
+}
+
 /// Lane g of the k-th is number k of row g.
 KDS_BLOCK_INLINE void transpose(std::array<Row4, 4>& rows) {
   const Row4 ab01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5);
@@ -81,6 +93,7 @@ template <int Dimension, bool Equal>
   std::array<Row4, 4> radius{zero + source.radius, zero, zero, zero};
   for (std::size_t b = first; b < last; ++b) {
     const std::size_t from = beads_in_block * (b - first);
+    fetch_doubles(source, from);
     if constexpr (!Equal) {
       for (std::size_t g = 0; g < 4; ++g) {
         radius[g] = floats_of(source.radii + from + 4 * g, source.radius_factor, source.radius_added);
@@ -127,6 +140,7 @@ template <int Dimension>
   const BlockSource<Dimension> source = from_source;
   Row4 farthest{};
   for (std::size_t b = first; b < last; ++b) {
+    fetch_doubles(source, beads_in_block * (b - first));
     for (std::size_t g = 0; g < 4; ++g) {
       const std::size_t from = beads_in_block * (b - first) + 4 * g;
       Row4 square{};
