@@ -95,23 +95,31 @@ struct BlockKernels {
   /// The boxes of nodes first .. last - 1 into those above.
   using Unite = void (*)(const BlockNode<Dimension>* nodes, std::size_t first, std::size_t last,
                          BlockNode<Dimension>* parents);
+  /// Whether each bead of these blocks and of the one behind each, to its last, lies ahead of the bead before
+  /// it by more than `least` in one direction: bit k of number n for block 16 n + k.
+  using Stretch = void (*)(const Blocks<Dimension>& blocks, std::size_t first, std::size_t last, float least,
+                           std::uint16_t* stretched);
   /// The pairs of children that meet, one of node a and one of node b (a == b: each pair once, a child with
-  /// itself too), appended; returns how many.
+  /// itself too, but children of bits in `stretched` neither with themselves nor with the next), appended;
+  /// returns how many.
   using Expand = std::size_t (*)(const BlockNode<Dimension>* nodes, std::uint32_t a, std::uint32_t b,
-                                 NodePairs found);
+                                 unsigned stretched, NodePairs found);
   /// Near beads of `count` pairs of blocks; `limit`: the greatest square of a distance that is near, where
   /// radii are equal. `groups`: scratch for 16 numbers a pair. `tests` counts the groups of four that were
   /// looked at. Returns how many were found.
   using Compare = std::size_t (*)(const Blocks<Dimension>& blocks, const NodePairs& pairs, std::size_t count,
                                   const LanesAsked& asked, float limit, std::uint32_t* groups,
                                   const NearGroups& found, std::uint64_t& tests);
-  /// Near beads from `apart` to farthest_along apart in sequence, of blocks first .. last - 1 and what
-  /// follows them: 8 block + how far apart, and a bit for the first bead of each pair. Room for 8 a block.
+  /// Near beads from `apart` to farthest_along apart in sequence, of blocks first .. last - 1 that are not
+  /// stretched, and what follows them: 8 block + how far apart, and a bit for the first bead of each pair.
+  /// Room for 8 a block.
   using CompareAlong = std::size_t (*)(const Blocks<Dimension>& blocks, std::size_t first, std::size_t last,
-                                       std::uint32_t apart, float limit, const NearGroups& found);
+                                       const std::uint16_t* stretched, std::uint32_t apart, float limit,
+                                       const NearGroups& found);
   Fill fill_equal, fill_unequal;
   Stray stray;
   Unite unite;
+  Stretch stretch;
   Expand expand;
   Compare compare_equal, compare_unequal;
   CompareAlong along_equal, along_unequal;

@@ -105,8 +105,8 @@ KDS_AVX2 unsigned near_along(const Blocks<Dimension>& blocks, std::size_t i, std
     const std::size_t from = i + 8 * half;
     __m256 square = _mm256_setzero_ps();
     for (std::size_t axis = 0; axis < Dimension; ++axis) {
-      const __m256 d = _mm256_sub_ps(_mm256_loadu_ps(blocks.centers[axis] + from + apart),
-                                     _mm256_loadu_ps(blocks.centers[axis] + from));
+      const __m256 d = _mm256_sub_ps(_mm256_loadu_ps(blocks.centers[axis] + from),
+                                     _mm256_loadu_ps(blocks.centers[axis] + from + apart));
       square = axis == 0 ? _mm256_mul_ps(d, d) : _mm256_add_ps(square, _mm256_mul_ps(d, d));
     }
     __m256 most = _mm256_set1_ps(limit);
@@ -116,6 +116,25 @@ KDS_AVX2 unsigned near_along(const Blocks<Dimension>& blocks, std::size_t i, std
       most = _mm256_mul_ps(reach, reach);
     }
     bits |= bits_of_lanes(_mm256_cmp_ps(square, most, _CMP_LE_OQ)) << (8 * half);
+  }
+  return bits;
+}
+
+template <int Dimension>
+KDS_AVX2 unsigned steps_ahead(const Blocks<Dimension>& blocks, std::size_t i,
+                              const std::array<float, static_cast<std::size_t>(Dimension)>& along,
+                              float least) {
+  unsigned bits = 0;
+  for (std::size_t half = 0; half < 2; ++half) {
+    const std::size_t from = i + 8 * half;
+    __m256 sum = _mm256_setzero_ps();
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      const __m256 step = _mm256_sub_ps(_mm256_loadu_ps(blocks.centers[axis] + from + 1),
+                                        _mm256_loadu_ps(blocks.centers[axis] + from));
+      const __m256 ahead = _mm256_mul_ps(step, _mm256_set1_ps(along[axis]));
+      sum = axis == 0 ? ahead : _mm256_add_ps(sum, ahead);
+    }
+    bits |= bits_of_lanes(_mm256_cmp_ps(sum, _mm256_set1_ps(least), _CMP_GT_OQ)) << (8 * half);
   }
   return bits;
 }

@@ -82,8 +82,8 @@ KDS_AVX512 unsigned near_along(const Blocks<Dimension>& blocks, std::size_t i, s
                                float limit) {
   __m512 square = _mm512_setzero_ps();
   for (std::size_t axis = 0; axis < Dimension; ++axis) {
-    const __m512 d = _mm512_sub_ps(_mm512_loadu_ps(blocks.centers[axis] + i + apart),
-                                   _mm512_loadu_ps(blocks.centers[axis] + i));
+    const __m512 d = _mm512_sub_ps(_mm512_loadu_ps(blocks.centers[axis] + i),
+                                   _mm512_loadu_ps(blocks.centers[axis] + i + apart));
     square = axis == 0 ? _mm512_mul_ps(d, d) : _mm512_add_ps(square, _mm512_mul_ps(d, d));
   }
   __m512 most = _mm512_set1_ps(limit);
@@ -93,6 +93,20 @@ KDS_AVX512 unsigned near_along(const Blocks<Dimension>& blocks, std::size_t i, s
     most = _mm512_mul_ps(reach, reach);
   }
   return _mm512_cmp_ps_mask(square, most, _CMP_LE_OQ);
+}
+
+template <int Dimension>
+KDS_AVX512 unsigned steps_ahead(const Blocks<Dimension>& blocks, std::size_t i,
+                                const std::array<float, static_cast<std::size_t>(Dimension)>& along,
+                                float least) {
+  __m512 sum = _mm512_setzero_ps();
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    const __m512 step = _mm512_sub_ps(_mm512_loadu_ps(blocks.centers[axis] + i + 1),
+                                      _mm512_loadu_ps(blocks.centers[axis] + i));
+    const __m512 ahead = _mm512_mul_ps(step, _mm512_set1_ps(along[axis]));
+    sum = axis == 0 ? ahead : _mm512_add_ps(sum, ahead);
+  }
+  return _mm512_cmp_ps_mask(sum, _mm512_set1_ps(least), _CMP_GT_OQ);
 }
 
 KDS_AVX512 std::size_t append_bits(std::uint32_t* out, std::uint32_t base, unsigned bits) {

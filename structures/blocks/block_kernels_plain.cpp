@@ -80,7 +80,7 @@ inline unsigned near_along(const Blocks<Dimension>& blocks, std::size_t i, std::
     PlainRow square{};
     for (std::size_t axis = 0; axis < Dimension; ++axis) {
       const float* from = blocks.centers[axis] + i + four;
-      const PlainRow d = plain_row(from + apart) - plain_row(from);
+      const PlainRow d = plain_row(from) - plain_row(from + apart);
       square = axis == 0 ? d * d : square + d * d;
     }
     PlainRow most = PlainRow{} + limit;
@@ -89,6 +89,23 @@ inline unsigned near_along(const Blocks<Dimension>& blocks, std::size_t i, std::
       most = reach * reach;
     }
     bits |= plain_bits(square <= most) << four;
+  }
+  return bits;
+}
+
+template <int Dimension>
+inline unsigned steps_ahead(const Blocks<Dimension>& blocks, std::size_t i,
+                            const std::array<float, static_cast<std::size_t>(Dimension)>& along,
+                            float least) {
+  unsigned bits = 0;
+  for (std::size_t four = 0; four < beads_in_block; four += 4) {
+    PlainRow sum{};
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      const float* from = blocks.centers[axis] + i + four;
+      const PlainRow ahead = (plain_row(from + 1) - plain_row(from)) * along[axis];
+      sum = axis == 0 ? ahead : sum + ahead;
+    }
+    bits |= plain_bits(sum > least) << four;
   }
   return bits;
 }

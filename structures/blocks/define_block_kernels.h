@@ -9,6 +9,9 @@
 //                                     bit 4 k + l: bead i + k is near bead j + l
 //   near_along<Equal>(blocks, i, apart, limit)
 //                                     bit k: bead i + k is near bead i + k + apart; of 16
+//   steps_ahead(blocks, i, along, least)
+//                                     bit k: bead i + k + 1 is ahead of bead i + k by more than `least`,
+//                                     times the length of the vector `along`; of 16
 //   append_bits(out, base, bits)      writes base + k for each bit k there is, in order, and returns how many
 //
 // Such functions may only be inlined into others of their target, and code for other targets must not get to
@@ -55,6 +58,18 @@ KDS_BLOCK_INLINE Row4 floats_of(const double* from, double factor, double term) 
   return __builtin_convertvector(four * factor + term, Row4);
 }
 
+// The processor itself fetches what comes next only to the end of its page.
+inline constexpr std::size_t doubles_fetched_ahead = 256;
+
+/// Doubles of a later block than that of bead `from`; there may be none.
+template <int Dimension>
+KDS_BLOCK_INLINE void fetch_doubles(const BlockSource<Dimension>& source, std::size_t from) {
+  constexpr std::size_t doubles_in_line = 8;
+  for (const double* const axis : source.centers)
+    for (std::size_t k = 0; k < beads_in_block; k += doubles_in_line)
+      __builtin_prefetch(axis + from + doubles_fetched_ahead + k);
+}
+
 /// Lane g of the k-th is number k of row g.
 KDS_BLOCK_INLINE void transpose(std::array<Row4, 4>& rows) {
   const Row4 ab01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5);
@@ -66,14 +81,19 @@ KDS_BLOCK_INLINE void transpose(std::array<Row4, 4>& rows) {
 }
 
 template <int Dimension, bool Equal>
-[[KDS_BLOCK_TARGET, gnu::noinline]] BlockExtent fill(const BlockSource<Dimension>& source, std::size_t first,
-                                                     std::size_t last, const Blocks<Dimension>& blocks,
+[[KDS_BLOCK_TARGET, gnu::noinline]] BlockExtent fill(const BlockSource<Dimension>& from_source,
+                                                     std::size_t first, std::size_t last,
+                                                     const Blocks<Dimension>& into_blocks,
                                                      BlockNode<Dimension>* parents) {
+  // Copies, which nothing that is stored can change.
+  const Blocks<Dimension> blocks = into_blocks;
+  const BlockSource<Dimension> source = from_source;
   const Row4 zero{};
   Row4 farthest = zero, widest = zero;
   std::array<Row4, 4> radius{zero + source.radius, zero, zero, zero};
   for (std::size_t b = first; b < last; ++b) {
     const std::size_t from = beads_in_block * (b - first);
+    fetch_doubles(source, from);
     if constexpr (!Equal) {
       for (std::size_t g = 0; g < 4; ++g) {
         radius[g] = floats_of(source.radii + from + 4 * g, source.radius_factor, source.radius_added);
@@ -115,10 +135,12 @@ template <int Dimension, bool Equal>
 }
 
 template <int Dimension>
-[[KDS_BLOCK_TARGET, gnu::noinline]] float stray(const BlockSource<Dimension>& source, std::size_t first,
+[[KDS_BLOCK_TARGET, gnu::noinline]] float stray(const BlockSource<Dimension>& from_source, std::size_t first,
                                                 std::size_t last, const Blocks<Dimension>& before) {
+  const BlockSource<Dimension> source = from_source;
   Row4 farthest{};
   for (std::size_t b = first; b < last; ++b) {
+    fetch_doubles(source, beads_in_block * (b - first));
     for (std::size_t g = 0; g < 4; ++g) {
       const std::size_t from = beads_in_block * (b - first) + 4 * g;
       Row4 square{};
@@ -147,6 +169,29 @@ template <int Dimension>
       parent.high[axis][place] = greatest(larger(larger(load_row(high), load_row(high + 4)),
                                                  larger(load_row(high + 8), load_row(high + 12))));
     }
+  }
+}
+
+template <int Dimension>
+[[KDS_BLOCK_TARGET, gnu::noinline]] void stretch(const Blocks<Dimension>& blocks, std::size_t first,
+                                                 std::size_t last, float least, std::uint16_t* stretched) {
+  constexpr std::size_t steps = 2 * beads_in_block - 1;
+  const float shortest = static_cast<float>(steps) * least, shortest_square = shortest * shortest;
+  for (std::size_t b = first; b < last; ++b) {
+    const std::size_t bead = beads_in_block * b;
+    std::array<float, static_cast<std::size_t>(Dimension)> along;
+    float square = 0;
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      along[axis] = blocks.centers[axis][bead + steps] - blocks.centers[axis][bead];
+      square += along[axis] * along[axis];
+    }
+    const float its_least = least * __builtin_sqrtf(square);
+    // The last step of all leads to another block.
+    const bool is = square > shortest_square && steps_ahead(blocks, bead, along, its_least) == 0xffff &&
+                    (steps_ahead(blocks, bead + beads_in_block, along, its_least) | 0x8000) == 0xffff;
+    std::uint16_t& bits = stretched[b / children_of_node];
+    const unsigned bit = 1U << b % children_of_node;
+    bits = static_cast<std::uint16_t>(is ? bits | bit : bits & ~bit);
   }
 }
 
@@ -183,7 +228,7 @@ KDS_BLOCK_INLINE void write_sixteen(std::uint32_t* out, std::uint32_t number) {
 
 template <int Dimension>
 [[KDS_BLOCK_TARGET, gnu::noinline]] std::size_t expand(const BlockNode<Dimension>* nodes, std::uint32_t a,
-                                                       std::uint32_t b, NodePairs found) {
+                                                       std::uint32_t b, unsigned stretched, NodePairs found) {
   constexpr auto children = static_cast<std::uint32_t>(children_of_node);
   const BlockNode<Dimension>& first = nodes[a];
   const BlockNode<Dimension>& second = nodes[b];
@@ -198,7 +243,7 @@ template <int Dimension>
   for (; ours != 0; ours &= ours - 1) {
     const auto child = static_cast<std::uint32_t>(__builtin_ctz(ours));
     unsigned meeting = meeting_children(second, child_box(first, child)) & others;
-    if (a == b) meeting &= 0xffffU << child;
+    if (a == b) meeting &= (0xffffU ^ (stretched >> child & 1) * 3) << child;
     write_sixteen(found.first + count, children * a + child);
     count += append_bits(found.second + count, children * b, meeting);
   }
@@ -316,11 +361,13 @@ template <int Dimension, bool Equal>
 template <int Dimension, bool Equal>
 [[KDS_BLOCK_TARGET, gnu::noinline]] std::size_t compare_along(const Blocks<Dimension>& blocks,
                                                               std::size_t first, std::size_t last,
+                                                              const std::uint16_t* stretched,
                                                               std::uint32_t apart, float limit,
                                                               const NearGroups& found) {
   const Blocks<Dimension> here = blocks;
   std::size_t near = 0;
   for (std::size_t b = first; b < last; ++b) {
+    if ((stretched[b / children_of_node] >> b % children_of_node & 1) != 0) continue;
     std::array<unsigned, farthest_along + 1> bits;
     unsigned any = 0;
     for (std::uint32_t k = apart; k <= farthest_along; ++k) {
@@ -342,6 +389,7 @@ inline constexpr BlockKernels<Dimension> kernels_here{fill<Dimension, true>,
                                                       fill<Dimension, false>,
                                                       stray<Dimension>,
                                                       unite<Dimension>,
+                                                      stretch<Dimension>,
                                                       expand<Dimension>,
                                                       compare<Dimension, true>,
                                                       compare<Dimension, false>,

@@ -20,15 +20,14 @@ template <int Dimension>
 
 }  // namespace detail
 
-/// Closed balls: touching is meeting. Exact.
+/// Closed balls: touching is meeting. Exact. `reach`: the sum of their radii as a double.
 template <int Dimension>
-[[nodiscard]] inline bool balls_meet(const Balls<Dimension>& balls, BeadId a, BeadId b) {
+[[nodiscard]] inline bool balls_meet(const Balls<Dimension>& balls, BeadId a, BeadId b, double reach) {
   double square = 0;
   for (std::size_t axis = 0; axis < Dimension; ++axis) {
     const double d = balls.coordinates(axis)[a] - balls.coordinates(axis)[b];
     square += d * d;
   }
-  const double reach = balls.radii()[a] + balls.radii()[b];
   // Each errs by less than 2^-50 of itself. What underflows is below 2^-1000, and where one is tiny or not
   // finite nothing is said.
   const double limit = reach * reach;
@@ -38,6 +37,29 @@ template <int Dimension>
   }
   return detail::balls_meet_exactly(balls, a, b);
 }
+
+template <int Dimension>
+[[nodiscard]] inline bool balls_meet(const Balls<Dimension>& balls, BeadId a, BeadId b) {
+  return balls_meet(balls, a, b, balls.radii()[a] + balls.radii()[b]);
+}
+
+/// The same for many pairs: of equal balls no radius is read again.
+template <int Dimension>
+class MeetingBalls {
+ public:
+  explicit MeetingBalls(const Balls<Dimension>& balls)
+      : balls_(balls),
+        equal_(balls.equal_radii() && balls.size() > 0),
+        reach_(equal_ ? balls.radius(0) + balls.radius(0) : 0) {}
+  [[nodiscard]] bool operator()(BeadId a, BeadId b) const {
+    return equal_ ? balls_meet(balls_, a, b, reach_) : balls_meet(balls_, a, b);
+  }
+
+ private:
+  const Balls<Dimension>& balls_;
+  bool equal_;
+  double reach_;
+};
 
 /// At most so far apart (finite, not negative). Exact.
 template <int Dimension>

@@ -82,6 +82,7 @@ void BlockTree<Dimension>::make_blocks(BlockOrder order) {
   radii_.assign((blocks + 1) * beads_in_block, 0.0F);
   boxes_.resize(blocks);
   levels_.clear();
+  stretched_.assign((blocks + children_of_node - 1) / children_of_node, 0);
   for (std::size_t nodes = blocks; nodes > 1 || levels_.empty();) {
     nodes = (nodes + children_of_node - 1) / children_of_node;
     levels_.emplace_back(std::max<std::size_t>(nodes, 1));
@@ -245,8 +246,27 @@ void BlockTree<Dimension>::build(const Balls<Dimension>& balls, double gap) {
     if (!fits(extent)) throw std::logic_error("a frame of floats does not hold its own scene");
   }
   gap_ = gap;
+  // Steps that the kernel finds to be so long are shorter by 2^-20 M at most, what differences and products
+  // have lost (below 15 u M), and `apart` of them are still longer than floats call near.
+  least_ahead_ =
+      static_cast<float>(2.0 * extent.radius * (1 + 0x1p-16) / asked_.apart + 0x1p-18 * frame_.bound);
+  find_stretched();
   for (std::size_t level = 0; level + 1 < levels_.size(); ++level)
     kernels_.unite(levels_[level].data(), 0, levels_[level].size(), levels_[level + 1].data());
+}
+
+// Blocks in which, with the next, no two beads are near that are asked about: each bead lies so far ahead of
+// the one before it in one direction. Beads of a necklace only: the next must be of the same.
+template <int Dimension>
+void BlockTree<Dimension>::find_stretched() {
+  if (!goes_along()) return;
+  kernels_.stretch(blocks(), 0, boxes_.size() - 1, least_ahead_, stretched_.data());
+  std::size_t behind = 0;
+  for (const BeadRange& range : asked_.necklaces) {
+    behind += (std::size_t{range.last} - range.first + beads_in_block) / beads_in_block;
+    const std::size_t last = behind - 1;
+    stretched_[last / children_of_node] &= static_cast<std::uint16_t>(~(1U << last % children_of_node));
+  }
 }
 
 template <int Dimension>
@@ -328,7 +348,7 @@ void BlockTree<Dimension>::expand_levels() {
       if (!asks(a, b, level)) continue;
       more_nodes_.reserve(children_of_node * children_of_node);
       const std::size_t before = more_nodes_.count;
-      more_nodes_.count += kernels_.expand(levels_[level].data(), a, b, more_nodes_.end());
+      more_nodes_.count += kernels_.expand(levels_[level].data(), a, b, 0, more_nodes_.end());
       if (only_marked_) keep_marked(more_nodes_, before, level);
       ++counts_.node_pairs;
     }
@@ -348,7 +368,7 @@ auto BlockTree<Dimension>::search(const Balls<Dimension>& balls, bool may_give_u
     if (candidate_count_ > most_candidates_ || !asks(a, b, 0)) return;
     block_pairs_.reserve(children_of_node * children_of_node);
     const std::size_t before = block_pairs_.count;
-    block_pairs_.count += kernels_.expand(levels_[0].data(), a, b, block_pairs_.end());
+    block_pairs_.count += kernels_.expand(levels_[0].data(), a, b, stretched_[a], block_pairs_.end());
     if (only_marked_) keep_marked(block_pairs_, before, 0);
     ++counts_.node_pairs;
     if (block_pairs_.count >= block_pairs_at_once) compare_blocks();
@@ -407,8 +427,8 @@ void BlockTree<Dimension>::compare_along(std::size_t first, std::size_t last) {
   const auto kernel = equal_ ? kernels_.along_equal : kernels_.along_unequal;
   constexpr std::size_t at_once = 2 * block_pairs_at_once;  // eight found a block at most
   for (; first < last; first += at_once) {
-    const std::size_t near = kernel(blocks(), first, std::min(first + at_once, last), asked_.apart, limit_,
-                                    {near_groups_.data(), near_beads_.data()});
+    const std::size_t near = kernel(blocks(), first, std::min(first + at_once, last), stretched_.data(),
+                                    asked_.apart, limit_, {near_groups_.data(), near_beads_.data()});
     reserve_candidates(near);
     for (std::size_t k = 0; k < near; ++k) {
       const std::uint32_t block = near_groups_[k] / 8, along = near_groups_[k] % 8;
@@ -552,6 +572,7 @@ std::optional<std::span<const BeadPair>> BlockTree<Dimension>::near_pairs_of(
     for (std::size_t node = 0; node < levels_[level].size(); ++node)
       if (marks_[level + 1][node] != 0)
         kernels_.unite(levels_[level].data(), node, node + 1, levels_[level + 1].data());
+  find_stretched();
   most_candidates_ = most;
   only_marked_ = true;
   (void)search(balls, false);

@@ -105,6 +105,7 @@ class BlockTree {
   void build(const Balls<Dimension>& balls, double gap);
   BlockExtent fill(const Balls<Dimension>& balls, double gap);
   [[nodiscard]] bool fill_again(const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks);
+  void find_stretched();
   void clear_lanes_behind(std::size_t block);
   [[nodiscard]] std::size_t beads_of(std::size_t block) const;
   void mark(std::span<const std::uint32_t> blocks);
@@ -151,6 +152,7 @@ class BlockTree {
   bool equal_ = true;
   double gap_ = 0;   // of the last search
   float limit_ = 0;  // the greatest square of a distance that is near
+  float least_ahead_ = 0;
 
   // Blocks: their first beads in sequence, or all their beads in spatial order.
   std::vector<BeadId> first_bead_;
@@ -160,6 +162,7 @@ class BlockTree {
   std::vector<float> radii_;
   std::vector<GroupBoxes<Dimension>> boxes_;
   std::vector<std::vector<BlockNode<Dimension>>> levels_;  // from those above the blocks up to one root
+  std::vector<std::uint16_t> stretched_;  // blocks, a bit each, without near pairs in them and the next
 
   // Of blocks that are looked at again, of the nodes above them level by level, and of their beads.
   bool only_marked_ = false;

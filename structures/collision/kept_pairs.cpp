@@ -21,6 +21,8 @@ template <int Dimension>
 void KeptPairs<Dimension>::replace(const Balls<Dimension>& balls, std::span<const unsigned char> marks,
                                    std::span<const BeadPair> near, double moved) {
   const double of_skin = classes / (skin_ * scale_), moved_since = moved * scale_;
+  // Of no skin all pairs are in the first class.
+  const double classes_a_gap = of_skin < 0x1p1000 ? of_skin * (1 - 0x1p-40) : 0.0;
   std::array<std::size_t, classes> added{};
   class_of_.resize(near.size());
   for (std::size_t k = 0; k < near.size(); ++k) {
@@ -32,11 +34,8 @@ void KeptPairs<Dimension>::replace(const Balls<Dimension>& balls, std::span<cons
     }
     const double distance = std::sqrt(square), reach = balls.radii()[a] * scale_ + balls.radii()[b] * scale_;
     const double gap = distance - reach - (distance + reach) * 0x1p-46 - moved_since;
-    // Of no skin all pairs are in the first.
-    const double share = gap * of_skin * (1 - 0x1p-40);
-    const auto its = share > 0 && of_skin < 0x1p1000
-                         ? static_cast<std::size_t>(std::min(share, classes - 1.0))
-                         : std::size_t{0};
+    const double share = gap * classes_a_gap, some = share > 0 ? share : 0.0;
+    const auto its = static_cast<std::size_t>(static_cast<int>(some < classes - 1.0 ? some : classes - 1.0));
     class_of_[k] = static_cast<unsigned char>(its);
     ++added[its];
   }
@@ -71,12 +70,13 @@ template <int Dimension>
 void KeptPairs<Dimension>::find_meeting(const Balls<Dimension>& balls, double moved,
                                         std::vector<BeadPair>& meeting) {
   meeting.clear();
+  const MeetingBalls meet(balls);
   std::size_t in_order = 0;
   for (std::size_t c = 0; c < classes; ++c) {
     // Its gaps are at least that share of the skin.
     if (c > 0 && 2 * moved < static_cast<double>(c) / classes * skin_ * (1 - 0x1p-40)) break;
     for (std::size_t k = starts_[c]; k < starts_[c + 1]; ++k)
-      if (balls_meet(balls, pairs_[k].first, pairs_[k].second)) meeting.push_back(pairs_[k]);
+      if (meet(pairs_[k].first, pairs_[k].second)) meeting.push_back(pairs_[k]);
     looked_at_ += starts_[c + 1] - starts_[c];
     if (c == 0) in_order = meeting.size();
   }

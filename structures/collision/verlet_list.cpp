@@ -75,9 +75,10 @@ const std::vector<BeadPair>& VerletList<Dimension>::pairs(const Balls<Dimension>
   const FloatingPointGuard to_nearest;
   if (!holds(balls)) rebuild(balls);
   pairs_.clear();
+  const MeetingBalls meet(balls);
   for (BeadId a = 0; a < balls.size(); ++a) {
     for (std::uint32_t k = starts_[a]; k < starts_[a + 1]; ++k)
-      if (balls_meet(balls, a, others_[k])) pairs_.push_back({a, others_[k]});
+      if (meet(a, others_[k])) pairs_.push_back({a, others_[k]});
   }
   return pairs_;
 }
