@@ -73,35 +73,36 @@ TEST(CollisionDetectors, RandomScenesOfAllSizesAndPlaces) {
 /// Chains that go straight on or bend, here and there sharply, with steps such that beads `apart` from each
 /// other along them touch, or nearly do, or are clearly apart.
 template <int Dimension>
-CollisionScene stretched_scene(Chance& chance) {
+CollisionScene stretched_scene(Random& random) {
   CollisionScene scene{
-      "stretched", Eigen::Matrix3Xd(3, 40 + static_cast<Eigen::Index>(chance() % 200)), {}, {}};
+      "stretched", Eigen::Matrix3Xd(3, 40 + static_cast<Eigen::Index>(random() % 200)), {}, {}};
   const auto beads = static_cast<std::size_t>(scene.centers.cols());
   const std::array<double, 6> factors{1, 1 + 0x1p-40, 1 + 0x1p-14, 1 - 0x1p-14, 1.2, 2};
-  scene.asked.apart = static_cast<BeadId>(1 + chance() % 3);
-  const double step = factors[chance() % factors.size()] / scene.asked.apart;
-  const double bend = chance() % 2 == 0 ? 0 : uniform(chance, 0, 0.2);
-  const double scatter = chance() % 3 == 0 ? 0.05 : 0;
-  const std::uint64_t straight_on = 10 + chance() % 100;  // beads from one sharp bend to the next
+  scene.asked.apart = static_cast<BeadId>(1 + random() % 3);
+  const double step = factors[random() % factors.size()] / scene.asked.apart;
+  const double bend = random() % 2 == 0 ? 0 : uniform(random, 0, 0.2);
+  const double scatter = random() % 3 == 0 ? 0.05 : 0;
+  const std::uint64_t straight_on = 10 + random() % 100;  // beads from one sharp bend to the next
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
-  double angle = chance() % 2 == 0 ? 0 : uniform(chance, 0, 7);
+  double angle = random() % 2 == 0 ? 0 : uniform(random, 0, 7);
   for (Eigen::Index b = 0; b < scene.centers.cols(); ++b) {
-    scene.centers.col(b) = at + scatter * Eigen::Vector3d(uniform(chance), uniform(chance), uniform(chance));
-    angle += chance() % straight_on == 0 ? uniform(chance, -3.2, 3.2) : bend;
+    scene.centers.col(b) =
+        at + scatter * Eigen::Vector3d(uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1));
+    angle += random() % straight_on == 0 ? uniform(random, -3.2, 3.2) : bend;
     at += step * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
   }
-  if (Dimension == 3 && chance() % 2 == 0) scene.centers.row(0).swap(scene.centers.row(2));
+  if (Dimension == 3 && random() % 2 == 0) scene.centers.row(0).swap(scene.centers.row(2));
   scene.radii.assign(beads, 0.5);
-  if (chance() % 4 == 0) scene.radii[chance() % beads] = 0.25;
-  const auto last = static_cast<BeadId>(beads - 1), middle = static_cast<BeadId>(chance() % beads);
+  if (random() % 4 == 0) scene.radii[random() % beads] = 0.25;
+  const auto last = static_cast<BeadId>(beads - 1), middle = static_cast<BeadId>(random() % beads);
   scene.asked.necklaces = {{0, last}};
-  if (chance() % 2 == 0 && middle < last) scene.asked.necklaces = {{0, middle}, {middle + 1, last}};
+  if (random() % 2 == 0 && middle < last) scene.asked.necklaces = {{0, middle}, {middle + 1, last}};
   return scene;
 }
 
 template <int Dimension>
-void expect_right_when_stretched(Chance& chance, std::size_t& skipped, std::size_t& found) {
-  const CollisionScene scene = stretched_scene<Dimension>(chance);
+void expect_right_when_stretched(Random& random, std::size_t& skipped, std::size_t& found) {
+  const CollisionScene scene = stretched_scene<Dimension>(random);
   expect_all_right<Dimension>(scene);
   const Balls<Dimension> balls(scene.centers, scene.radii);
   BlockTree<Dimension> tree(scene.asked, BlockOrder::sequence);
@@ -113,10 +114,10 @@ void expect_right_when_stretched(Chance& chance, std::size_t& skipped, std::size
 TEST(CollisionDetectors, StretchedPiecesOfChainsAreSkipped) {
   std::size_t skipped = 0, found = 0;
   for (unsigned seed = 0; seed < rounds(600U); ++seed) {
-    Chance chance(seed);
+    Random random(seed);
     SCOPED_TRACE("seed " + std::to_string(seed));
-    expect_right_when_stretched<3>(chance, skipped, found);
-    expect_right_when_stretched<2>(chance, skipped, found);
+    expect_right_when_stretched<3>(random, skipped, found);
+    expect_right_when_stretched<2>(random, skipped, found);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(skipped, rounds(600U) / 10);
