@@ -35,7 +35,8 @@ template <class Certificate, Motion M, int Degree>
 [[gnu::always_inline]] inline void evaluate_in_line(
     const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
     const Lanes& sides, const LanesBound<Degree>& bound, double charge, ScaledLanes<Degree>& lanes,
-    const BeadsOf<Certificate>& places = in_places<Certificate>()) {
+    const BeadsOf<Certificate>& like = {}) {
+  const BeadsOf<Certificate> places = in_places<Certificate>(like);  // here: constants for the compiler
   const LanesView<M, bead_places<Certificate>, channels_of<Certificate>> view(motion, tuples);
   const auto function = Certificate::formula(view, places);
 
@@ -55,13 +56,13 @@ template <class Certificate, Motion M, int Degree>
 
 }  // namespace detail
 
-/// `sides`: 1 or -1, by which a lane's formula is multiplied; `places`: by which it names its beads.
+/// `sides`: 1 or -1, by which a lane's formula is multiplied; `like`: beads of any of them.
 template <class Certificate, Motion M, int Degree>
 [[KDS_LANES_TARGETS]] void evaluate_lanes(
     const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
     const Lanes& sides, const LanesBound<Degree>& bound, Rounding rounding, ScaledLanes<Degree>& lanes,
-    const BeadsOf<Certificate>& places) {
-  detail::evaluate_in_line<Certificate>(motion, tuples, sides, bound, charge_of(rounding), lanes, places);
+    const BeadsOf<Certificate>& like) {
+  detail::evaluate_in_line<Certificate>(motion, tuples, sides, bound, charge_of(rounding), lanes, like);
 }
 
 }  // namespace kds

@@ -83,10 +83,11 @@ requires(!channels_of<Function>.weights && !channels_of<Function>.radii)  //
     [[KDS_LANES_TARGETS]] void positive_at_moment(
         const M& motion, const typename LanesMomentView<M, bead_places<Function>>::Tuples& tuples,
         const Lanes& sides, double lower, double upper, bool& all_positive,
-        const BeadsOf<Function>& places = in_places<Function>()) {
+        const BeadsOf<Function>& like = {}) {
   constexpr int degree = M::degree;
   all_positive = false;
   if (!((2 * degree) * (upper - lower) + (4 * degree + 4) * 0x1p-53 <= 0x1p-25)) return;
+  const BeadsOf<Function> places = in_places<Function>(like);  // here: constants for the compiler
   const LanesMomentView<M, bead_places<Function>> view(motion, tuples, upper);
   const Lanes value = sides * Function::formula(view, places).scaled[0];
   const auto& bound = detail::moment_bound<Function, M::dimension>;

@@ -55,7 +55,7 @@ class LanesFilter {
     }
     ScaledLanes<degree> functions;
     evaluate_lanes<Certificate>(curves, tuples, sides, bound_, rounding_of(kernel), functions,
-                                in_places<Certificate>(certificates[places[0]].beads));
+                                certificates[places[0]].beads);
     if (Lanes::all(functions.positive)) {
       for (const std::size_t place : places) failures[place] = {};
       stages.coefficients += places.size();
@@ -107,8 +107,7 @@ class LanesFilter {
         if (!of_one_formula(one, some.front())) return false;
       constexpr Places places{0, 1, 2, 3};
       const auto [tuples, sides] = in_lanes(some, std::span(places).first(some.size()));
-      positive_at_moment<Certificate>(curves, tuples, sides, lower, upper, positive,
-                                      in_places<Certificate>(some.front().beads));
+      positive_at_moment<Certificate>(curves, tuples, sides, lower, upper, positive, some.front().beads);
     }
     return positive;
   }
