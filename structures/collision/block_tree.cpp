@@ -250,7 +250,7 @@ void BlockTree<Dimension>::build(const Balls<Dimension>& balls, double gap) {
   // have lost (below 15 u M), and `apart` of them are still longer than floats call near.
   least_ahead_ =
       static_cast<float>(2.0 * extent.radius * (1 + 0x1p-16) / asked_.apart + 0x1p-18 * frame_.bound);
-  find_stretched();
+  find_stretched(0, boxes_.size());
   for (std::size_t level = 0; level + 1 < levels_.size(); ++level)
     kernels_.unite(levels_[level].data(), 0, levels_[level].size(), levels_[level + 1].data());
 }
@@ -258,15 +258,12 @@ void BlockTree<Dimension>::build(const Balls<Dimension>& balls, double gap) {
 // Blocks in which, with the next, no two beads are near that are asked about: each bead lies so far ahead of
 // the one before it in one direction. Beads of a necklace only: the next must be of the same.
 template <int Dimension>
-void BlockTree<Dimension>::find_stretched() {
+void BlockTree<Dimension>::find_stretched(std::size_t first, std::size_t last) {
   if (!goes_along()) return;
-  kernels_.stretch(blocks(), 0, boxes_.size() - 1, least_ahead_, stretched_.data());
-  std::size_t behind = 0;
-  for (const BeadRange& range : asked_.necklaces) {
-    behind += (std::size_t{range.last} - range.first + beads_in_block) / beads_in_block;
-    const std::size_t last = behind - 1;
-    stretched_[last / children_of_node] &= static_cast<std::uint16_t>(~(1U << last % children_of_node));
-  }
+  kernels_.stretch(blocks(), first, std::min(last, boxes_.size() - 1), least_ahead_, stretched_.data());
+  for (std::size_t block = first; block < last; ++block)
+    if (block + 1 == boxes_.size() || necklace_of_block_[block] != necklace_of_block_[block + 1])
+      stretched_[block / children_of_node] &= static_cast<std::uint16_t>(~(1U << block % children_of_node));
 }
 
 template <int Dimension>
@@ -572,7 +569,7 @@ std::optional<std::span<const BeadPair>> BlockTree<Dimension>::near_pairs_of(
     for (std::size_t node = 0; node < levels_[level].size(); ++node)
       if (marks_[level + 1][node] != 0)
         kernels_.unite(levels_[level].data(), node, node + 1, levels_[level + 1].data());
-  find_stretched();
+  for (const std::uint32_t block : blocks) find_stretched(block > 0 ? block - 1 : 0, block + 1);
   most_candidates_ = most;
   only_marked_ = true;
   (void)search(balls, false);

@@ -5,6 +5,9 @@
 // once; of two boxes the 16 pairs of beads. Floats only rule out (float_frame.h has the proof); what is left
 // is decided exactly. Built anew for every scene, 1 to 2 ns a bead.
 //
+// Blocks along which a chain goes straight on, or nearly, are not compared with themselves and the next: each
+// bead lies so far ahead of the one before it in one direction that beads two apart cannot meet (`stretch`).
+//
 // Where blocks of consecutive beads meet many others, boxes are turned to the chain's bonds (bond_axes.h) if
 // these lie along few directions. Where a chain is packed so densely that they still do, or has no such
 // directions, the beads are put in spatial order first, along a Morton curve, and blocks are made of these:
@@ -105,7 +108,7 @@ class BlockTree {
   void build(const Balls<Dimension>& balls, double gap);
   BlockExtent fill(const Balls<Dimension>& balls, double gap);
   [[nodiscard]] bool fill_again(const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks);
-  void find_stretched();
+  void find_stretched(std::size_t first, std::size_t last);
   void clear_lanes_behind(std::size_t block);
   [[nodiscard]] std::size_t beads_of(std::size_t block) const;
   void mark(std::span<const std::uint32_t> blocks);
