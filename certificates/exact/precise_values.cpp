@@ -55,7 +55,6 @@ struct InBits {
 /// The leading digits.
 struct InLeadingDigits {
   using Number = LeadingDigits;
-  static constexpr bool exact = false;
 
   [[nodiscard]] static const std::vector<Number>& coefficients(const WidePolynomial& p) {
     return p.leading_digits();

@@ -7,8 +7,8 @@
 
 #include "experiments/output/result_json.h"
 #include "motions/base/bead.h"
-#include "motions/readers/bead_name.h"
 #include "motions/frames/trajectory.h"
+#include "motions/readers/bead_name.h"
 
 namespace kds {
 

@@ -16,8 +16,8 @@
 #include "motions/base/bead_range.h"
 #include "motions/curves/bezier_motion.h"
 #include "motions/curves/lifted_motion.h"
-#include "motions/readers/instance.h"
 #include "motions/frames/trajectory.h"
+#include "motions/readers/instance.h"
 #include "motions/scene/scene_stream.h"
 
 namespace kds {
