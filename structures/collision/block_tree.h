@@ -6,7 +6,7 @@
 // is decided exactly. Built anew for every scene, 1 to 2 ns a bead.
 //
 // Blocks along which a chain goes straight on, or nearly, are not compared with themselves and the next: each
-// bead lies so far ahead of the one before it in one direction that beads two apart cannot meet (`stretch`).
+// bead lies so far ahead of the one before it in one direction that none that are asked about can meet.
 //
 // Where blocks of consecutive beads meet many others, boxes are turned to the chain's bonds (bond_axes.h) if
 // these lie along few directions. Where a chain is packed so densely that they still do, or has no such

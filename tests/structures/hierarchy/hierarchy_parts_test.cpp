@@ -53,19 +53,24 @@ Basis smallest_basis(const Space& motion, std::span<const BeadId> beads) {
   return basis;
 }
 
+Space six_beads(Random& random, Radii radii) {
+  auto motion = random_motion<Space>(random, 6, MotionKind::generic);
+  for (BeadId b = 0; b < 6; ++b) {
+    for (int k = 0; k <= 1; ++k) {
+      motion.set_radius(b, k, radii == Radii::equal ? 0.25 : 0.125 * (1 + b % 3));
+      motion.set_weight(b, k, 0);
+    }
+  }
+  return motion;
+}
+
 TEST(BasisRepair, FindsTheBasisOfABasisAndTheBeadThatEscaped) {
   for (const Radii radii : {Radii::equal, Radii::any}) {
     for (const Kernel kernel : {Kernel::fast, Kernel::filtered, Kernel::exact}) {
       int escapes = 0;
       for (unsigned seed = 0; seed < 20; ++seed) {
         Random random(seed);
-        auto motion = random_motion<Space>(random, 6, MotionKind::generic);
-        for (BeadId b = 0; b < 6; ++b) {
-          for (int k = 0; k <= 1; ++k) {
-            motion.set_radius(b, k, radii == Radii::equal ? 0.25 : 0.125 * (1 + b % 3));
-            motion.set_weight(b, k, 0);
-          }
-        }
+        const Space motion = six_beads(random, radii);
         Parts parts(motion, kernel, radii);
         const std::array<BeadId, 5> inside{0, 1, 2, 3, 4};
         const Basis old = smallest_basis(motion, inside);
@@ -88,13 +93,7 @@ TEST(NodeProofs, ProveTheBasisWithABeadThatIsOutside) {
     int left_out = 0;
     for (unsigned seed = 0; seed < 200; ++seed) {
       Random random(seed);
-      auto motion = random_motion<Space>(random, 6, MotionKind::generic);
-      for (BeadId b = 0; b < 6; ++b) {
-        for (int k = 0; k <= 1; ++k) {
-          motion.set_radius(b, k, radii == Radii::equal ? 0.25 : 0.125 * (1 + b % 3));
-          motion.set_weight(b, k, 0);
-        }
-      }
+      const Space motion = six_beads(random, radii);
       const std::array<BeadId, 5> inside{0, 1, 2, 3, 4};
       const Basis old = smallest_basis(motion, inside);
       Parts by_signs(motion, Kernel::filtered, radii), relaxed(motion, Kernel::filtered, radii, true);
