@@ -51,7 +51,7 @@ const TradeRow& row_of(const std::vector<TradeRow>& rows, const std::string& wor
 
 TEST(Trade, TheExactRunErrsNowhere) {
   const std::vector<TradeRow> rows =
-      measured(villin(13, 2.0), {Want::contacts, Want::cages, Want::diagram, Want::events});
+      measured(villin(rounds(13U, 9U), 2.0), {Want::contacts, Want::cages, Want::diagram, Want::events});
   std::size_t exact = 0;
   for (const TradeRow& row : rows) {
     SCOPED_TRACE(words_of(row.setting));

@@ -9,6 +9,7 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/cages_hold.h"
+#include "tests/support/rounds.h"
 
 namespace kds::chord_cages_test {
 namespace {
@@ -170,7 +171,7 @@ TEST(ChordCages, HoldEveryBeadOfTrajectories) {
   Random random(4);
   for (const char* name : {"villin_hp36_300K.dcd", "random100_400K_first200.dcd"}) {
     ReadOptions options;
-    options.frames = {0, 31, 10};
+    options.frames = {0, rounds(31U, 11U), 10};
     const Trajectory trajectory = read_trajectory(data(std::string("trajectories/") + name), options);
     for (const FrameMotion motion : {FrameMotion::linear, FrameMotion::hermite}) {
       std::vector<double> radii(trajectory.bead_count(), 0.8);

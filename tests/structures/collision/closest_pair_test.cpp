@@ -15,6 +15,7 @@
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/ball_gaps.h"
+#include "tests/support/rounds.h"
 
 namespace kds::closest_pair_test {
 namespace {
@@ -165,31 +166,31 @@ Seen run_necklaces(unsigned cases, unsigned flaws) {
 }
 
 TEST(ClosestPair, OfRandomNecklacesInSpace) {
-  const Seen seen = run_necklaces<3>(5600, 0);
+  const Seen seen = run_necklaces<3>(rounds(5600U), 0);
   EXPECT_EQ(seen.collisions, 0U);
-  EXPECT_GT(seen.disjoint, 5000U);
-  EXPECT_GT(seen.hidden, 50U);
-  EXPECT_GT(seen.no_edge, 20U);
-  EXPECT_GT(seen.unconnected_only, 5U);  // B_2 and B_(n-1) are needed
+  EXPECT_GT(seen.disjoint, rounds(5000U));
+  EXPECT_GT(seen.hidden, rounds(50U));
+  EXPECT_GT(seen.no_edge, rounds(20U));
+  EXPECT_GT(seen.unconnected_only, rounds(5U, 0U));  // B_2 and B_(n-1) are needed
 }
 
 TEST(ClosestPair, OfRandomNecklacesInThePlane) {
-  const Seen seen = run_necklaces<2>(5600, 0);
+  const Seen seen = run_necklaces<2>(rounds(5600U), 0);
   EXPECT_EQ(seen.collisions, 0U);
-  EXPECT_GT(seen.disjoint, 5000U);
-  EXPECT_GT(seen.hidden, 50U);
-  EXPECT_GT(seen.no_edge, 100U);
-  EXPECT_GT(seen.unconnected_only, 5U);
+  EXPECT_GT(seen.disjoint, rounds(5000U));
+  EXPECT_GT(seen.hidden, rounds(50U));
+  EXPECT_GT(seen.no_edge, rounds(100U));
+  EXPECT_GT(seen.unconnected_only, rounds(5U, 0U));
 }
 
 TEST(ClosestPair, OfNecklacesWithBreaksAndCollisions) {
   for (const unsigned flaws : {1U, 2U, 3U}) {
-    Seen seen = run_necklaces<3>(1000, flaws);
-    const Seen flat = run_necklaces<2>(1000, flaws);
-    EXPECT_GT(seen.disjoint + flat.disjoint, 100U);
-    EXPECT_EQ(seen.collisions + flat.collisions > 100, flaws != 1);
+    Seen seen = run_necklaces<3>(rounds(1000U), flaws);
+    const Seen flat = run_necklaces<2>(rounds(1000U), flaws);
+    EXPECT_GT(seen.disjoint + flat.disjoint, rounds(100U));
+    EXPECT_EQ(seen.collisions + flat.collisions > rounds(100U), flaws != 1);
     if (flaws == 1) {
-      EXPECT_GT(seen.unconnected_only + flat.unconnected_only, 2U);
+      EXPECT_GT(seen.unconnected_only + flat.unconnected_only, rounds(2U, 0U));
     }
   }
 }
@@ -226,12 +227,12 @@ Seen run_families(unsigned cases) {
 }
 
 TEST(ClosestPair, OfRandomBallsWithGeneralFamilies) {
-  for (const Seen& seen : {run_families<3>(3000), run_families<2>(3000)}) {
-    EXPECT_GT(seen.disjoint, 2000U);
-    EXPECT_GT(seen.collisions, 50U);
-    EXPECT_GT(seen.hidden, 100U);
-    EXPECT_GT(seen.no_edge, 10U);
-    EXPECT_GT(seen.unconnected_only, 2U);
+  for (const Seen& seen : {run_families<3>(rounds(3000U)), run_families<2>(rounds(3000U))}) {
+    EXPECT_GT(seen.disjoint, rounds(2000U));
+    EXPECT_GT(seen.collisions, rounds(50U));
+    EXPECT_GT(seen.hidden, rounds(100U));
+    EXPECT_GT(seen.no_edge, rounds(10U));
+    EXPECT_GT(seen.unconnected_only, rounds(2U, 0U));
   }
 }
 

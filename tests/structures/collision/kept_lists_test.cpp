@@ -175,7 +175,7 @@ TEST(KeptLists, DistantNecklacesAreNotReadWithADeclaredSpeed) {
 // Two clouds at some distance: a skin as wide as that would have all pairs of them to keep.
 TEST(KeptLists, SkinsAreNotWidenedUntilEverythingIsNear) {
   Random random(1);
-  constexpr Eigen::Index count = 6000;
+  constexpr Eigen::Index count = rounds(6000, 2000);
   Eigen::Matrix3Xd centers(3, 2 * count);
   for (Eigen::Index b = 0; b < centers.cols(); ++b)
     centers.col(b) = Eigen::Vector3d(uniform(random, 0, 20) + (b < count ? 0 : 40), uniform(random, 0, 20),

@@ -10,6 +10,7 @@
 #include "motions/base/input_error.h"
 #include "motions/curves/positions.h"
 #include "tests/support/inputs/moving_beads.h"
+#include "tests/support/rounds.h"
 
 namespace kds::diagram_update_test {
 namespace {
@@ -210,16 +211,17 @@ TEST(DiagramUpdate, AutomaticSamplesSeldomWhereTheAnswerIsClear) {
 
 TEST(DiagramUpdate, AutomaticGivesUpWhereMuchHappensThatTheFramesDoNotShow) {
   // One crowd passes through another, to and fro: each is as it was, but for what lies between them.
-  auto frames = random_frames(5, 400, 1, 0, 0, false);
+  constexpr unsigned beads = rounds(400U, 120U);
+  auto frames = random_frames(5, beads, 1, 0, 0, false);
   frames.resize(8, frames[0]);
   for (std::size_t k = 0; k < frames.size(); ++k)
-    frames[k].centers.leftCols(200).row(0).array() += k % 2 == 0 ? -1.5 : 1.5;
+    frames[k].centers.leftCols(beads / 2).row(0).array() += k % 2 == 0 ? -1.5 : 1.5;
   const UpdateCounts moved = run(UpdateTechnique::kinetic, frames);
-  EXPECT_GT(moved.events, 7U * 3 * 400);
+  EXPECT_GT(moved.events, 7 * 3 * beads);
   const UpdateCounts counts = run(UpdateTechnique::automatic, frames);
   EXPECT_EQ(counts.rebuilds, 7U);
-  EXPECT_EQ(counts.activated, 400U);  // tried once
-  EXPECT_LE(counts.events, 3U * 400);
+  EXPECT_EQ(counts.activated, beads);  // tried once
+  EXPECT_LE(counts.events, 3 * beads);
 }
 
 TEST(DiagramUpdate, FramesInOnePlaneOnTheWay) {
@@ -273,7 +275,7 @@ TEST(DiagramUpdateInPlane, HiddenBeadsWeightsThatMoveAndBeadsThatComeBack) {
 
 // Many beads on one circle, flat hulls, coincident beads; once all on one line.
 TEST(DiagramUpdateInPlane, DegenerateFrames) {
-  for (unsigned seed = 1; seed <= 6; ++seed) {
+  for (unsigned seed = 1; seed <= rounds(6U, 3U); ++seed) {
     auto frames = grid_frames(seed, 5, seed < 4 ? 8 : 5);
     for (Frame& frame : frames) frame.centers.row(2).setZero();
     if (seed == 3) frames[2].centers.row(1).setConstant(1);

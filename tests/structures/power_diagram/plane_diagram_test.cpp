@@ -148,7 +148,7 @@ TEST(PlaneDiagram, KernelsAgree) {
 TEST(PlaneDiagram, IsDelaunayBetweenAllEvents) {
   const auto motion = instance_motion<Plane<1>>("d2_n50_linear");
   RigOf<Plane<1>> rig(motion, AuditMode::events);
-  Witness witness(rig.simulator, definition(rig, 9));
+  Witness witness(rig.simulator, definition(rig, 90 / rounds(10, 2)));
   ASSERT_NO_THROW(rig.run());
   EXPECT_EQ(not_delaunay(points_at(motion, Dyadic(1.0)), rig.structure.at_frame(false).cells), std::nullopt);
 }

@@ -78,7 +78,7 @@ void expect_as_exact_however_many_turn() {
     Walk walk;
     walk.turning = std::array{0.0, 0.04, 0.1, 0.9}[seed % 4];
     walk.radii = seed % 3 == 0;
-    const auto steps = steps_of<M>(walk, 45, 14, seed);
+    const auto steps = steps_of<M>(walk, 45, rounds(14U, 6U), seed);
     const std::uint64_t rested = expect_as_exact(steps, seed < 4 ? AuditMode::events : AuditMode::frames);
     if (walk.turning <= 0.1) {
       EXPECT_GT(rested, 0U);
