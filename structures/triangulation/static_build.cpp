@@ -19,10 +19,10 @@ namespace kds {
 
 namespace {
 
-using Geometry = CGAL::Simple_cartesian<double>;
+using Doubles = CGAL::Simple_cartesian<double>;
 template <int Dimension>
-using TraitsIn = std::conditional_t<Dimension == 2, CGAL::Min_sphere_of_spheres_d_traits_2<Geometry, double>,
-                                    CGAL::Min_sphere_of_spheres_d_traits_3<Geometry, double>>;
+using TraitsIn = std::conditional_t<Dimension == 2, CGAL::Min_sphere_of_spheres_d_traits_2<Doubles, double>,
+                                    CGAL::Min_sphere_of_spheres_d_traits_3<Doubles, double>>;
 
 template <int Dimension>
 auto cgal_spheres(const Eigen::Matrix3Xd& centers, std::span<const double> radii) {
@@ -31,9 +31,9 @@ auto cgal_spheres(const Eigen::Matrix3Xd& centers, std::span<const double> radii
   for (std::size_t b = 0; b < radii.size(); ++b) {
     const auto c = centers.col(static_cast<Eigen::Index>(b));
     if constexpr (Dimension == 2) {
-      spheres.emplace_back(Geometry::Point_2(c.x(), c.y()), radii[b]);
+      spheres.emplace_back(Doubles::Point_2(c.x(), c.y()), radii[b]);
     } else {
-      spheres.emplace_back(Geometry::Point_3(c.x(), c.y(), c.z()), radii[b]);
+      spheres.emplace_back(Doubles::Point_3(c.x(), c.y(), c.z()), radii[b]);
     }
   }
   return spheres;
