@@ -8,9 +8,9 @@ namespace kds {
 
 namespace {
 
-constexpr double u = 0x1p-53;
+constexpr double unit_roundoff = 0x1p-53;
 constexpr double inflation = 1 + 0x1p-20;  // for u^2 terms and for the comparisons themselves
-constexpr double first_error = 4 * u;
+constexpr double first_error = 4 * unit_roundoff;
 constexpr double least_size = 0x1p-800;
 constexpr int most_halvings = 52;  // so that ends of parts are doubles
 constexpr int most_parts = 256;
@@ -47,7 +47,7 @@ double RoundedPolynomial::Part::width() const { return std::ldexp(1.0, -halvings
 
 double RoundedPolynomial::Part::error() const {
   const auto rounds = static_cast<double>(c.size() - 1) * halvings;
-  return (first_error + u * rounds) * inflation;
+  return (first_error + unit_roundoff * rounds) * inflation;
 }
 
 auto RoundedPolynomial::Part::halve() -> Part {
@@ -109,7 +109,7 @@ auto RoundedPolynomial::value_at(const Part& part, double s) -> Value {
       m[i] = v * m[i] + s * m[i + 1];
     }
   }
-  return {c[0], slope, (part.error() + 4 * u * static_cast<double>(degree) * inflation) * m[0]};
+  return {c[0], slope, (part.error() + 4 * unit_roundoff * static_cast<double>(degree) * inflation) * m[0]};
 }
 
 int RoundedPolynomial::sign_on(double lower, double upper) const {

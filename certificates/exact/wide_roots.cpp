@@ -66,10 +66,10 @@ Integer straight_zero(const LongDigits& at_lower, const LongDigits& at_upper, co
 /// Where halving loses no change of sign for long, roots lie close together, and are approached as one
 /// multiple root (Sagraloff's Descartes with Newton's steps): if all changes of sign are in the part that the
 /// step points to, the rest has no root, and the number of digits doubles.
-class Isolation {
+class WideIsolation {
  public:
   /// Looks for roots from `from` to `to`.
-  Isolation(const WidePolynomial& polynomial, const Dyadic& from, const Dyadic& to)
+  WideIsolation(const WidePolynomial& polynomial, const Dyadic& from, const Dyadic& to)
       : polynomial_(polynomial), from_(from), to_(to) {}
 
   /// What a part is made of: up to the first root wanted, roots and parts without any; then parts as they
@@ -279,8 +279,8 @@ void visit_wide_roots(const WidePolynomial& square_free, const Dyadic& lower, co
         ++at;
         continue;
       }
-      if (!Isolation::is_wanted(*part, lower, upper)) return;
-      Stretches found = Isolation(own, lower, upper).of(*part);
+      if (!WideIsolation::is_wanted(*part, lower, upper)) return;
+      Stretches found = WideIsolation(own, lower, upper).of(*part);
       const auto next = stretches.erase(at);
       at = found.empty() ? next : found.begin();
       stretches.splice(next, found);

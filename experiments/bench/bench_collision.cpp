@@ -30,13 +30,13 @@ using Scenes = std::vector<Balls<3>>;
 // Of chains in order Bullet makes trees as deep as they are long: minutes for more.
 constexpr std::size_t most_beads_of_trees = 20000;
 
-struct Input {
+struct CollisionInput {
   std::string name;
   Eigen::Matrix3Xd start;
   double fastest_static = 1, fastest_frame = 1;  // ratios asked for
 };
 
-Input generated(std::string_view name, std::size_t beads) {
+CollisionInput generated(std::string_view name, std::size_t beads) {
   const bool packed = name.ends_with("packed");
   const models::Model* model = models::find_model(packed ? "grid" : name);
   models::Settings settings{.beads = beads, .motion = models::ShapeMotion::rest};
@@ -44,7 +44,7 @@ Input generated(std::string_view name, std::size_t beads) {
     settings.jitter = 0.05;
     settings.gap = 0.11;  // radii of 0.45 of the spacing
   }
-  Input input{std::string(name), models::generate(*model, settings).front().frames.front()};
+  CollisionInput input{std::string(name), models::generate(*model, settings).front().frames.front()};
   if (name == "rotated packed") {
     const Eigen::Quaterniond turn(0.6, 0.3, 0.5, 0.55);
     input.start = turn.normalized().toRotationMatrix() * input.start;
@@ -57,9 +57,10 @@ Input generated(std::string_view name, std::size_t beads) {
   return input;
 }
 
-class Measured {
+class MeasuredCollisions {
  public:
-  Measured(const Input& input, std::vector<double> radii, std::size_t rounds, std::vector<BenchRow>& rows)
+  MeasuredCollisions(const CollisionInput& input, std::vector<double> radii, std::size_t rounds,
+                     std::vector<BenchRow>& rows)
       : input_(input),
         radii_(std::move(radii)),
         rounds_(rounds),
@@ -145,7 +146,7 @@ class Measured {
         ours, nanoseconds));
   }
 
-  const Input& input_;
+  const CollisionInput& input_;
   std::vector<double> radii_;
   std::size_t rounds_;
   std::vector<BenchRow>& rows_;
@@ -174,10 +175,10 @@ Scenes moving_on(const Eigen::Matrix3Xd& start, double step, std::size_t frames,
   return scenes;
 }
 
-void bench_generated(const Input& input, std::size_t rounds, std::vector<BenchRow>& rows) {
+void bench_generated(const CollisionInput& input, std::size_t rounds, std::vector<BenchRow>& rows) {
   const auto beads = static_cast<std::size_t>(input.start.cols());
   const std::vector<double> radii(beads, 1.0);
-  Measured measured(input, radii, rounds, rows);
+  MeasuredCollisions measured(input, radii, rounds, rows);
   measured.run_static(scenes_of(jostled_frames(input.start, 0.01, 6), radii));
   const std::size_t frames = beads > 50000 ? 24 : 64;
   for (const double step : {0.003, 0.03, 0.3})
@@ -192,8 +193,8 @@ void bench_protein(const std::filesystem::path& path, std::size_t rounds, std::v
   const BenchChain chain = read_bench_chain(path);
   std::vector<double> radii = chain.radii;
   for (double& r : radii) r *= 1.6;
-  const Input input{chain.name, chain.frames.front(), 0.5, 1};
-  Measured measured(input, radii, rounds, rows);
+  const CollisionInput input{chain.name, chain.frames.front(), 0.5, 1};
+  MeasuredCollisions measured(input, radii, rounds, rows);
   const Scenes frames = scenes_of(chain.frames, radii);
   measured.run_static(frames);
   measured.run_frames(frames, "as simulated", 1.0);
@@ -254,7 +255,7 @@ void bench_growth(std::string_view model, std::size_t beads, std::size_t rounds,
   std::vector<AutoDetector<3>> detectors;
   for (const std::size_t large : {0, 1}) {
     const std::size_t n = large == 1 ? 10 * beads : beads;
-    const Input input = generated(model, n);
+    const CollisionInput input = generated(model, n);
     scenes[large] = scenes_of(jostled_frames(input.start, 0.01, 2), std::vector<double>(n, 1.0));
     detectors.emplace_back(PairsAsked{{{0, static_cast<BeadId>(n - 1)}}});
   }

@@ -31,7 +31,7 @@ namespace kds {
 
 namespace {
 
-constexpr std::array kOptions{
+constexpr std::array kBenchOptions{
     OptionSpec{
         "--sizes", "LIST",
         "hierarchies, power, collision: beads of generated chains (default: 640,10240,102400; power: 10240, "
@@ -48,7 +48,7 @@ constexpr std::array kOptions{
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
 
-constexpr CommandSpec kCommand{
+constexpr CommandSpec kBenchCommand{
     "kds bench",
     "Measures ours beside a peer in the same process: medians of interleaved runs, processor time.",
     "SUBJECT",
@@ -59,7 +59,7 @@ constexpr CommandSpec kCommand{
     "collision: the pairs of beads that meet, beside a cell list, a Verlet list, FCL and Bullet, and all "
     "times at which they begin and end to, beside the cell list; trade: levers of speed against accuracy, "
     "beside exact runs",
-    kOptions,
+    kBenchOptions,
     "kds bench certificates\n"
     "kds bench hierarchies\n"
     "kds bench collision --sizes 10240\n"
@@ -163,7 +163,7 @@ Json settings_json(std::string_view subject, const BenchInputs& inputs) {
 }  // namespace
 
 int bench_command(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  const ParsedArguments parsed = parse_arguments(kBenchCommand, arguments);
   const Subject& subject = subject_of(parsed.operands());
   const bool chains = subject.fewest_beads > 0;
   for (const char* option : {"--sizes", "--trajectories"})

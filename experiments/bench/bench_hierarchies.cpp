@@ -20,14 +20,14 @@ namespace kds {
 
 namespace {
 
-struct Input : BenchChain {
+struct HierarchyInput : BenchChain {
   // Factors that are asked for.
   double build = 6, update = 10, trust = 25;
   std::optional<double> kinetic = std::nullopt;
 };
 
 // Every third bead a fifth smaller, every seventh a tenth: half of each factor is asked for.
-Input with_unequal_radii(Input input) {
+HierarchyInput with_unequal_radii(HierarchyInput input) {
   for (std::size_t b = 0; b < input.radii.size(); ++b) {
     if (b % 3 == 0) input.radii[b] *= 0.8;
     if (b % 7 == 0) input.radii[b] *= 0.9;
@@ -46,9 +46,9 @@ std::optional<double> kinetic_factor(std::string_view name) {
 }
 
 template <int Dimension>
-class Measured {
+class MeasuredHierarchies {
  public:
-  Measured(const Input& input, std::vector<BenchRow>& rows) : input_(input), rows_(rows) {
+  MeasuredHierarchies(const HierarchyInput& input, std::vector<BenchRow>& rows) : input_(input), rows_(rows) {
     const BeadRange all{0, static_cast<BeadId>(input.radii.size() - 1)};
     necklace_ = {all};
     for (const Eigen::Matrix3Xd& frame : input.frames) balls_.emplace_back(frame, input.radii);
@@ -99,7 +99,7 @@ class Measured {
   }
 
  private:
-  const Input& input_;
+  const HierarchyInput& input_;
   std::vector<BenchRow>& rows_;
   std::vector<BeadRange> necklace_;
   std::vector<Balls<Dimension>> balls_;
@@ -175,10 +175,10 @@ void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& ro
 
 std::vector<BenchRow> bench_hierarchies(const HierarchyBenchOptions& options,
                                         const std::function<void(std::size_t, std::size_t)>& progress) {
-  std::vector<std::function<Input()>> inputs;
+  std::vector<std::function<HierarchyInput()>> inputs;
   for (const std::filesystem::path& path : options.trajectories) {
     inputs.emplace_back([path] {
-      Input input{read_bench_chain(path)};
+      HierarchyInput input{read_bench_chain(path)};
       input.kinetic = kinetic_factor(input.name);
       return input;
     });
@@ -186,12 +186,13 @@ std::vector<BenchRow> bench_hierarchies(const HierarchyBenchOptions& options,
   for (const std::size_t beads : options.sizes) {
     const auto add_planar = [&](const char* name, const auto& start) {
       inputs.emplace_back([=] {
-        return Input{{name, jostled_frames(start(), 0.01, 20, 2), std::vector<double>(beads, 1.0), 2}};
+        return HierarchyInput{
+            {name, jostled_frames(start(), 0.01, 20, 2), std::vector<double>(beads, 1.0), 2}};
       });
     };
     for (const char* model : {"helix", "random-chain", "grid"}) {
       inputs.emplace_back([name = std::string(model), beads] {
-        Input input{
+        HierarchyInput input{
             {name, jostled_frames(model_at_rest(name, beads), 0.01, 20), std::vector<double>(beads, 1.0)}};
         if (name == "random-chain") {
           input.update = 18;
@@ -206,15 +207,15 @@ std::vector<BenchRow> bench_hierarchies(const HierarchyBenchOptions& options,
   std::vector<BenchRow> rows;
   std::size_t done = 0;
   for (const auto& make : inputs) {
-    const Input input = make();
+    const HierarchyInput input = make();
     for (const bool equal : {true, false}) {
-      const Input one = equal ? input : with_unequal_radii(input);
+      const HierarchyInput one = equal ? input : with_unequal_radii(input);
       // A small hierarchy is done many times.
       const std::size_t rounds = std::max(options.rounds, 50000 / (one.radii.size() * one.frames.size()));
       if (one.dimension == 2) {
-        Measured<2>(one, rows).run(rounds);
+        MeasuredHierarchies<2>(one, rows).run(rounds);
       } else {
-        Measured<3>(one, rows).run(rounds);
+        MeasuredHierarchies<3>(one, rows).run(rounds);
       }
       bench_kinetic_steps(one, rounds, one.kinetic, rows);
       bench_kinetic_events(one, rows);

@@ -22,14 +22,14 @@ constexpr std::string_view peer_name(int dimension) {
   return dimension == 2 ? "CGAL Regular_triangulation_2" : "CGAL Regular_triangulation_3";
 }
 
-struct Input {
+struct PowerInput {
   std::string name;
   std::vector<Eigen::Matrix3Xd> frames;
   std::vector<double> weights;
   int dimension;
   std::optional<double> goal;  ///< of the kinetic step: its time to the peer's, at most
 
-  Input(BenchChain chain, std::optional<double> time)
+  PowerInput(BenchChain chain, std::optional<double> time)
       : name(std::move(chain.name)),
         frames(std::move(chain.frames)),
         weights(std::move(chain.radii)),
@@ -45,7 +45,7 @@ constexpr std::array techniques{UpdateTechnique::reinsert, UpdateTechnique::gree
                                 UpdateTechnique::activate, UpdateTechnique::automatic};
 
 template <int Dimension>
-double seconds_in(UpdateTechnique technique, const Input& input) {
+double seconds_in(UpdateTechnique technique, const PowerInput& input) {
   const auto update = make_diagram_update<Dimension>(technique);
   update->build(input.frames[0], input.weights);
   return processor_seconds_of([&] {
@@ -54,12 +54,12 @@ double seconds_in(UpdateTechnique technique, const Input& input) {
   });
 }
 
-double seconds_by(UpdateTechnique technique, const Input& input) {
+double seconds_by(UpdateTechnique technique, const PowerInput& input) {
   return input.dimension == 2 ? seconds_in<2>(technique, input) : seconds_in<3>(technique, input);
 }
 
 // A round is once over all frames with each technique, the peer first.
-void measure(const Input& input, std::size_t rounds, std::vector<BenchRow>& rows) {
+void measure(const PowerInput& input, std::size_t rounds, std::vector<BenchRow>& rows) {
   std::vector<double> peer;
   std::map<UpdateTechnique, std::vector<double>> ours;
   for (std::size_t round = 0; round < rounds; ++round) {
@@ -93,7 +93,7 @@ void measure(const Input& input, std::size_t rounds, std::vector<BenchRow>& rows
   }
 }
 
-double seconds_to_build_frames(const Input& input) {
+double seconds_to_build_frames(const PowerInput& input) {
   const auto build = [&]<int Dimension>() {
     const auto update = make_diagram_update<Dimension>(UpdateTechnique::rebuild);
     return processor_seconds_of([&] {
@@ -105,7 +105,7 @@ double seconds_to_build_frames(const Input& input) {
   return input.dimension == 2 ? build.template operator()<2>() : build.template operator()<3>();
 }
 
-void measure_regular(const Input& input, std::size_t rounds, std::vector<BenchRow>& rows) {
+void measure_regular(const PowerInput& input, std::size_t rounds, std::vector<BenchRow>& rows) {
   std::vector<double> peer, ours;
   for (std::size_t round = 0; round < rounds; ++round) {
     peer.push_back(seconds_to_build_frames(input));
@@ -124,10 +124,10 @@ std::optional<double> goal_of(std::string_view name) {
   return std::nullopt;
 }
 
-Input read_input(const std::filesystem::path& path, std::size_t stride) {
+PowerInput read_input(const std::filesystem::path& path, std::size_t stride) {
   BenchChain chain = read_bench_chain(path, stride);
   const auto goal = stride == 1 ? goal_of(chain.name) : std::nullopt;
-  return Input(std::move(chain), goal);
+  return PowerInput(std::move(chain), goal);
 }
 
 }  // namespace
@@ -135,7 +135,7 @@ Input read_input(const std::filesystem::path& path, std::size_t stride) {
 std::vector<BenchRow> bench_power(const PowerBenchOptions& options,
                                   const std::function<void(std::size_t, std::size_t)>& progress) {
   constexpr std::array<std::size_t, 4> strides{1, 4, 16, 64};
-  std::vector<std::function<Input()>> inputs;
+  std::vector<std::function<PowerInput()>> inputs;
   for (const std::filesystem::path& path : options.trajectories) {
     for (const std::size_t stride : strides) inputs.emplace_back([=] { return read_input(path, stride); });
   }
@@ -145,7 +145,7 @@ std::vector<BenchRow> bench_power(const PowerBenchOptions& options,
       BenchChain chain{
           fmt::format("{} {} r", name, step), jostled_frames(start(), step, 9, dimension), {}, dimension};
       chain.radii.assign(static_cast<std::size_t>(chain.frames[0].cols()), 1.0);
-      return Input(std::move(chain), goal);
+      return PowerInput(std::move(chain), goal);
     });
   };
   const auto add_chain = [&](const char* name, const auto& start, double step, double factor) {
@@ -164,13 +164,13 @@ std::vector<BenchRow> bench_power(const PowerBenchOptions& options,
     add(
         "planar spiral", [=] { return planar_spiral(beads); }, 0.01, 2, std::nullopt);
   }
-  std::vector<std::function<Input()>> regular;
+  std::vector<std::function<PowerInput()>> regular;
   for (const std::size_t beads : options.regular) {
     const auto scene = [&](const char* name, const auto& frames) {
       regular.emplace_back([=] {
         BenchChain chain{name, frames(), {}, 3};
         chain.radii.assign(static_cast<std::size_t>(chain.frames[0].cols()), 1.0);
-        return Input(std::move(chain), 30.0);
+        return PowerInput(std::move(chain), 30.0);
       });
     };
     for (const char* model : {"grid", "helix", "grill"})
@@ -185,7 +185,7 @@ std::vector<BenchRow> bench_power(const PowerBenchOptions& options,
     progress(++done, all);
   }
   for (const auto& make : inputs) {
-    const Input input = make();
+    const PowerInput input = make();
     // A stride may leave one frame: nothing to do. Short rounds are many.
     if (input.frames.size() > 1) {
       measure(input, std::max(options.rounds, 20000 / (input.weights.size() * input.frames.size())), rows);

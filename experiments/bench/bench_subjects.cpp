@@ -29,7 +29,7 @@ class CountedTurns final : public bench::Turns {
 };
 
 // With the spread of its value, noted as NAME_least and NAME_most.
-BenchRow with_spread(BenchRow row, const CountedTurns& turns, const std::string& name) {
+BenchRow with_spread_of(BenchRow row, const CountedTurns& turns, const std::string& name) {
   row.spread = Spread{row.value, *turns.figure(name + "_least"), *turns.figure(name + "_most")};
   return row;
 }
@@ -64,7 +64,7 @@ std::vector<BenchRow> bench_certificates(const SubjectBenchOptions& options,
       subjects, options.rounds, progress,
       [](const bench::Subject& subject, const CountedTurns& turns, auto& rows) {
         const auto peer = turns.figure("peer_ns");
-        rows.push_back(with_spread(
+        rows.push_back(with_spread_of(
             {subject.name, subject.input, subject.beads, *turns.figure("ns"), "ns", peer ? subject.peer : "",
              peer, subject.most_ns ? subject.most_ns : subject.most_ratio, subject.most_ns.has_value()},
             turns, "ns"));
@@ -81,13 +81,13 @@ std::vector<BenchRow> bench_engine(const SubjectBenchOptions& options,
   return rows_of(
       subjects, options.rounds, progress,
       [](const bench::Subject& subject, const CountedTurns& turns, auto& rows) {
-        rows.push_back(with_spread({subject.name + ", an event", subject.input, subject.beads,
-                                    *turns.figure("ns"), "ns", "", std::nullopt, subject.most_ns, true},
-                                   turns, "ns"));
+        rows.push_back(with_spread_of({subject.name + ", an event", subject.input, subject.beads,
+                                       *turns.figure("ns"), "ns", "", std::nullopt, subject.most_ns, true},
+                                      turns, "ns"));
         rows.push_back(
-            with_spread({subject.name + ", a run", subject.input, subject.beads, *turns.figure("run_us"),
-                         "us", subject.peer, turns.figure("build_us"), subject.most_ratio},
-                        turns, "run_us"));
+            with_spread_of({subject.name + ", a run", subject.input, subject.beads, *turns.figure("run_us"),
+                            "us", subject.peer, turns.figure("build_us"), subject.most_ratio},
+                           turns, "run_us"));
       });
 }
 

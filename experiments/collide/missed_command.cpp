@@ -22,7 +22,7 @@ namespace kds {
 
 namespace {
 
-constexpr const char* kName = "missed";
+constexpr const char* kMissedName = "missed";
 
 constexpr std::array kMissedOptions{
     OptionSpec{"--strides", "LIST",
@@ -40,14 +40,14 @@ constexpr std::array kMissedOptions{
     OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
-constexpr auto kOptions = joined(kInputOptions, kMissedOptions);
+constexpr auto kAllMissedOptions = joined(kInputOptions, kMissedOptions);
 
-constexpr CommandSpec kCommand{
+constexpr CommandSpec kMissedCommand{
     "kds missed",
     "Which share of contacts, whose times are exact, is missed by looking at every stride-th frame only.",
     kInputOperand,
     "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
-    kOptions,
+    kAllMissedOptions,
     "kds missed villin.dcd --topology villin.pdb --factors 2.2,2.5 --apart 5 --out report\n"
     "kds missed a.xyz b.xyz --radius 1.9 --strides 1,10,100 --json -"};
 
@@ -98,7 +98,7 @@ void check_destinations(const MissedOptions& options) {
   if (destinations.out) {
     taken.write_into("--out", *destinations.out, {"report.html"});
   }
-  check_table_destinations(destinations, kName, taken);
+  check_table_destinations(destinations, kMissedName, taken);
   if (!destinations.out) return;
   check_directory(*destinations.out, "--out", {"report.html"});
   check_page(*destinations.out, "missed.json");
@@ -107,10 +107,10 @@ void check_destinations(const MissedOptions& options) {
 }  // namespace
 
 MissedOptions parse_missed_options(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  const ParsedArguments parsed = parse_arguments(kMissedCommand, arguments);
   MissedOptions options;
   MissedTask& task = options.task;
-  task.input = parse_input_options(parsed, kCommand.name);
+  task.input = parse_input_options(parsed, kMissedCommand.name);
   if (const auto list = parsed.value("--strides")) task.strides = parse_strides(*list);
   if (const auto list = parsed.value("--factors")) task.factors = parse_factors(*list);
   if (const auto text = parsed.value("--apart"))
@@ -148,10 +148,10 @@ int missed_command(const Arguments& arguments) {
   json["rows"] = missed_rows_json(report.rows);
   json["warnings"] = warnings;
   add_provenance(json, command_line);
-  deliver_table(options.destinations, kName,
+  deliver_table(options.destinations, kMissedName,
                 {text_of(json), missed_csv(report.rows), missed_table(report.rows), [&] {
                    return missed_page(report.rows, file_names(task),
-                                      made_by(kName, command_line, settings_json(task)));
+                                      made_by(kMissedName, command_line, settings_json(task)));
                  }});
   return 0;
 }

@@ -18,7 +18,7 @@ namespace kds {
 
 namespace {
 
-constexpr const char* kName = "compare";
+constexpr const char* kCompareName = "compare";
 
 Json settings_json(const CompareOptions& options) {
   const ReadOptions& reading = options.input.reading;
@@ -40,7 +40,7 @@ void check_destinations(const CompareOptions& options, const Destinations& desti
   TakenPaths taken;
   taken.read(options.input);
   if (options.out) taken.write_into("--out", *options.out, {"report.html"});
-  check_table_destinations(destinations, kName, taken);
+  check_table_destinations(destinations, kCompareName, taken);
   if (!options.out) return;
   check_directory(*options.out, "--out", {"report.html"});
   check_page(*options.out, "compare.json");
@@ -72,10 +72,11 @@ int compare_command(const Arguments& arguments) {
   json["rows"] = compare_rows_json(comparison);
   json["warnings"] = warnings;
   add_provenance(json, command_line);
-  deliver_table(destinations, kName, {text_of(json), compare_csv(comparison), compare_table(comparison), [&] {
-                                        return compare_page(
-                                            comparison, made_by(kName, command_line, settings_json(options)));
-                                      }});
+  deliver_table(destinations, kCompareName,
+                {text_of(json), compare_csv(comparison), compare_table(comparison), [&] {
+                   return compare_page(comparison,
+                                       made_by(kCompareName, command_line, settings_json(options)));
+                 }});
   return 0;
 }
 

@@ -27,9 +27,9 @@ constexpr std::array kCompareOptions{
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
 
-constexpr auto kOptions = joined(kInputOptions, kCompareOptions);
+constexpr auto kAllCompareOptions = joined(kInputOptions, kCompareOptions);
 
-constexpr CommandSpec kCommand{
+constexpr CommandSpec kCompareCommand{
     "kds compare",
     "Compares how often structures change, by stride, motion and input: each is a run of all structures.\n\n"
     "  net changes     what is not the same at one frame and the next: nodes with another basis (wrapped),\n"
@@ -40,7 +40,7 @@ constexpr CommandSpec kCommand{
     "  responsiveness  the seconds an event takes",
     kInputOperand,
     "necklaces, each for itself: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
-    kOptions,
+    kAllCompareOptions,
     "kds compare villin.dcd --topology villin.pdb --strides 1,2,4,8,16,32 --out report\n"
     "kds compare 300K.dcd 400K.dcd --topology villin.pdb --structures wrapped,contacts --motions "
     "linear,hermite",
@@ -60,9 +60,9 @@ std::vector<FrameMotion> parse_motions(const std::string& list) {
 }  // namespace
 
 CompareOptions parse_compare_options(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  const ParsedArguments parsed = parse_arguments(kCompareCommand, arguments);
   CompareOptions options;
-  options.input = parse_input_options(parsed, kCommand.name);
+  options.input = parse_input_options(parsed, kCompareCommand.name);
   if (const auto list = parsed.value("--structures")) options.structures = parse_structures(*list);
   if (const auto list = parsed.value("--strides")) options.strides = parse_strides(*list);
   if (const auto list = parsed.value("--motions")) options.motions = parse_motions(*list);

@@ -12,14 +12,6 @@ namespace kds {
 
 namespace {
 
-template <class Value>
-Json value_or_null(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-template <class Value>
-std::string value_or_empty(const std::optional<Value>& value) {
-  return value ? fmt::format("{}", *value) : "";
-}
 std::string decimal_or_dash(const std::optional<double>& value) {
   return value ? short_decimal(*value) : "-";
 }
@@ -80,13 +72,13 @@ Json compare_rows_json(const Comparison& comparison) {
                 {"motion", name_of(row.motion)},   {"steps", row.steps}, {"events", row.events()}};
     for (const auto& [kind, count] : row.structure.events_by_kind) of_row[kind] = count;
     of_row["internal"] = row.internal();
-    of_row["net_changes"] = value_or_null(row.net_changes);
-    of_row["efficiency"] = value_or_null(row.efficiency());
+    of_row["net_changes"] = row.net_changes;
+    of_row["efficiency"] = row.efficiency();
     of_row["events_per_step"] = row.events_per_step();
-    of_row["events_per_ps"] = value_or_null(row.events_per_picosecond());
+    of_row["events_per_ps"] = row.events_per_picosecond();
     of_row["compactness"] = row.structure.peak;
     of_row["locality"] = row.structure.per_bead_max;
-    of_row["responsiveness"] = value_or_null(row.seconds_per_event());
+    of_row["responsiveness"] = row.seconds_per_event();
     of_row["seconds"] = row.seconds.median;
     of_row["seconds_least"] = row.seconds.least;
     of_row["seconds_most"] = row.seconds.most;

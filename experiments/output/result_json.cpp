@@ -61,6 +61,13 @@ struct JsonTree {
   }
 };
 
+Json::Json() = default;
+Json::Json(const Json& other) = default;
+Json::Json(Json&& other) noexcept = default;
+Json& Json::operator=(const Json& other) = default;
+Json& Json::operator=(Json&& other) noexcept = default;
+Json::~Json() = default;
+
 Json::Json(std::initializer_list<std::pair<std::string_view, Json>> members)
     : value_(Members(members.begin(), members.end())) {}
 

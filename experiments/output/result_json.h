@@ -21,7 +21,13 @@ class Json {
   using Items = std::vector<Json>;
   using Members = std::vector<std::pair<std::string, Json>>;
 
-  Json() = default;  ///< null
+  Json();  ///< null
+  // Not inlined: what becomes of nine kinds of values is long to compile.
+  Json(const Json& other);
+  Json(Json&& other) noexcept;
+  Json& operator=(const Json& other);
+  Json& operator=(Json&& other) noexcept;
+  ~Json();
   Json(std::nullptr_t) {}
   Json(double value) : value_(value) {}
   Json(const char* text) : value_(std::string(text)) {}
@@ -36,6 +42,10 @@ class Json {
     } else {
       value_ = std::uint64_t{value};
     }
+  }
+  template <class Value>
+  Json(const std::optional<Value>& value) {  // null where there is none
+    if (value) *this = Json(*value);
   }
   template <class Value>
   Json(const std::vector<Value>& values) : value_(Items(values.begin(), values.end())) {}

@@ -2,6 +2,7 @@
 // Small pieces of text that messages, tables and pages share. None of it asks the locale.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,10 @@ namespace kds {
 
 /// 1234567 as 1,234,567.
 [[nodiscard]] std::string with_thousands(std::uint64_t value);
+
+/// A field of CSV: the value as it reads back, nothing where there is none.
+[[nodiscard]] std::string value_or_empty(const std::optional<double>& value);
+[[nodiscard]] std::string value_or_empty(const std::optional<std::uint64_t>& value);
 
 /// Seconds or a ratio with about four figures; never an exponent.
 [[nodiscard]] std::string short_decimal(double value);

@@ -22,10 +22,10 @@ namespace kds {
 
 namespace {
 
-constexpr const char* kName = "questions";
+constexpr const char* kQuestionsName = "questions";
 constexpr std::array<std::string_view, 4> kQuestions{"energy", "bounds", "trust", "combination"};
 
-constexpr std::array kOptions{
+constexpr std::array kQuestionsOptions{
     OptionSpec{"--data", "DIR", "the folder data of the sources, for proteins (default: where it was built)"},
     OptionSpec{"--seed", "N", "of random chains (default: 1)"},
     OptionSpec{"--rounds", "N",
@@ -35,7 +35,7 @@ constexpr std::array kOptions{
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
 
-constexpr CommandSpec kCommand{
+constexpr CommandSpec kQuestionsCommand{
     "kds questions",
     "What Agarwal et al. (2004) leave open, measured: exponents with confidence intervals, no theorem.\n\n"
     "  energy       basis changes and flips by the energy of bending and torsion that a step takes\n"
@@ -44,12 +44,12 @@ constexpr CommandSpec kCommand{
     "  combination  what diagram and hierarchy give together",
     "[QUESTION]...",
     "energy, bounds, trust, combination (default: all)",
-    kOptions,
+    kQuestionsOptions,
     "kds questions --out report\n"
     "kds questions energy --seed 7 --json -",
 };
 
-struct Asked {
+struct QuestionsAsked {
   std::vector<std::string> questions;
   std::filesystem::path data;
   std::uint64_t seed = 1;
@@ -57,9 +57,9 @@ struct Asked {
   Destinations destinations;
 };
 
-Asked parse(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
-  Asked asked;
+QuestionsAsked parse_questions(const Arguments& arguments) {
+  const ParsedArguments parsed = parse_arguments(kQuestionsCommand, arguments);
+  QuestionsAsked asked;
   std::array<bool, kQuestions.size()> chosen_ones{};
   for (const std::string& name : parsed.operands()) {
     bool& chosen = chosen_ones[place_among("QUESTION", name, kQuestions)];
@@ -85,7 +85,7 @@ void check_destinations(const Destinations& destinations, const std::filesystem:
   TakenPaths taken;
   taken.read_folder("--data", data);
   if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
-  check_table_destinations(destinations, kName, taken);
+  check_table_destinations(destinations, kQuestionsName, taken);
   if (!destinations.out) return;
   check_directory(*destinations.out, "--out", {"report.html"});
   check_page(*destinations.out, "questions.json");
@@ -98,7 +98,7 @@ std::size_t steps_of(const std::string& question) {
   return combination_steps();
 }
 
-std::vector<Question> measure(const Asked& asked) {
+std::vector<Question> measure(const QuestionsAsked& asked) {
   ProgressBar bar(!asked.destinations.quiet);
   std::size_t done = 0, total = 0;
   for (const std::string& question : asked.questions) total += steps_of(question);
@@ -121,7 +121,7 @@ std::vector<Question> measure(const Asked& asked) {
 }  // namespace
 
 int questions_command(const Arguments& arguments) {
-  const Asked asked = parse(arguments);
+  const QuestionsAsked asked = parse_questions(arguments);
   check_destinations(asked.destinations, asked.data);
   const std::vector<Question> questions = measure(asked);
 
@@ -132,9 +132,9 @@ int questions_command(const Arguments& arguments) {
   json["rows"] = question_rows_json(questions);
   json["questions"] = questions_json(questions);
   add_provenance(json, command_line);
-  deliver_table(asked.destinations, kName,
+  deliver_table(asked.destinations, kQuestionsName,
                 {text_of(json), questions_csv(questions), questions_text(questions),
-                 [&] { return questions_page(questions, made_by(kName, command_line, settings)); }});
+                 [&] { return questions_page(questions, made_by(kQuestionsName, command_line, settings)); }});
   return 0;
 }
 

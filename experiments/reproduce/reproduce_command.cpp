@@ -26,7 +26,7 @@ namespace {
 
 constexpr const char* kResult = "reproduce.json";
 
-constexpr std::array kOptions{
+constexpr std::array kReproduceOptions{
     OptionSpec{"--data", "DIR", "the folder data of the sources, for proteins (default: where it was built)"},
     OptionSpec{"--rounds", "N",
                "of each measurement of time of at most a second, of which the median counts (default: 5)"},
@@ -36,12 +36,12 @@ constexpr std::array kOptions{
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
 
-constexpr CommandSpec kCommand{
+constexpr CommandSpec kReproduceCommand{
     "kds reproduce",
     "Measures the tables of Agarwal et al. (2004) again, each row beside the paper's, times as ratios.",
     "TABLE...",
     "table1 ... table7, or all",
-    kOptions,
+    kReproduceOptions,
     "kds reproduce all --out report\nkds reproduce table1 table6 --json -",
 };
 
@@ -132,7 +132,7 @@ void deliver(const Destinations& destinations, const std::vector<PaperTable>& ta
 }  // namespace
 
 int reproduce_command(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  const ParsedArguments parsed = parse_arguments(kReproduceCommand, arguments);
   const std::vector<int> numbers = tables_asked_for(parsed);
   std::size_t rounds = 5;
   if (const auto text = parsed.value("--rounds")) rounds = parse_whole_number("--rounds", *text, 1, 1000);

@@ -16,8 +16,6 @@ namespace {
 
 using Value = std::optional<double>;
 
-Json value_or_null(const Value& value) { return value ? Json(*value) : Json(nullptr); }
-std::string value_or_empty(const Value& value) { return value ? fmt::format("{}", *value) : ""; }
 // Counts in full, ratios with four figures.
 std::string shown(double value) {
   const bool is_count = value == std::floor(value) && value >= 2;
@@ -87,7 +85,7 @@ Json paper_rows_json(std::span<const PaperTable> tables) {
           of_row[name + "_least"] = rounds->least;
           of_row[name + "_most"] = rounds->most;
         }
-        of_row[name + "_paper"] = value_or_null(row.paper[c]);
+        of_row[name + "_paper"] = row.paper[c];
       }
       of_row["note"] = row.note;
       json.push_back(of_row);

@@ -64,14 +64,14 @@ constexpr std::array kRunOptions{
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
 
-constexpr auto kOptions = joined(kInputOptions, kRunOptions);
+constexpr auto kAllRunOptions = joined(kInputOptions, kRunOptions);
 
-constexpr CommandSpec kCommand{
+constexpr CommandSpec kRunCommand{
     "kds run",
     "Runs kinetic structures over moving beads and reports every event, exactly and in order.",
     kInputOperand,
     kInputHelp,
-    kOptions,
+    kAllRunOptions,
     "kds run villin.dcd --topology villin.pdb --frames 0:200 --structures wrapped,power --out report\n"
     "kds run models.pdb --kernel exact --audit events --json -",
 };
@@ -105,8 +105,8 @@ MotionTolerance parse_tolerance(std::string text, FrameMotion motion) {
 }  // namespace
 
 RunOptions parse_run_options(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
-  InputOptions input = parse_input_options(parsed, kCommand.name);
+  const ParsedArguments parsed = parse_arguments(kRunCommand, arguments);
+  InputOptions input = parse_input_options(parsed, kRunCommand.name);
   RunOptions options;
   options.inputs = std::move(input.inputs);
   options.reading = std::move(input.reading);

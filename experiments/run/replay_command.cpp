@@ -22,7 +22,7 @@
 namespace kds {
 namespace {
 
-constexpr std::array kOptions{
+constexpr std::array kReplayOptions{
     kEventsOption,
     OptionSpec{
         "--out", "DIR",
@@ -31,10 +31,10 @@ constexpr std::array kOptions{
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
 
-constexpr CommandSpec kCommand{
-    "kds replay", "Runs a logged run again and tells whether the same happens (exit code 0) or not (1).",
-    "LOG",        "an event log, as written by kds run --log",
-    kOptions,     "kds run models.pdb --log models.kdslog\nkds replay models.kdslog",
+constexpr CommandSpec kReplayCommand{
+    "kds replay",   "Runs a logged run again and tells whether the same happens (exit code 0) or not (1).",
+    "LOG",          "an event log, as written by kds run --log",
+    kReplayOptions, "kds run models.pdb --log models.kdslog\nkds replay models.kdslog",
 };
 
 std::string verdict(const ReplayReport& replay) {
@@ -49,7 +49,7 @@ std::string verdict(const ReplayReport& replay) {
 }  // namespace
 
 int replay_command(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  const ParsedArguments parsed = parse_arguments(kReplayCommand, arguments);
   if (parsed.operands().size() != 1)
     throw InputError(
         fmt::format("kds replay takes one LOG, not {} (see kds replay --help)", parsed.operands().size()));

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kName = "generate";
+constexpr std::string_view kGenerateName = "generate";
 
 // One a necklace: of two, a.xyz becomes a-1.xyz and a-2.xyz.
 std::vector<fs::path> files_of(const GenerateOptions& options) {
@@ -94,7 +94,7 @@ int generate_command(const Arguments& arguments) {
     ensure_writable_file(file, "-o");
     taken.add("-o", file);
   }
-  check_table_destinations(destinations, std::string(kName), taken);
+  check_table_destinations(destinations, std::string(kGenerateName), taken);
 
   ProgressBar bar(!options.quiet);
   const std::vector<Trajectory> necklaces = necklaces_for(options, files);
@@ -106,7 +106,7 @@ int generate_command(const Arguments& arguments) {
                      [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
   bar.erase();
   write_files(options, necklaces);
-  deliver_table(destinations, std::string(kName),
+  deliver_table(destinations, std::string(kGenerateName),
                 results_of(options, info, "kds generate " + shell_words(arguments)));
   return 0;
 }

@@ -97,7 +97,7 @@ constexpr std::array<OptionSpec, kModelOptions.size()> model_specs() {
   return specs;
 }
 
-constexpr auto kOptions = joined(kFirstOptions, joined(model_specs(), kLastOptions));
+constexpr auto kGenerateOptions = joined(kFirstOptions, joined(model_specs(), kLastOptions));
 
 std::string model_names() {
   std::vector<std::string_view> names;
@@ -112,7 +112,7 @@ const CommandSpec& command() {
       "Writes a moving model necklace with beads of radius 1, and tells whether it is a proper one.",
       "MODEL",
       operands,
-      kOptions,
+      kGenerateOptions,
       "kds generate random-chain --beads 10240 --frames 20 --step 0.01 -o chain.xyz\n"
       "kds generate two-spirals --beads 1000 --frames 50 --turns 9 -o spirals.xyz"};
   return spec;

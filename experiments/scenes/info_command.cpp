@@ -22,7 +22,7 @@ namespace kds {
 
 namespace {
 
-constexpr std::string_view kName = "info";
+constexpr std::string_view kInfoName = "info";
 
 Json settings_json(const InfoOptions& options) {
   const ReadOptions& reading = options.input.reading;
@@ -106,13 +106,13 @@ int info_command(const Arguments& arguments) {
   check_inputs_exist(options.input);
   TakenPaths taken;
   taken.read(options.input);
-  check_table_destinations(destinations, std::string(kName), taken);
+  check_table_destinations(destinations, std::string(kInfoName), taken);
 
   const std::string command_line = "kds info " + shell_words(arguments);
   ProgressBar bar(!options.quiet);
   const std::optional<Instance> instance = read_lone_instance(options.input);
   deliver_table(
-      destinations, std::string(kName),
+      destinations, std::string(kInfoName),
       instance ? describe(*instance, options.beads, command_line) : describe(options, command_line, bar));
   return 0;
 }

@@ -18,14 +18,14 @@ constexpr std::array kInfoOptions{
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
 
-constexpr auto kOptions = joined(kInputOptions, kInfoOptions);
+constexpr auto kAllInfoOptions = joined(kInputOptions, kInfoOptions);
 
-constexpr CommandSpec kCommand{
+constexpr CommandSpec kInfoCommand{
     "kds info",
     "Describes trajectories, and tells which conditions of a proper necklace they violate, exactly.",
     kInputOperand,
     kInputHelp,
-    kOptions,
+    kAllInfoOptions,
     "kds info villin.dcd --topology villin.pdb --frames ::10\n"
     "kds info 1a4y.pdb --radius element:fit --rho 2 --json -\n"
     "kds info 1a4y.pdb --beads",
@@ -34,9 +34,9 @@ constexpr CommandSpec kCommand{
 }  // namespace
 
 InfoOptions parse_info_options(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  const ParsedArguments parsed = parse_arguments(kInfoCommand, arguments);
   InfoOptions options;
-  options.input = parse_input_options(parsed, kCommand.name);
+  options.input = parse_input_options(parsed, kInfoCommand.name);
   if (const auto text = parsed.value("--rho"))
     options.validate.rho = parse_real("--rho", *text, {1, std::numeric_limits<double>::max()});
   if (const auto text = parsed.value("--list"))

@@ -97,11 +97,11 @@ std::optional<std::string> trouble_of(const Outcome& filtered, const Outcome& au
 }
 
 /// Of the runs that ended well.
-struct Times {
+struct KernelTimes {
   std::vector<double> fast, filtered, exact;
 };
 
-void add_case(StabilityRow& row, Times& times, const Settled& what, const Case& one) {
+void add_case(StabilityRow& row, KernelTimes& times, const Settled& what, const Case& one) {
   const Outcome fast = outcome_of(one, what, Kernel::fast, AuditMode::none);
   const Outcome filtered = outcome_of(one, what, Kernel::filtered, AuditMode::none);
   const Outcome audited = outcome_of(one, what, Kernel::filtered, AuditMode::events);
@@ -149,7 +149,7 @@ StabilitySubject structure_subject(const std::string& structure, Of of, int dime
     row.subject = name;
     row.extreme = extreme.name;
     row.must_refuse = extreme.refused;
-    Times times;
+    KernelTimes times;
     const std::size_t runs = (cases.cases + cases_a_run - 1) / cases_a_run;
     for (std::size_t number = 0; number < runs; ++number) {
       SceneRandom random = scene_random(cases.seed, extreme.name, number);

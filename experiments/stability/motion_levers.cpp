@@ -21,7 +21,7 @@
 namespace kds {
 namespace {
 
-constexpr std::size_t beads = 5;
+constexpr std::size_t bead_count = 5;
 using Frames = std::vector<Eigen::Matrix3Xd>;
 using ExactPoint = std::array<Rational, 3>;
 
@@ -29,10 +29,10 @@ using ExactPoint = std::array<Rational, 3>;
 Frames frames_of(const Extreme& extreme, int dimension, std::size_t scenes, SceneRandom& random) {
   Frames frames;
   for (std::size_t scene = 0; scene < scenes; ++scene) {
-    const BeadCurves curves = extreme.make({dimension, 1, beads}, random);
+    const BeadCurves curves = extreme.make({dimension, 1, bead_count}, random);
     for (const int end : {0, 1}) {
-      frames.emplace_back(Eigen::Matrix3Xd::Zero(3, beads));
-      for (std::size_t b = 0; b < beads; ++b)
+      frames.emplace_back(Eigen::Matrix3Xd::Zero(3, bead_count));
+      for (std::size_t b = 0; b < bead_count; ++b)
         for (int axis = 0; axis < dimension; ++axis)
           frames.back()(axis, static_cast<Eigen::Index>(b)) = curves.coordinate(b, end, axis);
     }
@@ -47,7 +47,7 @@ Scene scene_of(const Frames& frames, std::size_t stride, FrameMotion motion) {
     some.frames.push_back(frames[k]);
     some.frame_numbers.push_back(k);
   }
-  return Scene(std::span(&some, 1), std::vector<double>(beads, 0.0), motion);
+  return Scene(std::span(&some, 1), std::vector<double>(bead_count, 0.0), motion);
 }
 
 class FramesInMemory final : public FrameReader {
@@ -106,7 +106,7 @@ Looks look_at_tolerance(const Extreme& extreme, int dimension, SceneRandom& rand
   std::size_t place = 0;
   const auto read = [&](FrameRead& frame) { return every.next(frame); };
   for (FrameRead frame; straight.next(frame, read); ++place)
-    for (std::size_t b = 0; b < beads; ++b)
+    for (std::size_t b = 0; b < bead_count; ++b)
       looks.look(is_within(exact_point(frame.positions, b), exact_point(frames[place], b), tolerance));
   looks.look(place == frames.size());
   return looks;
@@ -133,14 +133,14 @@ template <class M>
 void look_at_steps(const Scene& scene, const Frames& frames, std::size_t stride, const StrideDeviation& found,
                    Looks& looks) {
   constexpr std::size_t times = 4;  // of a part of a step
-  M motion(beads);
+  M motion(bead_count);
   for (std::size_t step = 0; step < scene.step_count(); ++step) {
     scene.load(step, motion);
     for (std::size_t i = 0; i < stride * times; ++i) {
       const std::size_t before = step * stride + i / times;
       const Rational share(i % times, times);
       const Dyadic time(static_cast<double>(i) / static_cast<double>(stride * times));
-      for (std::size_t b = 0; b < beads; ++b) {
+      for (std::size_t b = 0; b < bead_count; ++b) {
         ExactPoint truth = exact_point(frames[before], b);
         const ExactPoint after = exact_point(frames[before + 1], b);
         for (std::size_t axis = 0; axis < 3; ++axis) truth[axis] += share * (after[axis] - truth[axis]);

@@ -13,7 +13,7 @@
 namespace kds {
 namespace {
 
-constexpr std::array kOptions{
+constexpr std::array kStabilityOptions{
     OptionSpec{"--subjects", "LIST", "comma list of certificate types and structures (default: all)"},
     OptionSpec{"--extremes", "LIST", "comma list of extremes, or of their families (default: all)"},
     OptionSpec{"--cases", "N",
@@ -25,12 +25,12 @@ constexpr std::array kOptions{
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
 
-constexpr CommandSpec kCommand{
+constexpr CommandSpec kStabilityCommand{
     "kds stability",
     "Compares the three kernels where arithmetic is hardest: filtered must agree with exact everywhere.",
     "",
     "",
-    kOptions,
+    kStabilityOptions,
     "kds stability --out stability\n"
     "kds stability --subjects power_test,power --extremes scale,offset:2^50 --cases 1000",
 };
@@ -81,7 +81,7 @@ bool StabilityOptions::wants(const Extreme& extreme) const {
 }
 
 StabilityOptions parse_stability_options(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  const ParsedArguments parsed = parse_arguments(kStabilityCommand, arguments);
   StabilityOptions options;
   if (const auto list = parsed.value("--subjects"))
     options.subjects = parse_names("--subjects", *list, subject_names());

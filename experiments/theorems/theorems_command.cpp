@@ -19,9 +19,9 @@ namespace kds {
 
 namespace {
 
-constexpr const char* kName = "theorems";
+constexpr const char* kTheoremsName = "theorems";
 
-constexpr std::array kOptions{
+constexpr std::array kTheoremsOptions{
     OptionSpec{"--beads", "N",
                "of the largest necklaces, to 4000000; from 64 for 2.3, 4096 for others, three sizes "
                "(default: 100000)"},
@@ -34,7 +34,7 @@ constexpr std::array kOptions{
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
 
-constexpr CommandSpec kCommand{
+constexpr CommandSpec kTheoremsCommand{
     "kds theorems",
     "What the theorems of Agarwal et al. (2004) bound, measured over sizes, with fitted exponents.\n\n"
     "  2.3  the layered hierarchy's root beside the wrapped one's: at most sqrt(h + 1) times, h the height\n"
@@ -43,19 +43,19 @@ constexpr CommandSpec kCommand{
     "  3.5  the closest pair is among those that the power diagram and the chain name: how many they are",
     "[THEOREM]...",
     "2.3, 3.1, 3.2, 3.5 (default: all)",
-    kOptions,
+    kTheoremsOptions,
     "kds theorems --out report\n"
     "kds theorems 3.1 --beads 1000000 --json -",
 };
 
-struct Asked {
+struct TheoremsAsked {
   TheoremOptions measured;
   Destinations destinations;
 };
 
-Asked parse(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
-  Asked asked;
+TheoremsAsked parse_theorems(const Arguments& arguments) {
+  const ParsedArguments parsed = parse_arguments(kTheoremsCommand, arguments);
+  TheoremsAsked asked;
   TheoremOptions& options = asked.measured;
   for (const std::string& name : parsed.operands()) {
     const auto theorem = choice_of<Theorem>("THEOREM", name, theorem_names);
@@ -80,7 +80,7 @@ Asked parse(const Arguments& arguments) {
   return asked;
 }
 
-std::vector<TheoremSeries> measure(const Asked& asked) {
+std::vector<TheoremSeries> measure(const TheoremsAsked& asked) {
   TheoremPlan plan = plan_theorems(asked.measured);
   ProgressBar bar(!asked.destinations.quiet);
   std::size_t done = 0;
@@ -105,11 +105,11 @@ Json settings_json(const TheoremOptions& options) {
 }  // namespace
 
 int theorems_command(const Arguments& arguments) {
-  const Asked asked = parse(arguments);
+  const TheoremsAsked asked = parse_theorems(arguments);
   const Destinations& destinations = asked.destinations;
   TakenPaths taken;
   if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
-  check_table_destinations(destinations, kName, taken);
+  check_table_destinations(destinations, kTheoremsName, taken);
   if (destinations.out) {
     check_directory(*destinations.out, "--out", {"report.html"});
     check_page(*destinations.out, "theorems.json");
@@ -122,9 +122,10 @@ int theorems_command(const Arguments& arguments) {
   json["rows"] = theorem_rows_json(series);
   json["fits"] = theorem_fits_json(series);
   add_provenance(json, command_line);
-  deliver_table(destinations, kName,
+  deliver_table(destinations, kTheoremsName,
                 {text_of(json), theorems_csv(series), theorems_table(series), [&] {
-                   return theorems_page(series, made_by(kName, command_line, settings_json(asked.measured)));
+                   return theorems_page(series,
+                                        made_by(kTheoremsName, command_line, settings_json(asked.measured)));
                  }});
   return 0;
 }

@@ -18,10 +18,6 @@ std::optional<double> ratio_to_bound(const TheoremPoint& point) {
   return point.value / *point.bound;
 }
 
-Json value_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-std::string value_or_empty(const std::optional<double>& value) {
-  return value ? fmt::format("{}", *value) : "";
-}
 std::string decimal_or_dash(const std::optional<double>& value) {
   return value ? short_decimal(*value) : "-";
 }
@@ -174,8 +170,8 @@ Json theorem_rows_json(std::span<const TheoremSeries> series) {
                       {"n", point.beads},
                       {"quantity", quantity_of(one.theorem)},
                       {"value", point.value},
-                      {"bound", value_or_null(point.bound)},
-                      {"ratio", value_or_null(ratio_to_bound(point))},
+                      {"bound", point.bound},
+                      {"ratio", ratio_to_bound(point)},
                       {"seconds", point.seconds ? Json(point.seconds->median) : Json(nullptr)},
                       {"seconds_least", point.seconds ? Json(point.seconds->least) : Json(nullptr)},
                       {"seconds_most", point.seconds ? Json(point.seconds->most) : Json(nullptr)},
@@ -197,7 +193,7 @@ Json theorem_fits_json(std::span<const TheoremSeries> series) {
                     {"lower", fit->lower},
                     {"upper", fit->upper},
                     {"factor", fit->factor},
-                    {"expected", value_or_null(one.expected)}});
+                    {"expected", one.expected}});
   }
   return json;
 }

@@ -24,7 +24,7 @@ namespace kds {
 
 namespace {
 
-constexpr const char* kName = "trade";
+constexpr const char* kTradeName = "trade";
 
 constexpr std::array kTradeOptions{
     OptionSpec{"--want", "LIST",
@@ -45,14 +45,14 @@ constexpr std::array kTradeOptions{
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
 
-constexpr auto kOptions = joined(kInputOptions, kTradeOptions);
+constexpr auto kAllTradeOptions = joined(kInputOptions, kTradeOptions);
 
-constexpr CommandSpec kCommand{
+constexpr CommandSpec kTradeCommand{
     "kds trade",
     "Measures what speed can be had for what accuracy: every lever on this trajectory, beside the exact run.",
     kInputOperand,
     "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
-    kOptions,
+    kAllTradeOptions,
     "kds trade villin.dcd --topology villin.pdb --frames 0:200 --out report\n"
     "kds trade villin.dcd --topology villin.pdb --want contacts --radius 2 --apart 5\n"
     "kds trade models.pdb --chain A,B --want scenes",
@@ -133,9 +133,9 @@ void foretell(double seconds) {
 }  // namespace
 
 TradeOptions parse_trade_options(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  const ParsedArguments parsed = parse_arguments(kTradeCommand, arguments);
   TradeOptions options;
-  options.input = parse_input_options(parsed, kCommand.name);
+  options.input = parse_input_options(parsed, kTradeCommand.name);
   TradeTask& task = options.task;
   if (const auto list = parsed.value("--want")) task.wants = parse_wants(*list);
   if (const auto apart = parsed.value("--apart"))
@@ -159,7 +159,7 @@ int trade_command(const Arguments& arguments) {
   TakenPaths taken;
   taken.read(options.input);
   if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
-  check_table_destinations(destinations, kName, taken);
+  check_table_destinations(destinations, kTradeName, taken);
   if (destinations.out) {
     check_directory(*destinations.out, "--out", {"report.html"});
     check_page(*destinations.out, "trade.json");
@@ -193,11 +193,11 @@ int trade_command(const Arguments& arguments) {
   json["recommendation"] = recommendation(rows);
   json["warnings"] = warnings;
   add_provenance(json, command_line);
-  deliver_table(destinations, kName, {text_of(json), trade_csv(rows), trade_table(rows), [&] {
-                                        return trade_page(
-                                            rows, fmt::format("{}", fmt::join(names, ", ")),
-                                            made_by(kName, command_line, settings_json(options)));
-                                      }});
+  deliver_table(destinations, kTradeName, {text_of(json), trade_csv(rows), trade_table(rows), [&] {
+                                             return trade_page(
+                                                 rows, fmt::format("{}", fmt::join(names, ", ")),
+                                                 made_by(kTradeName, command_line, settings_json(options)));
+                                           }});
   return 0;
 }
 

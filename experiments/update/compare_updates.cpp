@@ -79,10 +79,10 @@ UpdateTechnique technique_of(std::string_view name) {
 }
 
 template <int Dimension>
-class Comparison {
+class UpdateComparison {
  public:
-  Comparison(std::vector<Trajectory> necklaces, const std::vector<double>& radii,
-             const UpdateOptions& options, std::size_t stride)
+  UpdateComparison(std::vector<Trajectory> necklaces, const std::vector<double>& radii,
+                   const UpdateOptions& options, std::size_t stride)
       : necklaces_(std::move(necklaces)),
         radii_(radii),
         audit_(options.audit == AuditMode::frames),
@@ -222,9 +222,9 @@ std::vector<UpdateRow> compare_updates(const std::vector<Trajectory>& necklaces,
       for (UpdateRow& row : comparison.rows()) rows.push_back(std::move(row));
     };
     if (Scene(some, radii).dimension() == 2) {
-      compare(Comparison<2>(std::move(some), radii, options, stride));
+      compare(UpdateComparison<2>(std::move(some), radii, options, stride));
     } else {
-      compare(Comparison<3>(std::move(some), radii, options, stride));
+      compare(UpdateComparison<3>(std::move(some), radii, options, stride));
     }
   }
   return rows;

@@ -21,7 +21,7 @@ namespace kds {
 
 namespace {
 
-constexpr const char* kName = "update";
+constexpr const char* kUpdateName = "update";
 
 std::string file_names(const UpdateOptions& options) {
   std::vector<std::string> names;
@@ -63,7 +63,7 @@ int update_command(const Arguments& arguments) {
   TakenPaths taken;
   taken.read(options.input);
   if (options.out) taken.write_into("--out", *options.out, {"report.html"});
-  check_table_destinations(destinations, kName, taken);
+  check_table_destinations(destinations, kUpdateName, taken);
   if (options.out) {
     check_directory(*options.out, "--out", {"report.html"});
     check_page(*options.out, "update.json");
@@ -91,11 +91,11 @@ int update_command(const Arguments& arguments) {
   json["rows"] = update_rows_json(rows);
   json["warnings"] = warnings;
   add_provenance(json, command_line);
-  deliver_table(destinations, kName, {text_of(json), update_csv(rows), update_table(rows), [&] {
-                                        return update_page(
-                                            rows, file_names(options),
-                                            made_by(kName, command_line, settings_json(options)));
-                                      }});
+  deliver_table(destinations, kUpdateName, {text_of(json), update_csv(rows), update_table(rows), [&] {
+                                              return update_page(
+                                                  rows, file_names(options),
+                                                  made_by(kUpdateName, command_line, settings_json(options)));
+                                            }});
   return 0;
 }
 

@@ -26,14 +26,14 @@ constexpr std::array kUpdateOptions{
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
 
-constexpr auto kOptions = joined(kInputOptions, kUpdateOptions);
+constexpr auto kAllUpdateOptions = joined(kInputOptions, kUpdateOptions);
 
-constexpr CommandSpec kCommand{
+constexpr CommandSpec kUpdateCommand{
     "kds update",
     "Compares techniques that bring the power diagram from frame to frame: what they do, and how long.",
     kInputOperand,
     "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
-    kOptions,
+    kAllUpdateOptions,
     "kds update villin.dcd --topology villin.pdb --frames 0:200 --strides 1,2,4,8 --out report\n"
     "kds update 1l2y.pdb --select all --radius element --techniques kinetic,lifted --audit frames --json -",
 };
@@ -58,9 +58,9 @@ std::vector<std::string> parse_techniques(const std::string& list) {
 }  // namespace
 
 UpdateOptions parse_update_options(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kCommand, arguments);
+  const ParsedArguments parsed = parse_arguments(kUpdateCommand, arguments);
   UpdateOptions options;
-  options.input = parse_input_options(parsed, kCommand.name);
+  options.input = parse_input_options(parsed, kUpdateCommand.name);
   if (const auto list = parsed.value("--techniques")) options.techniques = parse_techniques(*list);
   if (const auto list = parsed.value("--strides")) options.strides = parse_strides(*list);
   if (const auto text = parsed.value("--rounds"))

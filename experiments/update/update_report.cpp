@@ -13,14 +13,6 @@ namespace kds {
 
 namespace {
 
-template <class Value>
-Json value_or_null(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-template <class Value>
-std::string value_or_empty(const std::optional<Value>& value) {
-  return value ? fmt::format("{}", *value) : "";
-}
 std::string count_or_dash(const std::optional<std::uint64_t>& count) {
   return count ? with_thousands(*count) : "-";
 }
@@ -145,10 +137,10 @@ Json update_rows_json(std::span<const UpdateRow> rows) {
                     {"cells_changed", row.task.cells_changed},
                     {"certificates", row.task.certificates},
                     {"certificates_failed", row.task.failed},
-                    {"activated", value_or_null(row.activated)},
-                    {"removed", value_or_null(row.removed)},
-                    {"events", value_or_null(row.events)},
-                    {"efficiency", value_or_null(row.efficiency())},
+                    {"activated", row.activated},
+                    {"removed", row.removed},
+                    {"events", row.events},
+                    {"efficiency", row.efficiency()},
                     {"rebuilds", row.rebuilds},
                     {"audits", row.audits},
                     {"seconds", row.seconds.median},

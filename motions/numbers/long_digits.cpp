@@ -8,9 +8,9 @@ namespace kds {
 
 namespace {
 
-constexpr std::size_t error_bits = 61;
+constexpr std::size_t most_error_bits = 61;
 
-std::size_t width_of(const Integer& x) {
+std::size_t bit_width_of(const Integer& x) {
   mpz_srcptr whole = x.data();
   const std::size_t limbs = mpz_size(whole);
   return limbs == 0
@@ -29,7 +29,7 @@ std::uint64_t top_of(const Integer& x, std::size_t bits) {
   return rest == 0 ? limb(first) : (limb(first) >> rest) | (limb(first + 1) << (64 - rest));
 }
 
-std::size_t width_of(Wide x) {
+std::size_t bit_width_of(Wide x) {
   const auto high = static_cast<std::uint64_t>(x >> 64U);
   return static_cast<std::size_t>(high != 0 ? 64 + std::bit_width(high)
                                             : std::bit_width(static_cast<std::uint64_t>(x)));
@@ -46,12 +46,12 @@ struct Bound {
   std::size_t shift;
 
   explicit Bound(const Integer& x) : mantissa(0), shift(0) {
-    const std::size_t width = width_of(x);
+    const std::size_t width = bit_width_of(x);
     if (width == 0) return;
     shift = width > 60 ? width - 60 : 0;
     mantissa = Wide{top_of(x, shift)} + (shift > 0 ? 1 : 0);
   }
-  [[nodiscard]] std::size_t width() const { return mantissa == 0 ? 0 : width_of(mantissa) + shift; }
+  [[nodiscard]] std::size_t width() const { return mantissa == 0 ? 0 : bit_width_of(mantissa) + shift; }
   /// Not less than the bound / 2^bits, which must fit.
   [[nodiscard]] std::uint64_t over(std::size_t bits) const {
     if (mantissa == 0) return 0;
@@ -64,7 +64,7 @@ struct Bound {
 
 // No copy of digits that are left out.
 LongDigits::LongDigits(const Integer& value, std::size_t most_bits) : most_bits_(most_bits) {
-  const std::size_t width = width_of(value);
+  const std::size_t width = bit_width_of(value);
   if (width <= most_bits) {
     value_ = value;
     return;
@@ -91,10 +91,10 @@ LongDigits::LongDigits(const LeadingDigits& number)
 }
 
 LongDigits LongDigits::between(const Integer& low, const Integer& high, std::size_t most_bits) {
-  constexpr std::size_t length_bits = error_bits - 1;
+  constexpr std::size_t length_bits = most_error_bits - 1;
   LongDigits all(high, most_bits);
   const Integer length = high - low;
-  const std::size_t width = width_of(length), below = static_cast<std::size_t>(all.exponent_);
+  const std::size_t width = bit_width_of(length), below = static_cast<std::size_t>(all.exponent_);
   if (width > below + length_bits) all.shift_down(width - below - length_bits);
   const Integer units = length >> static_cast<std::size_t>(all.exponent_);
   all.error_ += mpz_get_ui(units.data()) + 1;
@@ -111,14 +111,14 @@ LeadingDigits LongDigits::leading_digits() const {
 int LongDigits::certain_sign() const { return mpz_cmpabs_ui(value_.data(), error_) <= 0 ? 0 : value_.sign(); }
 
 bool LongDigits::has_digits(std::size_t digits) const {
-  return error_ == 0 || width_of(value_) > digits + static_cast<std::size_t>(std::bit_width(error_));
+  return error_ == 0 || bit_width_of(value_) > digits + static_cast<std::size_t>(std::bit_width(error_));
 }
 
 std::size_t LongDigits::room(std::size_t wanted) const {
-  const std::size_t width = width_of(value_);
+  const std::size_t width = bit_width_of(value_);
   std::size_t bits = most_bits_ - std::min(width, most_bits_);
   const auto of_error = static_cast<std::size_t>(std::bit_width(error_));
-  if (error_ != 0) bits = std::min(bits, error_bits - std::min(of_error, error_bits));
+  if (error_ != 0) bits = std::min(bits, most_error_bits - std::min(of_error, most_error_bits));
   return std::min(bits, wanted);
 }
 
@@ -174,7 +174,7 @@ LongDigits& LongDigits::operator*=(const LongDigits& other) {
     of_own.mantissa += (of_own.shift >= 64 ? 0 : other.error_ >> of_own.shift) + 1;
     of_own.mantissa *= error_;
     const std::size_t width = std::max(of_other.width(), of_own.width()) + 1;
-    down = width > error_bits ? width - error_bits : 0;
+    down = width > most_error_bits ? width - most_error_bits : 0;
     error_ = of_other.over(down) + of_own.over(down);
   }
   value_ *= other.value_;
@@ -191,9 +191,9 @@ LongDigits& LongDigits::operator*=(const LongDigits& other) {
 }
 
 void LongDigits::cut() {
-  const std::size_t width = width_of(value_), of_error = static_cast<std::size_t>(std::bit_width(error_));
+  const std::size_t width = bit_width_of(value_), of_error = static_cast<std::size_t>(std::bit_width(error_));
   const std::size_t bits = std::max(width > most_bits_ ? width - most_bits_ : 0,
-                                    of_error > error_bits ? of_error - error_bits : 0);
+                                    of_error > most_error_bits ? of_error - most_error_bits : 0);
   if (bits > 0) shift_down(bits);
 }
 

@@ -15,7 +15,7 @@ namespace kds {
 namespace {
 
 constexpr int most_degree = 3;
-constexpr double smallest = std::numeric_limits<double>::denorm_min();
+constexpr double denormal = std::numeric_limits<double>::denorm_min();
 using ControlPoints = std::array<Eigen::Matrix3Xd, most_degree + 1>;
 
 template <class M>
@@ -80,7 +80,7 @@ class DeviationSearch {
             curve[static_cast<std::size_t>(k)] - ((1 - share) * first + share * last);
         // A dozen roundings of lengths up to the extent in each coordinate, and those of the norm; near the
         // smallest doubles each is by up to one of these.
-        const double rounded = apart.stableNorm() * (1 + 0x1p-45) + 0x1p-45 * extent + 64 * smallest;
+        const double rounded = apart.stableNorm() * (1 + 0x1p-45) + 0x1p-45 * extent + 64 * denormal;
         const double bound = std::isnan(rounded) ? std::numeric_limits<double>::infinity() : rounded;
         if (bound <= found_.of_bead[b]) continue;
         found_.of_bead[b] = bound;

@@ -12,11 +12,6 @@ namespace {
 using detail::up;
 using detail::Vec;
 
-template <std::size_t Size>
-[[gnu::always_inline]] inline Lanes length(const std::array<Lanes, Size>& v) {
-  return root(detail::dot(v, v));
-}
-
 template <int D>
 [[KDS_LONG_LANES_TARGETS]] void find_gaps_in_lanes(const BeadPaths<D>& paths,
                                                    const SphereEnclosure<D>& sphere, BeadId base, BeadId bead,

@@ -39,10 +39,6 @@ template <int N, std::size_t Size>
   }
   return Lanes(static_cast<double>(N)) * root(most);
 }
-template <std::size_t Size>
-[[gnu::always_inline]] inline Lanes length(const std::array<Lanes, Size>& v) {
-  return root(detail::dot(v, v));
-}
 
 /// What vanishes where a point is in the hull, times the volume: of a linear path z.
 template <int D, std::size_t M, int N>

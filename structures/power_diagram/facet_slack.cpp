@@ -18,7 +18,7 @@ constexpr double least_share = 0.4;
 constexpr double least_worth = 0.05;
 /// Looking at what its own beads stray costs a facet most of what a certificate does: so it must spare many
 /// facets one, a share of all.
-constexpr double worth_a_look = 1.0 / 32;
+constexpr double share_worth_a_look = 1.0 / 32;
 constexpr std::size_t sample_size = 128;
 
 // Floats are half as long to read. A stray is no smaller than it was, slack no larger.
@@ -127,8 +127,8 @@ double FacetSlack<Dimension>::measure(const Curves<Dimension>& curves, const Tri
     by_beads += !among_others && !coarsely ? 1 : 0;
   });
   // Where nothing bounds all beads a facet's two cells must be told apart by their beads.
-  by_beads_ =
-      share_of(by_beads, looked_at) > worth_a_look || !(farthest_ < std::numeric_limits<float>::infinity());
+  by_beads_ = share_of(by_beads, looked_at) > share_worth_a_look ||
+              !(farthest_ < std::numeric_limits<float>::infinity());
   return share_of(rest, looked_at);
 }
 
