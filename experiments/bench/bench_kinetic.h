@@ -16,14 +16,15 @@
 
 namespace kds {
 
+/// Of all steps, by the processor.
 struct StepsRun {
-  double seconds = 0;  ///< of all steps, by the processor
+  double seconds = 0;  ///< beads from frame to motion are part of them
+  double own = 0;  ///< less what it takes to load the same steps again: the engine and the structure alone
   std::uint64_t events = 0;
 };
 
 [[nodiscard]] Scene scene_of(const BenchChain& chain, FrameMotion motion);
-/// All steps of a scene by one structure; beads from frame to motion are part of them, the first build is
-/// not.
+/// All steps of a scene by one structure, without the first build.
 [[nodiscard]] StepsRun run_all_steps(const Scene& scene, const std::string& structure,
                                      const StructureSettings& settings);
 

@@ -1,13 +1,16 @@
 #include "experiments/bench/bench_trade.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "experiments/bench/bench_chains.h"
 #include "experiments/bench/bench_kinetic.h"
 #include "experiments/program/timing.h"
+#include "motions/scene/straightened_frames.h"
 #include "structures/chord_cages/chord_cages.h"
 #include "structures/contacts/moving_family.h"
 #include "structures/contacts/swept_contacts.h"
@@ -19,11 +22,12 @@ namespace {
 /// How many times as fast as the exact run each lever is to be, by the start of a trajectory's name.
 struct Factors {
   std::string_view name;
-  double chord, tight, layered, relaxed;
+  std::optional<double> chord, tight, layered, relaxed, tolerant, more_tolerant;
   double swept;  ///< static queries that a swept one may cost
 };
-constexpr std::array kFactors{Factors{"villin", 5, 3, 13, 2, 1.1}, Factors{"random100", 3.4, 2, 13, 2, 1.1},
-                              Factors{"dhodh", 6.5, 1.5, 13, 2, 1.45}};
+constexpr std::array kFactors{Factors{"villin", 5, 3, 13, 2, 2, 2.8, 1.1},
+                              Factors{"random100", 3.4, 2, 13, 2, 2, 2.8, 1.1},
+                              Factors{"dhodh", 6.5, 1.5, 13, 2, {}, {}, 1.45}};
 
 const Factors* factors_of(std::string_view name) {
   const auto* const found = std::ranges::find_if(
@@ -31,47 +35,65 @@ const Factors* factors_of(std::string_view name) {
   return found == kFactors.end() ? nullptr : found;
 }
 
-/// A lever of a structure: its settings in a run.
+/// A structure under a lever: its settings in a run, or how far beads may be from their frames.
 struct Lever {
   std::string name, structure;
-  StructureSettings settings;
-  std::optional<double> factor;
+  std::optional<double> Factors::*factor = nullptr;
+  StructureSettings settings = {};
+  double tolerance = 0;  ///< in radii of the smallest bead
 };
 
-std::vector<Lever> levers_of(const Factors* factors) {
-  const auto factor = [factors](double Factors::*which) {
-    return factors == nullptr ? std::nullopt : std::optional(factors->*which);
-  };
-  std::vector<Lever> levers(4);
-  levers[0] = {"wrapped, chord cages", "wrapped", {}, factor(&Factors::chord)};
-  levers[1] = {"wrapped, chord cages within 0.01", "wrapped", {}, factor(&Factors::tight)};
-  levers[2] = {"layered, chord cages", "layered", {}, factor(&Factors::layered)};
-  levers[3] = {"wrapped, relaxed by 0.03", "wrapped", {}, factor(&Factors::relaxed)};
-  levers[3].settings.relax = Relaxation::of(0.03);
-  levers[0].settings.between = levers[1].settings.between = Between::chord;
-  levers[1].settings.tightness = 0.01;
-  return levers;
+/// Of each structure that levers are compared with first the exact run.
+std::vector<std::vector<Lever>> levers_by_structure() {
+  StructureSettings chord, tight, relaxed;
+  chord.between = tight.between = Between::chord;
+  tight.tightness = 0.01;
+  relaxed.relax = Relaxation::of(0.03);
+  return {{{"wrapped, exact events", "wrapped"},
+           {"wrapped, chord cages", "wrapped", &Factors::chord, chord},
+           {"wrapped, chord cages within 0.01", "wrapped", &Factors::tight, tight},
+           {"layered, chord cages", "layered", &Factors::layered},
+           {"wrapped, relaxed by 0.03", "wrapped", &Factors::relaxed, relaxed}},
+          {{"power, exact motion", "power"},
+           {"power, within 0.2r", "power", &Factors::tolerant, {}, 0.2},
+           {"power, within 0.3r", "power", &Factors::more_tolerant, {}, 0.3}}};
 }
 
-// In turn with the exact run, beads from frame to motion being part of a step.
-void add_levers(const BenchChain& chain, std::size_t rounds, std::vector<BenchRow>& rows) {
-  const Scene scene = scene_of(chain, FrameMotion::linear);
-  const std::size_t nodes = NecklaceTree(scene.necklaces()).node_count();
-  const std::vector<Lever> levers = levers_of(factors_of(chain.name));
-  std::vector<std::vector<double>> ours(levers.size());
-  std::vector<double> exact;
-  for (std::size_t round = 0; round < rounds; ++round) {
-    exact.push_back(run_all_steps(scene, "wrapped", {}).seconds);
-    for (std::size_t i = 0; i < levers.size(); ++i)
-      ours[i].push_back(run_all_steps(scene, levers[i].structure, levers[i].settings).seconds);
+// In turn with the exact run: the steps alone, to which goals belong, then with beads from frame to motion.
+void add_levers(const BenchChain& chain, const std::vector<Lever>& levers, std::size_t rounds,
+                std::vector<BenchRow>& rows) {
+  const Factors* const factors = factors_of(chain.name);
+  std::map<double, Scene> scenes;  // by tolerance: the same frames in the same memory
+  for (const Lever& lever : levers) {
+    BenchChain frames = chain;
+    if (lever.tolerance > 0)
+      frames.frames = straightened(
+          chain.frames, lever.tolerance * *std::min_element(chain.radii.begin(), chain.radii.end()));
+    scenes.try_emplace(lever.tolerance, scene_of(frames, FrameMotion::linear));
   }
-  const double nanoseconds = 1e9 / static_cast<double>(nodes * scene.step_count());
-  for (std::size_t i = 0; i < levers.size(); ++i)
-    rows.push_back(
-        with_spread({levers[i].name, chain.name, chain.radii.size(), median_of(ours[i]) * nanoseconds,
-                     "ns/node", "wrapped, exact events", median_of(exact) * nanoseconds,
-                     levers[i].factor ? std::optional(1 / *levers[i].factor) : std::nullopt},
-                    ours[i], nanoseconds));
+  std::vector<std::vector<double>> own(levers.size()), whole(levers.size());
+  for (std::size_t round = 0; round < rounds; ++round) {
+    for (std::size_t i = 0; i < levers.size(); ++i) {
+      const StepsRun run =
+          run_all_steps(scenes.at(levers[i].tolerance), levers[i].structure, levers[i].settings);
+      own[i].push_back(run.own);
+      whole[i].push_back(run.seconds);
+    }
+  }
+  const auto beads = chain.radii.size();
+  const double nanoseconds = 1e9 / static_cast<double>(beads * (chain.frames.size() - 1));
+  for (std::size_t i = 1; i < levers.size(); ++i) {
+    const std::optional<double> factor =
+        factors != nullptr ? factors->*levers[i].factor : std::optional<double>();
+    const auto row = [&](const std::string& name, const std::vector<std::vector<double>>& seconds,
+                         std::optional<double> most) {
+      rows.push_back(with_spread({name, chain.name, beads, median_of(seconds[i]) * nanoseconds, "ns/bead",
+                                  levers.front().name, median_of(seconds.front()) * nanoseconds, most},
+                                 seconds[i], nanoseconds));
+    };
+    row(levers[i].name, own, factor ? std::optional(1 / *factor) : std::nullopt);
+    row(levers[i].name + ", from frame on", whole, std::nullopt);
+  }
 }
 
 // Balls a quarter larger than those of `--radius auto`, so that some meet; no pairs within four beads.
@@ -139,7 +161,7 @@ std::vector<BenchRow> bench_trade(const TradeBenchOptions& options,
   for (const std::filesystem::path& path : options.trajectories) {
     const BenchChain chain = read_bench_chain(path);
     const std::size_t rounds = std::max(options.rounds, 200000 / (chain.radii.size() * chain.frames.size()));
-    add_levers(chain, rounds, rows);
+    for (const std::vector<Lever>& levers : levers_by_structure()) add_levers(chain, levers, rounds, rows);
     if (chain.dimension == 3) add_swept_contacts(chain, rounds, rows);
     progress(++done, options.trajectories.size());
   }

@@ -1,6 +1,6 @@
 #pragma once
 // `kds bench trade`: what levers of speed against accuracy cost, beside the exact run of the same structure
-// in the same process.
+// in the same process: the steps alone, as `kds trade` has them, and with beads from frame to motion.
 
 #include <cstddef>
 #include <filesystem>

@@ -22,21 +22,6 @@ namespace kds {
 
 namespace {
 
-void straighten(Trajectory& necklace, double tolerance) {
-  StraightenedFrames straight(tolerance);
-  std::size_t read = 0;
-  const std::vector<Eigen::Matrix3Xd> frames = std::move(necklace.frames);
-  necklace.frames.clear();
-  const auto read_next = [&](FrameRead& frame) {
-    if (read == frames.size()) return false;
-    frame.stamp = {necklace.frame_number(read), std::nullopt};
-    frame.positions = frames[read++];
-    return true;
-  };
-  for (FrameRead frame; straight.next(frame, read_next);)
-    necklace.frames.push_back(std::move(frame.positions));
-}
-
 /// All frames of necklaces, as a scene has them.
 class SideBySide final : public FrameReader {
  public:
@@ -120,7 +105,8 @@ Scene FinestData::scene(const TradeSetting& setting, std::vector<double> radii) 
       for (Eigen::Matrix3Xd& frame : necklace.frames) frame.row(2).setZero();
     if (necklace.frames.size() == 1) continue;  // at rest
     if (setting.tolerance > 0)
-      straighten(necklace, setting.tolerance * *std::min_element(own.begin(), own.end()));
+      necklace.frames = straightened(std::move(necklace.frames),
+                                     setting.tolerance * *std::min_element(own.begin(), own.end()));
     necklace = every_nth(necklace, setting.stride);
   }
   Scene scene(some, std::move(radii), setting.motion);

@@ -127,4 +127,16 @@ Eigen::Vector3d StraightenedFrames::knot(std::size_t sample, Eigen::Index bead) 
   return is_within(at_sample, here) ? at_sample : here;
 }
 
+std::vector<Eigen::Matrix3Xd> straightened(std::vector<Eigen::Matrix3Xd> frames, double tolerance) {
+  StraightenedFrames straight(tolerance);
+  std::size_t read = 0, written = 0;
+  const auto read_next = [&](FrameRead& frame) {
+    if (read == frames.size()) return false;
+    frame.positions = frames[read++];
+    return true;
+  };
+  for (FrameRead frame; straight.next(frame, read_next);) frames[written++] = std::move(frame.positions);
+  return frames;
+}
+
 }  // namespace kds

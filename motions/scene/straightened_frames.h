@@ -71,4 +71,8 @@ class StraightenedFrames {
   std::size_t place_ = 0;           ///< of the next in it
 };
 
+/// All frames at once.
+[[nodiscard]] std::vector<Eigen::Matrix3Xd> straightened(std::vector<Eigen::Matrix3Xd> frames,
+                                                         double tolerance);
+
 }  // namespace kds

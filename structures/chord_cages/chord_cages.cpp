@@ -27,9 +27,8 @@ ChordCages<Hierarchy>::ChordCages(std::span<const BeadRange> necklaces, int degr
       keep_bases_(keep_bases) {}
 
 template <class Hierarchy>
-void ChordCages<Hierarchy>::take(int k, const Curves<dimension>& curves) {
+void ChordCages<Hierarchy>::take(int k) {
   const auto place = static_cast<std::size_t>(k);
-  balls_[place].move_to(curves, k);
   bring_to(hierarchy_, balls_[place]);
   cages_[place].take(hierarchy_, balls_[place]);
 }
@@ -38,23 +37,29 @@ template <class Hierarchy>
 void ChordCages<Hierarchy>::build(const Curves<dimension>& curves) {
   const FloatingPointGuard to_nearest;
   moved_ = false;
-  take(0, curves);
+  balls_.front().move_to(curves, 0);
+  take(0);
 }
 
 template <class Hierarchy>
 void ChordCages<Hierarchy>::move_to(const Curves<dimension>& curves) {
   const FloatingPointGuard to_nearest;
-  if (!(moved_ ? balls_.back() : balls_.front()).are_at(curves, 0)) {
-    take(0, curves);
-  } else if (moved_) {
+  if (moved_) {
     std::swap(balls_.front(), balls_.back());
     std::swap(cages_.front(), cages_.back());
+  }
+  if (!balls_[1].move_on_from(balls_.front(), curves)) {
+    balls_.front().move_to(curves, 0);
+    take(0);
   }
   if constexpr (requires { hierarchy_.bases(); }) {
     const auto bases = hierarchy_.bases();
     if (keep_bases_) start_bases_.assign(bases.begin(), bases.end());
   }
-  for (int k = 1; k <= degree(); ++k) take(k, curves);
+  for (int k = 1; k <= degree(); ++k) {
+    if (k > 1) balls_[static_cast<std::size_t>(k)].move_to(curves, k);
+    take(k);
+  }
   moved_ = true;
 }
 

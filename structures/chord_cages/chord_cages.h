@@ -54,7 +54,7 @@ class ChordCages {
   [[nodiscard]] std::span<const Basis> start_bases() const { return start_bases_; }
 
  private:
-  void take(int k, const Curves<dimension>& curves);
+  void take(int k);
 
   Hierarchy hierarchy_;
   std::vector<BallsAt> balls_;                // of each control point

@@ -9,6 +9,23 @@
 
 namespace kds {
 
+/// Four rows of four: row i is lane i of all. Where rows are the same, the last of them stays.
+[[gnu::always_inline]] inline void store_rows(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d,
+                                              const std::array<double*, Lanes::width>& rows) {
+  using Row = double __attribute__((vector_size(32), aligned(8), may_alias));
+  const auto put = [](double* row, Lanes::Vector numbers) __attribute__((always_inline)) {
+    *reinterpret_cast<Row*>(row) = numbers;
+  };
+  const Lanes::Vector ab_even = __builtin_shufflevector(a.v, b.v, 0, 4, 2, 6);
+  const Lanes::Vector ab_odd = __builtin_shufflevector(a.v, b.v, 1, 5, 3, 7);
+  const Lanes::Vector cd_even = __builtin_shufflevector(c.v, d.v, 0, 4, 2, 6);
+  const Lanes::Vector cd_odd = __builtin_shufflevector(c.v, d.v, 1, 5, 3, 7);
+  put(rows[0], __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5));
+  put(rows[1], __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5));
+  put(rows[2], __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7));
+  put(rows[3], __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7));
+}
+
 template <int Dimension>
 struct FourBalls {
   using Vector = Lanes::Vector;
@@ -38,22 +55,9 @@ struct FourBalls {
   }
   /// Where lanes are of the same row, the last of them stays.
   [[gnu::always_inline]] void store(const std::array<BallRow<Dimension>*, Lanes::width>& rows) const {
-    const Vector x = center[0].v, y = center[1].v, z = Dimension == 3 ? center[Dimension - 1].v : radius.v,
-                 r = radius.v;
-    const Vector xy_even = __builtin_shufflevector(x, y, 0, 4, 2, 6);
-    const Vector xy_odd = __builtin_shufflevector(x, y, 1, 5, 3, 7);
-    const Vector zr_even = __builtin_shufflevector(z, r, 0, 4, 2, 6);
-    const Vector zr_odd = __builtin_shufflevector(z, r, 1, 5, 3, 7);
-    put(rows[0], __builtin_shufflevector(xy_even, zr_even, 0, 1, 4, 5));
-    put(rows[1], __builtin_shufflevector(xy_odd, zr_odd, 0, 1, 4, 5));
-    put(rows[2], __builtin_shufflevector(xy_even, zr_even, 2, 3, 6, 7));
-    put(rows[3], __builtin_shufflevector(xy_odd, zr_odd, 2, 3, 6, 7));
-  }
-
- private:
-  [[gnu::always_inline]] static void put(BallRow<Dimension>* row, Vector numbers) {
-    using Row = double __attribute__((vector_size(32), aligned(8), may_alias));
-    *reinterpret_cast<Row*>(row) = numbers;
+    std::array<double*, Lanes::width> numbers;
+    for (std::size_t lane = 0; lane < Lanes::width; ++lane) numbers[lane] = rows[lane]->center.data();
+    store_rows(center[0], center[1], Dimension == 3 ? center[Dimension - 1] : radius, radius, numbers);
   }
 };
 

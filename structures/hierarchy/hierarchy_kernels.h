@@ -59,54 +59,53 @@ class NodeWrapper {
   Frontiers& frontiers;
   WrapCounts counts{};
 
-  // Nodes that do not depend on each other.
+  // Nodes that do not depend on each other. Until a node's sphere is proved its cage is what was tried last.
   void wrap(const NodeId* nodes, std::size_t count, Start start) {
-    std::array<Pending, nodes_at_a_time> pending;
-    for (std::size_t i = 0; i < count; ++i) pending[i] = {nodes[i], {}};
     if (start == Start::children) {
       for (std::size_t i = 0; i < count; ++i) bases[nodes[i]] = far_pair_of(nodes[i]);
       const BeadRange& range = tree.range(nodes[0]);
       if (range.last - range.first > most_scanned) pivot_among_children(nodes, count);
       counts.changed += count;
-    } else {
-      for (std::size_t i = 0; i < count; ++i) pending[i].old = bases[nodes[i]];
     }
-    std::array<Sphere, nodes_at_a_time> spheres;
+    std::array<Bounds, nodes_at_a_time> bounds;
     std::array<std::size_t, nodes_at_a_time> outside;
-    std::size_t waiting = count;
-    for (int round = 0; waiting > 0; ++round) {
+    std::array<NodeId, nodes_at_a_time> left;
+    std::array<Basis, nodes_at_a_time> before;  // bases of those that are left
+    const NodeId* waiting = nodes;
+    for (int round = 0; count > 0; ++round) {
       // One thing after the other for all of them: a processor overlaps what does not branch.
-      spheres_of(pending.data(), waiting, spheres.data());
-      count_all_outside(pending.data(), waiting, spheres.data(), outside.data());
-      std::size_t left = 0;
-      for (std::size_t i = 0; i < waiting; ++i) {
-        const NodeId node = pending[i].node;
-        if (is_proved<Form>(bases[node], spheres[i], outside[i])) {
-          cages[node] = {spheres[i].center, spheres[i].radius};
+      spheres_of(waiting, count, bounds.data());
+      count_all_outside(waiting, count, bounds.data(), outside.data());
+      std::size_t lefts = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const NodeId node = waiting[i];
+        const Sphere sphere = sphere_by(node, bounds[i]);
+        if (is_proved<Form>(bases[node], sphere, outside[i])) {
           loose[node] = 0;
-          if (round > 0) finish(pending[i], start);
-        } else if (round < most_pivots && improve(node, spheres[i])) {
+          if (round > 0) finish(node, before[i], start);
+          continue;
+        }
+        const Basis old = round == 0 ? bases[node] : before[i];
+        if (round < most_pivots && improve(node, sphere)) {
           ++counts.pivots;
-          pending[left++] = pending[i];
+          left[lefts] = node;
+          before[lefts++] = old;
         } else {
           decide_in_exact_numbers(node);
-          finish(pending[i], start);
+          finish(node, old, start);
         }
       }
-      waiting = left;
+      waiting = left.data();
+      count = lefts;
     }
   }
 
   // Spheres of the bases as they are.
   void trust(const NodeId* nodes, std::size_t count) {
-    std::array<Pending, nodes_at_a_time> pending;
-    std::array<Sphere, nodes_at_a_time> spheres;
-    for (std::size_t i = 0; i < count; ++i) pending[i].node = nodes[i];
-    spheres_of<false>(pending.data(), count, spheres.data());
-    for (std::size_t i = 0; i < count; ++i) {
-      cages[nodes[i]] = {spheres[i].center, spheres[i].radius};
-      if (!(spheres[i].least > 0)) cages[nodes[i]] = trusted_cage<Form>(balls, bases[nodes[i]]);
-    }
+    std::array<Bounds, nodes_at_a_time> bounds;
+    spheres_of<false>(nodes, count, bounds.data());
+    for (std::size_t i = 0; i < count; ++i)
+      if (!(bounds[i].least > 0)) cages[nodes[i]] = trusted_cage<Form>(balls, bases[nodes[i]]);
   }
 
   // By a cascade from where it ended last, or from the children; `known`: the run's list, `next`: the new
@@ -151,10 +150,14 @@ class NodeWrapper {
   }
 
  private:
-  struct Pending {
-    NodeId node;
-    Basis old;
+  // Of a sphere that is a node's cage, what else a BasisSphere has.
+  struct alignas(32) Bounds {
+    double inner, outer, least, certain;  // 1 or 0
   };
+  [[gnu::always_inline]] Sphere sphere_by(NodeId node, const Bounds& bounds) const {
+    const Cage<Dimension>& cage = cages[node];
+    return {cage.center, cage.radius, bounds.inner, bounds.outer, bounds.least, bounds.certain > 0};
+  }
 
   void wrap_pairs_one_by_one(const NodeId* nodes, std::size_t count, Start start) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -163,13 +166,13 @@ class NodeWrapper {
       const auto sphere = sphere_of_both(range);
       cages[node] = {sphere.center, sphere.radius};
       loose[node] = sphere.loose ? 1 : 0;
-      const Pending before{node, bases[node]};
+      const Basis before = bases[node];
       Basis& basis = bases[node];
       basis.size = 2;
       basis.beads[0] = range.first;
       basis.beads[1] = range.last;
       if (!sphere.certain && !decide_nested_pair(node, range)) decide_in_exact_numbers(node);
-      finish(before, start);
+      finish(node, before, start);
     }
   }
   [[gnu::always_inline]] PairSphere<double, Dimension> sphere_of_both(const BeadRange& range) const {
@@ -195,8 +198,8 @@ class NodeWrapper {
     return true;
   }
 
-  void finish(const Pending& done, Start start) {
-    if (start == Start::old_bases && !(done.old == bases[done.node])) ++counts.changed;
+  void finish(NodeId node, const Basis& before, Start start) {
+    if (start == Start::old_bases && !(before == bases[node])) ++counts.changed;
   }
 
   void decide_in_exact_numbers(NodeId node) {
@@ -207,10 +210,10 @@ class NodeWrapper {
   }
 
   // How many beads of each node are not inside its sphere for certain.
-  [[KDS_SCAN_TARGETS]] void count_all_outside(const Pending* pending, std::size_t count,
-                                              const Sphere* spheres, std::size_t* outside) {
+  [[KDS_SCAN_TARGETS]] void count_all_outside(const NodeId* nodes, std::size_t count, const Bounds* bounds,
+                                              std::size_t* outside) {
     for (std::size_t i = 0; i < count; ++i)
-      outside[i] = count_outside<Form>(balls, spheres[i], below(pending[i].node));
+      outside[i] = count_outside<Form>(balls, sphere_by(nodes[i], bounds[i]), below(nodes[i]));
   }
   [[KDS_SCAN_TARGETS]] BeadId escaped_from(NodeId node, const Sphere& sphere) {
     return escaped_bead<Form>(balls, sphere, below(node));
@@ -224,41 +227,57 @@ class NodeWrapper {
     };
   }
 
-  // Spheres of the nodes' bases, four at a time among those of one size.
-  template <bool bounds = true>
-  [[KDS_LANES_TARGETS]] void spheres_of(const Pending* pending, std::size_t count, Sphere* spheres) const {
-    std::array<std::array<std::uint8_t, nodes_at_a_time>, 4> places;
-    std::array<std::size_t, 4> of_size{};
+  // Spheres of the nodes' bases as their cages, four at a time among those of one size.
+  template <bool with_bounds = true>
+  [[KDS_LANES_TARGETS]] void spheres_of(const NodeId* nodes, std::size_t count, Bounds* bounds) const {
+    std::array<std::array<std::uint8_t, nodes_at_a_time>, Basis::max_size> places;
+    std::uint64_t counts_of_sizes = 0;  // 16 bits each: no branch, and nothing that is stored to wait for
     for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t m = bases[pending[i].node].size - 1U;
-      places[m][of_size[m]++] = static_cast<std::uint8_t>(i);
+      const std::size_t m = bases[nodes[i]].size - 1U;
+      places[m][counts_of_sizes >> 16 * m & 0xffff] = static_cast<std::uint8_t>(i);
+      counts_of_sizes += std::uint64_t{1} << 16 * m;
     }
-    for (std::size_t i = 0; i < of_size[0]; ++i)
-      spheres[places[0][i]] = Form::sphere(basis_balls<0>(balls, bases[pending[places[0][i]].node]));
-    spheres_of_size<bounds, 1>(pending, places[1].data(), of_size[1], spheres);
-    spheres_of_size<bounds, 2>(pending, places[2].data(), of_size[2], spheres);
-    if constexpr (Dimension == 3) spheres_of_size<bounds, 3>(pending, places[3].data(), of_size[3], spheres);
+    std::array<std::size_t, Basis::max_size> of_size;
+    for (std::size_t m = 0; m < Basis::max_size; ++m) of_size[m] = counts_of_sizes >> 16 * m & 0xffff;
+    for (std::size_t i = 0; i < of_size[0]; ++i) {
+      const NodeId node = nodes[places[0][i]];
+      const Sphere sphere = Form::sphere(basis_balls<0>(balls, bases[node]));
+      cages[node] = {sphere.center, sphere.radius};
+      bounds[places[0][i]] = {sphere.inner, sphere.outer, sphere.least, sphere.certain ? 1.0 : 0.0};
+    }
+    spheres_of_size<with_bounds, 1>(nodes, places[1].data(), of_size[1], bounds);
+    spheres_of_size<with_bounds, 2>(nodes, places[2].data(), of_size[2], bounds);
+    if constexpr (Dimension == 3)
+      spheres_of_size<with_bounds, 3>(nodes, places[3].data(), of_size[3], bounds);
   }
-  template <bool bounds, std::size_t M>
-  [[gnu::always_inline]] void spheres_of_size(const Pending* pending, const std::uint8_t* places,
-                                              std::size_t count, Sphere* spheres) const {
+  template <bool with_bounds, std::size_t M>
+  [[gnu::always_inline]] void spheres_of_size(const NodeId* nodes, const std::uint8_t* places,
+                                              std::size_t count, Bounds* bounds) const {
     for (std::size_t i = 0; i < count; i += Lanes::width) {
       BasisBalls<Lanes, Dimension, M> members;
       std::array<const Basis*, Lanes::width> four;
-      for (std::size_t lane = 0; lane < Lanes::width; ++lane)
-        four[lane] = &bases[pending[places[std::min(i + lane, count - 1)]].node];
+      std::array<Cage<Dimension>*, Lanes::width> wrapped;
+      std::array<double*, Lanes::width> beside;
+      for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+        const std::size_t place = places[std::min(i + lane, count - 1)];
+        four[lane] = &bases[nodes[place]];
+        wrapped[lane] = &cages[nodes[place]];
+        beside[lane] = &bounds[place].inner;
+      }
       gather(balls.rows(), four, members);
-      const BasisSphere<Lanes, Dimension> sphere = Form::template sphere<bounds>(members);
-      for (std::size_t lane = 0; lane < Lanes::width && i + lane < count; ++lane) {
-        Sphere& one = spheres[places[i + lane]];
-        for (std::size_t axis = 0; axis < Dimension; ++axis) one.center[axis] = sphere.center[axis].v[lane];
-        one.radius = sphere.radius.v[lane];
-        one.least = sphere.least.v[lane];
-        if constexpr (bounds) {
-          one.inner = sphere.inner.v[lane];
-          one.outer = sphere.outer.v[lane];
-          one.certain = sphere.certain[lane] != 0;
-        }
+      // Stored by rows alone: of numbers that are taken out one by one g++ 12 takes the roots one by one,
+      // too.
+      const BasisSphere<Lanes, Dimension> sphere = Form::template sphere<with_bounds>(members);
+      FourBalls<Dimension> spheres;
+      for (std::size_t axis = 0; axis < Dimension; ++axis) spheres.center[axis].v = sphere.center[axis].v;
+      spheres.radius.v = sphere.radius.v;
+      spheres.store(wrapped);
+      if constexpr (with_bounds) {
+        const Lanes certain = Lanes::choose(sphere.certain, Lanes(1.0), Lanes(0.0));
+        store_rows(sphere.inner, sphere.outer, sphere.least, certain, beside);
+      } else {
+        for (std::size_t lane = 0; lane < Lanes::width && i + lane < count; ++lane)
+          bounds[places[i + lane]].least = sphere.least.v[lane];
       }
     }
   }
@@ -371,10 +390,10 @@ class NodeWrapper {
     return few;
   }
   // Of each sphere the bead among `few[place]` that sticks out farthest, or no_bead.
-  [[KDS_SCAN_TARGETS]] void escaped_of_few(const Few* few, const std::uint8_t* place, std::size_t count,
-                                           const Sphere* spheres, BeadId* escaped) const {
+  [[KDS_SCAN_TARGETS]] void escaped_of_few(const Few* few, const std::uint8_t* place, const NodeId* nodes,
+                                           std::size_t count, const Bounds* bounds, BeadId* escaped) const {
     const auto measure_of = [&](std::size_t i) __attribute__((always_inline)) {
-      auto measure = Form::measure(balls, spheres[i]);
+      auto measure = Form::measure(balls, sphere_by(nodes[i], bounds[i]));
       for (std::size_t axis = 0; axis < Dimension; ++axis)
         measure.centers[axis] = few[place[i]].centers[axis].data();
       if constexpr (!Form::of_points) measure.radii = few[place[i]].radii.data();
@@ -388,7 +407,7 @@ class NodeWrapper {
     }
     for (std::size_t i = 0; i < count; ++i) {
       escaped[i] = no_bead;
-      if (!(farthest[i] > spheres[i].outer) || !(spheres[i].least > 0)) continue;
+      if (!(farthest[i] > bounds[i].outer) || !(bounds[i].least > 0)) continue;
       const BeadId found = find_value(measure_of(i), 0, 7, farthest[i]);
       if (found != no_bead) escaped[i] = few[place[i]].ids[found];
     }
@@ -397,29 +416,28 @@ class NodeWrapper {
   // Makes the bases those of the beads of both children's bases, most likely.
   void pivot_among_children(const NodeId* nodes, std::size_t count) {
     std::array<Few, nodes_at_a_time> few;
-    std::array<Sphere, nodes_at_a_time> spheres;
+    std::array<Bounds, nodes_at_a_time> bounds;
     std::array<BeadId, nodes_at_a_time> escaped;
-    std::array<Pending, nodes_at_a_time> pending;
+    std::array<NodeId, nodes_at_a_time> waiting;
     std::array<std::uint8_t, nodes_at_a_time> place;
     for (std::size_t i = 0; i < count; ++i) {
       few[i] = few_of(nodes[i]);
-      pending[i].node = nodes[i];
+      waiting[i] = nodes[i];
       place[i] = static_cast<std::uint8_t>(i);
     }
-    std::size_t waiting = count;
-    for (int round = 0; waiting > 0 && round < 8; ++round) {
-      spheres_of(pending.data(), waiting, spheres.data());
-      escaped_of_few(few.data(), place.data(), waiting, spheres.data(), escaped.data());
+    for (int round = 0; count > 0 && round < 8; ++round) {
+      spheres_of(waiting.data(), count, bounds.data());
+      escaped_of_few(few.data(), place.data(), waiting.data(), count, bounds.data(), escaped.data());
       std::size_t left = 0;
-      for (std::size_t i = 0; i < waiting; ++i) {
-        Basis& basis = bases[pending[i].node];
+      for (std::size_t i = 0; i < count; ++i) {
+        Basis& basis = bases[waiting[i]];
         if (escaped[i] == no_bead || basis.contains(escaped[i]) || !Form::pivot(balls, basis, escaped[i]))
           continue;
         ++counts.pivots;
-        pending[left].node = pending[i].node;
+        waiting[left] = waiting[i];
         place[left++] = place[i];
       }
-      waiting = left;
+      count = left;
     }
   }
 };

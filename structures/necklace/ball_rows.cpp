@@ -27,33 +27,29 @@ template <int D>
 }
 
 /// What was seen of rows that were copied, number by number.
-struct Copied {
+struct Seen {
   Bits changed{};         // bits that are others than before
   Bits finite = ~Bits{};  // negative where all are
+  Bits other_start{};     // bits of beads at the start that are others than those known
 };
 
 // No branch, and no sum to wait for.
-template <int D>
-[[KDS_LANES_TARGETS]] void copy_rows(const Curves<D>& curves, int k, BallRow<D>* rows, Copied& result) {
+template <int D, bool looks_at_start>
+[[KDS_LANES_TARGETS]] void copy_rows(const Curves<D>& curves, int k, BallRow<D>* rows,
+                                     const BallRow<D>* start, Seen& result) {
   constexpr long long exponent = 0x7ffLL << 52;
-  Copied copied;
+  Seen seen;
   for (BeadId b = 0; b < curves.bead_count(); ++b) {
     const Row row = row_of(curves, b, k);
     const Bits bits = reinterpret_cast<Bits>(row);
-    copied.changed |= bits ^ bits_of(rows[b]);
-    copied.finite &= (bits & exponent) - exponent;
+    seen.changed |= bits ^ bits_of(rows[b]);
+    seen.finite &= (bits & exponent) - exponent;
+    if constexpr (looks_at_start)
+      seen.other_start |= reinterpret_cast<Bits>(row_of(curves, b, 0)) ^ bits_of(start[b]);
     __builtin_memcpy(static_cast<void*>(rows + b), &row, sizeof row);
   }
-  result = copied;
-}
-
-template <int D>
-[[KDS_LANES_TARGETS]] bool are_rows_of(const Curves<D>& curves, int k, const BallRow<D>* rows) {
-  Bits other{};
-  for (BeadId b = 0; b < curves.bead_count(); ++b)
-    other |= reinterpret_cast<Bits>(row_of(curves, b, k)) ^ bits_of(rows[b]);
-  if (D == 2) other[3] = 0;  // nobody's
-  return !Lanes::any(other);
+  if (D == 2) seen.other_start[3] = 0;  // nobody's
+  result = seen;
 }
 
 template <int D>
@@ -70,15 +66,20 @@ template <int D>
 }  // namespace
 
 template <int D>
-bool BallRows<D>::move_to(const Curves<D>& curves, int k) {
+auto BallRows<D>::copy(const Curves<D>& curves, int k, const BallRows* start) -> Copied {
   const std::size_t beads = curves.bead_count();
   const bool others = rows_.size() != beads + padding;
+  const bool looks_at_start = start != nullptr && start->size() == beads;
   rows_.resize(beads + padding);
-  Copied copied;
-  copy_rows(curves, k, rows_.data(), copied);
+  Seen seen;
+  if (looks_at_start) {
+    copy_rows<D, true>(curves, k, rows_.data(), start->rows(), seen);
+  } else {
+    copy_rows<D, false>(curves, k, rows_.data(), nullptr, seen);
+  }
   bool wrong = false;
-  for (std::size_t i = 0; i <= D; ++i) wrong |= copied.finite[i] >= 0;
-  const bool others_radii = others || copied.changed[D] != 0;
+  for (std::size_t i = 0; i <= D; ++i) wrong |= seen.finite[i] >= 0;
+  const bool others_radii = others || seen.changed[D] != 0;
   if (others_radii) {
     equal_radii_ = true;
     for (std::size_t b = 0; b < beads; ++b) {
@@ -90,12 +91,7 @@ bool BallRows<D>::move_to(const Curves<D>& curves, int k) {
     const auto rows = std::exchange(rows_, {});
     refuse(rows.data());
   }
-  return others_radii;
-}
-
-template <int D>
-bool BallRows<D>::are_at(const Curves<D>& curves, int k) const {
-  return size() == curves.bead_count() && are_rows_of(curves, k, rows_.data());
+  return {others_radii, looks_at_start && !Lanes::any(seen.other_start)};
 }
 
 template class BallRows<2>;

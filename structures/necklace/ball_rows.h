@@ -32,15 +32,23 @@ class BallRows {
 
   /// The same, in the memory they have. Whether radii are others than before, or so many. Where it throws
   /// there are no balls any more.
-  bool move_to(const Curves<Dimension>& curves, int k);
-  /// Whether they are those of a motion at its k-th control points, bit for bit.
-  [[nodiscard]] bool are_at(const Curves<Dimension>& curves, int k) const;
+  bool move_to(const Curves<Dimension>& curves, int k) { return copy(curves, k, nullptr).others_radii; }
+  /// The same at the first control points after the start. Whether `start` are those there, bit for bit: they
+  /// are looked at in the same pass.
+  [[nodiscard]] bool move_on_from(const BallRows& start, const Curves<Dimension>& curves) {
+    return copy(curves, 1, &start).start_is_known;
+  }
 
   [[nodiscard]] std::size_t size() const { return rows_.empty() ? 0 : rows_.size() - padding; }
   [[nodiscard]] bool equal_radii() const { return equal_radii_; }
   [[nodiscard]] const BallRow<Dimension>* rows() const { return rows_.data(); }
 
  protected:
+  struct Copied {
+    bool others_radii, start_is_known;
+  };
+  Copied copy(const Curves<Dimension>& curves, int k, const BallRows* start);
+
   std::vector<BallRow<Dimension>> rows_;
   bool equal_radii_ = true;
 };

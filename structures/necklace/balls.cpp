@@ -21,17 +21,19 @@ template <int D>
 }  // namespace
 
 template <int D>
-void Balls<D>::move_to(const Curves<D>& curves, int k) {
-  const bool others_radii = BallRows<D>::move_to(curves, k);
+bool Balls<D>::copy(const Curves<D>& curves, int k, const Balls* start) {
+  const auto [others_radii, start_is_known] = BallRows<D>::copy(curves, k, start);
   std::array<double*, static_cast<std::size_t>(D)> centers;
   for (std::size_t axis = 0; axis < D; ++axis) {
     centers_[axis].resize(rows_.size());
     centers[axis] = centers_[axis].data();
   }
   spread_rows(rows_.data(), size(), centers);
-  if (!others_radii) return;
-  radii_.resize(rows_.size());
-  for (std::size_t b = 0; b < size(); ++b) radii_[b] = rows_[b].radius;
+  if (others_radii) {
+    radii_.resize(rows_.size());
+    for (std::size_t b = 0; b < size(); ++b) radii_[b] = rows_[b].radius;
+  }
+  return start_is_known;
 }
 
 template class Balls<2>;

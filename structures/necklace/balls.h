@@ -63,7 +63,11 @@ class Balls : public BallRows<Dimension> {
 
   /// Makes them those of a motion at its k-th control points, in the memory they have. Throws as the
   /// constructor does.
-  void move_to(const Curves<Dimension>& curves, int k);
+  void move_to(const Curves<Dimension>& curves, int k) { (void)copy(curves, k, nullptr); }
+  /// As that of rows.
+  [[nodiscard]] bool move_on_from(const Balls& start, const Curves<Dimension>& curves) {
+    return copy(curves, 1, &start);
+  }
 
   /// Puts one ball elsewhere, or another in its place. All finite.
   void place(BeadId bead, const std::array<double, static_cast<std::size_t>(Dimension)>& center,
@@ -83,6 +87,7 @@ class Balls : public BallRows<Dimension> {
   using BallRows<Dimension>::rows_;
   using BallRows<Dimension>::equal_radii_;
 
+  bool copy(const Curves<Dimension>& curves, int k, const Balls* start);  ///< whether `start` is known
   [[noreturn]] static void refuse(const Eigen::Matrix3Xd& centers) {
     Eigen::Index b = 0;
     while (centers.col(b).template head<Dimension>().allFinite()) ++b;

@@ -31,7 +31,6 @@ void expect_at(const Balls<D>& balls, const M& motion, int k) {
     equal = equal && motion.radius(b, k) == motion.radius(0, k);
   }
   EXPECT_EQ(balls.equal_radii(), equal);
-  EXPECT_TRUE(balls.are_at(Curves<D>(motion), k));
 }
 
 template <Motion M>
@@ -47,6 +46,7 @@ template <Motion M>
 void expect_to_follow(Random& random) {
   constexpr int d = M::dimension;
   Balls<d> balls;
+  const Balls<d> balls_of_fewer;
   for (const std::size_t beads : {5, 1, 8, 8, 8, 3, 13}) {
     for (const bool equal : {true, true, false, false, true}) {
       M motion = random_motion<M>(random, beads, MotionKind::generic);
@@ -55,10 +55,14 @@ void expect_to_follow(Random& random) {
         balls.move_to(Curves<d>(motion), k);
         expect_at(balls, motion, k);
         BallRows<d> rows(Curves<d>(motion), k);
-        EXPECT_TRUE(rows.are_at(Curves<d>(motion), k));
         EXPECT_EQ(rows.size(), beads);
         EXPECT_EQ(rows.equal_radii(), balls.equal_radii());
       }
+      const Balls<d> start(Curves<d>(motion), 0);
+      EXPECT_FALSE(balls.move_on_from(balls_of_fewer, Curves<d>(motion)));
+      expect_at(balls, motion, 1);
+      EXPECT_TRUE(balls.move_on_from(start, Curves<d>(motion)));
+      expect_at(balls, motion, 1);
     }
   }
 }
@@ -71,29 +75,30 @@ TEST(Balls, FollowAMotion) {
   expect_to_follow<BezierMotion<3, 3>>(random);
 }
 
-TEST(Balls, AreAtAMotionBitForBit) {
+TEST(Balls, KnowTheStartOfAMotionBitForBit) {
   Random random(2);
   auto motion = random_motion<BezierMotion<3, 1>>(random, 6, MotionKind::generic);
   const Curves<3> curves(motion);
-  const Balls<3> balls(curves, 1);
-  EXPECT_FALSE(balls.are_at(curves, 0));
+  Balls<3> next;
+  EXPECT_FALSE(next.move_on_from(Balls<3>(curves, 1), curves));
+  const Balls<3> start(curves, 0);
   for (BeadId b = 0; b < 6; ++b) {
     for (int axis = 0; axis < 3; ++axis) {
-      const double x = motion.coordinate(b, 1, axis);
-      motion.set_coordinate(b, 1, axis, std::nextafter(x, 10));
-      EXPECT_FALSE(balls.are_at(curves, 1)) << b;
-      motion.set_coordinate(b, 1, axis, x);
-      EXPECT_TRUE(balls.are_at(curves, 1)) << b;
+      const double x = motion.coordinate(b, 0, axis);
+      motion.set_coordinate(b, 0, axis, std::nextafter(x, 10));
+      EXPECT_FALSE(next.move_on_from(start, curves)) << b;
+      motion.set_coordinate(b, 0, axis, x);
+      EXPECT_TRUE(next.move_on_from(start, curves)) << b;
     }
-    const double radius = motion.radius(b, 1), weight = motion.weight(b, 1);
-    motion.set_radius(b, 1, radius + 1);
-    EXPECT_FALSE(balls.are_at(curves, 1)) << b;
-    motion.set_radius(b, 1, radius);
-    motion.set_weight(b, 1, weight + 1);  // nothing to balls
-    EXPECT_TRUE(balls.are_at(curves, 1)) << b;
+    const double radius = motion.radius(b, 0), weight = motion.weight(b, 0);
+    motion.set_radius(b, 0, radius + 1);
+    EXPECT_FALSE(next.move_on_from(start, curves)) << b;
+    motion.set_radius(b, 0, radius);
+    motion.set_weight(b, 0, weight + 1);  // nothing to balls
+    EXPECT_TRUE(next.move_on_from(start, curves)) << b;
   }
   const auto fewer = random_motion<BezierMotion<3, 1>>(random, 5, MotionKind::generic);
-  EXPECT_FALSE(balls.are_at(Curves<3>(fewer), 1));
+  EXPECT_FALSE(next.move_on_from(start, Curves<3>(fewer)));
 }
 
 // What a motion's type refuses itself comes in through other memory.
