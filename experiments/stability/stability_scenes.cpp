@@ -371,7 +371,7 @@ BeadCurves infinite(const SceneShape& shape, SceneRandom& random) {
   return with_wrong_number(shape, random, toss(random) ? infinity : -infinity);
 }
 
-constexpr bool unequal = true, refused = true;
+constexpr bool unequal = true, must_refuse = true;
 constexpr Extreme kExtremes[] = {
     {"scale:2^-1000", "coordinates times 2^-1000", scaled<-1000>},
     {"scale:2^-300", "coordinates times 2^-300: products vanish", scaled<-300>},
@@ -406,8 +406,8 @@ constexpr Extreme kExtremes[] = {
     {"basis:a-near-0", "balls touch one from inside, nearly", inner_tangent, 1, 1, unequal},
     {"basis:flat", "nearly in one plane (on one line)", nearly_flat, 2},
     {"degree:18", "cubic motion that winds: degrees up to 18", winding, 1, 3},
-    {"refused:nan", "a control point is no number", not_a_number, 1, 1, false, refused},
-    {"refused:infinity", "a control point is infinite", infinite, 1, 1, false, refused},
+    {"refused:nan", "a control point is no number", not_a_number, 1, 1, false, must_refuse},
+    {"refused:infinity", "a control point is infinite", infinite, 1, 1, false, must_refuse},
 };
 
 }  // namespace
