@@ -58,11 +58,13 @@ template <int Dimension>
   }
 }
 
-template <int Dimension>
-[[KDS_LANES_TARGETS]] std::uint32_t near_in_lanes(const double* box, const double* group, int controls,
+/// `Controls`: of a curve, or 0 for as many as are given.
+template <int Dimension, int Controls>
+[[KDS_LANES_TARGETS]] std::uint32_t near_in_lanes(const double* box, const double* group, int given,
                                                   std::uint32_t asked) {
   using Mask = Lanes::Mask;
   constexpr std::size_t fan = 16;
+  const int controls = Controls == 0 ? given : Controls;
   Mask bits{0, 0, 0, 0};
   Mask weight{1, 2, 4, 8};
   for (std::size_t first = 0; first < fan; first += Lanes::width, weight *= 16) {
@@ -110,7 +112,8 @@ void MovingBoxes<Dimension>::forget_rest() {
 template <int Dimension>
 auto MovingBoxes<Dimension>::near_bits(const double* box, const double* group, int controls, Bits asked)
     -> Bits {
-  return near_in_lanes<Dimension>(box, group, controls, asked);
+  return controls == 2 ? near_in_lanes<Dimension, 2>(box, group, controls, asked)
+                       : near_in_lanes<Dimension, 0>(box, group, controls, asked);
 }
 
 template <int Dimension>

@@ -98,7 +98,7 @@ void MovingFamily<Dimension>::split(Resting resting, std::size_t level, std::siz
     if ((resting_first >> place & 1U) != 0) others &= ~resting_second;
     if (others == 0) continue;
     std::uint32_t near = boxes_.near(below, child, second, others);
-    size_ += static_cast<std::uint64_t>(std::popcount(others) - std::popcount(near));
+    size_ += static_cast<std::uint64_t>(std::popcount(others ^ near));
     for (; near != 0; near &= near - 1) {
       const std::size_t other = second * fan + static_cast<std::size_t>(std::countr_zero(near));
       if (below > 0) {
