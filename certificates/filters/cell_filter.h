@@ -22,8 +22,11 @@ using CellsInLanes =
     std::array<std::array<BeadId, 2 * (static_cast<std::size_t>(Dimension) + 1)>, cells_in_batch>;
 
 /// Of each cell one bit for each bead beyond, in that order: its power test with the cell is proven positive
-/// all over the step. Two more: the cell is proven positive where the step ends, and all over the step.
+/// all over the step. Two more: the cell is proven positive where the step ends, and all over the step. A
+/// filter of parts tells in the next three bytes the same of the step's first half, quarter and eighth; only
+/// not of cells where these end alone.
 using PositiveBits = std::array<std::uint32_t, cells_in_batch>;
+inline constexpr int positive_parts = 3, bits_of_part = 8;
 template <int Dimension>
 inline constexpr unsigned positive_at_end = 2U << Dimension;
 template <int Dimension>
@@ -42,13 +45,14 @@ class CellFilter {
                                    Rounding rounding, PositiveBits& positive) const = 0;
 };
 
-/// Of cells with no beads beyond them, what is told of all over the step costs more than of its end alone.
-enum class OfBareCells : std::uint8_t { end, whole_step };
+/// What is told: of cells with no beads beyond them their sign at the end of the step alone, and nothing of
+/// parts; or, for a motion of degree 1, all.
+enum class FilterOf : std::uint8_t { step, parts };
 
 /// Where nothing is compiled for the motion's degree it finds nothing positive.
 template <int Dimension>
 [[nodiscard]] std::unique_ptr<CellFilter<Dimension>> cell_filter_over(const MotionRef<Dimension>& motion,
-                                                                      OfBareCells bare = OfBareCells::end);
+                                                                      FilterOf told = FilterOf::step);
 /// The same as on processors without long vectors, for tests.
 template <int Dimension>
 [[nodiscard]] std::unique_ptr<CellFilter<Dimension>> cell_filter_for_any_processor(

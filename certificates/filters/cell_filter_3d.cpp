@@ -2,7 +2,7 @@
 
 namespace kds {
 
-template std::unique_ptr<CellFilter<3>> cell_filter_over(const MotionRef<3>&, OfBareCells);
+template std::unique_ptr<CellFilter<3>> cell_filter_over(const MotionRef<3>&, FilterOf);
 template std::unique_ptr<CellFilter<3>> cell_filter_for_any_processor(const MotionRef<3>&);
 
 }  // namespace kds

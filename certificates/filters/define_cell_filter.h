@@ -30,9 +30,9 @@ class FilterOver final : public CellFilter<C::dimension> {
   static constexpr int dimension = C::dimension;
 
  public:
-  FilterOver(const MotionRef<dimension>& motion, FloatVectors vectors, OfBareCells bare)
+  FilterOver(const MotionRef<dimension>& motion, FloatVectors vectors, FilterOf told)
       : motion_(motion), vectors_(vectors) {
-    bounds_.whole_steps = bare == OfBareCells::whole_step;
+    bounds_.tells_parts = told == FilterOf::parts;
   }
 
   void positive_cells(const CellsInLanes<dimension>& cells, std::size_t beyond, const LengthUnit& unit,
@@ -84,9 +84,9 @@ class FindsNothing final : public CellFilter<Dimension> {
 
 template <int Dimension>
 std::unique_ptr<CellFilter<Dimension>> make_filter(const MotionRef<Dimension>& motion, FloatVectors vectors,
-                                                   OfBareCells bare) {
+                                                   FilterOf told) {
   const auto over = [&]<class C>(std::type_identity<C>) -> std::unique_ptr<CellFilter<Dimension>> {
-    return std::make_unique<FilterOver<C>>(motion, vectors, bare);
+    return std::make_unique<FilterOver<C>>(motion, vectors, told);
   };
   if (motion.is_lifted()) return over(std::type_identity<LiftedCurves<Dimension>>{});
   switch (motion.degree()) {
@@ -102,14 +102,13 @@ std::unique_ptr<CellFilter<Dimension>> make_filter(const MotionRef<Dimension>& m
 }  // namespace detail
 
 template <int Dimension>
-std::unique_ptr<CellFilter<Dimension>> cell_filter_over(const MotionRef<Dimension>& motion,
-                                                        OfBareCells bare) {
-  return detail::make_filter(motion, detail::vectors_of_processor(), bare);
+std::unique_ptr<CellFilter<Dimension>> cell_filter_over(const MotionRef<Dimension>& motion, FilterOf told) {
+  return detail::make_filter(motion, detail::vectors_of_processor(), told);
 }
 
 template <int Dimension>
 std::unique_ptr<CellFilter<Dimension>> cell_filter_for_any_processor(const MotionRef<Dimension>& motion) {
-  return detail::make_filter(motion, detail::FloatVectors::four, OfBareCells::end);
+  return detail::make_filter(motion, detail::FloatVectors::four, FilterOf::step);
 }
 
 }  // namespace kds

@@ -16,11 +16,18 @@
 // zero, is less than 2^-21 of the roundoff 2^-24 Q it is charged with anyway. The constants are inflated by
 // 2^-8, for that and for the comparison. The orientation knows no lifts: the product of its own three (two) m
 // is its Q, and it is claimed where that is at least 2^-60.
+//
+// Parts of a step: coefficients unscaled, by a product with a rounded constant, and halved again and again by
+// de Casteljau's means, which are rounded once each. Let e be the most that an unscaled coefficient errs by
+// and s the most that it is in size. Means of numbers err by no more than these, so after j roundings one on
+// each other all err by at most e + 2^-24 j s.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <tuple>
+#include <type_traits>
 
 #include "certificates/filters/cell_filter.h"
 #include "certificates/filters/power_cofactors.h"
@@ -45,20 +52,38 @@ template <std::size_t Coefficients, std::size_t OfOrientation>
 struct FloatPowerBound {
   std::array<float, Coefficients> coefficient;
   std::array<float, OfOrientation> orientation;  ///< the last one is that at the end of the step
+  float of_part, orientation_of_part;            ///< of each coefficient that is not scaled
 };
 
+inline constexpr double float_bound_inflation = 1 + 0x1p-8;
+
+template <class Polynomial>
+float float_bound_of_part(const Polynomial& magnitudes) {
+  const auto degree = static_cast<int>(magnitudes.scaled.size()) - 1;
+  double error = 0, size = 0;
+  for (int k = 0; k <= degree; ++k) {
+    const auto& magnitude = magnitudes.scaled[static_cast<std::size_t>(k)];
+    const auto scale = static_cast<double>(binomial(degree, k));
+    error = std::max(error, magnitude.error / scale);
+    size = std::max(size, (magnitude.bound + magnitude.error) / scale);
+  }
+  const int roundings = 2 + positive_parts * degree;
+  return static_cast<float>((error + 0x1p-24 * roundings * size) * float_bound_inflation);
+}
+
 /// `C`: Curves or LiftedCurves.
-template <class C>
-void derive_float_power_bound(int degree, std::span<float> coefficient, std::span<float> orientation) {
-  constexpr double inflation = 1 + 0x1p-8;
+template <class C, std::size_t Coefficients, std::size_t OfOrientation>
+void derive_float_power_bound(int degree, FloatPowerBound<Coefficients, OfOrientation>& bound) {
   using View = MagnitudeViewOf<C, MagnitudeIn<24>>;
   const PowerRow<View> row(View(degree), 1, 0);
   const auto cofactors = power_cofactors<View>([&](std::size_t) { return row; });
   const auto magnitudes = cofactors.with(row);
-  for (std::size_t k = 0; k < coefficient.size(); ++k)
-    coefficient[k] = static_cast<float>(magnitudes.scaled[k].error * inflation);
-  for (std::size_t k = 0; k < orientation.size(); ++k)
-    orientation[k] = static_cast<float>(cofactors.lift.scaled[k].error * inflation);
+  for (std::size_t k = 0; k < Coefficients; ++k)
+    bound.coefficient[k] = static_cast<float>(magnitudes.scaled[k].error * float_bound_inflation);
+  for (std::size_t k = 0; k < OfOrientation; ++k)
+    bound.orientation[k] = static_cast<float>(cofactors.lift.scaled[k].error * float_bound_inflation);
+  bound.of_part = float_bound_of_part(magnitudes);
+  bound.orientation_of_part = float_bound_of_part(cofactors.lift);
 }
 
 template <Motion M>
@@ -67,9 +92,9 @@ template <Motion M>
   constexpr std::size_t centre_degree = M::dimension * M::degree;
   FloatPowerBound<centre_degree + lift_degree + 1, centre_degree + 1> bound{};
   if constexpr (M::degree == 0) {  // where beads are: the orientation alone
-    derive_float_power_bound<Curves<M::dimension>>(0, {}, bound.orientation);
+    derive_float_power_bound<Curves<M::dimension>>(0, bound);
   } else {
-    derive_float_power_bound<CurvesOf<M>>(M::degree, bound.coefficient, bound.orientation);
+    derive_float_power_bound<CurvesOf<M>>(M::degree, bound);
   }
   return bound;
 }
@@ -81,8 +106,7 @@ template <Motion M>
 struct FloatFilterBounds {
   FloatPowerBoundOf<M> of_step = float_power_bound<M>();
   FloatPowerBoundOf<FixedCurves<M::dimension, 0>> at_end = float_power_bound<FixedCurves<M::dimension, 0>>();
-  bool whole_steps =
-      false;  ///< of cells with no beads beyond them, too; else these are seen at the end alone
+  bool tells_parts = false;  ///< FilterOf::parts
 };
 
 template <class FloatLanes>
@@ -132,6 +156,34 @@ template <int Dimension, class FloatLanes, class Polynomial, std::size_t Coeffic
          (all & static_cast<int>(positive_throughout<Dimension>));
 }
 
+template <Motion M>
+inline constexpr bool has_parts = M::degree == 1 && !lifted<M>;
+
+/// Adds the bit, a byte further on each, for parts of the step all over which it is certainly positive.
+template <class FloatLanes, class Polynomial>
+[[gnu::always_inline]] inline void add_parts(const Polynomial& polynomial, const FloatLanes& error, int bit,
+                                             typename FloatLanes::Mask& bits) {
+  constexpr std::size_t count = std::tuple_size_v<std::remove_cvref_t<decltype(polynomial.scaled)>>;
+  constexpr int degree = static_cast<int>(count) - 1;
+  std::array<FloatLanes, count> c;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto scale = static_cast<float>(binomial(degree, static_cast<int>(k)));
+    c[k] = polynomial.scaled[k] * FloatLanes(1 / scale);
+  }
+  for (int part = 1; part <= positive_parts; ++part) {
+    bit <<= bits_of_part;
+    typename FloatLanes::Mask all = c[0] > error;
+    // Sums in place of means: what is summed up k times is 2^k times too large, which is exact.
+    for (std::size_t round = 1; round < count; ++round)
+      for (std::size_t k = count - 1; k >= round; --k) c[k] += c[k - 1];
+    for (std::size_t k = 1; k < count; ++k) {
+      c[k] = c[k] * FloatLanes(1 / static_cast<float>(1U << k));
+      all &= c[k] > error;
+    }
+    bits |= all & bit;
+  }
+}
+
 /// Of cells with no beads beyond them. Of a motion of degree 0 only where it ends.
 template <class FloatLanes, Motion M>
 [[gnu::always_inline]] inline void find_positive_orientations(const M& motion,
@@ -147,10 +199,12 @@ template <class FloatLanes, Motion M>
     sizes.take(view);
     return row;
   });
-  const auto bits = orientation_bits<M::dimension>(cofactors.lift, bound.orientation,
-                                                   FloatLanes(charge) * sizes.error_scale_without_lift());
-  constexpr unsigned told =
-      positive_at_end<M::dimension> | (M::degree == 0 ? 0U : positive_throughout<M::dimension>);
+  const FloatLanes scale = FloatLanes(charge) * sizes.error_scale_without_lift();
+  auto bits = orientation_bits<M::dimension>(cofactors.lift, bound.orientation, scale);
+  if constexpr (has_parts<M>)
+    add_parts(cofactors.lift, FloatLanes(bound.orientation_of_part) * scale,
+              static_cast<int>(positive_throughout<M::dimension>), bits);
+  constexpr unsigned told = M::degree == 0 ? positive_at_end<M::dimension> : ~0U;
   for (std::size_t lane = 0; lane < FloatLanes::width; ++lane)
     positive[first + lane] = static_cast<std::uint32_t>(bits[lane]) & told;
 }
@@ -161,8 +215,8 @@ template <class FloatLanes, Motion M>
     const M& motion, const CellsInLanes<M::dimension>& all_cells, std::size_t first, std::size_t beyond,
     const LengthUnit& unit, const FloatFilterBounds<M>& bounds, float charge, PositiveBits& positive) {
   if (beyond == 0) {
-    if constexpr (!lifted<M>) {
-      if (bounds.whole_steps)
+    if constexpr (has_parts<M>) {
+      if (bounds.tells_parts)
         return find_positive_orientations<FloatLanes>(motion, all_cells, first, unit, bounds.of_step, charge,
                                                       positive);
     }
@@ -182,8 +236,14 @@ template <class FloatLanes, Motion M>
     return row;
   };
   const auto cofactors = power_cofactors<View>(row_of);
-  typename FloatLanes::Mask bits = orientation_bits<M::dimension>(
-      cofactors.lift, bound.orientation, FloatLanes(charge) * cell_sizes.error_scale_without_lift());
+  const FloatLanes cell_scale = FloatLanes(charge) * cell_sizes.error_scale_without_lift();
+  typename FloatLanes::Mask bits =
+      orientation_bits<M::dimension>(cofactors.lift, bound.orientation, cell_scale);
+  if constexpr (has_parts<M>) {
+    if (bounds.tells_parts)
+      add_parts(cofactors.lift, FloatLanes(bound.orientation_of_part) * cell_scale,
+                static_cast<int>(positive_throughout<M::dimension>), bits);
+  }
   int bit = 1;
   for (std::size_t place = vertices; place < vertices + beyond; ++place, bit += bit) {
     const View view(motion, cells, place, unit);
@@ -196,6 +256,9 @@ template <class FloatLanes, Motion M>
     for (std::size_t k = 0; k < function.scaled.size(); ++k)
       all &= function.scaled[k] > FloatLanes(bound.coefficient[k]) * scale;
     bits |= all & bit;
+    if constexpr (has_parts<M>) {
+      if (bounds.tells_parts) add_parts(function, FloatLanes(bound.of_part) * scale, bit, bits);
+    }
   }
   for (std::size_t lane = 0; lane < FloatLanes::width; ++lane)
     positive[first + lane] = static_cast<std::uint32_t>(bits[lane]);

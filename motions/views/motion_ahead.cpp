@@ -35,6 +35,7 @@ template <int Dimension>
 void MotionAhead<Dimension>::look_at(const Curves<Dimension>& curves, std::size_t every) {
   const std::size_t beads = curves.bead_count();
   straight_ = 0;
+  all_known_ = true;
   ++step_;
   const std::size_t watched = (beads + every - 1) / every;
   if (every_ != every || courses_.size() != watched) courses_.assign(watched, {});
@@ -57,6 +58,7 @@ void MotionAhead<Dimension>::look_at(const Curves<Dimension>& curves, std::size_
                          all_of((course.end == from) & (course.step == step));  // no branch
     course = {to, step, known ? step_ : 0};
     straight_ += goes_on ? 1 : 0;
+    all_known_ = all_known_ & known;
     if (every > 1) continue;
     if (!known) {
       // Far from the others, and from all such: no difference of theirs is a length that a filter looks at.

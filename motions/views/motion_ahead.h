@@ -22,7 +22,7 @@ class MotionAhead {
   static constexpr int dimension = DimensionValue;
   static constexpr int degree = 1;
   /// As many as that: a power of two, so that products are exact.
-  static constexpr unsigned steps = 4;
+  static constexpr unsigned steps = 8;
 
   /// At the start of a step of a linear motion. Beads that were not looked at in the step before have turned,
   /// and all of them where there are more or fewer.
@@ -39,6 +39,8 @@ class MotionAhead {
   [[nodiscard, gnu::always_inline]] std::int32_t turned(BeadId bead) const {
     return turned_.data()[std::ptrdiff_t{static_cast<std::int32_t>(bead)} + 1];
   }
+  /// Whether that is so of all beads.
+  [[nodiscard]] bool all_known() const { return all_known_; }
   /// Whether all that the bead does ahead is exact. If not, it is far away from all others.
   [[nodiscard]] bool is_known(BeadId bead) const { return courses_[bead].known_in == step_; }
 
@@ -66,6 +68,7 @@ class MotionAhead {
   std::vector<Course> courses_;  // theirs
   std::vector<std::int32_t> turned_;
   std::size_t straight_ = 0;
+  bool all_known_ = false;
   std::array<double, 2> none_{};
 };
 

@@ -112,6 +112,43 @@ inline constexpr auto facet_orders = [] {
   return static_cast<int>(facet_orders[facets] >> (2 * place) & 3U);
 }
 
+/// The other way round: facets, one bit each, at those of the places in that order that have one.
+inline constexpr auto facets_at_places = [] {
+  std::array<std::array<std::uint8_t, 16>, 16> facets{};
+  for (unsigned wanted = 0; wanted < facets.size(); ++wanted) {
+    for (unsigned places = 0; places < facets.size(); ++places) {
+      unsigned place = 0;
+      for (unsigned i = 0; i < 4; ++i) {
+        if ((wanted >> i & 1U) == 0) continue;
+        facets[wanted][places] =
+            static_cast<std::uint8_t>(facets[wanted][places] | (places >> place & 1U) << i);
+        ++place;
+      }
+    }
+  }
+  return facets;
+}();
+
+/// What is found at places of wanted facets, and of their cell, with these facets' bits in place of those.
+template <int Dimension>
+[[nodiscard]] unsigned with_facets_at_places(unsigned wanted, unsigned found) {
+  constexpr unsigned of_each_part = 0x01010101U;
+  unsigned facets = 0;
+  const int parts = found >> bits_of_part == 0 ? 0 : positive_parts;
+  for (int part = 0; part <= parts; ++part) {
+    const int shift = part * bits_of_part;
+    facets |= unsigned{facets_at_places[wanted][found >> shift & all_facets<Dimension>]} << shift;
+  }
+  return facets | (found & ~(all_facets<Dimension> * of_each_part));
+}
+
+/// What is found of the step or of some part of it.
+[[nodiscard]] constexpr unsigned in_some_part(unsigned found) {
+  found |= found >> (2 * bits_of_part);
+  found |= found >> bits_of_part;
+  return found & ((1U << bits_of_part) - 1);
+}
+
 /// As the certificates want them: the beads of a cell, then those beyond its wanted facets, in order.
 template <int Dimension>
 void put_in_lane(const TriangulationCell<Dimension>& cell, unsigned wanted,
@@ -133,32 +170,29 @@ void put_in_lane(const TriangulationCell<Dimension>& cell,
   }
 }
 
-/// The cells that an event made, up to four: of each the facets that are found positive, one bit each, and
-/// whether it is positive at the end.
+/// The cells that an event made, up to four: of each what the filter tells of all its facets and of itself.
+/// Of an infinite cell, and of facets to one, that is nothing.
 inline constexpr std::size_t few_cells = 4;
-struct FewPositive {
-  std::array<unsigned, few_cells> facets{};
-  std::array<bool, few_cells> at_end{};
-};
 template <int Dimension>
-[[nodiscard]] FewPositive filter_few_cells(
+[[nodiscard]] std::array<unsigned, few_cells> filter_few_cells(
     const CellFilter<Dimension>& filter, const LengthUnit& unit, Rounding rounding,
     std::type_identity_t<std::span<const TriangulationCell<Dimension>>> cells, std::span<const CellId> few) {
-  FewPositive found;
+  std::array<unsigned, few_cells> found{};
   CellsInLanes<Dimension> beads;
   std::size_t finite = 0;
   for (std::size_t n = 0; n < few.size(); ++n) {
-    found.facets[n] = finite_facets(cells[few[n]]);
-    if (found.facets[n] != 0) put_in_lane(cells[few[n]], beads[finite++]);
+    found[n] = finite_facets(cells[few[n]]);
+    if (found[n] != 0) put_in_lane(cells[few[n]], beads[finite++]);
   }
   if (finite == 0) return found;
   for (std::size_t lane = finite; lane < few_cells; ++lane) beads[lane] = beads[0];
   PositiveBits positive;
   filter.four_positive_cells(beads, unit, rounding, positive);
+  constexpr unsigned of_each_part = 0x01010101U;
   for (std::size_t n = 0, lane = 0; n < few.size(); ++n) {
-    if (found.facets[n] == 0) continue;
-    found.at_end[n] = (positive[lane] & positive_at_end<Dimension>) != 0;
-    found.facets[n] &= positive[lane++];
+    if (found[n] == 0) continue;
+    found[n] |= positive_at_end<Dimension> | positive_throughout<Dimension>;
+    found[n] = found[n] * of_each_part & positive[lane++];
   }
   return found;
 }
@@ -171,8 +205,8 @@ class FacetFilter {
       : filter_(filter), unit_(unit), rounding_(rounding) {}
 
   /// Those facets of a finite cell, one bit each, that are wanted, of finite_facets, or none. Tells of this
-  /// cell or earlier ones, by `found(cell, wanted, doubts, orientation)`: facets that are not found positive,
-  /// and whether the cell is, of positive_at_end and positive_throughout.
+  /// cell or earlier ones, by `found(cell, wanted, positive)`: what the filter tells of the wanted facets
+  /// and of the cell (PositiveBits).
   template <class Found>
   void look_at(const TriangulationCell<Dimension>& cell, CellId id, unsigned wanted, Found& found) {
     const unsigned count = count_of<Dimension>(wanted);
@@ -212,10 +246,8 @@ class FacetFilter {
     const unsigned all = (1U << facets) - 1;
     for (std::size_t lane = 0; lane < batch.waiting; ++lane) {
       count_ += count_of<Dimension>(positive[lane] & all);
-      unsigned doubts = 0;
-      for (unsigned left = ~positive[lane] & all; left != 0; left &= left - 1)
-        doubts |= 1U << facet_at(batch.wanted[lane], std::countr_zero(left));
-      found(batch.cells[lane], batch.wanted[lane], doubts, positive[lane]);
+      found(batch.cells[lane], batch.wanted[lane],
+            with_facets_at_places<Dimension>(batch.wanted[lane], positive[lane]));
     }
     batch.waiting = 0;
   }

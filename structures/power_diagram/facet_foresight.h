@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "certificates/filters/cell_filter.h"
 #include "motions/views/motion_ahead.h"
 #include "structures/triangulation/regular_triangulation.h"
 
@@ -49,14 +50,26 @@ class FacetForesight {
       if (triangulation.is_live(id)) visit(id, facets);
     }
   }
-  /// These facets of a cell hold for that many steps from this one's start on; and it stays positive, or who
-  /// knows.
-  void proved(CellId cell, unsigned facets, bool positive,
-              int steps = static_cast<int>(MotionAhead<Dimension>::steps)) {
-    for (int i = 0; i <= Dimension; ++i)
-      if ((facets >> i & 1U) != 0) until_[cell][i] = step_ + steps;
-    if (positive) positive_until_[cell] = step_ + steps;
+  /// What a filter of parts finds of a cell (PositiveBits, one bit for each facet) from this step's start on.
+  /// These facets, if they are not found positive, are looked at again in the next step.
+  void proved(CellId cell, unsigned facets, unsigned found) {
+    Until steps{};
+    std::int32_t cell_steps = 0;
+    for (int part = positive_parts; part >= 0; --part) {
+      const auto in_part = static_cast<std::int32_t>(found >> (part * bits_of_part));
+      const Until hold = Until{} + (in_part & static_cast<std::int32_t>(facets));
+      steps = (hold & Until{1, 2, 4, 8}) != 0 ? Until{} + (all_steps >> part) : steps;
+      cell_steps = (in_part & static_cast<std::int32_t>(positive_throughout<Dimension>)) != 0
+                       ? all_steps >> part
+                       : cell_steps;
+    }
+    until_[cell] = steps != 0 ? steps + step_ : until_[cell];
+    positive_until_[cell] = cell_steps != 0 ? step_ + cell_steps : positive_until_[cell];
   }
+  /// One facet holds for that many steps.
+  void proved(CellId cell, int i, int steps) { until_[cell][i] = step_ + steps; }
+  /// It cannot be anything else.
+  void stays_positive_ahead(CellId cell) { positive_until_[cell] = step_ + all_steps; }
   /// The facet, as this cell and the other have it, has got other beads, and so may this cell have.
   void forget(CellId cell, int i, CellId other, int k) {
     if (!used_) return;
@@ -77,6 +90,8 @@ class FacetForesight {
   using Until = std::int32_t __attribute__((vector_size(16)));
   /// Steps are counted from 1.
   static constexpr std::int32_t nothing_known = 0;
+  static constexpr std::int32_t all_steps = MotionAhead<Dimension>::steps;
+  static_assert(all_steps >> positive_parts == 1);
   static constexpr std::int32_t at_other_cell = std::numeric_limits<std::int32_t>::max();
 
   /// Facets of new cells are forgotten before they are asked for.

@@ -15,8 +15,7 @@ FacetGuards<Dimension>::FacetGuards(State& state)
       orientations_(state.simulator, state.owner, state.index, orientations, state.motion,
                     TouchPolicy::reported),
       filter_(cell_filter_over(state.motion)),
-      filter_ahead_(cell_filter_over<Dimension>(foresight_.ahead(), OfBareCells::whole_step)),
-      hull_ahead_(search_over<Orientation<Dimension>, Dimension>(foresight_.ahead())) {}
+      filter_ahead_(cell_filter_over<Dimension>(foresight_.ahead(), FilterOf::parts)) {}
 
 template <int Dimension>
 void FacetGuards<Dimension>::start_step() {
@@ -170,9 +169,10 @@ void FacetGuards<Dimension>::watch_all_moving() {
 /// Facets that are not found positive get certificates.
 template <int Dimension>
 auto FacetGuards<Dimension>::taking_doubts() {
-  return [this](CellId cell, unsigned, unsigned doubts, unsigned orientation) {
-    for (; doubts != 0; doubts &= doubts - 1) enqueue(cell, std::countr_zero(doubts));
-    ends_positive_[cell] = (orientation & positive_at_end<Dimension>) != 0 ? 1 : 0;
+  return [this](CellId cell, unsigned wanted, unsigned positive) {
+    for (unsigned doubts = wanted & ~positive; doubts != 0; doubts &= doubts - 1)
+      enqueue(cell, std::countr_zero(doubts));
+    ends_positive_[cell] = (positive & positive_at_end<Dimension>) != 0 ? 1 : 0;
   };
 }
 
@@ -183,72 +183,69 @@ std::uint64_t FacetGuards<Dimension>::watch_with_foresight(FacetFilter<Dimension
   notes_ = Notes::any;
   std::uint64_t others = 0;
   const auto found = taking_doubts();
-  const auto found_ahead = [&](CellId cell, unsigned wanted, unsigned doubts, unsigned orientation) {
-    const bool stays_positive = (orientation & positive_throughout<Dimension>) != 0;
-    foresight_.proved(cell, wanted & ~doubts, stays_positive);
+  const bool all_known = foresight_.ahead().all_known();
+  const auto found_ahead = [&](CellId cell, unsigned wanted, unsigned positive_parts_of_step) {
+    foresight_.proved(cell, wanted, positive_parts_of_step);
+    unsigned doubts = wanted & ~in_some_part(positive_parts_of_step);
+    if (doubts == 0) return;
     others += count_of<Dimension>(doubts);
-    if (doubts != 0 || !stays_positive) positive.look_at(cells[cell], cell, doubts, found);
+    if (!all_known) return positive.look_at(cells[cell], cell, doubts, found);
+    for (; doubts != 0; doubts &= doubts - 1) enqueue(cell, std::countr_zero(doubts));
   };
   FacetFilter<Dimension> ahead(*filter_ahead_, unit_, rounding_of(state_.simulator.kernel()));
   on_hull_.clear();
-  of_hull_.clear();
   const auto rests = [&](CellId cell) { triangulation.note_all(cell, resting_note); };
   foresight_.for_the_others(triangulation, rests, [&](CellId cell, unsigned facets) {
     const unsigned finite = finite_facets(cells[cell]);
-    if ((facets & ~finite) != 0) {
-      others += count_of<Dimension>(facets & ~finite);
-      for (unsigned left = facets & ~finite; left != 0; left &= left - 1)
-        look_at_hull(cell, std::countr_zero(left));
-    }
+    for (unsigned left = facets & ~finite; left != 0; left &= left - 1)
+      on_hull_.push_back(facet_id(cell, std::countr_zero(left)));
     if (finite == 0 && state_.is_infinite(cell)) {
-      foresight_.proved(cell, 0, true);  // it cannot be anything else
+      foresight_.stays_positive_ahead(cell);
     } else {
       ahead.look_at(cells[cell], cell, facets & finite, found_ahead);
     }
   });
   ahead.finish(found_ahead);
-  others -= watch_hull_ahead();
+  others += watch_hull_ahead();
   for (CellId cell = 0; cell < ends_positive_.size(); ++cell)
     if (foresight_.stays_positive(cell)) ends_positive_[cell] = 1;
   return triangulation.live_count() * (Dimension + 1) / 2 - others;
 }
 
-template <int Dimension>
-void FacetGuards<Dimension>::look_at_hull(CellId cell, int i) {
-  Orientation<Dimension> orientation;
-  FacetCertificates(state_.beads_of(cell)).make(state_.apex(cell, i), orientation);
-  if (std::all_of(orientation.beads.begin(), orientation.beads.end(),
-                  [this](BeadId bead) { return foresight_.ahead().is_known(bead); })) {
-    of_hull_.push_back(orientation);
-    on_hull_.push_back(facet_id(cell, i));
-  } else {
-    enqueue(cell, i);
-  }
-}
-
-/// Returns how many hold in this step.
+/// What guards a facet of the hull is an orientation, as that of a cell. Returns how many are not found to
+/// hold.
 template <int Dimension>
 std::uint64_t FacetGuards<Dimension>::watch_hull_ahead() {
-  births_.assign(on_hull_.size(), KnownAtStart::unknown);
-  failures_.resize(on_hull_.size());
-  StageCounts stages;  // those that count are of this step
-  hull_ahead_->first_failures(state_.simulator.kernel(), of_hull_, Instant(0), births_, stages,
-                              TouchPolicy::reported, failures_);
-  std::uint64_t hold = 0;
-  for (std::size_t n = 0; n < on_hull_.size(); ++n) {
-    constexpr int all = MotionAhead<Dimension>::steps;
-    const Failure& failure = failures_[n];
-    int steps = failure.kind == Failure::Kind::never ? all : 0;
-    if (failure.kind == Failure::Kind::later) steps = static_cast<int>(failure.time.lower * all);
-    const CellId cell = cell_of(on_hull_[n]);
-    if (steps == 0) {
-      enqueue(cell, index_of(on_hull_[n]));
-    } else {
-      foresight_.proved(cell, 1U << index_of(on_hull_[n]), false, steps);
-      ++hold;
+  std::uint64_t doubts = 0;
+  for (std::size_t first = 0; first < on_hull_.size(); first += cells_in_batch) {
+    const std::size_t count = std::min(cells_in_batch, on_hull_.size() - first);
+    CellsInLanes<Dimension> beads;
+    for (std::size_t lane = 0; lane < cells_in_batch; ++lane) {
+      const FacetId facet = on_hull_[first + (lane < count ? lane : 0)];
+      Orientation<Dimension> orientation;
+      FacetCertificates(state_.beads_of(cell_of(facet)))
+          .make(state_.apex(cell_of(facet), index_of(facet)), orientation);
+      std::copy(orientation.beads.begin(), orientation.beads.end(), beads[lane].begin());
+      if (!orientation.side()) std::swap(beads[lane][0], beads[lane][1]);
+    }
+    PositiveBits positive;
+    filter_ahead_->positive_cells(beads, 0, unit_, rounding_of(state_.simulator.kernel()), positive);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const CellId cell = cell_of(on_hull_[first + lane]);
+      const int i = index_of(on_hull_[first + lane]);
+      int part = 0;
+      while (part <= positive_parts &&
+             (positive[lane] >> (part * bits_of_part) & positive_throughout<Dimension>) == 0)
+        ++part;
+      if (part > positive_parts) {
+        ++doubts;
+        enqueue(cell, i);
+      } else {
+        foresight_.proved(cell, i, static_cast<int>(MotionAhead<Dimension>::steps) >> part);
+      }
     }
   }
-  return hold;
+  return doubts;
 }
 
 /// Notes of all facets that they rest: cells whose notes say so already are not touched.
@@ -330,18 +327,21 @@ void FacetGuards<Dimension>::watch_cell(CellId cell, int i) {
   if (guard == CertificateHandle::violated) state_.suspect_at(cell, state_.neighbor(cell, i));
 }
 
-/// Of each of a few new cells the facets whose power test is known to be positive all over the step, as most
-/// to other cells than these are.
+/// Of each of a few new cells what filters find: of facets whose power test is positive all over the step, as
+/// most to other cells than these are, and some steps ahead where it pays to look there.
 template <int Dimension>
-auto FacetGuards<Dimension>::positive_all_over(std::span<const CellId> cells)
-    -> std::array<unsigned, few_cells> {
+auto FacetGuards<Dimension>::found_around(std::span<const CellId> cells) -> std::array<unsigned, few_cells> {
   const Kernel kernel = state_.simulator.kernel();
-  FewPositive found;
+  std::array<unsigned, few_cells> found{};
+  const bool ahead = looks_ahead();
   if (kernel != Kernel::exact)
-    found = filter_few_cells(*filter_, unit_, rounding_of(kernel), state_.triangulation.cells(), cells);
+    found = filter_few_cells(ahead ? *filter_ahead_ : *filter_, unit_, rounding_of(kernel),
+                             state_.triangulation.cells(), cells);
   grow_little(ends_positive_, state_.triangulation.cells().size());
-  for (std::size_t c = 0; c < cells.size(); ++c) ends_positive_[cells[c]] = found.at_end[c] ? 1 : 0;
-  return found.facets;
+  const unsigned is_positive = ahead ? positive_throughout<Dimension> : positive_at_end<Dimension>;
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    ends_positive_[cells[c]] = (in_some_part(found[c]) & is_positive) != 0 ? 1 : 0;
+  return found;
 }
 
 template <int Dimension>
@@ -354,10 +354,12 @@ void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
   const bool inner_hold = in_event && state_.simulator.now().last();
   bool first_inner = true;
   std::uint64_t positive = 0;
-  std::array<unsigned, few_cells> hold{};
+  std::array<unsigned, few_cells> found{};
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const CellId cell = cells[c];
-    if (c % few_cells == 0) hold = positive_all_over(cells.subspan(c, std::min(few_cells, cells.size() - c)));
+    if (c % few_cells == 0) found = found_around(cells.subspan(c, std::min(few_cells, cells.size() - c)));
+    const unsigned hold = in_some_part(found[c % few_cells]);
+    unsigned outer = 0;
     const FacetCertificates certificates(state_.beads_of(cell));
     for (int i = 0; i <= Dimension; ++i) {
       const auto [other, k] = state_.across(cell, i);
@@ -366,7 +368,8 @@ void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
       foresight_.forget(cell, i, other, k);
       const auto at = std::find(cells.begin(), cells.end(), other) - cells.begin();
       if (at == static_cast<std::ptrdiff_t>(cells.size())) {
-        if ((hold[c % few_cells] >> i & 1U) != 0) {
+        outer |= 1U << i;
+        if ((hold >> i & 1U) != 0) {
           set_guard(cell, i, {CertificateHandle::never, About::power});
           ++positive;
         } else {
@@ -382,6 +385,7 @@ void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
         enqueue(certificates, cell, i, known);
       }
     }
+    if (looks_ahead()) foresight_.proved(cell, outer, found[c % few_cells]);
   }
   power_tests_.hold_never(positive);
   stages.coefficients += positive;

@@ -176,14 +176,15 @@ class FacetGuards {
   [[nodiscard]] auto taking_doubts();
   /// What is not known from steps before is looked at ahead, and then as it is. Returns how many are known.
   std::uint64_t watch_with_foresight(FacetFilter<Dimension>& positive);
-  void look_at_hull(CellId cell, int i);
   [[nodiscard]] std::uint64_t watch_hull_ahead();
+  /// Where beads are not known ahead, only one step is found out about.
+  [[nodiscard]] bool looks_ahead() const { return foresight_.any() && foresight_.ahead().all_known(); }
   void watch_marked();
   void note_resting();
   void hold_inner(CellId cell, int i);
   void watch_cells_beside(CellId cell, int i);
   void watch_cell(CellId cell, int i);
-  [[nodiscard]] std::array<unsigned, few_cells> positive_all_over(std::span<const CellId> cells);
+  [[nodiscard]] std::array<unsigned, few_cells> found_around(std::span<const CellId> cells);
   /// Fetches the failures that a flip will cancel.
   void fetch_scheduled(CellId cell) const {
     for (int i = 0; i <= Dimension; ++i) {
@@ -208,13 +209,8 @@ class FacetGuards {
   std::optional<KnownFailures> known_;
   FacetForesight<Dimension> foresight_;
   std::unique_ptr<CellFilter<Dimension>> filter_ahead_;
-  std::unique_ptr<CertificateSearch<Orientation<Dimension>>> hull_ahead_;
-  // Facets of the hull that are looked at ahead, and all that goes with it.
-  std::vector<FacetId> on_hull_;
-  std::vector<Orientation<Dimension>> of_hull_;
-  std::vector<KnownAtStart> births_;
-  std::vector<Failure> failures_;
-  std::vector<char> moving_;  // of each bead; empty: all move
+  std::vector<FacetId> on_hull_;  // to be looked at ahead
+  std::vector<char> moving_;      // of each bead; empty: all move
   std::vector<CellId> flipped_;
 };
 
