@@ -37,6 +37,10 @@ void straighten(Trajectory& necklace, double tolerance) {
     necklace.frames.push_back(std::move(frame.positions));
 }
 
+double length_of_tolerance(const TradeSetting& setting, const std::vector<double>& radii) {
+  return setting.tolerance * *std::min_element(radii.begin(), radii.end());
+}
+
 /// All frames of necklaces, as a scene has them.
 class SideBySide final : public FrameReader {
  public:
@@ -119,8 +123,7 @@ Scene FinestData::scene(const TradeSetting& setting, std::vector<double> radii) 
     if (setting.projected)
       for (Eigen::Matrix3Xd& frame : necklace.frames) frame.row(2).setZero();
     if (necklace.frames.size() == 1) continue;  // at rest
-    if (setting.tolerance > 0)
-      straighten(necklace, setting.tolerance * *std::min_element(own.begin(), own.end()));
+    if (setting.tolerance > 0) straighten(necklace, length_of_tolerance(setting, own));
     necklace = every_nth(necklace, setting.stride);
   }
   Scene scene(some, std::move(radii), setting.motion);
@@ -134,7 +137,9 @@ Scene FinestData::scene(const TradeSetting& setting, std::vector<double> radii) 
 
 StrideDeviation FinestData::deviation(const TradeSetting& setting, const Scene& scene) const {
   SideBySide every(necklaces_, frames_);
-  return deviation_of_stride(scene, every, setting.stride);
+  std::optional<double> most;
+  if (setting.tolerance > 0 && setting.stride == 1) most = length_of_tolerance(setting, radii_of(setting));
+  return deviation_of_stride(scene, every, setting.stride, most);
 }
 
 namespace {
