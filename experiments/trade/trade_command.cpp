@@ -170,8 +170,7 @@ TradeOptions parse_trade_options(const Arguments& arguments) {
   options.input = parse_input_options(parsed, kTradeCommand.name);
   TradeTask& task = options.task;
   if (const auto list = parsed.value("--want")) task.wants = parse_wants(*list);
-  if (const auto apart = parsed.value("--apart"))
-    task.apart = static_cast<BeadId>(parse_whole_number("--apart", *apart, 1, no_bead));
+  if (const auto apart = parsed.value("--apart")) task.apart = parse_apart(*apart);
   if (const auto length = parsed.value("--cutoff"))
     task.cutoff = parse_real("--cutoff", *length, {0, 1e300, true});
   if (const auto text = parsed.value("--rounds"))

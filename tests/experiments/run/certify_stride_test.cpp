@@ -155,7 +155,9 @@ TEST(MotionTolerance, Refusals) {
        {std::pair(std::vector<std::string>{"--tolerance", "0.1", "--motion", "hermite"},
                   "expected --motion linear"),
         std::pair(std::vector<std::string>{"--tolerance", "0"}, "--tolerance: '0'"),
-        std::pair(std::vector<std::string>{"--tolerance", "r"}, "--tolerance: ''")}) {
+        std::pair(std::vector<std::string>{"--tolerance", "r"}, "--tolerance: 'r' is neither a length"),
+        std::pair(std::vector<std::string>{"--tolerance", "0.2rr"}, "--tolerance: '0.2rr' is neither"),
+        std::pair(std::vector<std::string>{"--tolerance", "-1r"}, "as in 0.2r; expected a number above 0")}) {
     Arguments arguments = arguments_with("0:41", more);
     arguments.insert(arguments.begin(), "run");
     const ProgramRun run = run_program(arguments);
