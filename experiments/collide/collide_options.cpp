@@ -82,8 +82,7 @@ CollideOptions parse_collide_options(const Arguments& arguments) {
   options.all_methods = methods == "all";
   options.methods = options.all_methods ? method_names() : parse_methods(methods);
   options.pairs = chosen<WhichPairs>(parsed, "--pairs", which_pairs_names).value_or(options.pairs);
-  if (const auto text = parsed.value("--apart"))
-    options.apart = static_cast<BeadId>(parse_whole_number("--apart", *text, 1, 1'000'000'000));
+  if (const auto text = parsed.value("--apart")) options.apart = parse_apart(*text);
   if (const auto text = parsed.value("--within"))
     options.within = parse_real("--within", *text, {0, std::numeric_limits<double>::max()});
   options.rounds = options.methods.size() > 1 ? 3 : 1;

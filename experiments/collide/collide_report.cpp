@@ -26,6 +26,10 @@ std::string pair_csv(const std::optional<ClosestPair>& pair) {
   return pair ? fmt::format("{},{},{}", pair->first, pair->second, pair->distance) : ",,";
 }
 
+std::string spread_csv(const std::optional<Spread>& spread) {
+  return spread ? fmt::format("{},{},{}", spread->median, spread->least, spread->most) : ",,";
+}
+
 std::string closest_line(const CollideReport& report) {
   for (const CollideRow& row : report.rows) {
     if (!row.closest) continue;
@@ -83,8 +87,12 @@ std::string findings(const CollideReport& report) {
 }
 
 std::vector<std::string> cells_of(const CollideRow& row) {
-  return {std::string(row.method),   count_or_dash(row.pairs), with_thousands(row.colliding_frames),
-          count_or_dash(row.family), spread_text(row.seconds), spread_text(row.closest_seconds)};
+  return {std::string(row.method),
+          count_or_dash(row.pairs),
+          with_thousands(row.colliding_frames),
+          count_or_dash(row.family),
+          spread_text(row.seconds),
+          row.closest_seconds ? spread_text(*row.closest_seconds) : "-"};
 }
 
 std::string table(const CollideReport& report) {
@@ -103,17 +111,19 @@ Json collide_rows_json(const CollideReport& report) {
       closest = pair_json(row.closest->pair);
       closest["frame"] = row.closest->frame.number;
     }
-    json.push_back({{"method", row.method},
-                    {"pairs", count_or_null(row.pairs)},
-                    {"closest", closest},
-                    {"family", count_or_null(row.family)},
-                    {"colliding_frames", row.colliding_frames},
-                    {"seconds", row.seconds.median},
-                    {"seconds_least", row.seconds.least},
-                    {"seconds_most", row.seconds.most},
-                    {"closest_seconds", row.closest_seconds.median},
-                    {"closest_seconds_least", row.closest_seconds.least},
-                    {"closest_seconds_most", row.closest_seconds.most}});
+    Json one{{"method", row.method},
+             {"pairs", count_or_null(row.pairs)},
+             {"closest", closest},
+             {"family", count_or_null(row.family)},
+             {"colliding_frames", row.colliding_frames},
+             {"seconds", row.seconds.median},
+             {"seconds_least", row.seconds.least},
+             {"seconds_most", row.seconds.most}};
+    const auto& of_closest = row.closest_seconds;
+    one["closest_seconds"] = of_closest ? Json(of_closest->median) : Json(nullptr);
+    one["closest_seconds_least"] = of_closest ? Json(of_closest->least) : Json(nullptr);
+    one["closest_seconds_most"] = of_closest ? Json(of_closest->most) : Json(nullptr);
+    json.push_back(std::move(one));
   }
   return json;
 }
@@ -136,12 +146,11 @@ std::string collide_csv(const CollideReport& report) {
       "method,pairs,frame,i,j,distance,family,colliding_frames,seconds,seconds_least,seconds_most,"
       "closest_seconds,closest_seconds_least,closest_seconds_most\n";
   for (const CollideRow& row : report.rows)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", row.method, count_or_empty(row.pairs),
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", row.method, count_or_empty(row.pairs),
                         row.closest ? fmt::format("{}", row.closest->frame.number) : "",
                         pair_csv(row.closest ? std::optional(row.closest->pair) : std::nullopt),
                         count_or_empty(row.family), row.colliding_frames, row.seconds.median,
-                        row.seconds.least, row.seconds.most, row.closest_seconds.median,
-                        row.closest_seconds.least, row.closest_seconds.most);
+                        row.seconds.least, row.seconds.most, spread_csv(row.closest_seconds));
   return text;
 }
 

@@ -49,7 +49,7 @@ class Comparison {
     }
     for (std::size_t m = 0; m < methods_.size(); ++m) {
       report_.rows[m].seconds = spread_of(methods_[m].seconds);
-      report_.rows[m].closest_seconds = spread_of(methods_[m].closest_seconds);
+      if (report_.rows[m].closest) report_.rows[m].closest_seconds = spread_of(methods_[m].closest_seconds);
     }
     return std::move(report_);
   }

@@ -26,8 +26,9 @@ struct CollideRow {
   std::optional<std::uint64_t> pairs = 0;  ///< none where a method does not tell them
   std::optional<ClosestInFrame> closest;   ///< none where it does not tell of some frame
   std::optional<std::uint64_t> family;
-  Spread seconds;          ///< of the rounds: to find collisions in all frames
-  Spread closest_seconds;  ///< and then the closest pairs, where that is another search
+  Spread seconds;  ///< of the rounds: to find collisions in all frames
+  /// And then the closest pairs, next to nothing where that is no other search; none where `closest` is none.
+  std::optional<Spread> closest_seconds;
 };
 
 /// What was found in one frame, by all methods that tell.

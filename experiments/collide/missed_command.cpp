@@ -113,8 +113,7 @@ MissedOptions parse_missed_options(const Arguments& arguments) {
   task.input = parse_input_options(parsed, kMissedCommand.name);
   if (const auto list = parsed.value("--strides")) task.strides = parse_strides(*list);
   if (const auto list = parsed.value("--factors")) task.factors = parse_factors(*list);
-  if (const auto text = parsed.value("--apart"))
-    task.apart = static_cast<BeadId>(parse_whole_number("--apart", *text, 1, 1'000'000'000));
+  if (const auto text = parsed.value("--apart")) task.apart = parse_apart(*text);
   // Lifted motion has no radii between frames.
   task.motion =
       chosen<FrameMotion>(parsed, "--motion", std::span(frame_motion_names).first(2)).value_or(task.motion);

@@ -66,8 +66,7 @@ CompareOptions parse_compare_options(const Arguments& arguments) {
   if (const auto list = parsed.value("--structures")) options.structures = parse_structures(*list);
   if (const auto list = parsed.value("--strides")) options.strides = parse_strides(*list);
   if (const auto list = parsed.value("--motions")) options.motions = parse_motions(*list);
-  if (const auto apart = parsed.value("--apart"))
-    options.apart = static_cast<BeadId>(parse_whole_number("--apart", *apart, 1, no_bead));
+  if (const auto apart = parsed.value("--apart")) options.apart = parse_apart(*apart);
   if (const auto text = parsed.value("--rounds"))
     options.rounds = parse_whole_number("--rounds", *text, 1, 1000);
   options.out = path_of(parsed, "--out");

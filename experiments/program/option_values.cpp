@@ -39,6 +39,10 @@ std::uint64_t parse_whole_number(std::string_view option, std::string_view text,
   throw InputError(fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, least, most));
 }
 
+BeadId parse_apart(std::string_view text) {
+  return static_cast<BeadId>(parse_whole_number("--apart", text, 1, 1'000'000'000));
+}
+
 std::pair<std::uint64_t, std::uint64_t> parse_range(std::string_view option, std::string_view text,
                                                     std::uint64_t most) {
   const std::size_t colon = text.find(':');

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "experiments/program/command_line.h"
+#include "motions/base/bead.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -44,6 +45,9 @@ template <class Enum>
 /// From `least` to `most`.
 [[nodiscard]] std::uint64_t parse_whole_number(std::string_view option, std::string_view text,
                                                std::uint64_t least, std::uint64_t most);
+
+/// What --apart says, in all commands that take it.
+[[nodiscard]] BeadId parse_apart(std::string_view text);
 
 /// FIRST:LAST, LAST excluded, at most `most`; either may be left out. At least one number is in it.
 [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> parse_range(std::string_view option,

@@ -56,8 +56,8 @@ PairsMet pairs_met(const RunOptions& options, const SceneSurvey& survey, std::ve
   return listener.pairs;
 }
 
-ContactBounds bound_contacts(const RunOptions& options, const Scene& scene,
-                             const StrideDeviation& deviation) {
+ContactBounds bound_contacts(const RunOptions& options, const Scene& scene, const StrideDeviation& deviation,
+                             const std::optional<double>& tolerance) {
   const SceneSurvey survey =
       open_frames(options, options.reading.frames.stride)->survey(false, [](const std::string&) {});
   RadiiWithin radii;
@@ -66,8 +66,6 @@ ContactBounds bound_contacts(const RunOptions& options, const Scene& scene,
   } catch (const InputError& error) {
     throw InputError(std::string("--certify: ") + error.what());
   }
-  std::optional<double> tolerance;
-  if (options.tolerance) tolerance = options.tolerance->length(scene.radii());
   ContactBounds bounds;
   bounds.found = pairs_met(options, survey, scene.radii(), tolerance);
   bounds.possible = pairs_met(options, survey, std::move(radii.larger), tolerance);
@@ -89,11 +87,16 @@ void refuse_needless_certificate(const RunOptions& options) {
 }
 
 StrideCertificate certify_stride(const RunOptions& options, const Scene& scene) {
+  const std::size_t stride = options.reading.frames.stride;
+  std::optional<double> tolerance;
+  if (options.tolerance) tolerance = options.tolerance->length(scene.radii());
   StrideCertificate certificate;
-  certificate.deviation = deviation_of_stride(scene, *open_frames(options, 1), options.reading.frames.stride);
+  certificate.deviation =
+      deviation_of_stride(scene, *open_frames(options, 1), stride,
+                          stride == 1 ? tolerance : std::nullopt);  // proved of all frames
   const auto& names = options.structures;
   if (std::find(names.begin(), names.end(), "contacts") != names.end())
-    certificate.contacts = bound_contacts(options, scene, certificate.deviation);
+    certificate.contacts = bound_contacts(options, scene, certificate.deviation, tolerance);
   return certificate;
 }
 

@@ -122,7 +122,9 @@ std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& sc
   if (options.relax && session.settings.between != Between::events)
     throw InputError("--relax: it is about events; expected --between events");
   if (options.nodes.restricts() && !has("wrapped") && !has("layered"))
-    throw InputError("--levels, --nodes: they choose nodes of wrapped, which is not among the structures");
+    throw InputError(
+        "--levels, --nodes: they choose nodes of wrapped and layered, neither of which is among the "
+        "structures");
   if (options.between && !has("wrapped"))
     throw InputError("--between: it is about wrapped, which is not among the structures");
   if (options.tightness && session.settings.between != Between::chord)

@@ -91,14 +91,22 @@ NodeSelection parse_nodes(const ParsedArguments& parsed) {
   return nodes;
 }
 
-MotionTolerance parse_tolerance(std::string text, FrameMotion motion) {
+MotionTolerance parse_tolerance(const std::string& text, FrameMotion motion) {
   if (motion != FrameMotion::linear)
     throw InputError(
         fmt::format("--tolerance: beads go straight on; expected --motion linear, not {}", name_of(motion)));
   MotionTolerance tolerance;
   tolerance.of_radius = text.ends_with('r');
-  if (tolerance.of_radius) text.pop_back();
-  tolerance.amount = parse_real("--tolerance", text, {0, 1e300, true});
+  try {
+    tolerance.amount = parse_real(
+        "--tolerance", std::string_view(text).substr(0, text.size() - (tolerance.of_radius ? 1 : 0)),
+        {0, 1e300, true});
+  } catch (const InputError&) {
+    throw InputError(fmt::format(
+        "--tolerance: '{}' is neither a length, as in 0.4, nor a multiple of the smallest radius, as "
+        "in 0.2r; expected a number above 0, at most 1e300",
+        text));
+  }
   return tolerance;
 }
 
@@ -115,8 +123,7 @@ RunOptions parse_run_options(const Arguments& arguments) {
   options.motion = chosen<FrameMotion>(parsed, "--motion", frame_motion_names).value_or(options.motion);
   options.kernel = chosen<Kernel>(parsed, "--kernel", kernel_names).value_or(options.kernel);
   options.nodes = parse_nodes(parsed);
-  if (const auto apart = parsed.value("--apart"))
-    options.apart = static_cast<BeadId>(parse_whole_number("--apart", *apart, 1, no_bead));
+  if (const auto apart = parsed.value("--apart")) options.apart = parse_apart(*apart);
   options.between = chosen<Between>(parsed, "--between", between_names);
   if (const auto tightness = parsed.value("--tightness"))
     options.tightness = parse_real("--tightness", *tightness, {1e-6, 1});

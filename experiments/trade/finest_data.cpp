@@ -22,6 +22,10 @@ namespace kds {
 
 namespace {
 
+double length_of_tolerance(const TradeSetting& setting, const std::vector<double>& radii) {
+  return setting.tolerance * *std::min_element(radii.begin(), radii.end());
+}
+
 /// All frames of necklaces, as a scene has them.
 class SideBySide final : public FrameReader {
  public:
@@ -105,8 +109,7 @@ Scene FinestData::scene(const TradeSetting& setting, std::vector<double> radii) 
       for (Eigen::Matrix3Xd& frame : necklace.frames) frame.row(2).setZero();
     if (necklace.frames.size() == 1) continue;  // at rest
     if (setting.tolerance > 0)
-      necklace.frames = straightened(std::move(necklace.frames),
-                                     setting.tolerance * *std::min_element(own.begin(), own.end()));
+      necklace.frames = straightened(std::move(necklace.frames), length_of_tolerance(setting, own));
     necklace = every_nth(necklace, setting.stride);
   }
   Scene scene(some, std::move(radii), setting.motion);
@@ -120,7 +123,9 @@ Scene FinestData::scene(const TradeSetting& setting, std::vector<double> radii) 
 
 StrideDeviation FinestData::deviation(const TradeSetting& setting, const Scene& scene) const {
   SideBySide every(necklaces_, frames_);
-  return deviation_of_stride(scene, every, setting.stride);
+  std::optional<double> most;
+  if (setting.tolerance > 0 && setting.stride == 1) most = length_of_tolerance(setting, radii_of(setting));
+  return deviation_of_stride(scene, every, setting.stride, most);
 }
 
 namespace {

@@ -30,6 +30,8 @@ class FinestData {
   /// So many of them alone, at least two.
   [[nodiscard]] FinestData first_frames(std::size_t frames) const;
 
+  /// Of the first necklace, for messages.
+  [[nodiscard]] const std::string& file() const { return necklaces_.front().file; }
   [[nodiscard]] std::size_t frame_count() const { return frames_; }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   [[nodiscard]] TradeInput input() const;

@@ -1,6 +1,7 @@
 #include "experiments/trade/measure_trade.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <malloc.h>
 
 #include <algorithm>
@@ -59,27 +60,17 @@ double seconds_to_run(const FinestData& finest, const TradeSetting& setting, Tra
   return seconds;
 }
 
-/// Of contacts, where structures cannot have balls that are larger by how far beads may be off; none where
-/// the setting can run.
-std::optional<std::string> obstacle_to(const FinestData& finest, const TradeSetting& setting) {
-  if (!setting.certify || setting.structure != "contacts") return std::nullopt;
-  const Scene scene = finest.scene(setting);
-  const StrideDeviation deviation = finest.deviation(setting, scene);
-  try {
-    static_cast<void>(radii_within(deviation, scene.radii()));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return std::nullopt;
-}
-
-void leave_out_impossible(std::vector<TradeSetting>& settings, const FinestData& finest,
-                          const std::function<void(const std::string&)>& warn) {
-  std::erase_if(settings, [&](const TradeSetting& setting) {
-    const std::optional<std::string> obstacle = obstacle_to(finest, setting);
-    if (obstacle) warn(fmt::format("`{}` is left out: {}", words_of(setting), *obstacle));
-    return obstacle.has_value();
-  });
+/// Why the exact run of what is wanted cannot be had of the input, and the way out.
+std::string without(Want want, const FinestData& finest, const TradeSetting& exact, const TradeTask& task,
+                    const std::string& reason) {
+  std::vector<std::string_view> others;
+  for (const Want other : task.wants)
+    if (other != want) others.push_back(name_of(other));
+  return fmt::format("{}: `{}`, the exact run of --want {}, is not possible: {}{}", finest.file(),
+                     words_of(exact), name_of(want), reason,
+                     others.empty()
+                         ? std::string()
+                         : fmt::format("; expected --want {}, which does without", fmt::join(others, ",")));
 }
 
 /// Scenes are other tasks, not other answers to the same.
@@ -139,8 +130,7 @@ std::vector<TradeRow> measure_trade(const FinestData& finest, const TradeTask& t
   std::size_t total = 0, done = 0;
   for (const Want want : task.wants) {
     for (TradeGroup& group : groups_for(want, finest.input(), task.apart)) {
-      leave_out_impossible(group.settings, finest, warn);
-      total += group.settings.size() * (task.rounds + (has_errors(group) ? 1 : 0));
+      total += group.settings.size() * (task.rounds + 1);
       groups.push_back(std::move(group));
     }
   }
@@ -152,19 +142,30 @@ std::vector<TradeRow> measure_trade(const FinestData& finest, const TradeTask& t
     std::vector<TradeRow> rows;
     RunHistory exact;
     std::vector<double> ends;
-    for (const TradeSetting& setting : group.settings) {
+    const auto measure = [&](const TradeSetting& setting) {
+      TradeRow row{group.want, setting, {}, {}, rows.empty()};
       if (!has_errors(group)) {
-        ends.push_back(1);
-        rows.push_back({group.want, setting, {}, {}, rows.empty()});
-        continue;
+        static_cast<void>(seconds_to_run(finest, setting, row.cost));
+        return std::pair(std::move(row), 1.0);
       }
       FollowedRun run = follow_run(finest, setting, *truth, task.sampling, task.cutoff.value_or(4 * largest));
-      ends.push_back(run.history.end);
       if (rows.empty()) exact = run.history;
       if (setting.has_events()) compare_histories(exact, run, finest, setting);
-      rows.push_back({group.want, setting, {}, run.errors, rows.empty()});
-      rows.back().cost.tests = run.tests;
-      progress(++done, total);
+      row.errors = run.errors;
+      row.cost.tests = run.tests;
+      return std::pair(std::move(row), run.history.end);
+    };
+    for (const TradeSetting& setting : group.settings) {
+      try {
+        auto [row, end] = measure(setting);
+        rows.push_back(std::move(row));
+        ends.push_back(end);
+        progress(++done, total);
+      } catch (const InputError& error) {
+        if (rows.empty()) throw InputError(without(group.want, finest, setting, task, error.what()));
+        warn(fmt::format("`{}` is left out: {}", words_of(setting), error.what()));
+        done += task.rounds + 1;
+      }
     }
     std::vector<std::vector<double>> seconds(rows.size());
     for (std::size_t round = 0; round < task.rounds; ++round) {

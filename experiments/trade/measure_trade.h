@@ -43,9 +43,9 @@ struct TradeRow {
 /// The errors by which rows of a group are compared; empty where one of them is not known, and of scenes.
 [[nodiscard]] std::vector<double> main_errors(const TradeRow& row);
 
-/// In the order of the settings. A setting that cannot be certified, since beads may be too far from where
-/// its run has them, is left out, and `warn` gets a line that says so. Throws InputError where the trajectory
-/// does not go with what is wanted.
+/// In the order of the settings. A setting that does not fit the trajectory, as a stride whose frames lie in
+/// a plane where others do not, is left out, and `warn` gets a line that says so. Throws InputError where the
+/// exact run of what is wanted does not fit.
 [[nodiscard]] std::vector<TradeRow> measure_trade(
     const FinestData& finest, const TradeTask& task,
     const std::function<void(std::size_t, std::size_t)>& progress,

@@ -74,7 +74,10 @@ std::string sentence_for(std::span<const TradeRow> group) {
   const std::string subject = subject_of(group.front());
   const Want want = group.front().want;
   if ((want == Want::contacts || want == Want::events) && group.front().cost.events == 0)
-    return fmt::format("{}, there is nothing to tell: the exact run has no event.", subject);
+    return fmt::format("{}, there is nothing to tell: the exact run has no event{}.", subject,
+                       group.front().setting.structure == "contacts"
+                           ? "; --radius makes balls larger, and a lower --apart asks about more of them"
+                           : "");
   if (best != nullptr)
     return fmt::format("{}, `{}` is {}: {}.", subject, words_of(best->setting),
                        times_as_fast(best->cost.ratio), losses_of(*best));
@@ -122,6 +125,7 @@ std::string losses_of(const TradeRow& row) {
   if (row.want == Want::events || ((row.want == Want::diagram || row.want == Want::cages) && e.events_missed))
     add(fmt::format("{} of the events are missed, {} are invented", percent(e.events_missed.value_or(0)),
                     percent(e.events_invented.value_or(0))));
+  if (row.setting.kernel == Kernel::fast) add("it guarantees nothing: signs that doubles err in stay wrong");
   return fmt::format("{}", fmt::join(losses, "; "));
 }
 

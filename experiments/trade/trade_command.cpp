@@ -97,8 +97,9 @@ Json input_json(const TradeOptions& options, const FinestData& finest) {
           {"radius_max", *most}};
 }
 
-// All of it over the first frames tells how long all frames will take.
-double foretold_seconds(const FinestData& finest, const TradeTask& task) {
+// All of it over the first frames tells how long all frames will take. Throws InputError where these alone do
+// not fit what is wanted.
+double foretold_by_first_frames(const FinestData& finest, const TradeTask& task) {
   constexpr std::size_t few = 9;
   if (finest.frame_count() <= 2 * few) return 0;
   TradeTask pilot = task;
@@ -123,11 +124,42 @@ double foretold_seconds(const FinestData& finest, const TradeTask& task) {
          a_round * steps * static_cast<double>(task.rounds + 1);
 }
 
+// None where it cannot be told.
+double foretold_seconds(const FinestData& finest, const TradeTask& task) {
+  try {
+    return foretold_by_first_frames(finest, task);
+  } catch (const InputError&) {
+    return 0;
+  }
+}
+
 void foretell(double seconds) {
   if (seconds < 5) return;
   std::fputs(seconds < 120 ? fmt::format("kds: about {:.0f} seconds\n", seconds).c_str()
                            : fmt::format("kds: about {:.0f} minutes\n", seconds / 60).c_str(),
              stderr);
+}
+
+/// What --apart and --cutoff are about must be among what is wanted.
+void refuse_needless_options(const ParsedArguments& parsed, const std::vector<Want>& wants) {
+  const auto wanted = [&](std::initializer_list<Want> some) {
+    return std::find_first_of(wants.begin(), wants.end(), some.begin(), some.end()) != wants.end();
+  };
+  if (parsed.value("--apart") && !wanted({Want::contacts, Want::events, Want::scenes}))
+    throw InputError("--apart: it chooses pairs of contacts; expected contacts, events or scenes in --want");
+  if (parsed.value("--cutoff") && !wanted({Want::diagram, Want::events}))
+    throw InputError(
+        "--cutoff: it is about edges of the power diagram; expected diagram or events in --want");
+}
+
+void refuse_lone_frame(const TradeOptions& options, const std::vector<Trajectory>& necklaces) {
+  const FrameRange& frames = options.input.reading.frames;
+  const bool all = frames.first == 0 && !frames.last && frames.stride == 1;
+  const bool lone = std::all_of(necklaces.begin(), necklaces.end(),
+                                [](const Trajectory& necklace) { return necklace.frames.size() < 2; });
+  if (!all && lone)
+    throw InputError(fmt::format("--frames {}: leaves 1 frame of {}; expected a range of two or more",
+                                 name_of(frames), necklaces.front().file));
 }
 
 }  // namespace
@@ -138,8 +170,7 @@ TradeOptions parse_trade_options(const Arguments& arguments) {
   options.input = parse_input_options(parsed, kTradeCommand.name);
   TradeTask& task = options.task;
   if (const auto list = parsed.value("--want")) task.wants = parse_wants(*list);
-  if (const auto apart = parsed.value("--apart"))
-    task.apart = static_cast<BeadId>(parse_whole_number("--apart", *apart, 1, no_bead));
+  if (const auto apart = parsed.value("--apart")) task.apart = parse_apart(*apart);
   if (const auto length = parsed.value("--cutoff"))
     task.cutoff = parse_real("--cutoff", *length, {0, 1e300, true});
   if (const auto text = parsed.value("--rounds"))
@@ -148,6 +179,7 @@ TradeOptions parse_trade_options(const Arguments& arguments) {
     task.sampling.times = parse_whole_number("--times", *text, 1, 1'000'000);
   if (const auto text = parsed.value("--seed"))
     task.sampling.seed = parse_whole_number("--seed", *text, 0, ~std::uint64_t{0});
+  refuse_needless_options(parsed, task.wants);
   options.destinations = {path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
   return options;
 }
@@ -170,6 +202,7 @@ int trade_command(const Arguments& arguments) {
     throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
   HeldWarnings held;
   std::vector<Trajectory> necklaces = read_necklaces(options.input, held.hold());
+  refuse_lone_frame(options, necklaces);
   std::vector<double> radii = bead_radii(options.input.radius, necklaces);
   const FinestData finest(std::move(necklaces), std::move(radii), options.input.radius);
   if (!destinations.quiet) foretell(foretold_seconds(finest, options.task));

@@ -162,9 +162,22 @@ std::vector<TradeSetting> cages(const TradeInput& input, BeadId apart) {
       s.stride = stride;
     });
   }
+  settings.add([&](TradeSetting& s) {
+    chord(s);
+    s.settings.tightness = 0.01;
+    s.stride = 2;
+  });
+  settings.add([&](TradeSetting& s) {
+    chord(s);
+    s.tolerance = 0.2;
+  });
   settings.add([](TradeSetting& s) {
     s.settings.relax = Relaxation::of(0.03);
     s.stride = 2;
+  });
+  settings.add([](TradeSetting& s) {
+    s.settings.relax = Relaxation::of(0.03);
+    s.tolerance = 0.2;
   });
   settings.add_certified();
   settings.add([&](TradeSetting& s) {

@@ -83,13 +83,27 @@ std::vector<std::string> chain_names(const gemmi::Model& model) {
   return names;
 }
 
+/// Those that a necklace can be of.
+std::vector<std::string> polymer_chains(const gemmi::Model& model) {
+  std::vector<std::string> names = chain_names(model);
+  std::erase_if(names, [&](const std::string& name) {
+    const std::vector<Candidate> residues = polymer_residues(model, name);
+    return !has(residues, Polymer::protein) && !has(residues, Polymer::nucleic);
+  });
+  return names;
+}
+
+InputError no_polymer_in(const std::string& file) {
+  return InputError(fmt::format("{}: no chain of amino acids or nucleotides in this file", file));
+}
+
 // The first with amino acids, else the first with nucleotides.
 std::string default_chain(const std::string& file, const gemmi::Model& model) {
   const std::vector<std::string> names = chain_names(model);
   for (const Polymer wanted : {Polymer::protein, Polymer::nucleic})
     for (const std::string& name : names)
       if (has(polymer_residues(model, name), wanted)) return name;
-  throw InputError(fmt::format("{}: no chain of amino acids or nucleotides in this file", file));
+  throw no_polymer_in(file);
 }
 
 // As in messages.
@@ -165,9 +179,12 @@ std::vector<std::string> chains_asked_for(const std::string& file, const gemmi::
   for (std::string_view rest = *list;;) {
     const std::size_t comma = rest.find(',');
     const std::string name(trimmed(rest.substr(0, comma)));
-    if (std::find(held.begin(), held.end(), name) == held.end())
-      throw InputError(fmt::format("--chain: {} has no chain {}, it has {}", file, in_quotes(name),
-                                   listed(held, held.size())));
+    if (std::find(held.begin(), held.end(), name) == held.end()) {
+      const std::vector<std::string> polymers = polymer_chains(model);
+      if (polymers.empty()) throw no_polymer_in(file);
+      throw InputError(fmt::format("--chain: {} has no chain {}; expected {}", file, in_quotes(name),
+                                   listed(polymers, polymers.size())));
+    }
     if (std::find(wanted.begin(), wanted.end(), name) != wanted.end())
       throw InputError(fmt::format("--chain: {} is listed twice for {}", in_quotes(name), file));
     wanted.push_back(name);
@@ -179,9 +196,8 @@ std::vector<std::string> chains_asked_for(const std::string& file, const gemmi::
 std::optional<std::string> describe_unread_chains(const std::string& file, const gemmi::Model& model,
                                                   const std::string& read, Selection selection) {
   std::vector<std::string> unread, readable;
-  for (const std::string& name : chain_names(model)) {
-    const std::vector<Candidate> residues = polymer_residues(model, name);
-    if (name == read || !(has(residues, Polymer::protein) || has(residues, Polymer::nucleic))) continue;
+  for (const std::string& name : polymer_chains(model)) {
+    if (name == read) continue;
     unread.push_back(name);
     if (!atoms_of_chain(model, selection, name).empty()) readable.push_back(name);
   }

@@ -55,7 +55,8 @@ void cut(std::array<Eigen::Vector3d, most_degree + 1>& curve, int degree, double
 
 class DeviationSearch {
  public:
-  DeviationSearch(const Scene& scene, std::size_t stride) : scene_(scene), stride_(stride) {
+  DeviationSearch(const Scene& scene, std::size_t stride, double most)
+      : scene_(scene), stride_(stride), most_(most) {
     found_.of_bead.assign(scene.bead_count(), 0);
   }
 
@@ -81,7 +82,7 @@ class DeviationSearch {
         // A dozen roundings of lengths up to the extent in each coordinate, and those of the norm; near the
         // smallest doubles each is by up to one of these.
         const double rounded = apart.stableNorm() * (1 + 0x1p-45) + 0x1p-45 * extent + 64 * denormal;
-        const double bound = std::isnan(rounded) ? std::numeric_limits<double>::infinity() : rounded;
+        const double bound = rounded < most_ ? rounded : most_;  // most_ where it is NaN, too
         if (bound <= found_.of_bead[b]) continue;
         found_.of_bead[b] = bound;
         if (bound <= found_.largest) continue;
@@ -97,14 +98,16 @@ class DeviationSearch {
  private:
   const Scene& scene_;
   std::size_t stride_;
+  double most_;
   StrideDeviation found_;
 };
 
 }  // namespace
 
-StrideDeviation deviation_of_stride(const Scene& scene, FrameReader& every, std::size_t stride) {
+StrideDeviation deviation_of_stride(const Scene& scene, FrameReader& every, std::size_t stride,
+                                    std::optional<double> most) {
   const FloatingPointGuard to_nearest;
-  DeviationSearch search(scene, stride);
+  DeviationSearch search(scene, stride, most.value_or(std::numeric_limits<double>::infinity()));
   ControlPoints points;
   FrameRead before, after;
   const auto read = [&](FrameRead& frame, std::size_t k) {

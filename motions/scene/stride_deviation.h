@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,7 +30,12 @@ struct StrideDeviation {
 
 /// `every`: all frames of the files from the scene's first on, of which it has each `stride`-th. Throws
 /// InputError where these are not the frames that the scene has.
-[[nodiscard]] StrideDeviation deviation_of_stride(const Scene& scene, FrameReader& every, std::size_t stride);
+///
+/// `most`: how far a bead is proved to be off at the most, where that is known, as of frames straightened
+/// within a tolerance of which none is left out (straightened_frames.h). No bound is above it: near beads are
+/// told apart better by it far from the origin, where what is found here is rounded by more.
+[[nodiscard]] StrideDeviation deviation_of_stride(const Scene& scene, FrameReader& every, std::size_t stride,
+                                                  std::optional<double> most = {});
 
 /// Radii by which contacts are bounded: with the larger ones balls meet whenever they do in truth, with the
 /// smaller ones only when they do. Rounded outward.

@@ -85,13 +85,14 @@ class WrappedChordsInRun final : public ChordsInRun<StaticWrappedHierarchy<Dimen
  public:
   using ChordsInRun<StaticWrappedHierarchy<Dimension>>::ChordsInRun;
 
-  [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const override {
+  /// The cages, which hold the beads exactly.
+  [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override {
     const StaticWrappedHierarchy<Dimension>& at_frame = this->cages().hierarchy();
-    const Balls<Dimension> balls(this->scene().centers(frame), this->scene().radii());
+    const auto cages = this->cages().cages(this->cages().last());
     std::vector<WrappedNode> nodes;
     for (NodeId id = 0; id < at_frame.tree().node_count(); ++id) {
       if (!this->keeps(id)) continue;
-      Sphere sphere = exact_sphere_of(at_frame.basis(id), balls);
+      Sphere sphere = sphere_of(cages[id], 0);
       sphere.center = this->scene().in_input(sphere.center);
       nodes.push_back({at_frame.tree().range(id), at_frame.basis(id), sphere});
     }

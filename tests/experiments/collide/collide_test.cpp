@@ -85,6 +85,10 @@ TEST(Collide, RowsOfAllMethodsAgree) {
     EXPECT_EQ(row["pairs"], 2) << row;
     EXPECT_EQ(row["colliding_frames"], 2) << row;
     for (const std::string what : {"seconds", "closest_seconds"}) {
+      if (what == "closest_seconds" && row["closest"].is_null()) {
+        for (const std::string end : {"", "_least", "_most"}) EXPECT_TRUE(row[what + end].is_null()) << row;
+        continue;
+      }
       EXPECT_GE(row[what + "_least"], 0) << row;
       EXPECT_LE(row[what + "_least"], row[what]) << row;
       EXPECT_LE(row[what], row[what + "_most"]) << row;

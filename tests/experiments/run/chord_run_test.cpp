@@ -1,13 +1,18 @@
 // kds run with chord cages, from outside: its files, its options, and what it refuses.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "motions/numbers/rational.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
@@ -27,7 +32,18 @@ std::vector<std::string> villin(std::vector<std::string> more) {
   return arguments;
 }
 
-TEST(ChordRun, TheDumpAtFramesIsThatOfTheRunWithEvents) {
+/// The lines of a table without its header.
+std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
+  std::vector<std::vector<std::string>> lines;
+  std::istringstream text(csv.substr(csv.find('\n') + 1));
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream cells(line);
+    for (lines.emplace_back(); cells >> std::ws;) std::getline(cells, lines.back().emplace_back(), ',');
+  }
+  return lines;
+}
+
+TEST(ChordRun, BasesDumpedAtFramesAreThoseOfTheRunWithEvents) {
   const ScratchDirectory scratch;
   for (const char* motion : {"linear", "hermite"}) {
     for (const char* between : {"events", "chord"}) {
@@ -37,7 +53,70 @@ TEST(ChordRun, TheDumpAtFramesIsThatOfTheRunWithEvents) {
     }
     for (const char* frame : {"frame-0", "frame-3", "frame-5"}) {
       const std::string file = std::string("/") + frame + ".wrapped.csv";
-      EXPECT_EQ(content_of(scratch / ("chord" + file)), content_of(scratch / ("events" + file)));
+      const auto chord = cells_of(content_of(scratch / ("chord" + file)));
+      const auto events = cells_of(content_of(scratch / ("events" + file)));
+      ASSERT_EQ(chord.size(), events.size());
+      ASSERT_EQ(chord.size(), 107U);
+      for (std::size_t node = 0; node < chord.size(); ++node) {
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(chord[node][k], events[node][k]);
+        for (std::size_t k = 3; k < 7; ++k)
+          EXPECT_NEAR(std::stod(chord[node][k]), std::stod(events[node][k]), 1e-9);
+      }
+    }
+  }
+}
+
+/// Whether the ball holds this one, as these doubles stand.
+bool holds(const std::array<double, 3>& center, double radius, const std::array<double, 3>& bead, double r) {
+  const Rational room = Rational(radius) - Rational(r);
+  Rational square = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Rational d = Rational(center[axis]) - Rational(bead[axis]);
+    square += d * d;
+  }
+  return room >= 0 && square <= room * room;
+}
+
+// Near the origin and far from it, where centres are rounded by more than beads move.
+TEST(ChordRun, DumpedSpheresHoldTheirBeadsExactly) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> step(-1, 1);
+  for (const double far : {0.0, 1e6, 1e12}) {
+    const ScratchDirectory scratch;
+    constexpr std::size_t beads = 40, frames = 4;
+    std::vector<std::vector<std::array<double, 3>>> positions(frames);
+    std::string text;
+    for (auto& frame : positions) {
+      text += fmt::format("{}\nframe\n", beads);
+      std::array<double, 3> place{far, -far, 0.5 * far};
+      for (std::size_t b = 0; b < beads; ++b) {
+        for (double& x : place) x += step(random);
+        frame.push_back(place);
+        text += fmt::format("C {} {} {}\n", place[0], place[1], place[2]);
+      }
+    }
+    const std::string file = scratch.file("walk.xyz", text);
+    for (const std::string structure : {"wrapped", "layered"}) {
+      for (const double radius : {0.3, 1e-3}) {
+        std::vector<std::string> arguments{"run",     file,       "--structures",
+                                           structure, "--radius", fmt::format("{}", radius),
+                                           "--quiet", "--dump",   scratch / "dump"};
+        if (structure == "wrapped") arguments.insert(arguments.end(), {"--between", "chord"});
+        const ProgramRun run = run_program(arguments);
+        ASSERT_EQ(run.code, 0) << run.err;
+        for (std::size_t k = 0; k < frames; ++k) {
+          const auto nodes =
+              cells_of(content_of(scratch / fmt::format("dump/frame-{}.{}.csv", k, structure)));
+          ASSERT_EQ(nodes.size(), beads - 1);
+          for (const auto& node : nodes) {
+            const std::size_t at = node.size() - 4;
+            const std::array center{std::stod(node[at]), std::stod(node[at + 1]), std::stod(node[at + 2])};
+            for (std::size_t b = std::stoul(node[0]); b <= std::stoul(node[1]); ++b)
+              ASSERT_TRUE(holds(center, std::stod(node[at + 3]), positions[k][b], radius))
+                  << far << " " << structure << " frame " << k << " node " << node[0] << "-" << node[1];
+          }
+        }
+      }
     }
   }
 }

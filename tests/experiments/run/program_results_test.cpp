@@ -253,9 +253,19 @@ TEST(Program, AnOutputIsAFileOrADirectory) {
     expect_refused({"generate", "grid", "--beads", "8", "-o", both + ".xyz", "--out", both + ".xyz" + below},
                    {"--out", "both.xyz is the file of -o, expected a directory"});
   EXPECT_EQ(directory.entries(), 0U);
-  ASSERT_EQ(
-      run_program({"run", kSmall, "--quiet", "--dump", both, "--out", both, "--log", both + ".log"}).code, 0);
-  EXPECT_TRUE(std::filesystem::is_regular_file(directory / "both/summary.json"));
+}
+
+// Each has a contacts.csv of its own there.
+TEST(Program, DumpAndResultsLieInTwoDirectories) {
+  const ScratchDirectory directory;
+  const std::string both = (directory / "both").string(), link = (directory / "link").string();
+  std::filesystem::create_directory(both);
+  std::filesystem::create_directory_symlink(both, link);
+  for (const std::string& other : {both, both + "/", link, link + "/../both"})
+    expect_refused({"run", kSmall, "--dump", other, "--out", both}, {"--dump", "is the directory of --out"});
+  EXPECT_TRUE(std::filesystem::is_empty(both));
+  for (const auto& [dump, out] : {std::pair(both, both + "/out"), std::pair(both + "/dump", both)})
+    EXPECT_EQ(run_program({"run", kSmall, "--quiet", "--dump", dump, "--out", out}).code, 0);
 }
 
 TEST(Program, StandardOutputIsAnOutputByItsPath) {

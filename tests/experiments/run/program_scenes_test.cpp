@@ -354,5 +354,23 @@ TEST(Program, RunsTheChainsOfAComplexOnOneClock) {
   expect_refused({"run", file, "--chain", "A,X"}, {"--chain", "has no chain 'X'"});
 }
 
+// Not that of the water.
+TEST(Program, ListsTheChainsThatCanBeChosen) {
+  const ScratchDirectory directory;
+  std::string model;
+  int serial = 0;
+  const auto atom = [&](const char* record, const char* name, const char* residue, char chain, char element) {
+    ++serial;
+    model += fmt::format(
+        "{:<6}{:>5} {:<4} {:>3} {}{:>4}    {:8.3f}{:8.3f}{:8.3f}  1.00  0.00          {:>2}\n", record,
+        serial, name, residue, chain, (serial + 2) / 3, 1.4 * serial, 0.3 * (serial % 2), 0.0, element);
+  };
+  for (int k = 0; k < 3; ++k)
+    for (const char* name : {" N", " CA", " C"}) atom("ATOM", name, "ALA", 'A', name[1]);
+  atom("HETATM", " O", "HOH", 'W', 'O');
+  const std::string file = directory.file("water.pdb", model + "END\n");
+  expect_refused({"run", file, "--chain", "X"}, {"--chain", "has no chain 'X'; expected A\n"});
+}
+
 }  // namespace
 }  // namespace kds::test::program_scenes_test

@@ -10,6 +10,7 @@
 #include "experiments/trade/measure_trade.h"
 #include "experiments/trade/recommend.h"
 #include "motions/readers/read_trajectory.h"
+#include "tests/experiments/expect_refused.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
@@ -309,6 +310,54 @@ TEST(TradeCommand, WritesRowsAndAPage) {
   const std::string page = content_of(directory.path() / "result" / "report.html");
   expect_sound(page);
   EXPECT_THAT(page, HasSubstr("<code>kds run</code>"));
+}
+
+std::string square_of(double height) {
+  return fmt::format("6\nframe\nC 0 0 0\nC 2 0 {}\nC 2 2 0\nC 0 2 0\nC 0.5 1 {}\nC 1.5 1 0\n", height,
+                     height / 2);
+}
+
+// Every second frame, and so every stride, lies in a plane.
+TEST(TradeCommand, LeavesOutWhatDoesNotFitTheFrames) {
+  const ScratchDirectory directory;
+  std::string frames;
+  for (int frame = 0; frame < 9; ++frame) frames += square_of(frame % 2 == 0 ? 0 : 0.25);
+  const std::string file = directory.file("flat.xyz", frames);
+  const ProgramRun run = run_program(
+      {"trade", file, "--rounds", "1", "--times", "4", "--want", "cages,scenes", "--json", "-", "--quiet"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("`wrapped --stride 2` is left out: frames of a stride of 2 lie in a plane"));
+  const auto json = nlohmann::json::parse(run.out);
+  std::size_t strides = 0;
+  for (const auto& row : json["rows"]) strides += row["setting"].contains("stride") ? 1 : 0;
+  EXPECT_EQ(strides, 0U);
+  EXPECT_GT(json["rows"].size(), 12U);
+}
+
+TEST(TradeCommand, NamesFileAndWayOutWhereTheExactRunDoesNotFit) {
+  const ScratchDirectory directory;
+  const std::string two =
+      directory.file("two.xyz", xyz({"0 0 0", "1 0 0"}) + xyz({"0 0 1", "1 0 0"}) + xyz({"0 0 0", "1 1 0"}));
+  expect_refused({"trade", two}, {"two.xyz", "at least 4 beads", "expected --want contacts,cages"});
+  expect_refused({"trade", two, "--want", "diagram"}, {"two.xyz", "--want diagram", "at least 4 beads"});
+  expect_refused({"trade", two, "--frames", "::20"}, {"--frames 0::20", "two.xyz", "1 frame"});
+  for (const auto& [want, option] : {std::pair("contacts", "--cutoff"), std::pair("cages", "--apart"),
+                                     std::pair("diagram,cages", "--apart")})
+    expect_refused({"trade", two, "--want", want, option, "3"}, {option, "--want"});
+}
+
+TEST(Recommendation, SaysWhatTheFastKernelGuaranteesAndHowToGetContacts) {
+  TradeRow exact{Want::contacts, {.structure = "contacts"}, {}, {}, true};
+  EXPECT_THAT(recommendation(std::vector{exact}),
+              testing::AllOf(HasSubstr("--radius"), HasSubstr("--apart")));
+  exact.cost.events = 7;
+  TradeRow fast = exact;
+  fast.is_exact = false;
+  fast.setting.kernel = Kernel::fast;
+  fast.cost.ratio = 0.5;
+  fast.errors.contacts_missed = fast.errors.contacts_spurious = 0;
+  EXPECT_THAT(recommendation(std::vector{exact, fast}),
+              testing::AllOf(HasSubstr("`contacts --kernel fast`"), HasSubstr("it guarantees nothing")));
 }
 
 TEST(TradeCommand, RefusesWhatItDoesNotKnow) {
