@@ -40,17 +40,31 @@ void ContactsDump::add(const Event& event, std::string_view kind) {
                          event.change.ids[1], kind);
 }
 
-ContactsTable::ContactsTable(std::ostream& stream, const Scene& scene)
+ContactsTable::ContactsTable(std::ostream& stream, const Scene& scene, std::string_view column)
     : stream_(stream), scene_(scene), timed_(scene.stamp(0).picoseconds.has_value()) {
-  stream_ << "event,i,j,first,second,frame" << (timed_ ? ",picoseconds\n" : "\n");
+  stream_ << "event,i,j,first,second,frame" << (timed_ ? ",picoseconds" : "") << (column.empty() ? "" : ",")
+          << column << '\n';
+}
+
+void ContactsTable::write(std::ostream& stream, const Scene& scene, std::span<const Event> events,
+                          const Column& column, std::span<const std::uint8_t> flags) {
+  ContactsTable table(stream, scene, column.name);
+  for (std::size_t e = 0; e < events.size(); ++e) {
+    table.add_cells(events[e], events[e].kind.name);
+    stream << ',' << (flags[e] != 0 ? column.yes : column.no) << '\n';
+  }
 }
 
 void ContactsTable::add(const Event& event, std::string_view kind) {
+  add_cells(event, kind);
+  stream_ << '\n';
+}
+
+void ContactsTable::add_cells(const Event& event, std::string_view kind) {
   const auto [i, j] = std::pair(event.change.ids[0], event.change.ids[1]);
   stream_ << fmt::format("{},{},{},{},{},{:.12g}", kind, i, j, csv_field(scene_.bead_name(i)),
                          csv_field(scene_.bead_name(j)), event.frame());
   if (timed_) stream_ << fmt::format(",{:.12g}", event.picoseconds());
-  stream_ << '\n';
 }
 
 }  // namespace kds

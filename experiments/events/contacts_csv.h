@@ -1,7 +1,9 @@
 #pragma once
 // contacts.csv: which beads began to meet, parted or touched, and when; written while the run goes on.
 
+#include <cstdint>
 #include <ostream>
+#include <span>
 #include <string_view>
 
 #include "kds/event_log.h"
@@ -12,6 +14,8 @@ namespace kds {
 
 /// The name of the file, in --dump and in --out.
 inline constexpr std::string_view contacts_file = "contacts.csv";
+/// In --out: the contacts that there may be beside a certified run.
+inline constexpr std::string_view possible_contacts_file = "possible_contacts.csv";
 
 /// Whether the session has the structure that the file is about.
 [[nodiscard]] bool has_contacts(const Session& session);
@@ -46,10 +50,19 @@ class ContactsDump final : public ContactsCsv {
 class ContactsTable final : public ContactsCsv {
  public:
   /// Writes the header. The scene must outlive it.
-  ContactsTable(std::ostream& stream, const Scene& scene);
+  ContactsTable(std::ostream& stream, const Scene& scene) : ContactsTable(stream, scene, "") {}
+  /// A column about each contact: one word where its flag is set, else another.
+  struct Column {
+    std::string_view name, yes, no;
+  };
+  /// A whole table, with such a column.
+  static void write(std::ostream& stream, const Scene& scene, std::span<const Event> events,
+                    const Column& column, std::span<const std::uint8_t> flags);
 
  private:
+  ContactsTable(std::ostream& stream, const Scene& scene, std::string_view column);
   void add(const Event& event, std::string_view kind) override;
+  void add_cells(const Event& event, std::string_view kind);
 
   std::ostream& stream_;
   const Scene& scene_;

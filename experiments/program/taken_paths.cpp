@@ -86,7 +86,8 @@ void TakenPaths::write_into(const std::string& option, const fs::path& directory
 
 void TakenPaths::write(const Destinations& destinations) {
   if (destinations.out)
-    write_into("--out", *destinations.out, {"summary.json", "events.csv", "contacts.csv", "report.html"});
+    write_into("--out", *destinations.out,
+               {"summary.json", "events.csv", "contacts.csv", "possible_contacts.csv", "report.html"});
   if (destinations.json) write_json(*destinations.json);
 }
 

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "experiments/program/input_options.h"
 #include "experiments/run/load_scene.h"
+#include "experiments/run/met_contacts.h"
 #include "experiments/run/run_steps.h"
 #include "motions/base/input_error.h"
 
@@ -28,16 +30,9 @@ std::unique_ptr<SceneStream> open_frames(const RunOptions& options, std::size_t 
   return std::make_unique<SceneStream>(std::move(files));
 }
 
-class PairsListener final : public EventListener {
- public:
-  void on_event(const Event& event) override { pairs.emplace(event.ids()[0], event.ids()[1]); }
-
-  PairsMet pairs;
-};
-
-/// All pairs in contact at some time of the run, with these radii.
-PairsMet pairs_met(const RunOptions& options, const SceneSurvey& survey, std::vector<double> radii,
-                   const std::optional<double>& tolerance) {
+/// All contacts of the run, with these radii.
+MetContacts contacts_met(const RunOptions& options, const SceneSurvey& survey, std::vector<double> radii,
+                         const std::optional<double>& tolerance) {
   auto frames = open_frames(options, options.reading.frames.stride);
   if (tolerance) frames->straighten(*tolerance);
   const Scene scene(std::move(frames), survey, std::move(radii), options.motion);
@@ -47,33 +42,53 @@ PairsMet pairs_met(const RunOptions& options, const SceneSurvey& survey, std::ve
       options.kernel == Kernel::exact ? Kernel::exact : Kernel::filtered;  // none but these is sure
   contacts.apart = options.apart;
   const auto session = open_session(contacts, scene, AuditMode::none);
-  PairsListener listener;
-  session->simulator().listen(listener);
+  MetContacts met;
+  session->simulator().listen(met);
   run_steps(*session, scene, contacts, [&](std::size_t frame) {
     if (frame != 0) return;
-    for (const Event& event : session->built(0)) listener.on_event(event);
+    for (const Event& event : session->built(0)) met.on_event(event);
   });
-  return listener.pairs;
+  return met;
 }
 
-ContactBounds bound_contacts(const RunOptions& options, const Scene& scene, const StrideDeviation& deviation,
-                             const std::optional<double>& tolerance) {
+using Contacts = std::span<const MetContacts::Contact>;
+
+PairsMet pairs_of(Contacts contacts) {
+  PairsMet pairs;
+  for (const MetContacts::Contact& contact : contacts) pairs.insert(contact.pair);
+  return pairs;
+}
+
+/// Flags are of contacts.
+ContactList list_of(const MetContacts& met, const std::vector<std::uint8_t>& flags) {
+  ContactList list;
+  for (std::size_t e = 0; e < met.events().size(); ++e) {
+    list.events.push_back(met.events()[e]);
+    list.flags.push_back(flags[met.contact_of(e)]);
+  }
+  return list;
+}
+
+void bound_contacts(const RunOptions& options, const Scene& scene, const std::optional<double>& tolerance,
+                    StrideCertificate& certificate) {
   const SceneSurvey survey =
       open_frames(options, options.reading.frames.stride)->survey(false, [](const std::string&) {});
   RadiiWithin radii;
   try {
-    radii = radii_within(deviation, scene.radii());
+    radii = radii_within(certificate.deviation, scene.radii());
   } catch (const InputError& error) {
     throw InputError(std::string("--certify: ") + error.what());
   }
-  ContactBounds bounds;
-  bounds.found = pairs_met(options, survey, scene.radii(), tolerance);
-  bounds.possible = pairs_met(options, survey, std::move(radii.larger), tolerance);
-  bounds.sure = pairs_met(options, survey, std::move(radii.smaller), tolerance);
-  std::erase_if(bounds.sure, [&](const std::pair<BeadId, BeadId>& pair) {
-    return radii.has_a_ball[pair.first] == 0 || radii.has_a_ball[pair.second] == 0;
+  const MetContacts found = contacts_met(options, survey, scene.radii(), tolerance);
+  const MetContacts possible = contacts_met(options, survey, std::move(radii.larger), tolerance);
+  const MetContacts smaller = contacts_met(options, survey, std::move(radii.smaller), tolerance);
+  std::vector<MetContacts::Contact> sure(smaller.contacts().begin(), smaller.contacts().end());
+  std::erase_if(sure, [&](const MetContacts::Contact& contact) {
+    return radii.has_a_ball[contact.pair.first] == 0 || radii.has_a_ball[contact.pair.second] == 0;
   });
-  return bounds;
+  certificate.contacts = {pairs_of(found.contacts()), pairs_of(sure), pairs_of(possible.contacts())};
+  certificate.listed = {list_of(found, holding(found.contacts(), sure)),
+                        list_of(possible, holding(possible.contacts(), found.contacts()))};
 }
 
 }  // namespace
@@ -96,7 +111,7 @@ StrideCertificate certify_stride(const RunOptions& options, const Scene& scene) 
                           stride == 1 ? tolerance : std::nullopt);  // proved of all frames
   const auto& names = options.structures;
   if (std::find(names.begin(), names.end(), "contacts") != names.end())
-    certificate.contacts = bound_contacts(options, scene, certificate.deviation, tolerance);
+    bound_contacts(options, scene, tolerance, certificate);
   return certificate;
 }
 

@@ -7,13 +7,17 @@
 // any time a bead is within its deviation of where the run has it, so that the distance of two changes by at
 // most the sum of theirs. A pair that comes within the sum of its radii there is in contact in the run with
 // balls so much larger: it is *possible*. A pair in contact in the run with balls so much smaller is in
-// contact there, at that time: it is *sure*. Deviations are rounded up, radii outward.
+// contact there, at that time: it is *sure*. So it is with each contact of a pair by itself (met_contacts.h).
+// Deviations are rounded up, radii outward.
 
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "experiments/run/run_options.h"
+#include "kds/event_log.h"
 #include "motions/scene/stride_deviation.h"
 
 namespace kds {
@@ -27,9 +31,23 @@ struct ContactBounds {
   PairsMet possible;  ///< no other pair is in contact in truth, up to the run's last frame
 };
 
+/// Begin, end and touch of contacts, in order, and of each of these something about its contact.
+struct ContactList {
+  std::vector<Event> events;
+  std::vector<std::uint8_t> flags;
+};
+struct ContactLists {
+  /// By the run, or with the kernel fast by one that is exact; whether it is sure: in truth its beads meet
+  /// during this contact.
+  ContactList found;
+  /// Any contact there is in truth lies within one of these; whether the run has certainly found one in it.
+  ContactList possible;
+};
+
 struct StrideCertificate {
   StrideDeviation deviation;
   std::optional<ContactBounds> contacts;  ///< where the run has them
+  ContactLists listed;                    ///< likewise, else empty
 };
 
 /// Throws InputError where the run leaves out no frame, or its input has none. `scene` is the run's.

@@ -118,7 +118,7 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
   LogComparison comparison(log, name, session->simulator());
   session->simulator().listen(comparison);
   StepCounts counts(*session, scene);
-  if (results != nullptr) results->begin(scene, *session);
+  if (results != nullptr) results->begin(scene, *session, options.certify);
   run_steps(*session, scene, options, [&](std::size_t frame) {
     if (results != nullptr) results->add_frame(frame, *session);
     if (frame == 0) return warnings.release(warn);
@@ -129,7 +129,10 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
   ReplayReport replay;
   replay.difference = comparison.finish();
   replay.run = report_of(*session, scene, options, counts);
-  if (options.certify) replay.run.stride = certify_stride(options, scene);
+  if (options.certify) {
+    replay.run.stride = certify_stride(options, scene);
+    if (results != nullptr) results->add_certificate(*replay.run.stride, scene);
+  }
   replay.logged_fingerprint = log.fingerprint();
   replay.events = log.events();
   return replay;

@@ -15,18 +15,19 @@ namespace kds {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kFiles{"summary.json", "events.csv", "report.html", contacts_file};
+constexpr std::array<std::string_view, 5> kFiles{"summary.json", "events.csv", "report.html", contacts_file,
+                                                 possible_contacts_file};
 
 }  // namespace
 
 void check_destinations(const Destinations& destinations) {
   if (destinations.json && *destinations.json != "-") ensure_writable_file(*destinations.json, "--json");
   if (!destinations.out) return;
-  check_directory(*destinations.out, "--out", {kFiles[0], kFiles[1], kFiles[2], kFiles[3]});
+  check_directory(*destinations.out, "--out", {kFiles[0], kFiles[1], kFiles[2], kFiles[3], kFiles[4]});
   check_page(*destinations.out, "summary.json");
 }
 
-void RunResults::begin(const Scene& scene, Session& session) {
+void RunResults::begin(const Scene& scene, Session& session, bool certified) {
   if (events_path_) {
     every_event_file_.emplace(*events_path_);
     every_event_ = make_event_writer(*events_path_, every_event_file_->stream(), scene);
@@ -40,10 +41,25 @@ void RunResults::begin(const Scene& scene, Session& session) {
   places_.emplace(session, scene);
   for (BeadId bead = 0; bead < scene.bead_count(); ++bead) bead_names_.push_back(scene.bead_name(bead));
   session.simulator().listen(*places_);
-  if (!has_contacts(session))
-    return files_->replace([](std::string_view name) { return name == contacts_file; });
+  if (has_contacts(session)) contacts_files_.emplace_back(contacts_file);
+  if (has_contacts(session) && certified) contacts_files_.emplace_back(possible_contacts_file);
+  files_->replace([this](std::string_view name) {
+    return (name == contacts_file || name == possible_contacts_file) &&
+           std::find(contacts_files_.begin(), contacts_files_.end(), name) == contacts_files_.end();
+  });
+  if (!has_contacts(session) || certified) return;
   contacts_.emplace(files_->open(std::string(contacts_file)), scene);
   session.simulator().listen(*contacts_);
+}
+
+void RunResults::add_certificate(const StrideCertificate& certificate, const Scene& scene) {
+  if (!files_ || !certificate.contacts) return;
+  const auto& [found, possible] = certificate.listed;
+  ContactsTable::write(files_->open(std::string(contacts_file)), scene, found.events,
+                       {"certainty", "sure", "possible"}, found.flags);
+  ContactsTable::write(files_->open(std::string(possible_contacts_file)), scene, possible.events,
+                       {"found", "yes", "no"}, possible.flags);
+  files_->check();
 }
 
 void RunResults::begin_dump_and_log(const RunOptions& options, const Scene& scene, Session& session) {
@@ -85,7 +101,7 @@ void RunResults::deliver(RunReport report, const std::string& json, const std::s
     report.displacement = displacement_;
     report.bead_names = std::move(bead_names_);
     std::vector<std::string> data{std::string(kFiles[0]), std::string(kFiles[1])};
-    if (contacts_) data.emplace_back(contacts_file);
+    data.insert(data.end(), contacts_files_.begin(), contacts_files_.end());
     files_->write("report.html", html_report(report, data));
   }
   std::optional<AtomicFile> json_file;

@@ -35,14 +35,16 @@ class RunResults {
       : destinations_(std::move(destinations)), events_path_(std::move(events)) {}
 
   /// The input is accepted: from now on there are files in the making. They listen to the session, which must
-  /// not go on when this object has gone.
-  void begin(const Scene& scene, Session& session);
+  /// not go on when this object has gone. `certified`: contacts are told with `add_certificate`.
+  void begin(const Scene& scene, Session& session, bool certified);
   /// --dump and --log of a run with these options, likewise.
   void begin_dump_and_log(const RunOptions& options, const Scene& scene, Session& session);
   /// A frame that has just been reached; the first when the structures have been built.
   void add_frame(std::size_t frame, const Session& session);
   /// Events of a structure in the step from that frame on.
   void add_step(const FrameStamp& frame, std::string_view structure, std::uint64_t events);
+  /// contacts.csv and possible_contacts.csv, where there are contacts.
+  void add_certificate(const StrideCertificate& certificate, const Scene& scene);
   /// `json` is the summary; `table` is printed unless quiet, or where standard output is the JSON's. All
   /// files appear together, in place of those of an earlier run.
   void deliver(RunReport report, const std::string& json, const std::string& table);
@@ -57,6 +59,7 @@ class RunResults {
   Displacements displacement_;
   std::vector<std::string> bead_names_;
   std::optional<ContactsTable> contacts_;
+  std::vector<std::string> contacts_files_;
   std::optional<AtomicFile> every_event_file_;
   std::unique_ptr<EventListener> every_event_;
   std::optional<DumpedFrames> dumps_;

@@ -59,7 +59,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   std::optional<ClosestApproachOfRun> approach;
   if (const auto closest = place_of_closest(*session); closest && options.kernel != Kernel::fast)
     approach.emplace(*session, *closest);
-  results.begin(scene, *session);
+  results.begin(scene, *session, options.certify);
   results.begin_dump_and_log(options, scene, *session);
 
   run_steps(*session, scene, options, [&](std::size_t frame) {
@@ -72,7 +72,10 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   });
 
   RunReport report = report_of(*session, scene, options, counts);
-  if (options.certify) report.stride = certify_stride(options, scene);
+  if (options.certify) {
+    report.stride = certify_stride(options, scene);
+    results.add_certificate(*report.stride, scene);
+  }
   if (approach) report.approach = approach->least();
   if (const auto deviation = deviation_of_run(options, scene, report); deviation && report.approach)
     report.approach_in_all_frames = within_deviation(report.approach->distance, *deviation);

@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <sstream>
 
 #include "experiments/run/load_scene.h"
 #include "experiments/run/parse_run_options.h"
@@ -182,6 +186,96 @@ TEST(CertifyStride, IsReported) {
   const ProgramRun shown = run_program(arguments);
   EXPECT_THAT(shown.out, HasSubstr("30 frames left out, beads at most"));
   EXPECT_THAT(shown.out, HasSubstr("of them sure"));
+}
+
+std::vector<std::string> lines_of(const std::filesystem::path& path) {
+  std::vector<std::string> lines;
+  std::istringstream text(content_of(path));
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Contacts of a table of --out: the pair, begin and end by frames.
+struct Listed {
+  std::string pair;
+  double begin = 0, end = HUGE_VAL;
+  bool flag = false;  ///< sure, or found
+};
+std::vector<Listed> listed_in(const std::filesystem::path& path) {
+  std::vector<Listed> contacts;
+  std::map<std::string, std::size_t> open;
+  const std::vector<std::string> lines = lines_of(path);
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    std::vector<std::string> cells;
+    std::istringstream line(lines[k]);
+    for (std::string cell; std::getline(line, cell, ',');) cells.push_back(cell);
+    const std::string pair = cells[1] + " " + cells[2];
+    const double frame = std::stod(cells[5]);
+    const bool flag = cells.back() == "sure" || cells.back() == "yes";
+    if (cells[0] == "end") {
+      contacts[open.at(pair)].end = frame;
+      EXPECT_EQ(contacts[open.at(pair)].flag, flag);
+      continue;
+    }
+    open[pair] = contacts.size();
+    contacts.push_back({pair, frame, cells[0] == "touch" ? frame : HUGE_VAL, flag});
+  }
+  return contacts;
+}
+bool meet(const Listed& a, const Listed& b) {
+  return a.pair == b.pair && a.begin <= b.end + 1e-9 && b.begin <= a.end + 1e-9;
+}
+
+// Every sure one has one of all frames within its time, and every one of these is within one of the two
+// files.
+TEST(CertifyStride, ListsWhichContactsAreSureAndWhichThereMayBe) {
+  const ScratchDirectory scratch;
+  const auto listed = [&](const std::string& name, const std::string& frames, std::vector<std::string> more) {
+    Arguments arguments = arguments_with(frames, std::move(more));
+    arguments.insert(arguments.begin(), "run");
+    arguments.insert(arguments.end(), {"--quiet", "--out", scratch / name});
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return listed_in(scratch / (name + "/contacts.csv"));
+  };
+  const std::vector<Listed> truth = listed("truth", "0:81", {});
+  for (const auto& [frames, more] : {std::pair("0:81:4", std::vector<std::string>{}),
+                                     std::pair("0:81", std::vector<std::string>{"--tolerance", "0.03"})}) {
+    SCOPED_TRACE(frames);
+    std::vector<std::string> certified = more;
+    certified.emplace_back("--certify");
+    const std::vector<Listed> found = listed("run", frames, certified);
+    const std::vector<Listed> possible = listed_in(scratch / "run/possible_contacts.csv");
+    const auto meets_any = [](const Listed& contact, const std::vector<Listed>& all) {
+      return std::any_of(all.begin(), all.end(), [&](const Listed& other) { return meet(contact, other); });
+    };
+    std::size_t sure = 0, not_found = 0;
+    for (const Listed& contact : found) {
+      sure += contact.flag ? 1 : 0;
+      EXPECT_TRUE(!contact.flag || meets_any(contact, truth)) << contact.pair;
+    }
+    for (const Listed& contact : truth) {
+      const bool within = std::any_of(possible.begin(), possible.end(), [&](const Listed& other) {
+        return contact.pair == other.pair && other.begin <= contact.begin + 1e-9 &&
+               contact.end <= other.end + 1e-9;
+      });
+      EXPECT_TRUE(within || contact.end == HUGE_VAL) << contact.pair;
+      EXPECT_TRUE(meets_any(contact, possible)) << contact.pair;
+    }
+    for (const Listed& contact : possible) {
+      not_found += contact.flag ? 0 : 1;
+      EXPECT_EQ(contact.flag, meets_any(contact, found)) << contact.pair;
+    }
+    EXPECT_EQ(sure == 0, frames == std::string("0:81:4"));  // deviations are larger than contacts are deep
+    EXPECT_LT(sure, found.size());
+    EXPECT_GT(not_found, 0U);
+    // But for the new column it is the table of the run itself.
+    std::vector<std::string> with = lines_of(scratch / "run/contacts.csv");
+    for (std::string& line : with) line.resize(line.rfind(','));
+    static_cast<void>(listed("run", frames, more));
+    EXPECT_EQ(with, lines_of(scratch / "run/contacts.csv"));
+    EXPECT_FALSE(std::filesystem::exists(scratch / "run/possible_contacts.csv"));
+  }
 }
 
 TEST(CertifyStride, ALoggedRunIsCertifiedWhenItIsReplayed) {

@@ -87,8 +87,9 @@ TEST(Program, MemoryDoesNotGrowWithTheFrames) {
     }
     const std::string input = directory.file(std::to_string(frames) + ".xyz", text);
     const std::string there = (directory / std::to_string(frames)).string();
-    const ProgramRun run = run_program({"run", input, "--structures", "sorted", "--quiet", "--out", there,
-                                        "--dump", there, "--log", there + ".log", "--motion", "hermite"});
+    const ProgramRun run =
+        run_program({"run", input, "--structures", "sorted", "--quiet", "--out", there, "--dump",
+                     there + ".dump", "--log", there + ".log", "--motion", "hermite"});
     EXPECT_EQ(run.code, 0) << run.err;
     const ProgramRun replay = run_program({"replay", there + ".log", "--quiet"});
     EXPECT_EQ(replay.code, 0) << replay.err;

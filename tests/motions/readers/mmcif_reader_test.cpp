@@ -97,7 +97,7 @@ TEST(MmcifReader, ReadsFilesWithoutTheColumnsThatAreNotNeeded) {
 
 TEST(MmcifReader, ChainsGoByTheirAuthorsNames) {
   EXPECT_EQ(read(file(residue(1)), {.chain = "Z"}).bead_count(), 3U);
-  refuse(file(residue(1)), {"--chain", "'A'", "it has Z"}, {.chain = "A"});
+  refuse(file(residue(1)), {"--chain", "'A'", "expected Z"}, {.chain = "A"});
 }
 
 TEST(MmcifReader, ModelsAreFrames) {

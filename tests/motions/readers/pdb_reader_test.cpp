@@ -117,7 +117,7 @@ TEST(PdbReader, Chains) {
       pdb_residue(1, 'B') + pdb_residue(1, 'A') + pdb_residue(2, 'A');
   EXPECT_EQ(read(text).bead_count(), 3U);
   EXPECT_EQ(read(text, {.chain = "A"}).bead_count(), 6U);
-  refuse(text, {"--chain", "a.pdb", "'X'", "W, B, A"}, {.chain = "X"});
+  refuse(text, {"--chain", "a.pdb", "'X'", "expected B, A"}, {.chain = "X"});
   refuse(text, {"--select", "'W'", "a.pdb"}, {.chain = "W"});
   refuse(pdb_line({.name = "O", .residue = "HOH", .het = true, .element = "O"}),
          {"a.pdb", "no chain of amino acids"});
