@@ -76,10 +76,6 @@ void TakenPaths::write_into(const std::string& option, const fs::path& directory
     if (leads_to(file, directory))
       throw InputError(fmt::format("{} {}: {} is the file of {}, expected a directory", option,
                                    directory.string(), file.string(), owner));
-  for (const auto& [owner, other] : directories_)
-    if (owner != option && same_file(directory, other))
-      throw InputError(
-          fmt::format("{} {}: is the directory of {}, expected another", option, directory.string(), owner));
   directories_.emplace_back(option, directory);
   for (const std::string_view name : names) write(option, directory / name);
 }

@@ -28,8 +28,8 @@ class TakenPaths {
   /// A file to be written. Throws InputError where it is another's, or is to be a directory; devices are for
   /// all.
   void write(const std::string& option, const std::filesystem::path& path);
-  /// A directory, and files of these names to be written there. Throws InputError likewise, where the
-  /// directory, or one that it is to be made in, is to be a file, and where it is another option's.
+  /// A directory, and files of these names to be written there. Throws InputError likewise, and where the
+  /// directory, or one that it is to be made in, is to be a file.
   void write_into(const std::string& option, const std::filesystem::path& directory,
                   std::initializer_list<std::string_view> names = {});
   /// The files that `deliver` writes.

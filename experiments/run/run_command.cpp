@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
+#include "experiments/events/contacts_csv.h"
 #include "experiments/output/output_files.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/progress_bar.h"
@@ -29,7 +31,7 @@ void refuse_file_in(const std::filesystem::path& dump, const RunOptions& options
     const bool inside =
         std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path(), error) ==
         std::filesystem::weakly_canonical(std::filesystem::absolute(dump), error);
-    if (inside && (name.starts_with("frame-") || name == "contacts.csv"))
+    if (inside && (name.starts_with("frame-") || name == contacts_file))
       throw InputError(fmt::format("{} {}: is a file of --dump", option, file.string()));
   };
   if (options.events) refuse("--events", *options.events);
@@ -45,6 +47,8 @@ void check_apart(const RunOptions& options, const Destinations& destinations) {
   if (options.log) paths.write("--log", *options.log);
   if (!options.dump) return;
   paths.write_into("--dump", *options.dump);
+  if (std::ranges::count(options.structures, "contacts") > 0)  // of which --out has a file of that name, too
+    paths.write("--dump", *options.dump / contacts_file);
   refuse_file_in(*options.dump, options);
 }
 

@@ -256,16 +256,25 @@ TEST(Program, AnOutputIsAFileOrADirectory) {
 }
 
 // Each has a contacts.csv of its own there.
-TEST(Program, DumpAndResultsLieInTwoDirectories) {
+TEST(Program, DumpAndResultsOfContactsLieInTwoDirectories) {
   const ScratchDirectory directory;
   const std::string both = (directory / "both").string(), link = (directory / "link").string();
+  const std::string helix = (directory / "helix.xyz").string();
+  ASSERT_EQ(run_program({"generate", "helix", "--beads", "8", "--frames", "2", "--quiet", "-o", helix}).code,
+            0);
   std::filesystem::create_directory(both);
   std::filesystem::create_directory_symlink(both, link);
   for (const std::string& other : {both, both + "/", link, link + "/../both"})
-    expect_refused({"run", kSmall, "--dump", other, "--out", both}, {"--dump", "is the directory of --out"});
+    expect_refused({"run", helix, "--structures", "contacts", "--dump", other, "--out", both},
+                   {"--dump", "contacts.csv: is the file of --out"});
   EXPECT_TRUE(std::filesystem::is_empty(both));
   for (const auto& [dump, out] : {std::pair(both, both + "/out"), std::pair(both + "/dump", both)})
-    EXPECT_EQ(run_program({"run", kSmall, "--quiet", "--dump", dump, "--out", out}).code, 0);
+    EXPECT_EQ(
+        run_program({"run", helix, "--structures", "contacts", "--quiet", "--dump", dump, "--out", out}).code,
+        0);
+  EXPECT_EQ(
+      run_program({"run", kSmall, "--quiet", "--dump", both, "--out", both, "--log", both + ".log"}).code, 0);
+  EXPECT_TRUE(std::filesystem::is_regular_file(directory / "both/summary.json"));
 }
 
 TEST(Program, StandardOutputIsAnOutputByItsPath) {
