@@ -9,6 +9,7 @@ namespace kds {
 
 namespace {
 
+using detail::length;
 using detail::up;
 using detail::Vec;
 

@@ -16,10 +16,6 @@ template <int N, int Dimension>
 using CurveLanes = BernsteinVector<Lanes, N, Dimension>;
 
 [[gnu::always_inline]] inline Lanes root(const Lanes& square) { return NumberTraits<Lanes>::sqrt(square); }
-template <std::size_t Size>
-[[gnu::always_inline]] inline Lanes length(const std::array<Lanes, Size>& v) {
-  return root(detail::dot(v, v));
-}
 
 template <int N>
 [[gnu::always_inline]] inline Lanes coefficient(const PolynomialLanes<N>& p, std::size_t k) {

@@ -14,6 +14,7 @@ using detail::beads_of;
 using detail::End;
 using detail::end_of;
 using detail::gather;
+using detail::length;
 using detail::Simplex;
 using detail::simplex_of;
 using detail::up;

@@ -22,6 +22,11 @@ inline constexpr double up = 1 + 0x1p-30;
 template <int D>
 using Vec = std::array<Lanes, static_cast<std::size_t>(D)>;
 
+template <std::size_t Size>
+[[gnu::always_inline]] inline Lanes length(const std::array<Lanes, Size>& v) {
+  return root(dot(v, v));
+}
+
 /// The beads of four bases, place by place.
 template <std::size_t Size>
 using BeadLanes = std::array<std::array<BeadId, Lanes::width>, Size>;
