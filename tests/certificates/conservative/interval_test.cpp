@@ -5,6 +5,7 @@
 #include "certificates/conservative/piece_view.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/rational_geometry.h"
+#include "tests/support/rounds.h"
 
 namespace kds::interval_test {
 namespace {
@@ -40,7 +41,7 @@ Interval some_interval(Random& random) {
 
 TEST(Intervals, HoldTheResultsOfWhatTheyHold) {
   Random random(771);
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::rounds(20000); ++i) {
     const Interval a = some_interval(random);
     const Interval b = some_interval(random);
     const auto some_of = [](const Interval& x) {
@@ -107,7 +108,7 @@ TEST(Intervals, GiveUpOnTheWholeLine) {
 TEST(MeanValues, HoldValuesAndDerivatives) {
   Random random(772);
   using M = BezierMotion<2, 3>;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < test::rounds(100); ++i) {
     SCOPED_TRACE("seed 772, round " + std::to_string(i));
     const auto motion = test::random_motion<M>(random, 2, test::MotionKind::generic);
     const int bits = test::pick(random, 0, 12);

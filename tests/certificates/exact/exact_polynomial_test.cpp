@@ -4,6 +4,7 @@
 
 #include "tests/support/inputs/polynomials.h"
 #include "tests/support/judges/sturm.h"
+#include "tests/support/rounds.h"
 
 namespace kds::exact_polynomial_test {
 namespace {
@@ -75,7 +76,7 @@ void expect_isolated(const ExactPolynomial& p, const Dyadic& lower, const Dyadic
 
 TEST(ExactPolynomial, IsolatesWhatSturmCounts) {
   test::Random random(101);
-  for (int i = 0; i < 2500 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(2500) && !testing::Test::HasFailure(); ++i) {
     const ExactPolynomial p(test::random_polynomial(random));
     Dyadic lower(0.0);
     Dyadic upper(1.0);
@@ -124,7 +125,7 @@ TEST(ExactPolynomial, IsolatesRootsOfHighDegrees) {
 
 TEST(ExactPolynomial, SquareFreePartHasTheSameRootsOnce) {
   test::Random random(102);
-  for (int i = 0; i < 1500 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(1500) && !testing::Test::HasFailure(); ++i) {
     const ExactPolynomial p(test::random_polynomial(random));
     SCOPED_TRACE("seed 102, case " + std::to_string(i) + ": " + test::describe(p.scaled()));
     const ExactPolynomial simple = p.square_free();
@@ -145,7 +146,7 @@ TEST(ExactPolynomial, SquareFreePartHasTheSameRootsOnce) {
 TEST(ExactPolynomial, CommonDivisorIsThatOfThePowerBasis) {
   test::Random random(103);
   int common_factors = 0;
-  for (int i = 0; i < 1500 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(1500) && !testing::Test::HasFailure(); ++i) {
     const Scaled p = test::random_polynomial(random);
     const Scaled q = random() % 2 ? test::relative_of(p, random) : test::random_polynomial(random);
     SCOPED_TRACE("seed 103, case " + std::to_string(i) + ": " + test::describe(p) + " and " +
@@ -164,7 +165,7 @@ TEST(ExactPolynomial, CommonDivisorIsThatOfThePowerBasis) {
     EXPECT_TRUE(!g.is_constant() || expected.size() <= 1);
     common_factors += expected.size() > 1;
   }
-  EXPECT_GT(common_factors, 300);
+  EXPECT_GT(common_factors, test::rounds(300));
 }
 
 // A degree written higher than it is: factors (1-u) + u, which are no repeated and no common roots.
@@ -177,7 +178,7 @@ TEST(ExactPolynomial, ElevationIsDividedOut) {
     }
     return ExactPolynomial(std::move(c));
   };
-  for (int round = 0; round < 50; ++round) {
+  for (int round = 0; round < test::rounds(50); ++round) {
     std::vector<Integer> c(6), other(5);
     for (Integer& x : c) x = test::pick(random, -1000, 1000);
     for (Integer& x : other) x = test::pick(random, -1000, 1000);
@@ -197,7 +198,7 @@ TEST(ExactPolynomial, ElevationIsDividedOut) {
 TEST(ExactPolynomial, SignsAtAndAfterDyadics) {
   test::Random random(104);
   int zeros = 0;
-  for (int i = 0; i < 4000 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(4000) && !testing::Test::HasFailure(); ++i) {
     const ExactPolynomial p(test::random_polynomial(random));
     const Dyadic u = random() % 8 == 0 ? Dyadic(1.0) : test::random_dyadic(random);
     SCOPED_TRACE("seed 104, case " + std::to_string(i) + ": " + test::describe(p.scaled()) + " at " +
@@ -207,12 +208,12 @@ TEST(ExactPolynomial, SignsAtAndAfterDyadics) {
     EXPECT_EQ(p.sign_after(u), sturm::sign_after(power, u.rational()));
     zeros += p.sign_at(u) == 0;
   }
-  EXPECT_GT(zeros, 400);
+  EXPECT_GT(zeros, test::rounds(400));
 }
 
 TEST(ExactPolynomial, RestrictsToAnInterval) {
   test::Random random(105);
-  for (int i = 0; i < 1500 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(1500) && !testing::Test::HasFailure(); ++i) {
     const ExactPolynomial p(test::random_polynomial(random));
     SCOPED_TRACE("seed 105, case " + std::to_string(i) + ": " + test::describe(p.scaled()));
     const sturm::Polynomial power = power_form(p);

@@ -6,6 +6,7 @@
 
 #include "tests/support/inputs/polynomials.h"
 #include "tests/support/judges/sturm.h"
+#include "tests/support/rounds.h"
 
 namespace kds::exact_time_test {
 namespace {
@@ -71,7 +72,7 @@ std::vector<Time> some_times(test::Random& random, std::string& trace) {
 TEST(ExactTime, ComparesAsSturmDoes) {
   test::Random random(201);
   int ties = 0;
-  for (int i = 0; i < 400 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(400) && !testing::Test::HasFailure(); ++i) {
     std::string trace = "seed 201, case " + std::to_string(i) + ": ";
     const std::vector<Time> times = some_times(random, trace);
     SCOPED_TRACE(trace);
@@ -86,12 +87,12 @@ TEST(ExactTime, ComparesAsSturmDoes) {
       ties += expected == 0;
     }
   }
-  EXPECT_GT(ties, 150);
+  EXPECT_GT(ties, test::rounds(150));
 }
 
 TEST(ExactTime, NarrowsWithoutChangingTheValue) {
   test::Random random(202);
-  for (int i = 0; i < 500 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(500) && !testing::Test::HasFailure(); ++i) {
     std::string trace = "seed 202, case " + std::to_string(i) + ": ";
     std::vector<Time> times = some_times(random, trace);
     SCOPED_TRACE(trace);
@@ -149,7 +150,7 @@ TEST(ExactTime, TellsTimesThatDifferByLittle) {
 TEST(SignAfter, IsSturms) {
   test::Random random(203);
   int zeros_there = 0;
-  for (int i = 0; i < 700 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(700) && !testing::Test::HasFailure(); ++i) {
     std::string trace = "seed 203, case " + std::to_string(i) + ": ";
     const Scaled p = test::random_polynomial(random);
     std::vector<Time> times = times_of(p, random() % 2 ? Dyadic(0.0) : test::random_dyadic(random));
@@ -167,14 +168,14 @@ TEST(SignAfter, IsSturms) {
       zeros_there += sturm::shares(*time.sequence, time.judged, power);
     }
   }
-  EXPECT_GT(zeros_there, 400);
+  EXPECT_GT(zeros_there, test::rounds(400));
 }
 
 TEST(FirstFailureAfter, IsTheFirstRootFromWhichItIsNegative) {
   test::Random random(204);
   int failures = 0;
   int touches = 0;
-  for (int i = 0; i < 1000 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(1000) && !testing::Test::HasFailure(); ++i) {
     const Scaled p = test::random_polynomial(random);
     Scaled f = random() % 2 ? test::relative_of(p, random) : test::random_polynomial(random);
     std::vector<Time> times = times_of(p, random() % 2 ? Dyadic(0.0) : test::random_dyadic(random));
@@ -207,8 +208,8 @@ TEST(FirstFailureAfter, IsTheFirstRootFromWhichItIsNegative) {
     expected->ours = time;
     expect_enclosed(*expected);
   }
-  EXPECT_GT(failures, 150);
-  EXPECT_GT(touches, 30);
+  EXPECT_GT(failures, test::rounds(150));
+  EXPECT_GT(touches, test::rounds(30));
 }
 
 TEST(FirstFailureAfter, ReportsTouchesWhereAsked) {
@@ -270,7 +271,7 @@ TEST(FirstFailureAfter, KnownCases) {
 
 TEST(NextOnGrid, IsTheFirstMultipleAfter) {
   test::Random random(205);
-  for (int i = 0; i < 600 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(600) && !testing::Test::HasFailure(); ++i) {
     std::string trace = "seed 205, case " + std::to_string(i) + ": ";
     std::vector<Time> times = some_times(random, trace);
     Time& time = times[random() % times.size()];
@@ -296,7 +297,7 @@ TEST(NextOnGrid, EndsWhereTheTimeIsOnTheGrid) {
 
 TEST(DyadicBetween, LiesBetween) {
   test::Random random(206);
-  for (int i = 0; i < 600 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(600) && !testing::Test::HasFailure(); ++i) {
     std::string trace = "seed 206, case " + std::to_string(i) + ": ";
     const std::vector<Time> times = some_times(random, trace);
     SCOPED_TRACE(trace);
@@ -317,7 +318,7 @@ TEST(ExactTime, DoesNotGrowWithHowManyFunctionsVanishAtIt) {
   auto roots = isolate_roots(p, Dyadic(0.0), Dyadic(1.0));
   ASSERT_EQ(roots.size(), 1U);
   ExactTime time(p, roots[0]);
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < test::rounds(1000); ++i) {
     const ExactPolynomial same({Integer(2 * (i + 1)), Integer(i + 1), Integer(-7 * (i + 1))});
     ASSERT_EQ(sign_at(same, time), 0);
     ASSERT_EQ(sign_after(same, time), -1);

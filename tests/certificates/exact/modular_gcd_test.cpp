@@ -4,6 +4,7 @@
 
 #include "tests/support/inputs/polynomials.h"
 #include "tests/support/judges/sturm.h"
+#include "tests/support/rounds.h"
 
 namespace kds::modular_gcd_test {
 namespace {
@@ -22,7 +23,7 @@ Scaled random_power(test::Random& random, int degree) {
 
 TEST(ModularGcd, NeverDeniesACommonFactor) {
   test::Random random(801);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::rounds(2000); ++i) {
     const Scaled factor = random_power(random, test::pick(random, 1, 4));
     const Scaled a = test::product(factor, random_power(random, test::pick(random, 0, 8)));
     const Scaled b = test::product(factor, random_power(random, test::pick(random, 0, 8)));
@@ -34,7 +35,7 @@ TEST(ModularGcd, MostlySeesThatThereIsNone) {
   test::Random random(802);
   int coprime = 0;
   int seen = 0;
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < test::rounds(500); ++i) {
     const Scaled a = random_power(random, test::pick(random, 1, 9));
     const Scaled b = random_power(random, test::pick(random, 1, 9));
     const bool answer = certainly_coprime(a, b);
@@ -59,7 +60,7 @@ TEST(ModularGcd, SaysNothingWhereThePrimeHidesTheDegree) {
 
 TEST(ModularGcd, ProvesSquareFreeness) {
   test::Random random(803);
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < test::rounds(1000); ++i) {
     const Scaled p = random_power(random, test::pick(random, 1, 8));
     const Scaled factor = random_power(random, test::pick(random, 1, 3));
     EXPECT_FALSE(certainly_square_free(test::product(p, test::product(factor, factor)))) << "case " << i;
@@ -74,7 +75,7 @@ TEST(ModularGcd, ProvesSquareFreeness) {
 // Beside Euclid's algorithm on whole numbers.
 TEST(ModularGcd, FindsTheGcd) {
   test::Random random(804);
-  for (int i = 0; i < 600 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(600) && !testing::Test::HasFailure(); ++i) {
     const Scaled factor = random_power(random, test::pick(random, 0, 5));
     const Scaled a =
         test::product(test::product(factor, factor), random_power(random, test::pick(random, 0, 6)));

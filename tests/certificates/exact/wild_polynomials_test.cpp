@@ -13,6 +13,7 @@
 #include "certificates/exact/wide_roots.h"
 #include "tests/support/inputs/polynomials.h"
 #include "tests/support/judges/sturm.h"
+#include "tests/support/rounds.h"
 
 namespace kds::wild_polynomials_test {
 namespace {
@@ -59,7 +60,7 @@ sturm::Sequence judge_of(Scaled p) {
 TEST(WildPolynomials, RootsAreThoseThatSturmCounts) {
   Random random(1201);
   int found_any = 0;
-  for (int i = 0; i < 120 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(120) && !testing::Test::HasFailure(); ++i) {
     const Scaled scaled = some(random);
     const ExactPolynomial p = wide(scaled);
     if (p.is_zero()) continue;
@@ -81,12 +82,12 @@ TEST(WildPolynomials, RootsAreThoseThatSturmCounts) {
       }
     }
   }
-  EXPECT_GT(found_any, 100);
+  EXPECT_GT(found_any, test::rounds(100));
 }
 
 TEST(WildPolynomials, NarrowingKeepsTheRootAndTellsRootsApart) {
   Random random(1202);
-  for (int i = 0; i < 50 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(50) && !testing::Test::HasFailure(); ++i) {
     const Scaled scaled = some(random);
     const ExactPolynomial p = wide(scaled);
     if (p.is_zero()) continue;
@@ -109,7 +110,7 @@ TEST(WildPolynomials, NarrowingKeepsTheRootAndTellsRootsApart) {
 TEST(WildPolynomials, SignsAreThoseOfWholeNumbers) {
   Random random(1203);
   int signs_closely = 0;
-  for (int i = 0; i < 120 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(120) && !testing::Test::HasFailure(); ++i) {
     const Scaled scaled = some(random);
     const ExactPolynomial p = wide(scaled);
     SCOPED_TRACE("seed 1203, case " + std::to_string(i) + ": " + test::describe(scaled));
@@ -129,14 +130,14 @@ TEST(WildPolynomials, SignsAreThoseOfWholeNumbers) {
     EXPECT_TRUE(v.least <= exact && exact <= v.most);
     EXPECT_TRUE(v.least == v.most || v.least >= 2);
   }
-  EXPECT_GT(signs_closely, 30);
+  EXPECT_GT(signs_closely, test::rounds(30));
 }
 
 // A function and its negative share what is found out about their roots, and no sign of theirs.
 TEST(WildPolynomials, TheNegativeHasTheSameRootsAndTheOtherSigns) {
   Random random(1205);
   int roots_seen = 0;
-  for (int i = 0; i < 60 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(60) && !testing::Test::HasFailure(); ++i) {
     Scaled scaled = some(random);
     if (i % 4 == 0) scaled = test::product(scaled, test::linear(1, 1));  // zero at the end of the step
     SCOPED_TRACE("seed 1205, case " + std::to_string(i) + ": " + test::describe(scaled));
@@ -162,7 +163,7 @@ TEST(WildPolynomials, TheNegativeHasTheSameRootsAndTheOtherSigns) {
       EXPECT_EQ(ExactTime::compare(time, judged), 0);
     }
   }
-  EXPECT_GT(roots_seen, 50);
+  EXPECT_GT(roots_seen, test::rounds(50));
 }
 
 // Asked for twice, in either order, it is found once.
@@ -225,7 +226,7 @@ TEST(WildPolynomials, RootsStayNarrow) {
 // The same answers as of polynomials that are not wide.
 TEST(WildPolynomials, WideOrNotIsTheSame) {
   Random random(1204);
-  for (int i = 0; i < 60 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(60) && !testing::Test::HasFailure(); ++i) {
     const Scaled scaled =
         random() % 3 == 0
             ? cluster(random, test::pick(random, 2, 3), static_cast<unsigned>(test::pick(random, 1, 60)))
@@ -261,7 +262,7 @@ TEST(WildPolynomials, WideOrNotIsTheSame) {
 // Roots are looked for as they are asked for, in whatever order: those of a polynomial that is not wide.
 TEST(WildPolynomials, RootsAskedForInAnyOrderAreAllThereAre) {
   Random random(1206);
-  for (int i = 0; i < 60 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(60) && !testing::Test::HasFailure(); ++i) {
     const Scaled scaled =
         random() % 2 == 0
             ? cluster(random, test::pick(random, 2, 4), static_cast<unsigned>(test::pick(random, 1, 60)))
@@ -292,7 +293,7 @@ TEST(WildPolynomials, RootsAskedForInAnyOrderAreAllThereAre) {
 TEST(WildPolynomials, SignsAfterCommonRootsAreThoseOfOrdinaryPolynomials) {
   Random random(1207);
   int asked = 0;
-  for (int i = 0; i < 60 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(60) && !testing::Test::HasFailure(); ++i) {
     const Scaled common = random() % 2 == 0 ? test::random_linear(random) : wild(random, 2, 100);
     const Scaled a = test::product(common, wild(random, 2, 200));
     Scaled b = test::product(common, wild(random, 3, 200));
@@ -314,7 +315,7 @@ TEST(WildPolynomials, SignsAfterCommonRootsAreThoseOfOrdinaryPolynomials) {
       }
     }
   }
-  EXPECT_GT(asked, 60);
+  EXPECT_GT(asked, test::rounds(60));
 }
 
 // A comparison begins with what another one has found out, also where doubles isolated the root.

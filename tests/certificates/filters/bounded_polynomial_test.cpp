@@ -8,6 +8,7 @@
 #include "motions/numbers/bernstein.h"
 #include "tests/support/inputs/polynomials.h"
 #include "tests/support/judges/sturm.h"
+#include "tests/support/rounds.h"
 
 namespace kds::bounded_polynomial_test {
 namespace {
@@ -147,7 +148,7 @@ TEST_P(BoundedPolynomials, VerdictsHoldWithinTheError) {
 TEST_P(BoundedPolynomials, ValuesErrAsLittleAsClaimed) {
   Random random(408);
   double share = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < test::rounds(300); ++i) {
     Coefficients<double> c = fresh();
     std::vector<Integer> scaled;
     double largest = 0;
@@ -214,7 +215,7 @@ TEST_P(BoundedPolynomials, CloseAndMultipleRootsAreNotMisjudged) {
 TEST_P(BoundedPolynomials, TheFirstOfManyDescentsIsFound) {
   if (degree() < 3) return;
   Random random(405);
-  for (int i = 0; i < 100 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::rounds(100) && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE("seed 405, case " + std::to_string(i));
     Coefficients<double> c = fresh();
     for (std::size_t k = 0; k < c.size(); ++k)
@@ -227,7 +228,7 @@ TEST_P(BoundedPolynomials, NothingIsProvedOfWhatIsNoNumber) {
   Random random(406);
   constexpr double inf = std::numeric_limits<double>::infinity();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < test::rounds(3000); ++i) {
     Coefficients<double> c = fresh();
     for (double& x : c) x = uniform(random);
     if (random() % 2) c[0] = 1;

@@ -6,6 +6,7 @@
 #include "motions/views/integer_view.h"
 #include "tests/support/inputs/any_certificate.h"
 #include "tests/support/inputs/random_motion.h"
+#include "tests/support/rounds.h"
 
 namespace kds::error_bound_test {
 namespace {
@@ -62,7 +63,7 @@ TYPED_TEST_SUITE(ErrorBounds, Subjects);
 
 TYPED_TEST(ErrorBounds, HoldAtAllScales) {
   test::Random random(601);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < test::rounds(60); ++i) {
     for (const MotionKind kind : test::all_motion_kinds) {
       auto motion = test::random_motion<typename TypeParam::M>(random, TypeParam::beads, kind);
       test::scale(motion, test::pick(random, -180, 180));
@@ -81,7 +82,7 @@ TYPED_TEST(ErrorBounds, HoldAtAllScales) {
 TYPED_TEST(ErrorBounds, AreNotAbsurd) {
   test::Random random(602);
   double share = 0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < test::rounds(1000); ++i) {
     auto motion = test::random_motion<typename TypeParam::M>(random, TypeParam::beads, MotionKind::generic);
     for (BeadId b = 0; b < TypeParam::beads;
          ++b) {  // corners of a cube, nearly: all differences about as large

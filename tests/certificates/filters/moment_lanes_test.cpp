@@ -13,6 +13,7 @@
 #include "motions/curves/lifted_motion.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/rational_geometry.h"
+#include "tests/support/rounds.h"
 
 namespace kds::moment_lanes_test {
 namespace {
@@ -23,7 +24,7 @@ void compare(std::uint64_t least_found) {
   using Function = Orientation<dimension>;
   test::Random random(91);
   std::uint64_t found = 0, looked_at = 0;
-  for (int round = 0; round < 200; ++round) {
+  for (int round = 0; round < test::rounds(200); ++round) {
     for (const test::MotionKind kind : test::all_motion_kinds) {
       const M motion = test::random_motion<M>(random, dimension + 1, kind);
       const Dyadic time = test::random_dyadic(random);
@@ -43,7 +44,7 @@ void compare(std::uint64_t least_found) {
       }
     }
   }
-  EXPECT_GT(found, least_found) << "of " << looked_at;
+  EXPECT_GT(found, test::rounds(least_found)) << "of " << looked_at;
 }
 
 TEST(MomentLanes, SeeWhatIsPositive) {
@@ -77,7 +78,7 @@ TEST(MomentLanes, ClaimNothingNextToZero) {
       EXPECT_LT(places, 26);  // floats see no more
     }
   }
-  EXPECT_GT(found, 100U);
+  EXPECT_GT(found, test::rounds(100U));
 }
 
 // One of four that is not positive is enough, whichever it is; and so is a bracket too wide.

@@ -8,6 +8,7 @@
 #include "certificates/types/power_test.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/rational_geometry.h"
+#include "tests/support/rounds.h"
 
 namespace kds::slack_test {
 namespace {
@@ -54,7 +55,7 @@ TYPED_TEST_SUITE(Tolerances, Subjects);
 TYPED_TEST(Tolerances, NoSignChangesWithinIt) {
   Random random(20);
   int positive = 0, changed_soon_beyond = 0;
-  for (int round = 0; round < 400; ++round) {
+  for (int round = 0; round < test::rounds(400); ++round) {
     const auto kind = test::all_motion_kinds[static_cast<std::size_t>(round) % test::all_motion_kinds.size()];
     auto motion = test::random_motion<BezierMotion<3, 1>>(random, TestFixture::beads, kind);
     if (round % 5 == 4) test::scale(motion, test::pick(random, -1, 1) * 100);
@@ -76,7 +77,7 @@ TYPED_TEST(Tolerances, NoSignChangesWithinIt) {
       changed |= TestFixture::sign_after_wandering(motion, 20 * slack, i % 2 == 0, random) != sign;
     changed_soon_beyond += changed ? 1 : 0;
   }
-  EXPECT_GT(positive, 100);
+  EXPECT_GT(positive, test::rounds(100));
   EXPECT_GT(changed_soon_beyond, positive / 20);  // it is no more modest than it need be
 }
 

@@ -14,6 +14,7 @@
 #include "motions/views/integer_view.h"
 #include "tests/support/inputs/any_certificate.h"
 #include "tests/support/inputs/random_motion.h"
+#include "tests/support/rounds.h"
 
 namespace kds::formula_in_integers_test {
 namespace {
@@ -78,7 +79,7 @@ TYPED_TEST(FormulaInIntegers, HoldsTheLargestCoefficients) {
   using C = typename TypeParam::C;
   using M = typename TypeParam::M;
   Random random(902);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < test::rounds(300); ++i) {
     M motion(TypeParam::beads);
     const int bits = test::pick(random, 1, 53);
     const double most = std::ldexp(1.0, bits) - 1;
@@ -172,7 +173,7 @@ TYPED_TEST(FormulaInIntegers, OfBeadsAtTheOriginIsZero) {
 // Numbers of a function's own, wide functions among them, whose digits are kept.
 TEST(FormulaInIntegers, OfRelaxedBeadsKnowsTheirRelaxation) {
   Random random(905);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < test::rounds(100); ++i) {
     auto motion = test::random_motion<BezierMotion<3, 1>>(random, 4, test::MotionKind::generic);
     if (i % 2 == 0) motion.set_coordinate(0, 0, 0, 0x1p-300);
     for (const double share : {0.5, 0.25, 0.5})

@@ -8,6 +8,7 @@
 #include "tests/support/inputs/any_certificate.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/judged_failure.h"
+#include "tests/support/rounds.h"
 
 namespace kds::failure_search_test {
 namespace {
@@ -117,14 +118,14 @@ TYPED_TEST_SUITE(FailureSearch, Subjects);
 
 // Fewer for types of high degree, where the judge is slow.
 template <class S>
-constexpr int rounds(int linear) {
+constexpr int rounds_of(int linear) {
   using Function = decltype(function_of(typename S::C{}, MagnitudeView<S::M::dimension, S::M::degree>{}));
-  return Function::degree <= 6 ? linear : linear / (2 * Function::degree) + 1;
+  return test::rounds(Function::degree <= 6 ? linear : linear / (2 * Function::degree) + 1);
 }
 
 TYPED_TEST(FailureSearch, KernelsAndSturmAgree) {
   test::Random random(301);
-  for (int i = 0; i < rounds<TypeParam>(15); ++i) {
+  for (int i = 0; i < rounds_of<TypeParam>(15); ++i) {
     for (const MotionKind kind : test::all_motion_kinds) {
       const auto motion = test::random_motion<typename TypeParam::M>(random, TypeParam::beads, kind);
       const auto certificate = test::random_certificate<typename TypeParam::C>(random);
@@ -141,7 +142,7 @@ TYPED_TEST(FailureSearch, KernelsAndSturmAgree) {
 
 TYPED_TEST(FailureSearch, AgreesAtOtherCertificatesTimes) {
   test::Random random(302);
-  for (int i = 0; i < rounds<TypeParam>(30); ++i) {
+  for (int i = 0; i < rounds_of<TypeParam>(30); ++i) {
     for (const MotionKind kind : {MotionKind::generic, MotionKind::grid, MotionKind::cospherical}) {
       const std::size_t beads = TypeParam::beads;
       const auto motion = test::random_motion<typename TypeParam::M>(random, beads + 1, kind);
@@ -159,7 +160,7 @@ TYPED_TEST(FailureSearch, AgreesAtOtherCertificatesTimes) {
 
 TYPED_TEST(FailureSearch, ScaleChangesNothing) {
   test::Random random(303);
-  for (int i = 0; i < rounds<TypeParam>(7); ++i) {
+  for (int i = 0; i < rounds_of<TypeParam>(7); ++i) {
     for (const int exponent : {-1000, -300, -215, -210, -150, 150, 300, 1000}) {
       const auto kind = random() % 2 ? MotionKind::generic : MotionKind::grid;
       auto motion = test::random_motion<typename TypeParam::M>(random, TypeParam::beads, kind);
@@ -189,7 +190,7 @@ TYPED_TEST(FailureSearch, ScaleChangesNothing) {
 TYPED_TEST(FailureSearch, NoScaleIsLeftToIntegers) {
   test::Random random(306);
   StageCounts plain, scaled;
-  for (int i = 0; i < rounds<TypeParam>(20); ++i) {
+  for (int i = 0; i < rounds_of<TypeParam>(20); ++i) {
     auto motion = test::random_motion<typename TypeParam::M>(random, TypeParam::beads, MotionKind::generic);
     for (BeadId b = 0; b < TypeParam::beads; ++b) {
       for (int k = 0; k <= TypeParam::M::degree; ++k) motion.set_weight(b, k, 0);
@@ -228,7 +229,7 @@ TYPED_TEST(FailureSearch, UnderflowNeverMisleads) {
   test::Random random(304);
   const int power =
       function_of(typename TypeParam::C{}, MagnitudeViewOf<typename TypeParam::M>()).scaled[0].power;
-  for (int i = 0; i < rounds<TypeParam>(90); ++i) {
+  for (int i = 0; i < rounds_of<TypeParam>(90); ++i) {
     auto motion = test::random_motion<typename TypeParam::M>(
         random, TypeParam::beads, random() % 2 ? MotionKind::generic : MotionKind::grid);
     test::scale(motion, -test::pick(random, 1040 / power, 1076 / power));
@@ -241,7 +242,7 @@ TYPED_TEST(FailureSearch, UnderflowNeverMisleads) {
 
 TYPED_TEST(FailureSearch, GenericMotionIsSettledInDouble) {
   test::Random random(305);
-  for (int i = 0; i < rounds<TypeParam>(60); ++i) {
+  for (int i = 0; i < rounds_of<TypeParam>(60); ++i) {
     const auto motion =
         test::random_motion<typename TypeParam::M>(random, TypeParam::beads, MotionKind::generic);
     const auto certificate = test::random_certificate<typename TypeParam::C>(random);

@@ -8,6 +8,7 @@
 #include "certificates/types/power_test.h"
 #include "tests/support/inputs/ball_motions.h"
 #include "tests/support/judges/judged_failure.h"
+#include "tests/support/rounds.h"
 
 namespace kds::radical_search_test {
 namespace {
@@ -187,7 +188,7 @@ TYPED_TEST(RadicalSearch, FailuresAreWhereTheBallCrossesTheSphere) {
 TYPED_TEST(RadicalSearch, GenericMotionIsSettledInDouble) {
   Random random(752);
   StageCounts stages;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < test::rounds(100); ++i) {
     BallShape shape;
     shape.noise = shape.motion = 0.15;
     shape.reach = 3;
@@ -254,7 +255,7 @@ TYPED_TEST(RadicalSearch, FastSurvivesEverything) {
   // What makes infinities and numbers that are none on the way; motions refuse them as control points.
   constexpr double most = std::numeric_limits<double>::max();
   constexpr double specials[] = {most, -most, 0x1p1000, 0x1p-1074, -0.0};
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < test::rounds(300); ++i) {
     auto motion = test::motion_of<TypeParam>(random, {.whole = i % 2 == 0});
     motion.set_coordinate(static_cast<BeadId>(random() % motion.bead_count()), 0, 0, specials[random() % 5]);
     if (i % 3 == 0) motion.set_radius(0, 1, specials[random() % 5]);
@@ -432,7 +433,7 @@ void expect_as_equal(const Equal& equal, const BezierMotion<Dimension, 1>& motio
 TEST(RadicalSearch, AgreesWithTheCertificatesOfEqualRadii) {
   Random random(755);
   int later = 0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < test::rounds(60); ++i) {
     SCOPED_TRACE("seed 755, round " + std::to_string(i));
     BallShape shape;
     shape.noise = shape.motion = 0.15;
@@ -458,7 +459,7 @@ TEST(RadicalSearch, AgreesWithTheCertificatesOfEqualRadii) {
     expect_as_equal<3, 4>(PowerTest<3>({0, 1, 2, 3, 4}, inside ? -side : side), four, inside, later);
     if (testing::Test::HasFailure()) return;
   }
-  EXPECT_GT(later, 60);
+  EXPECT_GT(later, test::rounds(60));
 }
 
 template <class T>

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "structures/collision/auto_detector.h"
@@ -161,18 +162,20 @@ TEST(CollisionDetectors, AllCoincideOrTouch) {
 
 TEST(CollisionDetectors, SequenceIsGivenUpWhereItCostsTooMuch) {
   Random random(1);
-  CollisionScene gas{"gas", Eigen::Matrix3Xd(3, 4000), std::vector<double>(4000, 0.4), {}};
-  for (Eigen::Index b = 0; b < 4000; ++b)
+  const BeadId beads = rounds(4000U, 1500U);
+  CollisionScene gas{"gas", Eigen::Matrix3Xd(3, Eigen::Index{beads}), std::vector<double>(beads, 0.4), {}};
+  const double side = 14 * std::cbrt(beads / 4000.0);
+  for (Eigen::Index b = 0; b < beads; ++b)
     gas.centers.col(b) =
-        14 * Eigen::Vector3d(uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1));
-  gas.asked.necklaces = {{0, 3999}};
+        side * Eigen::Vector3d(uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1));
+  gas.asked.necklaces = {{0, beads - 1}};
   const Balls<3> balls(gas.centers, gas.radii);
   BlockTree<3> tree(gas.asked);
   EXPECT_EQ(tree.pairs(balls), CellList<3>(gas.asked).pairs(balls));
   EXPECT_EQ(tree.order(), BlockOrder::spatial);
   EXPECT_EQ(tree.pairs(balls), all_pairs(gas.centers, gas.radii, gas.asked, 3));
   // A straight chain then: the sequence is tried again.
-  for (Eigen::Index b = 0; b < 4000; ++b) gas.centers.col(b) = Eigen::Vector3d(static_cast<double>(b), 0, 0);
+  for (Eigen::Index b = 0; b < beads; ++b) gas.centers.col(b) = Eigen::Vector3d(static_cast<double>(b), 0, 0);
   const Balls<3> straight(gas.centers, gas.radii);
   tree.forget_order();
   EXPECT_TRUE(tree.pairs(straight).empty());

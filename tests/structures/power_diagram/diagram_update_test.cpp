@@ -108,20 +108,20 @@ std::vector<Frame> grid_frames(unsigned seed, std::size_t count, int size) {
 TEST(DiagramUpdate, AllTechniquesReachTheStaticDiagram) {
   for (const double step : {0.001, 0.02, 0.3}) {
     for (const UpdateTechnique technique : all_techniques)
-      run(technique, random_frames(1, 150, 6, step, 0, false));
+      run(technique, random_frames(1, rounds(150U, 60U), 6, step, 0, false));
   }
 }
 
 TEST(DiagramUpdate, HiddenBeadsWeightsThatMoveAndBeadsThatComeBack) {
   std::uint64_t hidden = 0;
-  for (const unsigned seed : {1U, 2U, 3U}) {
+  for (unsigned seed = 1; seed <= rounds(3U); ++seed) {
     for (const double step : {0.002, 0.05}) {
       const auto frames = random_frames(seed, 80, 6, step, 0.08, seed != 1);
       for (const Frame& f : frames) hidden += static_triangulation<3>(f.centers, f.weights).hidden.size();
       for (const UpdateTechnique technique : all_techniques) run(technique, frames);
     }
   }
-  EXPECT_GT(hidden, 100U);
+  EXPECT_GT(hidden, rounds(100U));
 }
 
 TEST(DiagramUpdate, TrajectoriesAndTheirStrides) {
