@@ -109,9 +109,9 @@ Rational volume_of(const Frame& frame, const std::vector<Cell>& cells) {
 
 // Proves a triangulation regular, or says what is wrong with it.
 template <int space>
-class Proof {
+class FacetsProof {
  public:
-  Proof(const Frame& frame, const PowerDiagram& dumped)
+  FacetsProof(const Frame& frame, const PowerDiagram& dumped)
       : frame_(frame), dumped_(dumped), points_(weighted_points<space>(frame)) {}
 
   std::optional<std::string> objection(const PowerDiagram& reference) {
@@ -308,8 +308,8 @@ void check_power(const Frame& frame, int space, const PowerDiagram& dumped, cons
     }
     return;
   }
-  const auto objection = space == 2 ? Proof<2>(frame, dumped).objection(reference)
-                                    : Proof<3>(frame, dumped).objection(reference);
+  const auto objection = space == 2 ? FacetsProof<2>(frame, dumped).objection(reference)
+                                    : FacetsProof<3>(frame, dumped).objection(reference);
   if (objection) {
     report.mismatch(where + *objection);
   } else {
