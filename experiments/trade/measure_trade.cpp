@@ -128,8 +128,10 @@ std::vector<TradeRow> measure_trade(const FinestData& finest, const TradeTask& t
                                     const std::function<void(const std::string&)>& warn) {
   std::vector<TradeGroup> groups;
   std::size_t total = 0, done = 0;
+  TradeInput input = finest.input();
+  input.exact_kernel = task.exact_kernel;
   for (const Want want : task.wants) {
-    for (TradeGroup& group : groups_for(want, finest.input(), task.apart)) {
+    for (TradeGroup& group : groups_for(want, input, task.apart)) {
       total += group.settings.size() * (task.rounds + 1);
       groups.push_back(std::move(group));
     }

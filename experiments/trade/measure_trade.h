@@ -20,6 +20,7 @@ struct TradeTask {
   std::size_t rounds = 5;
   SamplingOfTimes sampling;
   std::optional<double> cutoff;  ///< for short edges; none: four times the largest radius
+  bool exact_kernel = true;      ///< has rows: the same events, at a hundred times the cost and more
 };
 
 struct TradeCost {

@@ -97,6 +97,20 @@ Json input_json(const TradeOptions& options, const FinestData& finest) {
           {"radius_max", *most}};
 }
 
+// By beads and frames alone, so that the rows are the same on every machine.
+bool leave_out_exact_kernel(const FinestData& finest, const std::vector<Want>& wants,
+                            const std::function<void(const std::string&)>& warn) {
+  constexpr std::size_t most = 50'000;
+  if (wants == std::vector{Want::scenes}) return true;  // which have no kernels
+  const std::size_t beads = finest.radii().size(), frames = finest.frame_count();
+  if (beads * frames <= most) return false;
+  warn(fmt::format(
+      "`--kernel exact` is left out: {} beads in {} frames take it long; expected no more than {} beads "
+      "times frames, as with --frames 0:{}",
+      beads, frames, most, std::max<std::size_t>(2, most / beads)));
+  return true;
+}
+
 // All of it over the first frames tells how long all frames will take. Throws InputError where these alone do
 // not fit what is wanted.
 double foretold_by_first_frames(const FinestData& finest, const TradeTask& task) {
@@ -205,10 +219,11 @@ int trade_command(const Arguments& arguments) {
   refuse_lone_frame(options, necklaces);
   std::vector<double> radii = bead_radii(options.input.radius, necklaces);
   const FinestData finest(std::move(necklaces), std::move(radii), options.input.radius);
-  if (!destinations.quiet) foretell(foretold_seconds(finest, options.task));
+  TradeTask task = options.task;
+  task.exact_kernel = !leave_out_exact_kernel(finest, task.wants, held.hold());
+  if (!destinations.quiet) foretell(foretold_seconds(finest, task));
   const std::vector<TradeRow> rows = measure_trade(
-      finest, options.task, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },
-      held.hold());
+      finest, task, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); }, held.hold());
   bar.erase();
   Json warnings = Json::array();
   held.release([&](const std::string& warning) {

@@ -66,6 +66,7 @@ struct TradeInput {
   BeadId largest_residue = 0;      ///< beads of the one that has most
   double residue_radius = 0;       ///< CalphaModel::covering_radius
   bool has_element_radii = false;  ///< that are known
+  bool exact_kernel = false;       ///< is a lever too
 };
 
 /// `apart` is of contacts.

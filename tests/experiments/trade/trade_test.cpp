@@ -39,6 +39,7 @@ std::vector<TradeRow> measured(const FinestData& finest, std::vector<Want> wants
   task.rounds = 1;
   task.sampling.times = 20;
   task.apart = 5;
+  task.exact_kernel = false;
   return measure_trade(
       finest, task, [](auto, auto) {}, [](auto&) {});
 }
@@ -69,6 +70,21 @@ TEST(Trade, TheExactRunErrsNowhere) {
     }
   }
   EXPECT_EQ(exact, 6U);
+}
+
+TEST(Trade, TheExactKernelHasTheSameEventsAtAnotherPrice) {
+  TradeTask task;
+  task.wants = {Want::diagram, Want::events};
+  task.rounds = 1;
+  task.sampling.times = 2;
+  const std::vector<TradeRow> rows = measure_trade(
+      villin(3, 1.0), task, [](auto, auto) {}, [](auto&) {});
+  for (const std::string structure : {"wrapped", "power", "contacts"}) {
+    const TradeRow& exact = row_of(rows, structure + " --kernel exact");
+    EXPECT_EQ(exact.cost.events, row_of(rows, structure).cost.events);
+    EXPECT_FALSE(exact.is_exact);
+    for (const auto& [name, value] : by_name(exact.errors)) EXPECT_EQ(value.value_or(0), 0) << name;
+  }
 }
 
 TEST(Trade, ContainmentIsKeptWhereItIsPromised) {
