@@ -100,14 +100,14 @@ Json input_json(const TradeOptions& options, const FinestData& finest) {
 // By beads and frames alone, so that the rows are the same on every machine.
 bool leave_out_exact_kernel(const FinestData& finest, const std::vector<Want>& wants,
                             const std::function<void(const std::string&)>& warn) {
-  constexpr std::size_t most = 50'000;
+  constexpr std::size_t most_beads = 500, most = 50'000;
   if (wants == std::vector{Want::scenes}) return true;  // which have no kernels
   const std::size_t beads = finest.radii().size(), frames = finest.frame_count();
-  if (beads * frames <= most) return false;
+  if (beads <= most_beads && beads * frames <= most) return false;
   warn(fmt::format(
-      "`--kernel exact` is left out: {} beads in {} frames take it long; expected no more than {} beads "
-      "times frames, as with --frames 0:{}",
-      beads, frames, most, std::max<std::size_t>(2, most / beads)));
+      "`--kernel exact` is left out: {} beads in {} frames take it long; expected no more than {} beads, and "
+      "no more than {} times frames",
+      beads, frames, most_beads, most));
   return true;
 }
 

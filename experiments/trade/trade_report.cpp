@@ -84,12 +84,12 @@ Json number_or_null(const std::optional<double>& value) {
 
 std::string table_of(std::span<const TradeRow> group) {
   const std::vector<ErrorColumn> columns = columns_for(group.front().want);
-  std::string text = fmt::format("{:<46}{:>11}{:>9}{:>14}{:>10}{:>11}{:>8}", title_of(group), "seconds",
+  std::string text = fmt::format("{:<46}{:>11}{:>10}{:>14}{:>10}{:>11}{:>8}", title_of(group), "seconds",
                                  "ratio", "certificates", "events", "tests", "MB");
   for (const ErrorColumn& column : columns) text += fmt::format("{:>11}", column.title);
   text += "\n";
   for (const TradeRow& row : group) {
-    text += fmt::format("{} {:<44}{:>11}{:>9.3f}{:>14}{:>10}{:>11}{:>8.2f}", row.on_front ? '*' : ' ',
+    text += fmt::format("{} {:<44}{:>11}{:>10.3f}{:>14}{:>10}{:>11}{:>8.2f}", row.on_front ? '*' : ' ',
                         words_of(row.setting), short_decimal(row.cost.seconds), row.cost.ratio,
                         with_thousands(row.cost.certificates), with_thousands(row.cost.events),
                         shown(row.cost.tests, false), 1e-6 * static_cast<double>(row.cost.memory));
