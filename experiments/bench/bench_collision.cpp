@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -105,9 +106,14 @@ class MeasuredCollisions {
       CellList<3> cells(asked_);
       const std::span<const Balls<3>> warm = std::span(frames).first(4), later = std::span(frames).subspan(4);
       for (const Balls<3>& balls : warm) expect_same(detector.pairs(balls), list.pairs(balls));
-      ours.push_back(seconds_for(later, [&](const Balls<3>& balls) { (void)detector.pairs(balls); }));
-      verlet.push_back(seconds_for(later, [&](const Balls<3>& balls) { (void)list.pairs(balls); }));
-      cell.push_back(seconds_for(later, [&](const Balls<3>& balls) { (void)cells.pairs(balls); }));
+      const std::array<std::function<void()>, 3> runs{
+          [&] {
+            ours.push_back(seconds_for(later, [&](const auto& balls) { (void)detector.pairs(balls); }));
+          },
+          [&] { verlet.push_back(seconds_for(later, [&](const auto& balls) { (void)list.pairs(balls); })); },
+          [&] { cell.push_back(seconds_for(later, [&](const auto& balls) { (void)cells.pairs(balls); })); }};
+      // Each comes first in turn: whoever does finds caches as the others left them.
+      for (std::size_t k = 0; k < runs.size(); ++k) runs[(round + k) % runs.size()]();
       expect_same(detector.pairs(later.back()), cells.pairs(later.back()));
     }
     row(fmt::format("frame auto, {}", motion), "", ours, "Verlet list", verlet, goal, true);
