@@ -20,7 +20,7 @@ struct TradeTask {
   std::size_t rounds = 5;
   SamplingOfTimes sampling;
   std::optional<double> cutoff;  ///< for short edges; none: four times the largest radius
-  bool exact_kernel = true;      ///< has rows: the same events, at a hundred times the cost and more
+  bool exact_kernel = true;      ///< has rows: the same events, at a hundred to thousands of times the cost
 };
 
 struct TradeCost {

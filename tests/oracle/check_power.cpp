@@ -13,10 +13,12 @@
 #include <utility>
 
 namespace oracle {
+
+using Rational = CGAL::Exact_rational;
+
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Rational = CGAL::Exact_rational;
 
 struct BeadOfVertex {
   unsigned bead = std::numeric_limits<unsigned>::max();
