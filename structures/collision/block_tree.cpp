@@ -36,13 +36,6 @@ void fetch(const BlockNode<Dimension>& node) {
     __builtin_prefetch(bytes + line);
 }
 
-// Every `spread`-th bit from the lowest.
-std::uint64_t spread_bits(std::uint64_t bits, int spread) {
-  std::uint64_t result = 0;
-  for (int k = 0; bits >> k != 0; ++k) result |= (bits >> k & 1) << (k * spread);
-  return result;
-}
-
 }  // namespace
 
 template <int Dimension>
@@ -231,7 +224,10 @@ bool BlockTree<Dimension>::fill_again(const Balls<Dimension>& balls, std::span<c
 template <int Dimension>
 void BlockTree<Dimension>::build(const Balls<Dimension>& balls, double gap) {
   equal_ = balls.equal_radii();
-  if (order_ == BlockOrder::spatial) sort_in_space(balls);
+  if (order_ == BlockOrder::spatial) {
+    morton_order_.sort(balls, sorted_);
+    sorted_.resize(beads_ + beads_in_block);  // lanes without a bead name one
+  }
   const auto fits = [this](const BlockExtent& e) {
     return e.coordinate <= frame_.bound && e.radius <= largest_float_radius;
   };
@@ -264,45 +260,6 @@ void BlockTree<Dimension>::find_stretched(std::size_t first, std::size_t last) {
   for (std::size_t block = first; block < last; ++block)
     if (block + 1 == boxes_.size() || necklace_of_block_[block] != necklace_of_block_[block + 1])
       stretched_[block / children_of_node] &= static_cast<std::uint16_t>(~(1U << block % children_of_node));
-}
-
-template <int Dimension>
-void BlockTree<Dimension>::sort_in_space(const Balls<Dimension>& balls) {
-  // Cells of about a fourth of a bead each, were they evenly spread, along a Morton curve.
-  const int bits = (std::bit_width(4 * beads_) + Dimension - 1) / Dimension;
-  const auto cells = static_cast<double>((std::size_t{1} << bits) - 1);
-  const SceneBox<Dimension> box = scene_box(balls);
-  double longest = 0;
-  for (std::size_t axis = 0; axis < Dimension; ++axis)
-    longest = std::max(longest, 0.5 * box.high[axis] - 0.5 * box.low[axis]);
-  // Any order will do: of a scene so small that this is infinite, that of beads.
-  const double cells_a_length = longest > 0 && cells / longest < 0x1p1000 ? cells / longest : 0.0;
-  std::vector<std::uint64_t> spread(std::size_t{1} << bits);
-  for (std::size_t k = 0; k < spread.size(); ++k) spread[k] = spread_bits(k, Dimension);
-  keys_.resize(beads_);
-  more_keys_.resize(beads_);
-  for (std::size_t b = 0; b < beads_; ++b) {
-    std::uint64_t key = 0;
-    for (std::size_t axis = 0; axis < Dimension; ++axis) {
-      const double along = 0.5 * balls.coordinates(axis)[b] - 0.5 * box.low[axis];
-      const double cell = std::min(along * cells_a_length, cells);
-      key |= spread[static_cast<std::size_t>(static_cast<std::int64_t>(cell))] << axis;
-    }
-    keys_[b] = key << 32 | b;
-  }
-  // By half of the bits, then by the other half.
-  const int half = (bits * Dimension + 1) / 2;
-  const std::uint64_t mask = (std::uint64_t{1} << half) - 1;
-  std::vector<std::uint32_t> places;
-  for (const int shift : {32, 32 + half}) {
-    places.assign(mask + 2, 0);
-    for (const std::uint64_t key : keys_) ++places[(key >> shift & mask) + 1];
-    for (std::size_t k = 0; k + 1 < places.size(); ++k) places[k + 1] += places[k];
-    for (const std::uint64_t key : keys_) more_keys_[places[key >> shift & mask]++] = key;
-    keys_.swap(more_keys_);
-  }
-  sorted_.resize(beads_ + beads_in_block);
-  for (std::size_t k = 0; k < beads_; ++k) sorted_[k] = static_cast<BeadId>(keys_[k]);
 }
 
 // Whether any pair of the nodes' beads may be asked about: nodes of levels_[level], a <= b.

@@ -26,6 +26,7 @@
 #include "structures/blocks/block_kernels.h"
 #include "structures/blocks/float_frame.h"
 #include "structures/collision/balls_meet.h"
+#include "structures/collision/morton_order.h"
 #include "structures/collision/pairs_asked.h"
 
 namespace kds {
@@ -104,7 +105,6 @@ class BlockTree {
   };
 
   void make_blocks(BlockOrder order);
-  void sort_in_space(const Balls<Dimension>& balls);
   void build(const Balls<Dimension>& balls, double gap);
   BlockExtent fill(const Balls<Dimension>& balls, double gap);
   [[nodiscard]] bool fill_again(const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks);
@@ -160,6 +160,7 @@ class BlockTree {
   // Blocks: their first beads in sequence, or all their beads in spatial order.
   std::vector<BeadId> first_bead_;
   std::vector<std::uint32_t> necklace_of_block_;
+  MortonOrder<Dimension> morton_order_;
   std::vector<BeadId> sorted_;
   std::array<std::vector<float>, static_cast<std::size_t>(Dimension)> centers_;
   std::vector<float> radii_;
@@ -179,7 +180,6 @@ class BlockTree {
   std::vector<std::uint16_t> near_beads_;
   std::vector<BeadPair> candidates_, pairs_;
   std::size_t candidate_count_ = 0, most_candidates_ = 0;
-  std::vector<std::uint64_t> keys_, more_keys_;
   std::array<std::vector<double>, static_cast<std::size_t>(Dimension) + 1> gathered_;
   PairSorter sorter_;
   Counts counts_;
