@@ -24,14 +24,11 @@
 #include <vector>
 
 #include "structures/blocks/block_kernels.h"
-#include "structures/blocks/float_frame.h"
 #include "structures/collision/balls_meet.h"
-#include "structures/collision/morton_order.h"
+#include "structures/collision/bead_blocks.h"
 #include "structures/collision/pairs_asked.h"
 
 namespace kds {
-
-enum class BlockOrder { sequence, spatial };
 
 template <int Dimension>
 class BlockTree {
@@ -49,8 +46,8 @@ class BlockTree {
   explicit BlockTree(PairsAsked asked, std::optional<BlockOrder> order = std::nullopt,
                      VectorTarget target = widest_vector_target());
 
-  [[nodiscard]] const PairsAsked& asked() const { return asked_; }
-  [[nodiscard]] std::size_t bead_count() const { return beads_; }
+  [[nodiscard]] const PairsAsked& asked() const { return blocks_.asked(); }
+  [[nodiscard]] std::size_t bead_count() const { return blocks_.bead_count(); }
 
   /// All pairs asked about that meet, in order. Valid until the next call. Throws std::invalid_argument where
   /// the balls are not as many as the necklaces have.
@@ -67,9 +64,11 @@ class BlockTree {
 
   /// How far a bead is at most from where it was looked at last, rounded up; NaN and infinity are no bounds.
   /// As many balls as then.
-  [[nodiscard]] double strayed(const Balls<Dimension>& balls);
+  [[nodiscard]] double strayed(const Balls<Dimension>& balls) { return blocks_.strayed(balls); }
   /// The same of each block's beads.
-  [[nodiscard]] std::span<const double> strayed_by_block(const Balls<Dimension>& balls);
+  [[nodiscard]] std::span<const double> strayed_by_block(const Balls<Dimension>& balls) {
+    return blocks_.strayed_by_block(balls);
+  }
 
   /// After near_pairs: looks again where the beads of these blocks are (ascending) and at no others. All
   /// pairs asked about with such a bead that are at most the same gap apart, the others being where they were
@@ -82,11 +81,11 @@ class BlockTree {
   [[nodiscard]] std::span<const unsigned char> looked_at_again() const { return marked_beads_; }
 
   [[nodiscard]] const Counts& counts() const { return counts_; }
-  [[nodiscard]] BlockOrder order() const { return order_; }
+  [[nodiscard]] BlockOrder order() const { return blocks_.order(); }
   /// Of the last scene.
-  [[nodiscard]] const FloatFrame<Dimension>& frame() const { return frame_; }
+  [[nodiscard]] const FloatFrame<Dimension>& frame() const { return blocks_.frame(); }
   /// The next searches are made in boxes along these axes, or the coordinates', until all is chosen anew.
-  void turn(const std::optional<Axes<Dimension>>& axes);
+  void turn(const std::optional<Axes<Dimension>>& axes) { blocks_.turn(axes); }
   /// A new scene: the sequence, in boxes along the coordinates' axes, is tried first again.
   void forget_order() { searches_since_choice_ = most_searches_as_chosen; }
 
@@ -104,25 +103,8 @@ class BlockTree {
     [[nodiscard]] NodePairs end() { return {first.data() + count, second.data() + count}; }
   };
 
-  void make_blocks(BlockOrder order);
-  void build(const Balls<Dimension>& balls, double gap);
-  BlockExtent fill(const Balls<Dimension>& balls, double gap);
-  [[nodiscard]] bool fill_again(const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks);
-  void find_stretched(std::size_t first, std::size_t last);
-  void clear_lanes_behind(std::size_t block);
-  [[nodiscard]] std::size_t beads_of(std::size_t block) const;
   void mark(std::span<const std::uint32_t> blocks);
   void keep_marked(PairList& pairs, std::size_t from, std::size_t level) const;
-  [[nodiscard]] BlockSource<Dimension> source_of(double gap, double radius) const;
-  /// The beads bead(0) to bead(count - 1), copied one after the other.
-  template <class Bead>
-  [[nodiscard]] BlockSource<Dimension> gather(const Balls<Dimension>& balls, BlockSource<Dimension> source,
-                                              std::size_t count, const Bead& bead);
-  [[nodiscard]] BlockSource<Dimension> placed(BlockSource<Dimension> source, std::size_t lanes);
-  /// Calls visit(source, first block, last block) with sources for all blocks.
-  template <class Visit>
-  void with_sources(const Balls<Dimension>& balls, BlockSource<Dimension> source, const Visit& visit);
-  [[nodiscard]] Blocks<Dimension> blocks();
 
   void find_candidates(const Balls<Dimension>& balls, double gap, std::size_t most);
   // Then the sequence is tried again.
@@ -136,51 +118,25 @@ class BlockTree {
   void compare_along();
   void compare_along(std::size_t first, std::size_t last);
   void reserve_candidates(std::size_t groups);
-  [[nodiscard]] bool goes_along() const;
-  [[nodiscard]] BeadId bead_at(std::uint32_t block, std::size_t lane) const {
-    return order_ == BlockOrder::sequence ? first_bead_[block] + static_cast<BeadId>(lane)
-                                          : sorted_[beads_in_block * block + lane];
-  }
 
-  PairsAsked asked_;
   std::optional<BlockOrder> wanted_;
   const BlockKernels<Dimension>& kernels_;
-  std::size_t beads_;
-  BlockOrder order_ = BlockOrder::sequence;
+  BeadBlocks<Dimension> blocks_;
   bool may_turn_ = true;                      // it has not been asked yet whether bonds have axes
   std::optional<Axes<Dimension>> bond_axes_;  // of a frame that is to be turned
   std::uint64_t searches_since_choice_ = 0;
-
-  FloatFrame<Dimension> frame_;
-  bool equal_ = true;
-  double gap_ = 0;   // of the last search
-  float limit_ = 0;  // the greatest square of a distance that is near
-  float least_ahead_ = 0;
-
-  // Blocks: their first beads in sequence, or all their beads in spatial order.
-  std::vector<BeadId> first_bead_;
-  std::vector<std::uint32_t> necklace_of_block_;
-  MortonOrder<Dimension> morton_order_;
-  std::vector<BeadId> sorted_;
-  std::array<std::vector<float>, static_cast<std::size_t>(Dimension)> centers_;
-  std::vector<float> radii_;
-  std::vector<GroupBoxes<Dimension>> boxes_;
-  std::vector<std::vector<BlockNode<Dimension>>> levels_;  // from those above the blocks up to one root
-  std::vector<std::uint16_t> stretched_;  // blocks, a bit each, without near pairs in them and the next
 
   // Of blocks that are looked at again, of the nodes above them level by level, and of their beads.
   bool only_marked_ = false;
   std::vector<std::vector<unsigned char>> marks_;
   std::vector<unsigned char> marked_beads_;
   std::vector<std::uint32_t> marked_blocks_;
-  std::vector<double> strays_;
 
   PairList nodes_, more_nodes_, block_pairs_;
   std::vector<std::uint32_t> groups_, near_groups_;
   std::vector<std::uint16_t> near_beads_;
   std::vector<BeadPair> candidates_, pairs_;
   std::size_t candidate_count_ = 0, most_candidates_ = 0;
-  std::array<std::vector<double>, static_cast<std::size_t>(Dimension) + 1> gathered_;
   PairSorter sorter_;
   Counts counts_;
 };

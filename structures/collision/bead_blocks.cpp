@@ -1,0 +1,275 @@
+#include "structures/collision/bead_blocks.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "motions/base/floating_point_guard.h"
+
+namespace kds {
+
+namespace {
+
+constexpr std::size_t gathered_blocks = 64;  // at most, are copied at once
+
+}  // namespace
+
+template <int Dimension>
+BeadBlocks<Dimension>::BeadBlocks(PairsAsked asked, const BlockKernels<Dimension>& kernels, BlockOrder order)
+    : asked_(std::move(asked)), kernels_(kernels) {
+  for (const BeadRange& range : asked_.necklaces) {
+    if (range.first != beads_ || range.last < range.first)
+      throw std::invalid_argument("expected a scene's necklaces one after the other");
+    beads_ = std::size_t{range.last} + 1;
+  }
+  if (asked_.apart < 1) throw std::invalid_argument("expected beads at least 1 apart along the chain");
+  arrange(order);
+}
+
+template <int Dimension>
+void BeadBlocks<Dimension>::arrange(BlockOrder order) {
+  order_ = order;
+  first_bead_.clear();
+  necklace_of_block_.clear();
+  if (order == BlockOrder::sequence) {
+    for (std::uint32_t n = 0; n < asked_.necklaces.size(); ++n) {
+      const BeadRange& range = asked_.necklaces[n];
+      for (std::size_t bead = range.first; bead <= range.last; bead += beads_in_block) {
+        first_bead_.push_back(static_cast<BeadId>(bead));
+        necklace_of_block_.push_back(n);
+      }
+    }
+  } else {
+    necklace_of_block_.assign((beads_ + beads_in_block - 1) / beads_in_block, 0);
+  }
+  const std::size_t blocks = necklace_of_block_.size();
+  for (auto& axis : centers_)
+    axis.assign((blocks + 1) * beads_in_block, std::numeric_limits<float>::quiet_NaN());
+  radii_.assign((blocks + 1) * beads_in_block, 0.0F);
+  boxes_.resize(blocks);
+  levels_.clear();
+  stretched_.assign((blocks + children_of_node - 1) / children_of_node, 0);
+  for (std::size_t nodes = blocks; nodes > 1 || levels_.empty();) {
+    nodes = (nodes + children_of_node - 1) / children_of_node;
+    levels_.emplace_back(std::max<std::size_t>(nodes, 1));
+  }
+}
+
+template <int Dimension>
+Blocks<Dimension> BeadBlocks<Dimension>::view() {
+  Blocks<Dimension> here{{}, radii_.data(), boxes_.data()};
+  for (std::size_t axis = 0; axis < Dimension; ++axis) here.centers[axis] = centers_[axis].data();
+  return here;
+}
+
+template <int Dimension>
+BlockSource<Dimension> BeadBlocks<Dimension>::source_of(double gap, double radius) const {
+  BlockSource<Dimension> source{};
+  source.shift = frame_.shift;
+  source.scale = frame_.scale;
+  source.radius_factor = frame_.scale * (1 + 0x1p-20);
+  source.radius_added = frame_.float_radius(0.5 * gap);
+  source.radius = static_cast<float>(radius * source.radius_factor + source.radius_added);
+  return source;
+}
+
+template <int Dimension>
+std::size_t BeadBlocks<Dimension>::beads_of(std::size_t block) const {
+  const std::size_t behind =
+      order_ == BlockOrder::spatial
+          ? beads_ - beads_in_block * block
+          : std::size_t{asked_.necklaces[necklace_of_block_[block]].last} + 1 - first_bead_[block];
+  return std::min(behind, beads_in_block);
+}
+
+// Blocks whose beads do not lie one after the other, or are too few, or are turned, are copied; a bead in
+// want stands for the last.
+template <int Dimension>
+template <class Bead>
+BlockSource<Dimension> BeadBlocks<Dimension>::gather(const Balls<Dimension>& balls,
+                                                     BlockSource<Dimension> source, std::size_t count,
+                                                     const Bead& bead) {
+  const std::size_t lanes = (count + beads_in_block - 1) / beads_in_block * beads_in_block;
+  for (std::size_t i = 0; i < gathered_.size(); ++i) {
+    const bool are_radii = i == Dimension;
+    if (are_radii && equal_) continue;
+    const double* numbers = are_radii ? balls.radii() : balls.coordinates(i);
+    std::vector<double>& copy = gathered_[i];
+    copy.resize(gathered_blocks * beads_in_block);
+    for (std::size_t k = 0; k < count; ++k) copy[k] = numbers[bead(k)];
+    for (std::size_t k = count; k < lanes; ++k) copy[k] = copy[count - 1];
+    (are_radii ? source.radii : source.centers[i]) = copy.data();
+  }
+  return frame_.axes ? placed(source, lanes) : source;
+}
+
+// The same in a frame with axes.
+template <int Dimension>
+BlockSource<Dimension> BeadBlocks<Dimension>::placed(BlockSource<Dimension> source, std::size_t lanes) {
+  std::array<double*, static_cast<std::size_t>(Dimension)> places;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    gathered_[axis].resize(gathered_blocks * beads_in_block);
+    places[axis] = gathered_[axis].data();
+  }
+  place_along_axes(frame_, source.centers, places, lanes);
+  std::copy(places.begin(), places.end(), source.centers.begin());
+  source.shift = {};
+  source.scale = 1;
+  return source;
+}
+
+template <int Dimension>
+template <class Visit>
+void BeadBlocks<Dimension>::with_sources(const Balls<Dimension>& balls, BlockSource<Dimension> source,
+                                         const Visit& visit) {
+  if (order_ == BlockOrder::spatial) {
+    for (std::size_t first = 0; first < boxes_.size(); first += gathered_blocks) {
+      const std::size_t bead = first * beads_in_block,
+                        last = std::min(first + gathered_blocks, boxes_.size());
+      visit(gather(balls, source, std::min(last * beads_in_block, beads_) - bead,
+                   [&](std::size_t k) { return sorted_[bead + k]; }),
+            first, last);
+    }
+    return;
+  }
+  std::size_t block = 0;
+  for (const BeadRange& range : asked_.necklaces) {
+    const std::size_t count = std::size_t{range.last} - range.first + 1, whole = count / beads_in_block;
+    const std::size_t at_once = frame_.axes ? gathered_blocks : std::max<std::size_t>(whole, 1);
+    for (std::size_t first = 0; first < whole; first += at_once) {
+      const std::size_t bead = range.first + first * beads_in_block, some = std::min(at_once, whole - first);
+      for (std::size_t axis = 0; axis < Dimension; ++axis)
+        source.centers[axis] = balls.coordinates(axis) + bead;
+      source.radii = balls.radii() + bead;
+      visit(frame_.axes ? placed(source, some * beads_in_block) : source, block + first,
+            block + first + some);
+    }
+    block += whole;
+    if (const std::size_t rest = count % beads_in_block; rest > 0) {
+      visit(gather(balls, source, rest,
+                   [&](std::size_t k) { return range.first + whole * beads_in_block + k; }),
+            block, block + 1);
+      ++block;
+    }
+  }
+}
+
+// Only the last of several blocks may have lanes without a bead.
+template <int Dimension>
+void BeadBlocks<Dimension>::clear_lanes_behind(std::size_t block) {
+  const std::size_t beads = beads_of(block);
+  for (auto& axis : centers_)
+    std::fill_n(axis.begin() + static_cast<std::ptrdiff_t>(beads_in_block * block + beads),
+                beads_in_block - beads, std::numeric_limits<float>::quiet_NaN());
+}
+
+template <int Dimension>
+BlockExtent BeadBlocks<Dimension>::fill_in_frame(const Balls<Dimension>& balls, double gap) {
+  BlockExtent extent;
+  const auto kernel = equal_ ? kernels_.fill_equal : kernels_.fill_unequal;
+  const BlockSource<Dimension> source = source_of(gap, balls.radius(0));
+  limit_ = (source.radius + source.radius) * (source.radius + source.radius);
+  with_sources(balls, source, [&](const BlockSource<Dimension>& some, std::size_t first, std::size_t last) {
+    const BlockExtent e = kernel(some, first, last, view(), levels_[0].data());
+    extent.coordinate = std::max(extent.coordinate, e.coordinate);
+    extent.radius = std::max(extent.radius, e.radius);
+    clear_lanes_behind(last - 1);
+  });
+  return extent;
+}
+
+// False where the frame does not hold them.
+template <int Dimension>
+bool BeadBlocks<Dimension>::fill_again(const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks) {
+  const auto kernel = equal_ ? kernels_.fill_equal : kernels_.fill_unequal;
+  const BlockSource<Dimension> source = source_of(gap_, balls.radius(0));
+  bool fits = true;
+  for (const std::uint32_t block : blocks) {
+    const BlockSource<Dimension> its =
+        gather(balls, source, beads_of(block), [&](std::size_t k) { return bead_at(block, k); });
+    const BlockExtent extent = kernel(its, block, block + 1, view(), levels_[0].data());
+    clear_lanes_behind(block);
+    fits = fits && extent.coordinate <= frame_.bound;
+  }
+  for (const std::uint32_t block : blocks) find_stretched(block > 0 ? block - 1 : 0, block + 1);
+  return fits;
+}
+
+template <int Dimension>
+void BeadBlocks<Dimension>::fill(const Balls<Dimension>& balls, double gap) {
+  equal_ = balls.equal_radii();
+  if (order_ == BlockOrder::spatial) {
+    morton_order_.sort(balls, sorted_);
+    sorted_.resize(beads_ + beads_in_block);  // lanes without a bead name one
+  }
+  const auto fits = [this](const BlockExtent& e) {
+    return e.coordinate <= frame_.bound && e.radius <= largest_float_radius;
+  };
+  const auto blunt = [this](const BlockExtent& e) {  // and a frame of this scene would not be
+    return e.coordinate < 0x1p-6 * frame_.bound && frame_.bound > 0x1p-20;
+  };
+  BlockExtent extent;
+  if (frame_.bound > 0) extent = fill_in_frame(balls, gap);
+  if (frame_.bound == 0 || !fits(extent) || blunt(extent)) {
+    frame_ = fit_float_frame(scene_box(balls), gap, frame_.axes);
+    extent = fill_in_frame(balls, gap);
+    if (!fits(extent)) throw std::logic_error("a frame of floats does not hold its own scene");
+  }
+  gap_ = gap;
+  // Steps that the kernel finds to be so long are shorter by 2^-20 M at most, what differences and products
+  // have lost (below 15 u M), and `apart` of them are still longer than floats call near.
+  least_ahead_ =
+      static_cast<float>(2.0 * extent.radius * (1 + 0x1p-16) / asked_.apart + 0x1p-18 * frame_.bound);
+  find_stretched(0, boxes_.size());
+  for (std::size_t level = 0; level + 1 < levels_.size(); ++level)
+    kernels_.unite(levels_[level].data(), 0, levels_[level].size(), levels_[level + 1].data());
+}
+
+// Blocks in which, with the next, no two beads are near that are asked about: each bead lies so far ahead of
+// the one before it in one direction. Beads of a necklace only: the next must be of the same.
+template <int Dimension>
+void BeadBlocks<Dimension>::find_stretched(std::size_t first, std::size_t last) {
+  if (!goes_along()) return;
+  kernels_.stretch(view(), first, std::min(last, boxes_.size() - 1), least_ahead_, stretched_.data());
+  for (std::size_t block = first; block < last; ++block)
+    if (block + 1 == boxes_.size() || necklace_of_block_[block] != necklace_of_block_[block + 1])
+      stretched_[block / children_of_node] &= static_cast<std::uint16_t>(~(1U << block % children_of_node));
+}
+
+template <int Dimension>
+void BeadBlocks<Dimension>::turn(const std::optional<Axes<Dimension>>& axes) {
+  // A coordinate along another axis is less than twice as large.
+  if (axes.has_value() != frame_.axes.has_value()) frame_.bound *= axes ? 2 : 0.5;
+  frame_.axes = axes;
+}
+
+template <int Dimension>
+std::span<const double> BeadBlocks<Dimension>::strayed_by_block(const Balls<Dimension>& balls) {
+  const FloatingPointGuard to_nearest;
+  if (balls.size() != beads_) throw std::invalid_argument("balls and necklaces must be of the same beads");
+  strays_.resize(boxes_.size());
+  with_sources(balls, source_of(0, 0), [&](BlockSource<Dimension> some, std::size_t first, std::size_t last) {
+    for (std::size_t block = first; block < last; ++block) {
+      strays_[block] = frame_.farthest(kernels_.stray(some, block, block + 1, view()));
+      for (const double*& axis : some.centers) axis += beads_in_block;
+    }
+  });
+  return strays_;
+}
+
+template <int Dimension>
+double BeadBlocks<Dimension>::strayed(const Balls<Dimension>& balls) {
+  const FloatingPointGuard to_nearest;
+  if (balls.size() != beads_) throw std::invalid_argument("balls and necklaces must be of the same beads");
+  float farthest = 0;
+  with_sources(balls, source_of(0, 0),
+               [&](const BlockSource<Dimension>& some, std::size_t first, std::size_t last) {
+                 farthest = std::max(farthest, kernels_.stray(some, first, last, view()));
+               });
+  return frame_.farthest(farthest);
+}
+
+template class BeadBlocks<2>;
+template class BeadBlocks<3>;
+
+}  // namespace kds
