@@ -162,7 +162,7 @@ TEST(CollisionDetectors, AllCoincideOrTouch) {
 
 TEST(CollisionDetectors, SequenceIsGivenUpWhereItCostsTooMuch) {
   Random random(1);
-  const BeadId beads = rounds(4000U, 1500U);
+  const BeadId beads = rounds(4000U, 2500U);
   CollisionScene gas{"gas", Eigen::Matrix3Xd(3, Eigen::Index{beads}), std::vector<double>(beads, 0.4), {}};
   const double side = 14 * std::cbrt(beads / 4000.0);
   for (Eigen::Index b = 0; b < beads; ++b)
