@@ -23,6 +23,23 @@ target_compile_options(kds_requirements INTERFACE -ffp-contract=off)
 # in other ways concerns nobody.
 target_compile_options(kds_requirements INTERFACE -Wno-psabi)
 
+# Loops over lanes (motions/numbers/lanes.h) are compiled for AVX2, which x86-64 processors have since about 2013. For others they
+# are compiled once more, without vectors: code that takes as long to compile again and that hardly anybody runs.
+include(CheckCXXSourceRuns)
+if(NOT CMAKE_CROSSCOMPILING)
+  check_cxx_source_runs("int main() { return __builtin_cpu_supports(\"avx2\") ? 0 : 1; }" KDS_HERE_IS_AVX2)
+endif()
+if(KDS_HERE_IS_AVX2)
+  set(KDS_HERE_IS_NO_AVX2 OFF)
+else()
+  set(KDS_HERE_IS_NO_AVX2 ON)
+endif()
+option(KDS_ANY_PROCESSOR "Serve processors without AVX2, too" ${KDS_HERE_IS_NO_AVX2})
+if(NOT KDS_ANY_PROCESSOR)
+  target_compile_definitions(kds_requirements INTERFACE KDS_NEEDS_AVX2)
+  set(KDS_PKGCONFIG_DEFINITIONS " -DKDS_AVX2")
+endif()
+
 # What is ours alone.
 add_library(kds_options INTERFACE)
 target_link_libraries(kds_options INTERFACE kds_requirements)

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <string_view>
 
 #include "experiments/bench/bench_command.h"
@@ -31,6 +32,7 @@
 #include "experiments/update/update_command.h"
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
+#include "motions/base/processor.h"
 
 namespace kds {
 namespace {
@@ -123,6 +125,7 @@ int kds_main(int argc, char** argv) {
   const FloatingPointGuard to_nearest;
   prepare_process();
   try {
+    if (const auto missing = missing_in_processor()) throw std::runtime_error(*missing);
     return guarded(argc, argv);
   } catch (const std::bad_alloc&) {
     complain("out of memory");

@@ -11,6 +11,7 @@
 
 #include "certificates/exact/exact_time.h"
 #include "kds/bead_edits.h"
+#include "motions/base/processor.h"
 
 namespace kds {
 
@@ -44,6 +45,7 @@ class Simulator::Running {
 };
 
 std::size_t Simulator::add(KineticStructure& structure) {
+  if (const auto missing = missing_in_processor()) throw std::runtime_error(*missing);
   if (phase_ != Phase::new_run)
     throw std::logic_error(fmt::format(
         "{} is added to a run whose structures are built already: add it before build()", structure.name()));
@@ -90,8 +92,10 @@ void Simulator::build() {
 }
 
 void Simulator::run_step() {
-  enter_step();
-  leave_step();
+  const Entry entry(*this);
+  start_step();
+  run_events<false>(nullptr);
+  finish_step();
 }
 
 void Simulator::finish() {
@@ -111,6 +115,11 @@ void Simulator::set_frames(const FrameStamp& from, const FrameStamp& to) {
 
 void Simulator::enter_step() {
   const Entry entry(*this);
+  start_step();
+  watch_.charge(Stopwatch::stopped);
+}
+
+void Simulator::start_step() {
   require(Phase::between_steps, "a step");
   begin_step();
   Running running(*this);
@@ -120,7 +129,6 @@ void Simulator::enter_step() {
   }
   after_batch();
   running.end();
-  watch_.charge(Stopwatch::stopped);
 }
 
 void Simulator::run_until(const Dyadic& time) {
@@ -204,7 +212,7 @@ void Simulator::leave_step() {
 
 bool Simulator::try_step(std::uint64_t most) {
   const Entry entry(*this);
-  enter_step();
+  start_step();
   if (run_events<false>(nullptr, most)) {
     finish_step();
     return true;

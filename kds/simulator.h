@@ -55,7 +55,8 @@ class Simulator {
   };
 
   /// Structures act in the order they are added. They must outlive the simulator's use. Throws
-  /// std::logic_error once the structures are built.
+  /// std::logic_error once the structures are built, std::runtime_error where the processor has not what the
+  /// libraries were compiled for (motions/base/processor.h).
   std::size_t add(KineticStructure& structure);
   /// Throws std::logic_error where certificates of another type have the same number.
   void add_table(FailureSource& table, const CertificateType& type);
@@ -147,6 +148,7 @@ class Simulator {
   void require(Phase phase, const char* what) const;
   void hold_now();
   void begin_step();
+  void start_step();
   void clear_step();
   void finish_step();
   void end_step();

@@ -12,8 +12,10 @@ class Stopwatch {
   static constexpr std::size_t stopped = static_cast<std::size_t>(-1);
 
   void add_lane() { seconds_.push_back(0); }
-  /// From now on time counts for `lane`, or for none if `stopped`. Returns the lane before.
+  /// From now on time counts for `lane`, or for none if `stopped`. Returns the lane before. Looking at the
+  /// clock takes some 30 ns; where the lane stays nobody does.
   std::size_t charge(std::size_t lane) {
+    if (lane == lane_) return lane;
     const auto now = std::chrono::steady_clock::now();
     if (lane_ != stopped) seconds_[lane_] += std::chrono::duration<double>(now - since_).count();
     since_ = now;

@@ -6,6 +6,7 @@
 
 #include "certificates/filters/cell_filter.h"
 #include "certificates/filters/float_filter.h"
+#include "motions/base/processor.h"
 
 namespace kds {
 
@@ -16,10 +17,7 @@ enum class FloatVectors : std::uint8_t { four, eight, many_of_eight };
 
 inline FloatVectors vectors_of_processor() {
 #if defined(__x86_64__)
-  const bool has_many = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                        __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
-                        __builtin_cpu_supports("avx512vl");
-  if (has_many) return FloatVectors::many_of_eight;
+  if (processor_has_avx512()) return FloatVectors::many_of_eight;
   if (__builtin_cpu_supports("avx2")) return FloatVectors::eight;
 #endif
   return FloatVectors::four;

@@ -1,7 +1,8 @@
 #pragma once
 // Four doubles that go through the same operations side by side, rounded each like any double. Functions
-// marked KDS_LANES_TARGETS are compiled twice, with and without AVX2, and the right one is taken when the
-// program starts; both give the same bits. (With sanitizers once: they are slow enough to compile.)
+// marked KDS_LANES_TARGETS are compiled for AVX2 where the build says KDS_NEEDS_AVX2; else twice, with and
+// without, and the right one is taken when the program starts. All give the same bits. (With sanitizers once:
+// they are slow enough to compile.)
 
 #include <array>
 #include <cstddef>
@@ -13,13 +14,15 @@ namespace kds {
 // Everything called from such a function must be inlined into it: code compiled for other targets passes
 // vectors in other ways.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define KDS_LANES_TARGETS gnu::target_clones("avx2", "default"), gnu::flatten, gnu::noinline
-// Once more with twice the registers, for long functions that one file compiles.
-#define KDS_LONG_LANES_TARGETS \
-  gnu::target_clones("arch=x86-64-v4", "avx2", "default"), gnu::flatten, gnu::noinline
+#define KDS_LANES_ARE_COMPILED_FOR_TARGETS 1
+#ifdef KDS_NEEDS_AVX2
+#define KDS_LANES_TARGETS gnu::target("avx2"), gnu::flatten, gnu::noinline
 #else
+#define KDS_LANES_TARGETS gnu::target_clones("avx2", "default"), gnu::flatten, gnu::noinline
+#endif
+#else
+#define KDS_LANES_ARE_COMPILED_FOR_TARGETS 0
 #define KDS_LANES_TARGETS gnu::noinline
-#define KDS_LONG_LANES_TARGETS gnu::noinline
 #endif
 
 // Aligned as AVX wants it, which code compiled for other targets would not know of: g++ loads and stores

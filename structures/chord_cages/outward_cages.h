@@ -35,9 +35,8 @@ class OutwardCages {
     return cage;
   }
   /// Four side by side, each the same double for double.
-  [[nodiscard, gnu::always_inline]] FourBalls<Dimension> four(
-      const std::array<NodeId, Lanes::width>& nodes) const {
-    FourBalls<Dimension> balls({&cages_[nodes[0]], &cages_[nodes[1]], &cages_[nodes[2]], &cages_[nodes[3]]});
+  [[nodiscard, gnu::always_inline]] FourBalls<Dimension> four(const FourPlaces& nodes) const {
+    FourBalls<Dimension> balls(cages_.data(), nodes);
     Lanes size = abs(balls.center[0]);
     for (std::size_t axis = 1; axis < Dimension; ++axis) size += abs(balls.center[axis]);
     balls.radius = (balls.radius + Lanes(wider_)) * Lanes(factor_) + Lanes(of_center_) * size;

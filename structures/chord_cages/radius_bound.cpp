@@ -175,16 +175,13 @@ bool one_is_below(const std::array<GapCoefficients, 2>& of, const std::array<dou
 
 /// Four nodes whose bases have M + 1 beads: which are proved tight.
 template <bool of_points, int D, std::size_t M>
-[[gnu::always_inline]] inline Lanes::Mask are_tight(const LinearStep<D>& step,
-                                                    const std::array<NodeId, Lanes::width>& nodes,
+[[gnu::always_inline]] inline Lanes::Mask are_tight(const LinearStep<D>& step, const FourPlaces& nodes,
                                                     double tightness) {
   using Numbers = std::array<Lanes, static_cast<std::size_t>(D)>;
-  std::array<const Basis*, Lanes::width> bases;
-  for (std::size_t lane = 0; lane < Lanes::width; ++lane) bases[lane] = &step.start_bases[nodes[lane]];
-  const auto row = [&bases](const Balls<D>& balls, std::size_t j) __attribute__((always_inline)) {
-    const BallRow<D>* const rows = balls.rows();
-    return FourBalls<D>({rows + bases[0]->beads[j], rows + bases[1]->beads[j], rows + bases[2]->beads[j],
-                         rows + bases[3]->beads[j]});
+  const Basis* const bases = step.start_bases.data();
+  const auto row = [&](const Balls<D>& balls, std::size_t j) __attribute__((always_inline)) {
+    return FourBalls<D>(balls.rows(), {bases[nodes[0]].beads[j], bases[nodes[1]].beads[j],
+                                       bases[nodes[2]].beads[j], bases[nodes[3]].beads[j]});
   };
   const FourBalls<D> start_cages = step.start_cages.four(nodes), end_cages = step.end_cages.four(nodes);
   BasisBalls<Lanes, D, M> balls;

@@ -3,42 +3,50 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "motions/numbers/lanes.h"
 #include "structures/necklace/ball_rows.h"
 
 namespace kds {
 
+/// Four places in an array of rows. g++ 12 would make addresses of four pointers in an array by vectors, and
+/// take them out one by one.
+using FourPlaces = std::array<std::uint32_t, Lanes::width>;
+
 /// Four rows of four: row i is lane i of all. Where rows are the same, the last of them stays.
+template <class OfFourDoubles>
 [[gnu::always_inline]] inline void store_rows(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d,
-                                              const std::array<double*, Lanes::width>& rows) {
+                                              OfFourDoubles* rows, const FourPlaces& places) {
+  static_assert(sizeof(OfFourDoubles) == sizeof(Lanes::Vector));
   using Row = double __attribute__((vector_size(32), aligned(8), may_alias));
-  const auto put = [](double* row, Lanes::Vector numbers) __attribute__((always_inline)) {
-    *reinterpret_cast<Row*>(row) = numbers;
+  const auto put = [&](std::size_t lane, Lanes::Vector numbers) __attribute__((always_inline)) {
+    *reinterpret_cast<Row*>(rows + places[lane]) = numbers;
   };
   const Lanes::Vector ab_even = __builtin_shufflevector(a.v, b.v, 0, 4, 2, 6);
   const Lanes::Vector ab_odd = __builtin_shufflevector(a.v, b.v, 1, 5, 3, 7);
   const Lanes::Vector cd_even = __builtin_shufflevector(c.v, d.v, 0, 4, 2, 6);
   const Lanes::Vector cd_odd = __builtin_shufflevector(c.v, d.v, 1, 5, 3, 7);
-  put(rows[0], __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5));
-  put(rows[1], __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5));
-  put(rows[2], __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7));
-  put(rows[3], __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7));
+  put(0, __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5));
+  put(1, __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5));
+  put(2, __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7));
+  put(3, __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7));
 }
 
 template <int Dimension>
 struct FourBalls {
   using Vector = Lanes::Vector;
   static_assert(sizeof(BallRow<Dimension>) == sizeof(Vector));
-  using Rows = std::array<const BallRow<Dimension>*, Lanes::width>;
 
   std::array<Lanes, static_cast<std::size_t>(Dimension)> center;
   Lanes radius;
 
   FourBalls() = default;
-  [[gnu::always_inline]] explicit FourBalls(const Rows& rows) {
-    const Vector a = Lanes::load(rows[0]->center.data()), b = Lanes::load(rows[1]->center.data()),
-                 c = Lanes::load(rows[2]->center.data()), d = Lanes::load(rows[3]->center.data());
+  [[gnu::always_inline]] FourBalls(const BallRow<Dimension>* rows, const FourPlaces& places) {
+    const Vector a = Lanes::load(rows[places[0]].center.data()),
+                 b = Lanes::load(rows[places[1]].center.data()),
+                 c = Lanes::load(rows[places[2]].center.data()),
+                 d = Lanes::load(rows[places[3]].center.data());
     const Vector ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
     const Vector ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
     const Vector cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
@@ -54,10 +62,8 @@ struct FourBalls {
     }
   }
   /// Where lanes are of the same row, the last of them stays.
-  [[gnu::always_inline]] void store(const std::array<BallRow<Dimension>*, Lanes::width>& rows) const {
-    std::array<double*, Lanes::width> numbers;
-    for (std::size_t lane = 0; lane < Lanes::width; ++lane) numbers[lane] = rows[lane]->center.data();
-    store_rows(center[0], center[1], Dimension == 3 ? center[Dimension - 1] : radius, radius, numbers);
+  [[gnu::always_inline]] void store(BallRow<Dimension>* rows, const FourPlaces& places) const {
+    store_rows(center[0], center[1], Dimension == 3 ? center[Dimension - 1] : radius, radius, rows, places);
   }
 };
 

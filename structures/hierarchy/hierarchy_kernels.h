@@ -255,26 +255,22 @@ class NodeWrapper {
                                               std::size_t count, Bounds* bounds) const {
     for (std::size_t i = 0; i < count; i += Lanes::width) {
       BasisBalls<Lanes, Dimension, M> members;
-      std::array<const Basis*, Lanes::width> four;
-      std::array<Cage<Dimension>*, Lanes::width> wrapped;
-      std::array<double*, Lanes::width> beside;
+      FourPlaces four, beside;
       for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
-        const std::size_t place = places[std::min(i + lane, count - 1)];
-        four[lane] = &bases[nodes[place]];
-        wrapped[lane] = &cages[nodes[place]];
-        beside[lane] = &bounds[place].inner;
+        beside[lane] = places[std::min(i + lane, count - 1)];
+        four[lane] = nodes[beside[lane]];
       }
-      gather(balls.rows(), four, members);
+      gather(balls.rows(), bases, four, members);
       // Stored by rows alone: of numbers that are taken out one by one g++ 12 takes the roots one by one,
       // too.
       const BasisSphere<Lanes, Dimension> sphere = Form::template sphere<with_bounds>(members);
       FourBalls<Dimension> spheres;
       for (std::size_t axis = 0; axis < Dimension; ++axis) spheres.center[axis].v = sphere.center[axis].v;
       spheres.radius.v = sphere.radius.v;
-      spheres.store(wrapped);
+      spheres.store(cages, four);
       if constexpr (with_bounds) {
         const Lanes certain = Lanes::choose(sphere.certain, Lanes(1.0), Lanes(0.0));
-        store_rows(sphere.inner, sphere.outer, sphere.least, certain, beside);
+        store_rows(sphere.inner, sphere.outer, sphere.least, certain, bounds, beside);
       } else {
         for (std::size_t lane = 0; lane < Lanes::width && i + lane < count; ++lane)
           bounds[places[i + lane]].least = sphere.least.v[lane];

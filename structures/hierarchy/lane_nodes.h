@@ -22,15 +22,14 @@ template <int Dimension, std::size_t M>
   members.radius[j].v = four.radius.v;
 }
 
-/// The balls of four bases of M + 1.
+/// The balls of the bases of four nodes, of M + 1 each.
 template <int Dimension, std::size_t M>
-[[gnu::always_inline]] inline void gather(const BallRow<Dimension>* rows,
-                                          const std::array<const Basis*, Lanes::width>& bases,
-                                          BasisBalls<Lanes, Dimension, M>& members) {
+[[gnu::always_inline]] inline void gather(const BallRow<Dimension>* rows, const Basis* bases,
+                                          const FourPlaces& nodes, BasisBalls<Lanes, Dimension, M>& members) {
   for (std::size_t j = 0; j <= M; ++j)
     set_ball(members, j,
-             FourBalls<Dimension>({rows + bases[0]->beads[j], rows + bases[1]->beads[j],
-                                   rows + bases[2]->beads[j], rows + bases[3]->beads[j]}));
+             FourBalls<Dimension>(rows, {bases[nodes[0]].beads[j], bases[nodes[1]].beads[j],
+                                         bases[nodes[2]].beads[j], bases[nodes[3]].beads[j]}));
 }
 
 /// Of nodes of two beads those that are left: where both were not the basis, or may not be it any more.
@@ -41,25 +40,24 @@ template <bool of_points, int Dimension>
                                              Cage<Dimension>* cages, std::uint8_t* loose, NodeId* left) {
   std::size_t lefts = 0;
   for (std::size_t i = 0; i < count; i += Lanes::width) {
-    typename FourBalls<Dimension>::Rows first, last;
-    std::array<Cage<Dimension>*, Lanes::width> wrapped;
+    FourPlaces first, last, wrapped;
     bool both = true;
     for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
       const NodeId node = nodes[std::min(i + lane, count - 1)];
-      first[lane] = rows + ranges[node].first;
-      last[lane] = rows + ranges[node].last;
-      wrapped[lane] = cages + node;
+      first[lane] = ranges[node].first;
+      last[lane] = ranges[node].last;
+      wrapped[lane] = node;
       loose[node] = 0;
       both &= bases[node].size == 2;
     }
     BasisBalls<Lanes, Dimension, 1> members;
-    set_ball(members, 0, FourBalls<Dimension>(first));
-    set_ball(members, 1, FourBalls<Dimension>(last));
+    set_ball(members, 0, FourBalls<Dimension>(rows, first));
+    set_ball(members, 1, FourBalls<Dimension>(rows, last));
     const auto sphere = sphere_of_pair<of_points, Dimension, Lanes>(members);
     FourBalls<Dimension> spheres;
     for (std::size_t axis = 0; axis < Dimension; ++axis) spheres.center[axis].v = sphere.center[axis].v;
     spheres.radius.v = sphere.radius.v;
-    spheres.store(wrapped);
+    spheres.store(cages, wrapped);
     const Lanes::Mask kept = sphere.certain & ~sphere.loose;
     if (both && Lanes::all(kept)) continue;
     for (std::size_t lane = 0; lane < std::min(Lanes::width, count - i); ++lane)

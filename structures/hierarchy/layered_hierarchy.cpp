@@ -3,6 +3,7 @@
 #include <array>
 
 #include "motions/base/floating_point_guard.h"
+#include "motions/numbers/long_lanes.h"
 #include "structures/hierarchy/parallel_passes.h"
 #include "structures/hierarchy/sphere_of_two.h"
 
@@ -15,24 +16,24 @@ struct Nothing {
 };
 
 // Nodes of one height.
-template <int Dimension, class Four>
-[[KDS_LONG_LANES_TARGETS]] void wrap(std::span<const Four> merges, const Cage<Dimension>* left_spheres,
-                                     const Cage<Dimension>* right_spheres, Cage<Dimension>* cages) {
+template <bool equal, int Dimension, class Four>
+void wrap(std::span<const Four> merges, const Cage<Dimension>* left_spheres,
+          const Cage<Dimension>* right_spheres, Cage<Dimension>* cages) {
+  using Balls = FourBalls<Dimension>;
+  Lanes::Mask usual = ~Lanes::Mask{};
   for (const Four& four : merges) {
-    typename FourBalls<Dimension>::Rows left, right;
-    std::array<Cage<Dimension>*, Lanes::width> wrapped;
-    for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
-      left[lane] = left_spheres + four.left[lane];
-      right[lane] = right_spheres + four.right[lane];
-      wrapped[lane] = cages + four.node[lane];
-    }
-    FourBalls<Dimension> spheres;
-    const Lanes::Mask usual =
-        spheres_of_two(FourBalls<Dimension>(left), FourBalls<Dimension>(right), spheres);
-    spheres.store(wrapped);
-    if (Lanes::all(usual)) continue;
+    Balls spheres;
+    usual &= spheres_of_two<equal>(Balls(left_spheres, four.left), Balls(right_spheres, four.right), spheres);
+    spheres.store(cages, four.node);
+  }
+  if (Lanes::all(usual)) return;
+  for (const Four& four : merges) {
+    Balls spheres;
+    usual = spheres_of_two<equal>(Balls(left_spheres, four.left), Balls(right_spheres, four.right), spheres);
     for (std::size_t lane = 0; lane < Lanes::width; ++lane)
-      if (usual[lane] == 0) *wrapped[lane] = sphere_of_two(*left[lane], *right[lane]);
+      if (usual[lane] == 0)
+        cages[four.node[lane]] =
+            sphere_of_two(left_spheres[four.left[lane]], right_spheres[four.right[lane]]);
   }
 }
 
@@ -74,12 +75,15 @@ void LayeredHierarchy<Dimension>::build(const BallRows<Dimension>& balls, Thread
   const FloatingPointGuard to_nearest;
   const BallRow<Dimension>* const beads = balls.rows();
   Cage<Dimension>* const cages = cages_.data();
+  using Four = typename Merges::Four;
+  constexpr auto wrap_in_lanes = in_long_lanes<&wrap<false, Dimension, Four>>;
+  const auto wrap_beads = balls.equal_radii() ? in_long_lanes<&wrap<true, Dimension, Four>> : wrap_in_lanes;
   over_runs<Nothing>(order_, threads, [&](std::size_t run) {
     for (std::uint32_t group = order_.runs()[run].first; group < order_.runs()[run].end; ++group) {
       const Height& height = heights_[group];
-      wrap(height.of_beads.fours(), beads, beads, cages);
-      wrap(height.of_both.fours(), cages, beads, cages);
-      wrap(height.of_nodes.fours(), cages, cages, cages);
+      wrap_beads(height.of_beads.fours(), beads, beads, cages);
+      wrap_in_lanes(height.of_both.fours(), cages, beads, cages);
+      wrap_in_lanes(height.of_nodes.fours(), cages, cages, cages);
     }
     return Nothing{};
   });

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "structures/enclosing_sphere/cage.h"
+#include "structures/enclosing_sphere/four_balls.h"
 #include "structures/hierarchy/bottom_up_order.h"
 #include "structures/hierarchy/threads.h"
 #include "structures/necklace/ball_rows.h"
@@ -43,7 +44,7 @@ class LayeredHierarchy {
   class Merges {
    public:
     struct Four {
-      std::array<std::uint32_t, 4> node, left, right;
+      FourPlaces node, left, right;
     };
     void append(NodeId node, std::uint32_t left, std::uint32_t right);
     [[nodiscard]] std::span<const Four> fours() const { return fours_; }

@@ -7,9 +7,8 @@
 // / D by less than 7u of itself, so that `share` errs by 3.5u |w| / D and u of itself. The centre is where it
 // should be up to 3.5u |w| + 3u share D, at most 6.5u R since |w| and share D are at most R, and u of its
 // coordinates; half the sum of distance and radii errs by 5u R, and the radius is rounded twice more. All
-// that is less than 16u R and u of the coordinates. One sphere lies in the other only if that is true in
-// spite of rounding. Where it all but does the centre is that of the larger, up to as much, and the radius no
-// less.
+// that is less than 16u R and u of the coordinates. Where one sphere lies in the other, or all but does, the
+// centre is that of the larger, up to as much, and the radius no less.
 
 #include "structures/enclosing_sphere/cage.h"
 #include "structures/enclosing_sphere/four_balls.h"
@@ -18,7 +17,8 @@
 namespace kds {
 
 /// Four at once, where squares of sizes neither over- nor underflow: lanes that are false are no such sphere.
-template <int Dimension>
+/// Two of equal radii, which must be those, need no quotient: the same bits.
+template <bool equal, int Dimension>
 [[gnu::always_inline]] inline Lanes::Mask spheres_of_two(const FourBalls<Dimension>& a,
                                                          const FourBalls<Dimension>& b,
                                                          FourBalls<Dimension>& sphere) {
@@ -27,20 +27,16 @@ template <int Dimension>
   const Lanes distance = NumberTraits<Lanes>::sqrt(square);
   const Lanes wider = b.radius - a.radius;
   // On the line of centres: both far ends on the sphere.
-  const Lanes middle = Lanes(0.5) * (Lanes(1.0) + wider / square * distance);
-  const Lanes share = Lanes::min(Lanes::max(middle, Lanes(0.0)), Lanes(1.0));
-  const Lanes reach =
-      Lanes::max(Lanes(0.5) * (distance + (a.radius + b.radius)), Lanes::max(a.radius, b.radius));
-  const auto nested = distance * Lanes(1 + 0x1p-48) <= abs(wider);
-  const auto is_a = nested & (wider <= Lanes(0.0)), is_b = nested & (wider > Lanes(0.0));
-  Lanes size(0.0);
-  for (std::size_t axis = 0; axis < Dimension; ++axis) {
-    const Lanes x = a.center[axis] + share * d[axis];
-    size += abs(x);
-    sphere.center[axis] = Lanes::choose(is_a, a.center[axis], Lanes::choose(is_b, b.center[axis], x));
+  Lanes share(0.5), reach = Lanes(0.5) * (distance + (a.radius + b.radius));
+  if constexpr (!equal) {
+    const Lanes middle = Lanes(0.5) * (Lanes(1.0) + wider / square * distance);
+    share = Lanes::min(Lanes::max(middle, Lanes(0.0)), Lanes(1.0));
+    reach = Lanes::max(reach, Lanes::max(a.radius, b.radius));
   }
-  sphere.radius = Lanes::choose(
-      is_a, a.radius, Lanes::choose(is_b, b.radius, reach * Lanes(1 + 0x1p-49) + Lanes(0x1p-51) * size));
+  for (std::size_t axis = 0; axis < Dimension; ++axis) sphere.center[axis] = a.center[axis] + share * d[axis];
+  Lanes size = abs(sphere.center[0]);
+  for (std::size_t axis = 1; axis < Dimension; ++axis) size += abs(sphere.center[axis]);
+  sphere.radius = reach * Lanes(1 + 0x1p-49) + Lanes(0x1p-51) * size;
   return (square >= Lanes(0x1p-900)) & (square <= Lanes(0x1p900)) & (abs(wider) >= Lanes(0.0));
 }
 

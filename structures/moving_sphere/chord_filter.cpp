@@ -1,5 +1,6 @@
 #include "structures/moving_sphere/chord_filter.h"
 
+#include "motions/numbers/long_lanes.h"
 #include "structures/moving_sphere/chord_lanes.h"
 #include "structures/moving_sphere/scan_beyond.h"
 
@@ -8,11 +9,9 @@ namespace kds {
 namespace {
 
 template <int D, int K, bool equal>
-[[KDS_LONG_LANES_TARGETS]] void look(const BeadPaths<D>& paths, std::span<const BeadRange> nodes,
-                                     std::span<const Basis> bases, double enlarged_by,
-                                     std::span<const double> raised_by, ChordLanes<D>& chords,
-                                     std::array<bool, 4>& all_inside, std::array<std::size_t, 4>& ends,
-                                     std::vector<BeadId>& beyond) {
+void look(const BeadPaths<D>& paths, std::span<const BeadRange> nodes, std::span<const Basis> bases,
+          double enlarged_by, std::span<const double> raised_by, ChordLanes<D>& chords,
+          std::array<bool, 4>& all_inside, std::array<std::size_t, 4>& ends, std::vector<BeadId>& beyond) {
   chords.enlarge(enlarged_by);
   for (std::size_t lane = 0; lane < raised_by.size(); ++lane)
     for (Lanes& limit : chords.limit) limit.v[lane] += raised_by[lane];
@@ -42,9 +41,11 @@ void look_in_degree(const BeadPaths<D>& paths, std::span<const BeadRange> nodes,
   ChordLanes<D> chords;
   find_chords(paths, bases, PeriodLanes({&step, 1}), chords);
   if (paths.equal_radii()) {
-    look<D, K, true>(paths, nodes, bases, enlarged_by, raised_by, chords, first.steady, first.ends, beyond);
+    in_long_lanes<&look<D, K, true>>(paths, nodes, bases, enlarged_by, raised_by, chords, first.steady,
+                                     first.ends, beyond);
   } else {
-    look<D, K, false>(paths, nodes, bases, enlarged_by, raised_by, chords, first.steady, first.ends, beyond);
+    in_long_lanes<&look<D, K, false>>(paths, nodes, bases, enlarged_by, raised_by, chords, first.steady,
+                                      first.ends, beyond);
   }
   const long all = (1L << bases.front().size) - 1;
   for (std::size_t lane = 0; lane < nodes.size(); ++lane) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "motions/numbers/long_lanes.h"
 #include "structures/moving_sphere/period_lanes.h"
 #include "structures/moving_sphere/tangent_lanes.h"
 
@@ -14,9 +15,8 @@ using detail::up;
 using detail::Vec;
 
 template <int D>
-[[KDS_LONG_LANES_TARGETS]] void find_gaps_in_lanes(const BeadPaths<D>& paths,
-                                                   const SphereEnclosure<D>& sphere, BeadId base, BeadId bead,
-                                                   const PeriodLanes& period, double side, SphereGaps& gaps) {
+void find_gaps_in_lanes(const BeadPaths<D>& paths, const SphereEnclosure<D>& sphere, BeadId base, BeadId bead,
+                        const PeriodLanes& period, double side, SphereGaps& gaps) {
   const auto get = [](const std::array<double, 4>& from) __attribute__((always_inline)) {
     return Lanes(Lanes::load(from.data()));
   };
@@ -95,11 +95,10 @@ template <int D>
   put((Lanes(1.0) + Lanes(0.5) * get(sphere.other_root)) * factor * Lanes(up) / radius, gaps.other_factor);
 }
 
-/// What find_motion and find_gaps_in_lanes know at the ends of a period, alone.
+/// What find_motion_in_lanes and find_gaps_in_lanes know at the ends of a period, alone.
 template <int D, std::size_t M>
-[[KDS_LONG_LANES_TARGETS]] void find_gaps_at_times(const BeadPaths<D>& paths,
-                                                   const detail::BeadLanes<M + 1>& beads, BeadId bead,
-                                                   double side, const Lanes& time, GapsAt& gaps) {
+void find_gaps_at_times(const BeadPaths<D>& paths, const detail::BeadLanes<M + 1>& beads, BeadId bead,
+                        double side, const Lanes& time, GapsAt& gaps) {
   constexpr double margin = SphereEnclosure<D>::margin;
   const Lanes one(1.0), half(0.5);
   std::array<Vec<D>, M> d;
@@ -189,7 +188,8 @@ template <int D, std::size_t M>
 template <int Dimension>
 void find_gaps(const BeadPaths<Dimension>& paths, const SphereEnclosure<Dimension>& sphere, BeadId base,
                BeadId bead, double side, SphereGaps& gaps) {
-  find_gaps_in_lanes<Dimension>(paths, sphere, base, bead, PeriodLanes(sphere.period), side, gaps);
+  in_long_lanes<&find_gaps_in_lanes<Dimension>>(paths, sphere, base, bead, PeriodLanes(sphere.period), side,
+                                                gaps);
 }
 
 template <int Dimension>
@@ -198,11 +198,14 @@ void find_gaps_at(const BeadPaths<Dimension>& paths, const Basis& basis, BeadId 
   const Lanes time = Lanes::load(times.data());
   const std::span<const Basis> bases(&basis, 1);
   if (basis.size == 2)
-    return find_gaps_at_times<Dimension, 1>(paths, detail::beads_of<2>(bases), bead, side, time, gaps);
+    return in_long_lanes<&find_gaps_at_times<Dimension, 1>>(paths, detail::beads_of<2>(bases), bead, side,
+                                                            time, gaps);
   if (Dimension == 2 || basis.size == 3)
-    return find_gaps_at_times<Dimension, 2>(paths, detail::beads_of<3>(bases), bead, side, time, gaps);
+    return in_long_lanes<&find_gaps_at_times<Dimension, 2>>(paths, detail::beads_of<3>(bases), bead, side,
+                                                            time, gaps);
   if constexpr (Dimension == 3)
-    find_gaps_at_times<Dimension, 3>(paths, detail::beads_of<4>(bases), bead, side, time, gaps);
+    in_long_lanes<&find_gaps_at_times<Dimension, 3>>(paths, detail::beads_of<4>(bases), bead, side, time,
+                                                     gaps);
 }
 
 template void find_gaps_at(const BeadPaths<2>&, const Basis&, BeadId, double, const std::array<double, 4>&,

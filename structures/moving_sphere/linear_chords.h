@@ -113,8 +113,8 @@ template <int D, std::size_t M>
 }
 
 template <int D, std::size_t M, bool equal>
-[[KDS_LONG_LANES_TARGETS]] void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads,
-                                                   const PeriodLanes& period, ChordLanes<D>& chords) {
+void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads, const PeriodLanes& period,
+                        ChordLanes<D>& chords) {
   const Lanes half(0.5);
   std::array<Vec<D>, M> a, b, c;  // curves seen from the first ball: their ends, the steps between
   std::array<Lanes, M> sa, sb, sc;

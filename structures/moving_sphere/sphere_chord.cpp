@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "certificates/base/determinant.h"
+#include "motions/numbers/long_lanes.h"
 #include "structures/moving_sphere/linear_chords.h"
 #include "structures/moving_sphere/tangent_lanes.h"
 
@@ -184,7 +185,7 @@ template <int D, std::size_t M, int K, bool equal>
 void find_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads, const PeriodLanes& period,
                  ChordLanes<D>& chords) {
   if constexpr (K == 1) {
-    detail::find_linear_chords<D, M, equal>(paths, beads, period, chords);
+    in_long_lanes<&detail::find_linear_chords<D, M, equal>>(paths, beads, period, chords);
   } else {
     find_curved_chords<D, M, K>(paths, beads, period, chords);
   }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "motions/numbers/long_lanes.h"
 #include "structures/moving_sphere/period_lanes.h"
 #include "structures/moving_sphere/tangent_lanes.h"
 
@@ -57,8 +58,8 @@ template <int D, std::size_t M, int N>
 }
 
 template <int D, std::size_t M>
-[[KDS_LONG_LANES_TARGETS]] void find_motion(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads,
-                                            const PeriodLanes& period, SphereEnclosure<D>& found) {
+void find_motion_in_lanes(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads, const PeriodLanes& period,
+                          SphereEnclosure<D>& found) {
   constexpr double margin = SphereEnclosure<D>::margin;
   std::array<CurveLanes<1, D>, M> d;
   std::array<PolynomialLanes<1>, M> s;
@@ -201,10 +202,12 @@ void find_motion(const BeadPaths<Dimension>& paths, const Basis& basis, const st
   const PeriodLanes lanes(periods);
   motion.period = periods;
   const std::span<const Basis> bases(&basis, 1);
-  if (basis.size == 2) return find_motion<Dimension, 1>(paths, beads_of<2>(bases), lanes, motion);
+  if (basis.size == 2)
+    return in_long_lanes<&find_motion_in_lanes<Dimension, 1>>(paths, beads_of<2>(bases), lanes, motion);
   if (Dimension == 2 || basis.size == 3)
-    return find_motion<Dimension, 2>(paths, beads_of<3>(bases), lanes, motion);
-  if constexpr (Dimension == 3) find_motion<Dimension, 3>(paths, beads_of<4>(bases), lanes, motion);
+    return in_long_lanes<&find_motion_in_lanes<Dimension, 2>>(paths, beads_of<3>(bases), lanes, motion);
+  if constexpr (Dimension == 3)
+    in_long_lanes<&find_motion_in_lanes<Dimension, 3>>(paths, beads_of<4>(bases), lanes, motion);
 }
 
 template void find_motion(const BeadPaths<2>&, const Basis&, const std::array<Period, 4>&,

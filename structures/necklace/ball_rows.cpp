@@ -1,6 +1,8 @@
 #include "structures/necklace/ball_rows.h"
 
+#include <bit>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "motions/base/input_error.h"
@@ -13,18 +15,22 @@ namespace {
 using Row = Lanes::Vector;
 using Bits = Lanes::Mask;
 
+/// In the weight's place.
+[[gnu::always_inline]] inline Row with_radius(const Row& point, const Row& radius) {
+  return __builtin_shufflevector(point, radius, 0, 1, 2, 7);
+}
 template <int D>
 [[gnu::always_inline]] inline Row row_of(const Curves<D>& curves, BeadId bead, int k) {
   const double* const point = curves.control_point(bead, k);
   if constexpr (D == 2) return Row{point[0], point[1], curves.radius(bead, k), 0};
-  Row row = Lanes::load(point);
-  row[3] = curves.radius(bead, k);  // in the weight's place
-  return row;
+  return with_radius(Lanes::load(point), Lanes(curves.radius(bead, k)).v);
 }
 template <int D>
 [[gnu::always_inline]] inline Bits bits_of(const BallRow<D>& row) {
   return reinterpret_cast<Bits>(Lanes::load(row.center.data()));
 }
+
+constexpr long long exponent = 0x7ffLL << 52;
 
 /// What was seen of rows that were copied, number by number.
 struct Seen {
@@ -35,9 +41,8 @@ struct Seen {
 
 // No branch, and no sum to wait for.
 template <int D, bool looks_at_start>
-[[KDS_LANES_TARGETS]] void copy_rows(const Curves<D>& curves, int k, BallRow<D>* rows,
-                                     const BallRow<D>* start, Seen& result) {
-  constexpr long long exponent = 0x7ffLL << 52;
+[[KDS_LANES_TARGETS]] Seen copy_rows(const Curves<D>& curves, int k, BallRow<D>* rows,
+                                     const BallRow<D>* start) {
   Seen seen;
   for (BeadId b = 0; b < curves.bead_count(); ++b) {
     const Row row = row_of(curves, b, k);
@@ -49,7 +54,41 @@ template <int D, bool looks_at_start>
     __builtin_memcpy(static_cast<void*>(rows + b), &row, sizeof row);
   }
   if (D == 2) seen.other_start[3] = 0;  // nobody's
-  result = seen;
+  return seen;
+}
+
+/// The same in space where all radii are known to be what they were, as nearly always.
+template <bool looks_at_start>
+[[KDS_LANES_TARGETS]] Seen copy_centers(const Curves<3>& curves, int k, double radius, BallRow<3>* rows,
+                                        const BallRow<3>* start) {
+  Seen seen;
+  const Row radii = Lanes(radius).v;
+  for (BeadId b = 0; b < curves.bead_count(); ++b) {
+    const Row row = with_radius(Lanes::load(curves.control_point(b, k)), radii);
+    seen.finite &= (reinterpret_cast<Bits>(row) & exponent) - exponent;
+    if constexpr (looks_at_start)
+      seen.other_start |= reinterpret_cast<Bits>(Lanes::load(curves.control_point(b, 0))) ^ bits_of(start[b]);
+    __builtin_memcpy(static_cast<void*>(rows + b), &row, sizeof row);
+  }
+  seen.other_start[3] = 0;  // there are weights
+  return seen;
+}
+
+/// Whether all are this, bit for bit.
+[[KDS_LANES_TARGETS]] bool all_are(double value, const double* numbers, std::size_t count) {
+  const Bits wanted = reinterpret_cast<Bits>(Lanes(value).v);
+  Bits other{};
+  std::size_t i = 0;
+  for (; i + Lanes::width <= count; i += Lanes::width)
+    other |= reinterpret_cast<Bits>(Lanes::load(numbers + i)) ^ wanted;
+  for (; i < count; ++i) other[0] |= std::bit_cast<long long>(numbers[i]) ^ wanted[0];
+  return !Lanes::any(other);
+}
+template <int D>
+bool all_radii_are(double radius, const Curves<D>& curves) {
+  const std::size_t beads = curves.bead_count(), each = static_cast<std::size_t>(curves.own_degree()) + 1;
+  if (beads > 1 && curves.radii(1) != curves.radii(0) + each) return false;  // they lie elsewhere
+  return beads > 0 && all_are(radius, curves.radii(0), beads * each);
 }
 
 template <int D>
@@ -71,12 +110,17 @@ auto BallRows<D>::copy(const Curves<D>& curves, int k, const BallRows* start) ->
   const bool others = rows_.size() != beads + padding;
   const bool looks_at_start = start != nullptr && start->size() == beads;
   rows_.resize(beads + padding);
-  Seen seen;
-  if (looks_at_start) {
-    copy_rows<D, true>(curves, k, rows_.data(), start->rows(), seen);
-  } else {
-    copy_rows<D, false>(curves, k, rows_.data(), nullptr, seen);
-  }
+  const BallRow<D>* const start_rows = looks_at_start ? start->rows() : nullptr;
+  const auto radii_stay = [&] {
+    return !others && equal_radii_ && (!looks_at_start || start->all_have(rows_[0].radius)) &&
+           all_radii_are(rows_[0].radius, curves);
+  };
+  const auto copied = [&]<bool looks>(std::bool_constant<looks>) {
+    if constexpr (D == 3)
+      if (radii_stay()) return copy_centers<looks>(curves, k, rows_[0].radius, rows_.data(), start_rows);
+    return copy_rows<D, looks>(curves, k, rows_.data(), start_rows);
+  };
+  const Seen seen = looks_at_start ? copied(std::true_type{}) : copied(std::false_type{});
   bool wrong = false;
   for (std::size_t i = 0; i <= D; ++i) wrong |= seen.finite[i] >= 0;
   const bool others_radii = others || seen.changed[D] != 0;

@@ -41,6 +41,10 @@ class BallRows {
 
   [[nodiscard]] std::size_t size() const { return rows_.empty() ? 0 : rows_.size() - padding; }
   [[nodiscard]] bool equal_radii() const { return equal_radii_; }
+  /// All radii are this; false where that is not known.
+  [[nodiscard]] bool all_have(double radius) const {
+    return equal_radii_ && size() > 0 && rows_[0].radius == radius;
+  }
   [[nodiscard]] const BallRow<Dimension>* rows() const { return rows_.data(); }
 
  protected:
