@@ -7,6 +7,7 @@
 #include "certificates/filters/cell_filter.h"
 #include "certificates/filters/float_filter.h"
 #include "motions/base/processor.h"
+#include "motions/numbers/long_lanes.h"
 
 namespace kds {
 
@@ -44,12 +45,13 @@ class FilterOver final : public CellFilter<C::dimension> {
         return find_in_eight_avx2(now, cells, beyond, unit, bounds_, charge, positive);
       case FloatVectors::four:
         for (std::size_t first = 0; first < cells_in_batch; first += 4)
-          find_in_four(now, cells, first, beyond, unit, bounds_, charge, positive);
+          in_long_lanes<&find_in_four<C>>(now, cells, first, beyond, unit, bounds_, charge, positive);
     }
   }
   void four_positive_cells(const CellsInLanes<dimension>& cells, const LengthUnit& unit, Rounding rounding,
                            PositiveBits& positive) const override {
-    find_in_four(curves(), cells, 0, dimension + 1, unit, bounds_, charge_of(rounding), positive);
+    in_long_lanes<&find_in_four<C>>(curves(), cells, 0, dimension + 1, unit, bounds_, charge_of(rounding),
+                                    positive);
   }
 
  private:

@@ -268,10 +268,9 @@ template <class FloatLanes, Motion M>
 
 /// Four cells from the first on.
 template <Motion M>
-[[KDS_FLOAT_LANES_TARGETS]] void find_in_four(const M& motion, const CellsInLanes<M::dimension>& cells,
-                                              std::size_t first, std::size_t beyond, const LengthUnit& unit,
-                                              const detail::FloatFilterBounds<M>& bounds, float charge,
-                                              PositiveBits& positive) {
+void find_in_four(const M& motion, const CellsInLanes<M::dimension>& cells, std::size_t first,
+                  std::size_t beyond, const LengthUnit& unit, const detail::FloatFilterBounds<M>& bounds,
+                  float charge, PositiveBits& positive) {
   detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, first, beyond, unit, bounds, charge, positive);
 }
 

@@ -51,9 +51,9 @@ MetContacts contacts_met(const RunOptions& options, const SceneSurvey& survey, s
   return met;
 }
 
-using Contacts = std::span<const MetContacts::Contact>;
+using ContactSpan = std::span<const MetContacts::Contact>;
 
-PairsMet pairs_of(Contacts contacts) {
+PairsMet pairs_of(ContactSpan contacts) {
   PairsMet pairs;
   for (const MetContacts::Contact& contact : contacts) pairs.insert(contact.pair);
   return pairs;

@@ -8,16 +8,13 @@
 
 #include "motions/numbers/lanes.h"
 
-// Of functions of four as KDS_LANES_TARGETS, and once more for processors with twice as many registers:
-// formulas of many numbers keep more of them there. Functions of eight are compiled for the processors that
-// have vectors so long, and only they may call them; each for one kind, by name. The same bits again.
+// Functions of four are long ones (long_lanes.h): formulas of many numbers keep more of them in registers.
+// Functions of eight are compiled for the processors that have vectors so long, and only they may call them;
+// each for one kind, by name. The same bits again.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define KDS_FLOAT_LANES_TARGETS \
-  gnu::target_clones("arch=x86-64-v4", "avx2", "default"), gnu::flatten, gnu::noinline
 #define KDS_EIGHT_FLOATS_AVX2 gnu::target("avx2"), gnu::flatten, gnu::noinline
 #define KDS_EIGHT_FLOATS_AVX512 gnu::target("arch=x86-64-v4"), gnu::flatten, gnu::noinline
 #else
-#define KDS_FLOAT_LANES_TARGETS gnu::noinline
 #define KDS_EIGHT_FLOATS_AVX2 gnu::noinline
 #define KDS_EIGHT_FLOATS_AVX512 gnu::noinline
 #endif

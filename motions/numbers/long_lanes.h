@@ -23,9 +23,7 @@ struct LongLanes<function> {
   [[gnu::target("arch=x86-64-v4"), gnu::flatten, gnu::noinline]] static void with_avx512(P... arguments) {
     function(arguments...);
   }
-  static void call(P... arguments) {
-    here_is_avx512 ? with_avx512(arguments...) : with_avx2(arguments...);
-  }
+  static void call(P... arguments) { here_is_avx512 ? with_avx512(arguments...) : with_avx2(arguments...); }
 #elif KDS_LANES_ARE_COMPILED_FOR_TARGETS
   [[gnu::target_clones("arch=x86-64-v4", "avx2", "default"), gnu::flatten, gnu::noinline]] static void call(
       P... arguments) {

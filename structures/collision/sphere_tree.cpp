@@ -11,7 +11,7 @@ namespace kds {
 namespace {
 
 // A radius computed with at most eight roundings.
-double rounded_up(double radius) {
+double radius_rounded_up(double radius) {
   return std::isfinite(radius) ? radius * (1 + 0x1p-48) + 0x1p-500 : HUGE_VAL;
 }
 
@@ -110,7 +110,7 @@ void SphereTree<Dimension>::measure(const StaticWrappedHierarchy<Dimension>& hie
     TreeSphere<Dimension>& sphere = spheres_[node];
     sphere.center = center_in<Dimension>(hierarchy.sphere(node));
     sphere.radius = is_finite<Dimension>(sphere.center)
-                        ? rounded_up(farthest_reach(balls, sphere.first, sphere.last, sphere.center))
+                        ? radius_rounded_up(farthest_reach(balls, sphere.first, sphere.last, sphere.center))
                         : HUGE_VAL;
   }
 }
@@ -123,7 +123,7 @@ void SphereTree<Dimension>::measure(const LayeredHierarchy<Dimension>& hierarchy
     const TreeSphere<Dimension>&left = spheres_[sphere.left], &right = spheres_[sphere.right];
     const double a = reach_of<Dimension>(left.center, left.radius, sphere.center);
     const double b = reach_of<Dimension>(right.center, right.radius, sphere.center);
-    sphere.radius = a + b < HUGE_VAL ? rounded_up(a > b ? a : b) : HUGE_VAL;
+    sphere.radius = a + b < HUGE_VAL ? radius_rounded_up(a > b ? a : b) : HUGE_VAL;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "motions/numbers/float_lanes.h"
+#include "motions/numbers/long_lanes.h"
 
 namespace kds {
 
@@ -203,11 +204,11 @@ template <class F, int Dimension>
 }
 
 template <int Dimension>
-[[KDS_FLOAT_LANES_TARGETS]] void prove_in_eights(const BlockNumbers& blocks, Look& look) {
+void prove_in_eights(const BlockNumbers& blocks, Look& look) {
   prove_groups<FloatLanesIn<8>, Dimension>(blocks, look);
 }
 template <int Dimension>
-[[KDS_FLOAT_LANES_TARGETS]] void prove_in_fours(const BlockNumbers& blocks, Look& look) {
+void prove_in_fours(const BlockNumbers& blocks, Look& look) {
   prove_groups<FloatLanesIn<4>, Dimension>(blocks, look);
 }
 
@@ -340,13 +341,11 @@ template <class F, int Dimension>
   }
 }
 template <int Dimension>
-[[KDS_FLOAT_LANES_TARGETS]] void move_in_eights(const Move<Dimension>& move, std::size_t stride,
-                                                float* floats) {
+void move_in_eights(const Move<Dimension>& move, std::size_t stride, float* floats) {
   move_blocks<FloatLanesIn<8>>(move, stride, floats);
 }
 template <int Dimension>
-[[KDS_FLOAT_LANES_TARGETS]] void move_in_fours(const Move<Dimension>& move, std::size_t stride,
-                                               float* floats) {
+void move_in_fours(const Move<Dimension>& move, std::size_t stride, float* floats) {
   move_blocks<FloatLanesIn<4>>(move, stride, floats);
 }
 
@@ -387,9 +386,9 @@ void BlockBeads<Dimension>::move_to(const Curves<Dimension>& curves,
   set_radii(curves, scale);
   const Move<Dimension> move{&curves, blocks_, middle.data(), drift_.data(), scale, controls_, swept()};
   if (target_ != VectorTarget::plain) {
-    move_in_eights(move, stride_, floats_.data());
+    in_long_lanes<&move_in_eights<Dimension>>(move, stride_, floats_.data());
   } else {
-    move_in_fours(move, stride_, floats_.data());
+    in_long_lanes<&move_in_fours<Dimension>>(move, stride_, floats_.data());
   }
 }
 
@@ -463,9 +462,9 @@ void BlockBeads<Dimension>::look_at(std::span<const BlockPair> blocks, BeadId ap
         {look.groups.data(), look.unclear.data()}, groups);
     pairs.proved_apart += groups;
     if (target_ != VectorTarget::plain) {
-      prove_in_eights<Dimension>(numbers, look);
+      in_long_lanes<&prove_in_eights<Dimension>>(numbers, look);
     } else {
-      prove_in_fours<Dimension>(numbers, look);
+      in_long_lanes<&prove_in_fours<Dimension>>(numbers, look);
     }
     for (std::size_t k = 0; k < look.count; ++k) {
       if ((look.unclear[k] | look.inside[k]) != 0) --pairs.proved_apart;
