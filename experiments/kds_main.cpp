@@ -32,7 +32,7 @@
 #include "experiments/update/update_command.h"
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
-#include "motions/base/processor.h"
+#include "motions/numbers/processor.h"
 
 namespace kds {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "certificates/exact/exact_time.h"
 #include "kds/bead_edits.h"
-#include "motions/base/processor.h"
+#include "motions/numbers/processor.h"
 
 namespace kds {
 

@@ -56,7 +56,7 @@ class Simulator {
 
   /// Structures act in the order they are added. They must outlive the simulator's use. Throws
   /// std::logic_error once the structures are built, std::runtime_error where the processor has not what the
-  /// libraries were compiled for (motions/base/processor.h).
+  /// libraries were compiled for (motions/numbers/processor.h).
   std::size_t add(KineticStructure& structure);
   /// Throws std::logic_error where certificates of another type have the same number.
   void add_table(FailureSource& table, const CertificateType& type);

@@ -6,8 +6,8 @@
 
 #include "certificates/filters/cell_filter.h"
 #include "certificates/filters/float_filter.h"
-#include "motions/base/processor.h"
 #include "motions/numbers/long_lanes.h"
+#include "motions/numbers/processor.h"
 
 namespace kds {
 

@@ -2,8 +2,8 @@
 // Long functions of lanes (lanes.h), that one file compiles: as KDS_LANES_TARGETS, and once more with twice
 // the registers for processors that have so many. The same bits again.
 
-#include "motions/base/processor.h"
 #include "motions/numbers/lanes.h"
+#include "motions/numbers/processor.h"
 
 namespace kds {
 

@@ -7,8 +7,9 @@
 // / D by less than 7u of itself, so that `share` errs by 3.5u |w| / D and u of itself. The centre is where it
 // should be up to 3.5u |w| + 3u share D, at most 6.5u R since |w| and share D are at most R, and u of its
 // coordinates; half the sum of distance and radii errs by 5u R, and the radius is rounded twice more. All
-// that is less than 16u R and u of the coordinates. Where one sphere lies in the other, or all but does, the
-// centre is that of the larger, up to as much, and the radius no less.
+// that is less than 16u R and u of the coordinates. One sphere lies in the other only if that is true in
+// spite of rounding. Where it all but does the centre is that of the larger, up to as much, and the radius no
+// less.
 
 #include "structures/enclosing_sphere/cage.h"
 #include "structures/enclosing_sphere/four_balls.h"
@@ -37,6 +38,17 @@ template <bool equal, int Dimension>
   Lanes size = abs(sphere.center[0]);
   for (std::size_t axis = 1; axis < Dimension; ++axis) size += abs(sphere.center[axis]);
   sphere.radius = reach * Lanes(1 + 0x1p-49) + Lanes(0x1p-51) * size;
+  if constexpr (!equal) {
+    const auto nested = distance * Lanes(1 + 0x1p-48) <= abs(wider);
+    const auto is_b = wider > Lanes(0.0);
+    const auto larger = [&](const Lanes& of_a, const Lanes& of_b, const Lanes& around)
+        __attribute__((always_inline)) {
+      return Lanes::choose(nested, Lanes::choose(is_b, of_b, of_a), around);
+    };
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
+      sphere.center[axis] = larger(a.center[axis], b.center[axis], sphere.center[axis]);
+    sphere.radius = larger(a.radius, b.radius, sphere.radius);
+  }
   return (square >= Lanes(0x1p-900)) & (square <= Lanes(0x1p900)) & (abs(wider) >= Lanes(0.0));
 }
 

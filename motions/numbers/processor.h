@@ -18,7 +18,7 @@ namespace kds {
 }
 
 /// What the libraries need that this processor has not, in a sentence; nothing where they can run. A function
-/// of lanes (motions/numbers/lanes.h) would end the program there.
+/// of lanes (lanes.h) would end the program there.
 [[nodiscard]] std::optional<std::string> missing_in_processor();
 
 }  // namespace kds

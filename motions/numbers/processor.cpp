@@ -1,4 +1,4 @@
-#include "motions/base/processor.h"
+#include "motions/numbers/processor.h"
 
 #include "motions/numbers/lanes.h"
 
