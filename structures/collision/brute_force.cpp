@@ -13,8 +13,8 @@ namespace kds {
 
 namespace {
 
-constexpr BeadId at_a_time = 1024;
-using Found = std::array<BeadId, at_a_time>;
+constexpr BeadId beads_at_a_time = 1024;
+using Found = std::array<BeadId, beads_at_a_time>;
 
 // The beads of first..end-1, at most so many as are looked at at a time, that are not surely_apart from this
 // one.
@@ -58,7 +58,7 @@ void visit_near(const Balls<Dimension>& balls, const PairsAsked& asked, const Di
     for (BeadId i = asked.necklaces[n].first; i <= asked.necklaces[n].last; ++i) {
       for (const Run& run : asked_of(i, n, asked)) {
         for (BeadId first = run.first; first < run.end;) {
-          const BeadId end = first + std::min(at_a_time, run.end - first);
+          const BeadId end = first + std::min(beads_at_a_time, run.end - first);
           const std::size_t count = find_near(balls, i, distance(), first, end, found);
           for (std::size_t k = 0; k < count; ++k)
             if (!visit(i, found[k])) return;

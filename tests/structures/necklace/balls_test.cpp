@@ -75,9 +75,9 @@ TEST(Balls, FollowAMotion) {
   expect_to_follow<BezierMotion<3, 3>>(random);
 }
 
-TEST(Balls, KnowTheStartOfAMotionBitForBit) {
-  Random random(2);
+void expect_to_know_the_start(Random& random, bool equal) {
   auto motion = random_motion<BezierMotion<3, 1>>(random, 6, MotionKind::generic);
+  set_radii(motion, random, equal);
   const Curves<3> curves(motion);
   Balls<3> next;
   EXPECT_FALSE(next.move_on_from(Balls<3>(curves, 1), curves));
@@ -101,6 +101,12 @@ TEST(Balls, KnowTheStartOfAMotionBitForBit) {
   EXPECT_FALSE(next.move_on_from(start, Curves<3>(fewer)));
 }
 
+TEST(Balls, KnowTheStartOfAMotionBitForBit) {
+  Random random(2);
+  expect_to_know_the_start(random, false);
+  expect_to_know_the_start(random, true);
+}
+
 // What a motion's type refuses itself comes in through other memory.
 template <int D>
 struct RawMotion {
@@ -118,10 +124,14 @@ struct RawMotion {
 
 template <int D>
 void expect_refusal(const RawMotion<D>& motion, const std::string& message) {
-  Balls<D> balls;
-  for (int again = 0; again < 2; ++again) {
-    EXPECT_THAT([&] { balls.move_to(Curves<D>(motion), 1); },
-                testing::ThrowsMessage<InputError>(testing::HasSubstr(message)));
+  const RawMotion<D> before(motion.bead_count());  // all radii are zero, as most of `motion` are
+  for (const bool moved : {false, true}) {
+    Balls<D> balls;
+    if (moved) balls.move_to(Curves<D>(before), 1);
+    for (int again = 0; again < 2; ++again) {
+      EXPECT_THAT([&] { balls.move_to(Curves<D>(motion), 1); },
+                  testing::ThrowsMessage<InputError>(testing::HasSubstr(message)));
+    }
   }
 }
 
