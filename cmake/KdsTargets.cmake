@@ -37,7 +37,7 @@ endif()
 option(KDS_ANY_PROCESSOR "Serve processors without AVX2, too" ${KDS_HERE_IS_NO_AVX2})
 if(NOT KDS_ANY_PROCESSOR)
   target_compile_definitions(kds_requirements INTERFACE KDS_NEEDS_AVX2)
-  set(KDS_PKGCONFIG_DEFINITIONS " -DKDS_AVX2")
+  set(KDS_PKGCONFIG_DEFINITIONS " -DKDS_NEEDS_AVX2")
 endif()
 
 # What is ours alone.
