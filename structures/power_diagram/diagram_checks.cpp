@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "certificates/exact/exact_polynomial.h"
+#include "structures/power_diagram/hull_winding.h"
 #include "structures/power_diagram/static_diagrams.h"
 #include "structures/triangulation/regularity_fault.h"
 
@@ -27,13 +28,14 @@ bool is_wrong_at(DiagramState<Dimension>& state, CellId cell) {
 template <int Dimension>
 bool is_wrong_just_after(DiagramState<Dimension>& state) {
   if (state.simulator.kernel() == Kernel::fast) return false;
-  // Functions turn negative where they are zero now, and that is at the cells touched. Others were right, and
-  // with them the diagram covers what it covered; if there are others.
+  // Functions turn negative where they are zero now, which is at the cells touched: the others are as right
+  // as they were.
   const bool known = !state.touched.empty() && state.touched_moment == state.simulator.moment() &&
                      state.touched.size() < state.triangulation.live_count();
   if (state.hidden.empty() && known) {
     return std::any_of(state.touched.begin(), state.touched.end(),
-                       [&](CellId cell) { return is_wrong_at(state, cell); });
+                       [&](CellId cell) { return is_wrong_at(state, cell); }) ||
+           !hull_winds_once(state, std::span<const CellId>(state.touched));
   }
   return regularity_fault(
              state.triangulation, state.bead_count(), state.hidden.with_hosts(), false,

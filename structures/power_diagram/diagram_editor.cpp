@@ -299,8 +299,11 @@ void DiagramEditor<Dimension>::finish_edit(Kind kind, BeadId bead) {
   settle();
 }
 
+/// Where a certificate vanishes now, new cells or courses may turn cells over, or wind the hull around twice,
+/// unseen.
 template <int Dimension>
 void DiagramEditor<Dimension>::settle() {
+  if (!state_.is_generic_now()) state_.suspect_touched(Doubt::unclear);
   if (!state_.owner.needs_after_batch) return;
   state_.owner.needs_after_batch = false;
   rebuilder_.after_batch();

@@ -9,6 +9,7 @@
 #include "motions/base/input_error.h"
 #include "motions/curves/positions.h"
 #include "structures/power_diagram/diagram_checks.h"
+#include "structures/power_diagram/hull_winding.h"
 #include "structures/power_diagram/static_diagrams.h"
 
 namespace kds {
@@ -171,7 +172,8 @@ bool DiagramRebuilder<Dimension>::repair(std::vector<CellId> wrong) {
   for (int ring = 0; ring <= rings; ++ring) {
     if (wrong.empty() || 4 * wrong.size() > state_.triangulation.live_count()) return false;
     if (try_to_repair(wrong)) {
-      const bool right = state_.doubt != Doubt::wrong;
+      const bool right =
+          state_.doubt != Doubt::wrong && hull_winds_once(state_, std::span<const CellId>(state_.touched));
       state_.clear_doubt();
       return right;
     }

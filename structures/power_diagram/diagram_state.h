@@ -70,6 +70,8 @@ struct DiagramState {
   std::vector<CellId> touched;
   std::uint64_t touched_moment = 0;
   bool known_places = true;
+  /// No certificate vanished after this time in this step, and no cell was flat; -1 if none did at all.
+  double vanished_until = -1;
 
   /// Something is amiss, who knows where if it is wrong; if it is unclear, among the cells touched.
   void suspect(Doubt more) {
@@ -96,6 +98,9 @@ struct DiagramState {
     touched_moment = simulator.moment();
     touched.insert(touched.end(), cells.begin(), cells.end());
   }
+
+  /// Whether all certificates are known to be positive at the present time, as at nearly all times.
+  [[nodiscard]] bool is_generic_now() const { return simulator.now().lower() > vanished_until; }
 
   [[nodiscard]] BeadId bead_count() const { return static_cast<BeadId>(motion.bead_count()); }
   /// The infinite bead is not.

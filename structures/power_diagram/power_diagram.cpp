@@ -61,6 +61,7 @@ void PowerDiagram<Dimension>::start_step() {
   if (state.flat) {  // any cell may turn over
     for (CellId cell = 0; cell < state.triangulation.cells().size(); ++cell) state.touch(std::array{cell});
   }
+  state.vanished_until = state.flat ? 0.0 : -1.0;
   const bool wrong = state.flat && is_wrong_just_after(state);
   state.clear_doubt();
   // Also where it is wrong: its certificates tell how soon a rebuild must be.

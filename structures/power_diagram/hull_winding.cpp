@@ -1,0 +1,103 @@
+#include "structures/power_diagram/hull_winding.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "structures/triangulation/hull_faces.h"
+
+namespace kds {
+
+namespace {
+
+/// The edges of the hull, in order around it, from an infinite cell on.
+std::vector<std::array<BeadId, 2>> edges_around(const DiagramState<2>& state, CellId start) {
+  std::vector<std::array<BeadId, 2>> edges;
+  CellId cell = start;
+  do {
+    const auto edge = *hull_face<2>(state.beads_of(cell));
+    edges.push_back(edge);
+    cell = state.neighbor(cell, state.place_of(cell, edge[0]));  // shares the edge's second bead
+  } while (cell != start);
+  return edges;
+}
+
+/// Edges ahead have an angle of less than a quarter turn to the first. Each edge turns by less than half a
+/// turn, so that none leaps over those that are not ahead: the polygon enters the ones ahead once in each
+/// full turn.
+bool polygon_turns_once(DiagramState<2>& state, CellId start) {
+  const auto edges = edges_around(state, start);
+  int entries = 0;
+  bool is_ahead = true;  // the first edge
+  for (std::size_t e = 1; e <= edges.size(); ++e) {
+    const bool was_ahead = is_ahead;
+    is_ahead = e == edges.size() || state.sign_just_after(same_turn<2>(edges[0], edges[e])) > 0;
+    if (is_ahead && !was_ahead) ++entries;
+  }
+  return entries == 1;
+}
+
+/// The faces of the hull around a vertex of an infinite cell, in order, each with the vertex first.
+std::vector<std::array<BeadId, 3>> faces_around(const DiagramState<3>& state, CellId start, BeadId vertex) {
+  std::vector<std::array<BeadId, 3>> faces;
+  CellId cell = start;
+  do {
+    auto face = *hull_face<3>(state.beads_of(cell));
+    std::rotate(face.begin(), std::find(face.begin(), face.end(), vertex), face.end());
+    faces.push_back(face);
+    cell = state.neighbor(cell, state.place_of(cell, face[1]));  // shares the edge to the face's third bead
+  } while (cell != start);
+  return faces;
+}
+
+/// All faces support the cone if no bead of it is outside one of them. Then they cover its boundary equally
+/// often everywhere: once, if the middle of the first face lies in no other.
+bool cone_winds_once(DiagramState<3>& state, CellId start, BeadId vertex) {
+  const auto faces = faces_around(state, start, vertex);
+  if (faces.size() < 5) return true;
+  const auto side = [&](const std::array<BeadId, 3>& face, BeadId bead) {  // positive inside
+    if (bead == face[1] || bead == face[2]) return 0;
+    return state.sign_just_after(Orientation<3>({face[0], face[1], face[2], bead}, -1));
+  };
+  const auto middle_is_left_of = [&](BeadId from, BeadId to) {
+    CentroidInside<3> inside;
+    inside.beads = {faces[0][0], faces[0][1], faces[0][2], from, to};
+    return state.sign_just_after(inside) >= 0;
+  };
+  for (const auto& face : faces) {
+    for (const auto& other : faces) {
+      if (side(face, other[1]) < 0) return false;
+    }
+  }
+  return std::none_of(faces.begin() + 1, faces.end(), [&](const auto& face) {
+    return side(faces[0], face[1]) == 0 && side(faces[0], face[2]) == 0 &&
+           middle_is_left_of(vertex, face[1]) && middle_is_left_of(face[2], vertex);
+  });
+}
+
+}  // namespace
+
+template <>
+bool hull_winds_once(DiagramState<2>& state, std::span<const CellId> touched) {
+  const auto on_hull = std::find_if(touched.begin(), touched.end(), [&](CellId cell) {
+    return state.triangulation.is_live(cell) && state.is_infinite(cell);
+  });
+  return on_hull == touched.end() || polygon_turns_once(state, *on_hull);
+}
+
+template <>
+bool hull_winds_once(DiagramState<3>& state, std::span<const CellId> touched) {
+  std::vector<BeadId> seen;
+  for (const CellId cell : touched) {
+    if (!state.triangulation.is_live(cell) || !state.is_infinite(cell)) continue;
+    const auto face = hull_face<3>(state.beads_of(cell));
+    for (const BeadId vertex : *face) {
+      if (std::find(seen.begin(), seen.end(), vertex) != seen.end()) continue;
+      seen.push_back(vertex);
+      if (!cone_winds_once(state, cell, vertex)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace kds

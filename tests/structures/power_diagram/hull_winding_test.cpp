@@ -1,0 +1,83 @@
+// Beads that pass through the hull together, at moments at which cells of the hull only touch flatness: each
+// certificate holds afterwards on a hull that winds around twice, so that the winding number must be looked
+// at.
+
+#include <gmock/gmock.h>
+
+#include "structures/power_diagram/power_diagram.h"
+#include "tests/lattice/run_lattice_scenes.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/rounds.h"
+#include "tests/support/text_of.h"
+
+namespace kds::hull_winding_test {
+namespace {
+
+using namespace test;
+using testing::ElementsAre;
+
+template <int Dimension, int Degree>
+using Bezier = BezierMotion<Dimension, Degree>;
+
+/// The beads' final cells, after audits between all events.
+template <class M>
+std::vector<CellBeads<M::dimension>> cells_at_the_end(const M& motion, Kernel kernel) {
+  Rig<PowerDiagram<M::dimension>, M> rig(motion, AuditMode::events, kernel);
+  rig.run();
+  return rig.structure.at_frame(false).cells;
+}
+
+/// Centres in two frames, and one weight a bead.
+template <int Dimension>
+Bezier<Dimension, 1> between(const Points& from, const Points& to, const std::vector<double>& weights) {
+  Bezier<Dimension, 1> motion(from.size());
+  for (BeadId b = 0; b < from.size(); ++b) {
+    for (int axis = 0; axis < Dimension; ++axis) {
+      motion.set_coordinate(b, 0, axis, from[b][static_cast<std::size_t>(axis)]);
+      motion.set_coordinate(b, 1, axis, to[b][static_cast<std::size_t>(axis)]);
+    }
+    for (int k = 0; k <= 1; ++k) motion.set_weight(b, k, weights[b]);
+  }
+  return motion;
+}
+
+class HullWinding : public testing::TestWithParam<Kernel> {};
+
+// Five of six beads lie in one plane on the hull at u = 1/2, equal radii.
+TEST_P(HullWinding, FiveBeadsInAPlaneOfTheHull) {
+  const auto motion = between<3>({{1, 0, 0}, {1, 1, 1}, {2, 0, 1}, {1, 2, 2}, {2, 1, 0}, {2, 0, 2}},
+                                 {{1, 1, 0}, {0, 0, 2}, {0, 1, 1}, {1, 2, 2}, {1, 0, 2}, {0, 1, 2}},
+                                 std::vector<double>(6, 1.0));
+  EXPECT_THAT(cells_at_the_end(motion, GetParam()),
+              ElementsAre(CellBeads<3>{0, 1, 2, 4}, CellBeads<3>{0, 2, 3, 4}, CellBeads<3>{1, 2, 4, 5},
+                          CellBeads<3>{2, 3, 4, 5}));
+}
+
+// Two beads meet exactly on an edge of the hull at u = 0.8 and cross it together, unequal radii.
+TEST_P(HullWinding, TwoBeadsCrossAnEdgeTogether) {
+  const auto motion =
+      between<2>({{2, 0, 0}, {1, 0, 0}, {0, 0, 0}, {1, 1, 0}, {1, 2, 0}, {0, 1, 0}},
+                 {{2, 0, 0}, {1, 0, 0}, {1.25, 1.25, 0}, {1.625, 0.375, 0}, {1, 2, 0}, {1.25, 1, 0}},
+                 {0, 0, 0, 0, 0, 0.0625});
+  EXPECT_THAT(
+      cells_at_the_end(motion, GetParam()),
+      ElementsAre(CellBeads<2>{0, 1, 3}, CellBeads<2>{0, 2, 3}, CellBeads<2>{0, 2, 4}, CellBeads<2>{1, 3, 5},
+                  CellBeads<2>{1, 4, 5}, CellBeads<2>{2, 3, 5}, CellBeads<2>{2, 4, 5}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels, HullWinding, testing::Values(Kernel::filtered, Kernel::exact),
+                         [](const auto& test) { return test.param == Kernel::exact ? "exact" : "filtered"; });
+
+// The diagram equals a static build after every event of scenes full of ties: an audit follows each of them.
+TEST(PowerDiagram, LatticeScenesAreRightAfterEveryEvent) {
+  LatticeCounts counts;
+  for (std::uint32_t seed = 1; seed <= rounds(100U, 3U); ++seed) {
+    const auto failure = run_lattice_scenes(seed, counts);
+    ASSERT_EQ(failure, std::nullopt) << *failure;
+  }
+  EXPECT_GT(counts.rebuilt, counts.scenes / 4);
+  EXPECT_LT(counts.refused, counts.scenes / 10);
+}
+
+}  // namespace
+}  // namespace kds::hull_winding_test

@@ -1,0 +1,91 @@
+#pragma once
+// Random scenes full of ties: beads with whole coordinates that meet, cross a face or an edge of the hull
+// together, or all pass through one point, line or plane at the same time.
+
+#include <array>
+#include <random>
+
+#include "motions/curves/bezier_motion.h"
+
+namespace kds::test {
+
+enum class LatticeScene {
+  random,     ///< all control points are lattice points
+  crossing,   ///< beads of a resting simplex, and others that all pass through one lattice point of it at the
+              ///< same time
+  collapse,   ///< all beads pass through a point, line or plane at u = 1/2
+  from_flat,  ///< all beads start in a point, line or plane
+  into_flat,  ///< all beads end there
+};
+inline constexpr int lattice_scene_kinds = 5;
+
+namespace detail {
+
+/// Whole numbers in [low, high].
+inline int whole_number(std::mt19937& random, int low, int high) {
+  return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
+}
+
+/// The control values of (2u-1)^Degree, u^Degree or (1-u)^Degree: zero in the middle, at the start or at the
+/// end.
+template <int Degree>
+std::array<int, Degree + 1> vanishing(LatticeScene kind) {
+  std::array<int, Degree + 1> values{};
+  if (kind == LatticeScene::from_flat) {
+    values[Degree] = 1;
+  } else if (kind == LatticeScene::into_flat) {
+    values[0] = 1;
+  } else {
+    for (int k = 0; k <= Degree; ++k) values[static_cast<std::size_t>(k)] = (Degree - k) % 2 == 0 ? 1 : -1;
+  }
+  return values;
+}
+
+}  // namespace detail
+
+/// One step of at least Dimension + 1 beads. Half of the scenes have weights, a quarter weights that move.
+template <int Dimension, int Degree>
+BezierMotion<Dimension, Degree> lattice_scene(std::mt19937& random, LatticeScene kind) {
+  using detail::whole_number;
+  const int beads = whole_number(random, Dimension + 1, Dimension + 7);
+  const int range = whole_number(random, 1, 4);
+  const int flat_axes = whole_number(random, 1, Dimension);  // in which all beads meet
+  const auto value_at = detail::vanishing<Degree>(kind);
+  BezierMotion<Dimension, Degree> motion(static_cast<std::size_t>(beads));
+  std::array<int, Dimension> meeting{};
+  for (int& x : meeting) x = whole_number(random, 0, range);
+  for (int b = 0; b < beads; ++b) {
+    const auto bead = static_cast<BeadId>(b);
+    const bool in_simplex = kind == LatticeScene::crossing && b <= Dimension;
+    const bool crosses = kind == LatticeScene::crossing && !in_simplex && whole_number(random, 0, 3) > 0;
+    for (int axis = 0; axis < Dimension; ++axis) {
+      const int rest = in_simplex ? (b == axis + 1 ? range : 0) : whole_number(random, 0, range);
+      const int across = whole_number(random, -range, range);
+      const bool meets = kind != LatticeScene::crossing && axis < flat_axes;
+      for (int k = 0; k <= Degree; ++k) {
+        int x = rest;
+        if (kind == LatticeScene::random) {
+          x = whole_number(random, 0, range);
+        } else if (crosses || meets) {
+          x = (crosses ? meeting[static_cast<std::size_t>(axis)] : 0) +
+              across * value_at[static_cast<std::size_t>(k)];
+        } else if (!in_simplex && k == Degree && across > 0) {
+          x = whole_number(random, 0, range);
+        }
+        motion.set_coordinate(bead, k, axis, x);
+      }
+    }
+  }
+  const int weights = whole_number(random, 0, 3);
+  for (int b = 0; b < beads; ++b) {
+    const int weight = whole_number(random, 0, range);
+    for (int k = 0; k <= Degree; ++k)
+      motion.set_weight(static_cast<BeadId>(b), k,
+                        weights < 2    ? 0
+                        : weights == 2 ? weight
+                                       : whole_number(random, 0, range));
+  }
+  return motion;
+}
+
+}  // namespace kds::test
