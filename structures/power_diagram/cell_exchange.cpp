@@ -119,11 +119,18 @@ bool CellExchange<Dimension>::is_regular(std::span<const CellId> hole, std::span
 template <int Dimension>
 void CellExchange<Dimension>::fill(std::span<const CellId> hole, std::span<const Beads> made) {
   facets_.drop_around(hole);
-  std::vector<Beads> cleared, filled;
-  for (const CellId cell : hole) {
-    cleared.push_back(state_.beads_of(cell));
-    std::sort(cleared.back().begin(), cleared.back().end());
-  }
+  std::vector<Beads> gone;
+  for (const CellId cell : hole) gone.push_back(state_.beads_of(cell));
+  const std::vector<CellId> cells = exchange(hole, record(gone, made));
+  facets_.watch_around(cells);
+  hidden_.rehouse(cells[0]);
+}
+
+template <int Dimension>
+auto CellExchange<Dimension>::record(std::span<const Beads> gone, std::span<const Beads> made)
+    -> std::vector<Beads> {
+  std::vector<Beads> cleared(gone.begin(), gone.end()), filled;
+  for (Beads& cell : cleared) std::sort(cell.begin(), cell.end());
   for (const Beads& cell : made) filled.push_back(in_order(cell));
   for (auto* cells : {&cleared, &filled}) {
     std::sort(cells->begin(), cells->end());
@@ -133,10 +140,9 @@ void CellExchange<Dimension>::fill(std::span<const CellId> hole, std::span<const
       state_.record(change);
     }
   }
-  const std::vector<CellId> cells = exchange(hole, filled);
-  facets_.watch_around(cells);
-  hidden_.rehouse(cells[0]);
+  return filled;
 }
+
 template <int Dimension>
 std::vector<CellId> CellExchange<Dimension>::exchange(std::span<const CellId> hole,
                                                       std::span<const Beads> made) {

@@ -31,6 +31,9 @@ class CellExchange {
   [[nodiscard]] bool is_regular(std::span<const CellId> hole, std::span<const Beads> made);
   /// Exchanges cells whose hidden beads are displaced, records that, and guards the new ones.
   void fill(std::span<const CellId> hole, std::span<const Beads> made);
+  /// Records that some cells go and that others, positively oriented, come. Returns the latter as they are
+  /// recorded, sorted.
+  std::vector<Beads> record(std::span<const Beads> gone, std::span<const Beads> made);
   /// The exchange alone. Beads that have no cell any more are hidden, and displaced; hidden ones that have
   /// cells come back.
   std::vector<CellId> exchange(std::span<const CellId> hole, std::span<const Beads> made);

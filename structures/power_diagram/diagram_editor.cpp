@@ -344,9 +344,11 @@ void DiagramEditor<Dimension>::apply(const Change& change) {
   }
   if (!(hole.empty() && made.empty()) && !state_.triangulation.fits(hole, made))
     throw std::invalid_argument("the cells do not fill the place of those cleared");
-  if (repair && hole.empty()) throw std::invalid_argument("a repair exchanges cells");
+  if (repair && made.empty()) throw std::invalid_argument("a repair exchanges cells");
   if (!repair) state_.present_beads.set_absent(bead, change.kind == Events::erases);
-  if (!hole.empty()) {
+  if (repair && hole.size() == state_.triangulation.live_count()) {
+    rebuilder_.assign_logged(made);
+  } else if (!hole.empty()) {
     hidden_.forget_displaced();
     static_cast<void>(exchange_.exchange(hole, made));
   } else if (change.kind == Events::inserts) {

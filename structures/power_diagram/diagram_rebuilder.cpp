@@ -30,6 +30,15 @@ std::vector<CellId> with_those_around(const DiagramState<Dimension>& state, std:
   return cells;
 }
 
+template <int Dimension>
+std::vector<CellBeads<Dimension>> live_cells(const DiagramState<Dimension>& state) {
+  std::vector<CellBeads<Dimension>> cells;
+  for (CellId cell = 0; cell < state.triangulation.cells().size(); ++cell) {
+    if (state.triangulation.is_live(cell)) cells.push_back(state.beads_of(cell));
+  }
+  return cells;
+}
+
 }  // namespace
 
 template <int Dimension>
@@ -112,8 +121,13 @@ void DiagramRebuilder<Dimension>::drop_all() {
 }
 
 template <int Dimension>
-void DiagramRebuilder<Dimension>::record(const Dyadic& time) {
+void DiagramRebuilder<Dimension>::record(const Dyadic& time, std::span<const Beads> cells_before) {
   ++state_.owner.statistics.rebuilds;
+  if (time.exponent() > finest_logged_grid) {
+    const auto made = exchange_.record(cells_before, live_cells(state_));
+    state_.record({Events::repairs, 1, {*std::min_element(made.front().begin(), made.front().end())}});
+    return;
+  }
   Change change{Events::rebuild, 1, {time.exponent()}};
   for (Integer rest = time.numerator(); rest != 0 && change.size < change.ids.size(); rest >>= 32U) {
     change.ids[change.size++] = static_cast<BeadId>(mpz_get_ui(rest.data()) & 0xffffffffU);
@@ -123,13 +137,21 @@ void DiagramRebuilder<Dimension>::record(const Dyadic& time) {
 
 template <int Dimension>
 void DiagramRebuilder<Dimension>::apply(const Change& change) {
-  if (change.size < 1 || change.ids[0] > finest_grid)
+  if (change.size < 1 || change.ids[0] > finest_logged_grid)
     throw std::invalid_argument("this is no time of a rebuild");
   Integer numerator = 0;
   for (std::size_t i = change.size; i-- > 1;) numerator = (numerator << 32U) + change.ids[i];
   const Dyadic time(numerator, change.ids[0]);
   if (!(time < Dyadic(1.0)) || !assign_static(time))
     throw std::invalid_argument("no diagram can be built at this time");
+}
+
+template <int Dimension>
+void DiagramRebuilder<Dimension>::assign_logged(std::span<const Beads> cells) {
+  state_.triangulation.assign(state_.bead_count(), cells);
+  std::vector<BeadId> hidden = state_.present_beads.all();
+  std::erase_if(hidden, [this](BeadId bead) { return state_.triangulation.is_vertex(bead); });
+  forget_steps({{}, hidden, Dimension});
 }
 
 template <int Dimension>
@@ -197,7 +219,7 @@ bool DiagramRebuilder<Dimension>::try_to_repair(std::span<const CellId> wrong) {
     }
   }
   state_.present = {};
-  for (const unsigned bits : {80U, finest_grid}) {  // hardly ever does anything happen sooner
+  for (const unsigned bits : {80U, finest_logged_grid}) {  // hardly ever does anything happen sooner
     const Dyadic time = next_on_grid(state_.simulator.now().exact(), bits);
     if (!(time < Dyadic(1.0))) continue;
     const std::vector<Beads> made = exchange_.fill_of(wrong, beads, time);
@@ -219,15 +241,16 @@ bool DiagramRebuilder<Dimension>::try_to_rebuild() {
   drop_all();
   facets_.remember();
   state_.present = {};
+  const auto cells_before = live_cells(state_);
   bool solid = false;  // at some time
   const auto is_late = [&](const Dyadic& time) {
     return std::any_of(before.begin(), before.end(), [limit = ExactTime(time)](ExactTime& other) mutable {
       return ExactTime::compare(limit, other) >= 0;
     });
   };
-  for (unsigned bits = coarsest_that_worked_; bits <= finest_grid; bits += bits < 32 ? 4 : 12) {
+  for (unsigned bits = coarsest_that_worked_; bits <= finest_grid; bits = next_grid(bits)) {
     const Dyadic time = next_on_grid(state_.simulator.now().exact(), bits);
-    if (!(time < Dyadic(1.0)) || (bits + 12 <= finest_grid && is_late(time))) continue;
+    if (!(time < Dyadic(1.0)) || (next_grid(bits) <= finest_grid && is_late(time))) continue;
     if (!assign_static(time)) continue;
     solid = true;
     state_.clear_doubt();
@@ -237,7 +260,7 @@ bool DiagramRebuilder<Dimension>::try_to_rebuild() {
       state_.clear_doubt();
       facets_.forget_known();
       coarsest_that_worked_ = bits;
-      record(time);
+      record(time, cells_before);
       return true;
     }
     before.insert(before.end(), more.begin(), more.end());
@@ -275,11 +298,12 @@ void DiagramRebuilder<Dimension>::rebuild_roughly() {
   if (++rough_rebuilds_ > most_in_a_step) return;
   drop_all();
   state_.present = {};
+  const auto cells_before = live_cells(state_);
   const Dyadic time(state_.simulator.now().upper() + 0x1p-16);
   if (!(time < Dyadic(1.0)) || !assign_static(time)) return watch_all();  // as it is
   watch_all();
   state_.clear_doubt();
-  record(time);
+  record(time, cells_before);
 }
 
 template class DiagramRebuilder<2>;

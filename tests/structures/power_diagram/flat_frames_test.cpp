@@ -173,13 +173,22 @@ TEST(PowerDiagram, StepsInOnePlaneHaveNoCells) {
   EXPECT_TRUE(run_audited(through({flat, slid, flat}), false)) << "never any";
 }
 
-// Flat at the start, and at the very next time that a rebuild is tried at too.
-TEST(PowerDiagram, FlatAtTwoTimesIsNotFlatForGood) {
-  const double soon = 0x1p-200;
-  const Points from{{soon, 0, 0}, {0, 0, 0}, {5, 0, 0}, {0, 0, 0}},
-      to{{soon, 0, 0}, {1, 0, 0}, {5, 1, 0}, {0, 0, 1}};
-  PowerRig rig(moving(from, to), AuditMode::events);
-  EXPECT_THROW(rig.run(), InputError) << "closer than it can be rebuilt between";
+// Flat at the start, and again at a time nearer to it than the finest grid whose times a log holds.
+TEST(PowerDiagram, RebuildsBetweenTimesOfAnyDistance) {
+  for (const double soon : {0x1p-199, 0x1p-200, 0x1p-300, 0x1p-1000}) {
+    SCOPED_TRACE(soon);
+    const Points from{{soon, 0, 0}, {0, 0, 0}, {5, 0, 0}, {0, 0, 0}},
+        to{{soon, 0, 0}, {1, 0, 0}, {5, 1, 0}, {0, 0, 1}};
+    PowerRig rig(moving(from, to), AuditMode::events),
+        exact(moving(from, to), AuditMode::none, Kernel::exact), again(moving(from, to));
+    rig.run();
+    exact.run();
+    EXPECT_GT(rig.structure.statistics.rebuilds, 0U);
+    EXPECT_EQ(rig.simulator.fingerprint(), exact.simulator.fingerprint());
+    again.replay({rig.motion}, rig.history);
+    EXPECT_EQ(rig.simulator.fingerprint(), again.simulator.fingerprint());
+    EXPECT_EQ(rig.structure.at_frame(false).cells, again.structure.at_frame(false).cells);
+  }
 }
 
 }  // namespace
