@@ -342,11 +342,14 @@ void DiagramEditor<Dimension>::apply(const Change& change) {
     if (!hole.empty() || !made.empty()) throw std::invalid_argument("a change of motion changes no cells");
     return;
   }
-  if (!(hole.empty() && made.empty()) && !state_.triangulation.fits(hole, made))
-    throw std::invalid_argument("the cells do not fill the place of those cleared");
   if (repair && made.empty()) throw std::invalid_argument("a repair exchanges cells");
+  const bool all = repair && hole.size() == state_.triangulation.live_count();
+  const bool fit =
+      all ? RegularTriangulation<Dimension>().fits({}, made) : state_.triangulation.fits(hole, made);
+  if (!(hole.empty() && made.empty()) && !fit)
+    throw std::invalid_argument("the cells do not fill the place of those cleared");
   if (!repair) state_.present_beads.set_absent(bead, change.kind == Events::erases);
-  if (repair && hole.size() == state_.triangulation.live_count()) {
+  if (all) {
     rebuilder_.assign_logged(made);
   } else if (!hole.empty()) {
     hidden_.forget_displaced();

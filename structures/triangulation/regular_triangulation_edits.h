@@ -45,7 +45,8 @@ auto RegularTriangulation<Dimension>::meetings(std::span<const CellId> old, std:
   for (std::size_t m = 0; m < made.size(); ++m) {
     for (const BeadId b : made[m]) {
       if (std::count(made[m].begin(), made[m].end(), b) != 1) return std::nullopt;
-      if (is_vertex(b) && !std::binary_search(corners.begin(), corners.end(), b)) return std::nullopt;
+      if (b != infinite_bead && is_vertex(b) && !std::binary_search(corners.begin(), corners.end(), b))
+        return std::nullopt;
     }
     for (int i = 0; i <= Dimension; ++i) add(made[m], i, facet_id(static_cast<CellId>(m), i), false);
   }

@@ -2,8 +2,10 @@
 // Random scenes full of ties: beads with whole coordinates that meet, cross a face or an edge of the hull
 // together, or all pass through one point, line or plane at the same time.
 
+#include <algorithm>
 #include <array>
 #include <random>
+#include <vector>
 
 #include "motions/curves/bezier_motion.h"
 
@@ -16,8 +18,9 @@ enum class LatticeScene {
   collapse,   ///< all beads pass through a point, line or plane at u = 1/2
   from_flat,  ///< all beads start in a point, line or plane
   into_flat,  ///< all beads end there
+  winding,    ///< near scenes in which beads that pass through the hull together wind it around twice
 };
-inline constexpr int lattice_scene_kinds = 5;
+inline constexpr int lattice_scene_kinds = 6;
 
 namespace detail {
 
@@ -25,6 +28,31 @@ namespace detail {
 inline int whole_number(std::mt19937& random, int low, int high) {
   return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
 }
+
+/// Scenes in which local convexity holds while the hull winds around twice: start and end of each coordinate,
+/// and the weight.
+struct WindingBead {
+  std::array<int, 3> from, to;
+  int weight;
+};
+inline constexpr std::array<std::array<WindingBead, 6>, 2> winding_in_space{{{{{{1, 0, 0}, {1, 1, 0}, 0},
+                                                                               {{1, 1, 1}, {0, 0, 2}, 0},
+                                                                               {{2, 0, 1}, {0, 1, 1}, 0},
+                                                                               {{1, 2, 2}, {1, 2, 2}, 0},
+                                                                               {{2, 1, 0}, {1, 0, 2}, 0},
+                                                                               {{2, 0, 2}, {0, 1, 2}, 0}}},
+                                                                             {{{{0, 1, 3}, {0, 0, 0}, 0},
+                                                                               {{0, 0, 2}, {1, 2, 0}, 0},
+                                                                               {{1, 1, 1}, {1, 1, 1}, 0},
+                                                                               {{0, 1, 1}, {0, 1, 1}, 0},
+                                                                               {{2, 3, 0}, {1, 1, 0}, 0},
+                                                                               {{3, 3, 3}, {3, 3, 3}, 0}}}}};
+inline constexpr std::array<std::array<WindingBead, 6>, 1> winding_in_plane{{{{{{16, 0, 0}, {16, 0, 0}, 0},
+                                                                               {{8, 0, 0}, {8, 0, 0}, 0},
+                                                                               {{0, 0, 0}, {10, 10, 0}, 0},
+                                                                               {{8, 8, 0}, {13, 3, 0}, 0},
+                                                                               {{8, 16, 0}, {8, 16, 0}, 0},
+                                                                               {{0, 8, 0}, {10, 8, 0}, 4}}}}};
 
 /// The control values of (2u-1)^Degree, u^Degree or (1-u)^Degree: zero in the middle, at the start or at the
 /// end.
@@ -43,10 +71,55 @@ std::array<int, Degree + 1> vanishing(LatticeScene kind) {
 
 }  // namespace detail
 
+/// One of the scenes above with its beads in another order, perhaps others among them, some coordinates
+/// changed, sheared, and brought to the degree.
+template <int Dimension, int Degree>
+BezierMotion<Dimension, Degree> winding_scene(std::mt19937& random) {
+  using detail::whole_number;
+  std::vector<detail::WindingBead> beads;
+  if constexpr (Dimension == 3) {
+    const auto& scene = detail::winding_in_space[random() % detail::winding_in_space.size()];
+    beads.assign(scene.begin(), scene.end());
+  } else {
+    beads.assign(detail::winding_in_plane[0].begin(), detail::winding_in_plane[0].end());
+  }
+  for (int changes = whole_number(random, 0, 2); changes > 0; --changes) {
+    auto& bead = beads[random() % beads.size()];
+    (random() % 2 == 0 ? bead.from : bead.to)[random() % Dimension] += whole_number(random, -1, 1);
+  }
+  for (int more = whole_number(random, 0, 2); more > 0; --more) {
+    detail::WindingBead bead{};
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      bead.from[axis] = whole_number(random, 0, 3);
+      bead.to[axis] = whole_number(random, 0, 3);
+    }
+    beads.push_back(bead);
+  }
+  const std::size_t axis = random() % Dimension, other = (axis + 1) % Dimension;
+  const int shear = Dimension == 3 ? whole_number(random, -1, 1) : 0;
+  std::shuffle(beads.begin(), beads.end(), random);
+  BezierMotion<Dimension, Degree> motion(beads.size());
+  constexpr int scale = 6;  // thirds and halves stay whole
+  for (BeadId b = 0; b < beads.size(); ++b) {
+    auto& bead = beads[b];
+    bead.from[axis] += shear * bead.from[other];
+    bead.to[axis] += shear * bead.to[other];
+    for (int k = 0; k <= Degree; ++k) {
+      for (int a = 0; a < Dimension; ++a) {
+        const auto at = static_cast<std::size_t>(a);
+        motion.set_coordinate(b, k, a, scale / Degree * ((Degree - k) * bead.from[at] + k * bead.to[at]));
+      }
+      motion.set_weight(b, k, scale * scale * bead.weight);
+    }
+  }
+  return motion;
+}
+
 /// One step of at least Dimension + 1 beads. Half of the scenes have weights, a quarter weights that move.
 template <int Dimension, int Degree>
 BezierMotion<Dimension, Degree> lattice_scene(std::mt19937& random, LatticeScene kind) {
   using detail::whole_number;
+  if (kind == LatticeScene::winding) return winding_scene<Dimension, Degree>(random);
   const int beads = whole_number(random, Dimension + 1, Dimension + 7);
   const int range = whole_number(random, 1, 4);
   const int flat_axes = whole_number(random, 1, Dimension);  // in which all beads meet
