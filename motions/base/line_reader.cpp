@@ -45,12 +45,17 @@ bool LineReader::fill() {
   if (buffer_.size() < end_ + piece) buffer_.resize(end_ + piece);
   const std::size_t got = file_.read(buffer_.data() + end_, piece);
   end_ += got;
+  if (at_start_ && end_ >= 3) {
+    begin_ = byte_order_mark({buffer_.data(), end_}, name());
+    at_start_ = false;
+  }
   return got > 0;
 }
 
 void LineReader::rewind() {
   file_.rewind();
   begin_ = end_ = number_ = 0;
+  at_start_ = true;
   cut_ = false;
 }
 

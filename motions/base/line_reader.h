@@ -1,5 +1,5 @@
 #pragma once
-// The lines of a file, one after the other, however long the file is.
+// The lines of a file, one after the other, however long the file is. A byte order mark is left out.
 
 #include <cstddef>
 #include <filesystem>
@@ -35,6 +35,7 @@ class LineReader {
   std::string buffer_;
   std::size_t begin_ = 0, end_ = 0;  ///< of what is in the buffer and not yet handed out
   std::size_t number_ = 0;
+  bool at_start_ = true;
   bool cut_ = false;
 };
 

@@ -32,6 +32,7 @@ std::string read_whole_file(const std::filesystem::path& path) {
       throw InputError(fmt::format("{}: holds more than the {} bytes that are read of such a file",
                                    path.string(), most_whole));
   }
+  text.erase(0, byte_order_mark(text, path.string()));
   return text;
 }
 

@@ -14,8 +14,8 @@ namespace kds {
 /// What read_whole_file reads at most; files of frames are read line by line and have no such limit.
 inline constexpr std::size_t most_whole = std::size_t{1} << 30U;
 
-/// The whole file, unpacked if it is gzipped. Throws InputError naming the file, also where it holds more
-/// than `most_whole` bytes.
+/// The whole file, unpacked if it is gzipped, without a byte order mark. Throws InputError naming the file,
+/// also if it holds more than `most_whole` bytes.
 [[nodiscard]] std::string read_whole_file(const std::filesystem::path& path);
 
 /// Cuts the next line off `rest` and returns it without its line end, LF or CR LF.

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <optional>
 
 #include "motions/base/input_error.h"
+#include "motions/base/input_file.h"
 #include "motions/base/text_input.h"
 #include "motions/readers/reader_registry.h"
 
@@ -103,10 +103,15 @@ bool is_instance_file(const std::filesystem::path& path) {
   if (reader_registry().find(path) != nullptr) return false;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
-  std::ifstream stream(path, std::ios::binary);
   std::array<char, 100> start{};
-  stream.read(start.data(), start.size());
-  std::string_view text(start.data(), static_cast<std::size_t>(stream.gcount()));
+  std::string_view text;
+  try {
+    InputFile file(path);
+    text = {start.data(), file.read(start.data(), start.size())};
+    text.remove_prefix(byte_order_mark(text, file.name()));
+  } catch (const InputError&) {
+    return false;  // reading it says why
+  }
   return parse_first_line(next_line(text)).has_value();
 }
 

@@ -29,6 +29,20 @@ TEST(InstanceFile, LineEndsDoNotMatter) {
   EXPECT_EQ(read("1 1 1\n1 2").point_count(), 1U);
 }
 
+TEST(InstanceFile, ByteOrderMark) {
+  EXPECT_EQ(read("\xEF\xBB\xBF"
+                 "1 1 1\n1 2\n")
+                .point_count(),
+            1U);
+  EXPECT_TRUE(is_instance_file(test::write_file("mark.txt",
+                                                "\xEF\xBB\xBF"
+                                                "1 1 1\n1 2\n")));
+  refuse(std::string_view("\xFE\xFF\0"
+                          "1",
+                          4),
+         {"d1.txt", "UTF-16"});
+}
+
 TEST(InstanceFile, Refuses) {
   refuse("", {"d1.txt:1:", "points columns degree"});
   refuse("2 1\n", {"d1.txt:1:"});

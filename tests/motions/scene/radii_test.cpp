@@ -141,6 +141,10 @@ TEST(Radii, FromFile) {
   const std::vector<Trajectory> three{necklace({{0, 1, 2}})};
   EXPECT_EQ(radii(from("1\n2.5\r\n0\n"), three), (Radii{1, 2.5, 0}));
   EXPECT_EQ(radii(from("0.5"), three), Radii(3, 0.5));
+  EXPECT_EQ(radii(from("\xEF\xBB\xBF"
+                       "0.5"),
+                  three),
+            Radii(3, 0.5));
   refuse(from("1\n2\n"), three, {"r.txt", "2 radii", "3 beads"});
   refuse(from(""), three, {"r.txt", "0 radii"});
   refuse(from("1\n-2\n3\n"), three, {"r.txt:2:", "'-2'"});
