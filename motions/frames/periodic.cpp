@@ -1,108 +1,270 @@
 #include "motions/frames/periodic.h"
 
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 namespace kds {
 
 namespace {
 
-// Shifts are counted in cell vectors, whole numbers held in doubles.
-class Images {
+// A basis of at most three vectors, Minkowski-reduced: sorted by length, none is shortened by whole multiples
+// of those before it. Columns beyond `rank` are zero. (Semaev 2001: for three vectors this greedy reduction
+// ends in a Minkowski-reduced basis.)
+struct ReducedBasis {
+  Eigen::Matrix3d steps = Eigen::Matrix3d::Zero();  // whole multiples of the cell's vectors
+  Eigen::Matrix3d vectors = Eigen::Matrix3d::Zero();
+  Eigen::Index rank = 0;
+};
+
+class LatticeReduction {
  public:
-  explicit Images(const Cell& cell) : cell_(cell), inverse_(cell.inverse()) {
-    upright_ = cell_ == Cell(cell_.diagonal().asDiagonal());
+  explicit LatticeReduction(const Cell& cell) : cell_(cell) {
+    for (Eigen::Index i = 0; i < 3; ++i)
+      if (!cell.col(i).isZero(0)) basis_.steps(i, basis_.rank++) = 1;
+    basis_.vectors = cell_ * basis_.steps;
   }
 
-  // The shift that makes `difference` shortest; none where the present one is as short.
-  Eigen::Vector3d nearest(const Eigen::Vector3d& difference) const {
-    const Eigen::Vector3d guess = -(inverse_ * difference).array().round().matrix();
-    // Farther off than any real file, and where the sums below would lose their digits.
-    if (!(guess.cwiseAbs().maxCoeff() < 1e6)) return Eigen::Vector3d::Zero();
-    Eigen::Vector3d best = Eigen::Vector3d::Zero();
-    double shortest = difference.squaredNorm();
-    const int reach = upright_ ? 0 : 1;  // in a skew cell rounding may miss the nearest by one
-    for (int i = -reach; i <= reach; ++i)
-      for (int j = -reach; j <= reach; ++j)
-        for (int k = -reach; k <= reach; ++k) {
-          const Eigen::Vector3d shift = guess + Eigen::Vector3d(i, j, k);
-          const double length = (difference + cell_ * shift).squaredNorm();
-          if (length < shortest) {
-            shortest = length;
-            best = shift;
-          }
-        }
-    return best;
-  }
-
-  Eigen::Vector3d shifted(const Eigen::Vector3d& point, const Eigen::Vector3d& shift) const {
-    if (shift.isZero(0)) return point;
-    return point + cell_ * shift;
+  ReducedBasis reduce() {
+    constexpr int most_rounds = 1000;  // a few are enough for any cell whose numbers keep their digits
+    for (int round = 0; round < most_rounds; ++round) {
+      sort();
+      bool shorter = basis_.rank > 1 && shorten(1);
+      if (!shorter) shorter = basis_.rank > 2 && shorten(2);
+      if (!shorter) break;
+    }
+    return basis_;
   }
 
  private:
+  void sort() {
+    for (Eigen::Index i = 1; i < basis_.rank; ++i)
+      for (Eigen::Index j = i; j > 0 && length(j) < length(j - 1); --j) {
+        basis_.steps.col(j).swap(basis_.steps.col(j - 1));
+        basis_.vectors.col(j).swap(basis_.vectors.col(j - 1));
+      }
+  }
+
+  double length(Eigen::Index i) const { return basis_.vectors.col(i).squaredNorm(); }
+
+  // Replaces vector `last` by the shortest of its sums with multiples of those before it.
+  bool shorten(Eigen::Index last) {
+    const auto before = basis_.vectors.leftCols(last);
+    const Eigen::MatrixXd gram = before.transpose() * before;
+    const Eigen::VectorXd place = gram.inverse() * (before.transpose() * basis_.vectors.col(last));
+    if (!place.allFinite()) return false;
+    Eigen::Vector3d best = basis_.steps.col(last);
+    double least = length(last) * (1 - 1e-12);
+    bool found = false;
+    for (int i = -1; i <= 1; ++i)
+      for (int j = last == 2 ? -1 : 0; j <= (last == 2 ? 1 : 0); ++j) {
+        Eigen::Vector3d steps = basis_.steps.col(last) - (std::round(place[0]) + i) * basis_.steps.col(0);
+        if (last == 2) steps -= (std::round(place[1]) + j) * basis_.steps.col(1);
+        const double now = (cell_ * steps).squaredNorm();
+        if (!(now < least)) continue;
+        least = now;
+        best = steps;
+        found = true;
+      }
+    basis_.steps.col(last) = best;
+    basis_.vectors.col(last) = cell_ * best;
+    return found;
+  }
+
   Cell cell_;
-  Cell inverse_;
-  bool upright_;
+  ReducedBasis basis_;
 };
 
-// Returns the centroid.
-Eigen::Vector3d make_frame_whole(WholeChain::Frame frame, const Images& images,
-                                 const std::optional<Eigen::Vector3d>& last_centroid, bool& moved) {
-  Eigen::Matrix3Xd shifts = Eigen::Matrix3Xd::Zero(3, frame.cols());
-  Eigen::Matrix3Xd whole = frame;
-  for (Eigen::Index i = 1; i < frame.cols(); ++i) {
-    const Eigen::Vector3d before = images.shifted(frame.col(i), shifts.col(i - 1));
-    shifts.col(i) = shifts.col(i - 1) + images.nearest(before - whole.col(i - 1));
-    whole.col(i) = images.shifted(frame.col(i), shifts.col(i));
-  }
-  if (last_centroid) {
-    const Eigen::Vector3d all = images.nearest(whole.rowwise().mean() - *last_centroid);
-    if (!all.isZero(0)) {
-      shifts.colwise() += all;
-      for (Eigen::Index i = 0; i < frame.cols(); ++i)
-        whole.col(i) = images.shifted(frame.col(i), shifts.col(i));
-    }
-  }
-  moved = !shifts.isZero(0);
-  frame = whole;
-  return frame.rowwise().mean();
+// The reduced vectors of a lattice are nearly at right angles: their volume is at least the product of their
+// lengths over the square root of 2. Less of it comes of vectors that are linearly dependent.
+bool is_independent(const ReducedBasis& basis) {
+  const Eigen::Matrix3d& v = basis.vectors;
+  const double lengths = v.leftCols(basis.rank).colwise().norm().prod();
+  const double volume = basis.rank == 1   ? v.col(0).norm()
+                        : basis.rank == 2 ? v.col(0).cross(v.col(1)).norm()
+                                          : std::abs(v.determinant());
+  return std::isfinite(lengths) && volume > lengths / 2;
+}
+
+std::string doubt_of(const Eigen::Vector3d& lengths, std::string_view expected) {
+  return fmt::format("expected {}, found vectors of lengths {:.6g}, {:.6g}, {:.6g}", expected, lengths[0],
+                     lengths[1], lengths[2]);
+}
+
+// Files without a cell write zeros or ones.
+bool tells_no_cell(const Eigen::Vector3d& lengths) {
+  return lengths.minCoeff() >= 0 && lengths.maxCoeff() <= 1;
+}
+
+// The sum of the deviations of logarithms of bond lengths from their median.
+double unlikeness(const Eigen::Matrix3Xd& chain) {
+  std::vector<double> logs;
+  for (Eigen::Index i = 0; i + 1 < chain.cols(); ++i)
+    logs.push_back(std::log(std::max((chain.col(i + 1) - chain.col(i)).stableNorm(), 1e-6)));
+  const auto middle = logs.begin() + static_cast<std::ptrdiff_t>(logs.size() / 2);
+  std::nth_element(logs.begin(), middle, logs.end());
+  const double median = *middle;
+  return std::accumulate(logs.begin(), logs.end(), 0.0,
+                         [&](double sum, double log) { return sum + std::abs(log - median); });
+}
+
+bool are_bonds_more_alike(const Eigen::Matrix3Xd& whole, const Eigen::Matrix3Xd& before) {
+  const double rounding = 1e-9 * static_cast<double>(whole.cols());
+  return unlikeness(whole) < unlikeness(before) - rounding;
 }
 
 }  // namespace
 
-std::optional<Cell> cell_from_lengths(const Eigen::Vector3d& lengths, const Eigen::Vector3d& cosines) {
-  if (!lengths.allFinite() || !cosines.allFinite() || lengths.minCoeff() <= 1) return std::nullopt;
+Images::Images(const Cell& cell) : cell_(cell) {
+  const ReducedBasis basis = LatticeReduction(cell).reduce();
+  reduced_ = basis.vectors;
+  steps_ = basis.steps;
+  inverse_.setZero();
+  if (basis.rank == 3) {
+    inverse_ = reduced_.inverse();
+  } else if (basis.rank > 0) {
+    const Eigen::MatrixXd spanned = reduced_.leftCols(basis.rank);
+    inverse_.topRows(basis.rank) = (spanned.transpose() * spanned).inverse() * spanned.transpose();
+  }
+  upright_ = cell_ == Cell(cell_.diagonal().asDiagonal());
+}
+
+Eigen::Vector3d Images::nearest(const Eigen::Vector3d& difference) const {
+  const Eigen::Vector3d guess = -(inverse_ * difference).array().round().matrix();
+  // Farther off than any real file, and where the sums below would lose their digits.
+  if (!(guess.cwiseAbs().maxCoeff() < 1e6)) return Eigen::Vector3d::Zero();
+  Eigen::Vector3d best = Eigen::Vector3d::Zero();
+  double shortest = difference.squaredNorm();
+  const auto take_if_shorter = [&](const Eigen::Vector3d& shift) {
+    const double length = (difference + reduced_ * shift).squaredNorm();
+    if (!(length < shortest)) return false;
+    shortest = length;
+    best = shift;
+    return true;
+  };
+  take_if_shorter(guess);
+  for (bool found = !upright_; found;) {
+    found = false;
+    const Eigen::Vector3d from = best;
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        for (int k = -1; k <= 1; ++k)
+          if (take_if_shorter(from + Eigen::Vector3d(i, j, k))) found = true;
+  }
+  return steps_ * best;
+}
+
+Eigen::Vector3d Images::shifted(const Eigen::Vector3d& point, const Eigen::Vector3d& shift) const {
+  if (shift.isZero(0)) return point;
+  return point + cell_ * shift;
+}
+
+CellRead read_cell(const Eigen::Matrix3d& vectors, const std::array<bool, 3>& periodic) {
+  Cell cell = Cell::Zero();
+  Eigen::Vector3d lengths;
+  std::vector<double> of_periodic;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    lengths[i] = vectors.col(i).stableNorm();
+    if (!periodic[static_cast<std::size_t>(i)]) continue;
+    cell.col(i) = vectors.col(i);
+    of_periodic.push_back(lengths[i]);
+  }
+  if (of_periodic.empty() || (lengths.allFinite() && tells_no_cell(lengths))) return {};
+  constexpr std::string_view expected = "finite and linearly independent vectors longer than 1";
+  const bool usable = cell.allFinite() && std::all_of(of_periodic.begin(), of_periodic.end(),
+                                                      [](double length) { return length > 1; });
+  if (!usable) return {std::nullopt, doubt_of(lengths, expected)};
+  const ReducedBasis basis = LatticeReduction(cell).reduce();
+  if (!is_independent(basis) || !(basis.vectors.col(0).norm() > 1))
+    return {std::nullopt, doubt_of(lengths, expected)};
+  return {cell, ""};
+}
+
+CellRead read_cell_from_lengths(const Eigen::Vector3d& lengths, const Eigen::Vector3d& cosines) {
+  if (lengths.allFinite() && tells_no_cell(lengths)) return {};
+  if (!lengths.allFinite() || lengths.minCoeff() <= 1)
+    return {std::nullopt, doubt_of(lengths, "finite lengths above 1")};
   const auto [cos_alpha, cos_beta, cos_gamma] = std::array{cosines[0], cosines[1], cosines[2]};
   const double sin_gamma = std::sqrt(1 - cos_gamma * cos_gamma);
   const double y = (cos_alpha - cos_beta * cos_gamma) / sin_gamma;
   const double z = std::sqrt(1 - cos_beta * cos_beta - y * y);
-  if (!(sin_gamma > 1e-3 && z > 1e-3)) return std::nullopt;  // NaN too
+  if (!cosines.allFinite() || !(sin_gamma > 1e-3 && z > 1e-3))  // NaN too
+    return {std::nullopt,
+            doubt_of(lengths, fmt::format("angles that span a volume, not of cosines {:.6g}, {:.6g}, {:.6g}",
+                                          cos_alpha, cos_beta, cos_gamma))};
   Cell cell;
   cell << lengths[0], lengths[1] * cos_gamma, lengths[2] * cos_beta,  //
       0, lengths[1] * sin_gamma, lengths[2] * y,                      //
       0, 0, lengths[2] * z;
-  if (!cell.allFinite() || !cell.inverse().allFinite()) return std::nullopt;
-  return cell;
+  return read_cell(cell);
 }
 
-std::optional<Cell> cell_from_angles(const Eigen::Vector3d& lengths, const Eigen::Vector3d& degrees) {
+CellRead read_cell_from_angles(const Eigen::Vector3d& lengths, const Eigen::Vector3d& degrees) {
   const auto cosine = [](double angle) {
     return angle == 90 ? 0.0 : std::cos(angle * std::numbers::pi / 180);
   };
-  return cell_from_lengths(lengths, {cosine(degrees[0]), cosine(degrees[1]), cosine(degrees[2])});
+  return read_cell_from_lengths(lengths, {cosine(degrees[0]), cosine(degrees[1]), cosine(degrees[2])});
 }
 
-bool WholeChain::make_whole(Frame frame, const std::optional<Cell>& cell) {
+ImageBeside nearest_image_beside(const Eigen::Matrix3Xd& others, const Eigen::Matrix3Xd& chain,
+                                 const Cell& cell) {
+  constexpr double most_pairs = 4e6;
+  const double pairs = static_cast<double>(others.cols()) * static_cast<double>(chain.cols());
+  const auto every = static_cast<Eigen::Index>(std::ceil(std::sqrt(std::max(pairs / most_pairs, 1.0))));
+  const Images images(cell);
+  ImageBeside beside;
+  beside.distance = beside.present = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < chain.cols(); i += every)
+    for (Eigen::Index j = 0; j < others.cols(); j += every) {
+      const Eigen::Vector3d difference = chain.col(i) - others.col(j);
+      beside.present = std::min(beside.present, difference.norm());
+      const Eigen::Vector3d shift = images.nearest(difference);
+      const double distance = images.shifted(difference, shift).norm();
+      if (!(distance < beside.distance)) continue;
+      beside.distance = distance;
+      beside.shift = shift;
+    }
+  return beside;
+}
+
+WholeChain::Outcome WholeChain::make_whole(Frame frame, const std::optional<Cell>& cell) {
   if (!cell || frame.cols() == 0) {
     last_centroid_.reset();
-    return false;
+    return Outcome::unmoved;
   }
-  bool moved = false;
-  last_centroid_ = make_frame_whole(frame, Images(*cell), last_centroid_, moved);
-  return moved;
+  const Images images(*cell);
+  Eigen::Matrix3Xd shifts = Eigen::Matrix3Xd::Zero(3, frame.cols());
+  Eigen::Matrix3Xd whole = frame;
+  bool joined = false;
+  for (Eigen::Index i = 1; i < frame.cols(); ++i) {
+    const Eigen::Vector3d before = images.shifted(frame.col(i), shifts.col(i - 1));
+    const Eigen::Vector3d step = images.nearest(before - whole.col(i - 1));
+    joined = joined || !step.isZero(0);
+    shifts.col(i) = shifts.col(i - 1) + step;
+    whole.col(i) = images.shifted(frame.col(i), shifts.col(i));
+  }
+  if (joined && frame.cols() > 2 && !are_bonds_more_alike(whole, frame)) {
+    last_centroid_ = frame.rowwise().mean();
+    return Outcome::doubtful;
+  }
+  const Eigen::Vector3d all =
+      last_centroid_ ? images.nearest(whole.rowwise().mean() - *last_centroid_) : start_;
+  if (!all.isZero(0)) {
+    shifts.colwise() += all;
+    for (Eigen::Index i = 0; i < frame.cols(); ++i)
+      whole.col(i) = images.shifted(frame.col(i), shifts.col(i));
+  }
+  frame = whole;
+  last_centroid_ = frame.rowwise().mean();
+  return shifts.isZero(0) ? Outcome::unmoved : Outcome::moved;
 }
 
 }  // namespace kds

@@ -2,16 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "motions/base/file_ending.h"
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
 #include "motions/frames/chain_breaks.h"
 #include "motions/readers/reader_registry.h"
+#include "motions/readers/unread_formats.h"
 
 namespace kds {
 
@@ -19,10 +18,12 @@ namespace {
 
 FramesOpened open_frames(const std::filesystem::path& path, const ReadOptions& options) {
   const FloatingPointGuard to_nearest;
+  if (options.topology) refuse_unread_format(*options.topology);
+  refuse_unread_format(path);
   const ReaderSpec* const reader = reader_registry().find(path);
   if (reader == nullptr)
-    throw InputError(fmt::format("{}: the ending {} tells no format; expected {}", path.string(),
-                                 in_quotes(file_ending(path)), reader_registry().endings()));
+    throw InputError(fmt::format("cannot tell the format of {} from its ending; supported: {}", path.string(),
+                                 reader_registry().endings()));
   FramesOpened opened = reader->open(path, options);
   if (options.topology && !reader->takes_topology)
     opened.warnings.push_back(fmt::format("{}: --topology is left unread, it serves DCD files", opened.file));
@@ -70,10 +71,7 @@ std::vector<Trajectory> heads_of(const FramesOpened& opened) {
 }  // namespace
 
 NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOptions& options)
-    : opened_(open_frames(path, options)),
-      heads_(heads_of(opened_)),
-      whole_(heads_.size()),
-      frames_moved_(heads_.size(), 0) {
+    : opened_(open_frames(path, options)), heads_(heads_of(opened_)), notes_(heads_.size()) {
   const FloatingPointGuard to_nearest;
   FrameRead first;
   if (!opened_.frames->next(first))
@@ -84,7 +82,15 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
     const Eigen::Index beads =
         heads_.size() == 1 ? first.positions.cols() : static_cast<Eigen::Index>(opened_.chains[n].bead_count);
     Eigen::Matrix3Xd& frame = heads_[n].frames.emplace_back(first.positions.middleCols(begin, beads));
-    WholeChain().make_whole(frame, first.cell);
+    WholeChain chain;
+    const bool doubtful = chain.make_whole(frame, first.cell) == WholeChain::Outcome::doubtful;
+    if (n > 0 && first.cell && !doubtful) place_beside_earlier(n, frame, first);
+    chain.restart();
+    frame = first.positions.middleCols(begin, beads);
+    chain.start_shifted(notes_[n].start);
+    chain.make_whole(frame, first.cell);
+    whole_.push_back(chain);
+    whole_.back().restart();
     if (opened_.chain_like) heads_[n].breaks = find_chain_breaks(frame);
     heads_[n].frame_numbers.push_back(first.stamp.number);
     begin += beads;
@@ -92,8 +98,31 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
   opened_.frames->rewind();
 }
 
+void NecklaceStream::place_beside_earlier(std::size_t n, const Eigen::Matrix3Xd& chain,
+                                          const FrameRead& frame) {
+  constexpr double much_nearer = 1.5;
+  std::vector<Eigen::Vector3d> places;
+  for (std::size_t other = 0; other < n; ++other)
+    for (const auto& place : heads_[other].frames.front().colwise()) places.emplace_back(place);
+  const Eigen::Matrix3Xd others =
+      Eigen::Map<const Eigen::Matrix3Xd>(places.front().data(), 3, static_cast<Eigen::Index>(places.size()));
+  const ImageBeside beside = nearest_image_beside(others, chain, *frame.cell);
+  if (beside.shift.isZero(0) || !(beside.distance < beside.present)) return;
+  const std::string distances = fmt::format("({:.4g} away, not {:.4g})", beside.distance, beside.present);
+  if (beside.distance * much_nearer < beside.present) {
+    notes_[n].start = beside.shift;
+    notes_[n].placed = fmt::format("{}: moved to its periodic image nearest to the chains before it {}",
+                                   heads_[n].file, distances);
+  } else {
+    notes_[n].placed =
+        fmt::format("{}: has a periodic image nearer to the chains before it {}, left where it is",
+                    heads_[n].file, distances);
+  }
+}
+
 bool NecklaceStream::next(FrameRead& frame) {
   const FloatingPointGuard to_nearest;
+  frame.cell_doubt.clear();
   if (!opened_.frames->next(frame)) return false;
   check_finite(opened_.file, frame);
   std::size_t expected = 0;
@@ -103,28 +132,73 @@ bool NecklaceStream::next(FrameRead& frame) {
                                  frame.stamp.number,
                                  counted(static_cast<std::size_t>(frame.positions.cols()), "bead"), expected,
                                  heads_.front().frame_number(0)));
+  if (!frame.cell_doubt.empty() && cells_unused_++ == 0)
+    first_doubt_ = fmt::format("{}: frame {}: its periodic cell is not used: {}", opened_.file,
+                               frame.stamp.number, frame.cell_doubt);
   Eigen::Index begin = 0;
+  Eigen::Vector3d first_centroid = Eigen::Vector3d::Zero();
   for (std::size_t n = 0; n < heads_.size(); ++n) {
     const auto beads = static_cast<Eigen::Index>(heads_[n].bead_count());
-    if (whole_[n].make_whole(frame.positions.middleCols(begin, beads), frame.cell)) ++frames_moved_[n];
+    auto chain = frame.positions.middleCols(begin, beads);
+    const WholeChain::Outcome outcome = whole_[n].make_whole(chain, frame.cell);
+    Notes& notes = notes_[n];
+    if (outcome == WholeChain::Outcome::moved) ++notes.frames_moved;
+    if (outcome == WholeChain::Outcome::doubtful && notes.frames_doubtful++ == 0)
+      notes.first_doubtful = frame.stamp.number;
+    if (frame.cell && heads_.size() > 1) {
+      const Eigen::Vector3d centroid = chain.rowwise().mean();
+      if (n == 0) first_centroid = centroid;
+      const Eigen::Vector3d apart = Images(*frame.cell).nearest(centroid - first_centroid);
+      if (!notes.apart_at_first) notes.apart_at_first = apart;
+      if (apart != *notes.apart_at_first && notes.frames_apart++ == 0) notes.first_apart = frame.stamp.number;
+    }
     begin += beads;
   }
   return true;
 }
 
+bool NecklaceStream::holds_one_frame() {
+  FrameRead frame;
+  opened_.frames->rewind();
+  const bool one = opened_.frames->next(frame) && !opened_.frames->next(frame);
+  rewind();
+  return one;
+}
+
 void NecklaceStream::rewind() {
   opened_.frames->rewind();
   for (WholeChain& chain : whole_) chain.restart();
-  std::fill(frames_moved_.begin(), frames_moved_.end(), 0);
+  for (Notes& notes : notes_) {
+    notes.frames_moved = notes.frames_doubtful = notes.frames_apart = 0;
+    notes.apart_at_first.reset();
+  }
+  cells_unused_ = 0;
 }
 
 std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
-  // What the file as a whole warns of goes with the first.
-  std::vector<std::string> lines = necklace == 0 ? opened_.warnings : std::vector<std::string>();
+  // Warnings about the whole file go with the first necklace.
+  std::vector<std::string> lines;
+  if (necklace == 0) {
+    lines = opened_.warnings;
+    if (cells_unused_ > 0)
+      lines.push_back(fmt::format("{} ({})", first_doubt_, counted(cells_unused_, "frame")));
+  }
   const Trajectory& head = heads_[necklace];
-  if (const std::size_t moved = frames_moved_[necklace]; moved > 0)
+  const Notes& notes = notes_[necklace];
+  if (!notes.placed.empty()) lines.push_back(notes.placed);
+  if (notes.frames_moved > 0)
+    lines.push_back(fmt::format("{}: made whole across the periodic cell in {}", head.file,
+                                counted(notes.frames_moved, "frame")));
+  if (notes.frames_doubtful > 0)
+    lines.push_back(fmt::format(
+        "{}: frame {}: not made whole, because across the periodic cell bonds would be shorter but "
+        "not more alike; is the cell right? ({})",
+        head.file, notes.first_doubtful, counted(notes.frames_doubtful, "frame")));
+  if (notes.frames_apart > 0)
     lines.push_back(
-        fmt::format("{}: made whole across the periodic cell in {}", head.file, counted(moved, "frame")));
+        fmt::format("{}: frame {}: has drifted into another periodic image, nearer to {} by its centroid; "
+                    "contacts across the walls of the cell are not found ({})",
+                    head.file, notes.first_apart, heads_.front().file, counted(notes.frames_apart, "frame")));
   if (!head.breaks.empty()) lines.push_back(describe_chain_breaks(head.file, head.breaks));
   return lines;
 }

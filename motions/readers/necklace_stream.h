@@ -1,9 +1,14 @@
 #pragma once
-// The necklaces of one file, frame by frame: of finite coordinates, made whole across a periodic cell, and
+// The necklaces of one file, frame by frame: with finite coordinates, made whole across a periodic cell, and
 // searched for chain breaks. Two frames are in memory, whatever the file holds.
+//
+// Chains of one file are placed beside each other in the first frame: a chain moves to its periodic image
+// nearest to the chains before it if that is much nearer than the chain itself. From then on each chain moves
+// continuously. A warning tells of other chains with a nearer image.
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,14 +29,31 @@ class NecklaceStream {
   /// The next frame, all necklaces side by side; false behind the last. Throws InputError likewise.
   [[nodiscard]] bool next(FrameRead& frame);
   void rewind();
+  /// Begins again with the first frame.
+  [[nodiscard]] bool holds_one_frame();
   /// About a necklace; complete once all frames have been read.
   [[nodiscard]] std::vector<std::string> warnings(std::size_t necklace) const;
 
  private:
+  /// What there is to tell of one necklace.
+  struct Notes {
+    Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< shift of the first frame, in cell vectors
+    std::string placed;                               ///< a line about that shift
+    std::size_t frames_moved = 0;
+    std::size_t frames_doubtful = 0, first_doubtful = 0;  ///< where the cell does not suit the bonds
+    /// Shift of the centroid to its image nearest to the first necklace: in the first frame, and frames in
+    /// which it is another.
+    std::optional<Eigen::Vector3d> apart_at_first;
+    std::size_t frames_apart = 0, first_apart = 0;
+  };
+  void place_beside_earlier(std::size_t n, const Eigen::Matrix3Xd& chain, const FrameRead& frame);
+
   FramesOpened opened_;
   std::vector<Trajectory> heads_;
-  std::vector<WholeChain> whole_;          ///< of each necklace
-  std::vector<std::size_t> frames_moved_;  ///< likewise
+  std::vector<WholeChain> whole_;  ///< of each necklace
+  std::vector<Notes> notes_;       ///< likewise
+  std::size_t cells_unused_ = 0;   ///< frames
+  std::string first_doubt_;        ///< about the first of these
 };
 
 }  // namespace kds

@@ -18,7 +18,8 @@ std::size_t make_whole(Frames& frames, const Cells& cells) {
   WholeChain chain;
   std::size_t moved = 0;
   for (std::size_t k = 0; k < frames.size(); ++k)
-    if (chain.make_whole(frames[k], k < cells.size() ? cells[k] : std::nullopt)) ++moved;
+    if (chain.make_whole(frames[k], k < cells.size() ? cells[k] : std::nullopt) == WholeChain::Outcome::moved)
+      ++moved;
   return moved;
 }
 
@@ -98,6 +99,121 @@ TEST(Periodic, FarOutCoordinatesStayFinite) {
   make_whole(frames, Cells(2, cell_from_lengths({10, 10, 10}, {0, 0, 0})));
   EXPECT_TRUE(frames[0].allFinite());
   EXPECT_TRUE(frames[1].allFinite());
+}
+
+// All images within reach, by brute force.
+double shortest_image(const Eigen::Vector3d& difference, const Cell& cell, int reach) {
+  double shortest = difference.norm();
+  for (int i = -reach; i <= reach; ++i)
+    for (int j = -reach; j <= reach; ++j)
+      for (int k = -reach; k <= reach; ++k)
+        shortest = std::min(shortest, (difference + cell * Eigen::Vector3d(i, j, k)).norm());
+  return shortest;
+}
+
+TEST(Periodic, NearestImagesInCellsOfAnyShape) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-60, 60);
+  std::uniform_int_distribution<int> multiple(-4, 4);
+  for (int round = 0; round < 40; ++round) {
+    const Cell small = *cell_from_angles({12.0 + round % 3, 11, 13.0 + round % 5}, {60.0 + round, 70, 75});
+    // The same lattice in other vectors, which may lean on each other as far as they like.
+    Cell steps = Cell::Identity();
+    steps(0, 1) = multiple(random);
+    steps(0, 2) = multiple(random);
+    steps(1, 2) = multiple(random);
+    const Cell skew = *read_cell(small * steps).cell;
+    const Images images(skew);
+    for (int point = 0; point < 20; ++point) {
+      const Eigen::Vector3d difference(place(random), place(random), place(random));
+      const Eigen::Vector3d shift = images.nearest(difference);
+      EXPECT_EQ(shift, shift.array().round().matrix());
+      EXPECT_NEAR((difference + skew * shift).norm(), shortest_image(difference, small, 9), 1e-9) << round;
+    }
+  }
+}
+
+TEST(Periodic, VerySkewCellsMakeChainsWhole) {
+  std::mt19937 random(6);
+  const Frames truth = walk(random, 60, 10, {1.3, -0.7, 2.1});
+  for (const double lean : {45.0, 95.0, 1005.0, -3330.0}) {
+    Cell cell;
+    cell << 10, lean, -2 * lean, 0, 12, lean, 0, 0, 9;
+    Frames frames = wrapped(truth, cell);
+    EXPECT_GT(make_whole(frames, Cells(frames.size(), read_cell(cell).cell)), 0U);
+    expect_same_shape(frames, truth);
+  }
+}
+
+TEST(Periodic, OnlyPeriodicAxesMove) {
+  std::mt19937 random(7);
+  const Frames truth = walk(random, 60, 5, {0.4, 0.3, 0.2});
+  Cell vectors;
+  vectors << 10, 3, 0, 0, 11, 0, 0, 0, 9;
+  for (int open = 0; open < 8; ++open) {
+    const std::array<bool, 3> periodic{(open & 1) == 0, (open & 2) == 0, (open & 4) == 0};
+    const CellRead read = read_cell(vectors, periodic);
+    EXPECT_EQ(read.doubt, "");
+    EXPECT_EQ(read.cell.has_value(), open != 7);
+    if (!read.cell) continue;
+    Frames frames = truth;
+    const Cell inverse = vectors.inverse();
+    for (Eigen::Matrix3Xd& frame : frames)
+      for (Eigen::Index i = 0; i < frame.cols(); ++i)
+        frame.col(i) -= *read.cell * (inverse * frame.col(i)).array().floor().matrix();
+    make_whole(frames, Cells(frames.size(), read.cell));
+    expect_same_shape(frames, truth);
+  }
+}
+
+TEST(Periodic, CellsThatAreNotUsedSayWhy) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto doubt = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                        const std::array<bool, 3>& periodic = {true, true, true}) {
+    Cell cell;
+    cell << a, b, c;
+    const CellRead read = read_cell(cell, periodic);
+    EXPECT_FALSE(read.cell.has_value() && !read.doubt.empty());
+    return read.doubt;
+  };
+  // None is told of.
+  EXPECT_EQ(doubt({0, 0, 0}, {0, 0, 0}, {0, 0, 0}), "");
+  EXPECT_EQ(doubt({1, 0, 0}, {0, 1, 0}, {0, 0, 1}), "");
+  EXPECT_EQ(doubt({nan, 0, 0}, {0, 0, 0}, {0, 0, 0}, {false, false, false}), "");
+  EXPECT_EQ(doubt({20, 0, 0}, {0, 20, 0}, {0, 0, 0}, {true, true, false}), "");
+  for (const double bad : {0.0, nan, infinity, 0.5})
+    EXPECT_NE(doubt({20, 0, 0}, {0, 20, 0}, {0, 0, bad}), "") << bad;
+  EXPECT_NE(doubt({20, 0, 0}, {40, 0, 0}, {0, 0, 20}), "");           // along one line
+  EXPECT_NE(doubt({20, 0, 0}, {0, 20, 0}, {7, 11, 0}), "");           // in one plane
+  EXPECT_NE(doubt({20, 0, 0}, {20.5, 0, 0}, {0, 0, 20}), "");         // shorter than 1 once reduced
+  EXPECT_NE(doubt({20, 0, 0}, {20, 0.5, 0}, {0, 0, 20}), "");         // likewise
+  EXPECT_NE(doubt({1e300, 0, 0}, {0, 1e300, 0}, {0, 0, 1e300}), "");  // beyond what can be squared
+  EXPECT_NE(read_cell_from_lengths({-9, 20, 20}, {0, 0, 0}).doubt, "");
+  EXPECT_NE(read_cell_from_lengths({20, 20, nan}, {0, 0, 0}).doubt, "");
+  EXPECT_NE(read_cell_from_angles({20, 20, 20}, {30, 30, 90}).doubt, "");
+  EXPECT_EQ(read_cell_from_angles({0, 0, 0}, {0, 0, 0}).doubt, "");
+}
+
+// Chains that are whole, in cells that are not theirs: bonds would be shorter.
+TEST(Periodic, BondsThatWouldNotBeMoreAlikeStay) {
+  for (const double bond : {5.5, 6.0, 7.5, 9.0, 9.9}) {
+    Eigen::Matrix3Xd chain = Eigen::Matrix3Xd::Zero(3, 12);
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> turn(-1, 1);
+    for (Eigen::Index i = 1; i < chain.cols(); ++i)
+      chain.col(i) = chain.col(i - 1) + bond * Eigen::Vector3d(1, turn(random), turn(random)).normalized() *
+                                            (1 + 0.01 * turn(random));
+    Eigen::Matrix3Xd straight = Eigen::Matrix3Xd::Zero(3, 12);
+    for (Eigen::Index i = 1; i < straight.cols(); ++i) straight(0, i) = straight(0, i - 1) + bond;
+    for (const Eigen::Matrix3Xd& truth : {chain, straight}) {
+      Eigen::Matrix3Xd frame = truth;
+      EXPECT_EQ(WholeChain().make_whole(frame, cell_from_lengths({10, 10, 10}, {0, 0, 0})),
+                WholeChain::Outcome::doubtful)
+          << bond;
+      EXPECT_EQ(frame, truth);
+    }
+  }
 }
 
 TEST(Periodic, CellsThatAreNone) {

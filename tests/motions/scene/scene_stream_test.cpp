@@ -9,6 +9,7 @@
 #include <random>
 
 #include "motions/curves/any_degree_motion.h"
+#include "motions/readers/read_trajectory.h"
 #include "motions/scene/scene.h"
 #include "tests/motions/test_files.h"
 

@@ -1,0 +1,126 @@
+// Chains of one file beside each other in a periodic cell.
+
+#include "motions/readers/necklace_stream.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "motions/frames/periodic.h"
+#include "motions/readers/read_trajectory.h"
+#include "tests/motions/test_files.h"
+
+namespace kds::necklace_stream_test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double box = 20;
+
+// Chain A along x at y = 10, the others at y = 10 + `apart`, put into the box where `wrapped`.
+std::string models(const std::vector<double>& apart, std::size_t count, bool wrapped,
+                   const std::string& group = "P 1", double drift = 0) {
+  const auto inside = [&](double x) { return wrapped ? x - box * std::floor(x / box) : x; };
+  std::string text;
+  for (std::size_t k = 0; k < count; ++k) {
+    char cell[100];
+    std::snprintf(cell, sizeof cell, "CRYST1%9.3f%9.3f%9.3f  90.00  90.00  90.00 %-11s\nMODEL        1\n",
+                  box, box, box, group.c_str());
+    text += cell;
+    for (std::size_t chain = 0; chain <= apart.size(); ++chain) {
+      double y = 10;
+      if (chain > 0) y += apart[chain - 1] + drift * static_cast<double>(k);
+      for (int residue = 1; residue <= 3; ++residue)
+        for (int atom = 0; atom < 3; ++atom)
+          text += test::pdb_line({.name = std::array{"N", "CA", "C"}[static_cast<std::size_t>(atom)],
+                                  .chain = static_cast<char>('A' + chain),
+                                  .number = residue,
+                                  .x = inside(2 + 1.4 * (3 * (residue - 1) + atom)),
+                                  .y = inside(y)});
+      text += "TER\n";
+    }
+    text += "ENDMDL\n";
+  }
+  return text;
+}
+
+std::vector<Trajectory> read(const std::string& text, const std::string& chains) {
+  return read_trajectories(test::write_file("a.pdb", text), {.chain = chains});
+}
+
+double distance(const Trajectory& a, const Trajectory& b, std::size_t frame) {
+  return (a.frames[frame].col(0) - b.frames[frame].col(0)).norm();
+}
+
+TEST(NecklaceStream, PlacesChainsNearestToTheFirst) {
+  for (const double apart : {3.0, -3.0, 7.0, -6.5, 4.5, -7.25}) {
+    for (const double shift : {0.0, 20.0, -20.0, 40.0, 60.0}) {
+      const auto chains = read(models({apart + shift}, 3, false), "A,B");
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(distance(chains[0], chains[1], k), std::abs(apart), 1e-9);
+      EXPECT_EQ(chains[1].warnings.empty(), shift == 0) << apart << " " << shift;
+      if (shift != 0) {
+        EXPECT_THAT(chains[1].warnings[0], HasSubstr("chain B: moved to its periodic image nearest"));
+      }
+    }
+  }
+}
+
+// A chain lies near to any before it, not to the first alone.
+TEST(NecklaceStream, PlacesAChainOfALongComplex) {
+  const auto whole = read(models({4, 8, 12}, 2, false), "A,B,C,D");
+  const auto wrapped = read(models({4, 8, 12}, 2, true), "A,B,C,D");
+  for (std::size_t n = 0; n < 4; ++n) {
+    EXPECT_TRUE(whole[n].warnings.empty()) << whole[n].warnings[0];
+    for (std::size_t k = 0; k < 2; ++k)
+      EXPECT_LT((whole[n].frames[k] - wrapped[n].frames[k]).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+// Where both contacts are as good, the chain stays and a line tells of its image.
+TEST(NecklaceStream, TellsOfAnImageThatIsLittleNearer) {
+  const auto chains = read(models({11}, 2, false), "A,B");
+  EXPECT_NEAR(distance(chains[0], chains[1], 0), 11, 1e-9);
+  EXPECT_THAT(chains[1].warnings,
+              ElementsAre(HasSubstr("has a periodic image nearer to the chains before it (9")));
+}
+
+TEST(NecklaceStream, TellsOfChainsThatDriftIntoAnotherImage) {
+  const auto chains = read(models({3}, 5, false, "P 1", 3), "A,B");
+  EXPECT_NEAR(distance(chains[0], chains[1], 4), 15, 1e-9);
+  EXPECT_THAT(chains[1].warnings,
+              ElementsAre(testing::AllOf(HasSubstr("frame 3: has drifted into another periodic image"),
+                                         HasSubstr("(2 frames)"))));
+}
+
+TEST(NecklaceStream, CrystalsStayAsTheyAre) {
+  // One model, or a space group of a crystal.
+  for (const std::string& text : {models({23}, 1, false), models({23}, 2, false, "P 21 21 21")}) {
+    const auto chains = read(text, "A,B");
+    EXPECT_NEAR(distance(chains[0], chains[1], 0), 23, 1e-9);
+    EXPECT_TRUE(chains[1].warnings.empty());
+  }
+}
+
+TEST(NecklaceStream, TellsWhereACellDoesNotSuitTheBonds) {
+  std::string text;
+  for (int k = 0; k < 3; ++k)
+    text += "4\nLattice=\"10 0 0 0 10 0 0 0 10\"\nC 0 0 0\nC 6 0 0\nC 12 0 0\nC 18 0 0\n";
+  const Trajectory trajectory = read_trajectory(test::write_file("a.xyz", text));
+  EXPECT_EQ(trajectory.frames[2](0, 3), 18);
+  EXPECT_THAT(trajectory.warnings, ElementsAre(testing::AllOf(HasSubstr("a.xyz: frame 0: not made whole"),
+                                                              HasSubstr("(3 frames)"))));
+}
+
+TEST(NecklaceStream, KnowsFilesOfOneFrame) {
+  NecklaceStream one(test::write_file("one.pdb", test::pdb_residue(1)), {});
+  EXPECT_TRUE(one.holds_one_frame());
+  NecklaceStream two(test::write_file("two.xyz", "1\n\nC 0 0 0\n1\n\nC 1 0 0\n"), {});
+  EXPECT_FALSE(two.holds_one_frame());
+  FrameRead frame;
+  ASSERT_TRUE(two.next(frame));
+  EXPECT_EQ(frame.stamp.number, 0U);
+}
+
+}  // namespace
+}  // namespace kds::necklace_stream_test
