@@ -13,17 +13,16 @@ namespace {
 
 class HeaderReader {
  public:
-  HeaderReader(const std::string& file, std::ifstream& stream) : file_(file), stream_(stream) {
-    stream_.seekg(0, std::ios::end);
-    layout.file_size = static_cast<std::uint64_t>(std::max<std::streamoff>(stream_.tellg(), 0));
-    stream_.seekg(0);
+  explicit HeaderReader(InputFile& input) : file_(input.name()), input_(input) {
+    const InputFile::Length length = input.length();
+    layout.file_size = length.bytes;
+    layout.cut = length.cut;
   }
 
   void tell_byte_order_and_markers() {
     std::array<char, 12> start{};
-    stream_.read(start.data(), start.size());
-    stream_.clear();
-    stream_.seekg(0);
+    (void)read_at(input_, 0, start.data(), std::min<std::uint64_t>(start.size(), layout.file_size));
+    input_.seek(0);
     for (const std::size_t marker_size : {4U, 8U})
       for (const bool swapped : {false, true}) {
         layout.marker_size = marker_size;
@@ -70,7 +69,7 @@ class HeaderReader {
     return layout.number<std::int32_t>(bytes.data() + 4 * k);
   }
 
-  std::uint64_t position() const { return static_cast<std::uint64_t>(stream_.tellg()); }
+  std::uint64_t position() const { return input_.place(); }
 
   DcdLayout layout;
   static constexpr std::uint64_t header_bytes = 84;
@@ -78,13 +77,13 @@ class HeaderReader {
 
  private:
   void read(std::vector<char>& bytes, const char* what) {
-    stream_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!stream_)
+    if (bytes.size() > layout.file_size - position() ||
+        !read_at(input_, position(), bytes.data(), bytes.size()))
       throw InputError(fmt::format("{}: the file ends inside its {} and holds no frame", file_, what));
   }
 
   const std::string& file_;
-  std::ifstream& stream_;
+  InputFile& input_;
 };
 
 // Atoms are numbered from 1 in the file, in ascending order.
@@ -105,34 +104,76 @@ std::vector<std::uint32_t> free_atoms(const std::string& file, const HeaderReade
   return atoms;
 }
 
+// As many digits as a float has: 0.02 and not 0.0199999996.
+DcdLayout::Times times_of(std::int32_t first, std::int32_t steps, double picoseconds) {
+  const double step = *parse_double(fmt::format("{:.6g}", picoseconds));
+  return {step * (static_cast<double>(first) / steps), step};
+}
+
+bool is_time(double picoseconds) { return picoseconds >= 1e-6 && picoseconds <= 1e9; }  // NaN is none
+
+// LAMMPS writes the length of a step in the unit of its run and does not say which: femtoseconds (units real,
+// where steps are about 1), picoseconds (metal, about 0.001), reduced units (lj, about 0.005) or another.
+void read_lammps_times(const std::string& file, std::int32_t first, std::int32_t steps, double length,
+                       DcdLayout& layout) {
+  if (first < 0 || steps < 1 || !(length > 0)) return;
+  const double picoseconds = steps * length * 1e-3;
+  if (length >= 0.2 && length <= 20 && is_time(picoseconds)) {
+    layout.times = times_of(first, steps, picoseconds);
+    layout.times_note = fmt::format(
+        "{}: LAMMPS does not write its unit of time; its step of {:.6g} is taken for femtoseconds "
+        "(units real)",
+        file, length);
+  } else {
+    layout.times_note = fmt::format(
+        "{}: LAMMPS does not write its unit of time, and its step of {:.6g} does not show it; "
+        "frames are told by their numbers",
+        file, length);
+  }
+}
+
 // The header holds the number of frame 0's step, the steps between frames and the length of a step in the
 // unit of CHARMM (AKMA). Programs that do not know the times leave zeros or ones there.
-std::optional<DcdLayout::Times> frame_times(const HeaderReader& reader, const std::vector<char>& header) {
+void read_times(const std::string& file, const HeaderReader& reader, const std::vector<char>& header,
+                DcdLayout& layout) {
   constexpr double akma = 0.04888821;  // picoseconds
   const std::int32_t first = reader.integer(header, 2), steps = reader.integer(header, 3);
   const char* const place = header.data() + std::size_t{4} * 10;
   const bool by_xplor = reader.integer(header, 20) == 0;
   const double length = by_xplor ? reader.layout.number<double>(place)
                                  : static_cast<double>(reader.layout.number<float>(place));
-  if (first < 0 || steps < 1 || (steps == 1 && length == 1)) return std::nullopt;
+  if (layout.title.find("LAMMPS") != std::string::npos) {
+    read_lammps_times(file, first, steps, length, layout);
+    return;
+  }
+  if (first < 0 || steps < 1 || (steps == 1 && length == 1)) return;
   const double picoseconds = steps * length * akma;
-  if (!(picoseconds >= 1e-6 && picoseconds <= 1e9)) return std::nullopt;  // NaN neither
-  // As many digits as a float has: 0.02 and not 0.0199999996.
-  const double step = *parse_double(fmt::format("{:.6g}", picoseconds));
-  return DcdLayout::Times{step * (static_cast<double>(first) / steps), step};
+  if (is_time(picoseconds)) layout.times = times_of(first, steps, picoseconds);
 }
 
 }  // namespace
 
 FramesHeld DcdLayout::frames_held() const {
   std::uint64_t left = file_size - frames_begin;
-  if (left < frame_size(0)) return {0, left > 0};
+  if (left < frame_size(0)) return {0, cut || left > 0};
   left -= frame_size(0);
-  return {static_cast<std::size_t>(1 + left / frame_size(1)), left % frame_size(1) != 0};
+  return {static_cast<std::size_t>(1 + left / frame_size(1)), cut || left % frame_size(1) != 0};
 }
 
-DcdLayout read_dcd_layout(const std::string& file, std::ifstream& stream) {
-  HeaderReader reader(file, stream);
+bool read_at(InputFile& input, std::uint64_t place, char* to, std::size_t size) {
+  input.seek(place);
+  while (size > 0) {
+    const std::size_t got = input.read(to, size);
+    if (got == 0) return false;
+    to += got;
+    size -= got;
+  }
+  return true;
+}
+
+DcdLayout read_dcd_layout(InputFile& input) {
+  const std::string& file = input.name();
+  HeaderReader reader(input);
   DcdLayout& layout = reader.layout;
   reader.tell_byte_order_and_markers();
 
@@ -144,8 +185,10 @@ DcdLayout read_dcd_layout(const std::string& file, std::ifstream& stream) {
     layout.has_cell = reader.integer(header, 11) != 0;
     layout.has_fourth = reader.integer(header, 12) != 0;
   }
-  layout.times = frame_times(reader, header);
-  (void)reader.record("title", HeaderReader::most_title);
+  layout.version = reader.integer(header, 20);
+  const std::vector<char> title = reader.record("title", HeaderReader::most_title);
+  if (title.size() > 4) layout.title.assign(title.begin() + 4, title.end());  // behind the number of lines
+  read_times(file, reader, header, layout);
 
   const std::int64_t atoms = reader.integer(reader.record_of("number of atoms", 4), 0);
   if (atoms <= 0)

@@ -1,5 +1,5 @@
 #pragma once
-// How a DCD file (CHARMM, NAMD) is laid out: its header and where each frame lies.
+// The layout of a DCD file (CHARMM, NAMD, LAMMPS): its header and where each frame lies.
 //
 // Every record stands between two markers that give its size: 4 bytes, in the byte order of the machine that
 // wrote it (8 bytes from some compilers). Header, title, number of atoms, list of free atoms if some are
@@ -12,11 +12,11 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "motions/base/input_file.h"
 #include "motions/frames/frame_selection.h"
 
 namespace kds {
@@ -34,8 +34,12 @@ struct DcdLayout {
     double first = 0, step = 0;
   };
   std::optional<Times> times;
+  std::string times_note;          ///< a line about a unit of time that is guessed or unknown; empty: none is
+  std::int32_t version = 0;        ///< of CHARMM, as other programs copy it
+  std::string title;               ///< all its lines
   std::uint64_t frames_begin = 0;  ///< byte of the file
-  std::uint64_t file_size = 0;
+  std::uint64_t file_size = 0;     ///< unpacked
+  bool cut = false;                ///< a gzipped file that is cut off behind these bytes
 
   [[nodiscard]] std::uint64_t atoms_in_frame(std::size_t k) const {
     return k == 0 || free_atoms.empty() ? atom_count : free_atoms.size();
@@ -67,6 +71,9 @@ struct DcdLayout {
 };
 
 /// Throws InputError naming the file.
-[[nodiscard]] DcdLayout read_dcd_layout(const std::string& file, std::ifstream& stream);
+[[nodiscard]] DcdLayout read_dcd_layout(InputFile& input);
+
+/// Reads `size` bytes from `place` on; false if the file ends before them.
+[[nodiscard]] bool read_at(InputFile& input, std::uint64_t place, char* to, std::size_t size);
 
 }  // namespace kds

@@ -8,6 +8,7 @@
 #include "motions/base/input_error.h"
 #include "motions/base/input_file.h"
 #include "motions/base/text_input.h"
+#include "motions/readers/dcd_cell.h"
 #include "motions/readers/dcd_layout.h"
 #include "motions/readers/pdb_reader.h"
 
@@ -18,9 +19,25 @@ namespace {
 class DcdFile {
  public:
   explicit DcdFile(const std::filesystem::path& path)
-      : file_(path.string()), stream_(open(path)), layout_(read_dcd_layout(file_, stream_)) {}
+      : file_(path.string()),
+        input_(path),
+        layout_(read_dcd_layout(input_)),
+        cell_form_(layout_.version, layout_.title) {}
 
   const DcdLayout& layout() const { return layout_; }
+
+  // Tells the form of the cells from up to 65 of the frames asked for.
+  void look_at_cells(const FramesAsked& asked) {
+    constexpr std::size_t most = 64;
+    if (!layout_.has_cell) return;
+    const std::size_t every = (asked.count + most - 1) / most;
+    for (std::size_t i = 0; i < asked.count; i += every) {
+      std::array<char, DcdLayout::cell_bytes> bytes;
+      if (!read_at(input_, layout_.frame_begin(asked[i]) + layout_.marker_size, bytes.data(), bytes.size()))
+        return;
+      cell_form_.look_at(cell_numbers(bytes.data()));
+    }
+  }
 
   // Where records disagree with the header, a file ends where no frame does: tell of the first such record.
   void check_all_markers() {
@@ -29,11 +46,7 @@ class DcdFile {
       for (const std::uint64_t size : record_sizes(k)) {
         if (place + layout_.marker_size > layout_.file_size) return;
         std::array<char, 8> marker{};
-        stream_.seekg(static_cast<std::streamoff>(place));
-        if (!stream_.read(marker.data(), static_cast<std::streamsize>(layout_.marker_size))) {
-          stream_.clear();
-          return;
-        }
+        if (!read_at(input_, place, marker.data(), layout_.marker_size)) return;
         check_marker(k, layout_.marker(marker.data()), size);
         place += layout_.record_size(size);
       }
@@ -45,8 +58,7 @@ class DcdFile {
     std::uint64_t place = layout_.frame_begin(k);
     for (const std::uint64_t size : record_sizes(k)) {
       std::array<char, 8> marker{};
-      stream_.seekg(static_cast<std::streamoff>(place));
-      if (!stream_.read(marker.data(), static_cast<std::streamsize>(layout_.marker_size)))
+      if (!read_at(input_, place, marker.data(), layout_.marker_size))
         throw InputError(fmt::format("{}: frame {}: cannot read it", file_, k));
       check_marker(k, layout_.marker(marker.data()), size);
       place += layout_.record_size(size);
@@ -55,8 +67,7 @@ class DcdFile {
 
   void load(std::size_t k) {
     bytes_.resize(layout_.frame_size(k));
-    stream_.seekg(static_cast<std::streamoff>(layout_.frame_begin(k)));
-    if (!stream_.read(bytes_.data(), static_cast<std::streamsize>(bytes_.size())))
+    if (!read_at(input_, layout_.frame_begin(k), bytes_.data(), bytes_.size()))
       throw InputError(fmt::format("{}: frame {}: cannot read it", file_, k));
     const char* record = bytes_.data();
     records_.clear();
@@ -73,23 +84,14 @@ class DcdFile {
     return layout_.number<float>(records_[axis + (layout_.has_cell ? 1 : 0)] + 4 * i);
   }
 
-  // Of the frame loaded. Angles stand there in degrees or as cosines: then all are within [-1, 1].
-  std::optional<Cell> cell() const {
-    if (!layout_.has_cell) return std::nullopt;
-    std::array<double, 6> v;
-    for (std::size_t i = 0; i < 6; ++i) v[i] = layout_.number<double>(records_[0] + 8 * i);
-    const Eigen::Vector3d lengths(v[0], v[2], v[5]);
-    const Eigen::Vector3d angles(v[4], v[3], v[1]);
-    return angles.cwiseAbs().maxCoeff() <= 1 ? cell_from_lengths(lengths, angles)
-                                             : cell_from_angles(lengths, angles);
-  }
+  // Of the frame loaded.
+  CellRead cell() const { return layout_.has_cell ? cell_form_.read(cell_numbers(records_[0])) : CellRead(); }
 
  private:
-  static std::ifstream open(const std::filesystem::path& path) {
-    require_regular_file(path);
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) throw InputError(fmt::format("{}: cannot open this file", path.string()));
-    return stream;
+  DcdCellForm::Numbers cell_numbers(const char* bytes) const {
+    DcdCellForm::Numbers numbers;
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = layout_.number<double>(bytes + 8 * i);
+    return numbers;
   }
 
   std::vector<std::uint64_t> record_sizes(std::size_t k) const {
@@ -109,8 +111,9 @@ class DcdFile {
   }
 
   std::string file_;
-  std::ifstream stream_;
+  InputFile input_;
   DcdLayout layout_;
+  DcdCellForm cell_form_;
   std::vector<char> bytes_;
   std::vector<const char*> records_;
 };
@@ -213,7 +216,9 @@ class DcdFrames final : public FrameReader {
     if (const auto& times = dcd_->layout().times)
       frame.stamp.picoseconds = times->first + static_cast<double>(k) * times->step;
     atoms_.read_beads(k, beads_, frame.positions);
-    frame.cell = dcd_->cell();
+    CellRead cell = dcd_->cell();
+    frame.cell = cell.cell;
+    frame.cell_doubt = std::move(cell.doubt);
     return true;
   }
 
@@ -246,6 +251,8 @@ FramesOpened open_dcd(const std::filesystem::path& path, const ReadOptions& opti
   const FramesAsked asked = select_frames(opened.file, options.frames, held, opened.warnings);
   warn_of_false_count(layout, held, opened);
   dcd->check_markers(asked[0]);
+  dcd->look_at_cells(asked);
+  if (!layout.times_note.empty()) opened.warnings.push_back(layout.times_note);
 
   Beads beads = choose_beads(opened.file, options, layout.atom_count);
   opened.element_radii = std::move(beads.element_radii);

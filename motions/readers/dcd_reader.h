@@ -1,7 +1,8 @@
 #pragma once
-// DCD files (CHARMM, NAMD): both byte orders, 32- or 64-bit markers, with or without unit cell, fourth
-// coordinate and fixed atoms. Only the frames asked for are read. How many frames there are is told by the
-// file's size: the header's count is often wrong, and warned of then.
+// DCD files (CHARMM, NAMD, LAMMPS), plain or gzipped: both byte orders, 32- or 64-bit markers, with or
+// without unit cell, fourth coordinate and fixed atoms. Only the frames asked for are read, from a gzipped
+// file those before them too. The number of frames follows from the file's size: the header's count is often
+// wrong, which is warned of.
 
 #include <filesystem>
 

@@ -54,8 +54,8 @@ ReaderRegistry& reader_registry() {
              {".pdb", ".ent", ".cif", ".mmcif", ".pdb.gz", ".ent.gz", ".cif.gz", ".mmcif.gz"},
              false,
              open_structure_frames});
-    own.add({"dcd", {".dcd"}, true, open_dcd});
-    own.add({"xyz", {".xyz"}, false, open_xyz});
+    own.add({"dcd", {".dcd", ".dcd.gz"}, true, open_dcd});
+    own.add({"xyz", {".xyz", ".extxyz", ".xyz.gz", ".extxyz.gz"}, false, open_xyz});
     return own;
   }();
   return registry;

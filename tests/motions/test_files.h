@@ -106,6 +106,7 @@ struct DcdMaker {
   bool fourth = false;
   std::vector<std::int32_t> free_atoms;  ///< from 1; empty: none is fixed
   std::string magic = "CORD";
+  std::string title = std::string(80, 't');
   std::int32_t version = 24;  ///< 0: of X-PLOR
   std::int32_t first_step = 0, steps_a_frame = 0;
   double step_length = 0;                                 ///< in the unit of CHARMM
@@ -148,12 +149,12 @@ struct DcdMaker {
     numbers[19] = version;
     std::string first = magic;
     for (const std::int32_t number : numbers) put(first, number);
-    std::string title;
-    put(title, std::int32_t{1});
-    title += std::string(80, 't');
+    std::string lines;
+    put(lines, std::int32_t{1});
+    lines += title + std::string(80 - title.size(), ' ');
     std::string count;
     put(count, atoms_claimed >= 0 ? atoms_claimed : static_cast<std::int32_t>(atoms));
-    std::string out = record(first) + record(title) + record(count);
+    std::string out = record(first) + record(lines) + record(count);
     if (!free_atoms.empty()) {
       std::string list;
       for (const std::int32_t atom : free_atoms) put(list, atom);

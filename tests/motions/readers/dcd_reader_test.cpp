@@ -1,8 +1,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <zlib.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "motions/frames/periodic.h"
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
 
@@ -192,6 +199,198 @@ TEST(DcdReader, CellInCosinesOrDegrees) {
     EXPECT_EQ(trajectory.frames[0](0, 2), 22);
     EXPECT_EQ(trajectory.frames[1](0, 0), 20.25);  // next to where it was
     EXPECT_TRUE(trajectory.breaks.empty());
+  }
+}
+
+// A chain that goes through the walls of a cell. Where the cell is read rightly, bonds are 3.
+struct WrappedChain {
+  Cell cell;
+  DcdMaker maker;
+
+  explicit WrappedChain(const Cell& of_cell) : cell(of_cell) {
+    const Cell inverse = cell.inverse();
+    maker.cell = true;
+    for (int k = 0; k < 3; ++k) {
+      auto& frame = maker.frames.emplace_back();
+      for (int i = 0; i < 40; ++i) {
+        const Eigen::Vector3d place = (3.0 * i + k) * Eigen::Vector3d(2, 3, 6) / 7;
+        const Eigen::Vector3d inside = place - cell * (inverse * place).array().floor().matrix();
+        frame.push_back(
+            {static_cast<float>(inside[0]), static_cast<float>(inside[1]), static_cast<float>(inside[2])});
+      }
+    }
+  }
+
+  bool is_whole_when_read() const {
+    const Trajectory trajectory = read(maker.bytes());
+    double worst = 0;
+    for (const auto& frame : trajectory.frames)
+      for (Eigen::Index i = 0; i + 1 < frame.cols(); ++i)
+        worst = std::max(worst, std::abs((frame.col(i + 1) - frame.col(i)).norm() - 3));
+    return worst < 1e-3;
+  }
+};
+
+// The symmetric matrix whose square is the cell's metric, as CHARMM writes it.
+Cell shape_matrix(const Cell& cell) {
+  const Eigen::SelfAdjointEigenSolver<Cell> solver(cell.transpose() * cell);
+  return solver.operatorSqrt();
+}
+
+std::array<double, 6> numbers_of(const Cell& symmetric) {
+  return {symmetric(0, 0), symmetric(0, 1), symmetric(1, 1),
+          symmetric(0, 2), symmetric(1, 2), symmetric(2, 2)};
+}
+
+struct CellShape {
+  Eigen::Vector3d lengths, degrees;
+};
+
+std::vector<CellShape> cell_shapes() {
+  constexpr double octahedron = 109.4712206344907, obtuse = 70.52877936550931;
+  return {{{40, 40, 40}, {90, 90, 90}},
+          {{30, 41, 52}, {90, 90, 90}},
+          {{40, 40, 40}, {octahedron, octahedron, octahedron}},
+          {{40, 40, 40}, {obtuse, octahedron, obtuse}},
+          {{40, 40, 40}, {60, 60, 90}},
+          {{40, 40, 60}, {90, 90, 60}},
+          {{40, 40, 60}, {90, 90, 120}},
+          {{40, 45, 50}, {80, 75, 85}},
+          {{40, 45, 50}, {90, 97, 90}},
+          {{44, 45, 50}, {100, 95, 110}},
+          {{40, 40, 40}, {60, 60, 60}},
+          {{70, 71, 72}, {60, 90, 90}}};
+}
+
+TEST(DcdReader, CellsOfEveryFormAndShape) {
+  for (const CellShape& shape : cell_shapes()) {
+    const Cell cell = *cell_from_angles(shape.lengths, shape.degrees);
+    const Eigen::Vector3d& l = shape.lengths;
+    const Eigen::Vector3d& d = shape.degrees;
+    WrappedChain degrees(cell);
+    degrees.maker.cell_values = {l[0], d[2], l[1], d[1], d[0], l[2]};
+    EXPECT_TRUE(degrees.is_whole_when_read()) << l.transpose() << " " << d.transpose();
+    WrappedChain cosines(cell);
+    const Eigen::Vector3d c = (d * std::numbers::pi / 180).array().cos();
+    cosines.maker.cell_values = {l[0], c[2], l[1], c[1], c[0], l[2]};
+    EXPECT_TRUE(cosines.is_whole_when_read()) << l.transpose() << " " << d.transpose();
+    WrappedChain matrix(shape_matrix(cell));
+    matrix.maker.cell_values = numbers_of(matrix.cell);
+    matrix.maker.version = 39;
+    EXPECT_TRUE(matrix.is_whole_when_read()) << l.transpose() << " " << d.transpose();
+    matrix.maker.version = 24;
+    matrix.maker.title = "* CHARMM";
+    EXPECT_TRUE(matrix.is_whole_when_read()) << l.transpose() << " " << d.transpose();
+  }
+}
+
+TEST(DcdReader, CellsOfAnUnknownFormAreNotUsed) {
+  const auto warnings = [](const std::array<double, 6>& numbers, std::int32_t version,
+                           const std::string& title) {
+    DcdMaker maker = DcdMaker::chain(5, 2);
+    maker.cell = true;
+    maker.cell_values = numbers;
+    maker.version = version;
+    maker.title = title;
+    const Trajectory trajectory = read(maker.bytes());
+    expect_frames(trajectory, maker);
+    return trajectory.warnings;
+  };
+  const auto not_used =
+      testing::ElementsAre(testing::HasSubstr("a.dcd: frame 0: its periodic cell is not used: "));
+  // Angles of 47 degrees, or the matrix of a rhombic dodecahedron.
+  const std::array<double, 6> either{188.6, 47.1, 188.6, 47.1, 47.1, 188.6};
+  EXPECT_THAT(warnings(either, 24, "made up"), not_used);
+  EXPECT_THAT(warnings(either, 35, "made up"), testing::IsEmpty());
+  EXPECT_THAT(warnings(either, 24, "* CHARMM"), testing::IsEmpty());
+  EXPECT_THAT(warnings(either, 24, "Created by DCD plugin"), testing::IsEmpty());
+  EXPECT_THAT(warnings(either, 21, "* CHARMM"), testing::IsEmpty());
+  // No cell in any form.
+  EXPECT_THAT(warnings({20, -30, 20, 5, 5, 20}, 24, "made up"), not_used);
+  EXPECT_THAT(warnings({20, 190, 20, 90, 90, 20}, 24, "made up"), not_used);
+  EXPECT_THAT(warnings({20, 1, 20, 1, 1, 20}, 21, "made up"), not_used);
+  // NAMD writes no matrix.
+  EXPECT_THAT(warnings({38.5, -7.7, 38.5, -7.7, -7.7, 38.5}, 24, "Created by NAMD"), not_used);
+  EXPECT_THAT(warnings({20, 0, 20, 0, 0, 0}, 24, "made up"), not_used);
+  EXPECT_THAT(warnings({-20, 0, 20, 0, 0, 20}, 24, "made up"), not_used);
+  EXPECT_THAT(warnings({0, 0, 0, 0, 0, 0}, 24, "made up"), testing::IsEmpty());
+  EXPECT_THAT(warnings({1, 90, 1, 90, 90, 1}, 24, "made up"), testing::IsEmpty());
+}
+
+// The form of all frames is that of the frame that tells: this matrix is nearly upright at first.
+TEST(DcdReader, FormOfCellsIsThatOfTheFile) {
+  DcdMaker maker = DcdMaker::chain(5, 2);
+  maker.frames[0] = {{{0, 0, 0}, {3, 0, 0}, {6, 0, 0}, {9, 0, 0}, {12, 0, 0}}};
+  maker.cell = true;
+  maker.cell_values = {20, -0.5, 20, -0.5, -0.5, 20};
+  std::string bytes = maker.header() + maker.frame(0);
+  maker.cell_values = {20, -2, 20, -2, -2, 20};
+  bytes += maker.frame(1);
+  // As cosines the first would be no cell near to upright, and of a third of the volume.
+  EXPECT_THAT(read(bytes).warnings, testing::IsEmpty());
+}
+
+TEST(DcdReader, GzippedFiles) {
+  const auto gzipped = [](const std::string& bytes) {
+    const auto path = test::temporary("a.dcd.gz");
+    const gzFile out = gzopen(path.c_str(), "wb");
+    gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size()));
+    gzclose(out);
+    return path;
+  };
+  std::mt19937 random(3);
+  DcdMaker maker = DcdMaker::chain(50, 60);
+  for (auto& frame : maker.frames)
+    for (auto& atom : frame) atom[2] = static_cast<float>(random() % 1000) / 1000;
+  maker.cell = true;
+  const auto path = gzipped(maker.bytes());
+  expect_frames(read_trajectory(path), maker);
+  EXPECT_EQ(read_trajectory(path, {.frames = {10, 40, 7}}).frame_numbers,
+            (std::vector<std::size_t>{10, 17, 24, 31, 38}));
+  const std::string packed = test::read_bytes(path);
+  for (const double share : {0.3, 0.6, 0.95}) {
+    const auto cut = test::write_file(
+        "cut.dcd.gz", std::string_view(packed).substr(
+                          0, static_cast<std::size_t>(share * static_cast<double>(packed.size()))));
+    test::expect_refused([&] { (void)read_trajectory(cut); },
+                         {"cut.dcd.gz", "inside frame", "last whole frame"});
+    EXPECT_EQ(read_trajectory(cut, {.frames = up_to(5)}).frames.size(), 5U);
+  }
+  maker.free_atoms = {2, 3, 7};
+  for (auto& frame : maker.frames)
+    for (std::size_t i = 0; i < frame.size(); ++i)
+      if (i != 1 && i != 2 && i != 6) frame[i] = maker.frames[0][i];
+  expect_frames(read_trajectory(gzipped(maker.bytes())), maker);
+}
+
+TEST(DcdReader, TimesOfLammps) {
+  struct Case {
+    std::int32_t first, steps;
+    double length;
+    std::vector<double> times;
+  };
+  for (const Case& one : std::initializer_list<Case>{{0, 1000, 1, {0, 1, 2, 3, 4}},
+                                                     {5000, 1000, 1, {5, 6, 7, 8, 9}},
+                                                     {0, 1, 1, {0, 0.001, 0.002, 0.003, 0.004}},
+                                                     {0, 100, 2, {0, 0.2, 0.4, 0.2 * 3, 0.8}},
+                                                     {0, 500, 0.5, {0, 0.25, 0.5, 0.75, 1}},
+                                                     {0, 100, 10, {0, 1, 2, 3, 4}},
+                                                     {0, 1000, 0.001, {}},  // metal, or electron
+                                                     {0, 1000, 0.005, {}},  // lj
+                                                     {0, 1000, 0.05, {}},
+                                                     {0, 1000, 1e-8, {}},  // si
+                                                     {0, 1000, 100, {}}}) {
+    DcdMaker maker = DcdMaker::chain(6, 5);
+    maker.title = "Written by LAMMPS";
+    maker.first_step = one.first;
+    maker.steps_a_frame = one.steps;
+    maker.step_length = one.length;
+    const Trajectory trajectory = read(maker.bytes());
+    EXPECT_EQ(trajectory.times, one.times) << one.length;
+    EXPECT_THAT(trajectory.warnings,
+                testing::ElementsAre(
+                    testing::AllOf(testing::HasSubstr("LAMMPS does not write its unit of time"),
+                                   testing::HasSubstr(one.times.empty() ? "numbers" : "femtoseconds"))));
   }
 }
 
