@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -10,6 +10,7 @@
 #include "motions/base/line_reader.h"
 #include "motions/base/text_input.h"
 #include "motions/frames/frame_selection.h"
+#include "motions/readers/extended_xyz.h"
 #include "motions/readers/vdw_radii.h"
 
 namespace kds {
@@ -20,7 +21,11 @@ class XyzFile {
  public:
   explicit XyzFile(const std::filesystem::path& path) : lines_(path) {
     FramesHeld held;
-    while (skip_frame(held)) {
+    try {
+      while (skip_frame(held)) {
+      }
+    } catch (const CutFile&) {
+      held.ends_inside = true;
     }
     held_ = held;
     rewind();
@@ -33,8 +38,8 @@ class XyzFile {
     next_ = 0;
   }
 
-  // Quick where frames are asked for in their order. Symbols are read into `symbols` where given.
-  void read_frame(std::size_t k, FrameRead& frame, std::vector<std::string>* symbols = nullptr) {
+  // Quick if frames are asked for in their order. All frames must have the atoms of the one read first.
+  void read_frame(std::size_t k, FrameRead& frame) {
     if (k < next_) rewind();
     FramesHeld held{next_, false};
     for (; next_ < k; ++next_)
@@ -42,14 +47,22 @@ class XyzFile {
     if (!read_count() || atoms_in_frame() != atoms_ || !read_line()) fail_gone(k);
     ++next_;
     frame.stamp = {k, std::nullopt};
-    frame.cell = cell_of(line_);
-    check_columns(line_);
+    XyzComment comment = comment_of(line_);
+    frame.cell = comment.cell.cell;
+    frame.cell_doubt = std::move(comment.cell.doubt);
+    if (comment.near_lattice)
+      frame.cell_doubt =
+          fmt::format("expected it as Lattice=, found the key {}", in_quotes(*comment.near_lattice));
     frame.positions.resize(3, static_cast<Eigen::Index>(atoms_));
     for (Eigen::Index i = 0; i < frame.positions.cols(); ++i) {
       if (!read_line()) fail_gone(k);
-      frame.positions.col(i) = atom(symbols);
+      frame.positions.col(i) = atom(comment.columns, k, static_cast<std::size_t>(i));
     }
+    if (!first_frame_) first_frame_ = k;
   }
+
+  // Of the frame read first: what the column of symbols holds; empty where there is none.
+  const std::vector<std::string>& symbols() const { return symbols_; }
 
  private:
   bool read_line() { return lines_.next(line_); }
@@ -96,59 +109,63 @@ class XyzFile {
   // Whether the frame is all there; the last line of a cut file may be cut itself.
   bool skip_atoms(std::size_t count) {
     if (!read_line()) return false;
+    const std::string comment(line_);
     for (std::size_t i = 0; i < count; ++i)
       if (!read_line()) return false;
-    return !lines_.cut() || is_atom_line();
+    return !lines_.cut() || is_atom_line(comment);
   }
 
-  bool is_atom_line() const {
+  bool is_atom_line(const std::string& comment) const {
+    XyzColumns columns;
+    try {
+      columns = read_xyz_comment(comment).columns;
+    } catch (const InputError&) {
+      return true;  // reading the frame says why
+    }
     const auto fields = split_fields(line_);
-    return fields.size() >= 4 && parse_double(fields[1]) && parse_double(fields[2]) &&
-           parse_double(fields[3]);
+    if (fields.size() < columns.count) return false;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!parse_fortran_double(fields[columns.position + axis])) return false;
+    return true;
   }
 
-  Eigen::Vector3d atom(std::vector<std::string>* symbols) const {
+  XyzComment comment_of(std::string_view line) const {
+    try {
+      return read_xyz_comment(line);
+    } catch (const InputError& error) {
+      fail(error.what());
+    }
+  }
+
+  Eigen::Vector3d atom(const XyzColumns& columns, std::size_t frame, std::size_t i) {
     const auto fields = split_fields(line_);
-    if (fields.size() < 4)
+    if (columns.named && fields.size() != columns.count)
+      fail(fmt::format("expected the {} of Properties, found {}", counted(columns.count, "column"),
+                       fields.size()));
+    if (fields.size() < columns.count)
       fail(fmt::format("expected a symbol and 3 coordinates, found {}", counted(fields.size(), "field")));
     Eigen::Vector3d position;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto value = parse_double(fields[axis + 1]);
-      if (!value) fail(fmt::format("expected a coordinate, found {}", in_quotes(fields[axis + 1])));
+      const std::string_view field = fields[columns.position + axis];
+      const auto value = parse_fortran_double(field);
+      if (!value) fail(fmt::format("expected a coordinate, found {}", in_quotes(field)));
       position[static_cast<Eigen::Index>(axis)] = *value;
     }
-    if (symbols) symbols->emplace_back(fields[0]);
+    if (columns.species) check_same(symbols_, fields[*columns.species], "symbol", frame, i);
+    if (columns.id) check_same(ids_, fields[*columns.id], "id", frame, i);
     return position;
   }
 
-  std::optional<Cell> cell_of(std::string_view comment) const {
-    constexpr std::string_view key = "Lattice=\"";
-    const std::size_t begin = comment.find(key);
-    if (begin == std::string_view::npos) return std::nullopt;
-    comment.remove_prefix(begin + key.size());
-    const auto fields = split_fields(comment.substr(0, comment.find('"')));
-    if (fields.size() != 9) fail(fmt::format("expected 9 numbers in Lattice, found {}", fields.size()));
-    Cell cell;
-    for (std::size_t i = 0; i < 9; ++i) {
-      const auto value = parse_double(fields[i]);
-      if (!value) fail(fmt::format("expected a number in Lattice, found {}", in_quotes(fields[i])));
-      cell(static_cast<Eigen::Index>(i % 3), static_cast<Eigen::Index>(i / 3)) = *value;
+  // Keeps the fields of the first frame; those of others must be the same, atom by atom.
+  void check_same(std::vector<std::string>& kept, std::string_view field, const char* what, std::size_t frame,
+                  std::size_t i) {
+    if (!first_frame_) {
+      if (kept.size() <= i) kept.resize(i + 1);
+      kept[i] = field;
+    } else if (i < kept.size() && kept[i] != field) {
+      fail(fmt::format("frame {}: atom {} has {} {}, expected {} as in frame {}; atoms must keep their order",
+                       frame, i, what, in_quotes(field), in_quotes(kept[i]), *first_frame_));
     }
-    if (!cell.allFinite() || !cell.inverse().allFinite() || cell.colwise().norm().minCoeff() <= 1)
-      return std::nullopt;
-    return cell;
-  }
-
-  // Extended XYZ may name other columns; the first four must be the plain ones.
-  void check_columns(std::string_view comment) const {
-    constexpr std::string_view key = "Properties=";
-    const std::size_t begin = comment.find(key);
-    if (begin == std::string_view::npos) return;
-    comment.remove_prefix(begin + key.size());
-    if (comment.starts_with('"')) comment.remove_prefix(1);
-    constexpr std::string_view plain = "species:S:1:pos:R:3";
-    if (!comment.starts_with(plain))
-      fail(fmt::format("expected columns that begin with {}, found {}", plain, in_quotes(comment)));
   }
 
   LineReader lines_;
@@ -156,6 +173,8 @@ class XyzFile {
   std::size_t atoms_ = 0;
   FramesHeld held_;
   std::size_t next_ = 0;  // frame that the next line begins
+  std::optional<std::size_t> first_frame_;
+  std::vector<std::string> symbols_, ids_;  // of that frame
 };
 
 class XyzFrames final : public FrameReader {
@@ -175,13 +194,56 @@ class XyzFrames final : public FrameReader {
   std::size_t next_ = 0;
 };
 
-std::vector<double> radii_of(const std::vector<std::string>& symbols) {
+// Atom names of amino acids, in capitals. Some are symbols of elements as well.
+std::optional<char> element_of_atom_name(std::string_view name) {
+  constexpr std::array<std::string_view, 12> heavy{"CA", "CB", "CG", "CD", "CE", "CZ",
+                                                   "NE", "NZ", "OG", "OH", "SD", "SG"};
+  constexpr std::array<std::string_view, 9> hydrogens{"HA", "HB", "HG", "HD", "HE", "HZ", "HH", "HN", "HO"};
+  if (name == "OXT" || std::find(heavy.begin(), heavy.end(), name) != heavy.end() ||
+      std::find(hydrogens.begin(), hydrogens.end(), name) != hydrogens.end())
+    return name[0];
+  // As CG1, OD2, HB3 or HD11: a letter of remoteness and digits.
+  const std::size_t digits = name.find_first_of("0123456789");
+  if (digits != 2 || name.size() > 4 ||
+      name.find_first_not_of("0123456789", digits) != std::string_view::npos)
+    return std::nullopt;
+  const bool is_element = std::string_view("CNOH").find(name[0]) != std::string_view::npos;
+  const bool is_remote = std::string_view("ABGDEZH").find(name[1]) != std::string_view::npos;
+  return is_element && is_remote ? std::optional(name[0]) : std::nullopt;
+}
+
+// Names are told from symbols by the whole column: some are no symbols, or CA stands alone or with N.
+bool holds_atom_names(const std::vector<std::string>& symbols) {
+  bool has_alpha = false, has_nitrogen = false, all_alpha = true;
+  for (const std::string& symbol : symbols) {
+    if (element_of_atom_name(symbol) && !van_der_waals_radius(symbol)) return true;
+    if (symbol == "CA") has_alpha = true;
+    if (symbol == "N") has_nitrogen = true;
+    if (symbol != "CA") all_alpha = false;
+  }
+  return has_alpha && (has_nitrogen || all_alpha);
+}
+
+std::vector<double> element_radii_of(const std::string& file, const std::vector<std::string>& symbols,
+                                     std::vector<std::string>& warnings) {
+  const bool names = holds_atom_names(symbols);
+  std::vector<std::string> guessed;
   std::vector<double> radii;
   for (const std::string& symbol : symbols) {
-    const auto radius = van_der_waals_radius(symbol);
+    const auto number = parse_count(symbol);
+    auto radius = number ? van_der_waals_radius(*number) : van_der_waals_radius(symbol);
+    if (const auto letter = element_of_atom_name(symbol)) {
+      if (radius && std::find(guessed.begin(), guessed.end(), symbol) == guessed.end())
+        guessed.push_back(symbol);
+      if (names) radius = van_der_waals_radius(std::string_view(&*letter, 1));
+    }
     if (!radius) return {};
     radii.push_back(*radius);
   }
+  for (const std::string& symbol : guessed)
+    warnings.push_back(fmt::format("{}: {} is taken for {}", file, symbol,
+                                   names ? "an atom name of amino acids; the element is written as in Ca"
+                                         : "an element, as no atom name of amino acids stands beside it"));
   return radii;
 }
 
@@ -198,10 +260,9 @@ FramesOpened open_xyz(const std::filesystem::path& path, const ReadOptions& opti
   opened.file = path.string();
   XyzFile file(path);
   const FramesAsked asked = select_frames(opened.file, options.frames, file.held(), opened.warnings);
-  std::vector<std::string> symbols;
   FrameRead first;
-  file.read_frame(asked[0], first, &symbols);
-  opened.element_radii = radii_of(symbols);
+  file.read_frame(asked[0], first);
+  opened.element_radii = element_radii_of(opened.file, file.symbols(), opened.warnings);
   opened.frames = std::make_unique<XyzFrames>(std::move(file), asked);
   return opened;
 }

@@ -1,6 +1,8 @@
 #pragma once
-// XYZ files: for each frame a line with the number of atoms, a comment, then a line `symbol x y z` an atom.
-// What follows on a line is left unread. A comment with Lattice="..." (extended XYZ) gives the cell.
+// XYZ files, plain or gzipped: for each frame a line with the number of atoms, a comment, then a line an
+// atom. The line is `symbol x y z`, and what follows is left unread. A comment with key=value pairs (extended
+// XYZ) gives the cell (Lattice, pbc) and other columns (Properties). Atoms keep their symbols and ids in all
+// frames.
 
 #include <filesystem>
 

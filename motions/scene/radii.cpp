@@ -38,10 +38,10 @@ std::vector<double> element_radii(const std::string& policy, std::span<const Tra
   std::vector<double> radii;
   for (const Trajectory& necklace : necklaces) {
     if (necklace.element_radii.size() != necklace.bead_count())
-      throw InputError(
-          fmt::format("--radius: {} needs the elements of all beads, which {} does not tell; give "
-                      "--radius auto or a number{}",
-                      policy, necklace.file, necklace.file.ends_with(".dcd") ? ", or --topology" : ""));
+      throw InputError(fmt::format(
+          "--radius: {} needs the elements of all beads, which {} does not tell; give "
+          "--radius auto or a number{}",
+          policy, necklace.file, necklace.file.find(".dcd") != std::string::npos ? ", or --topology" : ""));
     radii.insert(radii.end(), necklace.element_radii.begin(), necklace.element_radii.end());
   }
   return radii;

@@ -1,4 +1,7 @@
 #include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <random>
 
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
@@ -88,11 +91,192 @@ TEST(XyzReader, ExtendedXyz) {
   EXPECT_EQ(trajectory.frames[0](0, 1), 10.75);
   ASSERT_EQ(trajectory.warnings.size(), 1U);
   EXPECT_NE(trajectory.warnings[0].find("made whole"), std::string::npos);
-  refuse("1\nLattice=\"10 0 0\"\nC 0 0 0\n", {"a.xyz:2:", "9 numbers"});
+  refuse("1\nLattice=\"10 0 0 0 10\"\nC 0 0 0\n", {"a.xyz:2:", "9 numbers"});
   refuse("1\nLattice=\"10 0 0 0 10 0 0 0 x\"\nC 0 0 0\n", {"a.xyz:2:", "'x'"});
-  refuse("1\nProperties=pos:R:3:species:S:1\n0 0 0 C\n", {"a.xyz:2:", "species:S:1:pos:R:3"});
   // A flat lattice is none.
   EXPECT_TRUE(read("2\nLattice=\"0 0 0 0 0 0 0 0 0\"\nC 9 0 0\nC 1 0 0\n").warnings.empty());
+}
+
+// Every way to write a cell of 10 makes this chain whole: bonds of 8.75 become 1.25.
+TEST(XyzReader, LatticeInEveryForm) {
+  for (const std::string_view comment :
+       {"Lattice=\"10 0 0 0 10 0 0 0 10\"", "Lattice = \"10 0 0 0 10 0 0 0 10\"",
+        "Lattice='10 0 0 0 10 0 0 0 10'", "Lattice={10 0 0 0 10 0 0 0 10}",
+        "Lattice=[[10,0,0],[0,10,0],[0,0,10]]", "Lattice= [ [10.0 , 0, 0], [0,1e1,0],\t[0,0,+1.0D+01] ]",
+        "Lattice=[10, 0, 0, 0, 10, 0, 0, 0, 10]", "Lattice=\"[[10,0,0],[0,10,0],[0,0,10]]\"",
+        "lattice=\"1d1 0 0 0 1.0d01 0 0 0 10.\"", "LATTICE=\"10 10 10\"",
+        "\"Lattice\"=\"10 0 0 0 10 0 0 0 10\"",
+        "energy=-3.5 note=\"a \\\" b = c\" Lattice=\"10 0 0 0 10 0 0 0 10\"",
+        "made by hand, step 3 Lattice=\"10,0,0,0,10,0,0,0,10\" pbc=\"T T T\"",
+        "Lattice=\"10 0 0 0 10 0 0 0 10\" pbc=[True, true, TRUE]", "pbc=T Lattice=\"10 0 0 0 10 0 0 0 10\"",
+        "Lattice=\"10 0 0 0 10 0 0 0 10\" pbc=\"1 1 1\"", "Lattice=\"10 0 0 0 5 0 0 0 0\" pbc=\"T F F\"",
+        "stress=[[1,2],[3,4]] Lattice=\"10 0 0 0 10 0 0 0 10\" tags={a \"b c\" d}"}) {
+    const Trajectory trajectory = read("3\n" + std::string(comment) + "\nC 9.5 0 0\nC 0.75 0 0\nC 2 0 0\n");
+    EXPECT_EQ(trajectory.frames[0](0, 1), 10.75) << comment;
+    EXPECT_EQ(trajectory.frames[0](0, 2), 12) << comment;
+    EXPECT_EQ(trajectory.warnings.size(), 1U) << comment;
+  }
+}
+
+TEST(XyzReader, AxesThatAreNotPeriodicStay) {
+  for (const std::string_view pbc :
+       {"\"F F F\"", "[F, F, F]", "F", "\"F T T\"", "[False,True,True]", "\"false true T\"", "{F T F}",
+        "'0 1 1'", "[FALSE, F, T]", "\"F F T\""}) {
+    const Trajectory trajectory = read("3\nLattice=\"10 0 0 0 10 0 0 0 10\" pbc=" + std::string(pbc) +
+                                       "\nC 9.5 0 0\nC 0.75 0 0\nC 2 0 0\n");
+    EXPECT_EQ(trajectory.frames[0](0, 1), 0.75) << pbc;
+  }
+}
+
+TEST(XyzReader, PropertiesInAnyOrder) {
+  struct Case {
+    std::string_view comment, line;
+  };
+  for (const Case& one : std::initializer_list<Case>{
+           {"Properties = id:I:1:species:S:1:pos:R:3", "1 C 1 2 3"},
+           {"Properties=pos:R:3:species:S:1", "1 2 3 C"},
+           {"properties=pos:R:3", "1 2 3"},
+           {"PROPERTIES=\"pos:R:3:Z:I:1\"", "1 2 3 6"},
+           {"Properties='species:S:1:pos:R:3:forces:R:3'", "C 1 2 3 9 9 9"},
+           {"Properties=species:S:1:move_mask:L:1:pos:R:3", "C T 1 2 3"},
+           {"Properties=velo:R:3:Pos:R:3:Species:S:1", "7 8 9 1 2 3 C"},
+           {"Lattice=\"90 0 0 0 90 0 0 0 90\" Properties=species:S:1:pos:R:3:tag:S:2", "C 1 2 3 a b"},
+           {"Properties =species:S:1:pos:R:3", "C 1D0 2.0d+00 3e0"},
+           {"Properties= species:S:1:mass:R:1:pos:R:3", "C 12.011 1 2 3"}}) {
+    const std::string text = "1\n" + std::string(one.comment) + "\n" + std::string(one.line) + "\n";
+    const Trajectory trajectory = read(text + text);
+    ASSERT_EQ(trajectory.frames.size(), 2U) << one.comment;
+    EXPECT_EQ(trajectory.frames[1], Eigen::Vector3d(1, 2, 3)) << one.comment;
+    EXPECT_EQ(trajectory.element_radii.empty(), one.line.find_first_of("C6") == std::string_view::npos)
+        << one.comment;
+    EXPECT_TRUE(trajectory.warnings.empty()) << one.comment;
+  }
+}
+
+TEST(XyzReader, RefusesCommentsThatCannotBeRead) {
+  const auto refuse_comment = [](std::string_view comment, std::string_view part) {
+    refuse("1\n" + std::string(comment) + "\nC 0 0 0\n", {"a.xyz:2:", part});
+  };
+  refuse_comment("Lattice=\"10 0 0 0 10 0 0 0 10", "not closed");
+  refuse_comment("Lattice=[[10,0,0],[0,10,0],[0,0,10]", "not closed");
+  refuse_comment("Lattice=[[10,0],[0,10,0],[0,0,10]]", "3 rows");
+  refuse_comment("Lattice=[[10,0,0],[0,10,0]]", "9 numbers");
+  refuse_comment("Lattice=", "9 numbers");
+  refuse_comment("Lattice=\"10 0 0 0 10 0 0 0 x\"", "'x'");
+  refuse_comment("Lattice=\"10 10 10\" Lattice=\"20 20 20\"", "twice");
+  refuse_comment("note=\"open Lattice=5", "not closed");
+  refuse_comment("\"open Lattice = 5", "not closed");
+  refuse_comment("Lattice=\"10 10 10\" pbc=\"T T\"", "pbc");
+  refuse_comment("Lattice=\"10 10 10\" pbc=\"T T maybe\"", "'maybe'");
+  refuse_comment("Properties=species:S:1", "pos:R:3");
+  refuse_comment("Properties=species:S:1:pos:R:2", "pos:R:3");
+  refuse_comment("Properties=species:S:1:pos:S:3", "pos:R:3");
+  refuse_comment("Properties=species:S:pos:R:3", "name:type:count");
+  refuse_comment("Properties=species:S:1:pos:R:3:pos:R:3", "twice");
+  refuse_comment("Properties=species:S:0:pos:R:3", "name:type:count");
+  refuse("1\nProperties=species:S:1:pos:R:3\nC 0 0 0 1\n", {"a.xyz:3:", "4 columns", "found 5"});
+  refuse("1\nProperties=species:S:1:pos:R:3\nC 0 0-1\n", {"a.xyz:3:", "4 columns", "found 3"});
+}
+
+TEST(XyzReader, PlainCommentsAreAnyText) {
+  for (const std::string_view comment : {"it's 5\" wide = no", "\"open", "= = =", "a=", "\\", "E=[1,2", "x={",
+                                         "step 3, Lattice of nothing", "'", "===="}) {
+    const Trajectory trajectory = read("1\n" + std::string(comment) + "\nC 1 2 3 4 5\n");
+    EXPECT_EQ(trajectory.frames[0], Eigen::Vector3d(1, 2, 3)) << comment;
+    EXPECT_TRUE(trajectory.warnings.empty()) << comment;
+  }
+}
+
+TEST(XyzReader, CellsThatAreNotUsedAreToldOf) {
+  for (const std::string_view comment :
+       {"Lattice=\"10 0 0 0 10 0 0 0 0\"", "Lattice=\"10 0 0 20 0 0 0 0 10\"",
+        "Lattice=\"nan 0 0 0 10 0 0 0 10\"", "Lattice=\"inf 10 10\"", "cell=\"10 10 10\"",
+        "Box = [10, 10, 10]"}) {
+    const Trajectory trajectory = read("3\n" + std::string(comment) + "\nC 9.5 0 0\nC 0.75 0 0\nC 2 0 0\n");
+    EXPECT_EQ(trajectory.frames[0](0, 1), 0.75) << comment;
+    ASSERT_FALSE(trajectory.warnings.empty()) << comment;
+    EXPECT_NE(trajectory.warnings[0].find("frame 0: its periodic cell is not used"), std::string::npos)
+        << trajectory.warnings[0];
+  }
+}
+
+TEST(XyzReader, AtomNamesAreNoElements) {
+  const auto radii = [](std::initializer_list<std::string_view> symbols, bool told) {
+    std::string text = std::to_string(symbols.size()) + "\n\n";
+    double x = 0;
+    for (const std::string_view symbol : symbols)
+      text += std::string(symbol) + " " + std::to_string(x += 1.5) + " 0 0\n";
+    const Trajectory trajectory = read(text);
+    EXPECT_EQ(!trajectory.warnings.empty(), told) << text;
+    return trajectory.element_radii;
+  };
+  using Radii = std::vector<double>;
+  EXPECT_EQ(radii({"N", "CA", "C", "N", "CA", "C"}, true), (Radii{1.55, 1.7, 1.7, 1.55, 1.7, 1.7}));
+  EXPECT_EQ(radii({"N", "CA", "C", "O"}, true), (Radii{1.55, 1.7, 1.7, 1.52}));
+  EXPECT_EQ(radii({"CA", "CA", "CA"}, true), (Radii{1.7, 1.7, 1.7}));
+  EXPECT_EQ(radii({"N", "CA", "C", "O", "CB", "CG1", "CD"}, true),
+            (Radii{1.55, 1.7, 1.7, 1.52, 1.7, 1.7, 1.7}));
+  EXPECT_EQ(radii({"CB", "HB3", "SG"}, false), (Radii{1.7, 1.2, 1.8}));
+  EXPECT_EQ(radii({"NE", "CZ", "NH1"}, true), (Radii{1.55, 1.7, 1.55}));
+  EXPECT_EQ(radii({"HG", "OG", "CB"}, true), (Radii{1.2, 1.52, 1.7}));
+  EXPECT_EQ(radii({"Ca", "C", "O"}, false), (Radii{2.31, 1.7, 1.52}));
+  EXPECT_EQ(radii({"CA", "C", "O", "O", "O"}, true),
+            (Radii{2.31, 1.7, 1.52, 1.52, 1.52}));  // calcium carbonate
+  EXPECT_EQ(radii({"6", "7", "8"}, false), (Radii{1.7, 1.55, 1.52}));
+  EXPECT_EQ(radii({"NA", "CL"}, false), (Radii{2.27, 1.75}));
+  EXPECT_EQ(radii({"BB", "SC1"}, false), Radii{});
+}
+
+TEST(XyzReader, AtomsKeepTheirOrder) {
+  refuse("2\n\nC 0 0 0\nN 1 0 0\n2\n\nN 1 0 0\nC 0 0 0\n",
+         {"a.xyz:7:", "frame 1: atom 0 has symbol 'N', expected 'C'"});
+  const std::string properties = "2\nProperties=id:I:1:pos:R:3\n";
+  refuse(properties + "1 0 0 0\n2 1 0 0\n" + properties + "2 1 0 0\n1 0 0 0\n",
+         {"a.xyz:7:", "has id '2', expected '1'"});
+}
+
+std::filesystem::path gzipped(const std::string& name, std::string_view text) {
+  const auto path = test::temporary(name);
+  const gzFile out = gzopen(path.c_str(), "wb");
+  gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
+  gzclose(out);
+  return path;
+}
+
+TEST(XyzReader, OtherEndings) {
+  for (const std::string name : {"a.extxyz", "a.EXTXYZ", "a.xyz.gz", "a.extxyz.gz", "a.XYZ.GZ"}) {
+    const auto path = name.find('z', name.find('.') + 5) != std::string::npos || name.ends_with(".GZ")
+                          ? gzipped(name, two_frames)
+                          : test::write_file(name, two_frames);
+    EXPECT_EQ(read_trajectory(path).frames.size(), 2U) << name;
+  }
+}
+
+TEST(XyzReader, GzippedFileThatIsCutOff) {
+  std::string text;
+  std::mt19937 random(1);
+  for (int frame = 0; frame < 200; ++frame) {
+    text += "3\n\n";
+    for (int atom = 0; atom < 3; ++atom)
+      text += "C " + std::to_string(random()) + " 0 " + std::to_string(random()) + "\n";
+  }
+  const std::string bytes = test::read_bytes(gzipped("a.xyz.gz", text));
+  for (const double share : {0.2, 0.5, 0.9}) {
+    const auto path = test::write_file(
+        "cut.xyz.gz", std::string_view(bytes).substr(
+                          0, static_cast<std::size_t>(share * static_cast<double>(bytes.size()))));
+    test::expect_refused([&] { (void)read_trajectory(path); },
+                         {"cut.xyz.gz", "inside frame", "last whole frame"});
+    EXPECT_EQ(read_trajectory(path, {.frames = {0, 10, 1}}).frames.size(), 10U);
+  }
+}
+
+TEST(XyzReader, ByteOrderMark) {
+  EXPECT_EQ(read("\xEF\xBB\xBF" + std::string(two_frames)).frames.size(), 2U);
+  refuse(std::string_view("\xFF\xFE"
+                          "2\0\n\0",
+                          6),
+         {"a.xyz", "UTF-16"});
 }
 
 TEST(XyzReader, ChainBreaks) {
@@ -105,8 +289,14 @@ TEST(XyzReader, ChainBreaks) {
 }
 
 TEST(ReadTrajectory, UnknownEnding) {
-  test::expect_refused([] { (void)read_trajectory("a.xtc"); }, {"a.xtc", ".dcd"});
-  test::expect_refused([] { (void)read_trajectory("a"); }, {"a", ".pdb"});
+  for (const std::string ending : {".xtc", ".trr", ".psf", ".gro", ".prmtop", ".parm7", ".nc", ".lammpstrj",
+                                   ".h5md", ".XTC", ".gro.gz", ".mol2", ".xyz.bz2"})
+    test::expect_refused([&] { (void)read_trajectory("a" + ending); },
+                         {"a" + ending, "not read yet; supported: .pdb", "; "});
+  const auto pdb = test::write_file("a.pdb", test::pdb_residue(1));
+  test::expect_refused([&] { (void)read_trajectory(pdb, {.topology = "a.psf"}); }, {"a.psf", "not read yet"});
+  test::expect_refused([] { (void)read_trajectory("a"); },
+                       {"cannot tell the format of a from its ending", ".pdb", ".dcd"});
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+#pragma once
+// The comment line of an extended XYZ file: key=value pairs as the specification of libAtoms/extxyz has them.
+//
+//   pair    key = value, with blanks around '=' or without
+//   key     a bare or quoted string; Lattice, Properties and pbc in any case
+//   value   a bare string; "..." or '...' with backslash escapes; {a b c}; [a, b, c]; [[a, b, c], [d, e, f],
+//   ...] array   in brackets, in braces or, in the old style, in quotes; commas or blanks separate its items
+//
+// Words without '=' are skipped: the comment of a plain XYZ file is any text.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "motions/frames/periodic.h"
+
+namespace kds {
+
+/// The columns of an atom's line, from 0.
+struct XyzColumns {
+  std::optional<std::size_t> species = 0;  ///< a symbol, a name or an atomic number
+  std::size_t position = 1;                ///< of x; y and z follow
+  std::optional<std::size_t> id;           ///< a number that the atom keeps
+  std::size_t count = 4;
+  bool named = false;  ///< by Properties: a line has exactly `count` columns, else at least
+};
+
+struct XyzComment {
+  CellRead cell;
+  XyzColumns columns;
+  /// A key that is near to Lattice and left unread.
+  std::optional<std::string> near_lattice;
+};
+
+/// Throws InputError, without the name of the file, if Lattice, Properties or pbc cannot be read.
+[[nodiscard]] XyzComment read_xyz_comment(std::string_view line);
+
+/// A number with an exponent that begins with e, E, d or D.
+[[nodiscard]] std::optional<double> parse_fortran_double(std::string_view field);
+
+}  // namespace kds
