@@ -39,6 +39,7 @@ Json settings_json(const CollideOptions& options) {
           {"chain", reading.chain.value_or("")},
           {"frames", name_of(reading.frames)},
           {"radius", options.input.radius},
+          {"obstacle", options.input.obstacle ? options.input.obstacle->string() : ""},
           {"method", options.methods},
           {"pairs", name_of(options.pairs)},
           {"apart", options.apart},

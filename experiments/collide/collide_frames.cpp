@@ -2,23 +2,13 @@
 
 #include <algorithm>
 
+#include "experiments/run/load_scene.h"
 #include "motions/scene/radii.h"
 
 namespace kds {
 
-namespace {
-
-std::vector<NecklaceStream> opened(const InputOptions& options) {
-  std::vector<NecklaceStream> files;
-  for (std::size_t i = 0; i < options.inputs.size(); ++i)
-    files.emplace_back(options.inputs[i], reading_of(options, i));
-  return files;
-}
-
-}  // namespace
-
 CollideFrames::CollideFrames(const InputOptions& options, const std::function<void(const std::string&)>& warn)
-    : stream_(opened(options)) {
+    : stream_(open_inputs(options, warn)) {
   const SceneSurvey survey = stream_.survey(options.radius == "auto", warn);
   radii_ = bead_radii(options.radius, survey.necklaces, survey.bonds);
   plane_ = survey.plane;

@@ -42,13 +42,14 @@ std::string method_help() {
 
 const CommandSpec& command() {
   static const std::string help = method_help();
-  static const auto options =
-      joined(kInputOptions, joined(std::array{OptionSpec{"--method", "LIST", help}}, kFurtherOptions));
+  static const auto options = joined(
+      kInputOptions,
+      joined(kObstacleOption, joined(std::array{OptionSpec{"--method", "LIST", help}}, kFurtherOptions)));
   static const CommandSpec spec{
       "kds collide",
       "Which beads collide in each frame, exactly: closed balls, so touching counts. Methods are compared.",
       kInputOperand,
-      "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
+      kTrajectoryHelp,
       options,
       "kds collide 1l2y.pdb --select all --radius element --apart 4\n"
       "kds collide a.xyz b.xyz --pairs between --method wrapped,layered --json -\n"

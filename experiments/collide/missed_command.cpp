@@ -40,13 +40,13 @@ constexpr std::array kMissedOptions{
     OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
-constexpr auto kAllMissedOptions = joined(kInputOptions, kMissedOptions);
+constexpr auto kAllMissedOptions = joined(kInputOptions, joined(kObstacleOption, kMissedOptions));
 
 constexpr CommandSpec kMissedCommand{
     "kds missed",
     "Which share of contacts, whose times are exact, is missed by looking at every stride-th frame only.",
     kInputOperand,
-    "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
+    kTrajectoryHelp,
     kAllMissedOptions,
     "kds missed villin.dcd --topology villin.pdb --factors 2.2,2.5 --apart 5 --out report\n"
     "kds missed a.xyz b.xyz --radius 1.9 --strides 1,10,100 --json -"};

@@ -39,7 +39,7 @@ constexpr CommandSpec kCompareCommand{
     "  compactness     the most certificates at once; locality: the most on one bead\n"
     "  responsiveness  the seconds an event takes",
     kInputOperand,
-    "necklaces, each for itself: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
+    "necklaces, each for itself: .pdb .ent .cif .mmcif .dcd .xyz .extxyz (also .gz)",
     kAllCompareOptions,
     "kds compare villin.dcd --topology villin.pdb --strides 1,2,4,8,16,32 --out report\n"
     "kds compare 300K.dcd 400K.dcd --topology villin.pdb --structures wrapped,contacts --motions "

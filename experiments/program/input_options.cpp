@@ -69,6 +69,7 @@ InputOptions parse_input_options(const ParsedArguments& parsed, std::string_view
   options.reading.chain = parsed.value("--chain");
   if (options.reading.chain) check_chains(*options.reading.chain, options.inputs.size());
   if (const auto range = parsed.value("--frames")) options.reading.frames = parse_frame_range(*range);
+  options.obstacle = path_of(parsed, "--obstacle");
   if (const auto rule = parsed.value("--radius")) options.radius = parse_radius(*rule);
   return options;
 }
@@ -85,6 +86,7 @@ ReadOptions reading_of(const InputOptions& options, std::size_t input) {
 void check_inputs_exist(const InputOptions& options) {
   for (const std::filesystem::path& input : options.inputs) check_exists(input);
   if (options.reading.topology) check_exists(*options.reading.topology);
+  if (options.obstacle) check_exists(*options.obstacle);
 }
 
 }  // namespace kds

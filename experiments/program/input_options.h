@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct InputOptions {
   std::vector<std::filesystem::path> inputs;
   ReadOptions reading;  ///< --topology, --select, --chain (as given, of all inputs), --frames
   std::string radius = "auto";
+  std::optional<std::filesystem::path> obstacle = {};  ///< --obstacle, of commands that have it
 };
 
 inline constexpr std::array kInputOptions{
@@ -29,9 +31,17 @@ inline constexpr std::array kInputOptions{
     OptionSpec{"--frames", "RANGE", "FIRST:LAST:STRIDE, from 0, LAST excluded (default: all)"},
     OptionSpec{"--radius", "RULE", "auto, a number, element, element:fit or file:PATH (default: auto)"},
 };
+/// Of commands that put all inputs on one clock.
+inline constexpr std::array kObstacleOption{
+    OptionSpec{"--obstacle", "FILE",
+               "a necklace of one frame, which rests while the others move (default: none)"},
+};
 inline constexpr std::string_view kInputOperand = "INPUT...";
+/// What is read of trajectories, in the help of commands.
+inline constexpr std::string_view kTrajectoryHelp =
+    "a necklace: .pdb .ent .cif .mmcif .dcd .xyz .extxyz (also .gz)";
 inline constexpr std::string_view kInputHelp =
-    "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd, .xyz, or an instance file";
+    "a necklace: .pdb .ent .cif .mmcif .dcd .xyz .extxyz (also .gz), or an instance file";
 
 /// `command` as in kds run. Throws InputError naming the option; opens no file.
 [[nodiscard]] InputOptions parse_input_options(const ParsedArguments& parsed, std::string_view command);
@@ -42,7 +52,7 @@ inline constexpr std::string_view kInputHelp =
 /// Throws InputError where there is no regular file: pipes and devices need not end.
 void check_exists(const std::filesystem::path& path);
 
-/// The same of the inputs and the topology.
+/// The same of the inputs, the topology and the obstacle.
 void check_inputs_exist(const InputOptions& options);
 
 }  // namespace kds

@@ -20,14 +20,9 @@ namespace kds {
 namespace {
 
 std::unique_ptr<SceneStream> open_frames(const RunOptions& options, std::size_t stride) {
-  const InputOptions input{options.inputs, options.reading, options.radius};
-  std::vector<NecklaceStream> files;
-  for (std::size_t i = 0; i < options.inputs.size(); ++i) {
-    ReadOptions reading = reading_of(input, i);
-    reading.frames.stride = stride;
-    files.emplace_back(options.inputs[i], reading);
-  }
-  return std::make_unique<SceneStream>(std::move(files));
+  InputOptions input = inputs_of(options);
+  input.reading.frames.stride = stride;
+  return std::make_unique<SceneStream>(open_inputs(input, [](const std::string&) {}));
 }
 
 /// All contacts of the run, with these radii.

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "motions/base/input_error.h"
+#include "motions/readers/pdb_reader.h"
+#include "motions/readers/reader_registry.h"
 #include "motions/scene/radii.h"
 #include "structures/necklace/necklace_tree.h"
 
@@ -28,26 +30,114 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
   refuse(reading.selection != Selection::automatic, "--select");
   refuse(reading.frames.first != 0 || reading.frames.last || reading.frames.stride != 1, "--frames");
   refuse(options.radius != "auto", "--radius");
+  refuse(options.obstacle.has_value(), "--obstacle");
   return read_instance(*instance);
+}
+
+namespace {
+
+/// An input as far as it tells whose atoms it has.
+struct InputAtoms {
+  std::filesystem::path file;
+  std::vector<std::string> names;  // of beads; empty where the file names none
+  std::size_t beads = 0;
+  bool one_frame = false;
+};
+
+InputAtoms atoms_of(const std::filesystem::path& file, const std::vector<Trajectory>& necklaces,
+                    bool one_frame) {
+  InputAtoms atoms{file, {}, 0, one_frame};
+  for (const Trajectory& necklace : necklaces) {
+    atoms.names.insert(atoms.names.end(), necklace.bead_names.begin(), necklace.bead_names.end());
+    atoms.beads += necklace.bead_count();
+  }
+  return atoms;
+}
+
+bool takes_topology(const std::filesystem::path& file) {
+  const ReaderSpec* const reader = reader_registry().find(file);
+  return reader != nullptr && reader->takes_topology;
+}
+
+// Whether a file of one frame has the atoms of another: the names of its beads or, if the other has no names,
+// as many beads or atoms.
+bool has_atoms_of(const InputAtoms& one, const InputAtoms& other, const ReadOptions& reading) {
+  if (one.names.empty()) return false;
+  if (!other.names.empty()) return one.names == other.names;
+  return one.beads == other.beads ||
+         read_topology(one.file, reading.selection, reading.chain).atom_count == other.beads;
+}
+
+void check_inputs_of_one_frame(const std::vector<InputAtoms>& inputs, const InputOptions& options,
+                               const std::function<void(const std::string&)>& warn) {
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const InputAtoms& one = inputs[i];
+    const auto moves =
+        std::find_if(inputs.begin(), inputs.end(), [](const InputAtoms& input) { return !input.one_frame; });
+    if (!one.one_frame || moves == inputs.end()) continue;
+    for (const InputAtoms& other : inputs) {
+      if (other.one_frame || !has_atoms_of(one, other, reading_of(options, i))) continue;
+      const std::string file = one.file.string(), moving = other.file.string();
+      const bool may_name = takes_topology(other.file) && !options.reading.topology;
+      throw InputError(
+          fmt::format("{}: has one frame and the atoms of {}; {} (--obstacle {} makes it a necklace at rest)",
+                      file, moving,
+                      may_name ? fmt::format("expected --topology {}, which names them", file)
+                               : "expected one of the two",
+                      file));
+    }
+    warn(fmt::format("{}: has one frame and rests while {} moves (--obstacle says so without this line)",
+                     one.file.string(), moves->file.string()));
+  }
+}
+
+}  // namespace
+
+InputOptions inputs_of(const RunOptions& options) {
+  return {options.inputs, options.reading, options.radius, options.obstacle};
+}
+
+std::vector<NecklaceStream> open_inputs(const InputOptions& options,
+                                        const std::function<void(const std::string&)>& warn) {
+  std::vector<NecklaceStream> files;
+  std::vector<InputAtoms> atoms;
+  for (std::size_t i = 0; i < options.inputs.size(); ++i) {
+    NecklaceStream& file = files.emplace_back(options.inputs[i], reading_of(options, i));
+    if (options.inputs.size() > 1)
+      atoms.push_back(atoms_of(options.inputs[i], file.heads(), file.holds_one_frame()));
+  }
+  check_inputs_of_one_frame(atoms, options, warn);
+  if (options.obstacle) {
+    ReadOptions reading;
+    reading.selection = options.reading.selection;
+    NecklaceStream& obstacle = files.emplace_back(*options.obstacle, reading);
+    if (!obstacle.holds_one_frame())
+      throw InputError(
+          fmt::format("--obstacle: {} has several frames, expected one", options.obstacle->string()));
+  }
+  return files;
 }
 
 std::vector<Trajectory> read_necklaces(const InputOptions& options,
                                        const std::function<void(const std::string&)>& warn) {
   std::vector<Trajectory> necklaces;
-  for (std::size_t i = 0; i < options.inputs.size(); ++i)
-    for (Trajectory& necklace : read_trajectories(options.inputs[i], reading_of(options, i))) {
+  std::vector<InputAtoms> atoms;
+  for (std::size_t i = 0; i < options.inputs.size(); ++i) {
+    std::vector<Trajectory> of_input = read_trajectories(options.inputs[i], reading_of(options, i));
+    atoms.push_back(atoms_of(options.inputs[i], of_input, of_input.front().frames.size() == 1));
+    for (Trajectory& necklace : of_input) {
       for (const std::string& warning : necklace.warnings) warn(warning);
       necklaces.push_back(std::move(necklace));
     }
+  }
+  check_inputs_of_one_frame(atoms, options, warn);
   return necklaces;
 }
 
 Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,
                      const std::function<void(const std::string&)>& warn,
                      const std::optional<MotionTolerance>& tolerance) {
-  std::vector<NecklaceStream> files;
-  for (std::size_t i = 0; i < input.inputs.size(); ++i)
-    files.emplace_back(input.inputs[i], reading_of(input, i));
+  std::vector<NecklaceStream> files = open_inputs(input, warn);
   auto frames = std::make_unique<SceneStream>(std::move(files));
   const SceneSurvey survey = frames->survey(input.radius == "auto", warn);
   std::vector<double> radii = bead_radii(input.radius, survey.necklaces, survey.bonds);
@@ -57,7 +147,7 @@ Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radiu
 }
 
 Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn) {
-  const InputOptions input{options.inputs, options.reading, options.radius};
+  const InputOptions input = inputs_of(options);
   if (std::optional<Instance> instance = read_lone_instance(input)) {
     if (options.motion != FrameMotion::linear)
       throw InputError(

@@ -18,7 +18,17 @@ namespace kds {
 /// option has no meaning for it.
 [[nodiscard]] std::optional<Instance> read_lone_instance(const InputOptions& options);
 
-/// Reads all inputs, none of them an instance file; warnings, one line each, go to `warn`.
+/// The inputs of a run.
+[[nodiscard]] InputOptions inputs_of(const RunOptions& options);
+
+/// Opens all inputs and the obstacle, in this order, none of them an instance file. Throws InputError if an
+/// input has one frame and the atoms of another with more: it names atoms, or is an obstacle, and an option
+/// says which. Another input of one frame rests, and a line to `warn` says so.
+[[nodiscard]] std::vector<NecklaceStream> open_inputs(const InputOptions& options,
+                                                      const std::function<void(const std::string&)>& warn);
+
+/// Reads all inputs, none of them an instance file; warnings, one line each, go to `warn`. Throws InputError
+/// for inputs of one frame likewise.
 [[nodiscard]] std::vector<Trajectory> read_necklaces(const InputOptions& options,
                                                      const std::function<void(const std::string&)>& warn);
 

@@ -64,7 +64,7 @@ constexpr std::array kRunOptions{
     OptionSpec{"--quiet", "", "no table, no progress bar"},
 };
 
-constexpr auto kAllRunOptions = joined(kInputOptions, kRunOptions);
+constexpr auto kAllRunOptions = joined(kInputOptions, joined(kObstacleOption, kRunOptions));
 
 constexpr CommandSpec kRunCommand{
     "kds run",
@@ -119,6 +119,7 @@ RunOptions parse_run_options(const Arguments& arguments) {
   options.inputs = std::move(input.inputs);
   options.reading = std::move(input.reading);
   options.radius = std::move(input.radius);
+  options.obstacle = std::move(input.obstacle);
   if (const auto list = parsed.value("--structures")) options.structures = parse_structures(*list);
   options.motion = chosen<FrameMotion>(parsed, "--motion", frame_motion_names).value_or(options.motion);
   options.kernel = chosen<Kernel>(parsed, "--kernel", kernel_names).value_or(options.kernel);

@@ -13,6 +13,7 @@
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/taken_paths.h"
 #include "experiments/program/warnings.h"
+#include "experiments/run/load_scene.h"
 #include "experiments/run/replay_log.h"
 #include "experiments/run/report_json.h"
 #include "experiments/run/run_results.h"
@@ -61,7 +62,7 @@ int replay_command(const Arguments& arguments) {
   TakenPaths paths;
   paths.add("the log", log);
   const RunOptions run = logged_run(log);
-  paths.read({run.inputs, run.reading, run.radius});
+  paths.read(inputs_of(run));
   paths.write(destinations);
   const auto events = path_of(parsed, kEventsOption.name);
   if (events) paths.write("--events", *events);

@@ -11,6 +11,7 @@
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/taken_paths.h"
 #include "experiments/program/warnings.h"
+#include "experiments/run/load_scene.h"
 #include "experiments/run/parse_run_options.h"
 #include "experiments/run/report_json.h"
 #include "experiments/run/run_results.h"
@@ -41,7 +42,7 @@ void refuse_file_in(const std::filesystem::path& dump, const RunOptions& options
 
 void check_apart(const RunOptions& options, const Destinations& destinations) {
   TakenPaths paths;
-  paths.read({options.inputs, options.reading, options.radius});
+  paths.read(inputs_of(options));
   paths.write(destinations);
   if (options.events) paths.write("--events", *options.events);
   if (options.log) paths.write("--log", *options.log);
@@ -53,7 +54,7 @@ void check_apart(const RunOptions& options, const Destinations& destinations) {
 }
 
 void check_before_run(const RunOptions& options, const Destinations& destinations) {
-  check_inputs_exist({options.inputs, options.reading, options.radius});
+  check_inputs_exist(inputs_of(options));
   check_apart(options, destinations);
   check_destinations(destinations);
   if (options.events) ensure_writable_file(*options.events, "--events");

@@ -34,6 +34,7 @@ struct RunOptions {
   Kernel kernel = Kernel::filtered;
   ReadOptions reading;  ///< --topology, --select, --chain, --frames
   std::string radius = "auto";
+  std::optional<std::filesystem::path> obstacle;  ///< --obstacle
   AuditMode audit = AuditMode::none;
   NodeSelection nodes;                          ///< --levels, --nodes
   std::optional<BeadId> apart;                  ///< --apart; none: not given

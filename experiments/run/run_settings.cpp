@@ -43,6 +43,7 @@ std::vector<std::pair<std::string, std::string>> option_settings(const RunOption
           {"chain", reading.chain.value_or("")},
           {"frames", name_of(reading.frames)},
           {"radius", options.radius},
+          {"obstacle", options.obstacle ? options.obstacle->string() : ""},
           {"levels", levels_of(options.nodes)},
           {"nodes", beads_of(options.nodes)},
           {"apart", options.apart ? std::to_string(*options.apart) : ""},
@@ -73,6 +74,7 @@ std::vector<std::string> option_arguments(const RunOptions& options) {
   std::string radius = options.radius;
   if (radius.starts_with("file:")) radius = "file:" + std::filesystem::absolute(radius.substr(5)).string();
   add("--radius", radius);
+  if (options.obstacle) add("--obstacle", std::filesystem::absolute(*options.obstacle).string());
   if (const std::string levels = levels_of(options.nodes); !levels.empty()) add("--levels", levels);
   if (const std::string beads = beads_of(options.nodes); !beads.empty()) add("--nodes", beads);
   if (options.apart) add("--apart", std::to_string(*options.apart));

@@ -51,7 +51,7 @@ constexpr CommandSpec kTradeCommand{
     "kds trade",
     "Measures what speed can be had for what accuracy: every lever on this trajectory, beside the exact run.",
     kInputOperand,
-    "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
+    kTrajectoryHelp,
     kAllTradeOptions,
     "kds trade villin.dcd --topology villin.pdb --frames 0:200 --out report\n"
     "kds trade villin.dcd --topology villin.pdb --want contacts --radius 2 --apart 5\n"

@@ -32,7 +32,7 @@ constexpr CommandSpec kUpdateCommand{
     "kds update",
     "Compares techniques that bring the power diagram from frame to frame: what they do, and how long.",
     kInputOperand,
-    "a necklace: .pdb .ent .cif .mmcif (also .gz), .dcd or .xyz",
+    kTrajectoryHelp,
     kAllUpdateOptions,
     "kds update villin.dcd --topology villin.pdb --frames 0:200 --strides 1,2,4,8 --out report\n"
     "kds update 1l2y.pdb --select all --radius element --techniques kinetic,lifted --audit frames --json -",
