@@ -264,6 +264,21 @@ bool names_a_key(std::string_view rest) {
   return false;
 }
 
+// i-PI names the unit of positions in braces, and writes its cell as CELL(abcABC): or CELL{H}:.
+std::optional<std::string> read_ipi_comment(std::string_view line) {
+  const std::string text = lower_case(line);
+  constexpr std::string_view positions = "positions{";
+  if (const std::size_t at = text.find(positions); at != std::string::npos) {
+    const std::string unit = text.substr(at + positions.size(), text.find('}', at) - at - positions.size());
+    if (unit != "angstrom")
+      refuse(fmt::format("expected positions in angstrom, found the unit {}", in_quotes(unit)));
+  }
+  for (const std::string_view key : {"cell(abcabc)", "cell{h}", "cell[h]"})
+    if (const std::size_t at = text.find(key); at != std::string::npos)
+      return std::string(line.substr(at, key.size()));
+  return std::nullopt;
+}
+
 }  // namespace
 
 XyzComment read_xyz_comment(std::string_view line) {
@@ -273,6 +288,7 @@ XyzComment read_xyz_comment(std::string_view line) {
     refuse(
         fmt::format("expected key=value pairs, a quote is not closed in {}", in_quotes(reader.open_rest())));
   XyzComment comment;
+  comment.near_lattice = read_ipi_comment(line);
   std::optional<Value> lattice, properties, periodic;
   for (const Pair& pair : pairs) {
     const std::string key = lower_case(pair.key);

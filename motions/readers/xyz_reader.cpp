@@ -144,6 +144,8 @@ class XyzFile {
                        fields.size()));
     if (fields.size() < columns.count)
       fail(fmt::format("expected a symbol and 3 coordinates, found {}", counted(fields.size(), "field")));
+    if (!columns.named && has_number(fields[0]))
+      fail(fmt::format("expected a symbol, found {}: do columns run together?", in_quotes(fields[0])));
     Eigen::Vector3d position;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string_view field = fields[columns.position + axis];
@@ -154,6 +156,15 @@ class XyzFile {
     if (columns.species) check_same(symbols_, fields[*columns.species], "symbol", frame, i);
     if (columns.id) check_same(ids_, fields[*columns.id], "id", frame, i);
     return position;
+  }
+
+  // As in C-100.125, where a coordinate fills its column; a type as C.3 has none.
+  static bool has_number(std::string_view symbol) {
+    const auto is_digit = [&](std::size_t i) {
+      return i < symbol.size() && symbol[i] >= '0' && symbol[i] <= '9';
+    };
+    const std::size_t point = symbol.find('.');
+    return point != std::string_view::npos && point > 0 && is_digit(point - 1) && is_digit(point + 1);
   }
 
   // Keeps the fields of the first frame; those of others must be the same, atom by atom.

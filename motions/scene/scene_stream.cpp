@@ -34,7 +34,10 @@ SceneSurvey SceneStream::survey(bool with_bonds, const std::function<void(const 
     }
   PlaneSearch planes;
   for (FrameRead frame; next(frame); ++survey.frame_count) {
-    if (survey.frame_count == 0) survey.first = frame.stamp;
+    if (survey.frame_count == 0) {
+      survey.first = frame.stamp;
+      tell_of_nearer_images(warn);
+    }
     survey.last = frame.stamp;
     planes.add(frame.positions);
     Eigen::Index begin = 0;
@@ -59,6 +62,20 @@ SceneSurvey SceneStream::survey(bool with_bonds, const std::function<void(const 
       for (const std::string& warning : file.warnings(n)) warn(warning);
   rewind();
   return survey;
+}
+
+void SceneStream::tell_of_nearer_images(const std::function<void(const std::string&)>& warn) const {
+  constexpr double much_nearer = 1.5;
+  for (std::size_t f = 1; f < present_.size(); ++f) {
+    const FrameRead &first = present_[0], &other = present_[f];
+    if (!first.cell || !other.cell || *first.cell != *other.cell) continue;
+    const ImageBeside beside = nearest_image_beside(first.positions, other.positions, *first.cell);
+    if (beside.shift.isZero(0) || !(beside.distance * much_nearer < beside.present)) continue;
+    warn(fmt::format(
+        "{}: has a periodic image much nearer to {} ({:.4g} away, not {:.4g}), left where it is; contacts "
+        "across the walls of the cell are not found",
+        files_[f].heads().front().file, files_[0].heads().front().file, beside.distance, beside.present));
+  }
 }
 
 bool SceneStream::next(FrameRead& frame) {

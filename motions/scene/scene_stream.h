@@ -61,6 +61,8 @@ class SceneStream final : public FrameReader {
  private:
   /// The next frame as the files have it.
   [[nodiscard]] bool read(FrameRead& frame);
+  /// Of files in one periodic cell, in the first frame.
+  void tell_of_nearer_images(const std::function<void(const std::string&)>& warn) const;
 
   std::vector<NecklaceStream> files_;
   std::vector<FrameRead> present_;   ///< of each file

@@ -1,6 +1,7 @@
 // Whatever a file holds: frames that keep their promises come out, or an InputError.
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <random>
 
@@ -151,6 +152,32 @@ TEST(ReaderFuzz, Xyz) {
       "3\nLattice=\"10 0 0 0 10 0 0 0 10\"\nC 0 0 0\nN 1.5 0 0\nO 3 0 0\n3\nnext\nC 0 1 0\nN 1.5 1 0\nO 3 1 "
       "0\n";
   EXPECT_GT(fuzz("a.xyz", text, 2000, [](const auto& path) { read_and_check(path); }), 10);
+}
+
+TEST(ReaderFuzz, ExtendedXyz) {
+  const std::string text =
+      "2\nLattice=[[10,0,0],[3,10,0],[0,0,1D1]] pbc = \"T F T\" note='a \\' b' "
+      "Properties=id:I:1:species:S:1:pos:R:3\n"
+      "1 N 0 0 0\n2 CA 9.5 0 1d0\n2\nlattice=\"10 0 0 45 10 0 0 0 10\" tags={a b} "
+      "Properties=id:I:1:species:S:1:pos:R:3\n"
+      "1 N 0 1 0\n2 CA 1.5 1 0\n";
+  EXPECT_GT(fuzz("a.extxyz", text, 3000, [](const auto& path) { read_and_check(path); }), 10);
+}
+
+TEST(ReaderFuzz, Gzipped) {
+  const auto packed = [](const std::string& bytes) {
+    const auto path = test::temporary("packed.gz");
+    const gzFile out = gzopen(path.c_str(), "wb");
+    gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size()));
+    gzclose(out);
+    return test::read_bytes(path);
+  };
+  test::DcdMaker maker = test::DcdMaker::chain(4, 3);
+  maker.cell = true;
+  maker.cell_values = {38.5, -7.7, 38.5, -7.7, -7.7, 38.5};
+  fuzz("a.dcd.gz", packed(maker.bytes()), 1000, [](const auto& path) { read_and_check(path); });
+  fuzz("a.xyz.gz", packed("2\n\nC 0 0 0\nN 1.5 0 0\n2\n\nC 0 1 0\nN 1.5 1 0\n"), 1000,
+       [](const auto& path) { read_and_check(path); });
 }
 
 TEST(ReaderFuzz, Instance) {

@@ -62,6 +62,14 @@ TEST(XyzReader, Refuses) {
                        {"no-such-file.xyz", "cannot open"});
 }
 
+TEST(XyzReader, ColumnsThatRunTogether) {
+  refuse("1\n\nC-100.125 0 0 7\n", {"a.xyz:3:", "'C-100.125'", "run together"});
+  refuse("1\n\nC1100.125 0 0 7\n", {"a.xyz:3:", "run together"});
+  refuse("1\n\nC 100.125-100.125 0 7\n", {"a.xyz:3:", "'100.125-100.125'"});
+  refuse("1\n\nC ******** 0 7\n", {"a.xyz:3:", "'********'"});
+  EXPECT_EQ(read("1\n\nC.3 1 2 3\n").frames[0], Eigen::Vector3d(1, 2, 3));
+}
+
 TEST(XyzReader, FileThatEndsInsideAFrame) {
   const std::string cut(two_frames.substr(0, two_frames.size() - 12));
   refuse(cut, {"inside frame 1", "last whole frame is 0"});
@@ -168,6 +176,7 @@ TEST(XyzReader, RefusesCommentsThatCannotBeRead) {
   refuse_comment("\"open Lattice = 5", "not closed");
   refuse_comment("Lattice=\"10 10 10\" pbc=\"T T\"", "pbc");
   refuse_comment("Lattice=\"10 10 10\" pbc=\"T T maybe\"", "'maybe'");
+  refuse_comment("# CELL(abcABC): 20 20 20 90 90 90 Step: 0 positions{atomic_unit}", "angstrom");
   refuse_comment("Properties=species:S:1", "pos:R:3");
   refuse_comment("Properties=species:S:1:pos:R:2", "pos:R:3");
   refuse_comment("Properties=species:S:1:pos:S:3", "pos:R:3");
@@ -191,6 +200,7 @@ TEST(XyzReader, CellsThatAreNotUsedAreToldOf) {
   for (const std::string_view comment :
        {"Lattice=\"10 0 0 0 10 0 0 0 0\"", "Lattice=\"10 0 0 20 0 0 0 0 10\"",
         "Lattice=\"nan 0 0 0 10 0 0 0 10\"", "Lattice=\"inf 10 10\"", "cell=\"10 10 10\"",
+        "# CELL(abcABC): 10 10 10 90 90 90 Step: 0 positions{angstrom} cell{angstrom}",
         "Box = [10, 10, 10]"}) {
     const Trajectory trajectory = read("3\n" + std::string(comment) + "\nC 9.5 0 0\nC 0.75 0 0\nC 2 0 0\n");
     EXPECT_EQ(trajectory.frames[0](0, 1), 0.75) << comment;

@@ -124,5 +124,28 @@ TEST(SceneStream, TellsOfAFileThatLosesFramesMeanwhile) {
   test::expect_refused([&] { (void)scene.centers(3999); }, {"a.xyz: frame", "is gone"});
 }
 
+// Two files in one cell, the second on the other side of a wall.
+TEST(SceneStream, TellsOfNearerImagesInOneCell) {
+  const auto warnings = [](double y, std::string_view lattice) {
+    const auto frame = [&](double height, std::string_view cell) {
+      return "2\nLattice=\"" + std::string(cell) + "\"\nC 1 " + std::to_string(height) + " 0\nC 2 " +
+             std::to_string(height) + " 0\n";
+    };
+    const auto first = test::write_file("first.xyz", frame(1, "20 20 20") + frame(1.5, "20 20 20"));
+    const auto other = test::write_file("other.xyz", frame(y, lattice) + frame(y, lattice));
+    std::vector<NecklaceStream> files;
+    for (const auto& path : {first, other}) files.emplace_back(path, ReadOptions());
+    std::vector<std::string> lines;
+    (void)SceneStream(std::move(files)).survey(false, [&](const std::string& line) {
+      lines.push_back(line);
+    });
+    return lines;
+  };
+  ASSERT_EQ(warnings(18, "20 20 20").size(), 1U);
+  EXPECT_NE(warnings(18, "20 20 20")[0].find("(3 away, not 17)"), std::string::npos);
+  EXPECT_TRUE(warnings(5, "20 20 20").empty());
+  EXPECT_TRUE(warnings(18, "21 20 20").empty());
+}
+
 }  // namespace
 }  // namespace kds::scene_stream_test
