@@ -22,6 +22,7 @@ namespace {
 Json input_json(const CollideOptions& options, const CollideFrames& frames) {
   Json files = Json::array();
   for (const auto& input : options.input.inputs) files.push_back(input.string());
+  if (options.input.obstacle) files.push_back(options.input.obstacle->string());
   const auto [least, most] = std::minmax_element(frames.radii().begin(), frames.radii().end());
   return {{"files", files},
           {"beads", frames.radii().size()},

@@ -64,6 +64,7 @@ std::vector<double> parse_factors(const std::string& list) {
 Json input_json(const MissedTask& task, const MissedInput& input) {
   Json files = Json::array();
   for (const auto& file : task.input.inputs) files.push_back(file.string());
+  if (task.input.obstacle) files.push_back(task.input.obstacle->string());
   return {{"files", files},
           {"beads", input.beads},
           {"necklaces", input.necklaces},
@@ -80,6 +81,7 @@ Json settings_json(const MissedTask& task) {
           {"chain", reading.chain.value_or("")},
           {"frames", name_of(reading.frames)},
           {"radius", task.input.radius},
+          {"obstacle", task.input.obstacle ? task.input.obstacle->string() : ""},
           {"factors", task.factors},
           {"apart", task.apart},
           {"motion", name_of(task.motion)}};

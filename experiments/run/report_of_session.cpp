@@ -50,6 +50,7 @@ RunReport report_of(Session& session, const Scene& scene, const RunOptions& opti
                     const StepCounts& counts) {
   RunReport report;
   for (const auto& input : options.inputs) report.files.push_back(input.string());
+  if (options.obstacle) report.files.push_back(options.obstacle->string());
   report.beads = scene.bead_count();
   report.frames = scene.frame_count();
   report.first_frame = scene.stamp(0);

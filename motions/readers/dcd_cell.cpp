@@ -14,6 +14,8 @@ namespace {
 
 using Numbers = DcdCellForm::Numbers;
 
+constexpr double least_angle = 20;  // degrees; no program simulates cells with sharper ones
+
 Eigen::Vector3d lengths_of(const Numbers& v) { return {v[0], v[2], v[5]}; }
 // Of alpha, beta and gamma.
 Eigen::Vector3d angles_of(const Numbers& v) { return {v[4], v[3], v[1]}; }
@@ -70,7 +72,8 @@ void DcdCellForm::look_at(const Numbers& v) {
   const double largest = angles.cwiseAbs().maxCoeff();
   for (const double exact : {60.0, 90.0, 120.0})
     if ((angles.array() == exact).any() && read_degrees(v).cell) exact_angle_ = true;
-  degrees_ = degrees_ && largest > 1 && read_degrees(v).cell;
+  const bool as_written = angles.minCoeff() >= least_angle && angles.maxCoeff() <= 180 - least_angle;
+  degrees_ = degrees_ && as_written && read_degrees(v).cell;
   if (is_upright(v)) return;
   cosines_ = cosines_ && largest < 1 && read_cosines(v).cell;
   matrix_ = matrix_ && read_matrix(v).cell;

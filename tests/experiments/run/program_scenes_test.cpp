@@ -260,7 +260,7 @@ TEST(Program, RunsSeveralNecklacesOnOneClock) {
   const std::string three = directory.file("three.xyz", beads + beads + beads);
 
   for (const std::vector<std::string>& inputs :
-       {std::vector<std::string>{moving, other}, {moving, resting}, {resting, other}}) {
+       {std::vector<std::string>{moving, other}, {moving, "--obstacle", resting}, {resting, other}}) {
     std::vector<std::string> arguments{"run", "--frames", "0:2", "--audit", "frames", "--json", "-"};
     arguments.insert(arguments.begin() + 1, inputs.begin(), inputs.end());
     const ProgramRun run = run_program(arguments);

@@ -279,6 +279,9 @@ TEST(DcdReader, CellsOfEveryFormAndShape) {
     matrix.maker.version = 39;
     EXPECT_TRUE(matrix.is_whole_when_read()) << l.transpose() << " " << d.transpose();
     matrix.maker.version = 24;
+    if (shape.lengths[0] < 60) {
+      EXPECT_TRUE(matrix.is_whole_when_read()) << l.transpose() << " " << d.transpose();
+    }
     matrix.maker.title = "* CHARMM";
     EXPECT_TRUE(matrix.is_whole_when_read()) << l.transpose() << " " << d.transpose();
   }
