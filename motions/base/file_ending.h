@@ -14,4 +14,10 @@ namespace kds {
   return ending;
 }
 
+/// Whether PDB files with this ending hold a biological assembly: .pdb and a number, as .pdb1.
+[[nodiscard]] inline bool is_assembly_ending(const std::string& ending) {
+  return ending.size() > 4 && ending.compare(0, 4, ".pdb") == 0 &&
+         ending.find_first_not_of("0123456789", 4) == std::string::npos;
+}
+
 }  // namespace kds

@@ -124,7 +124,7 @@ struct Beads {
   std::vector<double> element_radii;
   std::vector<std::string> names;
   std::vector<ChainRead> chains;
-  std::optional<std::string> unread;  ///< a line about chains of the file that are not read
+  std::vector<std::string> warnings;  ///< about the topology
 };
 
 Beads all_beads(std::uint64_t atom_count) {
@@ -152,7 +152,7 @@ Beads choose_beads(const std::string& file, const ReadOptions& options, std::uin
   Beads beads;
   if (topology.atom_count == atom_count) {
     beads.atoms = std::move(topology.selected);
-    beads.unread = std::move(topology.unread);
+    beads.warnings = std::move(topology.warnings);
   } else if (topology.selected.size() == atom_count) {
     beads = all_beads(atom_count);
   } else {
@@ -257,7 +257,7 @@ FramesOpened open_dcd(const std::filesystem::path& path, const ReadOptions& opti
   Beads beads = choose_beads(opened.file, options, layout.atom_count);
   opened.element_radii = std::move(beads.element_radii);
   opened.bead_names = std::move(beads.names);
-  if (beads.unread) opened.warnings.push_back(std::move(*beads.unread));
+  for (std::string& warning : beads.warnings) opened.warnings.push_back(std::move(warning));
   opened.chains = std::move(beads.chains);
   opened.chain_like = !options.topology || options.selection != Selection::all;
   opened.frames = std::make_unique<DcdFrames>(std::move(dcd), std::move(beads.atoms), asked);

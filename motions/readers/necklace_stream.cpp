@@ -48,6 +48,11 @@ std::vector<T> of_chain(const std::vector<T>& of_beads, std::size_t first, std::
   return {begin, begin + static_cast<std::ptrdiff_t>(bead_count)};
 }
 
+void count_residues(const ChainRead& chain, Trajectory& head) {
+  head.residues = chain.residues;
+  head.residues_read = chain.residues_read;
+}
+
 // A necklace for each chain, without frames yet.
 std::vector<Trajectory> heads_of(const FramesOpened& opened) {
   std::vector<Trajectory> heads;
@@ -55,15 +60,17 @@ std::vector<Trajectory> heads_of(const FramesOpened& opened) {
     heads.emplace_back().file = opened.file;
     heads.front().element_radii = opened.element_radii;
     heads.front().bead_names = opened.bead_names;
+    if (!opened.chains.empty()) count_residues(opened.chains.front(), heads.front());
     return heads;
   }
   std::size_t first = 0;
-  for (const auto& [name, bead_count] : opened.chains) {
+  for (const ChainRead& chain : opened.chains) {
     Trajectory& head = heads.emplace_back();
-    head.file = fmt::format("{} chain {}", opened.file, name.empty() ? "' '" : name);
-    head.element_radii = of_chain(opened.element_radii, first, bead_count);
-    head.bead_names = of_chain(opened.bead_names, first, bead_count);
-    first += bead_count;
+    count_residues(chain, head);
+    head.file = fmt::format("{} chain {}", opened.file, chain.name.empty() ? "' '" : chain.name);
+    head.element_radii = of_chain(opened.element_radii, first, chain.bead_count);
+    head.bead_names = of_chain(opened.bead_names, first, chain.bead_count);
+    first += chain.bead_count;
   }
   return heads;
 }

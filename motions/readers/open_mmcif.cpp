@@ -1,100 +1,223 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <gemmi/mmcif.hpp>
+#include <gemmi/cifdoc.hpp>
+#include <gemmi/numb.hpp>
 #include <map>
+#include <utility>
 
 #include "motions/base/input_error.h"
-#include "motions/base/one_line.h"
 #include "motions/base/text_input.h"
 #include "motions/readers/cif_syntax.h"
+#include "motions/readers/residue_grouping.h"
 #include "motions/readers/structure_models.h"
 
 namespace kds {
 
 namespace {
 
-// What stands in a column of _atom_site that a file leaves out: another column, or one value for all.
-struct Substitute {
-  std::string tag, other, value;
+std::string lower_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+bool begins_with(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+// The rows of one category of a data block, as a loop or a row of pairs.
+class Table {
+ public:
+  // Throws InputError if the block has the category twice.
+  Table(const std::string& file, const gemmi::cif::Block& block, const std::string& category) {
+    for (const gemmi::cif::Item& item : block.items) {
+      if (item.type == gemmi::cif::ItemType::Pair && begins_with(lower_case(item.pair[0]), category)) {
+        pairs_ = true;
+        tags_.push_back(lower_case(item.pair[0]));
+        values_.push_back(item.pair[1]);
+      } else if (item.type == gemmi::cif::ItemType::Loop && !item.loop.tags.empty() &&
+                 begins_with(lower_case(item.loop.tags.front()), category)) {
+        loops_ += 1;
+        tags_.clear();
+        for (const std::string& tag : item.loop.tags) tags_.push_back(lower_case(tag));
+        loop_ = &item.loop.values;
+      }
+    }
+    if (loops_ + (pairs_ ? 1 : 0) > 1)
+      throw InputError(fmt::format("{}: data block {} has more than one table {}, expected one", file,
+                                   in_quotes(block.name), category.substr(0, category.size() - 1)));
+    category_ = category;
+  }
+
+  std::size_t rows() const { return tags_.empty() ? 0 : values().size() / tags_.size(); }
+  bool has(const std::string& column) const { return place_of(column) < tags_.size(); }
+
+  // The first of these columns that has a value in this row, "" if none has.
+  std::string text(std::size_t row, std::initializer_list<std::size_t> columns) const {
+    for (const std::size_t column : columns) {
+      if (column >= tags_.size()) continue;
+      const std::string& value = values()[row * tags_.size() + column];
+      if (!gemmi::cif::is_null(value)) return gemmi::cif::as_string(value);
+    }
+    return "";
+  }
+  double number(std::size_t row, std::size_t column) const {
+    return gemmi::cif::as_number(values()[row * tags_.size() + column]);
+  }
+  // The place of a column in a row, behind the last one if there is none.
+  std::size_t place_of(const std::string& column) const {
+    return static_cast<std::size_t>(std::find(tags_.begin(), tags_.end(), category_ + lower_case(column)) -
+                                    tags_.begin());
+  }
+
+ private:
+  const std::vector<std::string>& values() const { return loop_ != nullptr ? *loop_ : values_; }
+
+  std::string category_;
+  int loops_ = 0;
+  bool pairs_ = false;
+  std::vector<std::string> tags_, values_;
+  const std::vector<std::string>* loop_ = nullptr;
 };
 
-const std::array<Substitute, 7>& substitutes() {
-  static const std::array<Substitute, 7> all{{{"_atom_site.id", "", "?"},
-                                              {"_atom_site.type_symbol", "", "?"},
-                                              {"_atom_site.label_alt_id", "", "."},
-                                              {"_atom_site.label_asym_id", "_atom_site.auth_asym_id", "A"},
-                                              {"_atom_site.auth_seq_id", "_atom_site.label_seq_id", "?"},
-                                              {"_atom_site.occupancy", "", "1"},
-                                              {"_atom_site.B_iso_or_equiv", "", "0"}}};
-  return all;
-}
-
-// gemmi takes no atom at all where one of its columns is missing, even one that nothing here needs.
-void complete_atoms(gemmi::cif::Block& block) {
-  gemmi::cif::Column places = block.find_values("_atom_site.Cartn_x");
-  gemmi::cif::Loop* const loop = places.length() > 0 ? places.get_loop() : nullptr;
-  if (loop == nullptr) return;  // no atom, or a single one without a loop
-  for (const char axis : {'y', 'z'})
-    if (!loop->has_tag(std::string("_atom_site.Cartn_") + axis))
-      throw InputError(std::string("the atoms have no column _atom_site.Cartn_") + axis);
-  for (const Substitute& substitute : substitutes()) {
-    if (loop->has_tag(substitute.tag)) continue;
-    const std::size_t width = loop->width(), rows = loop->values.size() / width;
-    const int other = substitute.other.empty() ? -1 : loop->find_tag(substitute.other);
-    std::vector<std::string> values;
-    values.reserve(rows * (width + 1));
-    for (std::size_t row = 0; row < rows; ++row) {
-      const auto begin = loop->values.begin() + static_cast<std::ptrdiff_t>(row * width);
-      values.insert(values.end(), begin, begin + static_cast<std::ptrdiff_t>(width));
-      values.push_back(other < 0 ? substitute.value : *(begin + other));
-    }
-    loop->tags.push_back(substitute.tag);
-    loop->values = std::move(values);
+std::map<std::string, Entity> entities_of(const std::string& file, const gemmi::cif::Block& block) {
+  std::map<std::string, Entity> entities;
+  const Table table(file, block, "_entity.");
+  const std::size_t id = table.place_of("id"), type = table.place_of("type");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string said = lower_case(table.text(row, {type}));
+    const bool other = said == "non-polymer" || said == "branched" || said == "water";
+    entities[table.text(row, {id})] = said == "polymer" ? Entity::polymer
+                                      : other           ? Entity::other
+                                                        : Entity::unknown;
   }
+  return entities;
 }
 
-// gemmi keeps the atoms of a residue together; their place in the file goes along as their number.
-void number_atoms(gemmi::cif::Block& block) {
-  std::map<std::string, std::size_t> next_in_model;
-  gemmi::cif::Column ids = block.find_values("_atom_site.id");
-  const gemmi::cif::Column models = block.find_values("_atom_site.pdbx_PDB_model_num");
-  for (int i = 0; i < ids.length(); ++i)
-    ids[i] = std::to_string(next_in_model[models.length() == ids.length() ? models.at(i) : ""]++);
+void check_columns(const std::string& file, const Table& atoms) {
+  for (const char* column : {"Cartn_x", "Cartn_y", "Cartn_z"})
+    if (!atoms.has(column))
+      throw InputError(fmt::format("{}: the atoms have no column _atom_site.{}", file, column));
+  using Names = std::pair<const char*, const char*>;
+  for (const auto& [one, other] :
+       {Names("label_atom_id", "auth_atom_id"), Names("label_comp_id", "auth_comp_id")})
+    if (!atoms.has(one) && !atoms.has(other))
+      throw InputError(fmt::format("{}: the atoms have neither a column _atom_site.{} nor _atom_site.{}",
+                                   file, one, other));
 }
 
-gemmi::Structure parse(const std::filesystem::path& path) {
-  const std::string text = read_whole_file(path);
-  gemmi::cif::Document document =
-      read_cif(path.string(), text, {"_atom_site.", "_entity.", "_entity_poly.", "_cell.", "_symmetry."});
-  try {
-    complete_atoms(document.blocks.at(0));
-    number_atoms(document.blocks.at(0));
-    return gemmi::make_structure(document);
-  } catch (const std::exception& error) {
-    throw InputError(fmt::format("{}: {}", path.string(), one_line_message(error.what())));
+struct ModelRead {
+  std::string name;
+  ResidueGrouping grouping;
+  std::size_t atoms = 0;
+};
+
+// Rows of several models may be mixed. Chains, numbers and names are the authors', as in PDB files.
+std::vector<StructureModel> models_of(const std::string& file, const gemmi::cif::Block& block) {
+  const Table atoms(file, block, "_atom_site.");
+  check_columns(file, atoms);
+  const std::map<std::string, Entity> entities = entities_of(file, block);
+  const auto column = [&](const char* name) { return atoms.place_of(name); };
+  const std::size_t x = column("Cartn_x"), y = column("Cartn_y"), z = column("Cartn_z"),
+                    model = column("pdbx_PDB_model_num"), group = column("group_PDB"),
+                    asym = column("auth_asym_id"), label_asym = column("label_asym_id"),
+                    number = column("auth_seq_id"), label_number = column("label_seq_id"),
+                    insertion = column("pdbx_PDB_ins_code"), comp = column("auth_comp_id"),
+                    label_comp = column("label_comp_id"), entity = column("label_entity_id"),
+                    atom_id = column("auth_atom_id"), label_atom_id = column("label_atom_id"),
+                    alternate = column("label_alt_id"), symbol = column("type_symbol");
+  std::vector<ModelRead> read;
+  std::map<std::string, std::size_t> model_of;
+  for (std::size_t row = 0; row < atoms.rows(); ++row) {
+    const std::string name = atoms.text(row, {model});
+    const auto [found, is_new] = model_of.emplace(name, read.size());
+    if (is_new) read.emplace_back().name = name;
+    ModelRead& into = read[found->second];
+    StructureResidue residue;
+    residue.chain = atoms.text(row, {asym, label_asym});
+    if (asym == label_asym) residue.chain = "A";  // neither column is there
+    residue.number = atoms.text(row, {number, label_number});
+    if (residue.number.empty()) residue.number = "?";
+    residue.number += atoms.text(row, {insertion});
+    residue.name = atoms.text(row, {comp, label_comp});
+    residue.sequence = atoms.text(row, {label_number});
+    residue.molecule = atoms.text(row, {label_asym, asym});
+    const std::string kind = atoms.text(row, {group});
+    residue.het = !kind.empty() && (kind[0] == 'H' || kind[0] == 'h');
+    const auto said = entities.find(atoms.text(row, {entity}));
+    if (said != entities.end()) residue.entity = said->second;
+    StructureAtom atom;
+    atom.name = atoms.text(row, {atom_id, label_atom_id});
+    const std::string location = atoms.text(row, {alternate});
+    atom.alternate = location.empty() ? '\0' : location[0];
+    atom.element = gemmi::Element(atoms.text(row, {symbol}));
+    atom.place = into.atoms++;
+    atom.position = {atoms.number(row, x), atoms.number(row, y), atoms.number(row, z)};
+    into.grouping.add(residue, std::move(atom));
   }
+  std::vector<StructureModel> models;
+  for (ModelRead& one : read) {
+    models.emplace_back().residues = one.grouping.take();
+    models.back().atom_count = one.atoms;
+  }
+  return models;
+}
+
+std::optional<Cell> cell_of(const std::string& file, const gemmi::cif::Block& block) {
+  using Names = std::pair<const char*, const char*>;
+  for (const auto& [category, tag] :
+       {Names("_symmetry.", "space_group_name_H-M"), Names("_space_group.", "name_H-M_alt")}) {
+    const Table table(file, block, category);
+    if (table.rows() == 0 || !table.has(tag)) continue;
+    const std::string group = table.text(0, {table.place_of(tag)});
+    if (!group.empty() && group != "P 1" && group != "P1") return std::nullopt;
+  }
+  const Table table(file, block, "_cell.");
+  if (table.rows() == 0) return std::nullopt;
+  const auto number = [&](const char* tag) {
+    return table.has(tag) ? table.number(0, table.place_of(tag)) : 0.0;
+  };
+  return cell_from_angles({number("length_a"), number("length_b"), number("length_c")},
+                          {number("angle_alpha"), number("angle_beta"), number("angle_gamma")});
 }
 
 class MmcifModels : public StructureModels {
  public:
-  explicit MmcifModels(const std::filesystem::path& path) : structure_(parse(path)) {
-    if (structure_.models.empty())
-      throw InputError(fmt::format("{}: no atom in the first data block (_atom_site)", path.string()));
+  explicit MmcifModels(const std::filesystem::path& path) {
+    const std::string file = path.string();
+    const gemmi::cif::Document document = read_cif(
+        file, read_whole_file(path), {"_atom_site.", "_entity.", "_cell.", "_symmetry.", "_space_group."});
+    const gemmi::cif::Block* chosen = nullptr;
+    std::string others;
+    for (const gemmi::cif::Block& block : document.blocks) {
+      if (Table(file, block, "_atom_site.").rows() == 0) continue;
+      if (chosen == nullptr)
+        chosen = &block;
+      else
+        others += (others.empty() ? "" : ", ") + in_quotes(block.name);
+    }
+    if (chosen == nullptr) throw InputError(fmt::format("{}: no atom in any data block (_atom_site)", file));
+    if (!others.empty())
+      notes_.push_back(
+          fmt::format("data block {} is read; the atoms of {} are not", in_quotes(chosen->name), others));
+    models_ = models_of(file, *chosen);
+    cell_ = cell_of(file, *chosen);
   }
 
-  FramesHeld held() const override { return {structure_.models.size(), false}; }
-  StructureModel model(std::size_t k) override { return {structure_.models[k], cell()}; }
+  FramesHeld held() const override { return {models_.size(), false}; }
+  std::vector<std::string> notes() const override { return notes_; }
+  StructureModel model(std::size_t k) override {
+    StructureModel model = models_[k];
+    model.cell = cell_;
+    return model;
+  }
 
  private:
-  std::optional<Cell> cell() const {
-    const std::string& group = structure_.spacegroup_hm;
-    if (!group.empty() && group != "P 1" && group != "P1") return std::nullopt;
-    const gemmi::UnitCell& cell = structure_.cell;
-    return cell_from_angles({cell.a, cell.b, cell.c}, {cell.alpha, cell.beta, cell.gamma});
-  }
-
-  gemmi::Structure structure_;
+  std::vector<StructureModel> models_;
+  std::optional<Cell> cell_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace

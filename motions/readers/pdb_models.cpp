@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
@@ -11,22 +12,28 @@ namespace kds {
 
 namespace {
 
-// Record names take six columns, padded with blanks, and are read in either case.
+char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+bool starts_with(std::string_view line, std::string_view name) {
+  for (std::size_t i = 0; i < name.size(); ++i)
+    if (i >= line.size() || upper(line[i]) != name[i]) return false;
+  return true;
+}
+
+// Record names take six columns and are read in either case. Numbers may run into the blanks behind a name,
+// as in "ATOM 100000".
 bool is_record(std::string_view line, std::string_view name) {
-  for (std::size_t i = 0; i < 6; ++i) {
-    const char expected = i < name.size() ? name[i] : ' ';
-    char found = i < line.size() ? line[i] : ' ';
-    if (found >= 'a' && found <= 'z') found = static_cast<char>(found - 'a' + 'A');
-    if (found != expected) return false;
-  }
+  if (!starts_with(line, name)) return false;
+  for (std::size_t i = name.size(); i < 6 && i < line.size(); ++i)
+    if (line[i] != ' ' && (line[i] < '0' || line[i] > '9')) return false;
   return true;
 }
 
 bool is_atom(std::string_view line) { return is_record(line, "ATOM") || is_record(line, "HETATM"); }
 
-std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
-  if (line.size() < first) return {};
-  return trimmed(line.substr(first - 1, last - first + 1));
+bool looks_like_atom(std::string_view line) {
+  const std::string_view text = trimmed(line);
+  return starts_with(text, "ATOM") || starts_with(text, "HETAT");
 }
 
 std::optional<Cell> box_cell(std::string_view cryst1) {
@@ -42,42 +49,47 @@ std::optional<Cell> box_cell(std::string_view cryst1) {
   return cell_from_angles({values[0], values[1], values[2]}, {values[3], values[4], values[5]});
 }
 
-// Five columns hold 99999; beyond go letters (hybrid-36), which gemmi reads.
-std::string serial_field(std::size_t number) {
-  constexpr std::size_t decimals = 100000;
-  if (number < decimals) return fmt::format("{:5}", number);
-  number = number - decimals + 10 * 36 * 36 * 36 * 36;
-  std::string field(5, ' ');
-  for (std::size_t i = 5; i-- > 0; number /= 36)
-    field[i] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ"[number % 36];
-  return field;
-}
-
-void check_atom_line(const std::string& file, std::size_t line_number, std::string_view line) {
-  if (line.size() < 54)
-    throw InputError(
-        fmt::format("{}:{}: this atom's line ends before its coordinates do (column 54)", file, line_number));
-  for (const std::size_t first : {31U, 39U, 47U}) {
-    const std::string_view field = columns(line, first, first + 7);
-    if (!parse_double(field))
-      throw InputError(fmt::format("{}:{}: expected a coordinate in columns {} to {}, found {}", file,
-                                   line_number, first, first + 7, in_quotes(field)));
-  }
-}
-
 }  // namespace
 
-void PdbModelReader::add_line(std::string_view line, std::size_t atoms, std::string& atom_lines) const {
-  // Behind column 78 stands the charge, which nothing here needs and not every program writes properly.
-  line = line.substr(0, 78);
-  if (is_atom(line)) {
-    check_atom_line(lines_.name(), lines_.number(), line);
-    atom_lines.append(line.substr(0, 6)).append(serial_field(atoms)).append(line.substr(11));
-  } else {
-    atom_lines.append(line);
+// Consecutive atoms of the file that make a model, or are left out.
+struct PdbModelReader::Run {
+  PdbModel* model = nullptr;
+  bool inside = false;
+  bool outside_models = false;  ///< so far: neither MODEL at its start nor ENDMDL at its end
+  LinesLeftOut lines;
+  std::size_t bytes = 0;
+};
+
+void PdbModelReader::open(Run& run, bool with_record) {
+  run.inside = true;
+  run.outside_models = !with_record && has_model_records_;
+  run.lines = {};
+  run.bytes = 0;
+  if (with_record) has_model_records_ = true;
+  if (run.model != nullptr) run.model->cell = cell_;
+}
+
+// Returns whether the run is a model.
+bool PdbModelReader::close(Run& run, bool is_model) {
+  run.inside = false;
+  if (is_model || !run.outside_models) {
+    ++models_;
+    return true;
   }
-  atom_lines += '\n';
-  if (atom_lines.size() > most_whole)
+  if (outside_.count == 0) outside_.first = run.lines.first;
+  outside_.count += run.lines.count;
+  if (run.model != nullptr) *run.model = {};
+  return false;
+}
+
+void PdbModelReader::add_atom(std::string_view line, Run& run) {
+  run.lines.add(lines_.number());
+  if (run.model == nullptr) return;
+  PdbAtom atom = read_atom_line(lines_.name(), lines_.number(), line);
+  atom.atom.place = run.model->atoms.size();
+  run.model->atoms.push_back(std::move(atom));
+  run.bytes += line.size();
+  if (run.bytes > most_whole)
     throw InputError(
         fmt::format("{}:{}: the atoms of this model take more than the {} bytes that are read of one",
                     lines_.name(), lines_.number(), most_whole));
@@ -85,46 +97,48 @@ void PdbModelReader::add_line(std::string_view line, std::size_t atoms, std::str
 
 bool PdbModelReader::read(PdbModel* model) {
   if (model != nullptr) *model = {};
-  bool inside = false;
-  std::size_t atoms = 0;
-  const auto open = [&] {
-    inside = true;
-    ++models_;
-    if (model != nullptr) model->cell = cell_;
-  };
-  if (!opening_.empty()) open();
-  opening_.clear();
+  Run run;
+  run.model = model;
+  if (opening_) open(run, true);
+  opening_ = false;
   for (std::string_view line; lines_.next(line);) {
     if (is_record(line, "CRYST1")) {
       cell_ = box_cell(line);
-      if (inside && model != nullptr) model->cell = cell_;  // some programs write it behind MODEL
+      if (run.inside && model != nullptr) model->cell = cell_;  // some programs write it behind MODEL
     } else if (is_record(line, "MODEL")) {
-      if (inside) {
-        opening_ = "MODEL";
+      if (run.inside && close(run, false)) {
+        opening_ = true;
         return true;
       }
-      open();
+      open(run, true);
     } else if (is_record(line, "ENDMDL") || is_record(line, "END")) {
-      if (!inside) continue;
+      if (!run.inside || !close(run, is_record(line, "ENDMDL"))) continue;
       ++closed_;
       return true;
     } else if (is_atom(line)) {
-      if (!inside) open();
-      if (model != nullptr) add_line(line, atoms++, model->atom_lines);
-    } else if (inside && model != nullptr && is_record(line, "TER")) {
-      add_line(line, atoms, model->atom_lines);
+      if (!run.inside) open(run, false);
+      add_atom(line, run);
+    } else if (is_record(line, "TER")) {
+      if (run.inside && model != nullptr) model->ends.push_back(model->atoms.size());
+    } else if (looks_like_atom(line)) {
+      near_misses_.add(lines_.number());
+    } else if (models_ == 0 && !run.inside && starts_with(line, "DATA_")) {
+      throw InputError(
+          fmt::format("{}:{}: begins as an mmCIF file does, expected a PDB file; mmCIF files end in .cif",
+                      lines_.name(), lines_.number()));
     }
   }
-  if (inside) ended_ = true;
-  return inside;
+  if (!run.inside || !close(run, false)) return false;
+  ended_ = true;
+  return true;
 }
 
 void PdbModelReader::rewind() {
   lines_.rewind();
-  opening_.clear();
   cell_.reset();
   models_ = closed_ = 0;
-  ended_ = false;
+  opening_ = has_model_records_ = ended_ = false;
+  outside_ = near_misses_ = {};
 }
 
 FramesHeld PdbModelReader::held() const {

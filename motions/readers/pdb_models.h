@@ -1,49 +1,70 @@
 #pragma once
-// Cuts a PDB file into its models while it is read, each with the lines that name and place atoms, checked.
+// Cuts a PDB file into its models while it is read, each with its atoms, checked.
 
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "motions/base/line_reader.h"
 #include "motions/frames/frame_selection.h"
 #include "motions/frames/periodic.h"
+#include "motions/readers/pdb_atom_line.h"
 
 namespace kds {
 
 struct PdbModel {
-  /// ATOM, HETATM and TER, with an atom's place in the model (from 0) for its serial number.
-  std::string atom_lines;
-  std::optional<Cell> cell;  ///< of a simulation box: CRYST1 with space group P 1 (or none)
+  std::vector<PdbAtom> atoms;     ///< each with its place in the model, from 0
+  std::vector<std::size_t> ends;  ///< of chains: number of atoms before each TER, ascending
+  std::optional<Cell> cell;       ///< of a simulation box: CRYST1 with space group P 1 (or none)
 };
 
-/// Models begin at MODEL and end at ENDMDL, END or the next MODEL; atoms before any MODEL make one too.
+/// Lines of a file that hold atoms but belong to no model: how many, and the first of them, from 1.
+struct LinesLeftOut {
+  std::size_t count = 0, first = 0;
+
+  void add(std::size_t line) {
+    if (count++ == 0) first = line;
+  }
+};
+
+/// A model begins at MODEL and ends at ENDMDL, END or the next MODEL. Atoms without a MODEL make a model too,
+/// up to ENDMDL or END. Behind a model with MODEL they need ENDMDL at their end, otherwise they are left out.
 class PdbModelReader {
  public:
   /// Throws InputError naming the file.
   explicit PdbModelReader(const std::filesystem::path& path) : lines_(path) {}
 
-  /// The next model; false behind the last one. Throws InputError naming file and line if a line is too short
-  /// or a coordinate is no number.
+  /// Reads the next model; returns false behind the last one. Throws InputError naming file and line as
+  /// read_atom_line does.
   [[nodiscard]] bool next(PdbModel& model) { return read(&model); }
   /// Leaves the next model unread, and unchecked.
   [[nodiscard]] bool skip() { return read(nullptr); }
   void rewind();
-  /// Of the models read or left out so far. The file ends inside a model if all but the last are closed by
-  /// ENDMDL or END.
+  /// The models read or skipped so far. The file ends inside a model if all but the last are closed by ENDMDL
+  /// or END.
   [[nodiscard]] FramesHeld held() const;
+  /// Atoms outside the models, in the part of the file read so far.
+  [[nodiscard]] const LinesLeftOut& outside() const { return outside_; }
+  /// Lines that look like atoms but are not valid records, likewise.
+  [[nodiscard]] const LinesLeftOut& near_misses() const { return near_misses_; }
 
  private:
+  struct Run;
   [[nodiscard]] bool read(PdbModel* model);
-  void add_line(std::string_view line, std::size_t atoms, std::string& atom_lines) const;
+  void open(Run& run, bool with_record);
+  [[nodiscard]] bool close(Run& run, bool is_model);
+  void add_atom(std::string_view line, Run& run);
 
   LineReader lines_;
-  std::string opening_;  ///< MODEL, read already, of the next model; empty: none
+  bool opening_ = false;  ///< MODEL of the next model is read already
   std::optional<Cell> cell_;
   std::size_t models_ = 0, closed_ = 0;
+  bool has_model_records_ = false;
   bool ended_ = false;  ///< with the file, inside a model
+  LinesLeftOut outside_, near_misses_;
 };
 
 }  // namespace kds

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <gemmi/model.hpp>
-#include <iterator>
+#include <algorithm>
 #include <utility>
 
 #include "motions/base/file_ending.h"
 #include "motions/base/input_error.h"
+#include "motions/base/text_input.h"
 #include "motions/frames/frame_selection.h"
 #include "motions/readers/polymer_selection.h"
 #include "motions/readers/structure_models.h"
@@ -16,18 +16,48 @@ namespace kds {
 
 namespace {
 
+// The models of a biological assembly (.pdb1, .pdb2) are copies that stand side by side, not frames: the
+// first one alone is read.
+class FirstModel : public StructureModels {
+ public:
+  explicit FirstModel(std::unique_ptr<StructureModels> models) : models_(std::move(models)) {}
+
+  FramesHeld held() const override { return {1, false}; }
+  StructureModel model(std::size_t k) override { return models_->model(k); }
+  std::vector<std::string> notes() const override {
+    std::vector<std::string> notes = models_->notes();
+    notes.push_back(
+        fmt::format("a biological assembly: its {} are copies side by side, not frames; only the first is "
+                    "read (ending .pdb reads "
+                    "frames)",
+                    counted(models_->held().whole, "model")));
+    return notes;
+  }
+
+ private:
+  std::unique_ptr<StructureModels> models_;
+};
+
 std::unique_ptr<StructureModels> open_structure(const std::filesystem::path& path) {
   std::string ending = file_ending(path);
   if (ending == ".gz") ending = file_ending(path.stem());
-  return ending == ".cif" || ending == ".mmcif" ? open_mmcif(path) : open_pdb(path);
+  if (ending == ".cif" || ending == ".mmcif") return open_mmcif(path);
+  std::unique_ptr<StructureModels> models = open_pdb(path);
+  const FramesHeld held = models->held();
+  if (!is_assembly_ending(ending) || held.whole + (held.ends_inside ? 1 : 0) == 1) return models;
+  return std::make_unique<FirstModel>(std::move(models));
+}
+
+void warn(const std::string& file, const std::vector<std::string>& notes,
+          std::vector<std::string>& warnings) {
+  for (const std::string& note : notes) warnings.push_back(fmt::format("{}: {}", file, note));
 }
 
 Eigen::Matrix3Xd positions(const std::vector<SelectedAtom>& atoms) {
   Eigen::Matrix3Xd frame(3, static_cast<Eigen::Index>(atoms.size()));
   Eigen::Index bead = 0;
   for (const SelectedAtom& selected : atoms) {
-    const gemmi::Position& place = selected.atom->pos;
-    frame.col(bead++) << place.x, place.y, place.z;
+    frame.col(bead++) = selected.atom->position;
   }
   return frame;
 }
@@ -51,30 +81,6 @@ void check_same_atoms(const std::string& file, std::size_t first_frame,
                                  atoms.size(), expected.size(), first_frame));
 }
 
-struct SelectedChains {
-  std::vector<SelectedAtom> atoms;
-  std::vector<ChainRead> chains;
-};
-
-SelectedChains select_chains(const std::string& place, const gemmi::Model& model, Selection selection,
-                             const std::optional<std::string>& list) {
-  SelectedChains selected;
-  for (const std::string& chain : chains_asked_for(place, model, list)) {
-    std::vector<SelectedAtom> atoms = select_polymer_atoms(place, model, selection, chain);
-    selected.chains.push_back({chain, atoms.size()});
-    std::move(atoms.begin(), atoms.end(), std::back_inserter(selected.atoms));
-  }
-  return selected;
-}
-
-// Who names chains knows the others.
-std::optional<std::string> unread_chains(const std::string& file, const gemmi::Model& model,
-                                         Selection selection, const std::optional<std::string>& list,
-                                         const SelectedChains& selected) {
-  if (list) return std::nullopt;
-  return describe_unread_chains(file, model, selected.chains.front().name, selection);
-}
-
 class StructureFrames final : public FrameReader {
  public:
   StructureFrames(std::string file, std::unique_ptr<StructureModels> models, const ReadOptions& options,
@@ -88,13 +94,14 @@ class StructureFrames final : public FrameReader {
 
   // What the first frame tells of all.
   void describe(FramesOpened& opened) {
-    const gemmi::Model model = models_->model(asked_[0]).model;
+    const StructureModel model = models_->model(asked_[0]);
     SelectedChains selected = select_chains(place(asked_[0]), model, selection_, chain_);
     names_ = names_of(selected.atoms);
     opened.element_radii = element_radii_of(selected.atoms);
     opened.bead_names = names_;
-    if (auto unread = unread_chains(file_, model, selection_, chain_, selected))
-      opened.warnings.push_back(std::move(*unread));
+    warn(file_, models_->notes(), opened.warnings);
+    warn(file_, model.notes, opened.warnings);
+    warn(file_, selected.notes, opened.warnings);
     opened.chains = std::move(selected.chains);
   }
 
@@ -102,7 +109,7 @@ class StructureFrames final : public FrameReader {
     if (next_ == asked_.count) return false;
     const std::size_t k = asked_[next_++];
     const StructureModel read = models_->model(k);
-    const SelectedChains selected = select_chains(place(k), read.model, selection_, chain_);
+    const SelectedChains selected = select_chains(place(k), read, selection_, chain_);
     check_same_atoms(file_, asked_[0], names_, k, selected.atoms);
     frame.stamp = {k, std::nullopt};
     frame.positions = positions(selected.atoms);
@@ -141,16 +148,17 @@ FramesOpened open_structure_frames(const std::filesystem::path& path, const Read
 
 Topology read_topology(const std::filesystem::path& path, Selection selection,
                        const std::optional<std::string>& chain) {
-  const gemmi::Model model = open_structure(path)->model(0).model;
+  const std::unique_ptr<StructureModels> models = open_structure(path);
+  const StructureModel model = models->model(0);
   Topology topology;
-  for (const gemmi::Chain& part : model.chains)
-    for (const gemmi::Residue& residue : part.residues) topology.atom_count += residue.atoms.size();
+  topology.atom_count = model.atom_count;
   SelectedChains selected = select_chains(path.string(), model, selection, chain);
-  for (const SelectedAtom& atom : selected.atoms)
-    topology.selected.push_back(static_cast<std::size_t>(atom.atom->serial));
+  for (const SelectedAtom& atom : selected.atoms) topology.selected.push_back(atom.atom->place);
   topology.element_radii = element_radii_of(selected.atoms);
   topology.bead_names = names_of(selected.atoms);
-  topology.unread = unread_chains(path.string(), model, selection, chain, selected);
+  warn(path.string(), models->notes(), topology.warnings);
+  warn(path.string(), model.notes, topology.warnings);
+  warn(path.string(), selected.notes, topology.warnings);
   topology.chains = std::move(selected.chains);
   return topology;
 }

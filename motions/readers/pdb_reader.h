@@ -22,7 +22,7 @@ struct Topology {
   std::size_t atom_count = 0;         ///< with all alternate locations, waters and ligands
   std::vector<std::size_t> selected;  ///< places of the beads, in chain order
   std::vector<ChainRead> chains;      ///< that they belong to
-  std::optional<std::string> unread;  ///< a line about other chains, where the default chain is read
+  std::vector<std::string> warnings;  ///< on what is left out or guessed, one line each
   std::vector<double> element_radii;  ///< of the beads; empty where elements are unknown
   std::vector<std::string> bead_names;
 };

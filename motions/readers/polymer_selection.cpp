@@ -4,145 +4,210 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <gemmi/model.hpp>
-#include <gemmi/resinfo.hpp>
+#include <iterator>
 #include <set>
+#include <utility>
 
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
 #include "motions/readers/bead_name.h"
+#include "motions/readers/residue_kind.h"
 #include "motions/readers/vdw_radii.h"
 
 namespace kds {
 
 namespace {
 
-enum class Polymer { none, protein, nucleic, cap };
+using Residues = std::vector<const StructureResidue*>;
 
-const gemmi::Atom* first_named(const gemmi::Residue& residue, const char* name) {
-  for (const gemmi::Atom& atom : residue.atoms)
-    if (atom.name == name) return &atom;
-  return nullptr;
+std::string joined(std::vector<std::string> texts, std::size_t most) {
+  const std::size_t count = texts.size();
+  texts.resize(std::min(most, count));
+  const std::string text = fmt::format("{}", fmt::join(texts, ", "));
+  return count > most ? fmt::format("{} and {} more", text, count - most) : text;
 }
 
-bool has_backbone(const gemmi::Residue& residue) {
-  return first_named(residue, "N") && first_named(residue, "CA") && first_named(residue, "C");
+// Two residues at one position are alternates if all atoms of the second one say so.
+bool is_alternate_of(const StructureResidue& residue, const StructureResidue& before) {
+  return before.number == residue.number && before.sequence == residue.sequence &&
+         before.molecule == residue.molecule &&
+         std::all_of(residue.atoms.begin(), residue.atoms.end(),
+                     [](const StructureAtom& atom) { return atom.alternate != '\0'; });
 }
 
-// A file says which residues are the polymer's by TER or by mmCIF's entities; without, we judge by the
-// residue.
-Polymer polymer_of(const gemmi::Residue& residue) {
-  const bool said_to_be = residue.entity_type == gemmi::EntityType::Polymer;
-  if (residue.entity_type != gemmi::EntityType::Unknown && !said_to_be) return Polymer::none;
-  const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(residue.name);
-  if (info.is_water()) return Polymer::none;
-  // A standard residue as HETATM is a free one in the buffer, unless the file says otherwise.
-  if (!said_to_be && info.found() && info.is_standard() && residue.het_flag == 'H') return Polymer::none;
-  if (info.found() && info.is_amino_acid()) return Polymer::protein;
-  if (info.found() && info.is_nucleic_acid()) return Polymer::nucleic;
-  if (info.found() && !said_to_be) return Polymer::none;
-  if (residue.get_ca() || has_backbone(residue)) return Polymer::protein;
-  if (residue.get_p()) return Polymer::nucleic;
-  return said_to_be ? Polymer::cap : Polymer::none;
-}
-
-struct Candidate {
-  const gemmi::Residue* residue;
-  Polymer polymer;
+// What --chain can name: a chain, or a molecule of it.
+struct Part {
+  std::string label;
+  std::string chain;
+  std::optional<std::string> molecule;  // of the chain; none: all of them
+  Residues polymer;                     // its residues, without those that are alternates of the one before
+  std::vector<std::string> free_residues;  // amino acids of the chain that are taken for ligands
+  bool protein = false;                    // otherwise nucleotides, if `polymer` is not empty
 };
 
-// The polymer residues of all parts of a chain; the first of those that share a position.
-std::vector<Candidate> polymer_residues(const gemmi::Model& model, const std::string& chain) {
-  std::vector<Candidate> residues;
-  for (const gemmi::Chain& part : model.chains) {
-    if (part.name != chain) continue;
-    const gemmi::Residue* before = nullptr;
-    for (const gemmi::Residue& residue : part.residues) {
-      const Polymer polymer = polymer_of(residue);
-      if (polymer == Polymer::none) continue;
-      const bool shares = before && before->seqid == residue.seqid && before->segment == residue.segment;
-      if (!shares) residues.push_back({&residue, polymer});
-      if (!shares) before = &residue;
+// As in messages.
+std::string shown(const std::string& label) { return label.empty() ? "' '" : label; }
+
+std::vector<std::string> labels_of(const std::vector<const Part*>& parts) {
+  std::vector<std::string> labels;
+  for (const Part* part : parts) labels.push_back(shown(part->label));
+  return labels;
+}
+
+class Parts {
+ public:
+  explicit Parts(const StructureModel& model) : model_(model) {
+    for (const StructureResidue& residue : model.residues) {
+      if (find(chains_, residue.chain) == nullptr)
+        chains_.push_back(Part{residue.chain, residue.chain, {}, {}, {}});
+      const ResidueKind kind = kind_of(residue);
+      Part& chain = *find(chains_, residue.chain);
+      if (kind == ResidueKind::none && is_tabulated_monomer(residue.name) && has_backbone(residue))
+        chain.free_residues.push_back(fmt::format("{} {}", residue.name, residue.number));
+      if (kind == ResidueKind::none) continue;
+      if (!chain.polymer.empty() && is_alternate_of(residue, *chain.polymer.back())) continue;
+      add(chain, residue, kind);
+      add(molecule_of(residue), residue, kind);
+    }
+    // Caps and ends alone are no polymer.
+    for (Part& chain : chains_)
+      if (!has_monomers(chain)) chain.polymer.clear();
+    std::erase_if(molecules_, [](const Part& molecule) { return !has_monomers(molecule); });
+    for (Part& molecule : molecules_) {
+      std::size_t number = 1;
+      for (const Part* before = molecules_.data(); before != &molecule; ++before)
+        if (before->chain == molecule.chain) ++number;
+      molecule.label =
+          molecule.chain.empty() ? std::to_string(number) : fmt::format("{}.{}", molecule.chain, number);
     }
   }
-  return residues;
+
+  // Null if there is none of this name.
+  const Part* named(const std::string& label) const {
+    const Part* const chain = find(chains_, label);
+    return chain != nullptr ? chain : find(molecules_, label);
+  }
+
+  std::vector<const Part*> molecules_of(const Part& chain) const {
+    std::vector<const Part*> parts;
+    for (const Part& molecule : molecules_)
+      if (molecule.chain == chain.chain) parts.push_back(&molecule);
+    return parts;
+  }
+
+  // Chains with a name, and the molecules without one, that are polymers; all chains if there are no
+  // polymers.
+  std::vector<const Part*> default_parts() const {
+    std::vector<const Part*> parts;
+    for (const Part& chain : chains_) {
+      const std::vector<const Part*> molecules = molecules_of(chain);
+      if (chain.label.empty() && molecules.size() > 1)
+        parts.insert(parts.end(), molecules.begin(), molecules.end());
+      else if (!chain.polymer.empty())
+        parts.push_back(&chain);
+    }
+    if (parts.empty())
+      for (const Part& chain : chains_) parts.push_back(&chain);
+    return parts;
+  }
+
+  bool has_polymer() const { return !molecules_.empty(); }
+
+  // The residues to select from.
+  Residues candidates(const Part& part, Selection selection) const {
+    if (!part.polymer.empty() || selection != Selection::all) return part.polymer;
+    Residues residues;
+    for (const StructureResidue& residue : model_.residues)
+      if (residue.chain == part.chain) residues.push_back(&residue);
+    return residues;
+  }
+
+  // "1,024 residues (HOH, NAG)"
+  std::string contents() const {
+    std::vector<std::string> names;
+    for (const StructureResidue& residue : model_.residues)
+      if (std::find(names.begin(), names.end(), residue.name) == names.end() && names.size() < 6)
+        names.push_back(residue.name);
+    return fmt::format("{} ({})", counted(model_.residues.size(), "residue"), joined(names, 5));
+  }
+
+ private:
+  static bool is_monomer(ResidueKind kind) {
+    return kind == ResidueKind::protein || kind == ResidueKind::nucleic;
+  }
+  static bool has_monomers(const Part& part) {
+    return std::any_of(part.polymer.begin(), part.polymer.end(),
+                       [](const StructureResidue* residue) { return is_monomer(kind_of(*residue)); });
+  }
+
+  static void add(Part& part, const StructureResidue& residue, ResidueKind kind) {
+    part.polymer.push_back(&residue);
+    part.protein = part.protein || kind == ResidueKind::protein;
+  }
+
+  static const Part* find(const std::vector<Part>& parts, const std::string& label) {
+    const auto found =
+        std::find_if(parts.begin(), parts.end(), [&](const Part& part) { return part.label == label; });
+    return found == parts.end() ? nullptr : &*found;
+  }
+  static Part* find(std::vector<Part>& parts, const std::string& label) {
+    return const_cast<Part*>(find(std::as_const(parts), label));
+  }
+
+  Part& molecule_of(const StructureResidue& residue) {
+    for (auto part = molecules_.rbegin(); part != molecules_.rend(); ++part)
+      if (part->chain == residue.chain && part->molecule == residue.molecule) return *part;
+    return molecules_.emplace_back(Part{{}, residue.chain, residue.molecule, {}, {}});
+  }
+
+  const StructureModel& model_;
+  std::vector<Part> chains_, molecules_;
+};
+
+// The first with amino acids, otherwise the first with nucleotides, otherwise the first.
+const Part& default_part(const std::vector<const Part*>& parts) {
+  for (const Part* part : parts)
+    if (part->protein) return *part;
+  for (const Part* part : parts)
+    if (!part->polymer.empty()) return *part;
+  return *parts.front();
 }
 
-bool has(const std::vector<Candidate>& residues, Polymer polymer) {
-  for (const Candidate& candidate : residues)
-    if (candidate.polymer == polymer) return true;
-  return false;
-}
-
-std::vector<std::string> chain_names(const gemmi::Model& model) {
-  std::vector<std::string> names;
-  std::set<std::string> seen;
-  for (const gemmi::Chain& chain : model.chains)
-    if (seen.insert(chain.name).second) names.push_back(chain.name);
-  return names;
-}
-
-/// Those that a necklace can be of.
-std::vector<std::string> polymer_chains(const gemmi::Model& model) {
-  std::vector<std::string> names = chain_names(model);
-  std::erase_if(names, [&](const std::string& name) {
-    const std::vector<Candidate> residues = polymer_residues(model, name);
-    return !has(residues, Polymer::protein) && !has(residues, Polymer::nucleic);
-  });
-  return names;
-}
-
-InputError no_polymer_in(const std::string& file) {
-  return InputError(fmt::format("{}: no chain of amino acids or nucleotides in this file", file));
-}
-
-// The first with amino acids, else the first with nucleotides.
-std::string default_chain(const std::string& file, const gemmi::Model& model) {
-  const std::vector<std::string> names = chain_names(model);
-  for (const Polymer wanted : {Polymer::protein, Polymer::nucleic})
-    for (const std::string& name : names)
-      if (has(polymer_residues(model, name), wanted)) return name;
-  throw no_polymer_in(file);
-}
-
-// As in messages.
-std::string shown(const std::string& chain) { return chain.empty() ? "' '" : chain; }
-
-std::string listed(const std::vector<std::string>& chains, std::size_t most) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < std::min(most, chains.size()); ++i) names.push_back(shown(chains[i]));
-  const std::string text = fmt::format("{}", fmt::join(names, ", "));
-  return chains.size() > most ? fmt::format("{} and {} more", text, chains.size() - most) : text;
-}
-
-std::vector<const gemmi::Atom*> named_atoms(const gemmi::Residue& residue, Selection selection) {
-  const gemmi::Atom* ca = first_named(residue, "CA");
+std::vector<const StructureAtom*> named_atoms(const StructureResidue& residue, Selection selection) {
+  const StructureAtom* ca = first_named(residue, "CA");
   if (!ca) return {};
   if (selection == Selection::ca) return {ca};
-  const gemmi::Atom* n = first_named(residue, "N");
-  const gemmi::Atom* c = first_named(residue, "C");
+  const StructureAtom* n = first_named(residue, "N");
+  const StructureAtom* c = first_named(residue, "C");
   if (!n || !c) return {};
   return {n, ca, c};
 }
 
 // An atom without alternates, or the first of its name.
-std::vector<const gemmi::Atom*> all_atoms(const gemmi::Residue& residue) {
-  std::vector<const gemmi::Atom*> atoms;
+std::vector<const StructureAtom*> all_atoms(const StructureResidue& residue) {
+  std::vector<const StructureAtom*> atoms;
   std::set<std::string> with_alternates;
-  for (const gemmi::Atom& atom : residue.atoms)
-    if (atom.altloc == '\0' || with_alternates.insert(atom.name).second) atoms.push_back(&atom);
+  for (const StructureAtom& atom : residue.atoms)
+    if (atom.alternate == '\0' || with_alternates.insert(atom.name).second) atoms.push_back(&atom);
   return atoms;
 }
 
-std::vector<const gemmi::Atom*> selected_atoms(const Candidate& candidate, Selection selection) {
-  if (selection == Selection::all) return all_atoms(*candidate.residue);
-  return named_atoms(*candidate.residue, selection);
+std::vector<const StructureAtom*> selected_atoms(const StructureResidue& residue, Selection selection) {
+  if (selection == Selection::all) return all_atoms(residue);
+  return named_atoms(residue, selection);
+}
+
+bool holds_copies(const StructureResidue& residue, const std::vector<const StructureAtom*>& atoms) {
+  return std::any_of(atoms.begin(), atoms.end(), [&](const StructureAtom* selected) {
+    return std::count_if(residue.atoms.begin(), residue.atoms.end(), [&](const StructureAtom& atom) {
+             return atom.name == selected->name && atom.alternate == selected->alternate;
+           }) > 1;
+  });
 }
 
 // Where a file has no column for elements, a name in the wrong column makes calcium of CA and mercury of HG:
 // in a chain what is none of its usual elements goes by the first letter of its name.
-std::string element_of(const gemmi::Atom& atom) {
+std::string element_of(const StructureAtom& atom) {
   using gemmi::El;
   for (const El usual : {El::C, El::N, El::O, El::S, El::H, El::D, El::P, El::Se})
     if (atom.element == usual) return atom.element.name();
@@ -152,75 +217,160 @@ std::string element_of(const gemmi::Atom& atom) {
   return atom.name.substr(letter, 1);
 }
 
-std::string describe(const gemmi::Atom& atom, const gemmi::Residue& residue, const std::string& chain) {
-  return text_of({atom.name, residue.name, residue.seqid.str(), shown(chain)});
-}
-
-std::vector<SelectedAtom> atoms_of_chain(const gemmi::Model& model, Selection selection,
-                                         const std::string& chain) {
+struct PartRead {
   std::vector<SelectedAtom> atoms;
-  const auto select = [&](Selection which) {
-    for (const Candidate& candidate : polymer_residues(model, chain))
-      for (const gemmi::Atom* atom : selected_atoms(candidate, which))
-        atoms.push_back({atom, element_of(*atom), describe(*atom, *candidate.residue, chain)});
-  };
-  select(selection);
-  if (atoms.empty() && selection == Selection::automatic) select(Selection::ca);  // a coarse-grained model
-  return atoms;
+  ChainRead chain;
+  std::vector<std::string> lacking;   // residues that lack an atom of the selection
+  std::vector<std::string> repeated;  // residues read that have the number of an earlier one
+  std::vector<std::string> copies;    // residues read that hold a selected atom twice
+  Selection selection = Selection::automatic;
+};
+
+PartRead read_part(const Parts& parts, const Part& part, Selection selection) {
+  PartRead read;
+  read.chain.name = part.label;
+  read.selection = selection;
+  const Residues candidates = parts.candidates(part, selection);
+  read.chain.residues = candidates.size();
+  for (const StructureResidue* residue : candidates) {
+    const std::string name = fmt::format("{} {}", residue->name, residue->number);
+    const std::vector<const StructureAtom*> atoms = selected_atoms(*residue, selection);
+    if (atoms.empty()) {
+      read.lacking.push_back(name);
+      continue;
+    }
+    ++read.chain.residues_read;
+    if (residue->repeated && !part.polymer.empty()) read.repeated.push_back(name);
+    if (selection != Selection::all && holds_copies(*residue, atoms)) read.copies.push_back(name);
+    for (const StructureAtom* atom : atoms)
+      read.atoms.push_back({atom, element_of(*atom),
+                            text_of({atom->name, residue->name, residue->number, shown(part.label)})});
+  }
+  read.chain.bead_count = read.atoms.size();
+  if (read.atoms.empty() && selection == Selection::automatic)
+    return read_part(parts, part, Selection::ca);  // a coarse-grained model
+  return read;
 }
 
-}  // namespace
+const char* atoms_of(Selection selection) { return selection == Selection::ca ? "CA" : "N, CA and C"; }
 
-std::vector<std::string> chains_asked_for(const std::string& file, const gemmi::Model& model,
-                                          const std::optional<std::string>& list) {
-  if (!list) return {default_chain(file, model)};
-  const std::vector<std::string> held = chain_names(model);
-  std::vector<std::string> wanted;
+// Lines on the residues of a part that are left out or doubtful.
+void add_notes(const Parts& parts, const Part& part, const PartRead& read, std::vector<std::string>& notes) {
+  constexpr std::size_t most = 5;
+  const std::string label = shown(part.label);
+  if (!read.lacking.empty())
+    notes.push_back(fmt::format("chain {}: {} of {} read; {} without {}: {}", label, read.chain.residues_read,
+                                counted(read.chain.residues, "residue"), read.lacking.size(),
+                                atoms_of(read.selection), joined(read.lacking, most)));
+  if (!read.repeated.empty())
+    notes.push_back(fmt::format("chain {}: {} with the number of an earlier one, read too: {}", label,
+                                counted(read.repeated.size(), "residue"), joined(read.repeated, most)));
+  if (!read.copies.empty())
+    notes.push_back(fmt::format("chain {}: {} with an atom of the selection twice, the first counts: {}",
+                                label, counted(read.copies.size(), "residue"), joined(read.copies, most)));
+  if (!part.free_residues.empty())
+    notes.push_back(fmt::format("chain {}: {} taken for free ones (HETATM) and not read: {}", label,
+                                counted(part.free_residues.size(), "amino acid"),
+                                joined(part.free_residues, most)));
+  const std::vector<const Part*> molecules = parts.molecules_of(part);
+  if (!part.molecule && molecules.size() > 1)
+    notes.push_back(
+        fmt::format("chain {} has {} molecules and is read as one necklace; --chain {} reads one each", label,
+                    molecules.size(), fmt::join(labels_of(molecules), ",")));
+}
+
+// A line on the parts that are not read by default.
+std::optional<std::string> describe_unread(const Parts& parts, const Part& read, const PartRead& beads,
+                                           Selection selection) {
+  constexpr std::size_t most = 10;
+  std::vector<const Part*> unread, readable;
+  bool chains = !read.molecule;
+  std::size_t residues = beads.chain.residues;
+  for (const Part* part : parts.default_parts()) {
+    if (part == &read) continue;
+    unread.push_back(part);
+    chains = chains || !part->molecule;
+    const PartRead other = read_part(parts, *part, selection);
+    residues += other.chain.residues;
+    if (!other.atoms.empty()) readable.push_back(part);
+  }
+  if (unread.empty()) return std::nullopt;
+  const std::string noun = chains ? "chain" : "molecule", labels = joined(labels_of(unread), most);
+  std::string line = fmt::format("{}{} {} not read", noun, unread.size() == 1 ? "" : "s", labels);
+  if (!chains)
+    line = fmt::format("no chain has a name: molecule {} is read, {} of {}; {}", read.label,
+                       beads.chain.residues_read, counted(residues, "residue"), line);
+  if (!readable.empty())
+    line += fmt::format("; --chain {1} or --chain {0},{1} reads {2}", shown(read.label),
+                        shown(readable.front()->label), readable.size() == 1 ? "it" : "them likewise");
+  return line;
+}
+
+InputError no_polymer_in(const std::string& file, const Parts& parts) {
+  return InputError(
+      fmt::format("{}: no chain of amino acids or nucleotides in this file, which holds {}; "
+                  "--select all reads them",
+                  file, parts.contents()));
+}
+
+std::vector<const Part*> parts_asked_for(const std::string& file, const Parts& parts, Selection selection,
+                                         const std::optional<std::string>& list) {
+  if (!parts.has_polymer() && selection != Selection::all && !list) throw no_polymer_in(file, parts);
+  if (!list) return {&default_part(parts.default_parts())};
+  std::vector<const Part*> wanted;
   for (std::string_view rest = *list;;) {
     const std::size_t comma = rest.find(',');
     const std::string name(trimmed(rest.substr(0, comma)));
-    if (std::find(held.begin(), held.end(), name) == held.end()) {
-      const std::vector<std::string> polymers = polymer_chains(model);
-      if (polymers.empty()) throw no_polymer_in(file);
+    const Part* const part = parts.named(name);
+    if (part == nullptr) {
+      if (!parts.has_polymer() && selection != Selection::all) throw no_polymer_in(file, parts);
+      std::vector<std::string> expected;
+      for (const Part* one : parts.default_parts()) {
+        expected.push_back(shown(one->label));
+        const std::vector<const Part*> molecules = parts.molecules_of(*one);
+        if (!one->molecule && molecules.size() > 1)
+          for (const std::string& label : labels_of(molecules)) expected.push_back(label);
+      }
       throw InputError(fmt::format("--chain: {} has no chain {}; expected {}", file, in_quotes(name),
-                                   listed(polymers, polymers.size())));
+                                   joined(expected, expected.size())));
     }
-    if (std::find(wanted.begin(), wanted.end(), name) != wanted.end())
+    if (std::find(wanted.begin(), wanted.end(), part) != wanted.end())
       throw InputError(fmt::format("--chain: {} is listed twice for {}", in_quotes(name), file));
-    wanted.push_back(name);
+    for (const Part* other : wanted)
+      if (other->chain == part->chain && (!other->molecule || !part->molecule))
+        throw InputError(fmt::format("--chain: molecule {} of {} is part of chain {}, which is listed too",
+                                     part->molecule ? part->label : other->label, file,
+                                     in_quotes(part->chain)));
+    wanted.push_back(part);
     if (comma == std::string_view::npos) return wanted;
     rest.remove_prefix(comma + 1);
   }
 }
 
-std::optional<std::string> describe_unread_chains(const std::string& file, const gemmi::Model& model,
-                                                  const std::string& read, Selection selection) {
-  std::vector<std::string> unread, readable;
-  for (const std::string& name : polymer_chains(model)) {
-    if (name == read) continue;
-    unread.push_back(name);
-    if (!atoms_of_chain(model, selection, name).empty()) readable.push_back(name);
-  }
-  if (unread.empty()) return std::nullopt;
-  constexpr std::size_t most = 10;
-  std::string line =
-      fmt::format("{}: {} {} not read", file, unread.size() == 1 ? "chain" : "chains", listed(unread, most));
-  if (!readable.empty())
-    line += fmt::format("; --chain {1} or --chain {0},{1} reads {2}", shown(read), shown(readable.front()),
-                        readable.size() == 1 ? "it" : "them likewise");
-  return line;
-}
+}  // namespace
 
-std::vector<SelectedAtom> select_polymer_atoms(const std::string& file, const gemmi::Model& model,
-                                               Selection selection, const std::string& chain) {
-  std::vector<SelectedAtom> atoms = atoms_of_chain(model, selection, chain);
-  if (atoms.empty()) {
-    const char* what = selection == Selection::all  ? "any residue of a polymer"
-                       : selection == Selection::ca ? "an atom CA in any residue of a polymer"
-                                                    : "N, CA and C in any residue of a polymer";
-    throw InputError(fmt::format("--select: chain {} of {} does not hold {}", in_quotes(chain), file, what));
+SelectedChains select_chains(const std::string& file, const StructureModel& model, Selection selection,
+                             const std::optional<std::string>& list) {
+  if (model.residues.empty()) throw InputError(fmt::format("{}: no atoms", file));
+  const Parts parts(model);
+  SelectedChains selected;
+  for (const Part* part : parts_asked_for(file, parts, selection, list)) {
+    PartRead read = read_part(parts, *part, selection);
+    if (read.atoms.empty())
+      throw InputError(
+          fmt::format("--select: chain {} of {} does not hold {} in any residue of a polymer; "
+                      "--select all reads its {}",
+                      in_quotes(part->label), file, selection == Selection::ca ? "an atom CA" : "N, CA and C",
+                      counted(parts.candidates(*part, Selection::all).size(), "residue")));
+    // A list of chains leaves out the others on purpose.
+    if (!list)
+      if (auto unread = describe_unread(parts, *part, read, selection))
+        selected.notes.push_back(std::move(*unread));
+    add_notes(parts, *part, read, selected.notes);
+    selected.chains.push_back(std::move(read.chain));
+    std::move(read.atoms.begin(), read.atoms.end(), std::back_inserter(selected.atoms));
   }
-  return atoms;
+  return selected;
 }
 
 std::vector<double> element_radii_of(const std::vector<SelectedAtom>& atoms) {

@@ -1,42 +1,42 @@
 #pragma once
 // Which atoms of a structure are the beads of a necklace.
+//
+// A chain consists of molecules, which TER, segments (PDB) or label_asym_id (mmCIF) tell apart. `--chain`
+// names a chain, or a molecule by its number: A.2 is the second molecule of chain A, 2 the second one without
+// a chain name. Only molecules with amino acids or nucleotides have numbers. A chain's own name goes before
+// that of a molecule.
 
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "motions/frames/frame_reader.h"
 #include "motions/readers/read_options.h"
-
-namespace gemmi {
-struct Atom;
-struct Model;
-}  // namespace gemmi
+#include "motions/readers/structure_models.h"
 
 namespace kds {
 
 struct SelectedAtom {
-  const gemmi::Atom* atom;
+  const StructureAtom* atom;
   std::string element;
   std::string name;  ///< "CA of ALA 12 in chain A": tells models with other atoms apart
 };
 
-/// The beads of one chain, in its order. Residues of the chain count wherever they stand in the file, those
-/// of waters, ligands and sugars do not; of alternate locations and of two residues at one position the first
-/// counts. Throws InputError naming file and option if nothing is selected.
-[[nodiscard]] std::vector<SelectedAtom> select_polymer_atoms(const std::string& file,
-                                                             const gemmi::Model& model, Selection selection,
-                                                             const std::string& chain);
+struct SelectedChains {
+  std::vector<SelectedAtom> atoms;
+  std::vector<ChainRead> chains;
+  std::vector<std::string> notes;  ///< on residues and chains that are left out or guessed, a line each
+};
 
-/// The chains that a list between commas names, in its order; the default chain where there is none. Throws
-/// InputError naming file and option where a name is empty, listed twice or not in the model.
-[[nodiscard]] std::vector<std::string> chains_asked_for(const std::string& file, const gemmi::Model& model,
-                                                        const std::optional<std::string>& list);
-
-/// One line about the other polymer chains of the model and how to read them; none where there are none.
-[[nodiscard]] std::optional<std::string> describe_unread_chains(const std::string& file,
-                                                                const gemmi::Model& model,
-                                                                const std::string& read, Selection selection);
+/// The beads of the chains that a list between commas names, in its order; of the first chain with amino
+/// acids if there is no list, otherwise of the first with nucleotides. Residues of a chain count wherever
+/// they stand in the file, unless they are waters, ligands or sugars. If a chain has none of its own kind,
+/// `all` reads every residue of it. The first of alternate locations counts, and the first of two residues
+/// that are alternates. Throws InputError naming file and option if a name is not in the model or listed
+/// twice, or nothing is selected.
+[[nodiscard]] SelectedChains select_chains(const std::string& file, const StructureModel& model,
+                                           Selection selection, const std::optional<std::string>& list);
 
 /// Van der Waals radii; empty where an element is unknown.
 [[nodiscard]] std::vector<double> element_radii_of(const std::vector<SelectedAtom>& atoms);

@@ -29,8 +29,12 @@ void ReaderRegistry::add(ReaderSpec reader) {
 }
 
 const ReaderSpec* ReaderRegistry::find(const std::filesystem::path& path) const {
-  const std::string last = file_ending(path);
-  for (const std::string& ending : {file_ending(path.stem()) + last, last}) {
+  const auto ending_of = [](const std::filesystem::path& name) {
+    const std::string ending = file_ending(name);
+    return is_assembly_ending(ending) ? ".pdb1" : ending;
+  };
+  const std::string last = ending_of(path);
+  for (const std::string& ending : {ending_of(path.stem()) + last, last}) {
     for (const ReaderSpec& reader : readers_)
       if (knows(reader, ending)) return &reader;
   }
@@ -51,7 +55,8 @@ ReaderRegistry& reader_registry() {
   static ReaderRegistry registry = [] {
     ReaderRegistry own;
     own.add({"structure",
-             {".pdb", ".ent", ".cif", ".mmcif", ".pdb.gz", ".ent.gz", ".cif.gz", ".mmcif.gz"},
+             {".pdb", ".ent", ".cif", ".mmcif", ".pdb1", ".pdb.gz", ".ent.gz", ".cif.gz", ".mmcif.gz",
+              ".pdb1.gz"},
              false,
              open_structure_frames});
     own.add({"dcd", {".dcd", ".dcd.gz"}, true, open_dcd});

@@ -1,28 +1,58 @@
 #pragma once
-// The models of a PDB or mmCIF file, one after the other: of a PDB file only the one asked for is in memory.
+// The models of a PDB or mmCIF file, one after the other: of a PDB file only the model asked for is in
+// memory. Both readers hand over every atom of a model; which of them are beads is decided in
+// polymer_selection.h.
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <filesystem>
-#include <gemmi/model.hpp>
+#include <gemmi/elem.hpp>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "motions/frames/frame_selection.h"
 #include "motions/frames/periodic.h"
 
 namespace kds {
 
+struct StructureAtom {
+  std::string name;
+  char alternate = '\0';  ///< location indicator, 0 if the atom has one location
+  gemmi::Element element{gemmi::El::X};
+  std::size_t place = 0;  ///< among the model's atoms in the file, from 0
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+};
+
+/// What the file says about the molecule that a residue belongs to.
+enum class Entity { unknown, polymer, other };
+
+struct StructureResidue {
+  std::string chain, number, name;  ///< the number with its insertion code, as in 52A
+  std::string sequence;             ///< number in the entity's sequence (mmCIF), empty if the file has none
+  std::string molecule;   ///< tells the molecules of a chain apart: by TER and segment, or label_asym_id
+  bool het = false;       ///< its first atom is a HETATM
+  bool repeated = false;  ///< an earlier residue of the molecule has the number of this one
+  Entity entity = Entity::unknown;
+  std::vector<StructureAtom> atoms;
+};
+
 struct StructureModel {
-  gemmi::Model model;  ///< an atom's serial number is its place among the model's atoms in the file, from 0
+  std::vector<StructureResidue> residues;  ///< in the order of the file
+  std::size_t atom_count = 0;
   std::optional<Cell> cell;
+  std::vector<std::string> notes;  ///< on how this model is read, one line each without the file's name
 };
 
 class StructureModels {
  public:
   virtual ~StructureModels() = default;
   [[nodiscard]] virtual FramesHeld held() const = 0;
-  /// Quick where they are asked for in their order. Throws InputError naming file and model.
+  /// Quick if models are asked for in their order. Throws InputError naming file and model.
   [[nodiscard]] virtual StructureModel model(std::size_t k) = 0;
+  /// Lines about parts of the file that are not read, without the file's name.
+  [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 };
 
 /// Throws InputError if the file cannot be read or holds no atoms.

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "motions/readers/read_trajectory.h"
@@ -92,7 +93,88 @@ TEST(MmcifReader, ReadsFilesWithoutTheColumnsThatAreNotNeeded) {
     EXPECT_EQ(some.element_radii, full.element_radii) << columns.front();
   }
   refuse(without({"Cartn_z"}), {"a.cif", "_atom_site.Cartn_z"});
-  refuse(without({"Cartn_x"}), {"a.cif"});
+  for (const char* axis : {"x", "y"}) {
+    const std::string column = std::string("Cartn_") + axis;
+    refuse(without({column}), {"a.cif", "the atoms have no column _atom_site." + column});
+  }
+  refuse(without({"label_atom_id"}),
+         {"neither a column _atom_site.label_atom_id nor _atom_site.auth_atom_id"});
+  refuse(without({"label_comp_id"}),
+         {"neither a column _atom_site.label_comp_id nor _atom_site.auth_comp_id"});
+  // Without numbers, residues begin where their atoms come again.
+  const Trajectory unnumbered = read(without({"label_seq_id", "auth_seq_id"}), all);
+  EXPECT_EQ(unnumbered.bead_count(), 4U);
+  EXPECT_THAT(unnumbered.warnings,
+              testing::Contains(testing::HasSubstr("3 residues with the number of an earlier")));
+}
+
+TEST(MmcifReader, RowsOfModelsMayBeMixed) {
+  for (const std::vector<int>& order : std::vector<std::vector<int>>{{1, 2}, {2, 1}, {1, 2, 3}, {7, 3, 5}}) {
+    std::string mixed, sorted;
+    for (int number = 1; number <= 3; ++number)
+      for (const char* name : {"N", "CA", "C"})
+        for (const int model : order) mixed += atom(name, std::to_string(10 * model + number), number, model);
+    for (const int model : order)
+      for (int number = 1; number <= 3; ++number)
+        sorted += residue(number, model, std::to_string(10 * model + number));
+    const Trajectory trajectory = read(file(mixed));
+    ASSERT_EQ(trajectory.frames.size(), order.size());
+    EXPECT_EQ(trajectory.frames, read(file(sorted)).frames);
+    EXPECT_EQ(trajectory.frames[1](0, 0), 10 * order[1] + 1);
+    EXPECT_TRUE(trajectory.warnings.empty());
+  }
+}
+
+TEST(MmcifReader, ReadsTheFirstDataBlockWithAtoms) {
+  const std::string full = file(residue(1) + residue(2));
+  const std::string headers = "loop_\n_atom_site.id\n_atom_site.Cartn_x\n";
+  for (const std::string& before :
+       {std::string("data_empty\n"), std::string("data_empty\n_entry.id x\n"),
+        std::string("data_a\ndata_b\n_cell.length_a 9\n"), "data_rows\n" + headers}) {
+    EXPECT_EQ(read(before + full).bead_count(), 6U) << before;
+    EXPECT_TRUE(read(before + full).warnings.empty()) << before;
+  }
+  EXPECT_EQ(read(full + "data_after\n_entry.id x\n").bead_count(), 6U);
+  std::string second = full;
+  second.replace(0, 6, "data_Y");
+  EXPECT_THAT(
+      read(full + second).warnings,
+      testing::ElementsAre(testing::EndsWith("a.cif: data block 'X' is read; the atoms of 'Y' are not")));
+  refuse("data_a\ndata_b\n", {"a.cif", "no atom in any data block"});
+}
+
+TEST(MmcifReader, OneTableOfAtomsABlock) {
+  const std::string full = file(residue(1));
+  refuse(full + full.substr(full.find("loop_\n_atom_site")),
+         {"data block 'X'", "more than one table _atom_site"});
+  // A single atom needs no loop, and tags are read in either case.
+  EXPECT_EQ(read("data_X\n_atom_site.Label_Atom_ID CA\n_atom_site.label_comp_id ALA\n_atom_site.cartn_x 1\n"
+                 "_atom_site.CARTN_Y 2\n_atom_site.Cartn_z 3\n")
+                .frames[0],
+            Eigen::MatrixXd(Eigen::Vector3d(1, 2, 3)));
+}
+
+TEST(MmcifReader, NumbersThatRestart) {
+  std::string atoms;
+  for (const int number : {0, 1, 9999, 0, 1})
+    for (const char* name : {"N", "CA", "C"})
+      atoms += "ATOM 1 " + std::string(name) + " " + name + " . ALA A 1 . ? 0 0 0 1.0 20.0 " +
+               std::to_string(number) + " Z 1\n";
+  const Trajectory trajectory = read(file(atoms));
+  EXPECT_EQ(trajectory.bead_count(), 15U);
+  EXPECT_THAT(trajectory.warnings,
+              testing::Contains(testing::HasSubstr("2 residues with the number of an earlier")));
+}
+
+TEST(MmcifReader, MoleculesOfAChain) {
+  std::string atoms;
+  for (const char* asym : {"A", "B"})
+    for (const char* name : {"N", "CA", "C"})
+      atoms +=
+          "ATOM 1 " + std::string(name) + " " + name + " . ALA " + asym + " 1 1 ? 0 0 0 1.0 20.0 1 Z 1\n";
+  EXPECT_EQ(read(file(atoms)).bead_count(), 6U);
+  EXPECT_THAT(read(file(atoms)).warnings, testing::Contains(testing::HasSubstr("chain Z has 2 molecules")));
+  EXPECT_EQ(read(file(atoms), {.chain = "Z.2"}).bead_names[0], "N of ALA 1 in chain Z.2");
 }
 
 TEST(MmcifReader, ChainsGoByTheirAuthorsNames) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include "motions/readers/pdb_models.h"
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
 
@@ -265,23 +264,7 @@ TEST(PdbReader, TopologyIsForDcdFiles) {
   EXPECT_NE(trajectory.warnings[0].find("--topology"), std::string::npos);
 }
 
-TEST(PdbModels, AtomsAreNumberedByTheirPlace) {
-  std::string text;
-  for (int i = 0; i < 100002; ++i) text += "ATOM  xxxxx  CA  ALA A   1       0.000   0.000   0.000\n";
-  PdbModelReader reader(test::write_file("a.pdb", text));
-  PdbModel model;
-  ASSERT_TRUE(reader.next(model));
-  EXPECT_FALSE(reader.skip());
-  EXPECT_EQ(reader.held().whole, 1U);
-  const std::string& lines = model.atom_lines;
-  const auto serial = [&](std::size_t i) { return lines.substr(i * (lines.size() / 100002) + 6, 5); };
-  EXPECT_EQ(serial(0), "    0");
-  EXPECT_EQ(serial(99999), "99999");
-  EXPECT_EQ(serial(100000), "A0000");
-  EXPECT_EQ(serial(100001), "A0001");
-}
-
-TEST(PdbModels, LargeTopology) {
+TEST(PdbReader, LargeTopology) {
   std::string text;
   for (int i = 0; i < 100010; ++i)
     text += pdb_line(

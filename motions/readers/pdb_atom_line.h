@@ -1,0 +1,28 @@
+#pragma once
+// The columns of an ATOM or HETATM line of a PDB file, checked.
+
+#include <string>
+#include <string_view>
+
+#include "motions/readers/structure_models.h"
+
+namespace kds {
+
+struct PdbAtom {
+  StructureAtom atom;
+  std::string residue;   ///< columns 18-20
+  char column_21 = ' ';  ///< belongs to the residue's name or to the chain's, see open_pdb.cpp
+  char chain = ' ';      ///< column 22
+  std::string number;    ///< columns 23-27: residue number and insertion code
+  std::string segment;   ///< columns 73-76
+  bool het = false;
+};
+
+/// The text in columns `first` to `last`, counted from 1, without blanks around it.
+[[nodiscard]] std::string_view columns(std::string_view line, std::size_t first, std::size_t last);
+
+/// Throws InputError naming file and line if the line is too short or holds a tab, a coordinate or the
+/// occupancy is not a number, or a number overflows its columns.
+[[nodiscard]] PdbAtom read_atom_line(const std::string& file, std::size_t line_number, std::string_view line);
+
+}  // namespace kds
