@@ -37,6 +37,9 @@ std::string extent(const Necklace::Extent& extent) {
 std::string necklace_line(const NecklaceInfo& info) {
   std::string line = fmt::format("beads {} to {}, radii {}, bonds {}", info.beads.first, info.beads.last,
                                  extent(info.radii), extent(info.bonds));
+  if (info.residues > 0)
+    line +=
+        fmt::format(", {} of {} residue{}", info.residues_read, info.residues, info.residues == 1 ? "" : "s");
   if (info.frames == 1) line += ", one frame";
   if (!info.breaks.empty())
     line += fmt::format(", {} chain break{}", info.breaks.size(), info.breaks.size() == 1 ? "" : "s");
@@ -58,6 +61,7 @@ void add_scene(Json& json, const SceneInfo& info) {
   Json files = Json::array(), necklaces = Json::array();
   for (const NecklaceInfo& necklace : info.necklaces) {
     files.push_back(necklace.file);
+    const bool known = necklace.residues > 0;
     necklaces.push_back({{"file", necklace.file},
                          {"first", necklace.beads.first},
                          {"last", necklace.beads.last},
@@ -68,7 +72,9 @@ void add_scene(Json& json, const SceneInfo& info) {
                          {"bond_min", number_or_null(necklace.bonds.least)},
                          {"bond_max", number_or_null(necklace.bonds.most)},
                          {"bond_ratio", number_or_null(necklace.bonds.ratio())},
-                         {"breaks", necklace.breaks}});
+                         {"breaks", necklace.breaks},
+                         {"residues", known ? Json(necklace.residues) : Json(nullptr)},
+                         {"residues_read", known ? Json(necklace.residues_read) : Json(nullptr)}});
   }
   json["input"] = {{"files", files}, {"beads", info.beads},           {"frames", info.frames},
                    {"dimension", 3}, {"radius_min", info.radius_min}, {"radius_max", info.radius_max}};

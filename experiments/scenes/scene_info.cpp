@@ -48,8 +48,14 @@ class Description {
       if (longest_ == nullptr || t.frames.size() > longest_->frames.size()) longest_ = &t;
       const auto first = static_cast<BeadId>(beads);
       beads += t.bead_count();
-      info_.necklaces.push_back(
-          {t.file, {first, static_cast<BeadId>(beads - 1)}, t.frames.size(), {}, {}, t.breaks});
+      info_.necklaces.push_back({t.file,
+                                 {first, static_cast<BeadId>(beads - 1)},
+                                 t.frames.size(),
+                                 {},
+                                 {},
+                                 t.breaks,
+                                 t.residues,
+                                 t.residues_read});
     }
     for (const Trajectory& t : trajectories)
       if (t.frames.size() != longest_->frames.size() && t.frames.size() != 1)
