@@ -26,6 +26,16 @@ std::string parse_radius(const std::string& rule) {
       fmt::format("--radius: '{}' is not auto, a positive number, element, element:fit or file:PATH", rule));
 }
 
+// Names of atoms are written in capitals, so CA is ca. `automatic` cannot be asked for.
+Selection parse_selection(const std::string& word) {
+  std::string lower = word;
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const auto names = std::span(selection_names).subspan(1);
+  const bool known = std::find(names.begin(), names.end(), lower) != names.end();
+  return choice_of("--select", known ? lower : word, names, Selection::backbone);
+}
+
 // Chains are for all inputs, or for each its own.
 void check_chains(const std::string& chains, std::size_t inputs) {
   const std::vector<std::string> lists = split(chains, '/');
@@ -63,9 +73,7 @@ InputOptions parse_input_options(const ParsedArguments& parsed, std::string_view
     options.inputs.emplace_back(input);
   }
   options.reading.topology = path_of(parsed, "--topology");
-  options.reading.selection =  // all but automatic, which is what it is when nobody asks
-      chosen(parsed, "--select", std::span(selection_names).subspan(1), Selection::backbone)
-          .value_or(Selection::automatic);
+  if (const auto word = parsed.value("--select")) options.reading.selection = parse_selection(*word);
   options.reading.chain = parsed.value("--chain");
   if (options.reading.chain) check_chains(*options.reading.chain, options.inputs.size());
   if (const auto range = parsed.value("--frames")) options.reading.frames = parse_frame_range(*range);

@@ -26,8 +26,9 @@ inline constexpr std::array kInputOptions{
     OptionSpec{"--select", "NAME",
                "backbone (N, CA, C), ca or all (default: backbone where residues are known)"},
     OptionSpec{"--chain", "IDS",
-               "the chain to read, or several, a necklace each: A,B; for each INPUT its own: A,B/C"
-               " (default: the first polymer chain)"},
+               "the chain to read, or several, a necklace each: A,B; for each INPUT its own: A,B/C; a "
+               "molecule by its"
+               " number: A.2 of chain A, 2 of those without a chain (default: the first polymer chain)"},
     OptionSpec{"--frames", "RANGE", "FIRST:LAST:STRIDE, from 0, LAST excluded (default: all)"},
     OptionSpec{"--radius", "RULE", "auto, a number, element, element:fit or file:PATH (default: auto)"},
 };
