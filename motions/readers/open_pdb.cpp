@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -24,6 +25,9 @@ namespace {
 enum class Column21 { residue_name, guessed_residue_name, chain_name };
 
 Column21 use_of_column_21(const PdbModel& model) {
+  const bool used = std::any_of(model.atoms.begin(), model.atoms.end(),
+                                [](const PdbAtom& atom) { return atom.column_21 != ' '; });
+  if (!used) return Column21::residue_name;
   std::size_t same = 0, different = 0;
   bool on_monomers = false;
   const PdbAtom* before = nullptr;
@@ -58,7 +62,7 @@ std::string chain_of(const PdbAtom& atom, bool named_by_column_21) {
 // they end with TER themselves.
 class Terminations {
  public:
-  std::size_t before(const std::string& chain) { return ended_[chain]; }
+  std::string before(const std::string& chain) { return std::to_string(ended_[chain]); }
   void end(const std::string& chain) { ++ended_[chain]; }
 
   void tell_entities(std::vector<StructureResidue>& residues, const std::vector<std::size_t>& piece_of) {
@@ -104,7 +108,8 @@ StructureModel structure_of(PdbModel&& read) {
     if (use != Column21::chain_name && atom.column_21 != ' ') residue.name += atom.column_21;
     residue.number = std::move(atom.number);
     residue.het = atom.het;
-    residue.molecule = fmt::format("{} {}", terminations.before(residue.chain), atom.segment);
+    residue.molecule = terminations.before(residue.chain) + ' ';
+    residue.molecule += atom.segment;
     grouping.add(residue, std::move(atom.atom));
   }
   if (end < read.ends.size()) terminations.end(residue.chain);

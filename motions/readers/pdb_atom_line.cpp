@@ -15,6 +15,7 @@ namespace kds {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_column_blank(char c) { return c == ' ' || c == '\t'; }
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
 char column(std::string_view line, std::size_t number) {
@@ -86,7 +87,11 @@ std::string residue_number(std::string_view text) {
 
 std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
   if (line.size() < first) return {};
-  return trimmed(line.substr(first - 1, last - first + 1));
+  // Simpler and faster than trimmed(): files of trajectories have many columns.
+  std::size_t begin = first - 1, end = std::min(last, line.size());
+  while (begin < end && is_column_blank(line[begin])) ++begin;
+  while (begin < end && is_column_blank(line[end - 1])) --end;
+  return line.substr(begin, end - begin);
 }
 
 PdbAtom read_atom_line(const std::string& file, std::size_t line_number, std::string_view line) {

@@ -27,6 +27,8 @@ std::string joined(std::vector<std::string> texts, std::size_t most) {
   return count > most ? fmt::format("{} and {} more", text, count - most) : text;
 }
 
+std::string name_of(const StructureResidue& residue) { return residue.name + ' ' + residue.number; }
+
 // Two residues at one position are alternates if all atoms of the second one say so.
 bool is_alternate_of(const StructureResidue& residue, const StructureResidue& before) {
   return before.number == residue.number && before.sequence == residue.sequence &&
@@ -63,7 +65,7 @@ class Parts {
       const ResidueKind kind = kind_of(residue);
       Part& chain = *find(chains_, residue.chain);
       if (kind == ResidueKind::none && is_tabulated_monomer(residue.name) && has_backbone(residue))
-        chain.free_residues.push_back(fmt::format("{} {}", residue.name, residue.number));
+        chain.free_residues.push_back(name_of(residue));
       if (kind == ResidueKind::none) continue;
       if (!chain.polymer.empty() && is_alternate_of(residue, *chain.polymer.back())) continue;
       add(chain, residue, kind);
@@ -233,15 +235,15 @@ PartRead read_part(const Parts& parts, const Part& part, Selection selection) {
   const Residues candidates = parts.candidates(part, selection);
   read.chain.residues = candidates.size();
   for (const StructureResidue* residue : candidates) {
-    const std::string name = fmt::format("{} {}", residue->name, residue->number);
     const std::vector<const StructureAtom*> atoms = selected_atoms(*residue, selection);
     if (atoms.empty()) {
-      read.lacking.push_back(name);
+      read.lacking.push_back(name_of(*residue));
       continue;
     }
     ++read.chain.residues_read;
-    if (residue->repeated && !part.polymer.empty()) read.repeated.push_back(name);
-    if (selection != Selection::all && holds_copies(*residue, atoms)) read.copies.push_back(name);
+    if (residue->repeated && !part.polymer.empty()) read.repeated.push_back(name_of(*residue));
+    if (selection != Selection::all && holds_copies(*residue, atoms))
+      read.copies.push_back(name_of(*residue));
     for (const StructureAtom* atom : atoms)
       read.atoms.push_back({atom, element_of(*atom),
                             text_of({atom->name, residue->name, residue->number, shown(part.label)})});

@@ -67,6 +67,11 @@ TEST(RunOptions, TakesEveryNamedValue) {
   EXPECT_EQ(parse_run_options({"a", "--audit=frames"}).audit, AuditMode::frames);
   EXPECT_EQ(parse_run_options({"a", "--select", "backbone"}).reading.selection, Selection::backbone);
   EXPECT_EQ(parse_run_options({"a", "--select", "all"}).reading.selection, Selection::all);
+  for (const char* name : {"ca", "CA", "Ca", "cA"})
+    EXPECT_EQ(parse_run_options({"a", "--select", name}).reading.selection, Selection::ca);
+  EXPECT_EQ(parse_run_options({"a", "--select", "BackBone"}).reading.selection, Selection::backbone);
+  EXPECT_THAT(refusal({"a", "--select", "Automatic"}),
+              HasSubstr("'Automatic' is not one of backbone, ca, all"));
   for (const char* rule : {"auto", "element", "element:fit", "file:radii.txt", "2", "1e-3"})
     EXPECT_EQ(parse_run_options({"a", "--radius", rule}).radius, rule);
 }

@@ -1,5 +1,6 @@
 // `kds info`: its options and what it tells.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -122,6 +123,24 @@ TEST(SceneInfo, InfinityIsNullInJson) {
   EXPECT_EQ(json["rows"][3]["first"][0]["beads"], Json::array({1, 0}));
   EXPECT_EQ(json["rows"][3]["first"][0]["by"], nullptr);
   EXPECT_EQ(Json::parse(json.dump()), json);
+}
+
+TEST(Info, CountsResidues) {
+  const ScratchDirectory directory;
+  std::string text;
+  for (int number = 1; number <= 4; ++number)
+    for (const char* name : {"N", "CA", "C"})
+      if (number != 3 || name[0] != 'N')
+        text += fmt::format("ATOM      1  {:<3} ALA A{:4}    {:8.3f}{:8.3f}{:8.3f}\n", name, number,
+                            4.5 * number, 1.0 * static_cast<double>(text.size()), 0.0);
+  const ProgramRun run = run_program({"info", directory.file("a.pdb", text), "--json", "-"});
+  EXPECT_THAT(run.err, HasSubstr("chain A: 3 of 4 residues read; 1 without N, CA and C: ALA 3"));
+  const Json info = Json::parse(run.out);
+  EXPECT_EQ(info["necklaces"][0]["residues"], 4);
+  EXPECT_EQ(info["necklaces"][0]["residues_read"], 3);
+  EXPECT_THAT(run_program({"info", directory.file("a.pdb", text)}).out, HasSubstr(", 3 of 4 residues"));
+  const std::string xyz = directory.file("a.xyz", "2\n\nC 0 0 0\nC 1 0 0\n");
+  EXPECT_EQ(Json::parse(run_program({"info", xyz, "--json", "-"}).out)["necklaces"][0]["residues"], nullptr);
 }
 
 TEST(Info, OfAFile) {
