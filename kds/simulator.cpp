@@ -36,7 +36,7 @@ class Simulator::Running {
       : running_(simulator.running_), before_(std::exchange(running_, true)) {}
   void end() { running_ = before_; }
 
-  /// Those who listen, of a change; apart from what goes on where nobody does.
+  /// Notifies the listeners of a change. Kept out of line, because most runs have none.
   [[gnu::noinline]] static void tell(Simulator& simulator, std::size_t structure, const Change& change);
 
  private:
@@ -83,7 +83,7 @@ void Simulator::build() {
   if (phase_ == Phase::within_step) require(Phase::between_steps, "build()");
   phase_ = Phase::between_steps;
   for (std::size_t s = 0; s < structures_.size(); ++s) {
-    watch_.charge(s + 1);
+    watch_.charge(lane_of(s));
     structures_[s]->build();
     watch_.charge(Stopwatch::stopped);
     structures_[s]->statistics.build_seconds = seconds_of(s);
@@ -102,7 +102,7 @@ void Simulator::finish() {
   const Entry entry(*this);
   require(Phase::between_steps, "finish()");
   for (std::size_t s = 0; s < structures_.size(); ++s) {
-    watch_.charge(s + 1);
+    watch_.charge(lane_of(s));
     structures_[s]->finish();
   }
   watch_.charge(Stopwatch::stopped);
@@ -124,7 +124,7 @@ void Simulator::start_step() {
   begin_step();
   Running running(*this);
   for (std::size_t s = 0; s < structures_.size(); ++s) {
-    watch_.charge(s + 1);
+    watch_.charge(lane_of(s));
     structures_[s]->start_step();
   }
   after_batch();
@@ -184,7 +184,7 @@ void Simulator::change_motion(std::span<const BeadId> beads, const std::function
   }
   Running running(*this);
   for (std::size_t s = 0; s < structures_.size(); ++s) {
-    watch_.charge(s + 1);
+    watch_.charge(lane_of(s));
     followers[s]->release(beads);
   }
   watch_.charge(Stopwatch::stopped);
@@ -195,7 +195,7 @@ void Simulator::change_motion(std::span<const BeadId> beads, const std::function
     refused = std::current_exception();
   }
   for (std::size_t s = 0; s < structures_.size(); ++s) {
-    watch_.charge(s + 1);
+    watch_.charge(lane_of(s));
     followers[s]->take_up(beads);
   }
   running.end();
@@ -242,7 +242,7 @@ void Simulator::clear_step() {
 void Simulator::finish_step() {
   clear_step();
   for (std::size_t s = 0; s < structures_.size(); ++s) {
-    watch_.charge(s + 1);
+    watch_.charge(lane_of(s));
     structures_[s]->finish_step();
   }
   watch_.charge(Stopwatch::stopped);
@@ -268,7 +268,7 @@ void Simulator::replay_step(std::span<const Replayed> events) {
   begin_step();
   for (const Replayed& event : events) {
     now_ = Instant(FailureTime{event.lower, event.upper, 0, false});
-    watch_.charge(event.structure + 1);
+    watch_.charge(lane_of(event.structure));
     try {
       structures_[event.structure]->apply(event.change);
     } catch (const std::invalid_argument& reason) {
@@ -285,7 +285,7 @@ bool Simulator::run_events(const Dyadic* until, std::uint64_t most) {
   Running running(*this);
   [[maybe_unused]] bool any = false;
   const bool alone = structures_.size() == 1;  // then the engine's time is the structure's
-  watch_.charge(alone ? 1 : nobody);
+  watch_.charge(alone ? lane_of(0) : nobody);
   while (true) {
     advance(queue_.empty() ? nullptr : &queue_.top());
     const bool tied =
@@ -311,7 +311,7 @@ bool Simulator::run_events(const Dyadic* until, std::uint64_t most) {
     queue_.pop();
     auto& source = static_cast<FailureSource&>(*present_.source);
     now_ = Instant(present_.time, source, present_.slot);
-    if (!alone) watch_.charge(source.structure() + 1);
+    if (!alone) watch_.charge(lane_of(source.structure()));
     source.fail(present_.slot);
     if (!alone) watch_.charge(nobody);
   }
@@ -346,7 +346,7 @@ void Simulator::advance(ScheduledFailure* next) {
 void Simulator::after_batch() {
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     if (!structures_[s]->needs_after_batch) continue;
-    const std::size_t before = watch_.charge(s + 1);
+    const std::size_t before = watch_.charge(lane_of(s));
     structures_[s]->needs_after_batch = false;
     structures_[s]->after_batch();
     watch_.charge(before);
@@ -397,12 +397,14 @@ void Simulator::record(std::size_t structure, const Change& change) {
 }
 
 void Simulator::Running::tell(Simulator& simulator, std::size_t structure, const Change& change) {
+  const std::size_t before = simulator.watch_.charge(listening);
   const KineticStructure& s = *simulator.structures_[structure];
   const Event event{simulator.step_, simulator.now_.lower(), simulator.now_.upper(), structure,    change,
                     s.name(),        s.kinds()[change.kind], simulator.from_,        simulator.to_};
   Running running(simulator);  // also where a structure is edited
   for (EventListener* listener : simulator.listeners_) listener->on_event(event);
   running.end();
+  simulator.watch_.charge(before);
 }
 
 }  // namespace kds

@@ -39,7 +39,9 @@ class FailureSource : public ScheduledSource {
 class Simulator {
  public:
   explicit Simulator(AuditMode audits = AuditMode::none, Kernel kernel = Kernel::filtered)
-      : queue_(order_), audits_(audits), kernel_(kernel) {}
+      : queue_(order_), audits_(audits), kernel_(kernel) {
+    watch_.add_lane();  // of listeners
+  }
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 
@@ -130,7 +132,9 @@ class Simulator {
   [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_.value(); }
   [[nodiscard]] const ComparisonCounts& comparisons() const { return order_.counts(); }
   [[nodiscard]] double seconds() const { return watch_.seconds(nobody); }
-  [[nodiscard]] double seconds_of(std::size_t structure) const { return watch_.seconds(structure + 1); }
+  [[nodiscard]] double seconds_of(std::size_t structure) const { return watch_.seconds(lane_of(structure)); }
+  /// Time that listeners took; it belongs to no structure, nor to the engine.
+  [[nodiscard]] double seconds_of_listeners() const { return watch_.seconds(listening); }
 
  private:
   /// What an irrational time is a root of, whatever becomes of the certificate that failed then.
@@ -141,7 +145,9 @@ class Simulator {
   };
 
   enum class Phase : std::uint8_t { new_run, between_steps, within_step };
-  static constexpr std::size_t nobody = 0;  // the stopwatch's lane of the engine; structures follow
+  // The stopwatch's lanes: engine, listeners, then structures.
+  static constexpr std::size_t nobody = 0, listening = 1;
+  [[nodiscard]] static constexpr std::size_t lane_of(std::size_t structure) { return structure + 2; }
 
   class Running;
 

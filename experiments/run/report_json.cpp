@@ -83,6 +83,7 @@ Json run_json(const RunReport& report) {
   Json comparisons = Json::object();
   add_counts(comparisons, report.comparisons);
   json["engine"] = {{"seconds", report.engine_seconds},
+                    {"listeners_seconds", report.listeners_seconds},
                     {"close_comparisons", comparisons},
                     {"exact_work", report.exact_work}};
   json["fingerprint"] = hex_digits(report.fingerprint);

@@ -66,6 +66,7 @@ RunReport report_of(Session& session, const Scene& scene, const RunOptions& opti
         report_of(*session.structures()[s], session.simulator().seconds_of(s), counts.courses()[s]));
   }
   report.engine_seconds = session.simulator().seconds();
+  report.listeners_seconds = session.simulator().seconds_of_listeners();
   const ComparisonCounts& comparisons = session.simulator().comparisons();
   report.comparisons = {
       {"same_function", comparisons.by_identity}, {"exact", comparisons.exact}, {"ties", comparisons.ties}};

@@ -52,6 +52,7 @@ struct RunReport {
   std::vector<StructureReport> structures;
   std::size_t rounds = 1;                   ///< that times are of
   double engine_seconds = 0;                ///< queue and clock
+  double listeners_seconds = 0;             ///< writing and counting events
   NamedCounts comparisons;                  ///< of failure times whose brackets overlap, by what settled them
   std::uint64_t exact_work = 0;             ///< limb operations of exact arithmetic
   std::uint64_t fingerprint = 0;            ///< printed as 16 hex digits

@@ -50,6 +50,7 @@ inline RunReport sample_report() {
   report.settings = {{"motion", "linear"}, {"kernel", "filtered"}};
   report.structures = {wrapped, power};
   report.engine_seconds = 0.125;
+  report.listeners_seconds = 0.0625;
   report.comparisons = {{"exact", 7}, {"ties", 2}};
   report.fingerprint = 0xabcdef;
   return report;

@@ -89,6 +89,41 @@ TEST_F(SimulatorTest, EventsTellOfFramesAsTheyAreSet) {
   EXPECT_EQ(listener.heard[1].event.kind.name, "turn");
 }
 
+/// Takes its time over each event.
+class Sleeper final : public EventListener {
+ public:
+  void on_event(const Event&) override {
+    const auto end = std::chrono::steady_clock::now() + nap;
+    while (std::chrono::steady_clock::now() < end) {
+    }
+    ++naps;
+  }
+  static constexpr std::chrono::milliseconds nap{2};
+  int naps = 0;
+};
+
+// A moment counts for one of structures, engine and listeners.
+TEST_F(SimulatorTest, ListenersHaveTheirOwnSeconds) {
+  Script b{simulator, log, "b"};
+  Sleeper sleeper;
+  simulator.listen(sleeper);
+  a.on_start = [&] {
+    a.change(1, 9);
+    a.schedule("1/2", falling(1, 2), 1);
+  };
+  b.on_start = [&] {
+    b.schedule("1/3", falling(1, 3), 2, [&] {
+      b.change(0, 2);
+      b.needs_after_batch = true;
+    });
+  };
+  b.on_batch_end = [&] { b.change(1, 3); };
+  run();
+  ASSERT_EQ(sleeper.naps, 4);
+  EXPECT_GE(simulator.seconds_of_listeners(),
+            sleeper.naps * std::chrono::duration<double>(Sleeper::nap).count());
+}
+
 TEST_F(SimulatorTest, AStepOfTooManyFailuresIsGivenUp) {
   a.on_start = [&] {
     a.schedule("3/4", falling(3, 4), 1);
