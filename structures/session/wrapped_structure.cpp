@@ -27,6 +27,7 @@ class WrappedInRun final : public RunningStructure {
 
   [[nodiscard]] KineticStructure& kinetic() override { return hierarchy_; }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const override {
+    // A basis as events tell it may have beads to spare at the frame itself; its sphere needs one without.
     const std::vector<Basis> bases = hierarchy_.bases_at(Dyadic(frame == 0 ? 0.0 : 1.0));
     const Balls<Dimension> balls(scene_.centers(frame), scene_.radii());
     std::vector<WrappedNode> nodes;
@@ -35,7 +36,7 @@ class WrappedInRun final : public RunningStructure {
       Sphere sphere = exact_sphere_of(bases[id], balls);
       if (hierarchy_.relaxation().any()) enlarge(sphere);
       sphere.center = scene_.in_input(sphere.center);
-      nodes.push_back({hierarchy_.tree().range(id), bases[id], sphere});
+      nodes.push_back({hierarchy_.tree().range(id), hierarchy_.basis(id), sphere});
     }
     return {dump_wrapped(nodes)};
   }

@@ -107,6 +107,30 @@ bool well_formed(const Node& node, std::size_t beads, const std::string& where, 
   return report.mismatch_count == before;
 }
 
+// The basis without beads to spare.
+std::vector<unsigned> proper_part(const Frame& frame, std::vector<unsigned> basis) {
+  const RootNumber radius = cgal_sphere(frame, basis).exact_radius;
+  for (std::size_t i = 0; basis.size() > 1 && i < basis.size();) {
+    std::vector<unsigned> fewer = without(basis, i);
+    if (compare(cgal_sphere(frame, fewer).exact_radius, radius) == CGAL::ZERO) {
+      basis = std::move(fewer);
+    } else {
+      ++i;
+    }
+  }
+  return basis;
+}
+
+// In a degenerate frame a basis may have beads to spare, but none that does not touch its sphere.
+std::optional<std::string> objection_to_members(const Frame& frame, const Node& node,
+                                                const ExactSphere& own) {
+  for (const unsigned bead : node.basis) {
+    if (!touches(own, frame[bead]))
+      return "bead " + std::to_string(bead) + " of the basis does not touch the basis sphere";
+  }
+  return std::nullopt;
+}
+
 // Radii are compared as exact numbers, so the basis sphere is the node's sphere or it is not.
 std::optional<std::string> objection_by_cgal(const Frame& frame, const Node& node,
                                              const ExactSphere& smallest) {
@@ -115,21 +139,26 @@ std::optional<std::string> objection_by_cgal(const Frame& frame, const Node& nod
     return "the basis sphere is smaller than the node's, radius " + std::to_string(own.radius) + " against " +
            std::to_string(smallest.radius);
   }
-  for (std::size_t i = 0; node.basis.size() > 1 && i < node.basis.size(); ++i) {
-    const ExactSphere less = cgal_sphere(frame, without(node.basis, i));
-    if (compare(less.exact_radius, own.exact_radius) == CGAL::ZERO) {
-      return "the basis is not minimal, without bead " + std::to_string(node.basis[i]) +
-             " it has the same sphere";
-    }
-  }
-  return std::nullopt;
+  return objection_to_members(frame, node, own);
+}
+
+// For beads of equal radii, of the basis' proper part where it has beads to spare.
+Proof prove_node(const Frame& frame, const Node& node) {
+  Proof proof = prove_sphere(frame, node);
+  if (!proof.objection) return proof;
+  Node proper = node;
+  proper.basis = proper_part(frame, node.basis);
+  if (proper.basis == node.basis) return proof;
+  proof = prove_sphere(frame, proper);
+  if (!proof.objection) proof.objection = objection_to_members(frame, node, cgal_sphere(frame, proper.basis));
+  return proof;
 }
 
 void check_node(const Frame& frame, const Node& node, bool equal_radii, bool cross_check,
                 const std::string& where, Report& report) {
   std::optional<std::string> objection;
   if (equal_radii) {
-    const Proof proof = prove_sphere(frame, node);
+    const Proof proof = prove_node(frame, node);
     objection = proof.objection;
     if (!objection && !agrees(node, proof.sphere)) objection = "centre or radius is not the basis sphere's";
   }
@@ -152,17 +181,9 @@ std::vector<Node> static_hierarchy(const Frame& frame, const std::vector<std::si
     node.first = first;
     node.last = last;
     const ExactSphere sphere = cgal_sphere(frame, beads_of(node));
-    node.basis = sphere.support;
+    node.basis = proper_part(frame, sphere.support);  // CGAL's support set need not be minimal
     node.centre = sphere.centre;
     node.radius = sphere.radius;
-    for (std::size_t i = 0; node.basis.size() > 1 && i < node.basis.size();) {
-      const std::vector<unsigned> fewer = without(node.basis, i);
-      if (compare(cgal_sphere(frame, fewer).exact_radius, sphere.exact_radius) == CGAL::ZERO) {
-        node.basis = fewer;  // CGAL's support set need not be minimal
-      } else {
-        ++i;
-      }
-    }
     nodes.push_back(node);
     build(first, first + (last - first) / 2);
     build(first + (last - first) / 2 + 1, last);

@@ -255,10 +255,10 @@ std::vector<Corruption> wrapped_corruptions() {
          return true;
        }},
       {"a basis bead too many",
-       [=](const Scene&, Tables& t, Dice& dice) {
+       [=](const Scene& s, Tables& t, Dice& dice) {
          Node& node = any(t, dice);
          const unsigned bead = node.first + static_cast<unsigned>(dice.below(node.last - node.first + 1));
-         if (std::find(node.basis.begin(), node.basis.end(), bead) != node.basis.end()) return false;
+         if (touches(cgal_sphere(s.frames[0], node.basis), s.frames[0][bead])) return false;
          node.basis.push_back(bead);
          std::sort(node.basis.begin(), node.basis.end());
          return true;
@@ -282,22 +282,6 @@ std::vector<Corruption> wrapped_corruptions() {
            set_sphere(wider, circle);
            node = wider;
            return true;
-         }
-         return false;
-       }},
-      {"a basis bead that changes nothing",
-       [](const Scene& s, Tables& t, Dice&) {
-         for (Node& node : t.nodes) {
-           for (unsigned bead = node.first; bead <= node.last && node.basis.size() < 4; ++bead) {
-             if (std::find(node.basis.begin(), node.basis.end(), bead) != node.basis.end()) continue;
-             Node more = node;
-             more.basis.push_back(bead);
-             std::sort(more.basis.begin(), more.basis.end());
-             const ExactSphere sphere = prove_sphere(s.frames[0], more).sphere;
-             if (sphere.radius != node.radius || sphere.centre != node.centre) continue;
-             node = more;
-             return true;
-           }
          }
          return false;
        }},

@@ -118,13 +118,30 @@ ExactSphere cgal_sphere(const Frame& frame, const std::vector<unsigned>& beads) 
   sphere.exact_radius = {radius.first, radius.second, d};
   sphere.radius = to_double(sphere.exact_radius);
   auto centre = smallest.center_cartesian_begin();
-  for (std::size_t c = 0; c < 3; ++c, ++centre)
-    sphere.centre[c] = to_double({centre->first, centre->second, d});
+  for (std::size_t c = 0; c < 3; ++c, ++centre) {
+    sphere.exact_centre[c] = {centre->first, centre->second, d};
+    sphere.centre[c] = to_double(sphere.exact_centre[c]);
+  }
   for (auto it = smallest.support_begin(); it != smallest.support_end(); ++it) {
     sphere.support.push_back((*it).bead);
   }
   std::sort(sphere.support.begin(), sphere.support.end());
   return sphere;
+}
+
+bool touches(const ExactSphere& sphere, const Ball& ball) {
+  // The squared distance of the centres less the squared difference of the radii is a + b sqrt(d).
+  const RootNumber& radius = sphere.exact_radius;
+  const Rational& d = radius.d;
+  const Rational gap = radius.a - Rational(ball.radius);
+  Rational a = -(gap * gap + radius.b * radius.b * d), b = -2 * gap * radius.b;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const RootNumber& centre = sphere.exact_centre[c];
+    const Rational apart = centre.a - Rational(ball.centre[c]);
+    a += apart * apart + centre.b * centre.b * d;
+    b += 2 * apart * centre.b;
+  }
+  return sign_of(a, b, d) == CGAL::ZERO;
 }
 
 Proof prove_sphere(const Frame& frame, const Node& node) {

@@ -27,12 +27,16 @@ struct ExactSphere {
   std::array<double, 3> centre{};  ///< rounded
   double radius = 0;               ///< rounded
   RootNumber exact_radius;
-  std::vector<unsigned> support;  ///< ascending
+  std::array<RootNumber, 3> exact_centre;  ///< all under the root of the radius
+  std::vector<unsigned> support;           ///< ascending
 };
 
 /// CGAL's smallest sphere around the given balls. Its LP algorithm: the default heuristic misses beads of
 /// cospherical sets.
 [[nodiscard]] ExactSphere cgal_sphere(const Frame& frame, const std::vector<unsigned>& beads);
+
+/// Whether a ball inside the sphere touches it: its centre is as far from the sphere's as the radii differ.
+[[nodiscard]] bool touches(const ExactSphere& sphere, const Ball& ball);
 
 struct Proof {
   ExactSphere sphere;  ///< through the basis; without its exact radius

@@ -58,6 +58,7 @@ class SelfTest {
         spoil(named, two, power, corruption);
     }
     for (const Corruption& corruption : wrapped_corruptions()) spoil(named, two, wrapped, corruption);
+    beads_to_spare(named, two, wrapped);
     for (const std::string kind : {"power", "hidden"}) spoil_files(named, two, power, kind);
     spoil_files(named, two, wrapped, "wrapped");
     for (const fs::path& part : {power, wrapped}) {
@@ -132,6 +133,28 @@ class SelfTest {
     fs::copy_file(file, dump_file(dump, 2, kind));
     judge(named, scene, dump, kind + ": a frame too many");
     fs::remove(dump_file(dump, 2, kind));
+  }
+
+  // Beads to spare must pass where they touch the sphere.
+  void beads_to_spare(const NamedScene& named, const Scene& scene, const fs::path& dump) {
+    Tables tables = original_;
+    std::size_t found = 0;
+    for (Node& node : tables.nodes) {
+      const ExactSphere sphere = cgal_sphere(scene.frames[0], node.basis);
+      for (unsigned bead = node.first; bead <= node.last && node.basis.size() < 4; ++bead) {
+        if (std::find(node.basis.begin(), node.basis.end(), bead) != node.basis.end()) continue;
+        if (!touches(sphere, scene.frames[0][bead])) continue;
+        node.basis.push_back(bead);
+        ++found;
+      }
+      std::sort(node.basis.begin(), node.basis.end());
+    }
+    expect(named.generic || found > 0, named.name + ": no node has a bead to spare");
+    write(tables, dump);
+    const Report report = check_dump(scene, dump, 1);
+    for (const std::string& line : report.mismatches)
+      failures.push_back(named.name + ", beads to spare: " + line);
+    write(original_, dump);
   }
 
   // Another of the grid's many triangulations must pass.
