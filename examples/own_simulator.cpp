@@ -72,6 +72,7 @@ class Reporter final : public kds::EventListener {
     std::printf("%.4f: bead %u and the peg, contacts %s\n", time_step * event.frame(), event.ids()[0],
                 kind.c_str());
   }
+  [[nodiscard]] bool prints_time_of(const kds::Event&) const override { return true; }
 };
 
 }  // namespace

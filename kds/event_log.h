@@ -3,11 +3,13 @@
 // there is to tell, and that outlives the run.
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "kds/change.h"
+#include "kds/rounded_time.h"
 #include "kds/statistics.h"
 #include "motions/frames/frame_stamp.h"
 
@@ -22,14 +24,18 @@ struct Event {
   EventKind kind;
   FrameStamp from,
       to;  ///< the frames that the step leads from and to, where none are known steps are counted
+  /// Its time in digits that are certain: for listeners that print times.
+  std::optional<RoundedTime> rounded;
 
   [[nodiscard]] std::span<const BeadId> ids() const { return {change.ids.data(), change.size}; }
-  /// The middle of its bracket. By the numbers of frames, with a fraction between two.
+  /// Its time by the numbers of frames, with a fraction between two: rounded, or the middle of its bracket.
   [[nodiscard]] double frame() const {
-    return between(static_cast<double>(from.number), static_cast<double>(to.number));
+    return rounded ? rounded->frame
+                   : between(static_cast<double>(from.number), static_cast<double>(to.number));
   }
   [[nodiscard]] bool has_picoseconds() const { return from.picoseconds && to.picoseconds; }
   [[nodiscard]] double picoseconds() const {
+    if (rounded && rounded->picoseconds) return *rounded->picoseconds;
     return between(from.picoseconds.value_or(0), to.picoseconds.value_or(0));
   }
   /// Calls `visit(role, ids)` for each role that ids are in.
@@ -56,6 +62,12 @@ class EventListener {
   /// While the change is being made: not to change structures, nor to let time run. Where it throws the run
   /// is over.
   virtual void on_event(const Event& event) = 0;
+  /// Whether it prints the time of this event. Then the time is rounded to twelve digits that are certain
+  /// (Event::rounded), which takes exact work where the bracket is wide.
+  [[nodiscard]] virtual bool prints_time_of(const Event& event) const {
+    static_cast<void>(event);
+    return false;
+  }
 };
 
 /// Keeps everything.

@@ -399,10 +399,16 @@ void Simulator::record(std::size_t structure, const Change& change) {
 void Simulator::Running::tell(Simulator& simulator, std::size_t structure, const Change& change) {
   const std::size_t before = simulator.watch_.charge(listening);
   const KineticStructure& s = *simulator.structures_[structure];
-  const Event event{simulator.step_, simulator.now_.lower(), simulator.now_.upper(), structure,    change,
-                    s.name(),        s.kinds()[change.kind], simulator.from_,        simulator.to_};
+  Event event{simulator.step_, simulator.now_.lower(), simulator.now_.upper(), structure,     change,
+              s.name(),        s.kinds()[change.kind], simulator.from_,        simulator.to_, {}};
   Running running(simulator);  // also where a structure is edited
-  for (EventListener* listener : simulator.listeners_) listener->on_event(event);
+  for (EventListener* listener : simulator.listeners_) {
+    if (!event.rounded && listener->prints_time_of(event)) {
+      const ExactWork::Open account(simulator.listeners_work_);  // the run's own work stays the same
+      event.rounded = rounded_time(simulator.now_, simulator.from_, simulator.to_);
+    }
+    listener->on_event(event);
+  }
   running.end();
   simulator.watch_.charge(before);
 }

@@ -169,7 +169,7 @@ class Simulator {
   void after_batch();
   void audit(const Dyadic& time);
 
-  ExactWork work_;
+  ExactWork work_, listeners_work_;
   FailureOrder order_;
   EventQueue<ScheduledFailure, FailureOrder> queue_;
   std::vector<KineticStructure*> structures_;

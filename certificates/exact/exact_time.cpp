@@ -140,6 +140,16 @@ void ExactTime::narrow_for_doubles() {
   while (!is_dyadic() && root_.upper.round_up() - root_.lower.round_down() > width) refine();
 }
 
+void ExactTime::narrow_to_width(double width) {
+  const auto is_wide = [&] { return root_.upper.rational() - root_.lower.rational() > Rational(width); };
+  if (!is_dyadic() && polynomial_.wide() == nullptr && is_wide()) {
+    const double guess = rough(*this);
+    for (const double reach : {0.25 * width, 16 * width})
+      if (narrow_to(Dyadic(guess - reach), Dyadic(guess + reach))) break;
+  }
+  while (!is_dyadic() && is_wide()) refine();
+}
+
 namespace {
 
 // Binary places down to the length of a time's interval.

@@ -43,6 +43,13 @@ ExactTime& Instant::exact() const {
   return *exact_;
 }
 
+std::optional<ExactTime> Instant::exact_apart() const {
+  if (source_ != nullptr) return exact_time(*source_->exact_function(slot_), time_);
+  if (exact_) return *exact_;
+  if (time_.lower != time_.upper) return std::nullopt;
+  return ExactTime(Dyadic(time_.lower));
+}
+
 bool Instant::narrow() const {
   if (narrowed_ || source_ == nullptr || time_.upper - time_.lower <= 0x1p-45) return false;
   narrowed_ = true;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "certificates/base/failure_time.h"
 
@@ -50,6 +51,9 @@ class Instant {
   bool narrow() const;
   /// Throws std::logic_error where there is a bracket and nothing behind it.
   [[nodiscard]] ExactTime& exact() const;
+  /// A new exact number for the same time, which can be narrowed apart from this instant. None where there is
+  /// a bracket and nothing behind it.
+  [[nodiscard]] std::optional<ExactTime> exact_apart() const;
 
  private:
   struct Delete {  // so that exact numbers are included only by those who use them

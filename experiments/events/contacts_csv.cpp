@@ -28,7 +28,11 @@ void ContactsCsv::add_built(const Session& session) {
 }
 
 void ContactsCsv::on_event(const Event& event) {
-  if (event.structure == structure_name && !event.kind.counted_apart) add(event, event.kind.name);
+  if (is_of_contact(event)) add(event, event.kind.name);
+}
+
+bool ContactsCsv::is_of_contact(const Event& event) {
+  return event.structure == structure_name && !event.kind.counted_apart;
 }
 
 ContactsDump::ContactsDump(std::ostream& stream) : stream_(stream) {

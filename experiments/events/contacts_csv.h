@@ -27,6 +27,9 @@ class ContactsCsv : public EventListener {
   void add_built(const Session& session);
   void on_event(const Event& event) override;
 
+ protected:
+  [[nodiscard]] static bool is_of_contact(const Event& event);
+
  private:
   virtual void add(const Event& event, std::string_view kind) = 0;
 };
@@ -58,6 +61,7 @@ class ContactsTable final : public ContactsCsv {
   /// A whole table, with such a column.
   static void write(std::ostream& stream, const Scene& scene, std::span<const Event> events,
                     const Column& column, std::span<const std::uint8_t> flags);
+  [[nodiscard]] bool prints_time_of(const Event& event) const override { return is_of_contact(event); }
 
  private:
   ContactsTable(std::ostream& stream, const Scene& scene, std::string_view column);

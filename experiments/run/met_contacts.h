@@ -31,6 +31,8 @@ class MetContacts final : public EventListener {
   };
 
   void on_event(const Event& event) override;
+  /// Its events are printed after the run.
+  [[nodiscard]] bool prints_time_of(const Event&) const override { return true; }
 
   [[nodiscard]] std::span<const Event> events() const { return events_; }  ///< in order
   /// Of one of the events.

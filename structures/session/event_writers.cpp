@@ -45,7 +45,7 @@ EventCsv::EventCsv(std::ostream& stream, const Scene& scene) : stream_(stream), 
 
 void EventCsv::finish() {
   if (std::exchange(begun_, true)) return;
-  timed_ = scene_.frame_count() > 0 && scene_.stamp(0).picoseconds.has_value();
+  timed_ = is_timed();
   stream_ << "frame,lower,upper" << (timed_ ? ",picoseconds" : "")
           << ",structure,kind,external,node,beads,residues\n";
 }

@@ -28,10 +28,17 @@ class EventCsv final : public EventListener {
   /// header is written now, else at the first event.
   EventCsv(std::ostream& stream, const Scene& scene);
   void on_event(const Event& event) override;
+  [[nodiscard]] bool prints_time_of(const Event& event) const override {
+    return is_timed() && !event.kind.counted_apart;
+  }
   /// Writes the header if it is not there yet: of a run without events.
   void finish();
 
  private:
+  [[nodiscard]] bool is_timed() const {
+    return scene_.frame_count() > 0 && scene_.stamp(0).picoseconds.has_value();
+  }
+
   std::ostream& stream_;
   const Scene& scene_;
   bool begun_ = false, timed_ = false;
@@ -47,6 +54,7 @@ class EventJsonLines final : public EventListener {
   /// The scene must outlive it.
   EventJsonLines(std::ostream& stream, const Scene& scene) : stream_(stream), scene_(scene) {}
   void on_event(const Event& event) override;
+  [[nodiscard]] bool prints_time_of(const Event& event) const override { return !event.kind.counted_apart; }
 
  private:
   std::ostream& stream_;

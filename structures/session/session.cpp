@@ -98,7 +98,7 @@ std::vector<Event> Session::built(std::size_t structure) const {
   const KineticStructure& of = *kinetic_[structure];
   const FrameStamp first = scene_.stamp(0);
   for (const Change& change : running_[structure]->built())
-    events.push_back({0, 0, 0, structure, change, of.name(), of.kinds()[change.kind], first, first});
+    events.push_back({0, 0, 0, structure, change, of.name(), of.kinds()[change.kind], first, first, {}});
   return events;
 }
 

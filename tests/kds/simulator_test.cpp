@@ -124,6 +124,33 @@ TEST_F(SimulatorTest, ListenersHaveTheirOwnSeconds) {
             sleeper.naps * std::chrono::duration<double>(Sleeper::nap).count());
 }
 
+TEST_F(SimulatorTest, TimesAreRoundedForListenersThatPrintThem) {
+  struct Printer final : EventListener {
+    void on_event(const Event& event) override { heard.push_back(event); }
+    [[nodiscard]] bool prints_time_of(const Event& event) const override { return event.kind.name == "turn"; }
+    std::vector<Event> heard;
+  } printer;
+  Listener before;
+  simulator.listen(before);
+  simulator.listen(printer);
+  a.on_start = [&] {
+    a.schedule("root", falling_at_root_of_one_over(3), 1);
+    a.schedule("1/2", falling(1, 2), 2);
+    a.schedule("later", falling(3, 4), 3, [&] { a.change(1, 3); });
+  };
+  simulator.build();
+  simulator.set_frames({7, {}}, {9, 2.5});
+  simulator.run_step();
+  ASSERT_EQ(printer.heard.size(), 3U);
+  EXPECT_EQ(printer.heard[0].frame(), 8.0);
+  EXPECT_EQ(printer.heard[1].frame(), 8.15470053838);  // 7 + 2 / sqrt(3)
+  EXPECT_FALSE(printer.heard[1].has_picoseconds());
+  EXPECT_FALSE(printer.heard[2].rounded);  // a tick, whose time is not printed
+  EXPECT_FALSE(before.heard[1].event.rounded);
+  EXPECT_EQ(printer.heard[1].lower, before.heard[1].event.lower);
+  EXPECT_EQ(printer.heard[1].upper, before.heard[1].event.upper);
+}
+
 TEST_F(SimulatorTest, AStepOfTooManyFailuresIsGivenUp) {
   a.on_start = [&] {
     a.schedule("3/4", falling(3, 4), 1);

@@ -1,0 +1,135 @@
+// Times as they are printed: twelve digits, each of them right.
+
+#include "kds/rounded_time.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "certificates/exact/exact_time.h"
+#include "tests/support/inputs/polynomial_source.h"
+#include "tests/support/inputs/random.h"
+#include "tests/support/rounds.h"
+
+namespace kds::rounded_time_test {
+namespace {
+
+using namespace test;
+
+constexpr FrameStamp step_begin{0, {}}, step_end{1, {}};
+
+/// The root of a function, known to lie in a bracket.
+class Root {
+ public:
+  Root(Scaled function, double lower, double upper)
+      : slot_(source_.add(std::move(function), named(1))), now_(FailureTime{lower, upper}, source_, slot_) {}
+
+  [[nodiscard]] const Instant& now() const { return now_; }
+  [[nodiscard]] double frame() const { return rounded_time(now_, step_begin, step_end).frame; }
+  [[nodiscard]] std::string printed() const { return fmt::format("{:.12g}", frame()); }
+  [[nodiscard]] double picoseconds(double from, double to) const {
+    return rounded_time(now_, {0, from}, {1, to}).picoseconds.value();
+  }
+
+ private:
+  PolynomialSource source_;
+  std::uint32_t slot_;
+  Instant now_;
+};
+
+Integer power_of_ten(unsigned long exponent) {
+  Integer power;
+  mpz_ui_pow_ui(power.data(), 10, exponent);
+  return power;
+}
+
+/// (p/q) 10^-places, and away from that by 10^-more.
+Scaled near(long long p, unsigned long places, unsigned long more, int sign) {
+  return linear(Integer(p) * power_of_ten(more - places) + Integer(sign), power_of_ten(more));
+}
+
+TEST(RoundedTime, IsNarrowedUntilTwelveDigitsAreCertain) {
+  const Root root(falling_at_root_of_one_over(2), 0.5, 0.9);
+  EXPECT_EQ(root.printed(), "0.707106781187");
+  EXPECT_EQ(root.now().lower(), 0.5);  // and is what it was
+  EXPECT_EQ(root.now().upper(), 0.9);
+  EXPECT_EQ(rounded_time(root.now(), {1000, {}}, {1010, {}}).frame, 1007.07106781);
+  EXPECT_FALSE(rounded_time(root.now(), {1000, {}}, {1010, {}}).picoseconds);
+  EXPECT_EQ(root.picoseconds(-1, 1), 0.414213562373);
+  EXPECT_EQ(root.picoseconds(1, -1), -0.414213562373);
+  EXPECT_EQ(root.picoseconds(0, 1e300), 7.07106781187e299);
+  EXPECT_EQ(root.picoseconds(5, 5), 5);
+}
+
+TEST(RoundedTime, ExactTimesAreRecognised) {
+  EXPECT_EQ(Root(falling(1, 2), 0.25, 0.875).printed(), "0.5");
+  EXPECT_EQ(Root(falling(1, 3), 0.25, 0.5).printed(), "0.333333333333");
+  EXPECT_EQ(Root(falling(515, 1000), 0.25, 0.875).printed(), "0.515");
+  EXPECT_EQ(Root(falling(1, 3), 0.25, 0.5).picoseconds(-1, 2), 0.0);
+  EXPECT_EQ(Root(falling(1, 3), 0.25, 0.5).picoseconds(2, -1), 1.0);
+}
+
+// Half a unit of the last digit, which is no double: the even digit, as for doubles that are ties.
+TEST(RoundedTime, TiesOfTheRoundingEnd) {
+  EXPECT_EQ(Root(near(1234567890125, 13, 13, 0), 0.1, 0.2).printed(), "0.123456789012");
+  EXPECT_EQ(Root(near(1234567890135, 13, 13, 0), 0.1, 0.2).printed(), "0.123456789014");
+  EXPECT_EQ(Root(near(9999999999995, 13, 13, 0), 0.9, 1).printed(), "1");
+  for (const unsigned long digits : {30UL, 100UL, 400UL}) {
+    EXPECT_EQ(Root(near(1234567890125, 13, digits, -1), 0.1, 0.2).printed(), "0.123456789012");
+    EXPECT_EQ(Root(near(1234567890125, 13, digits, 1), 0.1, 0.2).printed(), "0.123456789013");
+    EXPECT_EQ(Root(near(9999999999995, 13, digits, -1), 0.9, 1).printed(), "0.999999999999");
+    EXPECT_EQ(Root(near(9999999999995, 13, digits, 1), 0.9, 1).printed(), "1");
+  }
+}
+
+TEST(RoundedTime, SmallTimesHaveTwelveDigitsToo) {
+  EXPECT_EQ(Root(linear(1, 3 * power_of_ten(20)), 0, 0.5).printed(), "3.33333333333e-21");
+  EXPECT_EQ(Root(linear(1, 3 * power_of_ten(200)), 0, 1).printed(), "3.33333333333e-201");
+  EXPECT_EQ(Root(linear(power_of_ten(20) + Integer(2), 2 * power_of_ten(20)), 0.25, 0.75).picoseconds(-1, 1),
+            2e-20);
+}
+
+TEST(RoundedTime, ABracketAloneHasTheDigitsOfBothEnds) {
+  const auto frame = [](double lower, double upper, std::size_t from) {
+    return rounded_time(Instant(FailureTime{lower, upper}), {from, {}}, {from + 1, {}}).frame;
+  };
+  EXPECT_EQ(frame(0.25, 0.25, 3), 3.25);
+  EXPECT_EQ(frame(0.1234567, 0.1234568, 0), 0.123457);
+  EXPECT_EQ(frame(0.1234567, 0.1234568, 30), 30.123457);
+  EXPECT_EQ(frame(0.1, 0.2, 30), 30);
+}
+
+// The judge: on rational numbers, no more than half a unit of the twelfth digit away.
+TEST(RoundedTime, IsTheNearestNumberOfTwelveDigits) {
+  Random random(34);
+  for (int round = 0; round < rounds(2000); ++round) {
+    const int q = pick(random, 3, 1'000'000), p = pick(random, 1, q - 1);
+    const double root = static_cast<double>(p) / q, reach = std::ldexp(1.0, -pick(random, 1, 50));
+    const Root time(linear(p, q), std::max(0.0, root - reach), std::min(1.0, root + reach));
+    const double from = pick(random, -1000, 1000) * std::ldexp(1.0, -pick(random, 0, 9));
+    const double to = from + pick(random, -99, 99);
+    const Rational exact =
+        Rational(from) + (Rational(to) - Rational(from)) * Rational(Integer(p), Integer(q));
+    const std::string printed = fmt::format("{:.11e}", time.picoseconds(from, to));
+    const std::size_t e = printed.find('e');
+    std::string digits = printed.substr(0, e);
+    digits.erase(digits.find('.'), 1);
+    const int exponent = std::stoi(printed.substr(e + 1)) - 11;
+    const Rational unit = exponent < 0
+                              ? Rational(1) / Rational(power_of_ten(static_cast<unsigned long>(-exponent)))
+                              : Rational(power_of_ten(static_cast<unsigned long>(exponent)));
+    const Rational off = abs(Rational(Integer(digits)) * unit - exact);
+    if (exact.sign() == 0) {
+      EXPECT_EQ(off.sign(), 0);
+    } else {
+      EXPECT_LE(off * Rational(2), unit) << p << '/' << q << " from " << from << " to " << to;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kds::rounded_time_test
