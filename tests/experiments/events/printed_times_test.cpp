@@ -80,7 +80,8 @@ TEST(PrintedTimes, AreCertainWhereBallsNearlyMiss) {
 TEST(PrintedTimes, AreCertainInCertifiedContacts) {
   const ScratchDirectory scratch;
   const Pass pass(scratch, 2 - 0x1p-45);
-  pass.run({"--certify", "--tolerance", "1e-300", "--out", scratch / "out"});
+  const Json summary = pass.run({"--certify", "--tolerance", "1e-300", "--out", scratch / "out"});
+  EXPECT_EQ(summary["stride"]["contacts"]["found"], 1);
   const auto contacts = lines_of(scratch / "out/contacts.csv");
   ASSERT_EQ(contacts.size(), 3U);
   EXPECT_NE(contacts[1].find("," + pass.time(-1) + ","), std::string::npos) << contacts[1];
