@@ -6,6 +6,7 @@
 #include "structures/power_diagram/hull_winding.h"
 #include "structures/power_diagram/static_diagrams.h"
 #include "structures/triangulation/regularity_fault.h"
+#include "structures/triangulation/strict_regularity.h"
 
 namespace kds {
 
@@ -50,6 +51,10 @@ std::optional<std::string> audit_of(const DiagramState<Dimension>& state, const 
   const bool end = time == Dyadic(1.0);
   const bool frame = start || end;
   if (!state.has_cells()) return std::nullopt;  // at a frame only, where the answer is CGAL's
+  if (!frame &&
+      is_strictly_regular(state.triangulation, state.hidden.with_hosts(),
+                          RoundedPositions<Dimension>(state.motion, time), state.present_beads.absent()))
+    return std::nullopt;
   if (!frame || !state.flat) {
     const auto built =
         frame ? static_diagram_at_end(state, start ? 0 : state.motion.degree())

@@ -1,6 +1,8 @@
 #pragma once
-// Whether a kinetic power diagram is right: compared with the static one, or, where that is not the only one,
-// by the definition (regularity_fault.h).
+// Whether a kinetic power diagram is right. At a frame it is compared with the static build. Between events
+// it is proved to be the only regular triangulation of its beads (strict_regularity.h), or, where doubles do
+// not prove that, compared with a static build from exact positions. Where there are several, the definition
+// decides (regularity_fault.h).
 
 #include <optional>
 #include <string>
