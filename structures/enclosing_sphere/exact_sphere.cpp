@@ -12,14 +12,21 @@ namespace kds {
 
 namespace {
 
+int sign_of(const Integer& x) { return x.sign(); }
+/// Never 0: what is not certain is not proved to be positive.
+int sign_of(const TrackedDouble& x) { return x.value > x.error * TrackedDouble::inflation ? 1 : -1; }
+
 // The sign of a + b sqrt(d), d >= 0.
-int radical_sign(const Integer& a, const Integer& b, const Integer& d) {
-  const int sa = a.sign();
-  const int sb = d.sign() == 0 ? 0 : b.sign();
+template <class Number>
+int radical_sign(const Number& a, const Number& b, const Number& d) {
+  const int sa = sign_of(a);
+  const int sb = sign_of(d) == 0 ? 0 : sign_of(b);
   if (sa == sb || sb == 0) return sa;
   if (sa == 0) return sb;
-  const int greater = (a * a).compare(b * b * d);
-  return greater > 0 ? sa : greater < 0 ? sb : 0;
+  const Number more = a * a - b * b * d;
+  if (sign_of(more) > 0) return sa;
+  if (sign_of(-more) > 0) return sb;
+  return sign_of(Number{0});
 }
 
 // n / d * 2^unit, truncated to 64 bits before it is rounded.
@@ -34,9 +41,9 @@ double rounded_quotient(Integer n, const Integer& d, int unit) {
   return negative ? -size : size;
 }
 
-template <std::size_t N>
-Integer dot(const std::array<Integer, N>& a, const std::array<Integer, N>& b) {
-  Integer sum = a[0] * b[0];
+template <class Number, std::size_t N>
+Number dot(const std::array<Number, N>& a, const std::array<Number, N>& b) {
+  Number sum = a[0] * b[0];
   for (std::size_t i = 1; i < N; ++i) sum += a[i] * b[i];
   return sum;
 }
@@ -70,9 +77,10 @@ IntegerBall<Dimension> whole_ball(const Balls<Dimension>& balls, BeadId bead, in
   return ball;
 }
 
-template <int Dimension>
-std::optional<ExactSphere<Dimension>> ExactSphere<Dimension>::touching(std::span<const Ball> basis) {
-  ExactSphere sphere;
+template <int Dimension, class Number>
+std::optional<TouchingSphere<Dimension, Number>> TouchingSphere<Dimension, Number>::touching(
+    std::span<const Ball> basis) {
+  TouchingSphere sphere;
   sphere.base_ = basis[0];
   sphere.m_ = basis.size() - 1;
   const std::size_t m = sphere.m_;
@@ -81,15 +89,15 @@ std::optional<ExactSphere<Dimension>> ExactSphere<Dimension>::touching(std::span
     for (std::size_t axis = 0; axis < Dimension; ++axis)
       sphere.d_[i][axis] = basis[i + 1].center[axis] - basis[0].center[axis];
   }
-  const GramMatrix<Integer> gram(sphere.d_, m);
-  std::array<Integer, 3> s, e;
+  const GramMatrix<Number> gram(sphere.d_, m);
+  std::array<Number, 3> s, e;
   for (std::size_t i = 0; i < m; ++i) {
     s[i] = basis[i + 1].radius - basis[0].radius;
     e[i] = gram(i, i) - s[i] * s[i];
-    if (e[i].sign() <= 0) return std::nullopt;  // one holds the other
+    if (sign_of(e[i]) <= 0) return std::nullopt;  // one holds the other
   }
   sphere.g_ = gram.determinant();
-  if (sphere.g_.sign() <= 0) return std::nullopt;
+  if (sign_of(sphere.g_) <= 0) return std::nullopt;
   sphere.ae_ = gram.times_adjugate(e);
   sphere.as_ = gram.times_adjugate(s);
   sphere.a_ = gram.dot(s, sphere.as_) - sphere.g_;
@@ -102,21 +110,21 @@ std::optional<ExactSphere<Dimension>> ExactSphere<Dimension>::touching(std::span
     }
   }
   sphere.discriminant_ = sphere.b_ * sphere.b_ - sphere.a_ * sphere.c_;
-  if (sphere.discriminant_.sign() < 0) return std::nullopt;
-  if (radical_sign(-sphere.b_, 1, sphere.discriminant_) <= 0) return std::nullopt;
+  if (sign_of(sphere.discriminant_) < 0) return std::nullopt;
+  if (radical_sign(-sphere.b_, Number{1}, sphere.discriminant_) <= 0) return std::nullopt;
   for (std::size_t i = 0; i < m; ++i) {  // no ball of the basis is larger than the sphere
-    const Integer twice = 2 * s[i];
+    const Number twice = s[i] + s[i];
     if (radical_sign(sphere.c_ + twice * sphere.b_, -twice, sphere.discriminant_) < 0) return std::nullopt;
   }
   return sphere;
 }
 
-template <int Dimension>
-bool ExactSphere<Dimension>::is_proper() const {
+template <int Dimension, class Number>
+bool TouchingSphere<Dimension, Number>::is_proper() const {
   if (m_ == 0) return true;
   // Weight i is (A e)_i (sqrt(D) - b) + (A s)_i c, over something positive; the base has what is left.
-  Integer rest_e = 2 * g_, rest_s = 0;
-  const auto positive = [this](const Integer& e, const Integer& s) {
+  Number rest_e = g_ + g_, rest_s{0};
+  const auto positive = [this](const Number& e, const Number& s) {
     return radical_sign(s * c_ - e * b_, e, discriminant_) > 0;
   };
   for (std::size_t i = 0; i < m_; ++i) {
@@ -127,24 +135,25 @@ bool ExactSphere<Dimension>::is_proper() const {
   return positive(rest_e, rest_s);
 }
 
-template <int Dimension>
-bool ExactSphere<Dimension>::holds(const Ball& ball) const {
-  std::array<Integer, Dimension> d;
+template <int Dimension, class Number>
+bool TouchingSphere<Dimension, Number>::holds(const Ball& ball) const {
+  std::array<Number, Dimension> d;
   for (std::size_t axis = 0; axis < Dimension; ++axis) d[axis] = ball.center[axis] - base_.center[axis];
-  const Integer s = ball.radius - base_.radius;
-  const Integer e = dot(d, d) - s * s;
-  if (m_ == 0) return s.sign() <= 0 && e.sign() <= 0;
-  const Integer twice = 2 * s;
-  if (s.sign() > 0 && radical_sign(c_ + twice * b_, -twice, discriminant_) < 0) return false;
-  const Integer f = dot(d, qae_) - g_ * e;
-  const Integer w = dot(d, qas_) - g_ * s;
+  const Number s = ball.radius - base_.radius;
+  const Number e = dot(d, d) - s * s;
+  if (m_ == 0) return sign_of(-s) >= 0 && sign_of(-e) >= 0;
+  const Number twice = s + s;
+  if (sign_of(-s) < 0 && radical_sign(c_ + twice * b_, -twice, discriminant_) < 0) return false;
+  const Number f = dot(d, qae_) - g_ * e;
+  const Number w = dot(d, qas_) - g_ * s;
   // With e twice as large as in F + W rho >= 0 there, rho = c / (2 (sqrt(D) - b)).
   return radical_sign(w * c_ - f * b_, f, discriminant_) >= 0;
 }
 
 // |d - z| <= (1 + eps) R - r, where rho = c / (2 w), w = sqrt(D) - b, and z = (w Q A e + c Q A s) / (2 g w).
-template <int Dimension>
-bool ExactSphere<Dimension>::holds_when_larger(const Ball& ball, const Relaxation& by) const {
+template <int Dimension, class Number>
+bool TouchingSphere<Dimension, Number>::holds_when_larger(const Ball& ball, const Relaxation& by) const
+    requires(std::same_as<Number, Integer>) {
   const Integer factor = Relaxation::most + by.units(), unit = Relaxation::most;
   std::array<Integer, Dimension> d;
   for (std::size_t axis = 0; axis < Dimension; ++axis) d[axis] = ball.center[axis] - base_.center[axis];
@@ -169,8 +178,8 @@ bool ExactSphere<Dimension>::holds_when_larger(const Ball& ball, const Relaxatio
                       discriminant_) >= 0;
 }
 
-template <int Dimension>
-Sphere ExactSphere<Dimension>::rounded(int unit) const {
+template <int Dimension, class Number>
+Sphere TouchingSphere<Dimension, Number>::rounded(int unit) const requires(std::same_as<Number, Integer>) {
   Sphere sphere;
   if (m_ == 0) {
     for (std::size_t axis = 0; axis < Dimension; ++axis)
@@ -244,8 +253,10 @@ template int whole_unit(const Balls<2>&, BeadId, BeadId);
 template int whole_unit(const Balls<3>&, BeadId, BeadId);
 template IntegerBall<2> whole_ball(const Balls<2>&, BeadId, int);
 template IntegerBall<3> whole_ball(const Balls<3>&, BeadId, int);
-template class ExactSphere<2>;
-template class ExactSphere<3>;
+template class TouchingSphere<2, Integer>;
+template class TouchingSphere<3, Integer>;
+template class TouchingSphere<2, TrackedDouble>;
+template class TouchingSphere<3, TrackedDouble>;
 template std::vector<std::size_t> exact_basis_among<2>(std::span<const IntegerBall<2>>);
 template std::vector<std::size_t> exact_basis_among<3>(std::span<const IntegerBall<3>>);
 

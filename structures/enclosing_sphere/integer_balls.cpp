@@ -1,6 +1,7 @@
 #include "structures/enclosing_sphere/integer_balls.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace kds {
@@ -14,6 +15,25 @@ Basis proper_part(const Basis& basis, const IntegerBalls<Dimension>& whole) {
   for (const std::size_t place : exact_basis_among<Dimension>(balls))
     part.beads[part.size++] = basis.beads[place];
   return part;
+}
+
+template <int Dimension>
+bool is_surely_basis_of(const Basis& basis, const BeadRange& range,
+                        const RoundedPositions<Dimension>& positions) {
+  using Ball = BallOver<Dimension, TrackedDouble>;
+  const auto ball_of = [&](BeadId bead) {
+    Ball ball;
+    for (std::size_t axis = 0; axis < Dimension; ++axis) ball.center[axis] = positions.coordinate(bead, axis);
+    ball.radius = positions.radius(bead);
+    return ball;
+  };
+  std::array<Ball, Dimension + 1> members;
+  std::transform(basis.begin(), basis.end(), members.begin(), ball_of);
+  const auto sphere = TouchingSphere<Dimension, TrackedDouble>::touching({members.data(), basis.size});
+  if (!sphere || !sphere->is_proper()) return false;
+  for (BeadId b = range.first; b <= range.last; ++b)
+    if (!basis.contains(b) && !sphere->holds(ball_of(b))) return false;
+  return true;
 }
 
 template <int Dimension>
@@ -77,6 +97,8 @@ template IntegerBalls<2> integer_balls_at(const Curves<2>&, const Dyadic&);
 template IntegerBalls<3> integer_balls_at(const Curves<3>&, const Dyadic&);
 template Basis proper_part(const Basis&, const IntegerBalls<2>&);
 template Basis proper_part(const Basis&, const IntegerBalls<3>&);
+template bool is_surely_basis_of(const Basis&, const BeadRange&, const RoundedPositions<2>&);
+template bool is_surely_basis_of(const Basis&, const BeadRange&, const RoundedPositions<3>&);
 template std::optional<BeadId> bead_outside(const Basis&, const Basis&, const BeadRange&, const Relaxation&,
                                             const IntegerBalls<2>&);
 template std::optional<BeadId> bead_outside(const Basis&, const Basis&, const BeadRange&, const Relaxation&,

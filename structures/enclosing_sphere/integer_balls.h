@@ -9,6 +9,7 @@
 #include "certificates/base/relaxation.h"
 #include "motions/base/bead_range.h"
 #include "motions/curves/curves.h"
+#include "motions/curves/rounded_positions.h"
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/enclosing_sphere/exact_sphere.h"
 
@@ -32,6 +33,12 @@ template <int Dimension>
 /// The basis, without beads that are to spare.
 template <int Dimension>
 [[nodiscard]] Basis proper_part(const Basis& basis, const IntegerBalls<Dimension>& whole);
+
+/// Whether doubles with error bounds prove that a basis has no bead to spare and that its sphere holds a
+/// range of beads: then that is the smallest sphere around them. False means nothing.
+template <int Dimension>
+[[nodiscard]] bool is_surely_basis_of(const Basis& basis, const BeadRange& range,
+                                      const RoundedPositions<Dimension>& positions);
 
 /// The first bead of a range that is not inside the sphere of a proper basis, or, but for `members`, of that
 /// made larger (ExactSphere::holds_when_larger).

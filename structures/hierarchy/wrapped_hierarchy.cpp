@@ -423,15 +423,20 @@ std::vector<Basis> WrappedHierarchy<Dimension>::bases_at(const Dyadic& time) con
 }
 
 /// The sphere of a basis that encloses all beads and has no bead to spare is the minimum enclosing one, and
-/// the only one: checking both on integers is as good as building it. Nothing of it comes from certificates.
-/// A relaxed one encloses the basis, and all beads when it is made larger.
+/// the only one: checking both is as good as building it. Doubles with error bounds prove most nodes, whole
+/// numbers decide the rest. No certificate is used. A relaxed sphere encloses the basis, and all beads when
+/// it is made larger.
 template <int Dimension>
 std::optional<std::string> WrappedHierarchy<Dimension>::audit(const Dyadic& time) {
-  const IntegerBalls<Dimension> whole = integer_balls_at(motion_.curves(), time);
+  const FloatingPointGuard to_nearest;
+  const RoundedPositions<Dimension> rounded(motion_, time);
+  std::optional<IntegerBalls<Dimension>> whole;
   for (NodeId id = 0; id < bases_.size(); ++id) {
     if (!keeps(id)) continue;
-    const Basis basis = proper_part(bases_[id], whole);
-    if (const auto bead = bead_outside(basis, bases_[id], tree_.range(id), relaxation_, whole)) {
+    if (!relaxation_.any() && is_surely_basis_of(bases_[id], tree_.range(id), rounded)) continue;
+    if (!whole) whole = integer_balls_at(motion_.curves(), time);
+    const Basis basis = proper_part(bases_[id], *whole);
+    if (const auto bead = bead_outside(basis, bases_[id], tree_.range(id), relaxation_, *whole)) {
       return name_of(id) + " with basis " + bead_names(beads_of(bases_[id])) + ": bead " +
              std::to_string(*bead) + " sticks out";
     }
