@@ -1,6 +1,7 @@
 #include "structures/hierarchy/wrapped_hierarchy.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -30,6 +31,36 @@ template <int Dimension>
 }
 
 [[nodiscard]] std::span<const BeadId> beads_of(const Basis& basis) { return {basis.begin(), basis.end()}; }
+
+/// How far a ball reaches from a point, rounded up.
+template <int Dimension>
+[[nodiscard]] double reach_of(const Balls<Dimension>& balls, BeadId bead, const Eigen::Vector3d& from) {
+  double square = 0;
+  for (std::size_t axis = 0; axis < Dimension; ++axis) {
+    const double d = balls.coordinate(bead, axis) - from[static_cast<Eigen::Index>(axis)];
+    square += d * d;
+  }
+  return (std::sqrt(square) + balls.radius(bead)) * (1 + 0x1p-48);
+}
+
+/// Beads of a range that may touch its smallest sphere; others are strictly inside, and stay so for a while.
+/// With c the exact centre, R the exact radius, z the rounded centre, and M the farthest reach of a basis
+/// bead from z: one of these beads, p of radius r, lies at an angle of at least 90 degrees to z seen from c,
+/// so |p - z|^2 >= (R - r)^2 + |c - z|^2, and |c - z|^2 <= (M - r)^2 - (R - r)^2 <= (M - R)(M + R). R is
+/// known to 1e-12 (enclosing_sphere.h).
+template <int Dimension>
+void find_touching(const Balls<Dimension>& balls, const BeadRange& range, const SmallestSphere& smallest,
+                   std::vector<BeadId>& touching) {
+  touching.clear();
+  const Eigen::Vector3d& center = smallest.sphere.center;
+  const double least_radius = smallest.sphere.radius * (1 - 0x1p-39);
+  double most = least_radius;
+  for (const BeadId b : smallest.basis) most = std::max(most, reach_of(balls, b, center));
+  const double off = std::sqrt((most - least_radius) * (most + least_radius)) * (1 + 0x1p-48);
+  const bool is_normal = least_radius > 0x1p-400;  // squares do not underflow
+  for (BeadId b = range.first; b <= range.last; ++b)
+    if (!is_normal || !(reach_of(balls, b, center) + off < least_radius)) touching.push_back(b);
+}
 
 }  // namespace
 
@@ -109,14 +140,16 @@ std::string WrappedHierarchy<Dimension>::name_of(NodeId id) const {
 // The bases at the start of a run, and what a query asks for.
 
 template <int Dimension>
-void WrappedHierarchy<Dimension>::build_node(NodeId id, const Balls<Dimension>& balls) {
+SmallestSphere WrappedHierarchy<Dimension>::build_node(NodeId id, const Balls<Dimension>& balls) {
   const BeadRange range = tree_.range(id);
   std::vector<BeadId> guess{range.first, range.last};
   for (const NodeId child : {tree_.left(id), tree_.right(id)}) {
     if (child != NecklaceTree::leaf) guess.insert(guess.end(), bases_[child].begin(), bases_[child].end());
   }
-  bases_[id] = smallest_sphere(balls, range.first, range.last, guess).basis;
+  const SmallestSphere smallest = smallest_sphere(balls, range.first, range.last, guess);
+  bases_[id] = smallest.basis;
   proofs_->forget(id);
+  return smallest;
 }
 
 template <int Dimension>
@@ -126,16 +159,16 @@ void WrappedHierarchy<Dimension>::build() {
   if (query_) kept_.assign(bases_.size(), 0);  // it has not asked yet
   const Balls<Dimension> balls = balls_at_start(curves_);
   SignsJustAfter<Dimension>& signs = guards_->signs();
+  std::vector<BeadId> touching;
   for (auto id = static_cast<NodeId>(bases_.size()); id-- > 0;) {  // children first
     if (!keeps(id)) continue;
-    build_node(id, balls);
+    find_touching(balls, tree_.range(id), build_node(id, balls), touching);
     // Put right for the moment after the start: beads on the sphere may leave it.
-    const BeadRange range = tree_.range(id);
     bool settled = false;
     for (int i = 0; !settled && (i < most_repairs || !is_fast()); ++i) {
       settled = true;
       const int orientation = orientation_of(bases_[id], signs);
-      for (BeadId b = range.first; b <= range.last; ++b) {
+      for (const BeadId b : touching) {
         if (bases_[id].contains(b) || is_inside(bases_[id], b, orientation, signs)) continue;
         settled = !repair(id, b);
         break;
@@ -150,7 +183,7 @@ void WrappedHierarchy<Dimension>::ask_query() {
   const std::vector<std::uint8_t> known = std::exchange(kept_, std::vector<std::uint8_t>(bases_.size(), 0));
   query_([&](NodeId id) {
     if (id >= bases_.size()) throw std::invalid_argument("the hierarchy has no such node");
-    if (kept_[id] == 0 && known[id] == 0) build_node(id, balls);
+    if (kept_[id] == 0 && known[id] == 0) static_cast<void>(build_node(id, balls));
     kept_[id] = 1;
     return exact_sphere_of(bases_[id], balls);
   });

@@ -35,6 +35,7 @@
 namespace kds {
 
 class Simulator;
+struct SmallestSphere;
 template <int Dimension>
 class Balls;
 template <int Dimension>
@@ -98,7 +99,7 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   [[nodiscard]] std::string name_of(NodeId node) const;
 
   /// Its basis at the start, ties aside.
-  void build_node(NodeId node, const Balls<Dimension>& balls);
+  SmallestSphere build_node(NodeId node, const Balls<Dimension>& balls);
   void ask_query();
   /// Sets `wide_` and `pairs_`.
   void sort_kept_nodes();
