@@ -33,10 +33,11 @@ struct Event {
     return rounded ? rounded->frame
                    : between(static_cast<double>(from.number), static_cast<double>(to.number));
   }
-  [[nodiscard]] bool has_picoseconds() const { return from.picoseconds && to.picoseconds; }
-  [[nodiscard]] double picoseconds() const {
-    if (rounded && rounded->picoseconds) return *rounded->picoseconds;
-    return between(from.picoseconds.value_or(0), to.picoseconds.value_or(0));
+  /// None where one of its frames has no time.
+  [[nodiscard]] std::optional<double> picoseconds() const {
+    if (!from.picoseconds || !to.picoseconds) return std::nullopt;
+    if (rounded) return rounded->picoseconds;
+    return between(*from.picoseconds, *to.picoseconds);
   }
   /// Calls `visit(role, ids)` for each role that ids are in.
   template <class Visit>

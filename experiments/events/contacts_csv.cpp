@@ -68,7 +68,8 @@ void ContactsTable::add_cells(const Event& event, std::string_view kind) {
   const auto [i, j] = std::pair(event.change.ids[0], event.change.ids[1]);
   stream_ << fmt::format("{},{},{},{},{},{:.12g}", kind, i, j, csv_field(scene_.bead_name(i)),
                          csv_field(scene_.bead_name(j)), event.frame());
-  if (timed_) stream_ << fmt::format(",{:.12g}", event.picoseconds());
+  const auto picoseconds = event.picoseconds();
+  if (timed_) stream_ << (picoseconds ? fmt::format(",{:.12g}", *picoseconds) : ",");
 }
 
 }  // namespace kds

@@ -54,7 +54,8 @@ void EventCsv::on_event(const Event& event) {
   if (event.kind.counted_apart) return;
   finish();
   stream_ << fmt::format("{},{},{}", event.from.number, event.lower, event.upper);
-  if (timed_) stream_ << (event.has_picoseconds() ? fmt::format(",{:.12g}", event.picoseconds()) : ",");
+  const auto picoseconds = event.picoseconds();
+  if (timed_) stream_ << (picoseconds ? fmt::format(",{:.12g}", *picoseconds) : ",");
   std::string node, beads, residues;
   event.for_roles([&](const IdRole& role, std::span<const BeadId> ids) {
     if (role.of == IdRole::Of::node) node = fmt::format("{}-{}", ids.front(), ids.back());
@@ -73,7 +74,8 @@ void EventJsonLines::on_event(const Event& event) {
   if (event.kind.counted_apart) return;
   stream_ << fmt::format("{{\"step\":{},\"frame\":{},\"time\":{:.12g}", event.step, event.from.number,
                          event.frame());
-  if (event.has_picoseconds()) stream_ << fmt::format(",\"picoseconds\":{:.12g}", event.picoseconds());
+  if (const auto picoseconds = event.picoseconds())
+    stream_ << fmt::format(",\"picoseconds\":{:.12g}", *picoseconds);
   stream_ << fmt::format(",\"lower\":{},\"upper\":{},\"structure\":{},\"kind\":{},\"external\":{}",
                          event.lower, event.upper, json_text(event.structure), json_text(event.kind.name),
                          event.kind.external);

@@ -85,7 +85,7 @@ TEST_F(SimulatorTest, EventsTellOfFramesAsTheyAreSet) {
   EXPECT_EQ(listener.heard[0].event.frame(), 8.0);
   EXPECT_EQ(listener.heard[0].event.picoseconds(), 2.0);
   EXPECT_EQ(listener.heard[1].event.frame(), 1.5);  // not said: steps
-  EXPECT_FALSE(listener.heard[1].event.has_picoseconds());
+  EXPECT_EQ(listener.heard[1].event.picoseconds(), std::nullopt);
   EXPECT_EQ(listener.heard[1].event.kind.name, "turn");
 }
 
@@ -144,7 +144,7 @@ TEST_F(SimulatorTest, TimesAreRoundedForListenersThatPrintThem) {
   ASSERT_EQ(printer.heard.size(), 3U);
   EXPECT_EQ(printer.heard[0].frame(), 8.0);
   EXPECT_EQ(printer.heard[1].frame(), 8.15470053838);  // 7 + 2 / sqrt(3)
-  EXPECT_FALSE(printer.heard[1].has_picoseconds());
+  EXPECT_EQ(printer.heard[1].picoseconds(), std::nullopt);
   EXPECT_FALSE(printer.heard[2].rounded);  // a tick, whose time is not printed
   EXPECT_FALSE(before.heard[1].event.rounded);
   EXPECT_EQ(printer.heard[1].lower, before.heard[1].event.lower);
