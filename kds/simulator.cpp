@@ -338,9 +338,27 @@ void Simulator::advance(ScheduledFailure* next) {
   after_batch();
   next = queue_.empty() ? nullptr : &queue_.top();
   if (audits_ != AuditMode::events) return;
+  static_cast<void>(audit_before(next));
+}
+
+/// At a time between now and the next failure, or the step's end. False where that failure is now.
+bool Simulator::audit_before(ScheduledFailure* next) {
   ExactTime then = next == nullptr ? ExactTime(Dyadic(1.0))
                                    : exact_time(*next->source->exact_function(next->slot), next->time);
-  if (ExactTime::compare(now_.exact(), then) < 0) audit(dyadic_between(now_.exact(), then));
+  if (ExactTime::compare(now_.exact(), then) >= 0) return false;
+  audit(dyadic_between(now_.exact(), then));
+  return true;
+}
+
+void Simulator::audit_now() {
+  const Entry entry(*this);
+  require(phase_ == Phase::new_run ? Phase::between_steps : phase_, "audit_now()");
+  if (phase_ == Phase::between_steps) return audit(Dyadic(step_ == 0 ? 0.0 : 1.0));
+  Running running(*this);
+  after_batch();
+  if (!audit_before(queue_.empty() ? nullptr : &queue_.top()))
+    throw std::logic_error("audit_now(): a failure is due at this very time: call run_next() first");
+  running.end();
 }
 
 void Simulator::after_batch() {

@@ -85,6 +85,12 @@ class Simulator {
   bool run_next();
 
   /// While time stands still: `set_curves()` gives some beads other curves in the motion, along which they go
+  /// Audits all structures now, whatever the audits chosen, and counts it: within a step at a time between
+  /// now and the next failure, once they have settled, and between steps where the last one ended, or where
+  /// the first begins. The motion must still be that of this step. Throws AuditError where a structure is
+  /// wrong, std::logic_error where nothing has been built, or while an event is handled.
+  void audit_now();
+
   /// on from now; elsewhere than they are now, if need be. All structures follow, or, where one cannot,
   /// std::invalid_argument, and nothing is changed. A log does not hold curves: a replay must follow the same
   /// motion.
@@ -173,6 +179,7 @@ class Simulator {
   FailureOrder order_;
   EventQueue<ScheduledFailure, FailureOrder> queue_;
   std::vector<KineticStructure*> structures_;
+  [[nodiscard]] bool audit_before(ScheduledFailure* next);
   std::vector<FailureSource*> tables_;
   std::vector<EventListener*> listeners_;
   std::vector<CertificateType> types_;

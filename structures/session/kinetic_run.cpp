@@ -220,6 +220,11 @@ void KineticRun::finish() {
   finished_ = true;
 }
 
+void KineticRun::audit_now() {
+  if (!built_) throw std::logic_error("a run is audited that has not begun: expected a step to be run first");
+  simulator().audit_now();
+}
+
 void KineticRun::go_to(double time) {
   const std::size_t present = simulator().step();
   const auto last = static_cast<double>(!motion_ ? scene_.known_steps() : finished_ ? present : present + 1);

@@ -97,6 +97,9 @@ class KineticRun {
   /// Whether a step is under way. Else the run stands at a frame, or has not begun.
   [[nodiscard]] bool within_step() const { return within_; }
 
+  /// Audits all structures where the run stands (Simulator::audit_now), whatever `audits` of its options
+  /// says. Throws AuditError where one is wrong, std::logic_error where the run has not begun.
+  void audit_now();
   // While time stands still within a step, exactly now, just after an event if the run stands at one.
 
   /// A bead takes part in a structure, or does not any more. Throws StructureRefusal where its beads cannot

@@ -34,6 +34,47 @@ TEST_F(AuditedTest, LooksAtWhatWasDoneWhileTimeStoodStill) {
   EXPECT_LT(a.audits[0], Rational(1, 2));
 }
 
+class AuditedNowTest : public testing::Test {
+ protected:
+  Simulator simulator;  // no audits unless they are asked for
+  Log log;
+  Script a{simulator, log, "a"};
+};
+
+TEST_F(AuditedNowTest, BetweenNowAndTheNextFailureOrAtFrames) {
+  a.on_start = [&] { a.schedule("1/2", falling(1, 2), 1); };
+  EXPECT_THROW(simulator.audit_now(), std::logic_error);
+  simulator.build();
+  simulator.audit_now();
+  simulator.enter_step();
+  a.needs_after_batch = true;
+  simulator.audit_now();
+  EXPECT_FALSE(a.needs_after_batch);
+  EXPECT_TRUE(simulator.run_next());
+  simulator.audit_now();
+  simulator.leave_step();
+  simulator.audit_now();
+  ASSERT_EQ(a.audits.size(), 4U);
+  EXPECT_EQ(a.audits[0], 0);
+  EXPECT_GT(a.audits[1], 0);
+  EXPECT_LT(a.audits[1], Rational(1, 2));
+  EXPECT_GT(a.audits[2], Rational(1, 2));
+  EXPECT_LT(a.audits[2], 1);
+  EXPECT_EQ(a.audits[3], 1);
+  EXPECT_EQ(a.statistics.audits_run, 4U);
+}
+
+TEST_F(AuditedNowTest, ThrowsWhereAStructureIsWrongOrIsBusy) {
+  a.on_start = [&] {
+    a.schedule("1/2", falling(1, 2), 1, [&] { EXPECT_THROW(simulator.audit_now(), std::logic_error); });
+  };
+  simulator.build();
+  simulator.run_step();
+  a.on_audit = [](const Dyadic&) { return "it is wrong"; };
+  EXPECT_THROW(simulator.audit_now(), AuditError);
+  EXPECT_EQ(a.statistics.audits_failed, 1U);
+}
+
 TEST_F(AuditedTest, AuditsStrictlyBetweenAllEvents) {
   a.on_start = [&] {
     a.schedule("1/3", falling(1, 3), 1);
