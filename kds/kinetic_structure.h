@@ -49,7 +49,7 @@ class KineticStructure {
   virtual void apply(const Change& change) = 0;
 
   /// Compares with the structure built statically from exact positions at `time`, no failure time, or at an
-  /// end of the step. What differs, or nothing.
+  /// end of the step, or proves without certificates that it is that one. What differs, or nothing.
   [[nodiscard]] virtual std::optional<std::string> audit(const Dyadic& time) = 0;
 
   StructureStatistics statistics;
