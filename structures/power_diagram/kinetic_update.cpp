@@ -38,7 +38,7 @@ auto MovingDiagram<Dimension>::diagram() const -> StaticTriangulation<Dimension>
 }
 
 template <int Dimension>
-auto MovingDiagram<Dimension>::triangulation() -> RegularTriangulation<Dimension>& {
+auto MovingDiagram<Dimension>::triangulation() const -> const RegularTriangulation<Dimension>& {
   return machine_->power.triangulation();
 }
 
@@ -233,7 +233,7 @@ void MovingDiagram<Dimension>::move_some(const Eigen::Matrix3Xd& centers, std::s
                                          UpdateCounts& counts) {
   PowerDiagram<Dimension>& power = machine_->power;
   if (!power.is_solid()) return move_all(centers, weights, counts);  // no cells to test, or flat ones
-  triangulation().make_mirror();
+  machine_->power.make_mirror();
   const Snapshot<Dimension> next(centers, weights);
   SnapshotFaults faults = snapshot_faults(triangulation(), next);
   counts.tested = faults.tested;

@@ -41,7 +41,7 @@ class MovingDiagram : public DiagramUpdate<Dimension> {
   /// missing, and where most beads would have to move at once.
   void move_some(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
   void rebuild(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
-  [[nodiscard]] RegularTriangulation<Dimension>& triangulation();
+  [[nodiscard]] const RegularTriangulation<Dimension>& triangulation() const;
   [[nodiscard]] bool is_solid() const;
   [[nodiscard]] std::size_t bead_count() const;
 

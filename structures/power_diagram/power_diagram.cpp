@@ -154,6 +154,27 @@ std::optional<std::string> PowerDiagram<Dimension>::audit(const Dyadic& time) {
 }
 
 template <int Dimension>
+std::vector<BeadId> PowerDiagram<Dimension>::neighbors(BeadId bead) const {
+  const Simulator::Entry entry(parts_->state.simulator);
+  auto& state = parts_->state;
+  state.present_beads.require(bead, false);
+  if (!state.has_cells())
+    throw std::logic_error(
+        "neighbors of a bead are asked for where all beads lie in one plane, or on one line");
+  if (!state.has_had_cells)
+    throw std::logic_error("neighbors of a bead are asked for before the diagram is built");
+  state.triangulation.make_mirror();
+  std::vector<BeadId> neighbors;
+  if (state.hidden.contains(bead)) return neighbors;
+  for (const CellId cell : state.triangulation.cells_around(bead))
+    for (const BeadId other : state.beads_of(cell))
+      if (other != bead && other != infinite_bead) neighbors.push_back(other);
+  std::sort(neighbors.begin(), neighbors.end());
+  neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
+  return neighbors;
+}
+
+template <int Dimension>
 StaticTriangulation<Dimension> PowerDiagram<Dimension>::at_frame(bool first) const {
   const Simulator::Entry entry(parts_->state.simulator);
   const auto& state = parts_->state;
@@ -229,8 +250,13 @@ bool PowerDiagram<Dimension>::is_solid() const {
 }
 
 template <int Dimension>
-RegularTriangulation<Dimension>& PowerDiagram<Dimension>::triangulation() {
+const RegularTriangulation<Dimension>& PowerDiagram<Dimension>::triangulation() const {
   return parts_->state.triangulation;
+}
+
+template <int Dimension>
+void PowerDiagram<Dimension>::make_mirror() {
+  parts_->state.triangulation.make_mirror();
 }
 
 template <int Dimension>

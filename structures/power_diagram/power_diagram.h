@@ -67,6 +67,13 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
+  /// The beads whose cells share a facet with that of `bead` now, ascending: those joined to it by an edge of
+  /// the triangulation, degenerate ties being resolved as the diagram has them. None of a hidden bead. Time
+  /// linear in them, after the flips since the last call are made good. Throws std::invalid_argument where
+  /// there is no such bead or it is absent, std::logic_error where the diagram is not built, or has no cells
+  /// because all beads lie in one plane (on one line).
+  [[nodiscard]] std::vector<BeadId> neighbors(BeadId bead) const;
+
   /// Finite cells and hidden beads at the frame just reached, as a static build has them where cells are flat
   /// there.
   [[nodiscard]] StaticTriangulation<Dimension> at_frame(bool first) const;
@@ -103,7 +110,9 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   /// Built anew at the end of the motion's step, run to its end or given up, as CGAL does it; the mirror is
   /// made when a step starts.
   void build_at_end();
-  [[nodiscard]] RegularTriangulation<Dimension>& triangulation();
+  [[nodiscard]] const RegularTriangulation<Dimension>& triangulation() const;
+  /// The mirror of its cells; none after build_at_end until this, or a step, makes it.
+  void make_mirror();
   [[nodiscard]] const HiddenBeads& hidden() const;
   /// A hidden bead's host, if it is a cell.
   void house(BeadId hidden, CellId host);

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "motions/base/input_error.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/numbers/exact_number.h"
 #include "structures/power_diagram/power_diagram.h"
+#include "structures/triangulation/hidden_beads.h"
 #include "structures/triangulation/regular_triangulation.h"
 #include "tests/support/inputs/courses.h"
 #include "tests/support/inputs/moving_beads.h"
@@ -173,6 +175,54 @@ Space random_space(std::size_t beads, unsigned seed, double weight) {
     for (int k = 0; k <= 1; ++k) motion.set_weight(b, k, weight * (b % 7));
   }
   return motion;
+}
+
+/// By a scan of all cells.
+std::vector<BeadId> scanned_neighbors(const PowerDiagram<3>& diagram, BeadId bead) {
+  std::vector<BeadId> neighbors;
+  for (const CellBeads<3>& cell : diagram.at_frame(false).cells) {
+    if (std::find(cell.begin(), cell.end(), bead) == cell.end()) continue;
+    std::copy_if(cell.begin(), cell.end(), std::back_inserter(neighbors),
+                 [&](BeadId b) { return b != bead; });
+  }
+  std::sort(neighbors.begin(), neighbors.end());
+  neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
+  return neighbors;
+}
+
+TEST(PowerDiagramEdits, NeighborsAreThoseOfTheCellsNow) {
+  Rig<Diagram<Space>, Space> rig(random_space(60, 1, 0.15));
+  auto& diagram = rig.structure;
+  EXPECT_THROW(static_cast<void>(diagram.neighbors(3)), std::logic_error);
+  rig.simulator.build();
+  rig.simulator.enter_step();
+  std::size_t hidden = 0, edges = 0;
+  for (int event = 0; event < 40 && rig.simulator.run_next(); ++event) {
+    if (event == 20) diagram.erase(7);
+    for (BeadId bead = 0; bead < 60; ++bead) {
+      if (diagram.is_absent(bead)) continue;
+      const std::vector<BeadId> neighbors = diagram.neighbors(bead);
+      ASSERT_EQ(neighbors, scanned_neighbors(diagram, bead)) << "bead " << bead << ", event " << event;
+      for (const BeadId other : neighbors) EXPECT_THAT(diagram.neighbors(other), testing::Contains(bead));
+      EXPECT_EQ(neighbors.empty(), diagram.hidden().contains(bead));
+      hidden += neighbors.empty() ? 1 : 0;
+      edges += neighbors.size();
+    }
+  }
+  EXPECT_GT(hidden, 0U);
+  EXPECT_GT(edges, 20000U);
+  expect_edit_refused([&] { static_cast<void>(diagram.neighbors(7)); }, "bead 7 is not among its beads");
+  expect_edit_refused([&] { static_cast<void>(diagram.neighbors(60)); },
+                      "there is no bead 60: there are 60, numbered 0 to 59");
+}
+
+TEST(PowerDiagramEdits, NeighborsOfBeadsInOnePlaneAreRefused) {
+  Space motion = random_space(8, 1, 0);
+  for (BeadId b = 0; b < 8; ++b)
+    for (int k = 0; k < 2; ++k) motion.set_coordinate(b, k, 2, 0);
+  Rig<Diagram<Space>, Space> rig(motion);
+  rig.simulator.build();
+  EXPECT_THROW(static_cast<void>(rig.structure.neighbors(3)), std::logic_error);
 }
 
 TEST(PowerDiagramEdits, RefusesBadCalls) {
