@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kds/change.h"
+#include "motions/base/require_index.h"
 #include "motions/curves/motion_ref.h"
 
 namespace kds {
@@ -24,7 +25,7 @@ class PresentBeads {
 
   /// Throws std::invalid_argument where there is no such bead.
   [[nodiscard]] bool is_absent(BeadId bead) const {
-    if (bead >= motion_.bead_count()) throw std::invalid_argument("there is no bead " + std::to_string(bead));
+    require_index("bead", bead, motion_.bead_count());
     return bead < absent_.size() && absent_[bead] != 0;
   }
   [[nodiscard]] std::size_t count() const { return motion_.bead_count() - absent_count_; }

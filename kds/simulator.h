@@ -21,6 +21,7 @@
 #include "kds/kinetic_structure.h"
 #include "kds/stopwatch.h"
 #include "motions/base/floating_point_guard.h"
+#include "motions/base/require_index.h"
 
 namespace kds {
 
@@ -84,13 +85,13 @@ class Simulator {
   /// be. False, and time stays, where nothing happens any more in the step.
   bool run_next();
 
-  /// While time stands still: `set_curves()` gives some beads other curves in the motion, along which they go
   /// Audits all structures now, whatever the audits chosen, and counts it: within a step at a time between
   /// now and the next failure, once they have settled, and between steps where the last one ended, or where
   /// the first begins. The motion must still be that of this step. Throws AuditError where a structure is
   /// wrong, std::logic_error where nothing has been built, or while an event is handled.
   void audit_now();
 
+  /// While time stands still: `set_curves()` gives some beads other curves in the motion, along which they go
   /// on from now; elsewhere than they are now, if need be. All structures follow, or, where one cannot,
   /// std::invalid_argument, and nothing is changed. A log does not hold curves: a replay must follow the same
   /// motion.
@@ -138,7 +139,11 @@ class Simulator {
   [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_.value(); }
   [[nodiscard]] const ComparisonCounts& comparisons() const { return order_.counts(); }
   [[nodiscard]] double seconds() const { return watch_.seconds(nobody); }
-  [[nodiscard]] double seconds_of(std::size_t structure) const { return watch_.seconds(lane_of(structure)); }
+  /// Throws std::invalid_argument where there is no such structure.
+  [[nodiscard]] double seconds_of(std::size_t structure) const {
+    require_index("structure", structure, structures_.size());
+    return watch_.seconds(lane_of(structure));
+  }
   /// Time that listeners took; it belongs to no structure, nor to the engine.
   [[nodiscard]] double seconds_of_listeners() const { return watch_.seconds(listening); }
 
@@ -174,12 +179,12 @@ class Simulator {
   void retire_present();
   void after_batch();
   void audit(const Dyadic& time);
+  [[nodiscard]] bool audit_before(ScheduledFailure* next);
 
   ExactWork work_, listeners_work_;
   FailureOrder order_;
   EventQueue<ScheduledFailure, FailureOrder> queue_;
   std::vector<KineticStructure*> structures_;
-  [[nodiscard]] bool audit_before(ScheduledFailure* next);
   std::vector<FailureSource*> tables_;
   std::vector<EventListener*> listeners_;
   std::vector<CertificateType> types_;

@@ -243,6 +243,7 @@ void Scene::hold_for_step(std::size_t step) const {
 }
 
 FrameStamp Scene::stamp(std::size_t frame) const {
+  require_index("frame", frame, frame_count_);
   if (!is_sampled()) return {frame, std::nullopt};
   if (frame == 0) return first_;
   if (frame + 1 == frame_count_) return last_;
@@ -335,6 +336,7 @@ double Scene::weight(BeadId bead, int k) const {
 }
 
 Eigen::Matrix3Xd Scene::centers(std::size_t frame) const {
+  require_index("frame", frame, frame_count_);
   if (is_sampled()) {
     hold(frame, frame);
     return this->frame(frame);
@@ -348,6 +350,7 @@ Eigen::Matrix3Xd Scene::centers(std::size_t frame) const {
 }
 
 std::vector<double> Scene::weights(std::size_t frame) const {
+  require_index("frame", frame, frame_count_);
   std::vector<double> weights(bead_count());
   for (BeadId b = 0; b < bead_count(); ++b) weights[b] = weight(b, frame == 0 ? 0 : degree_);
   return weights;

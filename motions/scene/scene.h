@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "motions/base/bead_range.h"
+#include "motions/base/require_index.h"
 #include "motions/curves/bezier_motion.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/frames/trajectory.h"
@@ -81,6 +82,10 @@ class Scene {
   /// An instance has two: u = 0 and u = 1. Of frames that are pushed, those that came.
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
   [[nodiscard]] std::size_t step_count() const { return frame_count_ == 0 ? 0 : frame_count_ - 1; }
+
+  // Indices of frames, steps and beads that are too large are refused by std::invalid_argument, which says
+  // how many there are.
+
   /// A frame's number in the file and its time, for messages and results.
   [[nodiscard]] FrameStamp stamp(std::size_t frame) const;
   [[nodiscard]] std::size_t frame_number(std::size_t frame) const { return stamp(frame).number; }
@@ -88,6 +93,7 @@ class Scene {
   /// As files name beads, "CA of ALA 12 in chain A"; empty where they do not.
   [[nodiscard]] const std::string& bead_name(BeadId bead) const {
     static const std::string unnamed;
+    require_index("bead", bead, bead_count());
     return bead < bead_names_.size() ? bead_names_[bead] : unnamed;
   }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
@@ -104,6 +110,7 @@ class Scene {
   /// motion. Radii do not change during a step; the points of an instance have none, only weights.
   template <Motion M>
   void load(std::size_t step, M& motion) const {
+    require_index("step", step, step_count());
     hold_for_step(step);
     if (M::degree != 1 || !is_sampled()) {
       for (BeadId b = 0; b < bead_count(); ++b) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "motions/base/floating_point_guard.h"
+#include "motions/base/require_index.h"
 #include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/enclosing_sphere/integer_balls.h"
@@ -105,6 +106,18 @@ void WrappedHierarchy<Dimension>::keep_what_is_asked_for(NodeQuery query) {
 }
 
 template <int Dimension>
+bool WrappedHierarchy<Dimension>::keeps(NodeId node) const {
+  require_index("node", node, kept_.size());
+  return kept_[node] != 0;
+}
+
+template <int Dimension>
+const Basis& WrappedHierarchy<Dimension>::basis(NodeId node) const {
+  require_index("node", node, bases_.size());
+  return bases_[node];
+}
+
+template <int Dimension>
 bool WrappedHierarchy<Dimension>::is_fast() const {
   return simulator_.kernel() == Kernel::fast;
 }
@@ -182,7 +195,7 @@ void WrappedHierarchy<Dimension>::ask_query() {
   const Balls<Dimension> balls = balls_at_start(curves_);
   const std::vector<std::uint8_t> known = std::exchange(kept_, std::vector<std::uint8_t>(bases_.size(), 0));
   query_([&](NodeId id) {
-    if (id >= bases_.size()) throw std::invalid_argument("the hierarchy has no such node");
+    require_index("node", id, bases_.size());
     if (kept_[id] == 0 && known[id] == 0) static_cast<void>(build_node(id, balls));
     kept_[id] = 1;
     return exact_sphere_of(bases_[id], balls);
@@ -385,8 +398,7 @@ void WrappedHierarchy<Dimension>::record(NodeId id, const Basis& before) {
 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::require_release(std::span<const BeadId> beads) const {
-  for (const BeadId bead : beads)
-    if (bead >= motion_.bead_count()) throw std::invalid_argument("there is no bead " + std::to_string(bead));
+  for (const BeadId bead : beads) require_index("bead", bead, motion_.bead_count());
 }
 
 template <int Dimension>

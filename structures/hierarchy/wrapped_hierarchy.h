@@ -69,8 +69,9 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
 
   [[nodiscard]] const NecklaceTree& tree() const { return tree_; }
   /// Whether the node is kept in this step; nothing else is known of one that is not.
-  [[nodiscard]] bool keeps(NodeId node) const { return kept_[node] != 0; }
-  [[nodiscard]] const Basis& basis(NodeId node) const { return bases_[node]; }
+  [[nodiscard]] bool keeps(NodeId node) const;
+  /// Both throw std::invalid_argument where there is no such node.
+  [[nodiscard]] const Basis& basis(NodeId node) const;
   [[nodiscard]] const Relaxation& relaxation() const { return relaxation_; }
 
   /// From the next step on the nodes that `query` asks for are kept, and no others. Which they are is not

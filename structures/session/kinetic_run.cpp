@@ -287,7 +287,8 @@ void KineticRun::redo(const Edit& edit) {
 }
 
 BeadEdits& KineticRun::editable(std::size_t structure) const {
-  KineticStructure& edited = *structures().at(structure);
+  require_index("structure", structure, structures().size());
+  KineticStructure& edited = *structures()[structure];
   if (BeadEdits* const edits = edits_of(edited)) return *edits;
   throw StructureRefusal(std::string(edited.name()), "its beads cannot come and go");
 }

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "certificates/exact/exact_work.h"
+#include "motions/base/require_index.h"
 #include "structures/session/session.h"
 
 namespace kds {
@@ -56,10 +57,12 @@ class KineticRun {
   }
   /// In the order in which they were added, those by name first.
   [[nodiscard]] const std::vector<KineticStructure*>& structures() const { return session_->structures(); }
-  /// The same by type. Throws std::invalid_argument where it is of another.
+  /// The same by type. Throws std::invalid_argument where there is none of this index, or it is of another
+  /// type.
   template <class Structure>
   [[nodiscard]] Structure& structure(std::size_t index) const {
-    auto* const found = dynamic_cast<Structure*>(structures().at(index));
+    require_index("structure", index, structures().size());
+    auto* const found = dynamic_cast<Structure*>(structures()[index]);
     if (found == nullptr) throw std::invalid_argument("the run's structure of this index is of another type");
     return *found;
   }
@@ -94,12 +97,12 @@ class KineticRun {
   void go_to(double time);
   /// No step follows: frames have ended.
   void finish();
-  /// Whether a step is under way. Else the run stands at a frame, or has not begun.
-  [[nodiscard]] bool within_step() const { return within_; }
-
   /// Audits all structures where the run stands (Simulator::audit_now), whatever `audits` of its options
   /// says. Throws AuditError where one is wrong, std::logic_error where the run has not begun.
   void audit_now();
+  /// Whether a step is under way. Else the run stands at a frame, or has not begun.
+  [[nodiscard]] bool within_step() const { return within_; }
+
   // While time stands still within a step, exactly now, just after an event if the run stands at one.
 
   /// A bead takes part in a structure, or does not any more. Throws StructureRefusal where its beads cannot

@@ -7,6 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include "motions/base/require_index.h"
+
 namespace kds {
 
 namespace {
@@ -17,8 +19,7 @@ void for_numbers(const SceneMotion& motion, const std::vector<BeadId>& beads, Vi
       [&]<int Dimension>(const MotionRef<Dimension>& ref) {
         const Curves<Dimension> curves = ref.curves();
         for (const BeadId bead : beads) {
-          if (bead >= curves.bead_count())
-            throw std::invalid_argument(fmt::format("there is no bead {}", bead));
+          require_index("bead", bead, curves.bead_count());
           for (int k = 0; k <= curves.own_degree(); ++k)
             for (int axis = 0; axis < Dimension; ++axis)
               visit(bead, k, axis, curves.coordinate(bead, k, axis));

@@ -4,6 +4,7 @@
 
 #include "kds/bead_edits.h"
 #include "motions/base/floating_point_guard.h"
+#include "motions/base/require_index.h"
 
 namespace kds {
 
@@ -70,14 +71,14 @@ void Session::add_made(std::unique_ptr<RunningStructure> structure) {
 }
 
 void Session::keep_only(std::size_t structure, std::span<const BeadId> beads) {
-  KineticStructure& kept = *kinetic_.at(structure);
+  require_index("structure", structure, kinetic_.size());
+  KineticStructure& kept = *kinetic_[structure];
   const std::string name(kept.name());
   BeadEdits* const edits = edits_of(kept);
   if (edits == nullptr) throw StructureRefusal(name, "is of all beads; it cannot be of some only");
   std::vector<char> among(scene_.bead_count(), 0);
   for (const BeadId bead : beads) {
-    if (bead >= among.size())
-      throw StructureRefusal(name, "there is no bead " + std::to_string(bead) + " of which it is to be");
+    if (bead >= among.size()) throw StructureRefusal(name, no_such_index("bead", bead, among.size()));
     if (edits->is_absent(bead))
       throw StructureRefusal(name, "bead " + std::to_string(bead) + " is left out already");
     among[bead] = 1;
@@ -94,6 +95,7 @@ void Session::load(std::size_t step) {
 }
 
 std::vector<Event> Session::built(std::size_t structure) const {
+  require_index("structure", structure, kinetic_.size());
   std::vector<Event> events;
   const KineticStructure& of = *kinetic_[structure];
   const FrameStamp first = scene_.stamp(0);
@@ -104,6 +106,7 @@ std::vector<Event> Session::built(std::size_t structure) const {
 
 std::vector<DumpFile> Session::dump(std::size_t frame) const {
   const FloatingPointGuard to_nearest;
+  require_index("frame", frame, scene_.frame_count());
   std::vector<DumpFile> files;
   for (const auto& structure : running_) {
     for (DumpFile& file : structure->dump(frame)) files.push_back(std::move(file));
@@ -113,16 +116,20 @@ std::vector<DumpFile> Session::dump(std::size_t frame) const {
 
 std::vector<NodeSphere> Session::spheres_at(std::size_t structure, const Dyadic& u) const {
   const FloatingPointGuard to_nearest;
+  require_index("structure", structure, running_.size());
   return running_[structure]->spheres_at(u);
 }
 
 std::optional<CombinatorialElements> Session::elements(std::size_t structure, std::size_t frame) const {
   const FloatingPointGuard to_nearest;
+  require_index("structure", structure, running_.size());
+  require_index("frame", frame, scene_.frame_count());
   return running_[structure]->elements(frame);
 }
 
 void Session::time_static_builds(std::size_t frame, std::vector<double>& seconds) const {
   const FloatingPointGuard to_nearest;
+  require_index("frame", frame, scene_.frame_count());
   seconds.resize(running_.size(), 0);
   for (std::size_t s = 0; s < running_.size(); ++s) seconds[s] += running_[s]->static_seconds(frame);
 }

@@ -37,6 +37,8 @@ class StructureRefusal : public InputError {
       : InputError(structure + ": " + reason) {}
 };
 
+/// Indices of structures, frames and steps that are too large are refused by std::invalid_argument, which
+/// says how many there are.
 class Session {
  public:
   /// The scene must outlive it. Throws StructureRefusal, or InputError where the scene's motion is refused.

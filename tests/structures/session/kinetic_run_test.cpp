@@ -470,6 +470,59 @@ TEST(KineticRun, ASubsetThatCannotBeLeavesAllAsItWas) {
   EXPECT_THAT(run.structure<SortedList<2>>(0).order(), testing::UnorderedElementsAre(1, 4));
 }
 
+TEST(KineticRun, IsAuditedWhereItStands) {
+  KineticRun run(beads_in(3), {.structures = {"wrapped", "power"}});
+  EXPECT_THROW(run.audit_now(), std::logic_error);
+  for (const Frame& frame : frames_of(3, 2)) run.take(frame);
+  for (int k = 0; k < 5 && run.next_event(); ++k) run.audit_now();
+  run.finish();
+  run.audit_now();
+  EXPECT_EQ(run.structures()[1]->statistics.audits_run, 6U);
+}
+
+/// What the exception says, or nothing.
+template <class Call>
+std::string wrong_index(Call call) {
+  try {
+    static_cast<void>(call());
+  } catch (const std::invalid_argument& refusal) {
+    return refusal.what();
+  }
+  return "";
+}
+
+TEST(KineticRun, IndicesSayWhatThereIs) {
+  const Scene scene = scene_of(2, frames_of(2, 3));
+  KineticRun run(scene, {.structures = {"sorted", "wrapped"}});
+  const std::string no_structure = "there is no structure 2: there are 2, numbered 0 to 1";
+  EXPECT_EQ(wrong_index([&] { return &run.structure<SortedList<2>>(2); }), no_structure);
+  EXPECT_EQ(wrong_index([&] { return run.keep_only(2, {}), 0; }), no_structure);
+  EXPECT_EQ(wrong_index([&] { return run.session().built(2); }), no_structure);
+  EXPECT_EQ(wrong_index([&] { return run.session().spheres_at(2, Dyadic(0.5)); }), no_structure);
+  EXPECT_EQ(wrong_index([&] { return run.session().elements(2, 0); }), no_structure);
+  EXPECT_EQ(wrong_index([&] { return run.simulator().seconds_of(2); }), no_structure);
+  const std::string no_frame = "there is no frame 3: there are 3, numbered 0 to 2";
+  EXPECT_EQ(wrong_index([&] { return run.session().elements(1, 3); }), no_frame);
+  EXPECT_EQ(wrong_index([&] { return run.session().dump(3); }), no_frame);
+  EXPECT_EQ(wrong_index([&] { return scene.stamp(3); }), no_frame);
+  EXPECT_EQ(wrong_index([&] { return scene.centers(3); }), no_frame);
+  EXPECT_EQ(wrong_index([&] { return scene.weights(3); }), no_frame);
+  EXPECT_EQ(wrong_index([&] { return run.session().load(2), 0; }),
+            "there is no step 2: there are 2, numbered 0 to 1");
+  const std::string no_bead = "there is no bead 14: there are 14, numbered 0 to 13";
+  EXPECT_EQ(wrong_index([&] { return scene.bead_name(14); }), no_bead);
+  EXPECT_EQ(refusal_of([&] { run.keep_only(0, {14}); }), "sorted: " + no_bead);
+  const auto& wrapped = run.structure<WrappedHierarchy<2>>(1);
+  const std::string no_node = "there is no node 12: there are 12, numbered 0 to 11";
+  EXPECT_EQ(wrong_index([&] { return wrapped.basis(12); }), no_node);
+  EXPECT_EQ(wrong_index([&] { return wrapped.keeps(12); }), no_node);
+  EXPECT_TRUE(run.run_step());
+  EXPECT_TRUE(run.next_event());
+  EXPECT_EQ(wrong_index([&] { return run.insert(2, 0), 0; }), no_structure);
+  EXPECT_EQ(wrong_index([&] { return run.erase(0, 14), 0; }), no_bead);
+  EXPECT_EQ(wrong_index([&] { return run.change_motion({14}, [](SceneMotion&) {}), 0; }), no_bead);
+}
+
 TEST(EventWriters, CsvAndJsonLines) {
   std::ostringstream csv, json, timed;  // times are known from the first frame on
   KineticRun run({2, {3}, {0.5}},
