@@ -13,10 +13,13 @@ namespace kds {
 
 /// Ids of a flip: those of the face that goes, then those of the face that comes, in space the triangle
 /// first; each ascending. Where a bead vanishes or comes back: those of the one cell, ascending, then the
-/// bead. Where one wanders: itself, then its host's, ascending. Ids of a rebuild: its time numerator /
-/// 2^exponent as exponent, then 32-bit words of the numerator, lowest first. Ids of a cell that an edit
-/// clears: ascending; of one that fills its place, positively oriented: ascending but for the last two
-/// perhaps. Of an insert, erase or change: the bead; of a repair: the least bead of its cells.
+/// bead. Where one wanders: itself, then its host's, ascending. Ids of a rebuild are no
+/// beads: they tell at which time u = numerator / 2^exponent of the step the whole diagram is built anew from
+/// exact positions, as exponent, then at most seven 32-bit words of the numerator, lowest first. The cells
+/// that change are not told; whoever follows cells by events has to read them all again. Ids of a cell that
+/// an edit clears: ascending; of one that fills its place, positively oriented: ascending but for the last
+/// two perhaps. Of an insert, erase or change: the bead; of a repair, which ends the cells that it clears and
+/// fills: the least bead of these cells.
 template <int Dimension>
 struct DiagramEvents {
   /// In the plane `to_edge` is the 2-2 flip, and there is no `to_facet`.
