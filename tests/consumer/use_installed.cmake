@@ -1,5 +1,6 @@
-# Installs kds from its build tree into a prefix of its own, moves that elsewhere, and configures, builds and runs two projects of
-# somebody else with it: one with the engine alone, one with structures; then compiles the second by pkg-config, where there is one.
+# Installs kds from its build tree into a prefix of its own, moves that elsewhere, and configures, builds and runs three projects of
+# somebody else with it: one with the engine alone, the first example, one with structures; then compiles the last by pkg-config,
+# where there is one.
 # cmake -DKDS_BUILD=<build tree> -DGENERATOR=<generator> -DCOMPILER=<c++> -DBUILD_TYPE=<type> -DPLACE=<folder> -P use_installed.cmake
 file(REMOVE_RECURSE "${PLACE}")
 
@@ -51,6 +52,12 @@ function(build_project source name)
 endfunction()
 build_project("${PLACE}/source/engine_only" engine_only)
 expect("${PLACE}/engine_only/engine_only" 1)
+file(COPY "${CMAKE_CURRENT_LIST_DIR}/../../examples/first_run.cpp" DESTINATION "${PLACE}/source/first_run")
+build_project("${PLACE}/source/first_run" first_run)
+run("${PLACE}/first_run/first_run")
+if(NOT output STREQUAL "flips: 1\n")
+  message(FATAL_ERROR "first_run: expected 'flips: 1', got '${output}'")
+endif()
 build_project("${PLACE}/source" structures)
 expect("${PLACE}/structures/consumer" 3)
 
