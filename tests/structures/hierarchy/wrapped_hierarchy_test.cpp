@@ -486,6 +486,22 @@ TEST(WrappedHierarchy, ATranslationGivesNoEvent) {
             rig.structure.statistics.certificates.created);
 }
 
+// Four beads on one circle, two of which leave it outwards: the basis is theirs from the start on.
+TEST(WrappedHierarchy, TiesAtTheStartAreSettledWhenItIsBuilt) {
+  for (const BeadId leaves : {0U, 1U}) {
+    Space motion(4);
+    for (BeadId b = 0; b < 4; ++b)
+      for (int k = 0; k < 2; ++k)
+        motion.set_coordinate(b, k, b % 2 == 0 ? 0 : 1,
+                              (b < 2 ? 1 : -1) * (b % 2 == leaves && k == 1 ? 2.0 : 1.0));
+    WrappedRig<Kernel::filtered> rig(motion, AuditMode::events, one_necklace(motion));
+    rig.simulator.build();
+    EXPECT_EQ(rig.structure.basis(0), Basis(std::array<BeadId, 2>{leaves, leaves + 2}));
+    rig.simulator.run_step();
+    EXPECT_EQ(rig.history.events.size(), 0U);
+  }
+}
+
 // Beads that jostle in slow motion: most nodes rest, some wake up, and the reference moves up. Now and then
 // the chain jumps.
 TEST(WrappedHierarchy, NodesRestInSlowMotion) {
