@@ -11,6 +11,7 @@
 #include <new>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "experiments/bench/bench_command.h"
 #include "experiments/collide/collide_command.h"
@@ -20,6 +21,7 @@
 #include "experiments/output/provenance.h"
 #include "experiments/output/text.h"
 #include "experiments/program/command_line.h"
+#include "experiments/program/suggestion.h"
 #include "experiments/questions/questions_command.h"
 #include "experiments/reproduce/reproduce_command.h"
 #include "experiments/run/replay_command.h"
@@ -75,8 +77,13 @@ std::string program_help() {
 const Command& command_of(const std::string& name) {
   for (const Command& command : kCommands)
     if (command.name == name) return command;
-  throw InputError(
-      fmt::format("unknown {} '{}' (see kds --help)", name.starts_with('-') ? "option" : "command", name));
+  const bool is_option = name.starts_with('-');
+  std::vector<std::string_view> names{"help"};
+  if (is_option) names = {"--help", "--version"};
+  if (!is_option)
+    for (const Command& command : kCommands) names.push_back(command.name);
+  throw InputError(fmt::format("unknown {} '{}'{} (see kds --help)", is_option ? "option" : "command", name,
+                               suggestion(name, names)));
 }
 
 // kds help, kds help COMMAND

@@ -23,6 +23,7 @@
 #include "experiments/output/text.h"
 #include "experiments/program/data_folder.h"
 #include "experiments/program/progress_bar.h"
+#include "experiments/program/suggestion.h"
 #include "experiments/program/table_results.h"
 #include "experiments/program/warnings.h"
 #include "motions/base/input_error.h"
@@ -118,8 +119,10 @@ const Subject& subject_of(const std::vector<std::string>& operands) {
     for (const Subject& subject : kSubjects)
       if (subject.name == operands[0]) return subject;
   }
-  throw InputError(
-      "kds bench: expected one subject of certificates, collision, engine, hierarchies, power, trade");
+  std::vector<std::string_view> names;
+  for (const Subject& subject : kSubjects) names.push_back(subject.name);
+  throw InputError(fmt::format("kds bench: expected one subject of {}{}", fmt::join(names, ", "),
+                               operands.size() == 1 ? suggestion(operands[0], names) : ""));
 }
 
 std::size_t parse_count(std::string_view option, const std::string& text, std::size_t least) {

@@ -62,8 +62,8 @@ std::vector<std::string> parse_methods(const std::string& list) {
   const std::vector<std::string> all = method_names(), names = split(list, ',');
   for (const std::string& name : names) {
     if (std::find(all.begin(), all.end(), name) == all.end())
-      throw InputError(
-          fmt::format("--method: '{}' is not one of {} or, alone, all", name, fmt::join(all, ", ")));
+      refuse_unknown("--method", name, std::vector<std::string_view>(all.begin(), all.end()),
+                     fmt::format("one of {} or, alone, all", fmt::join(all, ", ")));
     if (std::count(names.begin(), names.end(), name) > 1)
       throw InputError(fmt::format("--method: {} is listed twice", name));
   }

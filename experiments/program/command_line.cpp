@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "experiments/output/text.h"
+#include "experiments/program/suggestion.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -23,8 +24,12 @@ std::string left_column(const OptionSpec& option) {
 std::string explain(const CLI::ParseError& error, const CLI::App& parser, const CommandSpec& command,
                     const Arguments& arguments) {
   if (const std::vector<std::string> extras = parser.remaining(); !extras.empty()) {
-    const bool option = extras.front().starts_with('-');
-    return fmt::format("{} '{}'", option ? "unknown option" : "unexpected argument", extras.front());
+    const std::string& extra = extras.front();
+    if (!extra.starts_with('-')) return fmt::format("unexpected argument '{}'", extra);
+    std::vector<std::string_view> names{kHelp.name};
+    for (const OptionSpec& option : command.options) names.push_back(option.name);
+    return fmt::format("unknown option '{}'{}", extra,
+                       suggestion(std::string_view(extra).substr(0, extra.find('=')), names));
   }
   for (const OptionSpec& option : command.options)
     for (const std::string& argument : arguments)

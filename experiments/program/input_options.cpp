@@ -1,11 +1,13 @@
 #include "experiments/program/input_options.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
 #include "experiments/output/text.h"
 #include "experiments/program/option_values.h"
+#include "experiments/program/suggestion.h"
 #include "motions/base/input_file.h"
 
 namespace kds {
@@ -22,8 +24,13 @@ std::string parse_radius(const std::string& rule) {
   const auto [end, error] = std::from_chars(rule.data(), rule.data() + rule.size(), number);
   if (error == std::errc() && end == rule.data() + rule.size() && std::isfinite(number) && number > 0)
     return rule;
+  constexpr std::array<std::string_view, 4> names{"auto", "element", "element:fit", "file:"};
+  // Other programs' words for van der Waals radii.
+  constexpr std::array<std::string_view, 7> van_der_waals{"vdw",   "vdwaals",  "van-der-waals", "vanderwaals",
+                                                          "bondi", "elements", "atomic"};
   throw InputError(
-      fmt::format("--radius: '{}' is not auto, a positive number, element, element:fit or file:PATH", rule));
+      fmt::format("--radius: '{}' is not auto, a positive number, element, element:fit or file:PATH{}", rule,
+                  suggestion(nearest_name(rule, van_der_waals) ? "element" : rule, names)));
 }
 
 // Names of atoms are written in capitals, so CA is ca. `automatic` cannot be asked for.

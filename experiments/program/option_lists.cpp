@@ -1,9 +1,9 @@
 #include "experiments/program/option_lists.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "experiments/output/text.h"
 #include "experiments/program/option_values.h"
@@ -14,14 +14,15 @@ namespace kds {
 
 std::vector<std::string> parse_structures(const std::string& list) {
   const std::vector<std::string> names = split(list, ',');
-  std::vector<std::string> known, ordered;
+  std::vector<std::string_view> known;
+  std::vector<std::string> ordered;
   for (const StructureSpec& spec : structure_registry().all()) {
     known.push_back(spec.name);
     if (std::find(names.begin(), names.end(), spec.name) != names.end()) ordered.push_back(spec.name);
   }
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(fmt::format("--structures: '{}' is not one of {}", name, fmt::join(known, ", ")));
+      refuse_unknown("--structures", name, known);
     if (std::count(names.begin(), names.end(), name) > 1)
       throw InputError(fmt::format("--structures: {} is listed twice", name));
   }

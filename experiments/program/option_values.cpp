@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "experiments/program/suggestion.h"
+
 namespace kds {
 
 namespace {
@@ -17,11 +19,17 @@ std::optional<Number> number_in(std::string_view text) {
 
 }  // namespace
 
+void refuse_unknown(std::string_view option, std::string_view word, std::span<const std::string_view> names,
+                    std::string_view expected) {
+  const std::string known =
+      expected.empty() ? fmt::format("one of {}", fmt::join(names, ", ")) : std::string(expected);
+  throw InputError(fmt::format("{}: '{}' is not {}{}", option, word, known, suggestion(word, names)));
+}
+
 std::size_t place_among(std::string_view option, std::string_view word,
                         std::span<const std::string_view> names) {
   const auto found = std::ranges::find(names, word);
-  if (found == names.end())
-    throw InputError(fmt::format("{}: '{}' is not one of {}", option, word, fmt::join(names, ", ")));
+  if (found == names.end()) refuse_unknown(option, word, names);
   return static_cast<std::size_t>(found - names.begin());
 }
 

@@ -20,6 +20,11 @@
 
 namespace kds {
 
+/// Throws InputError: the word is not one of the names. Suggests the nearest of them. `expected` is the end
+/// of the sentence "'WORD' is not ..." where a list of the names does not say it.
+[[noreturn]] void refuse_unknown(std::string_view option, std::string_view word,
+                                 std::span<const std::string_view> names, std::string_view expected = "");
+
 /// The place of a word among several names.
 [[nodiscard]] std::size_t place_among(std::string_view option, std::string_view word,
                                       std::span<const std::string_view> names);

@@ -54,15 +54,19 @@ std::vector<int> tables_asked_for(const ParsedArguments& parsed) {
         "kds reproduce needs at least one TABLE, table1 ... table7, or all (see kds reproduce --help)");
   std::vector<int> tables;
   for (const std::string& name : parsed.operands()) {
+  std::vector<std::string> names{"all"};
+  for (int table = 1; table <= paper_table_count; ++table) names.push_back(fmt::format("table{}", table));
     bool known = false;
     for (int table = 1; table <= paper_table_count; ++table) {
-      if (name != "all" && name != fmt::format("table{}", table)) continue;
+      if (name != "all" && name != names[static_cast<std::size_t>(table)]) continue;
       known = true;
       if (std::find(tables.begin(), tables.end(), table) != tables.end())
         throw InputError(fmt::format("TABLE: table{} is listed twice", table));
       tables.push_back(table);
     }
-    if (!known) throw InputError(fmt::format("TABLE: '{}' is not one of table1 ... table7, all", name));
+    if (!known)
+      refuse_unknown("TABLE", name, std::vector<std::string_view>(names.begin(), names.end()),
+                     "one of table1 ... table7, all");
   }
   std::sort(tables.begin(), tables.end());
   return tables;

@@ -99,14 +99,14 @@ constexpr std::array<OptionSpec, kModelOptions.size()> model_specs() {
 
 constexpr auto kGenerateOptions = joined(kFirstOptions, joined(model_specs(), kLastOptions));
 
-std::string model_names() {
+std::vector<std::string_view> model_names() {
   std::vector<std::string_view> names;
   for (const models::Model& model : models::all_models()) names.push_back(model.name);
-  return fmt::format("{}", fmt::join(names, ", "));
+  return names;
 }
 
 const CommandSpec& command() {
-  static const std::string operands = "one of " + model_names();
+  static const std::string operands = fmt::format("one of {}", fmt::join(model_names(), ", "));
   static const CommandSpec spec{
       "kds generate",
       "Writes a moving model necklace with beads of radius 1, and tells whether it is a proper one.",
@@ -122,8 +122,7 @@ const models::Model& model_of(const ParsedArguments& parsed) {
   if (parsed.operands().size() != 1)
     throw InputError(fmt::format("kds generate needs one MODEL, {}", command().operand_help));
   const models::Model* model = models::find_model(parsed.operands().front());
-  if (model == nullptr)
-    throw InputError(fmt::format("MODEL: '{}' is not {}", parsed.operands().front(), command().operand_help));
+  if (model == nullptr) refuse_unknown("MODEL", parsed.operands().front(), model_names());
   return *model;
 }
 

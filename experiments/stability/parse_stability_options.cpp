@@ -47,7 +47,7 @@ std::vector<std::string> parse_names(std::string_view option, const std::string&
   const std::vector<std::string> names = split(list, ',');
   for (const std::string& name : names) {
     if (!among(known, name))
-      throw InputError(fmt::format("{}: '{}' is not one of {}", option, name, fmt::join(known, ", ")));
+      refuse_unknown(option, name, std::vector<std::string_view>(known.begin(), known.end()));
     if (std::count(names.begin(), names.end(), name) > 1)
       throw InputError(fmt::format("{}: {} is listed twice", option, name));
   }

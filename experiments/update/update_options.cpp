@@ -1,7 +1,6 @@
 #include "experiments/update/update_options.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -42,8 +41,7 @@ std::vector<std::string> parse_techniques(const std::string& list) {
   const std::vector<std::string> names = split(list, ',');
   for (const std::string& name : names) {
     if (std::find(kTechniques.begin(), kTechniques.end(), name) == kTechniques.end())
-      throw InputError(
-          fmt::format("--techniques: '{}' is not one of {}", name, fmt::join(kTechniques, ", ")));
+      refuse_unknown("--techniques", name, kTechniques);
     if (std::count(names.begin(), names.end(), name) > 1)
       throw InputError(fmt::format("--techniques: {} is listed twice", name));
   }

@@ -57,6 +57,29 @@ TEST(Program, RefusesWrongUsage) {
   expect_refused({"replay", kSmall, kSmall}, {"one LOG"});
 }
 
+TEST(Program, SuggestsTheNearestName) {
+  expect_refused({"rnu"}, {"unknown command 'rnu', did you mean run?"});
+  expect_refused({"help", "colide"}, {"did you mean collide?"});
+  expect_refused({"--versoin"}, {"did you mean --version?"});
+  expect_refused({"run", kSmall, "--frame", "0:3"}, {"unknown option '--frame', did you mean --frames?"});
+  expect_refused({"run", kSmall, "--frame=0:3"}, {"did you mean --frames?"});
+  expect_refused({"run", kSmall, "--structures", "power,contact"}, {"did you mean contacts?"});
+  expect_refused({"run", kSmall, "--kernel", "filter"}, {"did you mean filtered?"});
+  expect_refused({"run", kSmall, "--motion", "hermit"}, {"did you mean hermite?"});
+  expect_refused({"run", kSmall, "--select", "backbon"}, {"did you mean backbone?"});
+  for (const char* radius : {"vdw", "VDW", "elements", "van-der-waals"})
+    expect_refused({"run", kSmall, "--radius", radius},
+                   {"'" + std::string(radius) + "'", "did you mean element?"});
+  expect_refused({"run", kSmall, "--radius", "aut"}, {"did you mean auto?"});
+  expect_refused({"collide", kTrajectory, "--method", "cell"}, {"did you mean cells?"});
+  expect_refused({"update", kTrajectory, "--techniques", "reinserts"}, {"did you mean reinsert?"});
+  expect_refused({"generate", "chain", "--beads", "9"}, {"did you mean random-chain?"});
+  expect_refused({"reproduce", "tabel3"}, {"did you mean table3?"});
+  expect_refused({"questions", "enrgy"}, {"did you mean energy?"});
+  expect_refused({"bench", "pwer"}, {"did you mean power?"});
+  expect_refused({"stability", "--subjects", "powertest"}, {"did you mean power_test?"});
+}
+
 TEST(Program, RefusesMissingFiles) {
   const ScratchDirectory directory;
   const std::string missing = (directory / "missing.pdb").string();

@@ -1,0 +1,68 @@
+#include "experiments/program/suggestion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace kds {
+
+namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::ranges::transform(result, result.begin(), [](char c) { return lower(c); });
+  return result;
+}
+
+// Optimal string alignment: the rows are of the last three prefixes of `a`.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    next[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      next[j] = std::min({row[j] + 1, next[j - 1] + 1, row[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        next[j] = std::min(next[j], before[j - 2] + 1);
+    }
+    before.swap(row);
+    row.swap(next);
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::optional<std::string_view> nearest_name(std::string_view word, std::span<const std::string_view> names) {
+  constexpr std::size_t longest = 64, letters_for_a_part = 3;
+  if (word.empty() || word.size() > longest) return std::nullopt;
+  const std::string typed = lower(word);
+  const std::size_t dashes = std::min(typed.find_first_not_of('-'), typed.size());
+  const std::string_view bare = std::string_view(typed).substr(dashes);
+  std::optional<std::string_view> nearest;
+  std::size_t least = 0;
+  for (const std::string_view name : names) {
+    const std::string known = lower(name);
+    const std::size_t distance = edit_distance(typed, known);
+    const bool is_part = bare.size() >= letters_for_a_part &&
+                         (known.ends_with(bare) || (bare.size() < known.size() && known.starts_with(typed)));
+    const bool is_near = distance <= std::max<std::size_t>(1, bare.size() / 3) && distance < known.size();
+    if (!is_part && !is_near) continue;
+    const std::size_t rank = is_near ? distance : longest + distance;
+    if (nearest && rank >= least) continue;
+    nearest = name;
+    least = rank;
+  }
+  return nearest;
+}
+
+std::string suggestion(std::string_view word, std::span<const std::string_view> names) {
+  const auto name = nearest_name(word, names);
+  return name ? fmt::format(", did you mean {}?", *name) : "";
+}
+
+}  // namespace kds
