@@ -56,7 +56,7 @@ constexpr std::array kModelOptions{
                 [](auto o, auto& t, Settings& s) { s.step = parse_real(o, t, {0, 1000}); }, write_real<&Settings::step>},
     ModelOption{Setting::bond, {"--bond", "X", "distance of consecutive beads, in diameters (default: 0.999)"},
                 [](auto o, auto& t, Settings& s) { s.bond = parse_real(o, t, {0.5, 1, true}); }, write_real<&Settings::bond>},
-    ModelOption{Setting::turns, {"--turns", "X", "turns of a helix or spiral (default: helix 10, spirals 18)"},
+    ModelOption{Setting::turns, {"--turns", "X", "turns of a helix or spiral (default: helix 10, spirals 18, fewer where the beads leave no room)"},
                 [](auto o, auto& t, Settings& s) { s.turns = parse_real(o, t, {0, 1e6}); }, write_real<&Settings::turns>},
     ModelOption{Setting::pitch, {"--pitch", "X", "distance of the turns of a scaling-helix, in bonds (default: 2)"},
                 [](auto o, auto& t, Settings& s) { s.pitch = parse_real(o, t, {0, 1e6, true}); }, write_real<&Settings::pitch>},

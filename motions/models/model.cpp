@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -107,6 +108,13 @@ std::vector<Trajectory> make_two_spirals(const Settings& s) {
   return {trajectory("two-spirals 1", std::move(first)), trajectory("two-spirals 2", std::move(second))};
 }
 
+// Rounded down to tenths.
+double root_of_share(std::size_t beads, double bonds_a_squared_turn) {
+  return std::floor(10 * std::sqrt(static_cast<double>(beads - 1) / bonds_a_squared_turn)) / 10;
+}
+double turns_of_helix(std::size_t beads) { return root_of_share(beads, 3.3); }
+double turns_of_spiral(std::size_t beads) { return root_of_share(beads, 10.5); }
+
 Settings shape_defaults(ShapeMotion motion) {
   Settings settings;
   settings.motion = motion;
@@ -130,16 +138,18 @@ std::vector<Model> make_models() {
   spiral.rolled = Span{0, 1};
   Settings two = spiral;
   two.distance = Span{1.5, 1.5};
-  return {
-      {"spline", "a quadratic spline with five control points", kShape, make_spline, shape},
-      {"helix", "a helix in a cube, with a constant number of turns", kHelix, make_helix, helix},
-      {"scaling-helix", "a helix in a cube whose turns grow with the root of the beads", kScalingHelix,
-       make_scaling_helix, scaling},
-      {"spiral", "a straight chain that rolls up into a logarithmic spiral", kSpiral, make_spiral, spiral},
-      {"two-spirals", "two such chains some way apart, two files", kTwoSpirals, make_two_spirals, two},
-      {"grill", "six parallel segments connected by parabolic arcs", kShape, make_grill, shape},
-      {"grid", "rows that trace a square or a cube, tightly packed", kGrid, make_grid, grid},
-      {"random-chain", "a random chain that avoids itself", kChain, make_random_chain, chain}};
+  return {{"spline", "a quadratic spline with five control points", kShape, make_spline, shape},
+          {"helix", "a helix in a cube, with a constant number of turns", kHelix, make_helix, helix,
+           turns_of_helix},
+          {"scaling-helix", "a helix in a cube whose turns grow with the root of the beads", kScalingHelix,
+           make_scaling_helix, scaling},
+          {"spiral", "a straight chain that rolls up into a logarithmic spiral", kSpiral, make_spiral, spiral,
+           turns_of_spiral},
+          {"two-spirals", "two such chains some way apart, two files", kTwoSpirals, make_two_spirals, two,
+           turns_of_spiral},
+          {"grill", "six parallel segments connected by parabolic arcs", kShape, make_grill, shape},
+          {"grid", "rows that trace a square or a cube, tightly packed", kGrid, make_grid, grid},
+          {"random-chain", "a random chain that avoids itself", kChain, make_random_chain, chain}};
 }
 
 }  // namespace
@@ -169,6 +179,8 @@ Settings completed(const Model& model, const Settings& settings) {
   complete(full.step, defaults.step);
   complete(full.bond, defaults.bond);
   complete(full.turns, defaults.turns);
+  if (!settings.turns && model.most_turns != nullptr)
+    full.turns = std::min(*full.turns, model.most_turns(full.beads));
   complete(full.pitch, defaults.pitch);
   complete(full.gap, defaults.gap);
   complete(full.dimension, defaults.dimension);

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
@@ -20,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "motions/models/model.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 #include "tests/support/rounds.h"
@@ -101,6 +103,11 @@ Words generate(const Row& row, const ScratchDirectory& scratch) {
   Words arguments = words_of(row.model);
   Words files{scratch / "model.xyz"};
   if (arguments.front() == "two-spirals") files = {scratch / "model-1.xyz", scratch / "model-2.xyz"};
+  // Models on record have the full turns, whether or not the beads leave room.
+  const models::Model* const model = models::find_model(arguments.front());
+  if (model != nullptr && model->takes(models::Setting::turns) &&
+      std::ranges::count(arguments, "--turns") == 0)
+    arguments.insert(arguments.end(), {"--turns", std::to_string(*model->defaults.turns)});
   arguments.insert(arguments.begin(), "generate");
   arguments.insert(arguments.end(), {"-o", scratch / "model.xyz", "--quiet"});
   const ProgramRun run = run_program(std::move(arguments));

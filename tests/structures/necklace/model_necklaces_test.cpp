@@ -67,8 +67,19 @@ TEST(ModelNecklaces, AreProper) {
   }
 }
 
+// The default turns fit the beads. A grill needs 40 beads for its bends.
+TEST(ModelNecklaces, AreProperByDefault) {
+  for (const models::Model& model : models::all_models()) {
+    std::size_t beads = model.name == "grill" ? 40 : 2;
+    for (; beads < 400; beads += 1 + beads / 12) expect_proper(model.name, sized(beads));
+    expect_proper(model.name, sized(1000, 11));
+    expect_proper(model.name, sized(2000));
+  }
+}
+
 TEST(ModelNecklaces, TooManyTurnsMeet) {
   Settings settings = sized(1000, 2);
+  settings.turns = 18;
   const Trajectory spiral = generate(*find_model("spiral"), settings)[0];
   EXPECT_TRUE(validate_frame(spiral.frames[0]).proper());
   EXPECT_GT(validate_frame(spiral.frames[1])[Condition::disjoint].count, 0U);
