@@ -208,7 +208,7 @@ int bench_command(const Arguments& arguments) {
     check_page(*destinations.out, "bench.json");
   }
 
-  ProgressBar bar(!destinations.quiet);
+  ProgressBar bar(!destinations.quiet, "measurement");
   if (subject.what_is_missing != nullptr && !destinations.quiet && !subject.what_is_missing().empty())
     print_warning(bar, std::string(subject.what_is_missing()));
   const Rows rows =

@@ -78,7 +78,7 @@ int collide_command(const Arguments& arguments) {
   taken.read(options.input);
   check_collide_destinations(options.destinations, taken);
 
-  ProgressBar bar(!options.destinations.quiet);
+  ProgressBar bar(!options.destinations.quiet, "frame");
   if (const auto instance = read_lone_instance(options.input))
     throw InputError(instance->file + ": an instance file has points, no balls; expected a trajectory");
   Json warnings = Json::array();

@@ -129,7 +129,7 @@ int missed_command(const Arguments& arguments) {
   check_inputs_exist(task.input);
   check_destinations(options);
 
-  ProgressBar bar(!options.destinations.quiet);
+  ProgressBar bar(!options.destinations.quiet, "step");
   if (const auto instance = read_lone_instance(task.input))
     throw InputError(instance->file + ": an instance file has points, no balls; expected a trajectory");
   Json warnings = Json::array();

@@ -54,7 +54,7 @@ int compare_command(const Arguments& arguments) {
   check_inputs_exist(options.input);
   check_destinations(options, destinations);
 
-  ProgressBar bar(!options.quiet);
+  ProgressBar bar(!options.quiet, "step");
   HeldWarnings held;
   const Comparison comparison = compare_runs(
       options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); }, held.hold());

@@ -14,23 +14,37 @@ namespace {
 constexpr std::size_t kWidth = 32;
 constexpr auto kPause = std::chrono::milliseconds(100);
 
+std::string duration(double seconds) {
+  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
 }  // namespace
 
-ProgressBar::ProgressBar(bool wanted, std::FILE* stream)
-    : stream_(wanted && ::isatty(::fileno(stream)) != 0 ? stream : nullptr) {}
+std::string progress_line(std::string_view counted, std::size_t done, double within, std::size_t total,
+                          double seconds) {
+  const double part = std::clamp((static_cast<double>(done) + within) / static_cast<double>(total), 0.0, 1.0);
+  const auto filled = static_cast<std::size_t>(part * kWidth);
+  constexpr double soonest = 2;  // an earlier guess would jump
+  std::string left;
+  if (seconds >= soonest && part > 0 && part < 1)
+    left = fmt::format(", about {} left", duration(seconds * (1 - part) / part));
+  return fmt::format("[{}{}] {} {} of {}, {}{}", std::string(filled, '#'), std::string(kWidth - filled, '.'),
+                     counted, with_thousands(done), with_thousands(total), duration(seconds), left);
+}
 
-void ProgressBar::update(std::size_t done, std::size_t total) {
+ProgressBar::ProgressBar(bool wanted, std::string_view counted, std::FILE* stream)
+    : stream_(wanted && ::isatty(::fileno(stream)) != 0 ? stream : nullptr), counted_(counted) {}
+
+void ProgressBar::update(std::size_t done, double within, std::size_t total) {
   const Clock::time_point now = Clock::now();
   if (stream_ == nullptr || total == 0 || now - drawn_ < kPause) return;
   drawn_ = now;
   visible_ = true;
-  const double part = std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
-  const auto filled = static_cast<std::size_t>(part * kWidth);
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  const std::string line =
-      fmt::format("\r[{}{}] step {} of {}, {:.0f} s\033[K", std::string(filled, '#'),
-                  std::string(kWidth - filled, '.'), with_thousands(done), with_thousands(total), seconds);
-  std::fputs(line.c_str(), stream_);
+  std::fputs(fmt::format("\r{}\033[K", progress_line(counted_, done, within, total, seconds)).c_str(),
+             stream_);
   std::fflush(stream_);
 }
 

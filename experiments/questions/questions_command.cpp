@@ -99,7 +99,7 @@ std::size_t steps_of(const std::string& question) {
 }
 
 std::vector<Question> measure(const QuestionsAsked& asked) {
-  ProgressBar bar(!asked.destinations.quiet);
+  ProgressBar bar(!asked.destinations.quiet, "measurement");
   std::size_t done = 0, total = 0;
   for (const std::string& question : asked.questions) total += steps_of(question);
   const std::function<void()> step_done = [&] { bar.update(++done, total); };

@@ -144,7 +144,7 @@ int reproduce_command(const Arguments& arguments) {
   const std::filesystem::path data = data_folder(parsed, {"paper"});
   check_destinations(destinations, numbers, data);
 
-  ProgressBar bar(!destinations.quiet);
+  ProgressBar bar(!destinations.quiet, "row");
   const std::vector<PaperTable> tables = measure(numbers, data, rounds, bar);
   std::vector<std::string> names;
   for (const int number : numbers) names.push_back(fmt::format("table{}", number));

@@ -48,7 +48,9 @@ constexpr std::array kRunOptions{
     OptionSpec{
         "--certify", "",
         "with a stride in --frames or --tolerance: read all frames, and bound what may have been missed"},
-    OptionSpec{"--audit", "WHEN", "compare with static builds: none, frames or events (default: none)"},
+    OptionSpec{"--audit", "WHEN",
+               "compare with static builds: none, frames or events, between which a run takes up to 200 "
+               "times as long (default: none)"},
     OptionSpec{"--rounds", "N",
                "the run so often: times are the median, with the least and most (default: 1)"},
     OptionSpec{"--work", "LIMIT",

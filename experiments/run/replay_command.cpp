@@ -69,10 +69,10 @@ int replay_command(const Arguments& arguments) {
   check_destinations(destinations);
   if (events) ensure_writable_file(*events, "--events");
 
-  RunResults results(destinations, events);
-  ProgressBar bar(!destinations.quiet);
+  RunResults results("replay", destinations, events);
+  ProgressBar bar(!destinations.quiet, "step");
   const ReplayReport replay = replay_log(
-      log, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },
+      log, [&bar](std::size_t done, double within, std::size_t total) { bar.update(done, within, total); },
       [&bar](const std::string& warning) { print_warning(bar, warning); }, &results);
   bar.erase();
   results.deliver(replay.run, replay_json(replay, log), comparison_table(replay.run) + verdict(replay));

@@ -117,13 +117,15 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
   const auto session = open_session(options, scene, options.audit);
   LogComparison comparison(log, name, session->simulator());
   session->simulator().listen(comparison);
+  ProgressWithinSteps within(progress, scene.step_count());
+  if (options.audit == AuditMode::events) session->simulator().listen(within);
   StepCounts counts(*session, scene);
   if (results != nullptr) results->begin(scene, *session, options.certify);
   run_steps(*session, scene, options, [&](std::size_t frame) {
     if (results != nullptr) results->add_frame(frame, *session);
     if (frame == 0) return warnings.release(warn);
     counts.end_step(frame - 1, results);
-    progress(frame, scene.step_count());
+    progress(frame, 0, scene.step_count());
   });
 
   ReplayReport replay;

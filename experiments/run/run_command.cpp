@@ -69,10 +69,11 @@ int run_command(const Arguments& arguments) {
   const Destinations destinations{options.out, options.json, options.quiet};
   check_before_run(options, destinations);
 
-  RunResults results(destinations, options.events);
-  ProgressBar bar(!options.quiet);
+  RunResults results("run", destinations, options.events);
+  ProgressBar bar(!options.quiet, "step");
   const RunReport report = run_scene(
-      options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },
+      options,
+      [&bar](std::size_t done, double within, std::size_t total) { bar.update(done, within, total); },
       [&bar](const std::string& warning) { print_warning(bar, warning); }, results);
   bar.erase();
   results.deliver(report, report_json(report), comparison_table(report));

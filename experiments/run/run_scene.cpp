@@ -65,10 +65,12 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   run_steps(*session, scene, options, [&](std::size_t frame) {
     if (frame == 0) warnings.release(warn);
     results.add_frame(frame, *session);
+  ProgressWithinSteps within(progress, options.rounds * scene.step_count());
+  if (options.audit == AuditMode::events) session->simulator().listen(within);
     if (approach) frame == 0 ? approach->begin() : approach->end_step(scene.frame_number(frame - 1));
     if (frame == 0) return;
     counts.end_step(frame - 1, &results);
-    progress(frame, options.rounds * scene.step_count());
+    progress(frame, 0, options.rounds * scene.step_count());
   });
 
   RunReport report = report_of(*session, scene, options, counts);
@@ -85,7 +87,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   for (std::size_t round = 1; round < options.rounds; ++round) {
     const auto again = open_session(options, scene, AuditMode::none);
     run_steps(*again, scene, options, [&](std::size_t frame) {
-      progress(round * scene.step_count() + frame, options.rounds * scene.step_count());
+      progress(round * scene.step_count() + frame, 0, options.rounds * scene.step_count());
     });
     add_round(*again, scene, times);
   }

@@ -96,7 +96,7 @@ int generate_command(const Arguments& arguments) {
   }
   check_table_destinations(destinations, std::string(kGenerateName), taken);
 
-  ProgressBar bar(!options.quiet);
+  ProgressBar bar(!options.quiet, "frame");
   const std::vector<Trajectory> necklaces = necklaces_for(options, files);
   std::size_t beads = 0;
   for (const Trajectory& necklace : necklaces) beads += necklace.bead_count();

@@ -109,7 +109,7 @@ int info_command(const Arguments& arguments) {
   check_table_destinations(destinations, std::string(kInfoName), taken);
 
   const std::string command_line = "kds info " + shell_words(arguments);
-  ProgressBar bar(!options.quiet);
+  ProgressBar bar(!options.quiet, "frame");
   const std::optional<Instance> instance = read_lone_instance(options.input);
   deliver_table(
       destinations, std::string(kInfoName),

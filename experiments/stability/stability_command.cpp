@@ -27,7 +27,7 @@ int stability_command(const Arguments& arguments) {
     check_page(*options.out, "stability.json");
   }
 
-  ProgressBar bar(!options.quiet);
+  ProgressBar bar(!options.quiet, "row");
   const std::vector<StabilityRow> rows =
       run_stability(options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
   bar.erase();

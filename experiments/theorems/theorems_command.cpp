@@ -82,7 +82,7 @@ TheoremsAsked parse_theorems(const Arguments& arguments) {
 
 std::vector<TheoremSeries> measure(const TheoremsAsked& asked) {
   TheoremPlan plan = plan_theorems(asked.measured);
-  ProgressBar bar(!asked.destinations.quiet);
+  ProgressBar bar(!asked.destinations.quiet, "measurement");
   std::size_t done = 0;
   for (const auto& work : plan.work) {
     work(plan.series);

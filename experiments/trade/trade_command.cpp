@@ -211,7 +211,7 @@ int trade_command(const Arguments& arguments) {
     check_page(*destinations.out, "trade.json");
   }
 
-  ProgressBar bar(!destinations.quiet);
+  ProgressBar bar(!destinations.quiet, "run");
   if (const auto instance = read_lone_instance(options.input))
     throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
   HeldWarnings held;

@@ -69,7 +69,7 @@ int update_command(const Arguments& arguments) {
     check_page(*options.out, "update.json");
   }
 
-  ProgressBar bar(!options.quiet);
+  ProgressBar bar(!options.quiet, "round");
   if (const auto instance = read_lone_instance(options.input))
     throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
   Json warnings = Json::array();
