@@ -38,11 +38,16 @@ constexpr std::array kTradeOptions{
         "diagram: edges shorter than this are counted where they are missed (default: 4 times the largest "
         "radius)"},
     OptionSpec{"--rounds", "N", "runs of each setting in turn, of which the median counts (default: 5)"},
+    OptionSpec{
+        "--without-exact", "",
+        "leave out the exact kernel, which has the same events at a hundred to thousands of times the cost"},
     OptionSpec{"--times", "N", "random times at which errors are taken, and as many frames (default: 200)"},
     OptionSpec{"--seed", "N", "of the random times (default: 1)"},
     OptionSpec{"--out", "DIR", "write trade.json, trade.csv and report.html there (default: none)"},
     OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
-    OptionSpec{"--quiet", "", "no table, no progress bar"},
+    OptionSpec{
+        "--quiet", "",
+        "no table, no progress bar, which counts runs: of each setting one for its errors, then the rounds"},
 };
 
 constexpr auto kAllTradeOptions = joined(kInputOptions, kTradeOptions);
@@ -81,6 +86,7 @@ Json settings_json(const TradeOptions& options) {
           {"want", wants},
           {"apart", options.task.apart},
           {"rounds", options.task.rounds},
+          {"exact_kernel", options.task.exact_kernel},
           {"times", options.task.sampling.times},
           {"seed", options.task.sampling.seed}};
 }
@@ -98,12 +104,14 @@ Json input_json(const TradeOptions& options, const FinestData& finest) {
 }
 
 // By beads and frames alone, so that the rows are the same on every machine.
-bool leave_out_exact_kernel(const FinestData& finest, const std::vector<Want>& wants,
+bool leave_out_exact_kernel(const FinestData& finest, const TradeTask& task,
                             const std::function<void(const std::string&)>& warn) {
   constexpr std::size_t most_beads = 500, most = 50'000;
-  if (wants == std::vector{Want::scenes}) return true;  // which have no kernels
+  const bool asked_for = task.exact_kernel;
+  if (task.wants == std::vector{Want::scenes}) return true;  // which have no kernels
   const std::size_t beads = finest.radii().size(), frames = finest.frame_count();
-  if (beads <= most_beads && beads * frames <= most) return false;
+  if (beads <= most_beads && beads * frames <= most) return !asked_for;
+  if (!asked_for) return true;
   warn(fmt::format(
       "`--kernel exact` is left out: {} beads in {} frames take it long; expected no more than {} beads, and "
       "no more than {} times frames",
@@ -162,6 +170,8 @@ void refuse_needless_options(const ParsedArguments& parsed, const std::vector<Wa
   if (parsed.value("--apart") && !wanted({Want::contacts, Want::events, Want::scenes}))
     throw InputError("--apart: it chooses pairs of contacts; expected contacts, events or scenes in --want");
   if (parsed.value("--cutoff") && !wanted({Want::diagram, Want::events}))
+  if (parsed.has("--without-exact") && wants == std::vector{Want::scenes})
+    throw InputError("--without-exact: scenes are run with one kernel; expected another word in --want");
     throw InputError(
         "--cutoff: it is about edges of the power diagram; expected diagram or events in --want");
 }
@@ -194,6 +204,7 @@ TradeOptions parse_trade_options(const Arguments& arguments) {
   if (const auto text = parsed.value("--seed"))
     task.sampling.seed = parse_whole_number("--seed", *text, 0, ~std::uint64_t{0});
   refuse_needless_options(parsed, task.wants);
+  task.exact_kernel = !parsed.has("--without-exact");
   options.destinations = {path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
   return options;
 }
@@ -220,7 +231,7 @@ int trade_command(const Arguments& arguments) {
   std::vector<double> radii = bead_radii(options.input.radius, necklaces);
   const FinestData finest(std::move(necklaces), std::move(radii), options.input.radius);
   TradeTask task = options.task;
-  task.exact_kernel = !leave_out_exact_kernel(finest, task.wants, held.hold());
+  task.exact_kernel = !leave_out_exact_kernel(finest, task, held.hold());
   if (!destinations.quiet) foretell(foretold_seconds(finest, task));
   const std::vector<TradeRow> rows = measure_trade(
       finest, task, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); }, held.hold());
