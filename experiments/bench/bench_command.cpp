@@ -204,8 +204,7 @@ int bench_command(const Arguments& arguments) {
   if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
   check_table_destinations(destinations, "bench", taken);
   if (destinations.out) {
-    check_directory(*destinations.out, "--out", {"report.html"});
-    check_page(*destinations.out, "bench.json");
+    check_page(*destinations.out, "bench");
   }
 
   ProgressBar bar(!destinations.quiet, "measurement");

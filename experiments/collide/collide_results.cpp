@@ -11,6 +11,7 @@ namespace kds {
 
 namespace {
 
+constexpr std::string_view kCommand = "collide";
 constexpr std::array<std::string_view, 3> kFurtherFiles{"pairs.csv", "frames.csv", "report.html"};
 
 }  // namespace
@@ -21,13 +22,14 @@ void check_collide_destinations(const Destinations& destinations, TakenPaths tak
   }
   check_table_destinations(destinations, "collide", taken);
   if (!destinations.out) return;
-  check_directory(*destinations.out, "--out", {kFurtherFiles[0], kFurtherFiles[1], kFurtherFiles[2]});
-  check_page(*destinations.out, "collide.json");
+  check_directory(*destinations.out, kCommand, "--out",
+                  {kFurtherFiles[0], kFurtherFiles[1], kFurtherFiles[2]});
+  check_page(*destinations.out, kCommand);
 }
 
 void CollideResults::begin(const CollideFrames& scene) {
   if (!destinations_.out) return;
-  files_.emplace(*destinations_.out, "--out");
+  files_.emplace(*destinations_.out, kCommand, "--out");
   pairs_.emplace(files_->open("pairs.csv"), scene);
   contacts_.emplace(scene.radii().size());
 }

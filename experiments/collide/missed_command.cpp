@@ -102,8 +102,7 @@ void check_destinations(const MissedOptions& options) {
   }
   check_table_destinations(destinations, kMissedName, taken);
   if (!destinations.out) return;
-  check_directory(*destinations.out, "--out", {"report.html"});
-  check_page(*destinations.out, "missed.json");
+  check_page(*destinations.out, "missed");
 }
 
 }  // namespace

@@ -42,8 +42,7 @@ void check_destinations(const CompareOptions& options, const Destinations& desti
   if (options.out) taken.write_into("--out", *options.out, {"report.html"});
   check_table_destinations(destinations, kCompareName, taken);
   if (!options.out) return;
-  check_directory(*options.out, "--out", {"report.html"});
-  check_page(*options.out, "compare.json");
+  check_page(*options.out, "compare");
 }
 
 }  // namespace

@@ -9,27 +9,10 @@
 
 namespace kds {
 
-DumpedFrames::DumpedFrames(std::filesystem::path directory) : files_(std::move(directory), "--dump") {
-  files_.replace([this](std::string_view name) { return is_stale(name); });
-}
+namespace {
 
-std::ostream& DumpedFrames::open_contacts() {
-  has_contacts_ = true;
-  return files_.open(std::string(contacts_file));
-}
-
-void DumpedFrames::write(std::size_t frame, const std::vector<DumpFile>& files) {
-  for (const DumpFile& file : files) {
-    files_.write(fmt::format("frame-{}.{}", frame, file.ending), file.text);
-    endings_.insert(file.ending);
-  }
-  frames_ = frame + 1;
-  files_.check();
-}
-
-// frame-NUMBER.WORD.csv or contacts.csv, and not one that has just been written.
-bool DumpedFrames::is_stale(std::string_view name) const {
-  if (name == contacts_file) return !has_contacts_;
+// frame-NUMBER.WORD.csv
+bool is_frame(std::string_view name) {
   constexpr std::string_view start = "frame-", end = ".csv";
   if (!name.starts_with(start) || !name.ends_with(end)) return false;
   name.remove_prefix(start.size());
@@ -38,10 +21,22 @@ bool DumpedFrames::is_stale(std::string_view name) const {
   const auto digits = static_cast<std::size_t>(after - name.data());
   if (error != std::errc() || name.substr(0, digits) != std::to_string(frame)) return false;
   if (digits == name.size() || name[digits] != '.') return false;
-  const std::string_view ending = name.substr(digits + 1);
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz_";
-  if (ending.find_first_not_of(letters) != ending.size() - end.size()) return false;
-  return frame >= frames_ || !endings_.contains(ending);
+  name.remove_prefix(digits + 1);
+  return name.find_first_not_of(letters) == name.size() - end.size();
+}
+
+}  // namespace
+
+DumpedFrames::DumpedFrames(std::filesystem::path directory) : files_(std::move(directory), "run", "--dump") {
+  files_.refuse_others(is_frame);  // two dumps would be taken for one
+}
+
+std::ostream& DumpedFrames::open_contacts() { return files_.open(std::string(contacts_file)); }
+
+void DumpedFrames::write(std::size_t frame, const std::vector<DumpFile>& files) {
+  for (const DumpFile& file : files) files_.write(fmt::format("frame-{}.{}", frame, file.ending), file.text);
+  files_.check();
 }
 
 }  // namespace kds

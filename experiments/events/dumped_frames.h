@@ -4,9 +4,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <ostream>
-#include <set>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "experiments/output/staged_files.h"
@@ -16,7 +13,8 @@ namespace kds {
 
 class DumpedFrames {
  public:
-  /// Throws InputError or OutputError naming option and path.
+  /// Throws InputError or OutputError naming option and path, also where the directory has frames that no
+  /// earlier dump has written.
   explicit DumpedFrames(std::filesystem::path directory);
   DumpedFrames(const DumpedFrames&) = delete;
   DumpedFrames& operator=(const DumpedFrames&) = delete;
@@ -25,17 +23,11 @@ class DumpedFrames {
   [[nodiscard]] std::ostream& open_contacts();
   /// In the order of the frames, from 0.
   void write(std::size_t frame, const std::vector<DumpFile>& files);
-  /// When these files take their places, those of an earlier dump that none of them replaces go: else two
-  /// dumps would be taken for one.
+  /// When these files take their places, those of an earlier dump that none of them replaces go.
   [[nodiscard]] Staged& staged() { return files_; }
 
  private:
-  [[nodiscard]] bool is_stale(std::string_view name) const;
-
   StagedFiles files_;
-  std::size_t frames_ = 0;
-  bool has_contacts_ = false;
-  std::set<std::string, std::less<>> endings_;
 };
 
 }  // namespace kds

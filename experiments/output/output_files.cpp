@@ -10,6 +10,7 @@
 
 #include "experiments/output/output_error.h"
 #include "experiments/output/replace_file.h"
+#include "experiments/output/result_manifest.h"
 #include "experiments/output/straight_output.h"
 #include "motions/base/input_error.h"
 
@@ -40,7 +41,7 @@ void probe(const fs::path& directory, const std::string& subject) {
 
 }  // namespace
 
-void check_directory(const fs::path& path, std::string_view option,
+void check_directory(const fs::path& path, std::string_view command, std::string_view option,
                      std::initializer_list<std::string_view> names) {
   const std::string place = fmt::format("{} {}", option, path.string());
   const fs::path there = existing_part(path, place + ": cannot make the directory");
@@ -49,10 +50,12 @@ void check_directory(const fs::path& path, std::string_view option,
     throw InputError(fmt::format("{}: {}is a file, expected a directory", place,
                                  there == path ? "" : there.string() + " "));
   probe(there, fmt::format("{}: cannot write {}", place, there == path ? "there" : "in " + there.string()));
+  const ResultManifest earlier(path, command, option);
   for (const std::string_view name : names) {
     if (fs::is_directory(path / name, error))
       throw InputError(fmt::format("{} {}: is a directory, expected a file", option, (path / name).string()));
     if (fs::exists(path / name, error)) check_replaceable(path / name);
+    earlier.require_own(std::string(name));
   }
 }
 

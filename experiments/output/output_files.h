@@ -15,9 +15,9 @@
 namespace kds {
 
 /// Checks, without a trace left behind, that the directory can be made, where it is none yet, and files of
-/// these names be written there: so that a run is not lost at its end. Throws InputError naming the option
-/// and the path.
-void check_directory(const std::filesystem::path& path, std::string_view option,
+/// these names be written there as results of the command: so that a run is not lost at its end. Throws
+/// InputError naming the option and the path.
+void check_directory(const std::filesystem::path& path, std::string_view command, std::string_view option,
                      std::initializer_list<std::string_view> names = {});
 
 /// Checks, without a trace left behind, that `path` can be written later. Throws InputError likewise.

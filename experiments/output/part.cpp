@@ -6,8 +6,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <string_view>
 
 #include "experiments/output/output_error.h"
 #include "experiments/output/replace_file.h"
@@ -78,11 +80,27 @@ void Part::become(const fs::path& place, const std::string& subject) {
   unfinished_.reset();
 }
 
+namespace {
+
+// As Part names them: .kds-PROCESS-NUMBER.part
+bool is_part(std::string_view name) {
+  for (const std::string_view part : {".kds-", "-", ".part"}) {
+    if (!name.starts_with(part)) return false;
+    name.remove_prefix(part.size());
+    if (part == ".part") break;
+    const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+    if (digits == 0) return false;
+    name.remove_prefix(digits);
+  }
+  return name.empty();
+}
+
+}  // namespace
+
 void clear_stale_parts(const fs::path& directory) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(".kds-") || !name.ends_with(".part")) continue;
+    if (!is_part(entry.path().filename().string())) continue;
     const int descriptor = ::open(entry.path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) continue;
     if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry.path(), ignored);

@@ -9,10 +9,10 @@
 #include <ostream>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "experiments/output/made_directories.h"
 #include "experiments/output/part.h"
+#include "experiments/output/result_manifest.h"
 #include "experiments/output/staged.h"
 #include "experiments/output/written_file.h"
 
@@ -21,31 +21,25 @@ namespace kds {
 class StagedFiles final : public Staged {
  public:
   /// Makes the directory if it is not there. Throws InputError or OutputError naming option and path.
-  StagedFiles(std::filesystem::path directory, std::string_view option);
+  /// `command` and `option` say whose results these are (result_manifest.h).
+  StagedFiles(std::filesystem::path directory, std::string_view command, std::string_view option);
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  /// Throws likewise.
+  /// Throws likewise, and InputError where a file of that name is in the way that no earlier result of this
+  /// kind has written.
   void write(const std::string& name, std::string_view text);
-  /// A file that is written piece by piece until finish().
+  /// A file that is written piece by piece until finish(). Throws likewise.
   [[nodiscard]] std::ostream& open(const std::string& name);
   /// Throws where an open file could not be written.
   void check() const;
 
-  /// Files of the directory that belong to an earlier result go when those of this one take their places:
-  /// these, too.
-  void replace(std::function<bool(std::string_view name)> is_stale) {
-    if (is_stale_) {
-      is_stale_ = [before = std::move(is_stale_), more = std::move(is_stale)](std::string_view name) {
-        return before(name) || more(name);
-      };
-    } else {
-      is_stale_ = std::move(is_stale);
-    }
-  }
+  /// Throws InputError where the directory has such a file that no earlier result of this kind has written.
+  void refuse_others(const std::function<bool(std::string_view name)>& belongs) const;
 
   void finish() override;
-  /// Without it nothing is left, and a directory made goes too.
+  /// Removes the files that an earlier result of this kind wrote and this one does not have, unless they have
+  /// changed since. Without it nothing is left, and a directory made goes too.
   void take_place() override;
 
  private:
@@ -57,9 +51,10 @@ class StagedFiles final : public Staged {
   std::filesystem::path directory_;
   MadeDirectories made_;
   Part folder_;
+  ResultManifest earlier_;
   std::optional<WrittenFile> names_;  ///< a line a file
   std::list<WrittenFile> open_;
-  std::function<bool(std::string_view name)> is_stale_;
+  std::filesystem::path both_, manifest_;  ///< manifests in the making: with the earlier files, and without
 };
 
 }  // namespace kds

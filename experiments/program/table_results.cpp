@@ -28,14 +28,14 @@ void check_table_destinations(const Destinations& destinations, const std::strin
 
   if (json_file) ensure_writable_file(*destinations.json, "--json");
   if (!destinations.out) return;
-  check_directory(*destinations.out, "--out", {files[0], files[1]});
+  check_directory(*destinations.out, name, "--out", {files[0], files[1]});
 }
 
 void deliver_table(const Destinations& destinations, const std::string& name, const TableResults& results) {
   const bool json_on_stdout = destinations.json == "-";
   std::optional<StagedFiles> files;
   if (destinations.out) {
-    files.emplace(*destinations.out, "--out");
+    files.emplace(*destinations.out, name, "--out");
     files->write(name + ".json", results.json);
     files->write(name + ".csv", results.csv);
     if (results.page) files->write("report.html", results.page());

@@ -87,8 +87,7 @@ void check_destinations(const Destinations& destinations, const std::filesystem:
   if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
   check_table_destinations(destinations, kQuestionsName, taken);
   if (!destinations.out) return;
-  check_directory(*destinations.out, "--out", {"report.html"});
-  check_page(*destinations.out, "questions.json");
+  check_page(*destinations.out, "questions");
 }
 
 std::size_t steps_of(const std::string& question) {

@@ -24,6 +24,7 @@ namespace kds {
 
 namespace {
 
+constexpr std::string_view kCommand = "reproduce";
 constexpr const char* kResult = "reproduce.json";
 
 constexpr std::array kReproduceOptions{
@@ -53,9 +54,9 @@ std::vector<int> tables_asked_for(const ParsedArguments& parsed) {
     throw InputError(
         "kds reproduce needs at least one TABLE, table1 ... table7, or all (see kds reproduce --help)");
   std::vector<int> tables;
-  for (const std::string& name : parsed.operands()) {
   std::vector<std::string> names{"all"};
   for (int table = 1; table <= paper_table_count; ++table) names.push_back(fmt::format("table{}", table));
+  for (const std::string& name : parsed.operands()) {
     bool known = false;
     for (int table = 1; table <= paper_table_count; ++table) {
       if (name != "all" && name != names[static_cast<std::size_t>(table)]) continue;
@@ -77,10 +78,13 @@ void check_destinations(const Destinations& destinations, const std::vector<int>
   TakenPaths taken;
   taken.read_folder("--data", data);
   if (destinations.out) {
-    check_directory(*destinations.out, "--out", {kResult, "report.html"});
+    check_directory(*destinations.out, kCommand, "--out", {kResult});
     taken.write_into("--out", *destinations.out, {kResult, "report.html"});
-    for (const int table : tables) taken.write("--out", *destinations.out / file_of(table));
-    check_page(*destinations.out, kResult);
+    for (const int table : tables) {
+      taken.write("--out", *destinations.out / file_of(table));
+      check_directory(*destinations.out, kCommand, "--out", {file_of(table)});
+    }
+    check_page(*destinations.out, kCommand);
   }
   if (!destinations.json) return;
   taken.write_json(*destinations.json);
@@ -112,16 +116,9 @@ void deliver(const Destinations& destinations, const std::vector<PaperTable>& ta
   std::optional<StagedFiles> files;
   std::optional<AtomicFile> json_file;
   if (destinations.out) {
-    files.emplace(*destinations.out, "--out");
+    files.emplace(*destinations.out, kCommand, "--out");
     for (const PaperTable& table : tables) files->write(file_of(table.number), paper_csv(table));
     files->write(kResult, json);
-    files->replace([&tables](std::string_view name) {  // tables of an earlier result
-      for (int number = 1; number <= paper_table_count; ++number)
-        if (name == file_of(number))
-          return std::none_of(tables.begin(), tables.end(),
-                              [&](const PaperTable& table) { return table.number == number; });
-      return false;
-    });
     page.data = {kResult};
     for (const PaperTable& table : tables) page.data.push_back(file_of(table.number));
     files->write("report.html", paper_page(tables, page));

@@ -66,7 +66,7 @@ int replay_command(const Arguments& arguments) {
   paths.write(destinations);
   const auto events = path_of(parsed, kEventsOption.name);
   if (events) paths.write("--events", *events);
-  check_destinations(destinations);
+  check_destinations(destinations, "replay", run);
   if (events) ensure_writable_file(*events, "--events");
 
   RunResults results("replay", destinations, events);

@@ -56,10 +56,13 @@ void check_apart(const RunOptions& options, const Destinations& destinations) {
 void check_before_run(const RunOptions& options, const Destinations& destinations) {
   check_inputs_exist(inputs_of(options));
   check_apart(options, destinations);
-  check_destinations(destinations);
+  check_destinations(destinations, "run", options);
   if (options.events) ensure_writable_file(*options.events, "--events");
   if (options.log) ensure_writable_file(*options.log, "--log");
-  if (options.dump) check_directory(*options.dump, "--dump");
+  if (!options.dump) return;
+  check_directory(*options.dump, "run", "--dump");
+  if (std::ranges::count(options.structures, "contacts") > 0)
+    check_directory(*options.dump, "run", "--dump", {contacts_file});
 }
 
 }  // namespace

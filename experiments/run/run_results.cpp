@@ -15,16 +15,20 @@ namespace kds {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kFiles{"summary.json", "events.csv", "report.html", contacts_file,
-                                                 possible_contacts_file};
+constexpr std::array<std::string_view, 3> kFiles{"summary.json", "events.csv", "report.html"};
 
 }  // namespace
 
-void check_destinations(const Destinations& destinations) {
+void check_destinations(const Destinations& destinations, std::string_view command,
+                        const RunOptions& options) {
   if (destinations.json && *destinations.json != "-") ensure_writable_file(*destinations.json, "--json");
   if (!destinations.out) return;
-  check_directory(*destinations.out, "--out", {kFiles[0], kFiles[1], kFiles[2], kFiles[3], kFiles[4]});
-  check_page(*destinations.out, "summary.json");
+  check_directory(*destinations.out, command, "--out", {kFiles[0], kFiles[1], kFiles[2]});
+  if (std::ranges::count(options.structures, "contacts") > 0) {
+    check_directory(*destinations.out, command, "--out", {contacts_file});
+    if (options.certify) check_directory(*destinations.out, command, "--out", {possible_contacts_file});
+  }
+  check_page(*destinations.out, command);
 }
 
 void RunResults::begin(const Scene& scene, Session& session, bool certified) {
@@ -34,7 +38,7 @@ void RunResults::begin(const Scene& scene, Session& session, bool certified) {
     session.simulator().listen(*every_event_);
   }
   if (!destinations_.out) return;
-  files_.emplace(*destinations_.out, "--out");
+  files_.emplace(*destinations_.out, command_, "--out");
   events_.emplace(files_->open("events.csv"), scene.stamp(0).picoseconds.has_value());
   scene_ = &scene;
   displacement_ = Displacements(bin_width(scene.step_count(), EventCourse::most_bins));
@@ -43,10 +47,6 @@ void RunResults::begin(const Scene& scene, Session& session, bool certified) {
   session.simulator().listen(*places_);
   if (has_contacts(session)) contacts_files_.emplace_back(contacts_file);
   if (has_contacts(session) && certified) contacts_files_.emplace_back(possible_contacts_file);
-  files_->replace([this](std::string_view name) {
-    return (name == contacts_file || name == possible_contacts_file) &&
-           std::find(contacts_files_.begin(), contacts_files_.end(), name) == contacts_files_.end();
-  });
   if (!has_contacts(session) || certified) return;
   contacts_.emplace(files_->open(std::string(contacts_file)), scene);
   session.simulator().listen(*contacts_);

@@ -25,14 +25,19 @@
 
 namespace kds {
 
-/// Throws InputError where something could not be written later: before a run, not after it.
-void check_destinations(const Destinations& destinations);
+/// Throws InputError where something could not be written later: before a run, not after it. `command` is
+/// run or replay.
+void check_destinations(const Destinations& destinations, std::string_view command,
+                        const RunOptions& options);
 
 class RunResults {
  public:
-  /// `events`: a file for every event, if there is to be one.
-  explicit RunResults(Destinations destinations, std::optional<std::filesystem::path> events = std::nullopt)
-      : destinations_(std::move(destinations)), events_path_(std::move(events)) {}
+  /// `command` is run or replay; `events`: a file for every event, if there is to be one.
+  explicit RunResults(std::string command, Destinations destinations,
+                      std::optional<std::filesystem::path> events = std::nullopt)
+      : command_(std::move(command)),
+        destinations_(std::move(destinations)),
+        events_path_(std::move(events)) {}
 
   /// The input is accepted: from now on there are files in the making. They listen to the session, which must
   /// not go on when this object has gone. `certified`: contacts are told with `add_certificate`.
@@ -50,6 +55,7 @@ class RunResults {
   void deliver(RunReport report, const std::string& json, const std::string& table);
 
  private:
+  std::string command_;
   Destinations destinations_;
   std::optional<std::filesystem::path> events_path_;
   std::optional<StagedFiles> files_;

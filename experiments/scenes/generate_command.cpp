@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <memory>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "experiments/program/taken_paths.h"
 #include "experiments/scenes/generate_options.h"
 #include "experiments/scenes/info_report.h"
+#include "motions/base/input_error.h"
 #include "motions/models/shape.h"
 #include "motions/readers/write_trajectory.h"
 
@@ -40,6 +42,19 @@ std::string command_line(const GenerateOptions& options) {
   std::string text = fmt::format("kds generate {}", options.model->name);
   for (const auto& [name, value] : model_settings(options)) text += fmt::format(" --{} {}", name, value);
   return text;
+}
+
+// The user names a.xyz; a-1.xyz and a-2.xyz need not be known to be written.
+void refuse_unnamed(const GenerateOptions& options, const fs::path& file) {
+  std::error_code error;
+  if (file == options.file || !fs::exists(file, error)) return;
+  std::ifstream there(file, std::ios::binary);
+  std::string start(200, '\0');
+  there.read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (start.find("kds generate ") == std::string::npos)
+    throw InputError(
+        fmt::format("-o {}: {} is there and was not written by kds generate; move it or give another FILE",
+                    options.file.string(), file.string()));
 }
 
 // All files are whole before the first takes its place.
@@ -92,6 +107,7 @@ int generate_command(const Arguments& arguments) {
   TakenPaths taken;
   for (const fs::path& file : files) {
     ensure_writable_file(file, "-o");
+    refuse_unnamed(options, file);
     taken.add("-o", file);
   }
   check_table_destinations(destinations, std::string(kGenerateName), taken);

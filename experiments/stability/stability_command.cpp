@@ -23,8 +23,7 @@ int stability_command(const Arguments& arguments) {
   if (options.out) taken.write_into("--out", *options.out, {"report.html"});
   check_table_destinations(destinations, name, taken);
   if (options.out) {
-    check_directory(*options.out, "--out", {"report.html"});
-    check_page(*options.out, "stability.json");
+    check_page(*options.out, "stability");
   }
 
   ProgressBar bar(!options.quiet, "row");

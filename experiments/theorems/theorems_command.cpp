@@ -111,8 +111,7 @@ int theorems_command(const Arguments& arguments) {
   if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
   check_table_destinations(destinations, kTheoremsName, taken);
   if (destinations.out) {
-    check_directory(*destinations.out, "--out", {"report.html"});
-    check_page(*destinations.out, "theorems.json");
+    check_page(*destinations.out, "theorems");
   }
   const std::vector<TheoremSeries> series = measure(asked);
 

@@ -218,8 +218,7 @@ int trade_command(const Arguments& arguments) {
   if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
   check_table_destinations(destinations, kTradeName, taken);
   if (destinations.out) {
-    check_directory(*destinations.out, "--out", {"report.html"});
-    check_page(*destinations.out, "trade.json");
+    check_page(*destinations.out, "trade");
   }
 
   ProgressBar bar(!destinations.quiet, "run");

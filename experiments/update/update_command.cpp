@@ -65,8 +65,7 @@ int update_command(const Arguments& arguments) {
   if (options.out) taken.write_into("--out", *options.out, {"report.html"});
   check_table_destinations(destinations, kUpdateName, taken);
   if (options.out) {
-    check_directory(*options.out, "--out", {"report.html"});
-    check_page(*options.out, "update.json");
+    check_page(*options.out, "update");
   }
 
   ProgressBar bar(!options.quiet, "round");

@@ -148,7 +148,7 @@ TEST(Missed, WritesFilesAndAPage) {
   // Its page is not lost to another command's.
   run = run_program({"collide", passing.rests, "--radius", "1", "--out", out});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("holds the result of kds missed"));
+  EXPECT_THAT(run.err, HasSubstr("report.html there was written by kds missed --out"));
 }
 
 }  // namespace

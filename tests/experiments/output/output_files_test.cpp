@@ -103,12 +103,12 @@ TEST(MadeDirectories, AreMadeWithTheirParentsAndGoIfEmpty) {
 
 TEST(OutputFiles, ChecksDirectoriesBeforeTheyAreMade) {
   const ScratchDirectory directory;
-  check_directory(directory / "a/b/c", "--out", {"x"});
-  check_directory(directory.path(), "--out", {"x"});
+  check_directory(directory / "a/b/c", "run", "--out", {"x"});
+  check_directory(directory.path(), "run", "--out", {"x"});
   EXPECT_EQ(directory.entries(), 0U);
   fs::create_directories(directory / "a/x");
-  EXPECT_THROW(check_directory(directory / "a", "--out", {"x"}), InputError);
-  EXPECT_THROW(check_directory(directory / std::string(300, 'x'), "--out"), InputError);
+  EXPECT_THROW(check_directory(directory / "a", "run", "--out", {"x"}), InputError);
+  EXPECT_THROW(check_directory(directory / std::string(300, 'x'), "run", "--out"), InputError);
 }
 
 TEST(StagedFiles, AppearTogetherOrNotAtAll) {
@@ -117,19 +117,19 @@ TEST(StagedFiles, AppearTogetherOrNotAtAll) {
     return std::distance(fs::directory_iterator(directory / name), {});
   };
   {
-    StagedFiles files(directory / "made/dump", "--dump");
+    StagedFiles files(directory / "made/dump", "run", "--dump");
     files.write("frame-0", "zero");
     EXPECT_EQ(entries_of("made/dump"), 1);  // hidden
     EXPECT_FALSE(fs::exists(directory / "made/dump/frame-0"));
   }
   EXPECT_EQ(directory.entries(), 0U);
   {
-    StagedFiles files(directory / "dump", "--dump");
+    StagedFiles files(directory / "dump", "run", "--dump");
     files.write("frame-0", "zero");
     files.write("frame-1", "one");
     commit(files);
   }
-  EXPECT_EQ(entries_of("dump"), 2);
+  EXPECT_EQ(entries_of("dump"), 3);  // with the manifest
   EXPECT_EQ(content_of(directory / "dump/frame-1"), "one");
 }
 
@@ -139,17 +139,19 @@ TEST(Parts, OfKilledProgramsAreCleared) {
   fs::create_directory(directory / ".kds-1-1.part");
   directory.file(".kds-1-1.part/frame-0", "left behind");
   directory.file(".kds-notes", "not ours");
+  directory.file(".kds-a-b.part", "not ours");
   const Part file(directory.path(), Part::Kind::file, "x"), folder(directory.path(), Part::Kind::folder, "x");
   clear_stale_parts(directory.path());
   EXPECT_TRUE(fs::exists(file.path()) && fs::exists(folder.path()));  // whose program lives
-  EXPECT_EQ(directory.entries(), 3U);
+  EXPECT_EQ(directory.entries(), 4U);
+  EXPECT_TRUE(fs::exists(directory / ".kds-a-b.part"));
 }
 
 TEST(OutputFiles, RefusesAFileWhereADirectoryIsExpected) {
   const ScratchDirectory directory;
   directory.file("taken", "x");
   try {
-    check_directory(directory / "taken", "--out");
+    check_directory(directory / "taken", "run", "--out");
     FAIL();
   } catch (const InputError& error) {
     const std::string message = error.what();
@@ -157,7 +159,7 @@ TEST(OutputFiles, RefusesAFileWhereADirectoryIsExpected) {
     EXPECT_NE(message.find("taken"), std::string::npos);
     EXPECT_NE(message.find("expected a directory"), std::string::npos);
   }
-  EXPECT_THROW(check_directory(directory / "taken/below", "--out"), InputError);
+  EXPECT_THROW(check_directory(directory / "taken/below", "run", "--out"), InputError);
 }
 
 TEST(OutputFiles, ChecksFilesBeforeTheyAreWritten) {
@@ -172,7 +174,7 @@ TEST(OutputFiles, RefusesADirectoryWithoutPermission) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   const ScratchDirectory directory;
   fs::permissions(directory.path(), fs::perms::owner_read | fs::perms::owner_exec);
-  EXPECT_THROW(check_directory(directory.path(), "--out"), InputError);
+  EXPECT_THROW(check_directory(directory.path(), "run", "--out"), InputError);
   EXPECT_THROW(ensure_writable_file(directory / "file", "--json"), InputError);
   fs::permissions(directory.path(), fs::perms::owner_all);
 }

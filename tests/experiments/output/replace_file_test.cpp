@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "experiments/output/output_files.h"
+#include "experiments/output/result_manifest.h"
 #include "experiments/output/staged.h"
 #include "experiments/output/staged_files.h"
 #include "experiments/output/unfinished_file.h"
@@ -35,6 +36,14 @@ unsigned mode_of(const fs::path& path) {
   return status.st_mode & 07777U;
 }
 
+// Without the manifest.
+std::size_t visible_entries(const ScratchDirectory& directory) {
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(directory.path()))
+    count += entry.path().filename().string().starts_with(".") ? 0 : 1;
+  return count;
+}
+
 void commit(Staged& staged) { commit_together(std::array<Staged*, 1>{&staged}); }
 
 // Both ways in which results come to their places.
@@ -42,8 +51,15 @@ void write_alone(const fs::path& path, const std::string& content) {
   AtomicFile file(path, content);
   commit(file);
 }
+// As if an earlier result had written what is there.
+void claim(const fs::path& path) {
+  const ResultManifest manifest(path.parent_path(), "run", "--dump");
+  std::ofstream(manifest.path()) << manifest.heading() << '\n'
+                                 << ResultManifest::line(path, path.filename().string());
+}
 void write_staged(const fs::path& path, const std::string& content) {
-  StagedFiles files(path.parent_path(), "--dump");
+  claim(path);
+  StagedFiles files(path.parent_path(), "run", "--dump");
   files.write(path.filename().string(), content);
   commit(files);
 }
@@ -59,7 +75,7 @@ TEST(ReplaceFile, PermissionsStay) {
       EXPECT_EQ(content_of(path), "new " + std::to_string(mode));
       EXPECT_EQ(mode_of(path), mode);
     }
-    EXPECT_EQ(directory.entries(), 1U);
+    EXPECT_EQ(visible_entries(directory), 1U);
   }
 }
 
@@ -91,7 +107,7 @@ TEST(ReplaceFile, HardLinksStay) {
       EXPECT_EQ(content_of(other), content);
       EXPECT_EQ(fs::hard_link_count(path), 2U);
     }
-    EXPECT_EQ(directory.entries(), 2U);
+    EXPECT_EQ(visible_entries(directory), 2U);
   }
 }
 
@@ -100,7 +116,8 @@ TEST(StagedFiles, ARefusedPlaceLeavesTheOthersAlone) {
   const ScratchDirectory directory;
   directory.file("a", "old");
   fs::create_directory(directory / "b");
-  StagedFiles files(directory.path(), "--dump");
+  claim(directory / "a");
+  StagedFiles files(directory.path(), "run", "--dump");
   files.write("a", "new");
   files.write("b", "new");
   EXPECT_THROW(commit(files), InputError);
@@ -116,7 +133,7 @@ TEST(Staged, AllOrNone) {
   fs::create_symlink("missing/file", nowhere);
   for (const char* place : {"circle", "nowhere"}) {
     AtomicFile alone(kept, "new");
-    StagedFiles files(directory.path(), "--dump");
+    StagedFiles files(directory.path(), "run", "--dump");
     files.write("a", "new");
     files.write(place, "new");
     try {
@@ -153,7 +170,7 @@ TEST(StagedFiles, NothingIsLeftWhereFilesRunOut) {
         few.rlim_cur = few.rlim_max = 8;
         ::setrlimit(RLIMIT_NOFILE, &few);
         try {
-          StagedFiles files(directory / "made", "--dump");
+          StagedFiles files(directory / "made", "run", "--dump");
           std::vector<std::unique_ptr<AtomicFile>> more;
           for (int k = 0; k < 10; ++k)
             more.push_back(std::make_unique<AtomicFile>(directory / ("file-" + std::to_string(k))));
@@ -167,21 +184,24 @@ TEST(StagedFiles, NothingIsLeftWhereFilesRunOut) {
 
 TEST(StagedFiles, AFileMayGrowUntilTheEnd) {
   const ScratchDirectory directory;
-  directory.file("stale", "of an earlier result");
+  {
+    StagedFiles earlier(directory.path(), "run", "--out");
+    earlier.write("stale", "of an earlier result");
+    commit(earlier);
+  }
   directory.file("mine", "the user's");
   {
-    StagedFiles files(directory.path(), "--out");
+    StagedFiles files(directory.path(), "run", "--out");
     std::ostream& growing = files.open("growing");
     for (int k = 0; k < 10000; ++k) growing << k << '\n';
     files.write("other", "x");
     files.check();
-    files.replace([](std::string_view name) { return name == "stale"; });
     commit(files);
   }
   EXPECT_EQ(content_of(directory / "growing").substr(0, 4), "0\n1\n");
   EXPECT_EQ(content_of(directory / "growing").size(), 48890U);
   EXPECT_FALSE(fs::exists(directory / "stale"));
-  EXPECT_EQ(directory.entries(), 3U);
+  EXPECT_EQ(directory.entries(), 4U);  // with the manifest
 }
 
 // A signal that comes at any moment, even between the making of a file and its end, leaves nothing.
@@ -194,7 +214,7 @@ TEST(UnfinishedFile, EverySignalThatCanBeCaughtClearsTheFolder) {
     const ScratchDirectory directory;
     EXPECT_EXIT(
         {
-          StagedFiles files(directory / "made/dump", "--dump");
+          StagedFiles files(directory / "made/dump", "run", "--dump");
           for (int k = 0; k < 30; ++k) files.write("frame-" + std::to_string(k), "x");
           AtomicFile single(directory / "single");
           single.stream() << "half";
@@ -212,7 +232,7 @@ TEST(UnfinishedFile, ASecondSignalEndsNothingBeforeAllIsCleared) {
   EXPECT_EXIT(
       {
         constexpr int files = 3000;
-        StagedFiles staged(directory / "made", "--dump");
+        StagedFiles staged(directory / "made", "run", "--dump");
         for (int k = 0; k < files; ++k) staged.write("frame-" + std::to_string(k), "x");
         const auto part = *fs::directory_iterator(directory / "made");
         const fs::path last = part.path() / std::to_string(files);  // the first to go

@@ -200,7 +200,7 @@ TEST(PaperReport, CountsEachClaimOnce) {
 TEST(Reproduce, StabilityAsCompareHasIt) {
   const ScratchDirectory scratch;
   std::filesystem::create_directory(scratch / "out");
-  scratch.file("out/table1.csv", "of an earlier result");
+  scratch.file("out/table1.csv", "the user's");
   const ProgramRun run =
       run_program({"reproduce", "table6", "--rounds", "1", "--out", scratch / "out", "--data", kData});
   ASSERT_EQ(run.code, 0) << run.err;
@@ -213,7 +213,7 @@ TEST(Reproduce, StabilityAsCompareHasIt) {
                                           "--structures", "wrapped", "--strides", "32", "--json", "-"});
   ASSERT_EQ(compare.code, 0) << compare.err;
   EXPECT_EQ(rows[4]["bases_changed"], Json::parse(compare.out)["rows"][0]["net_changes"]);
-  EXPECT_FALSE(std::filesystem::exists(scratch / "out/table1.csv"));
+  EXPECT_EQ(content_of(scratch / "out/table1.csv"), "the user's");
   EXPECT_THAT(content_of(scratch / "out/table6.csv"), StartsWith("name,beads,at,bases_changed,"));
   const std::string page = content_of(scratch / "out/report.html");
   expect_sound(page);

@@ -82,7 +82,7 @@ TEST(Program, WritesItsReport) {
   EXPECT_EQ(Json::parse(summary)["input"]["beads"], 20);
   EXPECT_EQ(content_of(report + "/events.csv"), "frame,structure,events,cumulative\n0,sorted,97,97\n");
   EXPECT_THAT(content_of(report + "/report.html"), HasSubstr("</html>"));
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(report), {}), 3);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(report), {}), 4);
 }
 
 TEST(Program, ReplaysItsLog) {
@@ -139,9 +139,9 @@ TEST(Program, ARefusalMakesNoDirectory) {
     EXPECT_FALSE(std::filesystem::exists(directory / "new"));
   }
   std::filesystem::create_directory(directory / "old");
-  directory.file("old/frame-0.wrapped.csv", "precious");
+  directory.file("old/contacts.csv", "precious");
   expect_refused({"run", flat, "--dump", (directory / "old").string()}, {"plane"});
-  EXPECT_EQ(content_of(directory / "old/frame-0.wrapped.csv"), "precious");
+  EXPECT_EQ(content_of(directory / "old/contacts.csv"), "precious");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory / "old"), {}), 1);
 }
 
@@ -163,7 +163,7 @@ TEST(Program, ADumpReplacesAnEarlierOneAsAWhole) {
   ASSERT_EQ(run_program({"run", kTrajectory, "--frames", "0:12", "--quiet", "--dump", dump}).code, 0);
   for (const char* name : {"frame-1.notes.txt", "frame-01.power.csv", "notes.csv"})
     directory.file(std::string("dump/") + name, "the user's");
-  ASSERT_EQ(std::distance(std::filesystem::directory_iterator(dump), {}), 36 + 3);
+  ASSERT_EQ(std::distance(std::filesystem::directory_iterator(dump), {}), 36 + 3 + 1);
   ASSERT_EQ(run_program(
                 {"run", kTrajectory, "--frames", "0:5", "--structures", "wrapped", "--quiet", "--dump", dump})
                 .code,
@@ -174,7 +174,63 @@ TEST(Program, ADumpReplacesAnEarlierOneAsAWhole) {
   EXPECT_THAT(names, testing::UnorderedElementsAre("frame-0.wrapped.csv", "frame-1.wrapped.csv",
                                                    "frame-2.wrapped.csv", "frame-3.wrapped.csv",
                                                    "frame-4.wrapped.csv", "frame-1.notes.txt",
-                                                   "frame-01.power.csv", "notes.csv"));
+                                                   "frame-01.power.csv", "notes.csv", ".kds-run-dump.files"));
+}
+
+// What a dump did not write stays, and is not taken for a frame of it.
+TEST(Program, ADumpTouchesOnlyWhatADumpWrote) {
+  const ScratchDirectory directory;
+  const std::string dump = (directory / "dump").string();
+  const auto run = [&](const std::string& structures) {
+    return run_program({"run", kTrajectory, "--frames", "0:3", "--radius", "1.9", "--structures", structures,
+                        "--quiet", "--dump", dump});
+  };
+  std::filesystem::create_directory(dump);
+  directory.file("dump/contacts.csv", "the user's");
+  EXPECT_EQ(run("wrapped").code, 0);
+  EXPECT_EQ(content_of(dump + "/contacts.csv"), "the user's");
+  EXPECT_THAT(run("contacts").err, HasSubstr("contacts.csv there was not written by kds run --dump"));
+  EXPECT_EQ(content_of(dump + "/contacts.csv"), "the user's");
+  directory.file("dump/frame-7.wrapped.csv", "the user's");
+  EXPECT_THAT(run("wrapped").err, HasSubstr("frame-7.wrapped.csv there was not written by kds run --dump"));
+  EXPECT_EQ(content_of(dump + "/frame-7.wrapped.csv"), "the user's");
+  std::filesystem::remove(dump + "/frame-7.wrapped.csv");
+  directory.file("dump/frame-1.wrapped.csv", "edited");
+  const ProgramRun edited = run("wrapped");
+  EXPECT_EQ(edited.code, 2);
+  EXPECT_THAT(edited.err, HasSubstr("frame-1.wrapped.csv there has changed since kds run --dump wrote it"));
+  EXPECT_EQ(content_of(dump + "/frame-1.wrapped.csv"), "edited");
+}
+
+TEST(Program, ResultsReplaceOnlyWhatTheSameCommandWrote) {
+  const ScratchDirectory directory;
+  const std::string out = (directory / "out").string(), log = (directory / "log").string();
+  std::filesystem::create_directory(out);
+  directory.file("out/events.csv", "the user's");
+  expect_refused({"run", kSmall, "--out", out},
+                 {"--out", "events.csv there was not written by kds run --out"});
+  EXPECT_EQ(content_of(out + "/events.csv"), "the user's");
+  std::filesystem::remove(out + "/events.csv");
+  directory.file("out/contacts.csv", "the user's");
+  for (int k = 0; k < 2; ++k)
+    ASSERT_EQ(run_program({"run", kSmall, "--quiet", "--out", out, "--log", log}).code, 0);
+  EXPECT_EQ(content_of(out + "/contacts.csv"), "the user's");
+  expect_refused({"replay", log, "--out", out}, {"summary.json there was written by kds run --out"});
+  directory.file("out/summary.json", "edited");
+  expect_refused({"run", kSmall, "--out", out},
+                 {"summary.json there has changed since kds run --out wrote it"});
+  directory.file("out/info.csv", "the user's");
+  expect_refused({"info", kTrajectory, "--out", out}, {"info.csv there was not written by kds info --out"});
+  // The user has not named these two files.
+  directory.file("pair-2.xyz", "the user's");
+  expect_refused({"generate", "two-spirals", "--beads", "8", "-o", (directory / "pair.xyz").string()},
+                 {"-o", "pair-2.xyz", "was not written by kds generate"});
+  EXPECT_EQ(content_of(directory / "pair-2.xyz"), "the user's");
+  for (int k = 0; k < 2; ++k)
+    EXPECT_EQ(run_program({"generate", "two-spirals", "--beads", "8", "--quiet", "-o",
+                           (directory / "two.xyz").string()})
+                  .code,
+              0);
 }
 
 // A frame's file leads nowhere: neither the other frames nor the log nor the summary are replaced.
@@ -182,16 +238,19 @@ TEST(Program, AllResultsOfARunAreReplacedOrNone) {
   const ScratchDirectory directory;
   const std::string dump = (directory / "dump").string(), log = directory.file("log", "old"),
                     json = directory.file("json", "old"), out = (directory / "out").string();
-  std::filesystem::create_directory(dump);
-  directory.file("dump/frame-0.wrapped.csv", "old");
+  ASSERT_EQ(run_program(
+                {"run", kTrajectory, "--frames", "1:3", "--quiet", "--structures", "wrapped", "--dump", dump})
+                .code,
+            0);
+  const std::string old = content_of(dump + "/frame-0.wrapped.csv");
   std::filesystem::create_symlink("missing/file", dump + "/frame-1.power.csv");
   expect_refused({"run", kTrajectory, "--frames", "0:3", "--quiet", "--dump", dump, "--log", log, "--json",
                   json, "--out", out},
                  {"frame-1.power.csv: cannot write: No such file or directory"});
-  for (const std::string& file : {log, json, dump + "/frame-0.wrapped.csv"})
-    EXPECT_EQ(content_of(file), "old");
+  for (const std::string& file : {log, json}) EXPECT_EQ(content_of(file), "old");
+  EXPECT_EQ(content_of(dump + "/frame-0.wrapped.csv"), old);
   EXPECT_FALSE(std::filesystem::exists(out));
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dump), {}), 2);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dump), {}), 4);
 }
 
 TEST(Program, AReportReplacesAnEarlierOneAsAWhole) {
@@ -268,7 +327,8 @@ TEST(Program, DumpAndResultsOfContactsLieInTwoDirectories) {
     expect_refused({"run", helix, "--structures", "contacts", "--dump", other, "--out", both},
                    {"--dump", "contacts.csv: is the file of --out"});
   EXPECT_TRUE(std::filesystem::is_empty(both));
-  for (const auto& [dump, out] : {std::pair(both, both + "/out"), std::pair(both + "/dump", both)})
+  for (const auto& [dump, out] :
+       {std::pair(both, both + "/out"), std::pair(both + "/dump/more", both + "/dump")})
     EXPECT_EQ(
         run_program({"run", helix, "--structures", "contacts", "--quiet", "--dump", dump, "--out", out}).code,
         0);
