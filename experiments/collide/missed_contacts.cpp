@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "experiments/run/load_scene.h"
+#include "experiments/run/radius_hint.h"
 #include "experiments/run/run_steps.h"
 #include "motions/base/input_error.h"
 #include "structures/contacts/sampled_contacts.h"
@@ -73,6 +74,9 @@ MissedReport count_missed(const MissedTask& task, const std::function<void(const
     for (const SampledContacts::Sampling& sampling : samplings)
       report.rows.push_back({factor, sampling.stride, frames_looked_at(scene.frame_count(), sampling.stride),
                              sampling.contacts, sampling.found});
+    const bool none = std::ranges::all_of(report.rows, [](const auto& row) { return row.contacts == 0; });
+    if (none && run + 1 == task.factors.size() && task.input.radius == "auto")
+      if (const auto hint = radius_hint(scene, task.apart)) warn(*hint);
   }
   return report;
 }

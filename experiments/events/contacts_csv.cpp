@@ -20,6 +20,13 @@ bool has_contacts(const Session& session) {
                      [](const KineticStructure* structure) { return structure->name() == structure_name; });
 }
 
+std::optional<std::uint64_t> contacts_at(const Session& session, std::size_t frame) {
+  for (std::size_t s = 0; s < session.structures().size(); ++s)
+    if (session.structures()[s]->name() == structure_name)
+      if (const auto pairs = session.elements(s, frame)) return pairs->all.size();
+  return std::nullopt;
+}
+
 void ContactsCsv::add_built(const Session& session) {
   for (std::size_t s = 0; s < session.structures().size(); ++s) {
     if (session.structures()[s]->name() != structure_name) continue;

@@ -21,6 +21,9 @@ inline constexpr std::string_view possible_contacts_file = "possible_contacts.cs
 [[nodiscard]] bool has_contacts(const Session& session);
 
 /// Hears of all events, and writes a line for each contact.
+/// Pairs in contact at the frame that has just been reached; none where the session has no contacts.
+[[nodiscard]] std::optional<std::uint64_t> contacts_at(const Session& session, std::size_t frame);
+
 class ContactsCsv : public EventListener {
  public:
   /// Those that begin with the first frame: to be called once, when the structures have been built.

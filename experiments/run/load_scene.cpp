@@ -206,6 +206,11 @@ std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& sc
     throw InputError("--relax: it relaxes the spheres of wrapped, which is not among the structures");
   if (options.relax && scene.degree() > highest_relaxed_degree)
     throw InputError(
+  if (options.apart && std::find(names.begin(), names.end(), "closest") != names.end())
+    throw InputError(
+        "--apart: closest looks at all pairs of beads; run it without --apart, or let kds collide --apart "
+        "find "
+        "the closest pair of each frame");
         fmt::format("--relax: functions of relaxed spheres have too high a degree over motions of degree {}; "
                     "expected {} at most",
                     scene.degree(), highest_relaxed_degree));

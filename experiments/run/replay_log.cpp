@@ -123,7 +123,10 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
   if (results != nullptr) results->begin(scene, *session, options.certify);
   run_steps(*session, scene, options, [&](std::size_t frame) {
     if (results != nullptr) results->add_frame(frame, *session);
-    if (frame == 0) return warnings.release(warn);
+    if (frame == 0) {
+      counts.begin();
+      return warnings.release(warn);
+    }
     counts.end_step(frame - 1, results);
     progress(frame, 0, scene.step_count());
   });

@@ -30,6 +30,8 @@ Json structure_json(const StructureReport& structure, std::size_t rounds) {
             {"static_seconds", structure.static_seconds},
             {"rebuilds", structure.rebuilds},
             {"audits", {{"run", structure.audits_run}, {"failed", structure.audits_failed}}}};
+  if (structure.contacts_at_start && structure.contacts_at_end)
+    json["contacts"] = {{"at_start", *structure.contacts_at_start}, {"at_end", *structure.contacts_at_end}};
   if (rounds > 1) {
     json["seconds_least"] = structure.of_seconds.least;
     json["seconds_most"] = structure.of_seconds.most;

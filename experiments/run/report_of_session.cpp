@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "experiments/events/contacts_csv.h"
 #include "experiments/output/text.h"
 #include "experiments/run/run_settings.h"
 
@@ -64,6 +65,9 @@ RunReport report_of(Session& session, const Scene& scene, const RunOptions& opti
   for (std::size_t s = 0; s < session.structures().size(); ++s) {
     report.structures.push_back(
         report_of(*session.structures()[s], session.simulator().seconds_of(s), counts.courses()[s]));
+    if (report.structures.back().name != "contacts") continue;
+    report.structures.back().contacts_at_start = counts.contacts_at_start();
+    report.structures.back().contacts_at_end = contacts_at(session, scene.frame_count() - 1);
   }
   report.engine_seconds = session.simulator().seconds();
   report.listeners_seconds = session.simulator().seconds_of_listeners();

@@ -3,6 +3,7 @@
 #include "experiments/program/warnings.h"
 #include "experiments/run/certify_stride.h"
 #include "experiments/run/load_scene.h"
+#include "experiments/run/radius_hint.h"
 #include "experiments/run/report_of_session.h"
 #include "experiments/run/watch_exact_work.h"
 #include "structures/session/session.h"
@@ -18,6 +19,15 @@ std::optional<double> deviation_of_run(const RunOptions& options, const Scene& s
   if (report.stride) return report.stride->deviation.largest;
   if (options.tolerance && options.reading.frames.stride == 1)
     return options.tolerance->length(scene.radii());
+  return std::nullopt;
+}
+
+/// Where the automatic radius leaves a run without contacts.
+std::optional<std::string> hint_of(const RunOptions& options, const Scene& scene, const RunReport& report) {
+  if (options.radius != "auto") return std::nullopt;
+  for (const StructureReport& structure : report.structures)
+    if (structure.name == "contacts" && structure.events_total == 0 && structure.contacts_at_start == 0U)
+      return radius_hint(scene, options.apart.value_or(StructureSettings().apart));
   return std::nullopt;
 }
 
@@ -55,6 +65,8 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   const Scene scene = load_scene(options, warnings.hold());
   const auto session = open_session(options, scene, options.audit);
   if (!options.quiet) watch_exact_work(session->simulator(), scene, warn);
+  ProgressWithinSteps within(progress, options.rounds * scene.step_count());
+  if (options.audit == AuditMode::events) session->simulator().listen(within);
   StepCounts counts(*session, scene);
   std::optional<ClosestApproachOfRun> approach;
   if (const auto closest = place_of_closest(*session); closest && options.kernel != Kernel::fast)
@@ -64,9 +76,8 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
 
   run_steps(*session, scene, options, [&](std::size_t frame) {
     if (frame == 0) warnings.release(warn);
+    if (frame == 0) counts.begin();
     results.add_frame(frame, *session);
-  ProgressWithinSteps within(progress, options.rounds * scene.step_count());
-  if (options.audit == AuditMode::events) session->simulator().listen(within);
     if (approach) frame == 0 ? approach->begin() : approach->end_step(scene.frame_number(frame - 1));
     if (frame == 0) return;
     counts.end_step(frame - 1, &results);
@@ -74,6 +85,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   });
 
   RunReport report = report_of(*session, scene, options, counts);
+  if (const auto hint = hint_of(options, scene, report)) warn(*hint);
   if (options.certify) {
     report.stride = certify_stride(options, scene);
     results.add_certificate(*report.stride, scene);

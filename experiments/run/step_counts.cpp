@@ -8,6 +8,8 @@ StepCounts::StepCounts(Session& session, const Scene& scene)
       courses_(session.structures().size(),
                EventCourse(bin_width(scene.step_count(), EventCourse::most_bins))) {}
 
+void StepCounts::begin() { contacts_at_start_ = contacts_at(session_, 0); }
+
 void StepCounts::end_step(std::size_t step, RunResults* results) {
   const FrameStamp stamp = scene_.stamp(step);
   for (std::size_t s = 0; s < courses_.size(); ++s) {

@@ -1,6 +1,8 @@
 #pragma once
 // Takes the counts of each step away from the structures, so that nothing grows with the number of steps.
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "experiments/events/event_bins.h"
@@ -15,15 +17,20 @@ class StepCounts {
   /// Both must outlive it.
   StepCounts(Session& session, const Scene& scene);
 
+  /// The structures have been built.
+  void begin();
   /// The step has been run: folds its events, and has them written where a file is for them.
   void end_step(std::size_t step, RunResults* results);
   /// In the order of the session's structures.
   [[nodiscard]] const std::vector<EventCourse>& courses() const { return courses_; }
+  /// Pairs in contact at the first frame; none where the session has no contacts.
+  [[nodiscard]] std::optional<std::uint64_t> contacts_at_start() const { return contacts_at_start_; }
 
  private:
   Session& session_;
   const Scene& scene_;
   std::vector<EventCourse> courses_;
+  std::optional<std::uint64_t> contacts_at_start_;
 };
 
 }  // namespace kds

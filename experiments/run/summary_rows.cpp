@@ -52,6 +52,20 @@ void add_kinds(std::vector<SummaryRow>& rows, const RunReport& report) {
     rows.push_back(row(report, kind_label(report, name), true, count_named(member, name)));
 }
 
+// Where a structure has contacts.
+void add_contacts(std::vector<SummaryRow>& rows, const RunReport& report) {
+  const auto add = [&](const char* label, std::optional<std::uint64_t> StructureReport::*member) {
+    rows.push_back(row(report, label, false, [member](const StructureReport& structure) {
+      return structure.*member ? with_thousands(*(structure.*member)) : std::string("-");
+    }));
+  };
+  if (std::ranges::none_of(report.structures,
+                           [](const StructureReport& s) { return s.contacts_at_start.has_value(); }))
+    return;
+  add("contacts at the start", &StructureReport::contacts_at_start);
+  add("contacts at the end", &StructureReport::contacts_at_end);
+}
+
 // The heading that a stage of the summary stands under; a size has none.
 std::string_view heading_of(Stage::Of of) {
   switch (of) {
@@ -150,6 +164,7 @@ std::vector<SummaryRow> summary_rows(const RunReport& report) {
   std::vector<SummaryRow> rows;
   rows.push_back(row(report, "events", false, count(&StructureReport::events_total)));
   add_kinds(rows, report);
+  add_contacts(rows, report);
   rows.push_back(row(report, "events per step", false, per_step));
   rows.push_back(row(report, "certificates created", false, count(&StructureReport::created)));
   rows.push_back(row(report, "never failing", true, count(&StructureReport::never_failing)));

@@ -14,6 +14,7 @@
 #include "experiments/program/table_results.h"
 #include "experiments/program/warnings.h"
 #include "experiments/run/load_scene.h"
+#include "experiments/run/radius_hint.h"
 #include "experiments/trade/recommend.h"
 #include "experiments/trade/trade_report.h"
 #include "kds/seconds.h"
@@ -37,10 +38,10 @@ constexpr std::array kTradeOptions{
         "--cutoff", "LENGTH",
         "diagram: edges shorter than this are counted where they are missed (default: 4 times the largest "
         "radius)"},
-    OptionSpec{"--rounds", "N", "runs of each setting in turn, of which the median counts (default: 5)"},
     OptionSpec{
         "--without-exact", "",
         "leave out the exact kernel, which has the same events at a hundred to thousands of times the cost"},
+    OptionSpec{"--rounds", "N", "runs of each setting in turn, of which the median counts (default: 5)"},
     OptionSpec{"--times", "N", "random times at which errors are taken, and as many frames (default: 200)"},
     OptionSpec{"--seed", "N", "of the random times (default: 1)"},
     OptionSpec{"--out", "DIR", "write trade.json, trade.csv and report.html there (default: none)"},
@@ -85,8 +86,8 @@ Json settings_json(const TradeOptions& options) {
           {"radius", options.input.radius},
           {"want", wants},
           {"apart", options.task.apart},
-          {"rounds", options.task.rounds},
           {"exact_kernel", options.task.exact_kernel},
+          {"rounds", options.task.rounds},
           {"times", options.task.sampling.times},
           {"seed", options.task.sampling.seed}};
 }
@@ -169,9 +170,9 @@ void refuse_needless_options(const ParsedArguments& parsed, const std::vector<Wa
   };
   if (parsed.value("--apart") && !wanted({Want::contacts, Want::events, Want::scenes}))
     throw InputError("--apart: it chooses pairs of contacts; expected contacts, events or scenes in --want");
-  if (parsed.value("--cutoff") && !wanted({Want::diagram, Want::events}))
   if (parsed.has("--without-exact") && wants == std::vector{Want::scenes})
     throw InputError("--without-exact: scenes are run with one kernel; expected another word in --want");
+  if (parsed.value("--cutoff") && !wanted({Want::diagram, Want::events}))
     throw InputError(
         "--cutoff: it is about edges of the power diagram; expected diagram or events in --want");
 }
@@ -203,8 +204,8 @@ TradeOptions parse_trade_options(const Arguments& arguments) {
     task.sampling.times = parse_whole_number("--times", *text, 1, 1'000'000);
   if (const auto text = parsed.value("--seed"))
     task.sampling.seed = parse_whole_number("--seed", *text, 0, ~std::uint64_t{0});
-  refuse_needless_options(parsed, task.wants);
   task.exact_kernel = !parsed.has("--without-exact");
+  refuse_needless_options(parsed, task.wants);
   options.destinations = {path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
   return options;
 }
@@ -235,6 +236,11 @@ int trade_command(const Arguments& arguments) {
   const std::vector<TradeRow> rows = measure_trade(
       finest, task, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); }, held.hold());
   bar.erase();
+  const bool no_contacts = std::ranges::any_of(rows, [](const TradeRow& row) {
+    return row.want == Want::contacts && row.is_exact && row.cost.events == 0;
+  });
+  if (no_contacts && options.input.radius == "auto")
+    if (const auto hint = radius_hint(finest.scene(), task.apart)) held.hold()(*hint);
   Json warnings = Json::array();
   held.release([&](const std::string& warning) {
     warnings.push_back(warning);

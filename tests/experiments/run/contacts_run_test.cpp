@@ -85,6 +85,46 @@ TEST(ContactsRun, NamesFramesAndTimes) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "dump/contacts.csv"));
 }
 
+TEST(ContactsRun, StartAndEndAreCounted) {
+  for (const char* frames : {"0:20", "7:9"}) {
+    const std::vector<std::string> arguments{"run",  kDcd,           "--topology", kPdb,       "--frames",
+                                             frames, "--structures", "contacts",   "--radius", "1.9"};
+    std::vector<std::string> with_json = arguments;
+    with_json.insert(with_json.end(), {"--json", "-"});
+    const Json contacts = Json::parse(run_program(with_json).out)["structures"]["contacts"];
+    const int start = contacts["contacts"]["at_start"], end = contacts["contacts"]["at_end"];
+    EXPECT_GT(start, 0);
+    EXPECT_EQ(contacts["events"]["begin"].get<int>() + start - contacts["events"]["end"].get<int>(), end);
+    EXPECT_THAT(run_program(arguments).out,
+                testing::AllOf(HasSubstr("contacts at the start"), HasSubstr("contacts at the end")));
+  }
+  const ProgramRun other = run_program({"run", kDcd, "--topology", kPdb, "--frames", "0:3"});
+  EXPECT_THAT(other.out, testing::Not(HasSubstr("contacts at")));
+}
+
+// Beads of a chain just touch with the automatic radius: the radius to try is named, and finds contacts.
+TEST(ContactsRun, NamesARadiusWhereThereAreNone) {
+  const std::vector<std::string> input{kDcd, "--topology", kPdb, "--frames", "0:3"};
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin() + 1, input.begin(), input.end());
+    return run_program(arguments);
+  };
+  const ProgramRun none = run({"run", "--structures", "contacts"});
+  EXPECT_EQ(none.code, 0);
+  const std::string before = "worth trying is --radius ", after = " --apart 5, at which";
+  const std::size_t from = none.err.find(before), to = none.err.find(after);
+  ASSERT_NE(from, std::string::npos) << none.err;
+  ASSERT_NE(to, std::string::npos) << none.err;
+  const std::string radius = none.err.substr(from + before.size(), to - from - before.size());
+  EXPECT_THAT(run({"missed"}).err, HasSubstr(before + radius + after));
+  EXPECT_THAT(run({"trade", "--want", "contacts", "--rounds", "1", "--times", "2", "--without-exact"}).err,
+              HasSubstr(before + radius + after));
+  const ProgramRun some =
+      run({"run", "--structures", "contacts", "--radius", radius, "--apart", "5", "--json", "-"});
+  EXPECT_EQ(some.err, "");
+  EXPECT_GE(Json::parse(some.out)["structures"]["contacts"]["contacts"]["at_start"], 108 / 4);
+}
+
 TEST(ContactsRun, PairsNearAlongTheChain) {
   const auto total = [](std::vector<std::string> more) {
     std::vector<std::string> arguments{"run",      kDcd, "--topology",   kPdb,       "--frames", "0:6",
@@ -112,6 +152,8 @@ void expect_refused(std::vector<std::string> arguments, const std::string& reaso
 TEST(ContactsRun, Refusals) {
   expect_refused({kDcd, "--apart", "5"}, "--apart: it chooses pairs of contacts");
   expect_refused({kDcd, "--structures", "contacts", "--apart", "0"}, "--apart");
+  expect_refused({kDcd, "--structures", "closest,contacts", "--apart", "5"},
+                 "--apart: closest looks at all pairs of beads");
   expect_refused({kDcd, "--structures", "contacts", "--apart", "two"}, "--apart");
   expect_refused({kDcd, "--structures", "contacts", "--motion", "lifted"}, "fictitious");
   expect_refused({data_file("kinetic/d3_n20_linear.txt"), "--structures", "contacts"}, "no radii");

@@ -1,0 +1,78 @@
+#include "experiments/run/radius_hint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "structures/collision/balls_meet.h"
+#include "structures/collision/distance_queries.h"
+
+namespace kds {
+
+namespace {
+
+// Half the distance from each bead to the nearest one asked about, ascending; infinite where none is in
+// reach.
+std::vector<double> half_distances(const Eigen::Matrix3Xd& centers, std::span<const BeadPair> pairs) {
+  std::vector<double> half(static_cast<std::size_t>(centers.cols()), HUGE_VAL);
+  for (const auto& [a, b] : pairs) {
+    const double distance = (centers.col(b) - centers.col(a)).norm() / 2;
+    half[a] = std::min(half[a], distance);
+    half[b] = std::min(half[b], distance);
+  }
+  std::ranges::sort(half);
+  return half;
+}
+
+// Rounded up to three digits, so that the balls still meet.
+double to_three_digits(double x) {
+  const double unit = std::pow(10, std::floor(std::log10(x)) - 2);
+  return std::ceil(x / unit) * unit;
+}
+
+// Half distances of the beads, ascending, at least half of them known; empty where that cannot be.
+template <int Dimension>
+std::vector<double> half_distances_known(const Scene& scene, const Balls<Dimension>& balls, BeadId apart) {
+  DistanceQueries<Dimension> queries({scene.necklaces(), true, apart, true});
+  const auto closest = queries.closest_pair(balls);
+  if (!closest || closest->sign <= 0) return {};
+  for (double reach = 2 * closest->distance; std::isfinite(reach); reach *= 2) {
+    const auto& pairs = queries.pairs_within(balls, reach);
+    std::vector<double> half = half_distances(scene.centers(0), pairs);
+    if (half[(half.size() - 1) / 2] < HUGE_VAL) return half;
+    if (pairs.size() > 64 * half.size()) break;  // some beads have no partner
+  }
+  return {};
+}
+
+template <int Dimension>
+std::optional<std::string> hint_in(const Scene& scene, BeadId apart) {
+  constexpr BeadId few = 5;  // nearer along the chain beads are near because of its bonds
+  const Balls<Dimension> balls(scene.centers(0), scene.radii());
+  const BeadId farther = std::max(apart, few);
+  std::vector<double> half = half_distances_known(scene, balls, farther);
+  std::string options = farther > apart ? fmt::format(" --apart {}", farther) : "";
+  if (half.empty() && farther > apart) {
+    half = half_distances_known(scene, balls, apart);
+    options.clear();
+  }
+  if (half.empty()) return std::nullopt;
+  return fmt::format(
+      "contacts: there are none, as beads of a chain just touch with --radius auto, {:.3g}; worth trying is "
+      "--radius {:.3g}{}, at which half of the beads touch another in the first frame",
+      scene.radii().front(), to_three_digits(half[(half.size() - 1) / 2]), options);
+}
+
+}  // namespace
+
+std::optional<std::string> radius_hint(const Scene& scene, BeadId apart) {
+  if (scene.frame_count() == 0 || !scene.has_radii() || !scene.equal_radii()) return std::nullopt;
+  if (scene.dimension() == 2) return hint_in<2>(scene, apart);
+  if (scene.dimension() == 3) return hint_in<3>(scene, apart);
+  return std::nullopt;
+}
+
+}  // namespace kds
