@@ -90,8 +90,10 @@ int collide_command(const Arguments& arguments) {
   results.begin(frames);
   const CollideReport report = compare_detectors(
       frames, task,
-      [&](const FrameRead& frame, std::span<const BeadPair> pairs) { results.add_frame(frame, pairs); }, warn,
-      [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
+      [&](const FrameRead& frame, const FrameFound& found, std::optional<std::span<const BeadPair>> pairs) {
+        results.add_frame(frame, found, pairs);
+      },
+      warn, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
   bar.erase();
   held.release([&](const std::string& warning) {
     warnings.push_back(warning);
@@ -103,10 +105,10 @@ int collide_command(const Arguments& arguments) {
   json["input"] = input_json(options, frames);
   json["settings"] = settings_json(options);
   json["rows"] = collide_rows_json(report);
-  json["frames"] = collide_frames_json(report);
+  json["frames"] = Json::array();  // filled in by the results
   json["warnings"] = warnings;
   add_provenance(json, command_line);
-  results.deliver(report, text_of(json), file_names(options),
+  results.deliver(report, json, file_names(options),
                   made_by("collide", command_line, settings_json(options)));
   return 0;
 }

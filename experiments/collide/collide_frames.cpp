@@ -8,7 +8,7 @@
 namespace kds {
 
 CollideFrames::CollideFrames(const InputOptions& options, const std::function<void(const std::string&)>& warn)
-    : stream_(open_inputs(options, warn)) {
+    : stream_(open_frames(options, warn)) {
   const SceneSurvey survey = stream_.survey(options.radius == "auto", warn);
   radii_ = bead_radii(options.radius, survey.necklaces, survey.bonds);
   plane_ = survey.plane;

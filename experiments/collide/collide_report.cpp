@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "experiments/events/event_bins.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 
@@ -41,26 +42,10 @@ std::string closest_line(const CollideReport& report) {
   return "closest   -\n";  // by these methods, or no pair is asked for
 }
 
-std::string distance_plot(const CollideReport& report) {
-  constexpr std::size_t few = 60;  // frames, that a line would make look like more
-  LinePlot plot{"frame",
-                "closest distance",
-                report.frames.size() > few ? Drawn::line : Drawn::points,
-                {{"closest pair", {}}},
-                true};
-  for (const FrameFound& frame : report.frames)
-    if (frame.closest)
-      plot.curves.front().points.emplace_back(static_cast<double>(frame.stamp.number),
-                                              frame.closest->distance);
-  return plot.curves.front().points.size() < 2 ? "" : svg_plot(plot);
-}
-
 std::string findings(const CollideReport& report) {
-  const auto colliding = static_cast<std::size_t>(
-      std::ranges::count_if(report.frames, [](const FrameFound& frame) { return frame.collide; }));
   std::string html =
-      fmt::format("<p>Beads collide in <strong>{}</strong> of {} {}", with_thousands(colliding),
-                  with_thousands(report.frames.size()), report.frames.size() == 1 ? "frame" : "frames");
+      fmt::format("<p>Beads collide in <strong>{}</strong> of {} {}", with_thousands(report.colliding_frames),
+                  with_thousands(report.frames), report.frames == 1 ? "frame" : "frames");
   const auto telling =
       std::ranges::find_if(report.rows, [](const auto& row) { return row.pairs.has_value(); });
   if (telling != report.rows.end())
@@ -128,16 +113,12 @@ Json collide_rows_json(const CollideReport& report) {
   return json;
 }
 
-Json collide_frames_json(const CollideReport& report) {
-  Json json = Json::array();
-  for (const FrameFound& frame : report.frames) {
-    Json one{{"frame", frame.stamp.number},
-             {"collide", frame.collide},
-             {"pairs", count_or_null(frame.pairs)},
-             {"closest", frame.closest ? pair_json(*frame.closest) : Json(nullptr)}};
-    if (frame.stamp.picoseconds) one["picoseconds"] = *frame.stamp.picoseconds;
-    json.push_back(std::move(one));
-  }
+Json collide_frame_json(const FrameFound& frame) {
+  Json json{{"frame", frame.stamp.number},
+            {"collide", frame.collide},
+            {"pairs", count_or_null(frame.pairs)},
+            {"closest", frame.closest ? pair_json(*frame.closest) : Json(nullptr)}};
+  if (frame.stamp.picoseconds) json["picoseconds"] = *frame.stamp.picoseconds;
   return json;
 }
 
@@ -154,17 +135,43 @@ std::string collide_csv(const CollideReport& report) {
   return text;
 }
 
-std::string collide_frames_csv(const CollideReport& report) {
-  std::string text = "frame,collide,pairs,i,j,distance\n";
-  for (const FrameFound& frame : report.frames)
-    text += fmt::format("{},{},{},{}\n", frame.stamp.number, frame.collide, count_or_empty(frame.pairs),
-                        pair_csv(frame.closest));
-  return text;
+std::string collide_frame_csv(const FrameFound& frame) {
+  return fmt::format("{},{},{},{}\n", frame.stamp.number, frame.collide, count_or_empty(frame.pairs),
+                     pair_csv(frame.closest));
+}
+
+ClosestCourse::ClosestCourse(std::size_t frames)
+    : frames_(frames), width_(bin_width(frames, EventCourse::most_bins)) {}
+
+void ClosestCourse::add(const FrameFound& frame) {
+  const std::size_t bin = added_++ / width_;
+  if (!frame.closest) return;
+  const std::pair point(static_cast<double>(frame.stamp.number), frame.closest->distance);
+  if (points_.empty() || bin != bin_of_last_) {
+    points_.push_back(point);
+  } else if (point.second < points_.back().second) {
+    points_.back() = point;
+  }
+  bin_of_last_ = bin;
+}
+
+std::string ClosestCourse::figure() const {
+  if (points_.size() < 2) return "";
+  constexpr std::size_t few = 60;  // frames, that a line would make look like more
+  const LinePlot plot{"frame",
+                      "closest distance",
+                      frames_ > few ? Drawn::line : Drawn::points,
+                      {{"closest pair", points_}},
+                      true};
+  return html_figure(
+      svg_plot(plot),
+      fmt::format("The distance of the closest pair asked for, frame by frame, in the file's unit "
+                  "of length; below zero two beads overlap.{}",
+                  width_ > 1 ? fmt::format(" Each value is the least of {} frames.", width_) : ""));
 }
 
 std::string collide_table(const CollideReport& report) {
-  std::string text =
-      fmt::format("frames    {}\n{}\n", with_thousands(report.frames.size()), closest_line(report));
+  std::string text = fmt::format("frames    {}\n{}\n", with_thousands(report.frames), closest_line(report));
   std::vector<std::vector<std::string>> lines{
       {"method", "pairs", "colliding frames", "family", "seconds", "and for closest"}};
   for (const CollideRow& row : report.rows) lines.push_back(cells_of(row));
@@ -173,7 +180,7 @@ std::string collide_table(const CollideReport& report) {
 }
 
 std::string collide_page(const CollideReport& report, const std::string& input, const std::string& map,
-                         Page page) {
+                         const ClosestCourse& course, Page page) {
   page.title = "kds collide: " + input;
   page.found = findings(report);
   page.words =
@@ -186,11 +193,7 @@ std::string collide_page(const CollideReport& report, const std::string& input, 
   std::string plots;
   if (!map.empty())
     plots += html_figure(map, "Which beads collide: the stronger the colour, the more often.");
-  if (const std::string distance = distance_plot(report); !distance.empty())
-    plots += html_figure(
-        distance,
-        "The distance of the closest pair asked for, frame by frame, in the file's unit of length; below "
-        "zero two beads overlap.");
+  plots += course.figure();
   page.body = html_section("Plots", plots) + html_section("Figures", table(report));
   return html_page(page);
 }

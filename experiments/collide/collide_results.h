@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <ostream>
 #include <string>
 
 #include "experiments/collide/collide_report.h"
@@ -25,14 +26,19 @@ class CollideResults {
 
   /// The input is accepted: from now on there are files in the making. `scene` must outlive this.
   void begin(const CollideFrames& scene);
-  void add_frame(const FrameRead& frame, std::span<const BeadPair> pairs);
+  void add_frame(const FrameRead& frame, const FrameFound& found,
+                 std::optional<std::span<const BeadPair>> pairs);
   /// The files of --out appear together, in place of those of an earlier result.
-  void deliver(const CollideReport& report, const std::string& json, const std::string& input, Page page);
+  /// `json` lacks the frames.
+  void deliver(const CollideReport& report, const Json& json, const std::string& input, Page page);
 
  private:
   Destinations destinations_;
   std::optional<StagedFiles> files_;
   std::optional<PairsCsv> pairs_;
+  std::ostream* frames_csv_ = nullptr;
+  std::optional<JsonItems> frames_;  // none where no JSON is asked for
+  std::optional<ClosestCourse> course_;
   std::optional<ContactMap> contacts_;
 };
 

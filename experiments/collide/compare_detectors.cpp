@@ -29,7 +29,7 @@ class Comparison {
  public:
   Comparison(CollideFrames& frames, const CollideTask& task) : frames_(frames), task_(task) {}
 
-  CollideReport run(const PairsOfFrame& pairs_of_frame, const std::function<void(const std::string&)>& warn,
+  CollideReport run(const OnFrame& on_frame, const std::function<void(const std::string&)>& warn,
                     const std::function<void(std::size_t, std::size_t)>& progress) {
     FrameRead frame;
     Balls<Dimension> balls;
@@ -41,10 +41,14 @@ class Comparison {
         balls.move_to(frame.positions);
       }
       const std::vector<Detection> found = detect(balls, frame.stamp);
-      report_.frames.push_back(common(frame.stamp, found));
+      const FrameFound all = common(frame.stamp, found);
+      ++report_.frames;
+      if (all.collide) ++report_.colliding_frames;
       const auto telling =
           std::find_if(found.begin(), found.end(), [](const Detection& d) { return d.pairs.has_value(); });
-      if (telling != found.end()) pairs_of_frame(frame, *telling->pairs);
+      on_frame(
+          frame, all,
+          telling != found.end() ? std::optional<std::span<const BeadPair>>(*telling->pairs) : std::nullopt);
       progress(k + 1, frames_.frame_count());
     }
     for (std::size_t m = 0; m < methods_.size(); ++m) {
@@ -97,7 +101,7 @@ class Comparison {
   }
 
   void add(const Detection& found, const FrameStamp& stamp, CollideRow& row) const {
-    const bool first = report_.frames.empty();
+    const bool first = report_.frames == 0;
     row.colliding_frames += found.collide ? 1 : 0;
     row.pairs = row.pairs && found.pairs ? std::optional(*row.pairs + found.pairs->size()) : std::nullopt;
     if (found.family) row.family = row.family.value_or(0) + *found.family;
@@ -132,12 +136,11 @@ class Comparison {
 
 }  // namespace
 
-CollideReport compare_detectors(CollideFrames& frames, const CollideTask& task,
-                                const PairsOfFrame& pairs_of_frame,
+CollideReport compare_detectors(CollideFrames& frames, const CollideTask& task, const OnFrame& on_frame,
                                 const std::function<void(const std::string&)>& warn,
                                 const std::function<void(std::size_t, std::size_t)>& progress) {
-  if (frames.dimension() == 2) return Comparison<2>(frames, task).run(pairs_of_frame, warn, progress);
-  return Comparison<3>(frames, task).run(pairs_of_frame, warn, progress);
+  if (frames.dimension() == 2) return Comparison<2>(frames, task).run(on_frame, warn, progress);
+  return Comparison<3>(frames, task).run(on_frame, warn, progress);
 }
 
 }  // namespace kds

@@ -41,11 +41,12 @@ struct FrameFound {
 
 struct CollideReport {
   std::vector<CollideRow> rows;
-  std::vector<FrameFound> frames;
+  std::size_t frames = 0, colliding_frames = 0;
 };
 
-/// Told of each frame for which some method tells all pairs.
-using PairsOfFrame = std::function<void(const FrameRead&, std::span<const BeadPair>)>;
+/// Told of each frame: what was found, and, where some method tells them, all pairs.
+using OnFrame =
+    std::function<void(const FrameRead&, const FrameFound&, std::optional<std::span<const BeadPair>>)>;
 
 struct CollideTask {
   std::vector<const Method*> methods;
@@ -56,7 +57,7 @@ struct CollideTask {
 
 /// Throws InputError with the refusal of a method, and std::runtime_error where two methods disagree.
 [[nodiscard]] CollideReport compare_detectors(CollideFrames& frames, const CollideTask& task,
-                                              const PairsOfFrame& pairs_of_frame,
+                                              const OnFrame& on_frame,
                                               const std::function<void(const std::string&)>& warn,
                                               const std::function<void(std::size_t, std::size_t)>& progress);
 

@@ -51,19 +51,15 @@ void ContactsDump::add(const Event& event, std::string_view kind) {
                          event.change.ids[1], kind);
 }
 
-ContactsTable::ContactsTable(std::ostream& stream, const Scene& scene, std::string_view column)
-    : stream_(stream), scene_(scene), timed_(scene.stamp(0).picoseconds.has_value()) {
-  stream_ << "event,i,j,first,second,frame" << (timed_ ? ",picoseconds" : "") << (column.empty() ? "" : ",")
-          << column << '\n';
+ContactsTable::ContactsTable(std::ostream& stream, const Scene& scene, const Column& column)
+    : stream_(stream), scene_(scene), column_(column), timed_(scene.stamp(0).picoseconds.has_value()) {
+  stream_ << "event,i,j,first,second,frame" << (timed_ ? ",picoseconds" : "")
+          << (column.name.empty() ? "" : ",") << column.name << '\n';
 }
 
-void ContactsTable::write(std::ostream& stream, const Scene& scene, std::span<const Event> events,
-                          const Column& column, std::span<const std::uint8_t> flags) {
-  ContactsTable table(stream, scene, column.name);
-  for (std::size_t e = 0; e < events.size(); ++e) {
-    table.add_cells(events[e], events[e].kind.name);
-    stream << ',' << (flags[e] != 0 ? column.yes : column.no) << '\n';
-  }
+void ContactsTable::add(const Event& event, bool flag) {
+  add_cells(event, event.kind.name);
+  stream_ << ',' << (flag ? column_.yes : column_.no) << '\n';
 }
 
 void ContactsTable::add(const Event& event, std::string_view kind) {

@@ -2,6 +2,7 @@
 // contacts.csv: which beads began to meet, parted or touched, and when; written while the run goes on.
 
 #include <cstdint>
+#include <optional>
 #include <ostream>
 #include <span>
 #include <string_view>
@@ -20,10 +21,10 @@ inline constexpr std::string_view possible_contacts_file = "possible_contacts.cs
 /// Whether the session has the structure that the file is about.
 [[nodiscard]] bool has_contacts(const Session& session);
 
-/// Hears of all events, and writes a line for each contact.
 /// Pairs in contact at the frame that has just been reached; none where the session has no contacts.
 [[nodiscard]] std::optional<std::uint64_t> contacts_at(const Session& session, std::size_t frame);
 
+/// Hears of all events, and writes a line for each contact.
 class ContactsCsv : public EventListener {
  public:
   /// Those that begin with the first frame: to be called once, when the structures have been built.
@@ -55,24 +56,24 @@ class ContactsDump final : public ContactsCsv {
 /// file has times `picoseconds` follows.
 class ContactsTable final : public ContactsCsv {
  public:
-  /// Writes the header. The scene must outlive it.
-  ContactsTable(std::ostream& stream, const Scene& scene) : ContactsTable(stream, scene, "") {}
   /// A column about each contact: one word where its flag is set, else another.
   struct Column {
     std::string_view name, yes, no;
   };
-  /// A whole table, with such a column.
-  static void write(std::ostream& stream, const Scene& scene, std::span<const Event> events,
-                    const Column& column, std::span<const std::uint8_t> flags);
+  /// Writes the header. The scene must outlive it.
+  ContactsTable(std::ostream& stream, const Scene& scene) : ContactsTable(stream, scene, {"", "", ""}) {}
+  /// With such a column.
+  ContactsTable(std::ostream& stream, const Scene& scene, const Column& column);
+  void add(const Event& event, bool flag);
   [[nodiscard]] bool prints_time_of(const Event& event) const override { return is_of_contact(event); }
 
  private:
-  ContactsTable(std::ostream& stream, const Scene& scene, std::string_view column);
   void add(const Event& event, std::string_view kind) override;
   void add_cells(const Event& event, std::string_view kind);
 
   std::ostream& stream_;
   const Scene& scene_;
+  Column column_;
   bool timed_;
 };
 

@@ -1,5 +1,7 @@
 #include "experiments/output/result_json.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "experiments/output/provenance.h"
@@ -112,6 +114,35 @@ std::optional<std::string> line_of(const Json& json) {
 Json parse_json(std::string_view text) {
   const JsonTree::Tree tree = JsonTree::Tree::parse(text, nullptr, false);
   return JsonTree::json(tree);
+}
+
+void JsonItems::add(const Json& item) {
+  const std::string text = text_of(item);
+  std::string_view left(text);
+  left.remove_suffix(1);  // the newline
+  std::string lines = items_.empty() ? "" : ",\n";
+  while (!left.empty()) {
+    const std::size_t end = std::min(left.find('\n'), left.size());
+    lines.append("    ").append(left.substr(0, end));
+    left.remove_prefix(std::min(end + 1, left.size()));
+    if (!left.empty()) lines += '\n';
+  }
+  items_.add(lines);
+}
+
+void JsonItems::write_within(const Json& object, std::string_view name, const TextSink& sink) const {
+  Json whole = object;
+  whole[name] = Json::array();
+  const std::string text = text_of(whole);
+  if (items_.empty()) return sink(text);
+  // No text of JSON contains a newline, and what is nested is indented further.
+  const std::string empty = "\n  \"" + std::string(name) + "\": []";
+  const std::size_t at = text.find(empty) + empty.size() - 1;
+  sink(std::string_view(text).substr(0, at));
+  sink("\n");
+  items_.read(sink);
+  sink("\n  ");
+  sink(std::string_view(text).substr(at));
 }
 
 }  // namespace kds

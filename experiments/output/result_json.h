@@ -12,6 +12,8 @@
 #include <variant>
 #include <vector>
 
+#include "experiments/output/spool.h"
+
 namespace kds {
 
 /// A value of JSON. Members of objects keep their order. {{"name", value}, ...} is an object, a vector an
@@ -80,6 +82,17 @@ void add_provenance(Json& json, std::string command);
 
 /// Indented, ends with a newline. File names need not be UTF-8, JSON must be: wrong bytes are replaced.
 [[nodiscard]] std::string text_of(const Json& json);
+
+/// A long array of an object, whose items wait on disk as text.
+class JsonItems {
+ public:
+  void add(const Json& item);
+  /// The text of an object, as text_of has it, whose member `name` is this array.
+  void write_within(const Json& object, std::string_view name, const TextSink& sink) const;
+
+ private:
+  Spool items_;
+};
 
 /// Without blanks and newlines; none where a text is not UTF-8.
 [[nodiscard]] std::optional<std::string> line_of(const Json& json);

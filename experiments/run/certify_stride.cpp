@@ -19,16 +19,17 @@ namespace kds {
 
 namespace {
 
-std::unique_ptr<SceneStream> open_frames(const RunOptions& options, std::size_t stride) {
+std::unique_ptr<SceneStream> frames_of(const RunOptions& options, std::size_t stride) {
   InputOptions input = inputs_of(options);
   input.reading.frames.stride = stride;
-  return std::make_unique<SceneStream>(open_inputs(input, [](const std::string&) {}));
+  return std::make_unique<SceneStream>(open_frames(input, [](const std::string&) {}));
 }
 
 /// All contacts of the run, with these radii.
-MetContacts contacts_met(const RunOptions& options, const SceneSurvey& survey, std::vector<double> radii,
-                         const std::optional<double>& tolerance) {
-  auto frames = open_frames(options, options.reading.frames.stride);
+std::shared_ptr<const MetContacts> contacts_met(const RunOptions& options, const SceneSurvey& survey,
+                                                std::vector<double> radii,
+                                                const std::optional<double>& tolerance) {
+  auto frames = frames_of(options, options.reading.frames.stride);
   if (tolerance) frames->straighten(*tolerance);
   const Scene scene(std::move(frames), survey, std::move(radii), options.motion);
   RunOptions contacts;
@@ -37,11 +38,11 @@ MetContacts contacts_met(const RunOptions& options, const SceneSurvey& survey, s
       options.kernel == Kernel::exact ? Kernel::exact : Kernel::filtered;  // none but these is sure
   contacts.apart = options.apart;
   const auto session = open_session(contacts, scene, AuditMode::none);
-  MetContacts met;
-  session->simulator().listen(met);
+  auto met = std::make_shared<MetContacts>();
+  session->simulator().listen(*met);
   run_steps(*session, scene, contacts, [&](std::size_t frame) {
     if (frame != 0) return;
-    for (const Event& event : session->built(0)) met.on_event(event);
+    for (const Event& event : session->built(0)) met->on_event(event);
   });
   return met;
 }
@@ -54,36 +55,26 @@ PairsMet pairs_of(ContactSpan contacts) {
   return pairs;
 }
 
-/// Flags are of contacts.
-ContactList list_of(const MetContacts& met, const std::vector<std::uint8_t>& flags) {
-  ContactList list;
-  for (std::size_t e = 0; e < met.events().size(); ++e) {
-    list.events.push_back(met.events()[e]);
-    list.flags.push_back(flags[met.contact_of(e)]);
-  }
-  return list;
-}
-
 void bound_contacts(const RunOptions& options, const Scene& scene, const std::optional<double>& tolerance,
                     StrideCertificate& certificate) {
   const SceneSurvey survey =
-      open_frames(options, options.reading.frames.stride)->survey(false, [](const std::string&) {});
+      frames_of(options, options.reading.frames.stride)->survey(false, [](const std::string&) {});
   RadiiWithin radii;
   try {
     radii = radii_within(certificate.deviation, scene.radii());
   } catch (const InputError& error) {
     throw InputError(std::string("--certify: ") + error.what());
   }
-  const MetContacts found = contacts_met(options, survey, scene.radii(), tolerance);
-  const MetContacts possible = contacts_met(options, survey, std::move(radii.larger), tolerance);
-  const MetContacts smaller = contacts_met(options, survey, std::move(radii.smaller), tolerance);
-  std::vector<MetContacts::Contact> sure(smaller.contacts().begin(), smaller.contacts().end());
+  const auto found = contacts_met(options, survey, scene.radii(), tolerance);
+  const auto possible = contacts_met(options, survey, std::move(radii.larger), tolerance);
+  const auto smaller = contacts_met(options, survey, std::move(radii.smaller), tolerance);
+  std::vector<MetContacts::Contact> sure(smaller->contacts().begin(), smaller->contacts().end());
   std::erase_if(sure, [&](const MetContacts::Contact& contact) {
     return radii.has_a_ball[contact.pair.first] == 0 || radii.has_a_ball[contact.pair.second] == 0;
   });
-  certificate.contacts = {pairs_of(found.contacts()), pairs_of(sure), pairs_of(possible.contacts())};
-  certificate.listed = {list_of(found, holding(found.contacts(), sure)),
-                        list_of(possible, holding(possible.contacts(), found.contacts()))};
+  certificate.contacts = {pairs_of(found->contacts()), pairs_of(sure), pairs_of(possible->contacts())};
+  certificate.listed = {{found, holding(found->contacts(), sure)},
+                        {possible, holding(possible->contacts(), found->contacts())}};
 }
 
 }  // namespace
@@ -102,7 +93,7 @@ StrideCertificate certify_stride(const RunOptions& options, const Scene& scene) 
   if (options.tolerance) tolerance = options.tolerance->length(scene.radii());
   StrideCertificate certificate;
   certificate.deviation =
-      deviation_of_stride(scene, *open_frames(options, 1), stride,
+      deviation_of_stride(scene, *frames_of(options, 1), stride,
                           stride == 1 ? tolerance : std::nullopt);  // proved of all frames
   const auto& names = options.structures;
   if (std::find(names.begin(), names.end(), "contacts") != names.end())

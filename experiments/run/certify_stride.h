@@ -11,11 +11,13 @@
 // Deviations are rounded up, radii outward.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "experiments/run/met_contacts.h"
 #include "experiments/run/run_options.h"
 #include "kds/event_log.h"
 #include "motions/scene/stride_deviation.h"
@@ -31,10 +33,18 @@ struct ContactBounds {
   PairsMet possible;  ///< no other pair is in contact in truth, up to the run's last frame
 };
 
-/// Begin, end and touch of contacts, in order, and of each of these something about its contact.
+/// Contacts of a run, and something about each.
 struct ContactList {
-  std::vector<Event> events;
-  std::vector<std::uint8_t> flags;
+  std::shared_ptr<const MetContacts> met;
+  std::vector<std::uint8_t> flags;  ///< of the contacts
+
+  /// Calls `visit(event, flag)` for begin, end and touch of the contacts, in order.
+  template <class Visit>
+  void for_each_event(const Visit& visit) const {
+    if (met)
+      met->for_each_event(
+          [&](const Event& event, std::size_t contact) { visit(event, flags[contact] != 0); });
+  }
 };
 struct ContactLists {
   /// By the run, or with the kernel fast by one that is exact; whether it is sure: in truth its beads meet

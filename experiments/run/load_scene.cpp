@@ -97,12 +97,14 @@ InputOptions inputs_of(const RunOptions& options) {
   return {options.inputs, options.reading, options.radius, options.obstacle};
 }
 
-std::vector<NecklaceStream> open_inputs(const InputOptions& options,
-                                        const std::function<void(const std::string&)>& warn) {
+SceneStream open_frames(const InputOptions& options, const std::function<void(const std::string&)>& warn,
+                        std::size_t stride) {
   std::vector<NecklaceStream> files;
   std::vector<InputAtoms> atoms;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
-    NecklaceStream& file = files.emplace_back(options.inputs[i], reading_of(options, i));
+    ReadOptions reading = reading_of(options, i);
+    reading.frames.stride *= stride;
+    NecklaceStream& file = files.emplace_back(options.inputs[i], reading);
     if (options.inputs.size() > 1)
       atoms.push_back(atoms_of(options.inputs[i], file.heads(), file.holds_one_frame()));
   }
@@ -115,7 +117,7 @@ std::vector<NecklaceStream> open_inputs(const InputOptions& options,
       throw InputError(
           fmt::format("--obstacle: {} has several frames, expected one", options.obstacle->string()));
   }
-  return files;
+  return SceneStream(std::move(files));
 }
 
 std::vector<Trajectory> read_necklaces(const InputOptions& options,
@@ -137,8 +139,7 @@ std::vector<Trajectory> read_necklaces(const InputOptions& options,
 Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,
                      const std::function<void(const std::string&)>& warn,
                      const std::optional<MotionTolerance>& tolerance) {
-  std::vector<NecklaceStream> files = open_inputs(input, warn);
-  auto frames = std::make_unique<SceneStream>(std::move(files));
+  auto frames = std::make_unique<SceneStream>(open_frames(input, warn));
   const SceneSurvey survey = frames->survey(input.radius == "auto", warn);
   std::vector<double> radii = bead_radii(input.radius, survey.necklaces, survey.bonds);
   for (double& radius : radii) radius *= radius_factor;
@@ -199,6 +200,11 @@ std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& sc
   const auto& names = session.structures;
   if (options.apart && std::find(names.begin(), names.end(), "contacts") == names.end())
     throw InputError("--apart: it chooses pairs of contacts, which is not among the structures");
+  if (options.apart && std::find(names.begin(), names.end(), "closest") != names.end())
+    throw InputError(
+        "--apart: closest looks at all pairs of beads; run it without --apart, or let kds collide --apart "
+        "find "
+        "the closest pair of each frame");
   const auto has = [&names](const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
@@ -206,11 +212,6 @@ std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& sc
     throw InputError("--relax: it relaxes the spheres of wrapped, which is not among the structures");
   if (options.relax && scene.degree() > highest_relaxed_degree)
     throw InputError(
-  if (options.apart && std::find(names.begin(), names.end(), "closest") != names.end())
-    throw InputError(
-        "--apart: closest looks at all pairs of beads; run it without --apart, or let kds collide --apart "
-        "find "
-        "the closest pair of each frame");
         fmt::format("--relax: functions of relaxed spheres have too high a degree over motions of degree {}; "
                     "expected {} at most",
                     scene.degree(), highest_relaxed_degree));

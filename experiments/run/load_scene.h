@@ -21,11 +21,13 @@ namespace kds {
 /// The inputs of a run.
 [[nodiscard]] InputOptions inputs_of(const RunOptions& options);
 
-/// Opens all inputs and the obstacle, in this order, none of them an instance file. Throws InputError if an
-/// input has one frame and the atoms of another with more: it names atoms, or is an obstacle, and an option
-/// says which. Another input of one frame rests, and a line to `warn` says so.
-[[nodiscard]] std::vector<NecklaceStream> open_inputs(const InputOptions& options,
-                                                      const std::function<void(const std::string&)>& warn);
+/// Opens all inputs and the obstacle, in this order, none of them an instance file, to be read frame by
+/// frame: every `stride`-th of the frames that the options ask for. Throws InputError if an input has one
+/// frame and the atoms of another with more: it names atoms, or is an obstacle, and an option says which.
+/// Another input of one frame rests, and a line to `warn` says so.
+[[nodiscard]] SceneStream open_frames(const InputOptions& options,
+                                      const std::function<void(const std::string&)>& warn,
+                                      std::size_t stride = 1);
 
 /// Reads all inputs, none of them an instance file; warnings, one line each, go to `warn`. Throws InputError
 /// for inputs of one frame likewise.

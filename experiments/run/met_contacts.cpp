@@ -16,9 +16,8 @@ MetContacts::Moment moment_of(const Event& event, double u) {
 void MetContacts::on_event(const Event& event) {
   if (event.kind.counted_apart) return;
   const Pair pair{event.ids()[0], event.ids()[1]};
-  events_.push_back(event);
   if (event.kind.name != "end") {
-    contact_of_.push_back(contacts_.size());
+    events_.add({event, contacts_.size()});
     contacts_.push_back({pair, moment_of(event, event.lower)});
     if (event.kind.name == "begin") open_[pair] = contacts_.size() - 1;
     if (event.kind.name == "touch") contacts_.back().latest = moment_of(event, event.upper);
@@ -26,7 +25,7 @@ void MetContacts::on_event(const Event& event) {
   }
   const auto begun = open_.find(pair);
   if (begun == open_.end()) throw std::logic_error("a contact ends that has not begun");
-  contact_of_.push_back(begun->second);
+  events_.add({event, begun->second});
   contacts_[begun->second].latest = moment_of(event, event.upper);
   open_.erase(begun);
 }

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/output/spool.h"
 #include "kds/event_log.h"
 #include "motions/base/bead.h"
 
@@ -34,14 +35,19 @@ class MetContacts final : public EventListener {
   /// Its events are printed after the run.
   [[nodiscard]] bool prints_time_of(const Event&) const override { return true; }
 
-  [[nodiscard]] std::span<const Event> events() const { return events_; }  ///< in order
-  /// Of one of the events.
-  [[nodiscard]] std::size_t contact_of(std::size_t event) const { return contact_of_[event]; }
+  /// Calls `visit(event, contact)` for the events in order, `contact` the place of the event's contact.
+  template <class Visit>
+  void for_each_event(const Visit& visit) const {
+    events_.for_each([&](const OfContact& record) { visit(record.event, record.contact); });
+  }
   [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
 
  private:
-  std::vector<Event> events_;
-  std::vector<std::size_t> contact_of_;
+  struct OfContact {
+    Event event;
+    std::size_t contact;
+  };
+  SpooledRecords<OfContact> events_;  // on disk, as there are many
   std::vector<Contact> contacts_;     // in the order of their begins
   std::map<Pair, std::size_t> open_;  // those without an end
 };

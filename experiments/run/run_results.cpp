@@ -54,11 +54,13 @@ void RunResults::begin(const Scene& scene, Session& session, bool certified) {
 
 void RunResults::add_certificate(const StrideCertificate& certificate, const Scene& scene) {
   if (!files_ || !certificate.contacts) return;
-  const auto& [found, possible] = certificate.listed;
-  ContactsTable::write(files_->open(std::string(contacts_file)), scene, found.events,
-                       {"certainty", "sure", "possible"}, found.flags);
-  ContactsTable::write(files_->open(std::string(possible_contacts_file)), scene, possible.events,
-                       {"found", "yes", "no"}, possible.flags);
+  const auto write = [&](std::string_view file, const ContactList& list,
+                         const ContactsTable::Column& column) {
+    ContactsTable table(files_->open(std::string(file)), scene, column);
+    list.for_each_event([&table](const Event& event, bool flag) { table.add(event, flag); });
+  };
+  write(contacts_file, certificate.listed.found, {"certainty", "sure", "possible"});
+  write(possible_contacts_file, certificate.listed.possible, {"found", "yes", "no"});
   files_->check();
 }
 

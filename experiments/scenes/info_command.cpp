@@ -60,8 +60,10 @@ TableResults describe(const Instance& instance, bool beads, const std::string& c
 
 TableResults describe_beads(const InfoOptions& options, const std::string& command_line, ProgressBar& bar) {
   HeldWarnings held;
-  const std::vector<Trajectory> necklaces = read_necklaces(options.input, held.hold());
-  const std::vector<BeadRow> rows = bead_rows(necklaces, bead_radii(options.input.radius, necklaces));
+  const SceneSurvey survey =
+      open_frames(options.input, held.hold()).survey(options.input.radius == "auto", held.hold());
+  const std::vector<BeadRow> rows =
+      bead_rows(survey.necklaces, bead_radii(options.input.radius, survey.necklaces, survey.bonds));
   Json json, files = Json::array(), warnings = Json::array();
   for (const auto& input : options.input.inputs) files.push_back(input.string());
   held.release([&](const std::string& warning) {
@@ -80,11 +82,13 @@ TableResults describe(const InfoOptions& options, const std::string& command_lin
   if (options.beads) return describe_beads(options, command_line, bar);
   Json warnings = Json::array();
   HeldWarnings held;
-  const std::vector<Trajectory> necklaces = read_necklaces(options.input, held.hold());
-  const std::vector<double> radii = bead_radii(options.input.radius, necklaces);
-  const SceneInfo info =
-      describe_scene(necklaces, radii, options.validate,
-                     [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
+  SceneStream frames = open_frames(options.input, held.hold());
+  const SceneSurvey survey = frames.survey(options.input.radius == "auto", held.hold());
+  const std::vector<double> radii = bead_radii(options.input.radius, survey.necklaces, survey.bonds);
+  const SceneInfo info = describe_frames(
+      survey.necklaces, survey.frames_of_necklaces,
+      [&frames](FrameRead& frame) { return frames.next(frame); }, radii, options.validate,
+      [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
   bar.erase();
   held.release([&](const std::string& warning) {
     warnings.push_back(warning);

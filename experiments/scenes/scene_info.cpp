@@ -41,51 +41,42 @@ double distance_from_holding(std::span<const Necklace> necklaces, Condition cond
 
 class Description {
  public:
-  Description(std::span<const Trajectory> trajectories, std::span<const double> radii)
-      : trajectories_(trajectories), radii_(radii) {
+  Description(std::span<const Trajectory> necklaces, std::span<const std::size_t> frames_of_necklaces,
+              std::span<const double> radii)
+      : radii_(radii) {
     std::size_t beads = 0;
-    for (const Trajectory& t : trajectories) {
-      if (longest_ == nullptr || t.frames.size() > longest_->frames.size()) longest_ = &t;
+    for (std::size_t n = 0; n < necklaces.size(); ++n) {
+      const Trajectory& necklace = necklaces[n];
       const auto first = static_cast<BeadId>(beads);
-      beads += t.bead_count();
-      info_.necklaces.push_back({t.file,
+      beads += necklace.bead_count();
+      info_.frames = std::max(info_.frames, frames_of_necklaces[n]);
+      info_.necklaces.push_back({necklace.file,
                                  {first, static_cast<BeadId>(beads - 1)},
-                                 t.frames.size(),
+                                 frames_of_necklaces[n],
                                  {},
                                  {},
-                                 t.breaks,
-                                 t.residues,
-                                 t.residues_read});
+                                 necklace.breaks,
+                                 necklace.residues,
+                                 necklace.residues_read});
     }
-    for (const Trajectory& t : trajectories)
-      if (t.frames.size() != longest_->frames.size() && t.frames.size() != 1)
-        throw InputError(fmt::format(
-            "{}: {} frames, but {} has {}; necklaces of a scene need equal frame counts (or one frame: at "
-            "rest)",
-            t.file, t.frames.size(), longest_->file, longest_->frames.size()));
     info_.beads = beads;
-    info_.frames = longest_->frames.size();
     info_.radius_min = *std::min_element(radii.begin(), radii.end());
     info_.radius_max = *std::max_element(radii.begin(), radii.end());
     for (const Condition condition : kConditions)
       info_.conditions[static_cast<std::size_t>(condition)].condition = condition;
-    centers_.resize(3, static_cast<Eigen::Index>(beads));
   }
 
   [[nodiscard]] std::size_t frames() const { return info_.frames; }
 
-  void add_frame(std::size_t frame, const ValidateOptions& options) {
-    for (std::size_t n = 0; n < trajectories_.size(); ++n) {
-      const auto& frames = trajectories_[n].frames;
-      centers_.middleCols(info_.necklaces[n].beads.first, frames[0].cols()) =
-          frames[frames.size() == 1 ? 0 : frame];
-    }
+  void add_frame(const FrameRead& frame, const ValidateOptions& options) {
+    const bool first = begun_ == 0;
+    ++begun_;
     std::vector<Necklace> necklaces;
     for (NecklaceInfo& info : info_.necklaces) {
-      const Necklace& necklace = necklaces.emplace_back(info.beads, centers_, radii_);
+      const Necklace& necklace = necklaces.emplace_back(info.beads, frame.positions, radii_);
       const Necklace::Extent bonds = necklace.bonds();
-      if (frame == 0) info.radii = necklace.radii();
-      if (frame == 0) info.bonds = bonds;
+      if (first) info.radii = necklace.radii();
+      if (first) info.bonds = bonds;
       info.bonds = {std::min(info.bonds.least, bonds.least), std::max(info.bonds.most, bonds.most)};
     }
     const NecklaceReport report = validate(necklaces, options);
@@ -93,7 +84,7 @@ class Description {
       const Violations& violations = report[info.condition];
       if (violations.count == 0) continue;
       if (info.violations == 0) {
-        info.first_frame = longest_->frame_number(frame);
+        info.first_frame = frame.stamp.number;
         info.first = violations.listed;
         for (const Violation& violation : info.first)
           info.by.push_back(distance_from_holding(necklaces, info.condition, violation));
@@ -106,10 +97,8 @@ class Description {
   [[nodiscard]] SceneInfo info() && { return std::move(info_); }
 
  private:
-  std::span<const Trajectory> trajectories_;
   std::span<const double> radii_;
-  const Trajectory* longest_ = nullptr;
-  Eigen::Matrix3Xd centers_;
+  std::size_t begun_ = 0;  // frames
   SceneInfo info_;
 };
 
@@ -119,15 +108,48 @@ bool SceneInfo::proper() const {
   return std::all_of(conditions.begin(), conditions.end(), [](const auto& c) { return c.holds(); });
 }
 
+SceneInfo describe_frames(std::span<const Trajectory> necklaces,
+                          std::span<const std::size_t> frames_of_necklaces,
+                          const std::function<bool(FrameRead&)>& next, std::span<const double> radii,
+                          const ValidateOptions& options,
+                          const std::function<void(std::size_t, std::size_t)>& progress) {
+  Description description(necklaces, frames_of_necklaces, radii);
+  FrameRead frame;
+  for (std::size_t done = 0; next(frame); progress(++done, description.frames()))
+    description.add_frame(frame, options);
+  return std::move(description).info();
+}
+
 SceneInfo describe_scene(std::span<const Trajectory> necklaces, std::span<const double> radii,
                          const ValidateOptions& options,
                          const std::function<void(std::size_t, std::size_t)>& progress) {
-  Description description(necklaces, radii);
-  for (std::size_t frame = 0; frame < description.frames(); ++frame) {
-    description.add_frame(frame, options);
-    progress(frame + 1, description.frames());
+  const Trajectory* longest = nullptr;
+  std::vector<std::size_t> frames_of_necklaces;
+  for (const Trajectory& necklace : necklaces) {
+    if (longest == nullptr || necklace.frames.size() > longest->frames.size()) longest = &necklace;
+    frames_of_necklaces.push_back(necklace.frames.size());
   }
-  return std::move(description).info();
+  for (const Trajectory& t : necklaces)
+    if (t.frames.size() != longest->frames.size() && t.frames.size() != 1)
+      throw InputError(fmt::format(
+          "{}: {} frames, but {} has {}; necklaces of a scene need equal frame counts (or one frame: at "
+          "rest)",
+          t.file, t.frames.size(), longest->file, longest->frames.size()));
+  std::size_t at = 0;
+  const auto next = [&](FrameRead& frame) {
+    if (at == longest->frames.size()) return false;
+    frame.stamp.number = longest->frame_number(at);
+    frame.positions.resize(3, static_cast<Eigen::Index>(radii.size()));
+    Eigen::Index begin = 0;
+    for (const Trajectory& necklace : necklaces) {
+      const Eigen::Matrix3Xd& own = necklace.frames[necklace.frames.size() == 1 ? 0 : at];
+      frame.positions.middleCols(begin, own.cols()) = own;
+      begin += own.cols();
+    }
+    ++at;
+    return true;
+  };
+  return describe_frames(necklaces, frames_of_necklaces, next, radii, options, progress);
 }
 
 std::string_view about(Condition condition) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "motions/frames/frame_reader.h"
 #include "motions/frames/trajectory.h"
 #include "structures/necklace/necklace.h"
 
@@ -44,8 +45,16 @@ struct SceneInfo {
   [[nodiscard]] bool proper() const;
 };
 
-/// The conditions are judged at every frame; a necklace of one frame is at rest. One radius a bead in scene
-/// order. Throws InputError where frame counts differ otherwise, or a number is not finite.
+/// The conditions are judged at every frame, one after the other, and one is in memory. `necklaces` need have
+/// their first frames only; `next` reads the next frame of all beads. One radius a bead in scene order.
+/// Throws InputError where a number is not finite.
+[[nodiscard]] SceneInfo describe_frames(std::span<const Trajectory> necklaces,
+                                        std::span<const std::size_t> frames_of_necklaces,
+                                        const std::function<bool(FrameRead&)>& next,
+                                        std::span<const double> radii, const ValidateOptions& options,
+                                        const std::function<void(std::size_t, std::size_t)>& progress);
+/// The same of frames in memory; a necklace of one frame is at rest. Throws InputError where frame counts
+/// differ otherwise, or a number is not finite.
 [[nodiscard]] SceneInfo describe_scene(std::span<const Trajectory> necklaces, std::span<const double> radii,
                                        const ValidateOptions& options,
                                        const std::function<void(std::size_t, std::size_t)>& progress);

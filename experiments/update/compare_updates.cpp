@@ -9,7 +9,6 @@
 
 #include "experiments/program/timing.h"
 #include "motions/base/input_error.h"
-#include "motions/frames/every_nth.h"
 #include "structures/power_diagram/diagram_update.h"
 #include "structures/session/session.h"
 #include "structures/triangulation/snapshot_faults.h"
@@ -18,58 +17,39 @@ namespace kds {
 
 namespace {
 
-/// The frames of one stride, with the static diagrams that all techniques must arrive at.
+/// What all techniques have before them, by static diagrams of all frames. Two frames are in memory.
 template <int Dimension>
-struct Frames {
-  Frames(const Scene& scene, bool keep_diagrams) {
-    for (std::size_t k = 0; k < scene.frame_count(); ++k) {
-      centers.push_back(scene.centers(k));
-      weights.push_back(scene.weights(k));
-      numbers.push_back(scene.frame_number(k));
-    }
-    StaticTriangulation<Dimension> before;
-    for (std::size_t k = 0; k < centers.size(); ++k) {
-      auto now = static_triangulation<Dimension>(centers[k], weights[k]);
-      if (k > 0) compare(before, now, k);
-      if (keep_diagrams) diagrams.push_back(now);
-      before = std::move(now);
-    }
-  }
-
+UpdateTask task_of(const Scene& scene, std::size_t stride) {
   UpdateTask task;
-  std::vector<Eigen::Matrix3Xd> centers;
-  std::vector<std::vector<double>> weights;
-  std::vector<StaticTriangulation<Dimension>> diagrams;
-  std::vector<std::size_t> numbers;  ///< of the frames in the file
-
- private:
-  void compare(const StaticTriangulation<Dimension>& before, const StaticTriangulation<Dimension>& now,
-               std::size_t k) {
-    ++task.steps;
-    task.cells += now.cells.size();
-    task.hidden += now.hidden.size();
-    std::vector<CellBeads<Dimension>> changed;
-    std::set_symmetric_difference(before.cells.begin(), before.cells.end(), now.cells.begin(),
-                                  now.cells.end(), std::back_inserter(changed));
-    task.cells_changed += changed.size();
-    if (before.dimension < Dimension) return;
-    RegularTriangulation<Dimension> triangulation;
-    triangulation.build(centers[k - 1], weights[k - 1]);
-    const SnapshotFaults faults = snapshot_faults(triangulation, Snapshot<Dimension>(centers[k], weights[k]));
-    task.certificates += faults.tested;
-    task.failed += faults.failed();
+  task.stride = stride;
+  StaticTriangulation<Dimension> before;
+  Eigen::Matrix3Xd centers_before;
+  std::vector<double> weights_before;
+  for (std::size_t k = 0; k < scene.frame_count(); ++k) {
+    Eigen::Matrix3Xd centers = scene.centers(k);
+    std::vector<double> weights = scene.weights(k);
+    auto now = static_triangulation<Dimension>(centers, weights);
+    if (k > 0) {
+      ++task.steps;
+      task.cells += now.cells.size();
+      task.hidden += now.hidden.size();
+      std::vector<CellBeads<Dimension>> changed;
+      std::set_symmetric_difference(before.cells.begin(), before.cells.end(), now.cells.begin(),
+                                    now.cells.end(), std::back_inserter(changed));
+      task.cells_changed += changed.size();
+    }
+    if (k > 0 && before.dimension == Dimension) {
+      RegularTriangulation<Dimension> triangulation;
+      triangulation.build(centers_before, weights_before);
+      const SnapshotFaults faults = snapshot_faults(triangulation, Snapshot<Dimension>(centers, weights));
+      task.certificates += faults.tested;
+      task.failed += faults.failed();
+    }
+    before = std::move(now);
+    centers_before = std::move(centers);
+    weights_before = std::move(weights);
   }
-};
-
-std::vector<Trajectory> strided(const std::vector<Trajectory>& necklaces, std::size_t stride) {
-  std::vector<Trajectory> some;
-  for (const Trajectory& necklace : necklaces) {
-    some.push_back(every_nth(necklace, stride));
-    if (necklace.frames.size() > 1 && some.back().frames.size() < 2)
-      throw InputError(fmt::format("--strides: {} leaves one of the {} frames of {}; expected two or more",
-                                   stride, necklace.frames.size(), necklace.file));
-  }
-  return some;
+  return task;
 }
 
 UpdateTechnique technique_of(std::string_view name) {
@@ -81,17 +61,15 @@ UpdateTechnique technique_of(std::string_view name) {
 template <int Dimension>
 class UpdateComparison {
  public:
-  UpdateComparison(std::vector<Trajectory> necklaces, const std::vector<double>& radii,
-                   const UpdateOptions& options, std::size_t stride)
-      : necklaces_(std::move(necklaces)),
-        radii_(radii),
-        audit_(options.audit == AuditMode::frames),
-        frames_(Scene(necklaces_, radii), audit_) {
-    frames_.task.stride = stride;
+  UpdateComparison(Scene linear, SceneAtStride scene_at, const UpdateOptions& options, std::size_t stride)
+      : linear_(std::move(linear)),
+        scene_at_(std::move(scene_at)),
+        audit_(options.audit == AuditMode::frames) {
+    const UpdateTask task = task_of<Dimension>(linear_, stride);
     for (const std::string& name : options.techniques) {
       rows_.emplace_back();
       rows_.back().technique = name;
-      rows_.back().task = frames_.task;
+      rows_.back().task = task;
     }
     seconds_.resize(rows_.size());
   }
@@ -117,13 +95,14 @@ class UpdateComparison {
   double run(UpdateRow& row, bool first) const {
     const UpdateTechnique technique = technique_of(row.technique);
     const auto update = make_diagram_update<Dimension>(technique);
-    update->build(frames_.centers[0], frames_.weights[0]);
+    update->build(linear_.centers(0), linear_.weights(0));
     double seconds = 0;
     UpdateCounts sum;
-    for (std::size_t k = 1; k < frames_.centers.size(); ++k) {
+    for (std::size_t k = 1; k < linear_.frame_count(); ++k) {
+      const Eigen::Matrix3Xd centers = linear_.centers(k);
+      const std::vector<double> weights = linear_.weights(k);
       UpdateCounts counts;
-      seconds +=
-          processor_seconds_of([&] { counts = update->advance(frames_.centers[k], frames_.weights[k]); });
+      seconds += processor_seconds_of([&] { counts = update->advance(centers, weights); });
       sum.activated += counts.activated;
       sum.removed += counts.removed;
       sum.events += counts.events;
@@ -131,8 +110,10 @@ class UpdateComparison {
       if (first && audit_) {
         ++row.audits;
         audit_update<Dimension>(
-            update->diagram(), frames_.diagrams[k], [&] { return update->fault(); },
-            fmt::format("{} at stride {}, frame {}", row.technique, row.task.stride, frames_.numbers[k]));
+            update->diagram(), static_triangulation<Dimension>(centers, weights),
+            [&] { return update->fault(); },
+            fmt::format("{} at stride {}, frame {}", row.technique, row.task.stride,
+                        linear_.frame_number(k)));
       }
     }
     if (!first) return seconds;
@@ -147,45 +128,49 @@ class UpdateComparison {
 
   double run_hermite(UpdateRow& row, bool first) const {
     if (first && audit_) row.audits = audited_hermite(row);
-    const Scene scene(necklaces_, radii_, FrameMotion::hermite);
-    const auto session =
-        std::make_unique<Session>(scene, SessionOptions{{"power"}, Kernel::filtered, AuditMode::none, {}});
-    session->load(0);
-    session->simulator().build();
-    const double seconds = processor_seconds_of([&] { run_steps(scene, *session); });
+    const Scene scene = scene_at_(row.task.stride, FrameMotion::hermite);
+    Session session(scene, {{"power"}, Kernel::filtered, AuditMode::none, {}});
+    std::uint64_t events = 0;
+    const double seconds = run_steps_of(scene, session, events);
     if (!first) return seconds;
-    const StructureStatistics& statistics = session->structures().front()->statistics;
-    row.events = 0;
-    for (const std::uint64_t events : statistics.events_per_step) *row.events += events;
+    row.events = events;
     row.activated = scene.bead_count() * scene.step_count();
-    row.rebuilds = statistics.rebuilds;
+    row.rebuilds = session.structures().front()->statistics.rebuilds;
     return seconds;
   }
   std::uint64_t audited_hermite(const UpdateRow& row) const {
-    const Scene scene(necklaces_, radii_, FrameMotion::hermite);
-    const auto session =
-        std::make_unique<Session>(scene, SessionOptions{{"power"}, Kernel::filtered, AuditMode::frames, {}});
-    session->load(0);
-    session->simulator().build();
+    const Scene scene = scene_at_(row.task.stride, FrameMotion::hermite);
+    Session session(scene, {{"power"}, Kernel::filtered, AuditMode::frames, {}});
+    std::uint64_t events = 0;
     try {
-      run_steps(scene, *session);
+      run_steps_of(scene, session, events);
     } catch (const AuditError& error) {
       throw AuditError(fmt::format("hermite at stride {}: {}", row.task.stride, error.what()));
     }
     return scene.step_count();
   }
-  static void run_steps(const Scene& scene, Session& session) {
+  /// Returns the seconds without those for reading frames.
+  static double run_steps_of(const Scene& scene, Session& session, std::uint64_t& events) {
+    std::vector<std::uint64_t>& of_steps = session.structures().front()->statistics.events_per_step;
+    session.load(0);
+    session.simulator().build();
+    double seconds = 0;
     for (std::size_t k = 0; k < scene.step_count(); ++k) {
-      session.load(k);
-      session.simulator().run_step();
+      static_cast<void>(
+          scene.centers(std::min(k + 2, scene.frame_count() - 1)));  // read before the clock runs
+      seconds += processor_seconds_of([&] {
+        session.load(k);
+        session.simulator().run_step();
+      });
+      for (const std::uint64_t count : of_steps) events += count;
+      of_steps.clear();
     }
-    session.simulator().finish();
+    return seconds + processor_seconds_of([&] { session.simulator().finish(); });
   }
 
-  std::vector<Trajectory> necklaces_;
-  const std::vector<double>& radii_;
+  Scene linear_;
+  SceneAtStride scene_at_;
   bool audit_;
-  Frames<Dimension> frames_;
   std::vector<UpdateRow> rows_;
   std::vector<std::vector<double>> seconds_;
 };
@@ -204,16 +189,19 @@ template void audit_update(const StaticTriangulation<2>&, const StaticTriangulat
 template void audit_update(const StaticTriangulation<3>&, const StaticTriangulation<3>&,
                            const std::function<std::optional<std::string>()>&, const std::string&);
 
-std::vector<UpdateRow> compare_updates(const std::vector<Trajectory>& necklaces,
-                                       const std::vector<double>& radii, const UpdateOptions& options,
+std::vector<UpdateRow> compare_updates(const SceneAtStride& scene_at, const UpdateOptions& options,
                                        const std::function<void(std::size_t, std::size_t)>& progress) {
   // Before the first long run.
-  Scene(necklaces, radii).require_weights();
-  for (const std::size_t stride : options.strides) static_cast<void>(strided(necklaces, stride));
+  const Scene all = scene_at(1, FrameMotion::linear);
+  all.require_weights();
+  for (const std::size_t stride : options.strides)
+    if (stride >= all.frame_count())
+      throw InputError(fmt::format(
+          "--strides: {} leaves one of the {} frames{}; expected two or more", stride, all.frame_count(),
+          options.input.inputs.empty() ? "" : fmt::format(" of {}", options.input.inputs.front().string())));
   std::vector<UpdateRow> rows;
   std::size_t done = 0;
   for (const std::size_t stride : options.strides) {
-    std::vector<Trajectory> some = strided(necklaces, stride);
     const auto compare = [&](auto comparison) {
       for (std::size_t round = 0; round < options.rounds; ++round) {
         comparison.round();
@@ -221,10 +209,11 @@ std::vector<UpdateRow> compare_updates(const std::vector<Trajectory>& necklaces,
       }
       for (UpdateRow& row : comparison.rows()) rows.push_back(std::move(row));
     };
-    if (Scene(some, radii).dimension() == 2) {
-      compare(UpdateComparison<2>(std::move(some), radii, options, stride));
+    Scene some = scene_at(stride, FrameMotion::linear);
+    if (some.dimension() == 2) {
+      compare(UpdateComparison<2>(std::move(some), scene_at, options, stride));
     } else {
-      compare(UpdateComparison<3>(std::move(some), radii, options, stride));
+      compare(UpdateComparison<3>(std::move(some), scene_at, options, stride));
     }
   }
   return rows;

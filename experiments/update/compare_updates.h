@@ -10,7 +10,7 @@
 
 #include "experiments/program/timing.h"
 #include "experiments/update/update_options.h"
-#include "motions/frames/trajectory.h"
+#include "motions/scene/scene.h"
 #include "structures/triangulation/regular_triangulation.h"
 
 namespace kds {
@@ -53,10 +53,14 @@ template <int Dimension>
 void audit_update(const StaticTriangulation<Dimension>& found, const StaticTriangulation<Dimension>& expected,
                   const std::function<std::optional<std::string>()>& fault, const std::string& what);
 
-/// In the plane where the scene is planar. Throws InputError where a stride leaves fewer than two frames,
-/// AuditError where a diagram is wrong.
+/// The scene of every stride-th frame. It is asked for at each stride, for linear and for Hermite motion.
+using SceneAtStride = std::function<Scene(std::size_t stride, FrameMotion motion)>;
+
+/// In the plane where the scene is planar. Reads frames one by one, for each technique again, so that memory
+/// does not grow with them where the scenes are those of files. Throws InputError where a stride leaves fewer
+/// than two frames, AuditError where a diagram is wrong.
 [[nodiscard]] std::vector<UpdateRow> compare_updates(
-    const std::vector<Trajectory>& necklaces, const std::vector<double>& radii, const UpdateOptions& options,
+    const SceneAtStride& scene_at, const UpdateOptions& options,
     const std::function<void(std::size_t, std::size_t)>& progress);
 
 }  // namespace kds

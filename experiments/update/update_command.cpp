@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/result_page.h"
@@ -29,16 +31,16 @@ std::string file_names(const UpdateOptions& options) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-Json input_json(const UpdateOptions& options, const std::vector<Trajectory>& necklaces,
-                const std::vector<double>& radii) {
+Json input_json(const UpdateOptions& options, const Scene& scene) {
   Json files = Json::array();
   for (const auto& input : options.input.inputs) files.push_back(input.string());
-  std::size_t frames = 1;
-  for (const Trajectory& necklace : necklaces) frames = std::max(frames, necklace.frames.size());
-  const auto [least, most] = std::minmax_element(radii.begin(), radii.end());
-  return {{"files", files},       {"beads", radii.size()},
-          {"frames", frames},     {"dimension", Scene(necklaces, radii).dimension()},
-          {"radius_min", *least}, {"radius_max", *most}};
+  const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
+  return {{"files", files},
+          {"beads", scene.bead_count()},
+          {"frames", scene.frame_count()},
+          {"dimension", scene.dimension()},
+          {"radius_min", *least},
+          {"radius_max", *most}};
 }
 
 Json settings_json(const UpdateOptions& options) {
@@ -73,10 +75,19 @@ int update_command(const Arguments& arguments) {
     throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
   Json warnings = Json::array();
   HeldWarnings held;
-  const std::vector<Trajectory> necklaces = read_necklaces(options.input, held.hold());
-  const std::vector<double> radii = bead_radii(options.input.radius, necklaces);
+  std::map<std::size_t, SceneSurvey> surveys;  // by stride
+  surveys.emplace(
+      1, open_frames(options.input, held.hold()).survey(options.input.radius == "auto", held.hold()));
+  const std::vector<double> radii =
+      bead_radii(options.input.radius, surveys.at(1).necklaces, surveys.at(1).bonds);
+  const SceneAtStride scene_at = [&](std::size_t stride, FrameMotion motion) {
+    auto frames = std::make_unique<SceneStream>(open_frames(
+        options.input, [](const std::string&) {}, stride));
+    if (!surveys.contains(stride)) surveys.emplace(stride, frames->survey(false, [](const std::string&) {}));
+    return Scene(std::move(frames), surveys.at(stride), radii, motion);
+  };
   const std::vector<UpdateRow> rows = compare_updates(
-      necklaces, radii, options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
+      scene_at, options, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
   bar.erase();
   held.release([&](const std::string& warning) {
     warnings.push_back(warning);
@@ -85,7 +96,7 @@ int update_command(const Arguments& arguments) {
 
   const std::string command_line = "kds update " + shell_words(arguments);
   Json json;
-  json["input"] = input_json(options, necklaces, radii);
+  json["input"] = input_json(options, scene_at(1, FrameMotion::linear));
   json["settings"] = settings_json(options);
   json["rows"] = update_rows_json(rows);
   json["warnings"] = warnings;

@@ -51,6 +51,7 @@ SceneSurvey SceneStream::survey(bool with_bonds, const std::function<void(const 
   const auto longest = std::max_element(frames_.begin(), frames_.end()) - frames_.begin();
   for (std::size_t n = 0; n < file_of.size(); ++n) {
     const std::size_t frames = frames_[file_of[n]];
+    survey.frames_of_necklaces.push_back(frames);
     if (frames == survey.frame_count || frames == 1) continue;
     throw InputError(fmt::format(
         "{}: {} frames, but {} has {}; necklaces of a run need equal frame counts (or one frame: at rest)",

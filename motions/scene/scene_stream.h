@@ -38,6 +38,7 @@ class PlaneSearch {
 struct SceneSurvey {
   std::vector<Trajectory> necklaces;  ///< with their first frames only
   std::size_t frame_count = 0;
+  std::vector<std::size_t> frames_of_necklaces;  ///< that many, or 1: at rest
   FrameStamp first, last;
   std::optional<AxisPlane> plane;
   LongestBond bonds;  ///< empty where nobody asked for it

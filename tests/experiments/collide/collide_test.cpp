@@ -211,7 +211,7 @@ TEST(Collide, OfATrajectoryWithPlots) {
   const ProgramRun other = run_program({"update", data_file("trajectories/villin_hp36_300K.dcd"), "--frames",
                                         ":3", "--out", (directory / "out").string()});
   EXPECT_EQ(other.code, 2);
-  EXPECT_THAT(other.err, HasSubstr("collide.json"));
+  EXPECT_THAT(other.err, HasSubstr("written by kds collide --out"));
 }
 
 TEST(Collide, BadInputIsOneLine) {
@@ -291,8 +291,8 @@ TEST(Collide, MethodsThatDisagreeAreAnInternalFailure) {
   CollideTask task{{&collision_methods().front(), &wrong}, {{frames.necklaces(), true, 2, true}}};
   try {
     static_cast<void>(compare_detectors(
-        frames, task, [](const FrameRead&, std::span<const BeadPair>) {}, ignore,
-        [](std::size_t, std::size_t) {}));
+        frames, task, [](const FrameRead&, const FrameFound&, std::optional<std::span<const BeadPair>>) {},
+        ignore, [](std::size_t, std::size_t) {}));
     ADD_FAILURE() << "nobody noticed";
   } catch (const InputError&) {
     ADD_FAILURE() << "the input is not at fault";

@@ -99,6 +99,38 @@ TEST(Program, MemoryDoesNotGrowWithTheFrames) {
   EXPECT_LT(many, few + few / 4) << few;
 }
 
+TEST(Program, MemoryOfOtherCommandsDoesNotGrowWithFrames) {
+  const ScratchDirectory directory;
+  const std::vector<std::vector<std::string>> commands{
+      {"info", "--radius", "auto"},
+      {"info", "--beads"},
+      {"collide", "--radius", "1", "--method", "cells", "--json", (directory / "json").string(), "--out",
+       (directory / "out").string()},
+      {"update", "--radius", "0.1", "--rounds", "1", "--techniques", "hermite"}};
+  const auto peaks = [&](std::size_t frames) {
+    std::string text;
+    for (std::size_t k = 0; k < frames; ++k) {
+      std::vector<std::string> beads;
+      for (std::size_t b = 0; b < 40; ++b)
+        beads.push_back(fmt::format("{}.{} {}.{} {}.{}", b, (b * k) % 7, (b * 5) % 7, (b * 3 + k) % 9,
+                                    (b * b) % 11, (b * 37 + k) % 10));
+      text += xyz(beads);
+    }
+    const std::string input = directory.file(std::to_string(frames) + ".xyz", text);
+    std::vector<long> kilobytes;
+    for (std::vector<std::string> arguments : commands) {
+      arguments.insert(arguments.begin() + 1, {input, "--quiet"});
+      const ProgramRun run = run_program(arguments);
+      EXPECT_EQ(run.code, 0) << run.err;
+      kilobytes.push_back(run.peak_kilobytes);
+    }
+    return kilobytes;
+  };
+  const std::vector<long> few = peaks(10), many = peaks(3000);
+  for (std::size_t c = 0; c < commands.size(); ++c)
+    EXPECT_LT(many[c], few[c] + few[c] / 8) << testing::PrintToString(commands[c]) << few[c];
+}
+
 TEST(Program, StandardStreamsMayBeClosed) {
   const ScratchDirectory directory;
   const std::string log = (directory / "events.log").string();
@@ -145,7 +177,7 @@ TEST(Program, WhatAKilledRunLeftIsClearedByTheNext) {
   EXPECT_EQ(killed.code, 128 + 9) << killed.err;
   ASSERT_EQ(directory.entries(), 1U);
   EXPECT_EQ(run_program({"run", data_file("kinetic/d3_n20_linear.txt"), "--quiet", "--dump", there}).code, 0);
-  EXPECT_EQ(directory.entries(), 4U);  // cells and hidden beads of two frames
+  EXPECT_EQ(directory.entries(), 5U);  // cells and hidden beads of two frames
 }
 
 }  // namespace

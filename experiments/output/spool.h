@@ -1,0 +1,67 @@
+#pragma once
+// Text that waits on disk, in a temporary file without a name, so that memory does not grow with it.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <type_traits>
+
+namespace kds {
+
+/// Takes a text piece by piece.
+using TextSink = std::function<void(std::string_view)>;
+
+class Spool {
+ public:
+  /// Throws OutputError where the system gives no temporary file.
+  Spool();
+
+  /// Throws OutputError where there is no room.
+  void add(std::string_view text);
+  [[nodiscard]] bool empty() const { return empty_; }
+  /// All of it, in order. More can be added afterwards.
+  void read(const TextSink& sink) const;
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, Close> file_;
+  bool empty_ = true;
+};
+
+/// Records that wait likewise.
+template <class Record>
+class SpooledRecords {
+  static_assert(std::is_trivially_copyable_v<Record>);
+
+ public:
+  void add(const Record& record) { spool_.add({reinterpret_cast<const char*>(&record), sizeof record}); }
+  /// Calls `visit(record)` for all, in order.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    std::array<char, sizeof(Record)> bytes{};
+    std::size_t filled = 0;
+    spool_.read([&](std::string_view text) {
+      while (!text.empty()) {
+        const std::size_t count = std::min(text.size(), bytes.size() - filled);
+        std::memcpy(bytes.data() + filled, text.data(), count);
+        text.remove_prefix(count);
+        filled += count;
+        if (filled < bytes.size()) continue;
+        filled = 0;
+        visit(std::bit_cast<Record>(bytes));
+      }
+    });
+  }
+
+ private:
+  Spool spool_;
+};
+
+}  // namespace kds
