@@ -8,7 +8,7 @@
 
 namespace kds::models {
 
-/// A quadratic B-spline in space with five control points.
+/// A quadratic B-spline in space with five control points. Proper from 8 beads on.
 [[nodiscard]] Shape spline(std::size_t beads, double bond = usual_bond);
 
 /// `turns` around the axis, in a cube. Proper while consecutive turns are apart: from about pi turns^2 beads
