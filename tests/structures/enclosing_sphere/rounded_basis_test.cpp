@@ -32,7 +32,7 @@ void expect_proofs_are_right(bool equal_radii) {
       if (members.size() > dimension + 1) continue;
       const Basis basis(members);
       const bool is_proved = is_surely_basis_of(basis, {0, 6}, rounded);
-      const auto sphere = ExactSphere<dimension>::touching(whole.of(members));
+      const auto sphere = kds::ExactSphere<dimension>::touching(whole.of(members));
       const bool is_right = sphere && sphere->is_proper() && !bead_outside(basis, BeadRange{0, 6}, whole);
       EXPECT_TRUE(is_right || !is_proved);
       if (kind != MotionKind::generic) continue;
