@@ -12,8 +12,8 @@
 // Functions of eight are compiled for the processors that have vectors so long, and only they may call them;
 // each for one kind, by name. The same bits again.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define KDS_EIGHT_FLOATS_AVX2 gnu::target("avx2"), gnu::flatten, gnu::noinline
-#define KDS_EIGHT_FLOATS_AVX512 gnu::target("arch=x86-64-v4"), gnu::flatten, gnu::noinline
+#define KDS_EIGHT_FLOATS_AVX2 KDS_FOR_TARGET("avx2")
+#define KDS_EIGHT_FLOATS_AVX512 KDS_FOR_TARGET("arch=x86-64-v4")
 #else
 #define KDS_EIGHT_FLOATS_AVX2 gnu::noinline
 #define KDS_EIGHT_FLOATS_AVX512 gnu::noinline

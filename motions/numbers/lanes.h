@@ -11,12 +11,15 @@
 
 namespace kds {
 
-// Everything called from such a function must be inlined into it: code compiled for other targets passes
-// vectors in other ways.
+// Code compiled for other targets passes vectors in other ways. So everything called from such a function
+// must be inlined into it, and callers hand over lanes by reference. The compiler must not change that: g++
+// 14 makes a clone that takes the vector by value (-fipa-sra), and its callers put it where the clone does
+// not look.
+#define KDS_FOR_TARGET(name) gnu::target(name), gnu::flatten, gnu::noinline, gnu::noclone
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define KDS_LANES_ARE_COMPILED_FOR_TARGETS 1
 #ifdef KDS_NEEDS_AVX2
-#define KDS_LANES_TARGETS gnu::target("avx2"), gnu::flatten, gnu::noinline
+#define KDS_LANES_TARGETS KDS_FOR_TARGET("avx2")
 #else
 #define KDS_LANES_TARGETS gnu::target_clones("avx2", "default"), gnu::flatten, gnu::noinline
 #endif

@@ -17,12 +17,8 @@ struct LongLanes;
 template <class... P, void (*function)(P...)>
 struct LongLanes<function> {
 #if KDS_LANES_ARE_COMPILED_FOR_TARGETS && defined(KDS_NEEDS_AVX2)
-  [[gnu::target("avx2"), gnu::flatten, gnu::noinline]] static void with_avx2(P... arguments) {
-    function(arguments...);
-  }
-  [[gnu::target("arch=x86-64-v4"), gnu::flatten, gnu::noinline]] static void with_avx512(P... arguments) {
-    function(arguments...);
-  }
+  [[KDS_FOR_TARGET("avx2")]] static void with_avx2(P... arguments) { function(arguments...); }
+  [[KDS_FOR_TARGET("arch=x86-64-v4")]] static void with_avx512(P... arguments) { function(arguments...); }
   static void call(P... arguments) { here_is_avx512 ? with_avx512(arguments...) : with_avx2(arguments...); }
 #elif KDS_LANES_ARE_COMPILED_FOR_TARGETS
   [[gnu::target_clones("arch=x86-64-v4", "avx2", "default"), gnu::flatten, gnu::noinline]] static void call(
