@@ -14,7 +14,7 @@ namespace kds {
 namespace {
 
 template <class View>
-const Coefficients<Magnitude>& magnitudes_over(const View& view, const RecordedFormula& formula) {
+Coefficients<Magnitude> magnitudes_over(const View& view, const RecordedFormula& formula) {
   return play(formula, ViewedBeads<View>(view));
 }
 
@@ -58,7 +58,7 @@ const KnownFormula::Derived& KnownFormula::of(int degree) const {
 
 KnownFormula::Derived KnownFormula::derive(int degree) const {
   const auto over = [&]<int dimension>(std::integral_constant<int, dimension>) -> Derived {
-    const Coefficients<Magnitude>& magnitudes =
+    const Coefficients<Magnitude> magnitudes =
         lifted_ ? magnitudes_over(MagnitudeView<dimension, 1, true>(), formula_)
                 : magnitudes_over(MagnitudeView<dimension, any_degree>(degree), formula_);
     return {error_bound_of(magnitudes), bits_of(magnitudes)};
