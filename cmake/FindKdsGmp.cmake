@@ -1,12 +1,11 @@
-# The targets kds::gmp and kds::mpfr, for the build and for who uses the package: neither library brings one of its own.
-foreach(library gmp mpfr)
-  string(TOUPPER ${library} name)
-  find_library(KDS_${name}_LIBRARY ${library} REQUIRED)
-  find_path(KDS_${name}_INCLUDE_DIR ${library}.h REQUIRED)
-  mark_as_advanced(KDS_${name}_LIBRARY KDS_${name}_INCLUDE_DIR)
-  if(NOT TARGET kds::${library})
-    add_library(kds::${library} UNKNOWN IMPORTED GLOBAL)
-    set_target_properties(kds::${library} PROPERTIES IMPORTED_LOCATION "${KDS_${name}_LIBRARY}"
-                                                     INTERFACE_INCLUDE_DIRECTORIES "${KDS_${name}_INCLUDE_DIR}")
-  endif()
-endforeach()
+# The target kds::gmp, for the build and for users of the package: GMP brings no CMake package of its own.
+include(FindPackageHandleStandardArgs)
+find_path(KDS_GMP_INCLUDE_DIR gmp.h)
+find_library(KDS_GMP_LIBRARY gmp)
+mark_as_advanced(KDS_GMP_INCLUDE_DIR KDS_GMP_LIBRARY)
+find_package_handle_standard_args(KdsGmp REQUIRED_VARS KDS_GMP_LIBRARY KDS_GMP_INCLUDE_DIR)
+if(KdsGmp_FOUND AND NOT TARGET kds::gmp)
+  add_library(kds::gmp UNKNOWN IMPORTED GLOBAL)
+  set_target_properties(kds::gmp PROPERTIES IMPORTED_LOCATION "${KDS_GMP_LIBRARY}"
+                                            INTERFACE_INCLUDE_DIRECTORIES "${KDS_GMP_INCLUDE_DIR}")
+endif()

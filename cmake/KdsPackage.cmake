@@ -8,9 +8,9 @@ set(KDS_HEADER_FOLDER "${CMAKE_INSTALL_INCLUDEDIR}/kds")
 set(KDS_PACKAGE_FOLDER "${CMAKE_INSTALL_LIBDIR}/cmake/kds")
 set(KDS_PKGCONFIG_FOLDER "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
 
-# kds_install_component(<component> TARGETS <target>... [REQUIRES <packages of pkg-config>...])
+# kds_install_component(<component> TARGETS <target>... [REQUIRES <packages of pkg-config>...] [LIBRARIES <files>...])
 function(kds_install_component component)
-  cmake_parse_arguments(ARG "" "" "TARGETS;REQUIRES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "TARGETS;REQUIRES;LIBRARIES" ${ARGN})
   set(libraries "")
   foreach(target IN LISTS ARG_TARGETS)
     set(headers "")
@@ -28,6 +28,11 @@ function(kds_install_component component)
           COMPONENT ${component})
   export(EXPORT kds_${component} NAMESPACE kds:: FILE "${PROJECT_BINARY_DIR}/kds-${component}.cmake")
 
+  # Libraries that have no package of pkg-config.
+  foreach(file IN LISTS ARG_LIBRARIES)
+    string(APPEND libraries " ${file}")
+  endforeach()
+
   # For pkg-config: kds-engine and so on, and kds for all of them.
   set(name kds-${component})
   if(component STREQUAL "kds")
@@ -40,7 +45,12 @@ function(kds_install_component component)
   install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION "${KDS_PKGCONFIG_FOLDER}" COMPONENT ${component})
 endfunction()
 
-kds_install_component(motions TARGETS kds_requirements kds_options kds_motions REQUIRES eigen3 fmt zlib gmp)
+set(gemmi "")
+if(KDS_GEMMI_LIBRARY)
+  set(gemmi "${KDS_GEMMI_LIBRARY}")
+endif()
+kds_install_component(motions TARGETS kds_requirements kds_options kds_motions REQUIRES eigen3 fmt zlib gmp
+                      LIBRARIES ${gemmi})
 kds_install_component(certificates TARGETS kds_certificates REQUIRES kds-motions)
 kds_install_component(engine TARGETS kds_engine REQUIRES kds-certificates)
 kds_install_component(structures TARGETS kds_structures REQUIRES kds-engine tbb mpfr)
@@ -50,7 +60,10 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDI
 
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/kdsConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 configure_file("${PROJECT_SOURCE_DIR}/cmake/kdsConfig.cmake" "${PROJECT_BINARY_DIR}/kdsConfig.cmake" COPYONLY)
-configure_file("${PROJECT_SOURCE_DIR}/cmake/KdsGmp.cmake" "${PROJECT_BINARY_DIR}/KdsGmp.cmake" COPYONLY)
-install(FILES "${PROJECT_BINARY_DIR}/kdsConfig.cmake" "${PROJECT_BINARY_DIR}/kdsConfigVersion.cmake"
-              "${PROJECT_BINARY_DIR}/KdsGmp.cmake"
+set(modules FindKdsGemmi.cmake FindKdsGmp.cmake FindKdsMpfr.cmake)
+foreach(module IN LISTS modules)
+  configure_file("${PROJECT_SOURCE_DIR}/cmake/${module}" "${PROJECT_BINARY_DIR}/${module}" COPYONLY)
+endforeach()
+list(TRANSFORM modules PREPEND "${PROJECT_BINARY_DIR}/")
+install(FILES "${PROJECT_BINARY_DIR}/kdsConfig.cmake" "${PROJECT_BINARY_DIR}/kdsConfigVersion.cmake" ${modules}
         DESTINATION "${KDS_PACKAGE_FOLDER}" COMPONENT motions)
