@@ -1,10 +1,11 @@
 # Compiles mistakes.cpp as it is, and with each mistake; then the first ten lines of what the compiler says must name what is wrong.
+# Lines of source that it shows in between are left out: versions of g++ differ in how many there are.
 # user.h is compiled before, once for all: the compiler names it as it would name a source file that includes the same headers.
 # cmake -DSOURCE=<kds> -DINCLUDES=<folders> -DCOMPILER=<c++> -DPLACE=<folder> -P check_errors.cmake
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE "${PLACE}")
 file(MAKE_DIRECTORY "${PLACE}")
-set(flags -std=c++20 -ffp-contract=off -Wno-psabi "-I${PLACE}" "-I${SOURCE}")
+set(flags -std=c++20 -fno-diagnostics-show-caret -ffp-contract=off -Wno-psabi "-I${PLACE}" "-I${SOURCE}")
 foreach(folder IN LISTS INCLUDES)
   list(APPEND flags -isystem "${folder}")
 endforeach()
