@@ -1,6 +1,7 @@
-# The target kds::gemmi, for the build and for users of the package. Some versions of gemmi are header-only, others have a library,
-# and not all packages of either bring a CMake package. The functions that kds calls tell which it is.
+# Finds gemmi: KDS_GEMMI_INCLUDE_DIR, and where it has a library, KDS_GEMMI_LIBRARY and the target kds::gemmi. Some versions are
+# header-only, others are not, and not all packages bring a CMake package. Linking a program that reads a PDB file tells.
 include(CheckCXXSourceCompiles)
+include(CMakePushCheckState)
 include(FindPackageHandleStandardArgs)
 find_path(KDS_GEMMI_INCLUDE_DIR gemmi/pdb.hpp)
 find_library(KDS_GEMMI_LIBRARY gemmi_cpp)
@@ -8,6 +9,7 @@ mark_as_advanced(KDS_GEMMI_INCLUDE_DIR KDS_GEMMI_LIBRARY)
 set(_kds_gemmi_needed KDS_GEMMI_INCLUDE_DIR)
 set(_kds_gemmi_why)
 if(KDS_GEMMI_INCLUDE_DIR AND NOT KDS_GEMMI_LIBRARY)
+  cmake_push_check_state(RESET)
   set(CMAKE_REQUIRED_INCLUDES "${KDS_GEMMI_INCLUDE_DIR}")
   set(CMAKE_REQUIRED_QUIET ON)
   check_cxx_source_compiles([[
@@ -15,18 +17,15 @@ if(KDS_GEMMI_INCLUDE_DIR AND NOT KDS_GEMMI_LIBRARY)
     #include <string>
     int main(int count, char** words) { return gemmi::read_pdb_string(words[count - 1], "").models.empty() ? 0 : 1; }
   ]] KDS_GEMMI_IS_HEADER_ONLY)
-  unset(CMAKE_REQUIRED_INCLUDES)
-  unset(CMAKE_REQUIRED_QUIET)
+  cmake_pop_check_state()
   if(NOT KDS_GEMMI_IS_HEADER_ONLY)
     list(APPEND _kds_gemmi_needed KDS_GEMMI_LIBRARY)
     set(_kds_gemmi_why REASON_FAILURE_MESSAGE "${KDS_GEMMI_INCLUDE_DIR}/gemmi needs its library, gemmi_cpp, which is not there")
   endif()
 endif()
 find_package_handle_standard_args(KdsGemmi REQUIRED_VARS ${_kds_gemmi_needed} ${_kds_gemmi_why})
-if(KdsGemmi_FOUND AND NOT TARGET kds::gemmi)
+if(KdsGemmi_FOUND AND KDS_GEMMI_LIBRARY AND NOT TARGET kds::gemmi)
   add_library(kds::gemmi INTERFACE IMPORTED GLOBAL)
   target_include_directories(kds::gemmi SYSTEM INTERFACE "${KDS_GEMMI_INCLUDE_DIR}")
-  if(KDS_GEMMI_LIBRARY)
-    target_link_libraries(kds::gemmi INTERFACE "${KDS_GEMMI_LIBRARY}")
-  endif()
+  target_link_libraries(kds::gemmi INTERFACE "${KDS_GEMMI_LIBRARY}")
 endif()

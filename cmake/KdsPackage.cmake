@@ -60,7 +60,11 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDI
 
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/kdsConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 configure_file("${PROJECT_SOURCE_DIR}/cmake/kdsConfig.cmake" "${PROJECT_BINARY_DIR}/kdsConfig.cmake" COPYONLY)
-set(modules FindKdsGemmi.cmake FindKdsGmp.cmake FindKdsMpfr.cmake)
+set(modules FindKdsGmp.cmake FindKdsMpfr.cmake)
+file(REMOVE "${PROJECT_BINARY_DIR}/FindKdsGemmi.cmake")
+if(KDS_GEMMI_LIBRARY)
+  list(APPEND modules FindKdsGemmi.cmake)
+endif()
 foreach(module IN LISTS modules)
   configure_file("${PROJECT_SOURCE_DIR}/cmake/${module}" "${PROJECT_BINARY_DIR}/${module}" COPYONLY)
 endforeach()

@@ -20,7 +20,9 @@ find_dependency(ZLIB)
 find_dependency(fmt)
 list(PREPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")  # FindKdsGmp ...
 find_dependency(KdsGmp)
-find_dependency(KdsGemmi)
+if(EXISTS "${CMAKE_CURRENT_LIST_DIR}/FindKdsGemmi.cmake")  # the library that readers were linked with
+  find_dependency(KdsGemmi)
+endif()
 if(_kds_last GREATER 2)
   find_dependency(TBB)
   find_dependency(KdsMpfr)
