@@ -161,7 +161,8 @@ Scene twin_scene(const fs::path& path, Dice& dice) {
     std::vector<double> row;
     for (std::size_t c = 0; c < 3; ++c) {
       const double start = i < 20 ? dice.unit() : rows[i - 20][2 * c];
-      row.insert(row.end(), {start, dice.unit()});
+      row.push_back(start);
+      row.push_back(dice.unit());
     }
     rows.push_back(row);
   }

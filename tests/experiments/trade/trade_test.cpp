@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
 
 #include "experiments/trade/measure_trade.h"
 #include "experiments/trade/recommend.h"
@@ -44,10 +46,10 @@ std::vector<TradeRow> measured(const FinestData& finest, std::vector<Want> wants
       finest, task, [](auto, auto) {}, [](auto&) {});
 }
 
-const TradeRow& row_of(const std::vector<TradeRow>& rows, const std::string& words) {
+const TradeRow& row_of(const std::vector<TradeRow>& rows, std::string_view words) {
   const auto found = std::find_if(rows.begin(), rows.end(),
                                   [&](const TradeRow& row) { return words_of(row.setting) == words; });
-  if (found == rows.end()) throw std::logic_error("no row " + words);
+  if (found == rows.end()) throw std::logic_error("no row " + std::string(words));
   return *found;
 }
 
