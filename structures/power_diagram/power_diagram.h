@@ -10,14 +10,15 @@
 //   DiagramEditor     beads that come, go and change course while time runs
 //   DiagramRebuilder  where flips do not suffice
 //
-// Guarantee (kernels filtered and exact): just after every time at which something happens, the triangulation is the regular one. It
-// is, if its finite cells are positive, its facets regular, its hidden beads hidden, and its hull winds once. In general position one
-// function vanishes at a time and its flip keeps all four. Whatever else happens raises a doubt, and all four are checked after the
-// last event of that time: hull_winding.h says when the last one can be lost. A diagram that fails the check is repaired or built
-// anew at a time before the next event.
+// Guarantee (kernels filtered and exact): just after every time at which something happens, the triangulation
+// is the regular one. That holds if finite cells are positive, facets are regular, hidden beads are hidden
+// and the hull winds once (hull_winding.h). In general position one function vanishes at a time, and its flip
+// keeps all four. Anything else raises a doubt, and the four are checked after the last event of that time. A
+// diagram that fails the check is repaired, or built anew at a time before the next event.
 //
-// Order of ties: failures at exactly the same time come by certificate type, then by bead ids (failure_order.h), so that every kernel
-// makes the same flips. A flip that the order blocks is left to the repair.
+// Order of ties: failures at exactly the same time are handled by certificate type, then by bead ids
+// (failure_order.h), so every kernel makes the same flips. A flip that another one blocks is left to the
+// repair.
 
 #include <cstddef>
 #include <functional>
