@@ -433,7 +433,7 @@ TEST(PdbKinds, BiologicalAssemblies) {
                 ElementsAre(HasSubstr("its 3 models are copies side by side, not frames; only the first")));
   }
   test::expect_refused([&] { (void)read_trajectory(test::write_file("a.pdbx", model)); },
-                       {"'.pdbx' tells no format"});
+                       {"cannot tell the format of", "a.pdbx from its ending"});
 }
 
 TEST(PdbKinds, FilesWithoutPolymer) {
