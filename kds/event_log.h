@@ -24,16 +24,17 @@ struct Event {
   EventKind kind;
   FrameStamp from,
       to;  ///< the frames that the step leads from and to, where none are known steps are counted
-  /// Its time in digits that are certain: for listeners that print times.
+  /// The time of the event in digits that are all certain. Set only if a listener prints it.
   std::optional<RoundedTime> rounded;
 
   [[nodiscard]] std::span<const BeadId> ids() const { return {change.ids.data(), change.size}; }
-  /// Its time by the numbers of frames, with a fraction between two: rounded, or the middle of its bracket.
+  /// Returns the time counted in frames, with a fraction between two: `rounded` if it is set, otherwise the
+  /// middle of the bracket.
   [[nodiscard]] double frame() const {
     return rounded ? rounded->frame
                    : between(static_cast<double>(from.number), static_cast<double>(to.number));
   }
-  /// None where one of its frames has no time.
+  /// Returns the time in picoseconds likewise, or nothing if one of the two frames has no time.
   [[nodiscard]] std::optional<double> picoseconds() const {
     if (!from.picoseconds || !to.picoseconds) return std::nullopt;
     if (rounded) return rounded->picoseconds;
@@ -63,8 +64,8 @@ class EventListener {
   /// While the change is being made: not to change structures, nor to let time run. Where it throws the run
   /// is over.
   virtual void on_event(const Event& event) = 0;
-  /// Whether it prints the time of this event. Then the time is rounded to twelve digits that are certain
-  /// (Event::rounded), which takes exact work where the bracket is wide.
+  /// Returns whether the listener prints the time of this event. The event then carries its time in twelve
+  /// certain digits (Event::rounded), which takes exact work if the bracket is wide.
   [[nodiscard]] virtual bool prints_time_of(const Event& event) const {
     static_cast<void>(event);
     return false;

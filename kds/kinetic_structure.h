@@ -48,8 +48,9 @@ class KineticStructure {
   /// made.
   virtual void apply(const Change& change) = 0;
 
-  /// Compares with the structure built statically from exact positions at `time`, no failure time, or at an
-  /// end of the step, or proves without certificates that it is that one. What differs, or nothing.
+  /// Compares the structure with one built statically from exact positions, or proves without certificates
+  /// that the two are the same. `time` is an end of the step, or a time at which nothing fails. Returns
+  /// what differs, or nothing.
   [[nodiscard]] virtual std::optional<std::string> audit(const Dyadic& time) = 0;
 
   StructureStatistics statistics;

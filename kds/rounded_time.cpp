@@ -24,7 +24,7 @@ Rational in_units(const Rational& value, int exponent) {
   return exponent > 0 ? value / Rational(power_of_ten(exponent)) : value * Rational(power_of_ten(-exponent));
 }
 
-/// digits * 10^exponent, the last digit not 0 unless the number is.
+/// The number digits * 10^exponent. Its last digit is 0 only if the number is 0.
 struct Decimal {
   std::int64_t digits = 0;
   int exponent = 0;
@@ -39,7 +39,7 @@ struct Decimal {
   friend bool operator==(const Decimal& a, const Decimal& b) = default;
 };
 
-/// The largest e with 10^e <= |value|.
+/// Returns the largest e with 10^e <= |value|.
 int magnitude(const Rational& value) {
   const Rational size = abs(value);
   const auto bits = [](const Integer& x) { return static_cast<double>(mpz_sizeinbase(x.data(), 2)); };
@@ -49,7 +49,7 @@ int magnitude(const Rational& value) {
   return e;
 }
 
-/// The nearest multiple of 10^exponent, half to even.
+/// Returns the nearest multiple of 10^exponent, half to even.
 Decimal rounded_to(const Rational& value, int exponent) {
   const Rational scaled = in_units(value, exponent);
   Integer whole;
@@ -68,15 +68,15 @@ Decimal rounded(const Rational& value) {
   return value.sign() == 0 ? Decimal{} : rounded_to(value, magnitude(value) + 1 - most_digits);
 }
 
-/// As many digits as both have in common.
+/// Rounds both numbers to as many digits as possible while the results agree, and returns that result.
 Decimal common_digits(const Rational& a, const Rational& b) {
   int exponent = magnitude(std::max(abs(a), abs(b))) + 1 - most_digits;
   while (!(rounded_to(a, exponent) == rounded_to(b, exponent))) ++exponent;
   return rounded_to(a, exponent);
 }
 
-/// -1, 0 or 1 where `time`, no dyadic number, is before `place`, at it or after it. Narrows `time` to one
-/// side.
+/// Returns -1, 0 or 1 if `time` is before, at or after `place`, and narrows `time` to that side. `time`
+/// must not be dyadic.
 int compare_with(ExactTime& time, const Rational& place) {
   if (place <= time.lower().rational()) return 1;
   if (place >= time.upper().rational()) return -1;
@@ -106,20 +106,21 @@ class Scale {
     }
     const Decimal first = kds::rounded(at_lower), last = kds::rounded(at_upper);
     if (first == last) return first;
-    // Neighbours, as the bracket is so narrow: what is half way between them decides.
+    // The bracket is so narrow that these numbers are neighbours. The number half way between them decides.
     const Rational tie = (first.value() + last.value()) / Rational(2);
     const int side = compare_with(time, place_of(tie));
     return side < 0 ? first : side > 0 ? last : kds::rounded(tie);
   }
 
  private:
-  /// A tenth of the last digit, at least.
+  /// Returns whether the bracket is longer than 10^-13 of its smaller end, at most a tenth of the last
+  /// digit.
   static bool is_wide(const Rational& a, const Rational& b) {
     return abs(a - b) * Rational(power_of_ten(most_digits + 1)) > std::min(abs(a), abs(b));
   }
   void narrow(ExactTime& time, const Rational& size) const {
     const double width = 0.5e-13 * static_cast<double>(size / abs(length_));
-    constexpr double least = 0x1p-900;  // what is less may be no double
+    constexpr double least = 0x1p-900;  // smaller widths may underflow
     if (width < least)
       time.refine();
     else
@@ -130,7 +131,7 @@ class Scale {
   Rational begin_, length_;
 };
 
-/// One time on one scale after another: the exact root is made where a bracket does not suffice.
+/// Rounds one time on several scales. Makes the exact root only if the bracket does not suffice.
 class TimeOnScales {
  public:
   explicit TimeOnScales(const Instant& now) : now_(now), lower_(now.lower()), upper_(now.upper()) {}

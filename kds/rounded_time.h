@@ -12,12 +12,12 @@ namespace kds {
 /// even). A number printed with `{:.12g}` shows these digits.
 struct RoundedTime {
   double frame = 0;                   ///< by the numbers of frames, with a fraction between two
-  std::optional<double> picoseconds;  ///< none where a frame has no time
+  std::optional<double> picoseconds;  ///< none if a frame has no time
 };
 
-/// Rounds `now`, a time in the step between two frames. Narrows the exact root behind `now` until all digits
-/// are certain, and decides exactly where the root is a tie of the rounding, so it always ends. `now` itself
-/// is not narrowed. Fewer digits are returned where a bracket is all that is known (a replayed time).
+/// Rounds `now`, a time in the step between two frames. Narrows a copy of the exact root behind `now` until
+/// all digits are certain. Ties of the rounding are decided exactly, so the function always ends. Returns
+/// fewer digits if only a bracket is known (a replayed time).
 [[nodiscard]] RoundedTime rounded_time(const Instant& now, const FrameStamp& from, const FrameStamp& to);
 
 }  // namespace kds

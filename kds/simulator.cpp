@@ -341,7 +341,8 @@ void Simulator::advance(ScheduledFailure* next) {
   static_cast<void>(audit_before(next));
 }
 
-/// At a time between now and the next failure, or the step's end. False where that failure is now.
+/// Audits all structures at a time between now and the next failure, or the end of the step. Returns false
+/// if that failure is due now.
 bool Simulator::audit_before(ScheduledFailure* next) {
   ExactTime then = next == nullptr ? ExactTime(Dyadic(1.0))
                                    : exact_time(*next->source->exact_function(next->slot), next->time);

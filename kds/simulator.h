@@ -85,10 +85,12 @@ class Simulator {
   /// be. False, and time stays, where nothing happens any more in the step.
   bool run_next();
 
-  /// Audits all structures now, whatever the audits chosen, and counts it: within a step at a time between
-  /// now and the next failure, once they have settled, and between steps where the last one ended, or where
-  /// the first begins. The motion must still be that of this step. Throws AuditError where a structure is
-  /// wrong, std::logic_error where nothing has been built, or while an event is handled.
+  /// Audits all structures now, whatever AuditMode was chosen, and counts the audit. Within a step the
+  /// structures settle first, and the audit is at a time between now and the next failure. Between steps
+  /// the audit is at the end of the last step, or at the start of the first one. The motion must still be
+  /// that of this step.
+  /// Throws AuditError if a structure is wrong. Throws std::logic_error if nothing is built, an event is
+  /// being handled or a failure is due at this very time.
   void audit_now();
 
   /// While time stands still: `set_curves()` gives some beads other curves in the motion, along which they go
@@ -139,12 +141,12 @@ class Simulator {
   [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_.value(); }
   [[nodiscard]] const ComparisonCounts& comparisons() const { return order_.counts(); }
   [[nodiscard]] double seconds() const { return watch_.seconds(nobody); }
-  /// Throws std::invalid_argument where there is no such structure.
+  /// Throws std::invalid_argument if there is no such structure.
   [[nodiscard]] double seconds_of(std::size_t structure) const {
     require_index("structure", structure, structures_.size());
     return watch_.seconds(lane_of(structure));
   }
-  /// Time that listeners took; it belongs to no structure, nor to the engine.
+  /// Returns the seconds that listeners took. They count for no structure and not for the engine.
   [[nodiscard]] double seconds_of_listeners() const { return watch_.seconds(listening); }
 
  private:

@@ -29,8 +29,7 @@ class ExactTime {
   /// Narrows the interval to about 2^-44, which keeps nearly all failure times of a step apart: around a
   /// guess, or by bisection. A wide polynomial's root lies in any scale: it is narrowed to so many digits.
   void narrow_for_doubles();
-  /// Narrows the interval until it is no longer than `width`, which is positive: around a guess, then by
-  /// refining.
+  /// Narrows the interval to at most `width`, a positive number: around a guess first, then by refining.
   void narrow_to_width(double width);
 
   /// -1, 0 or 1 where a is before b, equal, or after. Narrows both.

@@ -51,8 +51,8 @@ class Instant {
   bool narrow() const;
   /// Throws std::logic_error where there is a bracket and nothing behind it.
   [[nodiscard]] ExactTime& exact() const;
-  /// A new exact number for the same time, which can be narrowed apart from this instant. None where there is
-  /// a bracket and nothing behind it.
+  /// Returns a new exact number for the same time, which can be narrowed independently of this instant.
+  /// Returns nothing if only a bracket is known.
   [[nodiscard]] std::optional<ExactTime> exact_apart() const;
 
  private:

@@ -13,7 +13,7 @@ namespace kds {
 namespace {
 
 int sign_of(const Integer& x) { return x.sign(); }
-/// Never 0: what is not certain is not proved to be positive.
+/// Returns 1 if x is proved to be positive, otherwise -1: never 0.
 int sign_of(const TrackedDouble& x) { return x.value > x.error * TrackedDouble::inflation ? 1 : -1; }
 
 // The sign of a + b sqrt(d), d >= 0.

@@ -5,8 +5,8 @@
 // the choice of the root as in certificates/types/ball_in_sphere.h. Equal radii need no case of their own:
 // their A vanish. Slow, microseconds a decision: for what doubles cannot decide.
 //
-// The same formulas over doubles with error bounds (tracked_double.h) prove what they can: a sign that is not
-// certain counts as negative there, so "yes" is proved, and "no" means nothing.
+// The formulas also take doubles with error bounds (tracked_double.h). A sign that is not certain then
+// counts as negative, so "yes" is proved and "no" means nothing.
 
 #include <array>
 #include <concepts>

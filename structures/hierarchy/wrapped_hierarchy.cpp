@@ -33,7 +33,7 @@ template <int Dimension>
 
 [[nodiscard]] std::span<const BeadId> beads_of(const Basis& basis) { return {basis.begin(), basis.end()}; }
 
-/// How far a ball reaches from a point, rounded up.
+/// Returns the distance from a point to the farthest point of a ball, rounded up.
 template <int Dimension>
 [[nodiscard]] double reach_of(const Balls<Dimension>& balls, BeadId bead, const Eigen::Vector3d& from) {
   double square = 0;
@@ -44,11 +44,13 @@ template <int Dimension>
   return (std::sqrt(square) + balls.radius(bead)) * (1 + 0x1p-48);
 }
 
-/// Beads of a range that may touch its smallest sphere; others are strictly inside, and stay so for a while.
-/// With c the exact centre, R the exact radius, z the rounded centre, and M the farthest reach of a basis
-/// bead from z: one of these beads, p of radius r, lies at an angle of at least 90 degrees to z seen from c,
-/// so |p - z|^2 >= (R - r)^2 + |c - z|^2, and |c - z|^2 <= (M - r)^2 - (R - r)^2 <= (M - R)(M + R). R is
-/// known to 1e-12 (enclosing_sphere.h).
+/// Finds the beads of a range that may touch its smallest sphere. The others are strictly inside, and stay
+/// so for a while.
+///
+/// Let c and R be the exact centre and radius, z the rounded centre, and M the farthest reach of a basis
+/// bead from z. Seen from c, some basis bead p of radius r lies at an angle of at least 90 degrees to z. So
+/// |p - z|^2 >= (R - r)^2 + |c - z|^2, and |c - z|^2 <= (M - r)^2 - (R - r)^2 <= (M - R)(M + R). R is known
+/// to 1e-12 (enclosing_sphere.h).
 template <int Dimension>
 void find_touching(const Balls<Dimension>& balls, const BeadRange& range, const SmallestSphere& smallest,
                    std::vector<BeadId>& touching) {

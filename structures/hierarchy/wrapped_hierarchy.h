@@ -68,9 +68,10 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   [[nodiscard]] std::span<const EventKind> kinds() const override;
 
   [[nodiscard]] const NecklaceTree& tree() const { return tree_; }
-  /// Whether the node is kept in this step; nothing else is known of one that is not.
+  /// Returns whether the node is kept in this step. Nothing else is known of other nodes. Throws
+  /// std::invalid_argument if there is no such node.
   [[nodiscard]] bool keeps(NodeId node) const;
-  /// Both throw std::invalid_argument where there is no such node.
+  /// Throws likewise.
   [[nodiscard]] const Basis& basis(NodeId node) const;
   [[nodiscard]] const Relaxation& relaxation() const { return relaxation_; }
 
@@ -99,7 +100,7 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   [[nodiscard]] bool is_one_bead(NodeId node) const;
   [[nodiscard]] std::string name_of(NodeId node) const;
 
-  /// Its basis at the start, ties aside.
+  /// Builds the basis of a node at the start, ties aside, and returns its smallest sphere.
   SmallestSphere build_node(NodeId node, const Balls<Dimension>& balls);
   void ask_query();
   /// Sets `wide_` and `pairs_`.

@@ -299,8 +299,8 @@ void DiagramEditor<Dimension>::finish_edit(Kind kind, BeadId bead) {
   settle();
 }
 
-/// Where a certificate vanishes now, new cells or courses may turn cells over, or wind the hull around twice,
-/// unseen.
+/// Doubts the touched cells if a certificate vanishes now: new cells or courses may then turn cells over,
+/// or wind the hull around twice, without an event.
 template <int Dimension>
 void DiagramEditor<Dimension>::settle() {
   if (!state_.is_generic_now()) state_.suspect_touched(Doubt::unclear);

@@ -11,15 +11,22 @@
 
 namespace kds {
 
-/// Ids of a flip: those of the face that goes, then those of the face that comes, in space the triangle
-/// first; each ascending. Where a bead vanishes or comes back: those of the one cell, ascending, then the
-/// bead. Where one wanders: itself, then its host's, ascending. Ids of a rebuild are no
-/// beads: they tell at which time u = numerator / 2^exponent of the step the whole diagram is built anew from
-/// exact positions, as exponent, then at most seven 32-bit words of the numerator, lowest first. The cells
-/// that change are not told; whoever follows cells by events has to read them all again. Ids of a cell that
-/// an edit clears: ascending; of one that fills its place, positively oriented: ascending but for the last
-/// two perhaps. Of an insert, erase or change: the bead; of a repair, which ends the cells that it clears and
-/// fills: the least bead of these cells.
+/// The ids of an event:
+///   flip                   the face that goes, then the face that comes, each ascending; in space the
+///                          triangle comes before the edge
+///   hides, shows           the beads of the one cell, ascending, then the bead
+///   wanders                the bead, then its host's beads, ascending
+///   rebuild                no beads, but the time u = numerator / 2^exponent of the step at which the whole
+///                          diagram is built anew from exact positions: the exponent, then at most seven
+///                          32-bit words of the numerator, lowest first
+///   clears                 the beads of a cell that goes, ascending
+///   fills                  the beads of a cell that comes, positively oriented: ascending, except that the
+///                          last two may be exchanged
+///   inserts, erases,       the bead
+///   changes
+///   repairs                the least bead of the cells cleared and filled before
+/// A rebuild does not list the cells that change, so a listener that follows cells must read all of them
+/// again.
 template <int Dimension>
 struct DiagramEvents {
   /// In the plane `to_edge` is the 2-2 flip, and there is no `to_facet`.

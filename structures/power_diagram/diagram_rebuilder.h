@@ -41,14 +41,15 @@ class DiagramRebuilder {
   [[noreturn]] static void refuse_flat(std::size_t step);
   /// Makes a logged rebuild again, without certificates. Throws std::invalid_argument if it cannot be made.
   void apply(const Change& change);
-  /// The same for a rebuild whose cells are in the log, positively oriented, infinite ones too.
+  /// Makes a rebuild again whose cells are in the log, positively oriented, infinite ones included.
   void assign_logged(std::span<const Beads> cells);
 
  private:
-  // Binary places of a rebuild's time. A log has times up to the finest logged grid, whose numerators fit
-  // into a Change. Beyond it the log has all cells that go and that come. Grids become twice as fine up to
-  // the finest one: roots of functions of doubles that span all exponents (2^-1074 to 2^1024) can be 2^-2098
-  // of a step apart in lengths, and 2^-10490 in power tests, of degree 5.
+  // Binary places of a rebuild's time. Up to the finest logged grid a log holds the time, whose numerator
+  // fits into a Change. Beyond that grid a log holds all cells that go and come, and the number of places
+  // doubles up to the finest grid.
+  // The finest grid suffices for doubles of all exponents (2^-1074 to 2^1024): roots can be 2^-2098 of a
+  // step apart in lengths, and 2^-10490 in power tests, which have degree 5.
   static constexpr unsigned coarsest_grid = 8, finest_logged_grid = 200, finest_grid = 12800;
   [[nodiscard]] static unsigned next_grid(unsigned bits) {
     if (bits >= finest_logged_grid) return 2 * bits;
@@ -68,7 +69,7 @@ class DiagramRebuilder {
   /// Puts other cells in the place of these, or of these and those around them; false where it cannot.
   [[nodiscard]] bool repair(std::vector<CellId> wrong);
   [[nodiscard]] bool try_to_repair(std::span<const CellId> wrong);
-  /// A rebuild at `time`, in place of some cells, beads ascending.
+  /// Records a rebuild at `time` that replaces `cells_before`.
   void record(const Dyadic& time, std::span<const Beads> cells_before);
 
   State& state_;

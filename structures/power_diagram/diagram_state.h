@@ -70,7 +70,7 @@ struct DiagramState {
   std::vector<CellId> touched;
   std::uint64_t touched_moment = 0;
   bool known_places = true;
-  /// No certificate vanished after this time in this step, and no cell was flat; -1 if none did at all.
+  /// No certificate has vanished in this step after this time, and no cell has been flat. -1: not at all.
   double vanished_until = -1;
 
   /// Something is amiss, who knows where if it is wrong; if it is unclear, among the cells touched.
@@ -99,7 +99,7 @@ struct DiagramState {
     touched.insert(touched.end(), cells.begin(), cells.end());
   }
 
-  /// Whether all certificates are known to be positive at the present time, as at nearly all times.
+  /// Returns whether all certificates are known to be positive at the present time.
   [[nodiscard]] bool is_generic_now() const { return simulator.now().lower() > vanished_until; }
 
   [[nodiscard]] BeadId bead_count() const { return static_cast<BeadId>(motion.bead_count()); }

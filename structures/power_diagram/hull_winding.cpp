@@ -10,7 +10,7 @@ namespace kds {
 
 namespace {
 
-/// The edges of the hull, in order around it, from an infinite cell on.
+/// Returns the edges of the hull in order around it, starting with the edge of an infinite cell.
 std::vector<std::array<BeadId, 2>> edges_around(const DiagramState<2>& state, CellId start) {
   std::vector<std::array<BeadId, 2>> edges;
   CellId cell = start;
@@ -22,9 +22,9 @@ std::vector<std::array<BeadId, 2>> edges_around(const DiagramState<2>& state, Ce
   return edges;
 }
 
-/// Edges ahead have an angle of less than a quarter turn to the first. Each edge turns by less than half a
-/// turn, so that none leaps over those that are not ahead: the polygon enters the ones ahead once in each
-/// full turn.
+/// Returns whether the edges make one full turn. A direction is ahead if its angle to the first edge is
+/// less than a quarter turn. Consecutive edges turn by less than half a turn, so no edge leaps over the
+/// directions that are not ahead. The edges therefore enter the directions ahead once in each full turn.
 bool polygon_turns_once(DiagramState<2>& state, CellId start) {
   const auto edges = edges_around(state, start);
   int entries = 0;
@@ -37,7 +37,7 @@ bool polygon_turns_once(DiagramState<2>& state, CellId start) {
   return entries == 1;
 }
 
-/// The faces of the hull around a vertex of an infinite cell, in order, each with the vertex first.
+/// Returns the faces of the hull around a vertex of an infinite cell, in order, each with the vertex first.
 std::vector<std::array<BeadId, 3>> faces_around(const DiagramState<3>& state, CellId start, BeadId vertex) {
   std::vector<std::array<BeadId, 3>> faces;
   CellId cell = start;
@@ -50,8 +50,9 @@ std::vector<std::array<BeadId, 3>> faces_around(const DiagramState<3>& state, Ce
   return faces;
 }
 
-/// All faces support the cone if no bead of it is outside one of them. Then they cover its boundary equally
-/// often everywhere: once, if the middle of the first face lies in no other.
+/// Returns whether the faces around a vertex wind around it once. Each face supports their cone if no bead
+/// of the cone is outside the face. The faces then cover the boundary of the cone equally often everywhere:
+/// once, if the middle of the first face lies in no other face.
 bool cone_winds_once(DiagramState<3>& state, CellId start, BeadId vertex) {
   const auto faces = faces_around(state, start, vertex);
   if (faces.size() < 5) return true;

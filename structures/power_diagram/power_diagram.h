@@ -68,11 +68,11 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
-  /// The beads whose cells share a facet with that of `bead` now, ascending: those joined to it by an edge of
-  /// the triangulation, degenerate ties being resolved as the diagram has them. None of a hidden bead. Time
-  /// linear in them, after the flips since the last call are made good. Throws std::invalid_argument where
-  /// there is no such bead or it is absent, std::logic_error where the diagram is not built, or has no cells
-  /// because all beads lie in one plane (on one line).
+  /// Returns the beads whose cells share a facet with the cell of `bead` now, ascending. Edges of the
+  /// triangulation join them to `bead`, so ties are resolved as the diagram has them. A hidden bead has no
+  /// neighbors. Takes time linear in the number of neighbors and of the flips since the last call.
+  /// Throws std::invalid_argument if there is no such bead or it is absent. Throws std::logic_error if the
+  /// diagram is not built, or all beads lie in one plane (on one line).
   [[nodiscard]] std::vector<BeadId> neighbors(BeadId bead) const;
 
   /// Finite cells and hidden beads at the frame just reached, as a static build has them where cells are flat
@@ -112,7 +112,8 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   /// made when a step starts.
   void build_at_end();
   [[nodiscard]] const RegularTriangulation<Dimension>& triangulation() const;
-  /// The mirror of its cells; none after build_at_end until this, or a step, makes it.
+  /// Makes the mirror of the cells. After build_at_end there is none until this function or a step makes
+  /// it.
   void make_mirror();
   [[nodiscard]] const HiddenBeads& hidden() const;
   /// A hidden bead's host, if it is a cell.

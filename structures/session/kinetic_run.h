@@ -57,8 +57,8 @@ class KineticRun {
   }
   /// In the order in which they were added, those by name first.
   [[nodiscard]] const std::vector<KineticStructure*>& structures() const { return session_->structures(); }
-  /// The same by type. Throws std::invalid_argument where there is none of this index, or it is of another
-  /// type.
+  /// Returns a structure by index and type. Throws std::invalid_argument if there is none of this index, or
+  /// it is of another type.
   template <class Structure>
   [[nodiscard]] Structure& structure(std::size_t index) const {
     require_index("structure", index, structures().size());
@@ -97,8 +97,8 @@ class KineticRun {
   void go_to(double time);
   /// No step follows: frames have ended.
   void finish();
-  /// Audits all structures where the run stands (Simulator::audit_now), whatever `audits` of its options
-  /// says. Throws AuditError where one is wrong, std::logic_error where the run has not begun.
+  /// Audits all structures where the run stands, whatever the option `audits` says (Simulator::audit_now).
+  /// Throws AuditError if a structure is wrong, std::logic_error if the run has not begun.
   void audit_now();
   /// Whether a step is under way. Else the run stands at a frame, or has not begun.
   [[nodiscard]] bool within_step() const { return within_; }

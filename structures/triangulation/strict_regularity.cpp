@@ -23,7 +23,7 @@ template <class Real>
   return a[i] * b[j] - a[j] * b[i];
 }
 
-/// Of the first columns of the rows, as many as there are rows.
+/// Returns the determinant of the first `Size` columns.
 template <class Real, std::size_t Size>
 [[gnu::always_inline]] inline Tracked<Real> determinant(const std::array<TrackedRow<Real>, Size>& row) {
   if constexpr (Size == 2) {
@@ -93,7 +93,7 @@ template <int Dimension>
   test_positive(determinant(row), positive);
 }
 
-/// Tests that are made four at a time. Whether all are positive is known in the end.
+/// Makes tests four at a time, and tells in the end whether all results are positive.
 template <std::size_t Count, class Test>
 class FourByFour {
  public:
@@ -127,7 +127,7 @@ class FourByFour {
   bool all_positive_ = true;
 };
 
-/// Whether an odd number of exchanges makes `b` of `a`, all different.
+/// Returns whether an odd number of exchanges turns `a` into `b`. The beads of `a` are all different.
 template <std::size_t Size>
 bool is_odd_permutation(std::array<BeadId, Size> a, const std::array<BeadId, Size>& b) {
   bool is_odd = false;
@@ -158,6 +158,7 @@ class StrictRegularity {
   }
 
  private:
+  /// Check 1. Marks the vertices.
   [[nodiscard]] bool cells_close_up() {
     const auto cells = triangulation_.cells();
     for (CellId cell = 0; cell < cells.size(); ++cell) {
@@ -193,7 +194,7 @@ class StrictRegularity {
     return is_odd_permutation(across, beads_of(other));
   }
 
-  /// Cells and facets between finite cells.
+  /// Checks 2 and 4.
   [[nodiscard]] bool all_are_positive() const {
     const Errors errors{positions_.coordinate_error(), positions_.weight_error()};
     FourByFour<Dimension + 1, decltype(&four_orientations<Dimension>)> orientations(
@@ -219,6 +220,7 @@ class StrictRegularity {
     return orientations.all_positive() && power_tests.all_positive();
   }
 
+  /// Check 3.
   [[nodiscard]] bool is_hull_convex() const {
     std::vector<Face> faces;
     std::optional<CellId> some_finite;
@@ -247,7 +249,7 @@ class StrictRegularity {
     return true;
   }
 
-  /// Strictly, and proved.
+  /// Returns whether a point is proved to lie strictly on the inner side of a face.
   [[nodiscard]] bool lies_inside(const Face& face, const Point& of) const {
     std::array<Point, Dimension + 1> points;
     for (std::size_t i = 0; i < Dimension; ++i) points[i] = point(face[i]);
@@ -255,7 +257,8 @@ class StrictRegularity {
     return is_positive(-orientation(points));
   }
 
-  /// Whether it is proved that a ray from `from`, inside of the face, to `to` does not meet it.
+  /// Returns whether the ray from `from` through `to` is proved to miss the face. `from` lies inside of the
+  /// face.
   [[nodiscard]] bool meets_no_ray(const Face& face, const Point& from, const Point& to) const {
     std::array<Point, Dimension + 1> points;
     points.back() = from;
@@ -266,6 +269,7 @@ class StrictRegularity {
     return false;
   }
 
+  /// Check 5 for hidden beads.
   [[nodiscard]] bool hidden_are_inside(std::span<const HiddenBead> hidden) const {
     const Errors errors{positions_.coordinate_error(), positions_.weight_error()};
     FourByFour<Dimension + 1, decltype(&four_orientations<Dimension>)> orientations(
@@ -290,6 +294,7 @@ class StrictRegularity {
     return orientations.all_positive() && power_tests.all_positive();
   }
 
+  /// Check 5: every bead is a vertex, hidden or absent, and only one of the three.
   [[nodiscard]] bool all_are_named(std::span<const HiddenBead> hidden, std::span<const char> absent) {
     for (const HiddenBead& h : hidden) {
       if (is_vertex_[h.bead] != 0) return false;
@@ -312,7 +317,7 @@ class StrictRegularity {
     for (std::size_t axis = 0; axis < Dimension; ++axis) point[axis] = positions_.coordinate(bead, axis);
     return point;
   }
-  /// Near the centroid: a point of its own, without an error.
+  /// Returns a point near the centroid. It counts as exact, so it has no error.
   template <std::size_t Size>
   [[nodiscard]] Point somewhere_in(const std::array<BeadId, Size>& beads) const {
     Point point{};
