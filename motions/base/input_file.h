@@ -37,8 +37,8 @@ class InputFile {
   /// is cut off, and InputError if the file cannot be read or unpacks to more than both `most_unpacked` and
   /// `most_ratio` times its size.
   [[nodiscard]] std::size_t read(char* to, std::size_t size);
-  /// Continues at this byte of the unpacked file, or at its end. Quick in plain files. A gzipped file is read
-  /// up to that byte, from the start if the byte lies behind.
+  /// Continues at this byte of the unpacked file, or at its end. Quick in plain files. A gzipped file is
+  /// unpacked up to that byte, from the start if the byte lies before the present place.
   void seek(std::uint64_t place);
   /// The byte that is read next.
   [[nodiscard]] std::uint64_t place() const { return read_; }
@@ -46,7 +46,7 @@ class InputFile {
     std::uint64_t bytes = 0;  ///< of the unpacked file
     bool cut = false;         ///< the gzipped file is cut off behind them
   };
-  /// Continues at the first byte. A gzipped file is read once.
+  /// Returns the length, and continues at the first byte. A gzipped file is unpacked once for it.
   [[nodiscard]] Length length();
   /// Begins again with the first byte.
   void rewind();

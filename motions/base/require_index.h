@@ -1,5 +1,5 @@
 #pragma once
-// Refuses an index that is too large: says which it is, and how many there are.
+// Refuses an index that is too large, with a message that gives the index and how many there are.
 
 #include <cstddef>
 #include <string>

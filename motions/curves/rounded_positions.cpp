@@ -17,7 +17,7 @@ struct RoundedTime {
   TrackedDouble later, earlier;
 };
 
-/// A Bezier curve there, by de Casteljau. `row` is room for its control points.
+/// Evaluates a Bezier curve at a time by de Casteljau's algorithm. `row` has room for its control points.
 template <class Control>
 TrackedDouble curve_at(const RoundedTime& time, std::vector<TrackedDouble>& row, Control control) {
   for (std::size_t k = 0; k < row.size(); ++k) row[k] = {control(static_cast<int>(k)), 0.0};

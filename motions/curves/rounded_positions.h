@@ -1,6 +1,7 @@
 #pragma once
-// Where the beads are at one time of a step, in doubles with a bound on their errors: decides nearly every
-// sign that an audit asks for, and leaves the rest to whole numbers. Computed from the control points alone.
+// Positions of the beads at one time of a step, in doubles with error bounds (ball arithmetic). They decide
+// nearly every sign that an audit asks for; whole numbers decide the rest. Computed from the control points
+// alone.
 
 #include <array>
 #include <cstddef>
@@ -23,7 +24,7 @@ class RoundedPositions {
 
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] const Row& row(BeadId bead) const { return rows_[bead]; }
-  /// Bounds on the error of every coordinate and of every weight; infinite where a number overflows.
+  /// Bounds on the error of every coordinate and of every weight; infinite if a number overflows.
   [[nodiscard]] double coordinate_error() const { return coordinate_error_; }
   [[nodiscard]] double weight_error() const { return weight_error_; }
 

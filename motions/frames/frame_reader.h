@@ -24,8 +24,8 @@ struct FrameRead {
   FrameStamp stamp;
   Eigen::Matrix3Xd positions;  ///< one column a bead, in the file's length unit (angstrom)
   std::optional<Cell> cell;
-  std::string cell_doubt =
-      {};  ///< why the cell in the file is not used; empty if it is used or there is none
+  /// Why the cell in the file is not used; empty if the cell is used or the file has none.
+  std::string cell_doubt = {};
 };
 
 class FrameReader {

@@ -83,8 +83,8 @@ class LatticeReduction {
   ReducedBasis basis_;
 };
 
-// The reduced vectors of a lattice are nearly at right angles: their volume is at least the product of their
-// lengths over the square root of 2. Less of it comes of vectors that are linearly dependent.
+// The reduced vectors of a lattice are nearly at right angles: their volume is at least the product of
+// their lengths over the square root of 2. Linearly dependent vectors have a smaller volume.
 bool is_independent(const ReducedBasis& basis) {
   const Eigen::Matrix3d& v = basis.vectors;
   const double lengths = v.leftCols(basis.rank).colwise().norm().prod();

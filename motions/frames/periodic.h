@@ -8,7 +8,8 @@
 
 namespace kds {
 
-/// The columns are the vectors that span the cell. A column of zeros: not periodic along that one.
+/// The columns are the vectors that span the cell. A column of zeros means that the cell is not periodic
+/// along that vector.
 using Cell = Eigen::Matrix3d;
 
 /// The cell of a frame, as far as its file tells one.
@@ -17,17 +18,18 @@ struct CellRead {
   std::string doubt;  ///< why the cell in the file is not used, for messages; empty if there is none
 };
 
-/// From the three vectors (columns) and the axes that are periodic. A cell is used if its periodic vectors
-/// are finite and linearly independent, and no lattice vector is shorter than 1. Files without a cell write
-/// lengths from 0 to 1: such a cell is none, without a doubt.
+/// Reads a cell from its three vectors (columns) and the axes that are periodic. A cell is used if its
+/// periodic vectors are finite and linearly independent, and no lattice vector is shorter than 1. Files
+/// without a cell write lengths from 0 to 1: these give no cell and no doubt.
 [[nodiscard]] CellRead read_cell(const Eigen::Matrix3d& vectors,
                                  const std::array<bool, 3>& periodic = {true, true, true});
-/// From the lengths of the vectors and the cosines of the angles between b and c, a and c, a and b.
+/// Reads a cell from the lengths of its vectors and the cosines of the angles between b and c, a and c, a
+/// and b.
 [[nodiscard]] CellRead read_cell_from_lengths(const Eigen::Vector3d& lengths, const Eigen::Vector3d& cosines);
-/// From the lengths and the angles in degrees.
+/// Reads a cell from the lengths of its vectors and the angles in degrees.
 [[nodiscard]] CellRead read_cell_from_angles(const Eigen::Vector3d& lengths, const Eigen::Vector3d& degrees);
 
-/// The cells alone.
+/// These two return the cell without the doubt.
 [[nodiscard]] inline std::optional<Cell> cell_from_lengths(const Eigen::Vector3d& lengths,
                                                            const Eigen::Vector3d& cosines) {
   return read_cell_from_lengths(lengths, cosines).cell;
@@ -55,16 +57,16 @@ class Images {
   Eigen::Matrix3d reduced_;  ///< the reduced basis, cell_ * steps_
   Eigen::Matrix3d steps_;    ///< whole numbers
   Eigen::Matrix3d inverse_;  ///< coordinates in the reduced basis
-  bool upright_;             ///< along the axes: rounding finds the nearest image
+  bool upright_;             ///< the cell lies along the axes, so rounding finds the nearest image
 };
 
-/// Where a chain lies beside others.
+/// A chain and its periodic image nearest to other chains.
 struct ImageBeside {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< to the nearest image, in cell vectors
   double distance = 0;                              ///< of the nearest image: least distance of two beads
   double present = 0;                               ///< of the chain as it lies
 };
-/// Of very many beads every n-th is looked at.
+/// Finds the image of `chain` nearest to `others`. Looks at every n-th bead if there are very many pairs.
 [[nodiscard]] ImageBeside nearest_image_beside(const Eigen::Matrix3Xd& others, const Eigen::Matrix3Xd& chain,
                                                const Cell& cell);
 

@@ -54,7 +54,8 @@ struct Model {
   /// One necklace or two of radius 1, every setting that it takes given.
   std::vector<Trajectory> (*make)(const Settings&);
   Settings defaults;  ///< of the settings that it takes
-  /// Up to how many turns so many beads have room for; the default is no more.
+  /// Returns the most turns that this many beads have room for, which the default does not exceed. Null: no
+  /// limit.
   double (*most_turns)(std::size_t beads) = nullptr;
 
   [[nodiscard]] bool takes(Setting setting) const;

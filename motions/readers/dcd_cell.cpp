@@ -17,7 +17,7 @@ using Numbers = DcdCellForm::Numbers;
 constexpr double least_angle = 20;  // degrees; no program simulates cells with sharper ones
 
 Eigen::Vector3d lengths_of(const Numbers& v) { return {v[0], v[2], v[5]}; }
-// Of alpha, beta and gamma.
+// Returns alpha, beta and gamma.
 Eigen::Vector3d angles_of(const Numbers& v) { return {v[4], v[3], v[1]}; }
 
 CellRead read_matrix(const Numbers& v) {

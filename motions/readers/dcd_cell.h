@@ -6,9 +6,9 @@
 //   cosines       the same with cosines of the angles NAMD, VMD, LAMMPS
 //   shape matrix  xx, xy, yy, xz, yz, zz              CHARMM from 22 on (symmetric, positive definite)
 //
-// No flag tells them apart. Each frame looked at rules out the forms in which its numbers are no cell, and
-// degrees outside 20 to 160, which no program simulates. The title and the version of the header decide
-// between those left:
+// No flag tells the forms apart. Each frame looked at rules out the forms in which its numbers are no cell,
+// and degrees outside 20 to 160, which no program simulates. The title and the version of the header decide
+// between the forms that are left:
 //   1. An angle of exactly 60, 90 or 120 shows degrees.
 //   2. Versions from 25 on, and titles of CHARMM (their lines begin with '*') from 22 on, show a matrix.
 //   3. Versions below 22, and titles of NAMD, VMD, LAMMPS, OpenMM, MDTraj and MDAnalysis, rule out a matrix.

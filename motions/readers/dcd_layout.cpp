@@ -104,7 +104,7 @@ std::vector<std::uint32_t> free_atoms(const std::string& file, const HeaderReade
   return atoms;
 }
 
-// As many digits as a float has: 0.02 and not 0.0199999996.
+// Rounds to the digits that a float has: 0.02 and not 0.0199999996.
 DcdLayout::Times times_of(std::int32_t first, std::int32_t steps, double picoseconds) {
   const double step = *parse_double(fmt::format("{:.6g}", picoseconds));
   return {step * (static_cast<double>(first) / steps), step};

@@ -29,14 +29,14 @@ struct DcdLayout {
   bool has_fourth = false;
   std::uint64_t atom_count = 0;
   std::vector<std::uint32_t> free_atoms;  ///< from 0; empty: none is fixed
-  /// Of frame 0, and from each frame to the next, in picoseconds; none where the header cannot be right.
+  /// The time of frame 0 and the time between frames, in picoseconds; none if the header cannot be right.
   struct Times {
     double first = 0, step = 0;
   };
   std::optional<Times> times;
-  std::string times_note;          ///< a line about a unit of time that is guessed or unknown; empty: none is
-  std::int32_t version = 0;        ///< of CHARMM, as other programs copy it
-  std::string title;               ///< all its lines
+  std::string times_note;    ///< a line that the unit of time is guessed or unknown; empty if it is known
+  std::int32_t version = 0;  ///< of CHARMM, as other programs copy it
+  std::string title;         ///< all its lines
   std::uint64_t frames_begin = 0;  ///< byte of the file
   std::uint64_t file_size = 0;     ///< unpacked
   bool cut = false;                ///< a gzipped file that is cut off behind these bytes

@@ -26,7 +26,7 @@ class DcdFile {
 
   const DcdLayout& layout() const { return layout_; }
 
-  // Tells the form of the cells from up to 65 of the frames asked for.
+  // Tells the form of the cells from at most 64 of the frames asked for.
   void look_at_cells(const FramesAsked& asked) {
     constexpr std::size_t most = 64;
     if (!layout_.has_cell) return;
@@ -84,7 +84,7 @@ class DcdFile {
     return layout_.number<float>(records_[axis + (layout_.has_cell ? 1 : 0)] + 4 * i);
   }
 
-  // Of the frame loaded.
+  // Returns the cell of the frame loaded.
   CellRead cell() const { return layout_.has_cell ? cell_form_.read(cell_numbers(records_[0])) : CellRead(); }
 
  private:

@@ -1,8 +1,8 @@
 #pragma once
 // DCD files (CHARMM, NAMD, LAMMPS), plain or gzipped: both byte orders, 32- or 64-bit markers, with or
-// without unit cell, fourth coordinate and fixed atoms. Only the frames asked for are read, from a gzipped
-// file those before them too. The number of frames follows from the file's size: the header's count is often
-// wrong, which is warned of.
+// without unit cell, fourth coordinate and fixed atoms. Only the frames asked for are read; in a gzipped
+// file the frames before them are unpacked too. The number of frames follows from the file's size. The
+// header's count is often wrong, and a warning then says so.
 
 #include <filesystem>
 

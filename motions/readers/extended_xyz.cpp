@@ -59,7 +59,7 @@ class PairReader {
     return pairs;
   }
 
-  // The rest of the line behind a quote that nothing closes; empty where there is none.
+  // Returns the rest of the line from a quote that is never closed; empty if there is no such quote.
   std::string_view open_rest() const { return open_from_ ? text_.substr(*open_from_) : std::string_view(); }
 
  private:
@@ -130,7 +130,7 @@ class PairReader {
     return value;
   }
 
-  // Behind the outer bracket.
+  // Reads the rows of a matrix after its outer bracket.
   void matrix(Value& value) {
     while (value.whole && !at_end() && peek() == '[') {
       ++at_;
@@ -146,7 +146,7 @@ class PairReader {
     }
   }
 
-  // Up to the closing bracket, or to the end of the text where it is '\0'.
+  // Reads items up to the closing bracket, or up to the end of the text if `close` is '\0'.
   void items_until(char close, Value& value) {
     while (true) {
       while (!at_end() && (is_blank(peek()) || peek() == ',')) ++at_;
@@ -252,7 +252,7 @@ XyzColumns read_columns(const Value& value) {
   return columns;
 }
 
-// Whether one of our keys stands in a part of the line that could not be read.
+// Returns whether a part of the line that could not be read has one of our keys.
 bool names_a_key(std::string_view rest) {
   const std::string text = lower_case(rest);
   for (const std::string_view key : {"lattice", "properties", "pbc"}) {

@@ -3,8 +3,9 @@
 //
 //   pair    key = value, with blanks around '=' or without
 //   key     a bare or quoted string; Lattice, Properties and pbc in any case
-//   value   a bare string; "..." or '...' with backslash escapes; {a b c}; [a, b, c]; [[a, b, c], [d, e, f],
-//   ...] array   in brackets, in braces or, in the old style, in quotes; commas or blanks separate its items
+//   value   a bare string, a string in single or double quotes with backslash escapes, or an array
+//   array   [a, b, c], [[a, b, c], [d, e, f]], {a b c} or, in the old style, "a b c"; commas or blanks
+//           separate its items
 //
 // Words without '=' are skipped: the comment of a plain XYZ file is any text.
 
@@ -24,20 +25,20 @@ struct XyzColumns {
   std::size_t position = 1;                ///< of x; y and z follow
   std::optional<std::size_t> id;           ///< a number that the atom keeps
   std::size_t count = 4;
-  bool named = false;  ///< by Properties: a line has exactly `count` columns, else at least
+  bool named = false;  ///< Properties is given: a line has exactly `count` columns, otherwise at least
 };
 
 struct XyzComment {
   CellRead cell;
   XyzColumns columns;
-  /// A key that is near to Lattice and left unread.
+  /// A key that probably means the lattice but is not read, as in cell=.
   std::optional<std::string> near_lattice;
 };
 
 /// Throws InputError, without the name of the file, if Lattice, Properties or pbc cannot be read.
 [[nodiscard]] XyzComment read_xyz_comment(std::string_view line);
 
-/// A number with an exponent that begins with e, E, d or D.
+/// Parses a number whose exponent may begin with e, E, d or D.
 [[nodiscard]] std::optional<double> parse_fortran_double(std::string_view field);
 
 }  // namespace kds

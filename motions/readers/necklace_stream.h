@@ -29,22 +29,22 @@ class NecklaceStream {
   /// The next frame, all necklaces side by side; false behind the last. Throws InputError likewise.
   [[nodiscard]] bool next(FrameRead& frame);
   void rewind();
-  /// Begins again with the first frame.
+  /// Returns whether the file has one frame only. Begins again with the first frame.
   [[nodiscard]] bool holds_one_frame();
   /// About a necklace; complete once all frames have been read.
   [[nodiscard]] std::vector<std::string> warnings(std::size_t necklace) const;
 
  private:
-  /// What there is to tell of one necklace.
+  /// Findings about one necklace, for its warnings.
   struct Notes {
     Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< shift of the first frame, in cell vectors
     std::string placed;                               ///< a line about that shift
     std::size_t frames_moved = 0;
     std::size_t frames_doubtful = 0, first_doubtful = 0;  ///< where the cell does not suit the bonds
-    /// Shift of the centroid to its image nearest to the first necklace: in the first frame, and frames in
-    /// which it is another.
+    /// Shift that takes the centroid to its image nearest to the first necklace's centroid, in the first
+    /// frame.
     std::optional<Eigen::Vector3d> apart_at_first;
-    std::size_t frames_apart = 0, first_apart = 0;
+    std::size_t frames_apart = 0, first_apart = 0;  ///< frames in which that shift differs
   };
   void place_beside_earlier(std::size_t n, const Eigen::Matrix3Xd& chain, const FrameRead& frame);
 

@@ -21,7 +21,7 @@ namespace {
 // Column 21 holds the fourth letter of a residue's name (LYSH) in files of simulations, or the first one of a
 // chain's name in files of large structures. Along a chain, names change from residue to residue and chains
 // do not, so neighbours vote: those of amino acids or nucleotides that share a letter there, or have
-// different ones. Without any vote the letters belong to names that no table knows (TIP3, DPPC).
+// different ones. Without any vote the letters are part of residue names that no table knows (TIP3, DPPC).
 enum class Column21 { residue_name, guessed_residue_name, chain_name };
 
 Column21 use_of_column_21(const PdbModel& model) {
@@ -57,9 +57,9 @@ std::string chain_of(const PdbAtom& atom, bool named_by_column_21) {
   return name;
 }
 
-// TER ends a polymer: up to the first TER of a chain all residues are the polymer's. Behind it ligands and
-// waters follow, or further pieces of the polymer: those hold amino acids or nucleotides, as HETATM only if
-// they end with TER themselves.
+// TER ends a polymer. All residues of a chain up to its first TER belong to the polymer. Ligands and waters
+// follow, or further pieces of the polymer. A piece belongs to the polymer if it holds amino acids or
+// nucleotides. Residues that are HETATM count only if TER ends their piece.
 class Terminations {
  public:
   std::string before(const std::string& chain) { return std::to_string(ended_[chain]); }

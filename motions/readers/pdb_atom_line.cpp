@@ -56,8 +56,8 @@ void check_occupancy(const std::string& file, std::size_t line_number, std::stri
                                  line_number, in_quotes(line.substr(54, 12))));
 }
 
-// Without an element in columns 77 and 78 the atom's name tells: its element is right-aligned in columns 13
-// and 14, but a name of four characters that begins with H is that of a hydrogen.
+// The atom's name gives the element if columns 77 and 78 do not: right-aligned in columns 13 and 14. A name
+// of four characters that begins with H belongs to a hydrogen.
 gemmi::Element element_in(std::string_view line) {
   if (is_letter(column(line, 77)) || is_letter(column(line, 78)))
     return gemmi::Element(std::string{column(line, 77), column(line, 78)});
@@ -100,7 +100,7 @@ PdbAtom read_atom_line(const std::string& file, std::size_t line_number, std::st
         fmt::format("{}:{}: a tab or another control character stands in this atom's line, expected "
                     "columns filled with blanks, and LF or CR LF at the end",
                     file, line_number));
-  // Behind column 78 stands the charge, which nothing here needs and not every program writes properly.
+  // The charge behind column 78 is not needed, and not every program writes it properly.
   line = line.substr(0, 78);
   if (line.size() < 54)
     throw InputError(

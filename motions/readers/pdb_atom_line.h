@@ -21,8 +21,8 @@ struct PdbAtom {
 /// The text in columns `first` to `last`, counted from 1, without blanks around it.
 [[nodiscard]] std::string_view columns(std::string_view line, std::size_t first, std::size_t last);
 
-/// Throws InputError naming file and line if the line is too short or holds a tab, a coordinate or the
-/// occupancy is not a number, or a number overflows its columns.
+/// Reads an ATOM or HETATM line. Throws InputError naming file and line if the line is too short or holds a
+/// tab. Throws it also if a coordinate or the occupancy is no number, or overflows its columns.
 [[nodiscard]] PdbAtom read_atom_line(const std::string& file, std::size_t line_number, std::string_view line);
 
 }  // namespace kds

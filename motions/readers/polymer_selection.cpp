@@ -37,7 +37,7 @@ bool is_alternate_of(const StructureResidue& residue, const StructureResidue& be
                      [](const StructureAtom& atom) { return atom.alternate != '\0'; });
 }
 
-// What --chain can name: a chain, or a molecule of it.
+// A chain or a molecule of it, as --chain can name them.
 struct Part {
   std::string label;
   std::string chain;
@@ -47,7 +47,7 @@ struct Part {
   bool protein = false;                    // otherwise nucleotides, if `polymer` is not empty
 };
 
-// As in messages.
+// Returns a label as messages show it.
 std::string shown(const std::string& label) { return label.empty() ? "' '" : label; }
 
 std::vector<std::string> labels_of(const std::vector<const Part*>& parts) {

@@ -29,12 +29,15 @@ struct SelectedChains {
   std::vector<std::string> notes;  ///< on residues and chains that are left out or guessed, a line each
 };
 
-/// The beads of the chains that a list between commas names, in its order; of the first chain with amino
-/// acids if there is no list, otherwise of the first with nucleotides. Residues of a chain count wherever
-/// they stand in the file, unless they are waters, ligands or sugars. If a chain has none of its own kind,
-/// `all` reads every residue of it. The first of alternate locations counts, and the first of two residues
-/// that are alternates. Throws InputError naming file and option if a name is not in the model or listed
-/// twice, or nothing is selected.
+/// Returns the beads of the chains in `list`, a list between commas, in its order. Without a list, returns
+/// those of the first chain with amino acids, or else of the first chain with nucleotides.
+///
+/// Residues of a chain count wherever they stand in the file, unless they are waters, ligands or sugars. If
+/// a chain has no other residues, `all` reads these. The first of alternate locations counts, and the first
+/// of two residues that are alternates.
+///
+/// Throws InputError naming file and option if a name is not in the model or listed twice, or nothing is
+/// selected.
 [[nodiscard]] SelectedChains select_chains(const std::string& file, const StructureModel& model,
                                            Selection selection, const std::optional<std::string>& list);
 

@@ -61,7 +61,7 @@ class XyzFile {
     if (!first_frame_) first_frame_ = k;
   }
 
-  // Of the frame read first: what the column of symbols holds; empty where there is none.
+  // Returns the symbols in the frame that was read first; empty if the file has none.
   const std::vector<std::string>& symbols() const { return symbols_; }
 
  private:
@@ -158,7 +158,7 @@ class XyzFile {
     return position;
   }
 
-  // As in C-100.125, where a coordinate fills its column; a type as C.3 has none.
+  // Finds the number in C-100.125, where a coordinate fills its column. Types such as C.3 have no number.
   static bool has_number(std::string_view symbol) {
     const auto is_digit = [&](std::size_t i) {
       return i < symbol.size() && symbol[i] >= '0' && symbol[i] <= '9';
@@ -213,7 +213,7 @@ std::optional<char> element_of_atom_name(std::string_view name) {
   if (name == "OXT" || std::find(heavy.begin(), heavy.end(), name) != heavy.end() ||
       std::find(hydrogens.begin(), hydrogens.end(), name) != hydrogens.end())
     return name[0];
-  // As CG1, OD2, HB3 or HD11: a letter of remoteness and digits.
+  // Names such as CG1, OD2, HB3 or HD11 have an element, a letter of remoteness and digits.
   const std::size_t digits = name.find_first_of("0123456789");
   if (digits != 2 || name.size() > 4 ||
       name.find_first_not_of("0123456789", digits) != std::string_view::npos)

@@ -83,8 +83,8 @@ class Scene {
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
   [[nodiscard]] std::size_t step_count() const { return frame_count_ == 0 ? 0 : frame_count_ - 1; }
 
-  // Indices of frames, steps and beads that are too large are refused by std::invalid_argument, which says
-  // how many there are.
+  // An index of a frame, step or bead that is too large throws std::invalid_argument, which says how many
+  // there are.
 
   /// A frame's number in the file and its time, for messages and results.
   [[nodiscard]] FrameStamp stamp(std::size_t frame) const;

@@ -38,10 +38,10 @@ class PlaneSearch {
 struct SceneSurvey {
   std::vector<Trajectory> necklaces;  ///< with their first frames only
   std::size_t frame_count = 0;
-  std::vector<std::size_t> frames_of_necklaces;  ///< that many, or 1: at rest
+  std::vector<std::size_t> frames_of_necklaces;  ///< `frame_count`, or 1 for a necklace at rest
   FrameStamp first, last;
   std::optional<AxisPlane> plane;
-  LongestBond bonds;  ///< empty where nobody asked for it
+  LongestBond bonds;  ///< empty unless asked for
 };
 
 class SceneStream final : public FrameReader {
@@ -62,7 +62,7 @@ class SceneStream final : public FrameReader {
  private:
   /// The next frame as the files have it.
   [[nodiscard]] bool read(FrameRead& frame);
-  /// Of files in one periodic cell, in the first frame.
+  /// Warns of files in one periodic cell that have much nearer images in the first frame.
   void tell_of_nearer_images(const std::function<void(const std::string&)>& warn) const;
 
   std::vector<NecklaceStream> files_;
