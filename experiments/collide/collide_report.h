@@ -13,21 +13,22 @@
 namespace kds {
 
 [[nodiscard]] Json collide_rows_json(const CollideReport& report);
-/// What all methods agree on in one frame.
+/// Returns the findings of one frame that all methods agree on.
 [[nodiscard]] Json collide_frame_json(const FrameFound& frame);
 /// A header and one line a row.
 [[nodiscard]] std::string collide_csv(const CollideReport& report);
-/// The header of the lines of frames, and one of them.
+/// The header of frames.csv, and a line of it.
 inline constexpr std::string_view collide_frames_header = "frame,collide,pairs,i,j,distance\n";
 [[nodiscard]] std::string collide_frame_csv(const FrameFound& frame);
 [[nodiscard]] std::string collide_table(const CollideReport& report);
 
-/// The closest distance in the course of the frames: of many frames that follow each other the least.
+/// The closest distance in the course of the frames. Consecutive frames share a bin if there are many, and
+/// the bin keeps their least distance.
 class ClosestCourse {
  public:
   explicit ClosestCourse(std::size_t frames);
   void add(const FrameFound& frame);
-  /// As a figure of a page; empty where fewer than two frames have a closest pair.
+  /// Returns a figure for a page; empty if fewer than two bins have a closest pair.
   [[nodiscard]] std::string figure() const;
 
  private:

@@ -44,7 +44,7 @@ struct CollideReport {
   std::size_t frames = 0, colliding_frames = 0;
 };
 
-/// Told of each frame: what was found, and, where some method tells them, all pairs.
+/// Called for each frame with its findings, and with all pairs if some method lists them.
 using OnFrame =
     std::function<void(const FrameRead&, const FrameFound&, std::optional<std::span<const BeadPair>>)>;
 

@@ -21,7 +21,7 @@ inline constexpr std::string_view possible_contacts_file = "possible_contacts.cs
 /// Whether the session has the structure that the file is about.
 [[nodiscard]] bool has_contacts(const Session& session);
 
-/// Pairs in contact at the frame that has just been reached; none where the session has no contacts.
+/// Returns the pairs in contact at the frame just reached, or nothing if the session has no contacts.
 [[nodiscard]] std::optional<std::uint64_t> contacts_at(const Session& session, std::size_t frame);
 
 /// Hears of all events, and writes a line for each contact.
@@ -62,7 +62,7 @@ class ContactsTable final : public ContactsCsv {
   };
   /// Writes the header. The scene must outlive it.
   ContactsTable(std::ostream& stream, const Scene& scene) : ContactsTable(stream, scene, {"", "", ""}) {}
-  /// With such a column.
+  /// Writes a header that ends with such a column.
   ContactsTable(std::ostream& stream, const Scene& scene, const Column& column);
   void add(const Event& event, bool flag);
   [[nodiscard]] bool prints_time_of(const Event& event) const override { return is_of_contact(event); }

@@ -82,7 +82,7 @@ void Part::become(const fs::path& place, const std::string& subject) {
 
 namespace {
 
-// As Part names them: .kds-PROCESS-NUMBER.part
+// Returns whether Part gives such names: .kds-PROCESS-NUMBER.part
 bool is_part(std::string_view name) {
   for (const std::string_view part : {".kds-", "-", ".part"}) {
     if (!name.starts_with(part)) return false;

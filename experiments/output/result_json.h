@@ -87,7 +87,7 @@ void add_provenance(Json& json, std::string command);
 class JsonItems {
  public:
   void add(const Json& item);
-  /// The text of an object, as text_of has it, whose member `name` is this array.
+  /// Writes the text of `object` as text_of does, with this array as its member `name`.
   void write_within(const Json& object, std::string_view name, const TextSink& sink) const;
 
  private:

@@ -23,11 +23,11 @@ class ResultManifest {
   /// Throws InputError where the directory has a file of this name that this command did not write, or that
   /// has changed since.
   void require_own(const std::string& name) const;
-  /// Whether the file of this name is there as this command wrote it.
+  /// Returns whether the file of this name is there as this command wrote it.
   [[nodiscard]] bool is_own(const std::string& name) const;
 
   [[nodiscard]] bool empty() const { return files_.empty(); }
-  /// A name is listed twice where a program was killed while it replaced the file.
+  /// A name is listed twice if a program was killed while it replaced the file.
   [[nodiscard]] const auto& files() const { return files_; }
   [[nodiscard]] std::filesystem::path path() const { return directory_ / (".kds-" + key_ + ".files"); }
   [[nodiscard]] std::string heading() const;
@@ -44,7 +44,8 @@ class ResultManifest {
   static Content content_of(const std::filesystem::path& path);
   static std::string line(const Content& content, std::string_view name);
   void read();
-  /// "kds run --out" where another manifest of the directory lists the file as it is, else "".
+  /// Returns the command and option whose manifest lists the file as it is, as in "kds run --out"; "" if
+  /// there is no such manifest.
   [[nodiscard]] std::string author_of(const std::string& name) const;
 
   std::filesystem::path directory_;

@@ -24,7 +24,7 @@ class Spool {
   /// Throws OutputError where there is no room.
   void add(std::string_view text);
   [[nodiscard]] bool empty() const { return empty_; }
-  /// All of it, in order. More can be added afterwards.
+  /// Passes the whole text to `sink`, in order. More can be added afterwards.
   void read(const TextSink& sink) const;
 
  private:
@@ -35,7 +35,7 @@ class Spool {
   bool empty_ = true;
 };
 
-/// Records that wait likewise.
+/// Records that wait on disk in the same way.
 template <class Record>
 class SpooledRecords {
   static_assert(std::is_trivially_copyable_v<Record>);

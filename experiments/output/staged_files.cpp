@@ -84,7 +84,7 @@ void StagedFiles::finish() {
   manifest.close();
 }
 
-// At each moment a manifest lists every file of a result that is there, should the program be killed.
+// A manifest lists every file of a result that is there at each moment: the program may be killed.
 void StagedFiles::take_place() {
   const std::string subject = earlier_.path().string() + ": cannot write";
   replace_file(both_, earlier_.path(), subject);

@@ -1,6 +1,6 @@
 #pragma once
 // Files of a directory that appear together or not at all: they wait in a hidden folder of it, under numbers.
-// What they will be called is kept there too, so that memory does not grow with them.
+// Their names are kept there too, so that memory does not grow with the number of files.
 
 #include <filesystem>
 #include <functional>
@@ -26,20 +26,21 @@ class StagedFiles final : public Staged {
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  /// Throws likewise, and InputError where a file of that name is in the way that no earlier result of this
-  /// kind has written.
+  /// Throws likewise. Throws InputError also if a file of that name is there that no earlier result of this
+  /// kind wrote.
   void write(const std::string& name, std::string_view text);
   /// A file that is written piece by piece until finish(). Throws likewise.
   [[nodiscard]] std::ostream& open(const std::string& name);
   /// Throws where an open file could not be written.
   void check() const;
 
-  /// Throws InputError where the directory has such a file that no earlier result of this kind has written.
+  /// Throws InputError if a file of the directory `belongs` to results of this kind and no earlier one
+  /// wrote it.
   void refuse_others(const std::function<bool(std::string_view name)>& belongs) const;
 
   void finish() override;
   /// Removes the files that an earlier result of this kind wrote and this one does not have, unless they have
-  /// changed since. Without it nothing is left, and a directory made goes too.
+  /// changed since. If this is never called, no file is left, and a directory made is removed.
   void take_place() override;
 
  private:

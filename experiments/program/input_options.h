@@ -27,18 +27,18 @@ inline constexpr std::array kInputOptions{
                "backbone (N, CA, C), ca or all (default: backbone where residues are known)"},
     OptionSpec{"--chain", "IDS",
                "the chain to read, or several, a necklace each: A,B; for each INPUT its own: A,B/C; a "
-               "molecule by its"
-               " number: A.2 of chain A, 2 of those without a chain (default: the first polymer chain)"},
+               "molecule by its number: A.2 of chain A, 2 of those without a chain "
+               "(default: the first polymer chain)"},
     OptionSpec{"--frames", "RANGE", "FIRST:LAST:STRIDE, from 0, LAST excluded (default: all)"},
     OptionSpec{"--radius", "RULE", "auto, a number, element, element:fit or file:PATH (default: auto)"},
 };
-/// Of commands that put all inputs on one clock.
+/// The option of commands that put all inputs on one clock.
 inline constexpr std::array kObstacleOption{
     OptionSpec{"--obstacle", "FILE",
                "a necklace of one frame, which rests while the others move (default: none)"},
 };
 inline constexpr std::string_view kInputOperand = "INPUT...";
-/// What is read of trajectories, in the help of commands.
+/// The formats of trajectories, in the help of commands.
 inline constexpr std::string_view kTrajectoryHelp =
     "a necklace: .pdb .ent .cif .mmcif .dcd .xyz .extxyz (also .gz)";
 inline constexpr std::string_view kInputHelp =
@@ -53,7 +53,7 @@ inline constexpr std::string_view kInputHelp =
 /// Throws InputError where there is no regular file: pipes and devices need not end.
 void check_exists(const std::filesystem::path& path);
 
-/// The same of the inputs, the topology and the obstacle.
+/// Throws likewise for the inputs, the topology and the obstacle.
 void check_inputs_exist(const InputOptions& options);
 
 }  // namespace kds

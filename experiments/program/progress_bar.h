@@ -26,7 +26,7 @@ class ProgressBar {
 
   /// Draws at most ten times a second.
   void update(std::size_t done, std::size_t total) { update(done, 0, total); }
-  /// The next one is done by the share `within`.
+  /// `within` is the share of the next one that is done.
   void update(std::size_t done, double within, std::size_t total);
   void erase();  ///< before anything else is printed
 

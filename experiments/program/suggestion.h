@@ -8,13 +8,13 @@
 
 namespace kds {
 
-/// The nearest of the names by the edit distance (insertions, deletions, substitutions, exchanges of
-/// neighbours; upper and lower case count as equal), or a name that the word begins or ends. None where no
-/// name is near.
+/// Returns the nearest of the names by edit distance: insertions, deletions, substitutions and exchanges of
+/// neighbours, without regard to case. Otherwise returns a name that begins or ends with the word, or
+/// nothing.
 [[nodiscard]] std::optional<std::string_view> nearest_name(std::string_view word,
                                                            std::span<const std::string_view> names);
 
-/// ", did you mean NAME?", or "" where no name is near.
+/// Returns ", did you mean NAME?", or "" if no name is near.
 [[nodiscard]] std::string suggestion(std::string_view word, std::span<const std::string_view> names);
 
 }  // namespace kds

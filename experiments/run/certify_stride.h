@@ -33,7 +33,7 @@ struct ContactBounds {
   PairsMet possible;  ///< no other pair is in contact in truth, up to the run's last frame
 };
 
-/// Contacts of a run, and something about each.
+/// Contacts of a run, with a flag for each.
 struct ContactList {
   std::shared_ptr<const MetContacts> met;
   std::vector<std::uint8_t> flags;  ///< of the contacts

@@ -36,7 +36,7 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
 
 namespace {
 
-/// An input as far as it tells whose atoms it has.
+/// The atoms of an input, for telling whether two inputs have the same ones.
 struct InputAtoms {
   std::filesystem::path file;
   std::vector<std::string> names;  // of beads; empty where the file names none
@@ -59,8 +59,8 @@ bool takes_topology(const std::filesystem::path& file) {
   return reader != nullptr && reader->takes_topology;
 }
 
-// Whether a file of one frame has the atoms of another: the names of its beads or, if the other has no names,
-// as many beads or atoms.
+// Returns whether a file of one frame has the atoms of another: the same bead names or, if the other has no
+// names, as many beads or atoms.
 bool has_atoms_of(const InputAtoms& one, const InputAtoms& other, const ReadOptions& reading) {
   if (one.names.empty()) return false;
   if (!other.names.empty()) return one.names == other.names;
@@ -203,8 +203,7 @@ std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& sc
   if (options.apart && std::find(names.begin(), names.end(), "closest") != names.end())
     throw InputError(
         "--apart: closest looks at all pairs of beads; run it without --apart, or let kds collide --apart "
-        "find "
-        "the closest pair of each frame");
+        "find the closest pair of each frame");
   const auto has = [&names](const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };

@@ -18,13 +18,15 @@ namespace kds {
 /// option has no meaning for it.
 [[nodiscard]] std::optional<Instance> read_lone_instance(const InputOptions& options);
 
-/// The inputs of a run.
+/// Returns the input options of a run.
 [[nodiscard]] InputOptions inputs_of(const RunOptions& options);
 
-/// Opens all inputs and the obstacle, in this order, none of them an instance file, to be read frame by
-/// frame: every `stride`-th of the frames that the options ask for. Throws InputError if an input has one
-/// frame and the atoms of another with more: it names atoms, or is an obstacle, and an option says which.
-/// Another input of one frame rests, and a line to `warn` says so.
+/// Opens all inputs, then the obstacle, to be read frame by frame: every `stride`-th of the frames that the
+/// options ask for. No input may be an instance file.
+///
+/// Throws InputError if an input of one frame has the atoms of an input with more frames: an option must
+/// say whether that input names atoms or is an obstacle. Any other input of one frame rests, and a line to
+/// `warn` says so.
 [[nodiscard]] SceneStream open_frames(const InputOptions& options,
                                       const std::function<void(const std::string&)>& warn,
                                       std::size_t stride = 1);

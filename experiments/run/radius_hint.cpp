@@ -50,7 +50,7 @@ std::vector<double> half_distances_known(const Scene& scene, const Balls<Dimensi
 
 template <int Dimension>
 std::optional<std::string> hint_in(const Scene& scene, BeadId apart) {
-  constexpr BeadId few = 5;  // nearer along the chain beads are near because of its bonds
+  constexpr BeadId few = 5;  // beads nearer along the chain are near because of its bonds
   const Balls<Dimension> balls(scene.centers(0), scene.radii());
   const BeadId farther = std::max(apart, few);
   std::vector<double> half = half_distances_known(scene, balls, farther);

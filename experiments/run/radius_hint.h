@@ -9,9 +9,9 @@
 
 namespace kds {
 
-/// One line that names a radius at which half of the beads touch another in the first frame. Of beads of one
-/// chain it asks about those at least `apart` apart, and 5 where the chain is long enough. None where beads
-/// meet in that frame, where radii differ, and where no pair is asked about.
+/// Returns one line that names a radius at which half of the beads touch another bead in the first frame.
+/// Two beads of one chain count if they are at least `apart` apart, and at least 5 if the chain is long
+/// enough. Returns nothing if beads meet in that frame, radii differ or no pair counts.
 [[nodiscard]] std::optional<std::string> radius_hint(const Scene& scene, BeadId apart);
 
 }  // namespace kds

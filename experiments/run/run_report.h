@@ -23,7 +23,7 @@ struct StructureReport {
   std::string name;                ///< sorted, wrapped, power
   std::uint64_t events_total = 0;  ///< external events
   NamedCounts events_by_kind;      ///< external kinds first, then internal ones, which the total leaves out
-  std::optional<std::uint64_t> contacts_at_start, contacts_at_end;  ///< pairs; the second is begin - end more
+  std::optional<std::uint64_t> contacts_at_start, contacts_at_end;  ///< pairs of beads
   std::vector<std::string> internal_kinds;                          ///< which of these are internal
   EventCourse course;                                               ///< external events, step by step
   std::uint64_t created = 0, never_failing = 0, cancelled = 0, failed = 0, touched = 0, peak = 0,

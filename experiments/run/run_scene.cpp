@@ -22,7 +22,7 @@ std::optional<double> deviation_of_run(const RunOptions& options, const Scene& s
   return std::nullopt;
 }
 
-/// Where the automatic radius leaves a run without contacts.
+/// Returns a hint if the automatic radius leaves a run without contacts.
 std::optional<std::string> hint_of(const RunOptions& options, const Scene& scene, const RunReport& report) {
   if (options.radius != "auto") return std::nullopt;
   for (const StructureReport& structure : report.structures)

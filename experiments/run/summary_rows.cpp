@@ -52,7 +52,7 @@ void add_kinds(std::vector<SummaryRow>& rows, const RunReport& report) {
     rows.push_back(row(report, kind_label(report, name), true, count_named(member, name)));
 }
 
-// Where a structure has contacts.
+// Adds rows only if a structure has contacts.
 void add_contacts(std::vector<SummaryRow>& rows, const RunReport& report) {
   const auto add = [&](const char* label, std::optional<std::uint64_t> StructureReport::*member) {
     rows.push_back(row(report, label, false, [member](const StructureReport& structure) {

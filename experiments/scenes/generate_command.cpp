@@ -44,7 +44,7 @@ std::string command_line(const GenerateOptions& options) {
   return text;
 }
 
-// The user names a.xyz; a-1.xyz and a-2.xyz need not be known to be written.
+// Refuses to replace a-1.xyz and a-2.xyz, which the user did not name, unless kds generate wrote them.
 void refuse_unnamed(const GenerateOptions& options, const fs::path& file) {
   std::error_code error;
   if (file == options.file || !fs::exists(file, error)) return;

@@ -45,15 +45,15 @@ struct SceneInfo {
   [[nodiscard]] bool proper() const;
 };
 
-/// The conditions are judged at every frame, one after the other, and one is in memory. `necklaces` need have
-/// their first frames only; `next` reads the next frame of all beads. One radius a bead in scene order.
-/// Throws InputError where a number is not finite.
+/// Judges the conditions at every frame, with one frame in memory. `necklaces` need only their first
+/// frames, and `next` reads the next frame of all beads. `radii` has one radius a bead in scene order.
+/// Throws InputError if a number is not finite.
 [[nodiscard]] SceneInfo describe_frames(std::span<const Trajectory> necklaces,
                                         std::span<const std::size_t> frames_of_necklaces,
                                         const std::function<bool(FrameRead&)>& next,
                                         std::span<const double> radii, const ValidateOptions& options,
                                         const std::function<void(std::size_t, std::size_t)>& progress);
-/// The same of frames in memory; a necklace of one frame is at rest. Throws InputError where frame counts
+/// Judges frames in memory likewise. A necklace of one frame is at rest. Throws InputError if frame counts
 /// differ otherwise, or a number is not finite.
 [[nodiscard]] SceneInfo describe_scene(std::span<const Trajectory> necklaces, std::span<const double> radii,
                                        const ValidateOptions& options,

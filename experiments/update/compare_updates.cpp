@@ -17,7 +17,8 @@ namespace kds {
 
 namespace {
 
-/// What all techniques have before them, by static diagrams of all frames. Two frames are in memory.
+/// Counts the work that all techniques have to do, from static diagrams of all frames. Two frames are in
+/// memory.
 template <int Dimension>
 UpdateTask task_of(const Scene& scene, std::size_t stride) {
   UpdateTask task;

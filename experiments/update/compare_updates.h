@@ -53,12 +53,12 @@ template <int Dimension>
 void audit_update(const StaticTriangulation<Dimension>& found, const StaticTriangulation<Dimension>& expected,
                   const std::function<std::optional<std::string>()>& fault, const std::string& what);
 
-/// The scene of every stride-th frame. It is asked for at each stride, for linear and for Hermite motion.
+/// Returns the scene of every stride-th frame. Called at each stride, for linear and for Hermite motion.
 using SceneAtStride = std::function<Scene(std::size_t stride, FrameMotion motion)>;
 
-/// In the plane where the scene is planar. Reads frames one by one, for each technique again, so that memory
-/// does not grow with them where the scenes are those of files. Throws InputError where a stride leaves fewer
-/// than two frames, AuditError where a diagram is wrong.
+/// Compares techniques, in the plane if the scene is planar. Reads frames one by one, again for each
+/// technique, so memory does not grow with the frames of files. Throws InputError if a stride leaves fewer
+/// than two frames, AuditError if a diagram is wrong.
 [[nodiscard]] std::vector<UpdateRow> compare_updates(
     const SceneAtStride& scene_at, const UpdateOptions& options,
     const std::function<void(std::size_t, std::size_t)>& progress);

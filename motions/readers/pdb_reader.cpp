@@ -28,8 +28,7 @@ class FirstModel : public StructureModels {
     std::vector<std::string> notes = models_->notes();
     notes.push_back(
         fmt::format("a biological assembly: its {} are copies side by side, not frames; only the first is "
-                    "read (ending .pdb reads "
-                    "frames)",
+                    "read (ending .pdb reads frames)",
                     counted(models_->held().whole, "model")));
     return notes;
   }

@@ -6,8 +6,8 @@
 
 namespace kds {
 
-/// Before work begins. Throws InputError where gnuplot, which draws its plots, is missing, and where the
-/// directory has a report.html that this command did not write.
+/// Checks before work begins that the page can be written. Throws InputError if gnuplot, which draws its
+/// plots, is missing, or if the directory has a report.html that this command did not write.
 void check_page(const std::filesystem::path& directory, std::string_view command);
 
 }  // namespace kds
