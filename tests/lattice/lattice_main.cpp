@@ -1,5 +1,5 @@
-// Runs random lattice scenes in one process: kds_lattice_scenes [SCENES] [FIRST SEED]. Ends with 1 at the
-// first failure.
+// Runs random lattice scenes in one process: kds_lattice_scenes [SCENES] [FIRST SEED]. Prints the first
+// failure of each seed. Ends with 1 if there is any.
 
 #include <cstdio>
 #include <cstdlib>

@@ -44,8 +44,8 @@ Rational determinant(const std::array<std::array<Rational, N>, N>& rows) {
 template <int Dimension>
 using Lifted = std::array<Rational, Dimension + 1>;
 
-/// What is wrong with the cells of a plane diagram, by the definition: no bead lies inside a cell's power
-/// circle, and three beads whose power circle all others are strictly outside of are a cell.
+/// Returns what is wrong with the cells of a plane diagram, by the definition: no bead lies inside a cell's
+/// power circle, and three beads are a cell if all others are strictly outside their power circle.
 std::optional<std::string> not_the_regular_one(const std::vector<Lifted<2>>& points,
                                                const std::vector<CellBeads<2>>& cells) {
   const auto beads = static_cast<BeadId>(points.size());
@@ -77,7 +77,7 @@ std::optional<std::string> not_the_regular_one(const std::vector<Lifted<2>>& poi
   return std::nullopt;
 }
 
-/// A moment later than `time`: cells may be flat at a single moment without an event.
+/// Returns a moment later than `time`. Cells may be flat at a single moment without an event.
 Dyadic just_after(const Dyadic& time) { return {(time.numerator() << 100U) + 1, time.exponent() + 100}; }
 
 template <int Dimension, int Degree>

@@ -17,8 +17,8 @@ struct LatticeCounts {
   std::uint64_t edited = 0;   ///< scenes in which beads came, went or changed course
 };
 
-/// Runs one scene of each dimension, degree (1 to 3) and kind, each with its own seed made from `seed`.
-/// Returns the first failure as a sentence that names dimension, degree, kind and seed.
+/// Runs one scene of each dimension, degree (1 to 3) and kind, each from `seed`. Returns the first failure
+/// as a sentence that names dimension, degree, kind and seed.
 std::optional<std::string> run_lattice_scenes(std::uint32_t seed, LatticeCounts& counts);
 
 }  // namespace kds::test

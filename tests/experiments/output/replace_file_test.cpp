@@ -51,7 +51,7 @@ void write_alone(const fs::path& path, const std::string& content) {
   AtomicFile file(path, content);
   commit(file);
 }
-// As if an earlier result had written what is there.
+// Lists the file in a manifest, as if an earlier result had written it.
 void claim(const fs::path& path) {
   const ResultManifest manifest(path.parent_path(), "run", "--dump");
   std::ofstream(manifest.path()) << manifest.heading() << '\n'

@@ -177,7 +177,7 @@ TEST(Program, WhatAKilledRunLeftIsClearedByTheNext) {
   EXPECT_EQ(killed.code, 128 + 9) << killed.err;
   ASSERT_EQ(directory.entries(), 1U);
   EXPECT_EQ(run_program({"run", data_file("kinetic/d3_n20_linear.txt"), "--quiet", "--dump", there}).code, 0);
-  EXPECT_EQ(directory.entries(), 5U);  // cells and hidden beads of two frames
+  EXPECT_EQ(directory.entries(), 5U);  // cells and hidden beads of two frames, and the manifest
 }
 
 }  // namespace

@@ -177,7 +177,7 @@ TEST(Program, ADumpReplacesAnEarlierOneAsAWhole) {
                                                    "frame-01.power.csv", "notes.csv", ".kds-run-dump.files"));
 }
 
-// What a dump did not write stays, and is not taken for a frame of it.
+// A file that no dump wrote stays, and a dump refuses a directory that has frames of others.
 TEST(Program, ADumpTouchesOnlyWhatADumpWrote) {
   const ScratchDirectory directory;
   const std::string dump = (directory / "dump").string();

@@ -177,7 +177,7 @@ TEST(Periodic, CellsThatAreNotUsedSayWhy) {
     EXPECT_FALSE(read.cell.has_value() && !read.doubt.empty());
     return read.doubt;
   };
-  // None is told of.
+  // These are no cells, and no doubt is reported.
   EXPECT_EQ(doubt({0, 0, 0}, {0, 0, 0}, {0, 0, 0}), "");
   EXPECT_EQ(doubt({1, 0, 0}, {0, 1, 0}, {0, 0, 1}), "");
   EXPECT_EQ(doubt({nan, 0, 0}, {0, 0, 0}, {0, 0, 0}, {false, false, false}), "");

@@ -320,7 +320,7 @@ TEST(DcdReader, CellsOfAnUnknownFormAreNotUsed) {
   EXPECT_THAT(warnings({1, 90, 1, 90, 90, 1}, 24, "made up"), testing::IsEmpty());
 }
 
-// The form of all frames is that of the frame that tells: this matrix is nearly upright at first.
+// One frame decides the form of all: this matrix is nearly upright in the first frame.
 TEST(DcdReader, FormOfCellsIsThatOfTheFile) {
   DcdMaker maker = DcdMaker::chain(5, 2);
   maker.frames[0] = {{{0, 0, 0}, {3, 0, 0}, {6, 0, 0}, {9, 0, 0}, {12, 0, 0}}};
@@ -329,7 +329,7 @@ TEST(DcdReader, FormOfCellsIsThatOfTheFile) {
   std::string bytes = maker.header() + maker.frame(0);
   maker.cell_values = {20, -2, 20, -2, -2, 20};
   bytes += maker.frame(1);
-  // As cosines the first would be no cell near to upright, and of a third of the volume.
+  // Read as cosines, the first frame would be a cell of another shape with a third of the volume.
   EXPECT_THAT(read(bytes).warnings, testing::IsEmpty());
 }
 

@@ -77,7 +77,7 @@ TEST(NecklaceStream, PlacesAChainOfALongComplex) {
   }
 }
 
-// Where both contacts are as good, the chain stays and a line tells of its image.
+// A chain stays if its image is little nearer, and a line reports that image.
 TEST(NecklaceStream, TellsOfAnImageThatIsLittleNearer) {
   const auto chains = read(models({11}, 2, false), "A,B");
   EXPECT_NEAR(distance(chains[0], chains[1], 0), 11, 1e-9);

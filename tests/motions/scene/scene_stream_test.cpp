@@ -1,7 +1,6 @@
 // A scene that reads its frames as it goes is the scene that holds them all.
 
 #include "motions/scene/scene_stream.h"
-#include "motions/readers/read_trajectory.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// What the checker proves is right, and what is wrong it does not prove: beside static builds over rationals,
-// and on triangulations whose every facet is right while the hull winds twice.
+// The checker proves right triangulations and no wrong ones. The judges are static builds over rationals,
+// and triangulations in which every facet is right while the hull winds twice.
 
 #include "structures/triangulation/strict_regularity.h"
 
@@ -66,7 +66,7 @@ struct Built {
   }
 
  private:
-  /// At the start, by barycentric coordinates.
+  /// Finds the cell around a bead at the start, by barycentric coordinates.
   [[nodiscard]] CellId host_of(const Line<dimension>& motion, BeadId bead) const {
     using Matrix = Eigen::Matrix<double, dimension + 1, dimension + 1>;
     using Vector = Eigen::Matrix<double, dimension + 1, 1>;
