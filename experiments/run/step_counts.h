@@ -17,7 +17,7 @@ class StepCounts {
   /// Both must outlive it.
   StepCounts(Session& session, const Scene& scene);
 
-  /// Counts what is there at the first frame, once the structures have been built.
+  /// Counts the contacts at the first frame. Call it once the structures have been built.
   void begin();
   /// The step has been run: folds its events, and has them written where a file is for them.
   void end_step(std::size_t step, RunResults* results);
