@@ -43,10 +43,10 @@ Selection parse_selection(const std::string& word) {
   return choice_of("--select", known ? lower : word, names, Selection::backbone);
 }
 
-// Chains are for all inputs, or for each its own.
-void check_chains(const std::string& chains, std::size_t inputs) {
+// Chains are for all inputs, or for each its own, and perhaps for the obstacle.
+void check_chains(const std::string& chains, std::size_t inputs, bool obstacle) {
   const std::vector<std::string> lists = split(chains, '/');
-  if (lists.size() > 1 && lists.size() != inputs)
+  if (lists.size() > 1 && lists.size() != inputs && !(obstacle && lists.size() == inputs + 1))
     throw InputError(fmt::format("--chain: '{}' is for {} INPUTs, given {} {}", chains, lists.size(), inputs,
                                  inputs == 1 ? "is" : "are"));
   for (const std::string& list : lists) {
@@ -82,9 +82,10 @@ InputOptions parse_input_options(const ParsedArguments& parsed, std::string_view
   options.reading.topology = path_of(parsed, "--topology");
   if (const auto word = parsed.value("--select")) options.reading.selection = parse_selection(*word);
   options.reading.chain = parsed.value("--chain");
-  if (options.reading.chain) check_chains(*options.reading.chain, options.inputs.size());
   if (const auto range = parsed.value("--frames")) options.reading.frames = parse_frame_range(*range);
   options.obstacle = path_of(parsed, "--obstacle");
+  if (options.reading.chain)
+    check_chains(*options.reading.chain, options.inputs.size(), options.obstacle.has_value());
   if (const auto rule = parsed.value("--radius")) options.radius = parse_radius(*rule);
   return options;
 }
@@ -93,7 +94,12 @@ ReadOptions reading_of(const InputOptions& options, std::size_t input) {
   ReadOptions reading = options.reading;
   if (!reading.chain) return reading;
   const std::vector<std::string> lists = split(*reading.chain, '/');
-  const std::string& own = lists.size() == 1 ? lists.front() : lists.at(input);
+  // One list is for all inputs. The obstacle comes after them and has the default chain unless a list is its
+  // own.
+  const bool has_own = lists.size() > 1 || input >= options.inputs.size();
+  const std::string own = !has_own                                   ? lists.front()
+                          : input < lists.size() && lists.size() > 1 ? lists[input]
+                                                                     : "";
   reading.chain = own.empty() ? std::nullopt : std::optional(own);
   return reading;
 }

@@ -35,7 +35,8 @@ inline constexpr std::array kInputOptions{
 /// The option of commands that put all inputs on one clock.
 inline constexpr std::array kObstacleOption{
     OptionSpec{"--obstacle", "FILE",
-               "a necklace of one frame, which rests while the others move (default: none)"},
+               "a necklace of one frame, which rests while the others move; its chain behind a / of --chain: "
+               "A,B/C (default: none)"},
 };
 inline constexpr std::string_view kInputOperand = "INPUT...";
 /// The formats of trajectories, in the help of commands.
@@ -47,7 +48,7 @@ inline constexpr std::string_view kInputHelp =
 /// `command` as in kds run. Throws InputError naming the option; opens no file.
 [[nodiscard]] InputOptions parse_input_options(const ParsedArguments& parsed, std::string_view command);
 
-/// How the input of this number is to be read: with its own chains.
+/// How the input of this number is to be read: with its own chains. The obstacle comes after the inputs.
 [[nodiscard]] ReadOptions reading_of(const InputOptions& options, std::size_t input);
 
 /// Throws InputError where there is no regular file: pipes and devices need not end.

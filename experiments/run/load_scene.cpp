@@ -68,8 +68,24 @@ bool has_atoms_of(const InputAtoms& one, const InputAtoms& other, const ReadOpti
          read_topology(one.file, reading.selection, reading.chain).atom_count == other.beads;
 }
 
+// A structure file of several models beside a trajectory of its atoms that has no names: the file is more
+// likely meant to name them than to be a second necklace.
+void check_models_are_no_topology(const std::vector<InputAtoms>& inputs, const InputOptions& options) {
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    for (const InputAtoms& other : inputs) {
+      if (inputs[i].one_frame || !other.names.empty() || !takes_topology(other.file) ||
+          !has_atoms_of(inputs[i], other, reading_of(options, i)))
+        continue;
+      throw InputError(
+          fmt::format("{}: has the atoms of {}, which has no names; expected --topology {} in its place",
+                      inputs[i].file.string(), other.file.string(), inputs[i].file.string()));
+    }
+  }
+}
+
 void check_inputs_of_one_frame(const std::vector<InputAtoms>& inputs, const InputOptions& options,
                                const std::function<void(const std::string&)>& warn) {
+  check_models_are_no_topology(inputs, options);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const InputAtoms& one = inputs[i];
     const auto moves =
@@ -109,9 +125,15 @@ SceneStream open_frames(const InputOptions& options, const std::function<void(co
       atoms.push_back(atoms_of(options.inputs[i], file.heads(), file.holds_one_frame()));
   }
   check_inputs_of_one_frame(atoms, options, warn);
+  if (options.reading.selection == Selection::all && options.radius == "auto")
+    warn(
+        "--select all with --radius auto: consecutive atoms need not be bonded, and the radius is half of "
+        "their longest "
+        "distance; --radius element takes van der Waals radii");
   if (options.obstacle) {
-    ReadOptions reading;
-    reading.selection = options.reading.selection;
+    ReadOptions reading = reading_of(options, options.inputs.size());
+    reading.topology = std::nullopt;
+    reading.frames = {};
     NecklaceStream& obstacle = files.emplace_back(*options.obstacle, reading);
     if (!obstacle.holds_one_frame())
       throw InputError(
@@ -198,12 +220,12 @@ std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& sc
   session.settings.relax = Relaxation::of(options.relax.value_or(0));
   if (session.structures.empty()) session.structures = default_structures(scene);
   const auto& names = session.structures;
-  if (options.apart && std::find(names.begin(), names.end(), "contacts") == names.end())
-    throw InputError("--apart: it chooses pairs of contacts, which is not among the structures");
   if (options.apart && std::find(names.begin(), names.end(), "closest") != names.end())
     throw InputError(
         "--apart: closest looks at all pairs of beads; run it without --apart, or let kds collide --apart "
         "find the closest pair of each frame");
+  if (options.apart && std::find(names.begin(), names.end(), "contacts") == names.end())
+    throw InputError("--apart: it chooses pairs of contacts, which is not among the structures");
   const auto has = [&names](const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };

@@ -79,7 +79,8 @@ constexpr std::array kModelOptions{
 // clang-format on
 
 constexpr std::array kFirstOptions{
-    OptionSpec{"-o", "FILE", "where to write: .xyz (exact) or .pdb, .ent (three decimals); two-spirals: two"},
+    OptionSpec{"-o", "FILE",
+               "where to write: .xyz (exact) or .pdb, .ent (three decimals); two-spirals: FILE-1 and FILE-2"},
     OptionSpec{"--beads", "N", "how many, from 2 (must be given)"},
     OptionSpec{"--frames", "F", "how many (default: 50)"},
     OptionSpec{"--seed", "S", "which random numbers (default: 1)"},

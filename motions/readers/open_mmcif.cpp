@@ -165,22 +165,22 @@ std::vector<StructureModel> models_of(const std::string& file, const gemmi::cif:
   return models;
 }
 
-std::optional<Cell> cell_of(const std::string& file, const gemmi::cif::Block& block) {
+CellRead cell_of(const std::string& file, const gemmi::cif::Block& block) {
   using Names = std::pair<const char*, const char*>;
   for (const auto& [category, tag] :
        {Names("_symmetry.", "space_group_name_H-M"), Names("_space_group.", "name_H-M_alt")}) {
     const Table table(file, block, category);
     if (table.rows() == 0 || !table.has(tag)) continue;
     const std::string group = table.text(0, {table.place_of(tag)});
-    if (!group.empty() && group != "P 1" && group != "P1") return std::nullopt;
+    if (!group.empty() && group != "P 1" && group != "P1") return {};
   }
   const Table table(file, block, "_cell.");
-  if (table.rows() == 0) return std::nullopt;
+  if (table.rows() == 0) return {};
   const auto number = [&](const char* tag) {
     return table.has(tag) ? table.number(0, table.place_of(tag)) : 0.0;
   };
-  return cell_from_angles({number("length_a"), number("length_b"), number("length_c")},
-                          {number("angle_alpha"), number("angle_beta"), number("angle_gamma")});
+  return read_cell_from_angles({number("length_a"), number("length_b"), number("length_c")},
+                               {number("angle_alpha"), number("angle_beta"), number("angle_gamma")});
 }
 
 class MmcifModels : public StructureModels {
@@ -216,7 +216,7 @@ class MmcifModels : public StructureModels {
 
  private:
   std::vector<StructureModel> models_;
-  std::optional<Cell> cell_;
+  CellRead cell_;
   std::vector<std::string> notes_;
 };
 

@@ -36,17 +36,17 @@ bool looks_like_atom(std::string_view line) {
   return starts_with(text, "ATOM") || starts_with(text, "HETAT");
 }
 
-std::optional<Cell> box_cell(std::string_view cryst1) {
+CellRead box_cell(std::string_view cryst1) {
   const std::string_view group = columns(cryst1, 56, 66);
-  if (!group.empty() && group != "P 1" && group != "P1") return std::nullopt;
+  if (!group.empty() && group != "P 1" && group != "P1") return {};
   std::array<double, 6> values{};
   constexpr std::array<std::size_t, 7> starts{7, 16, 25, 34, 41, 48, 55};
   for (std::size_t i = 0; i < 6; ++i) {
     const auto value = parse_double(columns(cryst1, starts[i], starts[i + 1] - 1));
-    if (!value) return std::nullopt;
+    if (!value) return {std::nullopt, "CRYST1 has a length or an angle that is no number"};
     values[i] = *value;
   }
-  return cell_from_angles({values[0], values[1], values[2]}, {values[3], values[4], values[5]});
+  return read_cell_from_angles({values[0], values[1], values[2]}, {values[3], values[4], values[5]});
 }
 
 }  // namespace
@@ -135,7 +135,7 @@ bool PdbModelReader::read(PdbModel* model) {
 
 void PdbModelReader::rewind() {
   lines_.rewind();
-  cell_.reset();
+  cell_ = {};
   models_ = closed_ = 0;
   opening_ = has_model_records_ = ended_ = false;
   outside_ = near_misses_ = {};

@@ -18,7 +18,7 @@ namespace kds {
 struct PdbModel {
   std::vector<PdbAtom> atoms;     ///< each with its place in the model, from 0
   std::vector<std::size_t> ends;  ///< of chains: number of atoms before each TER, ascending
-  std::optional<Cell> cell;       ///< of a simulation box: CRYST1 with space group P 1 (or none)
+  CellRead cell;                  ///< of a simulation box: CRYST1 with space group P 1 (or none)
 };
 
 /// Lines of a file that hold atoms but belong to no model: how many, and the first of them, from 1.
@@ -60,7 +60,7 @@ class PdbModelReader {
 
   LineReader lines_;
   bool opening_ = false;  ///< MODEL of the next model is read already
-  std::optional<Cell> cell_;
+  CellRead cell_;
   std::size_t models_ = 0, closed_ = 0;
   bool has_model_records_ = false;
   bool ended_ = false;  ///< with the file, inside a model

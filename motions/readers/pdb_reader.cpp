@@ -112,7 +112,8 @@ class StructureFrames final : public FrameReader {
     check_same_atoms(file_, asked_[0], names_, k, selected.atoms);
     frame.stamp = {k, std::nullopt};
     frame.positions = positions(selected.atoms);
-    frame.cell = alone_ ? std::nullopt : read.cell;
+    frame.cell = alone_ ? std::nullopt : read.cell.cell;
+    frame.cell_doubt = alone_ ? std::string() : read.cell.doubt;
     return true;
   }
 

@@ -41,7 +41,7 @@ struct StructureResidue {
 struct StructureModel {
   std::vector<StructureResidue> residues;  ///< in the order of the file
   std::size_t atom_count = 0;
-  std::optional<Cell> cell;
+  CellRead cell;
   std::vector<std::string> notes;  ///< on how this model is read, one line each without the file's name
 };
 

@@ -27,10 +27,12 @@ constexpr std::string_view to_topology =
 constexpr std::string_view to_unpacked = "unpack it, or pack it with gzip";
 constexpr std::array unread{
     UnreadFormat{".xtc", "GROMACS",
-                 "convert it to PDB or DCD, as with gmx trjconv -o traj.pdb or mdconvert -o traj.dcd FILE"},
+                 "convert it to PDB or DCD, as with gmx trjconv -f FILE -s TOPOLOGY -o traj.pdb or mdconvert "
+                 "-o traj.dcd FILE"},
     UnreadFormat{".trr", "GROMACS",
-                 "convert it to PDB or DCD, as with gmx trjconv -o traj.pdb or mdconvert -o traj.dcd FILE"},
-    UnreadFormat{".tng", "GROMACS", "convert it to PDB, as with gmx trjconv -f FILE -o traj.pdb"},
+                 "convert it to PDB or DCD, as with gmx trjconv -f FILE -s TOPOLOGY -o traj.pdb or mdconvert "
+                 "-o traj.dcd FILE"},
+    UnreadFormat{".tng", "GROMACS", "convert it to PDB, as with gmx trjconv -f FILE -s TOPOLOGY -o traj.pdb"},
     UnreadFormat{".gro", "GROMACS", to_structure},
     UnreadFormat{".g96", "GROMACS", to_structure},
     UnreadFormat{".tpr", "GROMACS", to_structure},

@@ -1,6 +1,7 @@
 #include "motions/scene/radii.h"
 
 #include <fmt/format.h>
+#include <filesystem>
 
 #include <algorithm>
 #include <array>
@@ -41,7 +42,10 @@ std::vector<double> element_radii(const std::string& policy, std::span<const Tra
       throw InputError(fmt::format(
           "--radius: {} needs the elements of all beads, which {} does not tell; give "
           "--radius auto or a number{}",
-          policy, necklace.file, necklace.file.find(".dcd") != std::string::npos ? ", or --topology" : ""));
+          policy, necklace.file,
+          std::filesystem::path(necklace.file).filename().string().find(".dcd") != std::string::npos
+              ? ", or --topology"
+              : ""));
     radii.insert(radii.end(), necklace.element_radii.begin(), necklace.element_radii.end());
   }
   return radii;

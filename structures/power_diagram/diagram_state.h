@@ -161,6 +161,9 @@ struct DiagramState {
   /// Whether a cell's facet is, beyond which is that cell with that bead off the facet: its certificate is
   /// not negative, and faces of the hull in one plane do not fold over each other.
   [[nodiscard]] bool is_regular_just_after(const Beads& cell, const Beads& beyond, BeadId apex) {
+    // Infinite cells on both sides of a finite facet: the hull folds flat there.
+    if (apex == infinite_bead && std::find(cell.begin(), cell.end(), infinite_bead) != cell.end())
+      return false;
     const int sign = with_facet_certificate(
         cell, apex, [this](const auto& certificate) { return this->sign_just_after(certificate); });
     if (sign != 0) return sign > 0;
@@ -178,13 +181,15 @@ struct DiagramState {
   [[nodiscard]] KnownAtStart known_of(const Certificate& certificate) const {
     return certificate.identity() == present ? KnownAtStart::at_own_root : KnownAtStart::unknown;
   }
-  /// Gives up a guard. One of other beads that fails right now as well would have meant another change.
+  /// Gives up a guard. Returns whether it fails right now as well with other beads than the present event's:
+  /// then more happens at this moment than that event.
   template <class Table>
-  void give_up(Table& table, CertificateHandle guard) {
-    if (has_slot(guard) && table.time(slot_of(guard)).lower <= simulator.now().upper() &&
-        table.identity(slot_of(guard)) != present)
-      suspect(Doubt::unclear);
+  bool give_up(Table& table, CertificateHandle guard) {
+    const bool vanishes = has_slot(guard) && table.time(slot_of(guard)).lower <= simulator.now().upper() &&
+                          table.identity(slot_of(guard)) != present;
+    if (vanishes) suspect(Doubt::unclear);
     table.drop(guard);
+    return vanishes;
   }
 
  private:

@@ -43,15 +43,13 @@ class FacetGuards {
   /// Gives up a facet's guard; where there is none any more, nothing.
   void drop(CellId cell, int i) {
     const FacetGuard facet = guard(cell, i);
-    if (facet.about == About::power) {
-      state_.give_up(power_tests_, facet.guard);
-    } else {
-      state_.give_up(orientations_, facet.guard);
-    }
+    bool vanishes = facet.about == About::power ? state_.give_up(power_tests_, facet.guard)
+                                                : state_.give_up(orientations_, facet.guard);
     if (facet.about == About::cell) {
       const auto [other, k] = state_.across(cell, i);
-      state_.give_up(orientations_, guard(other, k).guard);
+      vanishes |= state_.give_up(orientations_, guard(other, k).guard);
     }
+    if (vanishes) state_.touch(std::array{cell, state_.neighbor(cell, i)});
     forget(cell, i);
   }
   /// All those of some cells; the second drop of a facet between two of them finds it gone.

@@ -30,6 +30,18 @@ TEST(Obstacle, TopologiesGivenAsInputsAreRefused) {
   }
 }
 
+// A file of several models that names the atoms of a DCD is no second necklace.
+TEST(Obstacle, ModelsGivenAsInputsAreRefused) {
+  for (const char* command : {"run", "collide", "info", "update"})
+    expect_refused({command, data_file("proteins/1l2y.pdb"), kModels}, {"1l2y.pdb", "--topology"});
+}
+
+TEST(Obstacle, HasAChainOfItsOwn) {
+  expect_refused({"run", kVillin, "--topology", kVillinPdb, "--obstacle", kVillinPdb, "--chain", "/B"},
+                 {"villin_hp36_300K.pdb", "no chain", "B"});
+  expect_refused({"run", kVillin, "--obstacle", kVillinPdb, "--chain", "A/B/C"}, {"--chain", "A/B/C"});
+}
+
 // A DCD of all atoms, beside a structure whose selected beads are fewer.
 TEST(Obstacle, AtomsAreCountedToo) {
   const ScratchDirectory directory;
