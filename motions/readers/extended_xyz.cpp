@@ -23,6 +23,7 @@ struct Value {
   std::vector<std::string> items;
   std::vector<std::size_t> rows;  // items in each row of a matrix; empty: no matrix
   std::string text;               // of a string
+  std::string_view source;        // as it stands in the line, with its quotes or brackets
   bool whole = true;              // its closing quote or bracket is there
 };
 
@@ -42,7 +43,8 @@ class PairReader {
     for (skip_blanks(); !at_end(); skip_blanks()) {
       const std::size_t begin = at_;
       bool whole = true;
-      std::string key = is_quote(peek()) ? quoted(whole) : bare("=");
+      const bool is_quoted = is_quote(peek());
+      std::string key = is_quoted ? quoted(whole) : bare("=");
       if (!whole) {
         open_from_ = begin;
         break;
@@ -50,17 +52,22 @@ class PairReader {
       skip_blanks();
       if (at_end() || peek() != '=') {
         if (key.empty() && !at_end()) ++at_;
+        if (is_quoted) quoted_words_.push_back(std::move(key));
         continue;  // a word of a plain comment
       }
       ++at_;
       skip_blanks();
+      const std::size_t start = at_;
       pairs.push_back({std::move(key), value()});
+      pairs.back().value.source = text_.substr(start, at_ - start);
     }
     return pairs;
   }
 
   // Returns the rest of the line from a quote that is never closed; empty if there is no such quote.
   std::string_view open_rest() const { return open_from_ ? text_.substr(*open_from_) : std::string_view(); }
+  // Words in quotes that are no keys.
+  const std::vector<std::string>& quoted_words() const { return quoted_words_; }
 
  private:
   bool at_end() const { return at_ >= text_.size(); }
@@ -169,6 +176,7 @@ class PairReader {
   std::string_view text_;
   std::size_t at_ = 0;
   std::optional<std::size_t> open_from_;
+  std::vector<std::string> quoted_words_;
 };
 
 [[noreturn]] void refuse(const std::string& message) { throw InputError(message); }
@@ -287,6 +295,9 @@ XyzComment read_xyz_comment(std::string_view line) {
   if (names_a_key(reader.open_rest()))
     refuse(
         fmt::format("expected key=value pairs, a quote is not closed in {}", in_quotes(reader.open_rest())));
+  for (const std::string& word : reader.quoted_words())
+    if (names_a_key(word))
+      refuse(fmt::format("expected key=value pairs, a key stands inside the quotes of {}", in_quotes(word)));
   XyzComment comment;
   comment.near_lattice = read_ipi_comment(line);
   std::optional<Value> lattice, properties, periodic;
@@ -299,7 +310,7 @@ XyzComment read_xyz_comment(std::string_view line) {
     if (ours == nullptr) {
       if (key == "cell" || key == "box" || key == "unitcell" || key == "unit_cell")
         comment.near_lattice = pair.key;
-      if (!pair.value.whole && names_a_key(pair.value.text))
+      if (!pair.value.whole && names_a_key(pair.value.source))
         refuse(fmt::format("expected key=value pairs, the value of {} is not closed", in_quotes(pair.key)));
       continue;
     }

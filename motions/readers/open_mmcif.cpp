@@ -153,6 +153,7 @@ std::vector<StructureModel> models_of(const std::string& file, const gemmi::cif:
     const std::string location = atoms.text(row, {alternate});
     atom.alternate = location.empty() ? '\0' : location[0];
     atom.element = gemmi::Element(atoms.text(row, {symbol}));
+    atom.element_is_given = atom.element != gemmi::El::X;
     atom.place = into.atoms++;
     atom.position = {atoms.number(row, x), atoms.number(row, y), atoms.number(row, z)};
     into.grouping.add(residue, std::move(atom));

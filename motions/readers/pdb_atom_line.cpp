@@ -56,11 +56,16 @@ void check_occupancy(const std::string& file, std::size_t line_number, std::stri
                                  line_number, in_quotes(line.substr(54, 12))));
 }
 
-// The atom's name gives the element if columns 77 and 78 do not: right-aligned in columns 13 and 14. A name
-// of four characters that begins with H belongs to a hydrogen.
-gemmi::Element element_in(std::string_view line) {
+// The element of columns 77 and 78, X if they give none.
+gemmi::Element element_given_in(std::string_view line) {
   if (is_letter(column(line, 77)) || is_letter(column(line, 78)))
     return gemmi::Element(std::string{column(line, 77), column(line, 78)});
+  return gemmi::El::X;
+}
+
+// The element that the atom's name gives, right-aligned in columns 13 and 14. A name of four characters that
+// begins with H belongs to a hydrogen.
+gemmi::Element element_of_name(std::string_view line) {
   const char first = column(line, 13), second = column(line, 14);
   if ((first == 'H' || first == 'h') && column(line, 16) != ' ') return gemmi::El::H;
   if (is_digit(first)) return gemmi::Element(std::string(1, second));
@@ -114,7 +119,9 @@ PdbAtom read_atom_line(const std::string& file, std::size_t line_number, std::st
   check_occupancy(file, line_number, line);
   read.atom.name = columns(line, 13, 16);
   read.atom.alternate = line[16] == ' ' ? '\0' : line[16];
-  read.atom.element = element_in(line);
+  read.atom.element = element_given_in(line);
+  read.atom.element_is_given = read.atom.element != gemmi::El::X;
+  if (!read.atom.element_is_given) read.atom.element = element_of_name(line);
   read.residue = columns(line, 18, 20);
   read.column_21 = line[20];
   read.chain = line[21];

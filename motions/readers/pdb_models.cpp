@@ -55,6 +55,7 @@ CellRead box_cell(std::string_view cryst1) {
 struct PdbModelReader::Run {
   PdbModel* model = nullptr;
   bool inside = false;
+  bool with_record = false;     ///< it began with MODEL
   bool outside_models = false;  ///< so far: neither MODEL at its start nor ENDMDL at its end
   LinesLeftOut lines;
   std::size_t bytes = 0;
@@ -62,6 +63,7 @@ struct PdbModelReader::Run {
 
 void PdbModelReader::open(Run& run, bool with_record) {
   run.inside = true;
+  run.with_record = with_record;
   run.outside_models = !with_record && has_model_records_;
   run.lines = {};
   run.bytes = 0;
@@ -106,6 +108,8 @@ bool PdbModelReader::read(PdbModel* model) {
       cell_ = box_cell(line);
       if (run.inside && model != nullptr) model->cell = cell_;  // some programs write it behind MODEL
     } else if (is_record(line, "MODEL")) {
+      // Atoms before the first MODEL are outside the models.
+      if (run.inside && !run.with_record) run.outside_models = true;
       if (run.inside && close(run, false)) {
         opening_ = true;
         return true;

@@ -207,10 +207,12 @@ bool holds_copies(const StructureResidue& residue, const std::vector<const Struc
   });
 }
 
-// Where a file has no column for elements, a name in the wrong column makes calcium of CA and mercury of HG:
-// in a chain what is none of its usual elements goes by the first letter of its name.
+// An element that the file gives counts. If it gives none, a name in the wrong column would make calcium of
+// CA and mercury of HG: an atom of a chain that is none of its usual elements goes by the first letter of its
+// name.
 std::string element_of(const StructureAtom& atom) {
   using gemmi::El;
+  if (atom.element_is_given) return atom.element.name();
   for (const El usual : {El::C, El::N, El::O, El::S, El::H, El::D, El::P, El::Se})
     if (atom.element == usual) return atom.element.name();
   const std::size_t letter = atom.name.find_first_of("CNOSHDP");

@@ -21,7 +21,8 @@ struct StructureAtom {
   std::string name;
   char alternate = '\0';  ///< location indicator, 0 if the atom has one location
   gemmi::Element element{gemmi::El::X};
-  std::size_t place = 0;  ///< among the model's atoms in the file, from 0
+  bool element_is_given = false;  ///< in a column of its own, not guessed from the name
+  std::size_t place = 0;          ///< among the model's atoms in the file, from 0
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 

@@ -412,6 +412,9 @@ TEST(PdbKinds, AtomsOutsideTheModels) {
                                               stray == water ? "is" : "are", 11 * count + 1))));
       }
   EXPECT_EQ(read(model + water + model + water + "END\n").frames.size(), 2U);
+  EXPECT_THAT(read(one + model + model + "END\n").warnings,
+              ElementsAre(HasSubstr("outside MODEL and ENDMDL")));
+  EXPECT_EQ(read(one + model + model + "END\n").frames.size(), 2U);
   for (const Selection selection : {Selection::automatic, Selection::all})
     refuse("MODEL 1\nENDMDL\n" + model, {"a.pdb: frame 0: no atoms"}, {.selection = selection});
   // Only ENDMDL between the frames.

@@ -174,6 +174,11 @@ TEST(XyzReader, RefusesCommentsThatCannotBeRead) {
   refuse_comment("Lattice=\"10 10 10\" Lattice=\"20 20 20\"", "twice");
   refuse_comment("note=\"open Lattice=5", "not closed");
   refuse_comment("\"open Lattice = 5", "not closed");
+  refuse_comment("note=[a Properties=species:S:1:forces:R:3:pos:R:3", "not closed");
+  refuse_comment("note={a Lattice=\"10 0 0 0 10 0 0 0 10\"", "not closed");
+  refuse_comment("note=[[a,b],[c Lattice=\"10 0 0 0 10 0 0 0 10\"", "not closed");
+  refuse_comment("title \"a Lattice=\"10 0 0 0 10 0 0 0 10\"", "inside the quotes");
+  refuse_comment("\"Properties=species:S:1:forces:R:3:pos:R:3\"", "inside the quotes");
   refuse_comment("Lattice=\"10 10 10\" pbc=\"T T\"", "pbc");
   refuse_comment("Lattice=\"10 10 10\" pbc=\"T T maybe\"", "'maybe'");
   refuse_comment("# CELL(abcABC): 20 20 20 90 90 90 Step: 0 positions{atomic_unit}", "angstrom");
