@@ -48,11 +48,12 @@ constexpr std::array kRunOptions{
     OptionSpec{
         "--certify", "",
         "with a stride in --frames or --tolerance: read all frames, and bound what may have been missed"},
-    OptionSpec{"--audit", "WHEN",
-               "compare with static builds: none, frames or events, between which a run takes up to 200 "
-               "times as long (default: none)"},
+    OptionSpec{
+        "--audit", "WHEN",
+        "compare with static builds: none, frames or events, which takes 10 to 200 times as long as the "
+        "run (default: none)"},
     OptionSpec{"--rounds", "N",
-               "the run so often: times are the median, with the least and most (default: 1)"},
+               "repeat the run N times and report the median time, with the least and most (default: 1)"},
     OptionSpec{"--work", "LIMIT",
                "end the run where exact arithmetic takes more limb operations than this (default: no limit)"},
     OptionSpec{"--dump", "DIR",
