@@ -78,7 +78,6 @@ bool cone_winds_once(DiagramState<3>& state, CellId start, BeadId vertex) {
 
 }  // namespace
 
-template <>
 bool hull_winds_once(DiagramState<2>& state, std::span<const CellId> touched) {
   const auto on_hull = std::find_if(touched.begin(), touched.end(), [&](CellId cell) {
     return state.triangulation.is_live(cell) && state.is_infinite(cell);
@@ -86,7 +85,6 @@ bool hull_winds_once(DiagramState<2>& state, std::span<const CellId> touched) {
   return on_hull == touched.end() || polygon_turns_once(state, *on_hull);
 }
 
-template <>
 bool hull_winds_once(DiagramState<3>& state, std::span<const CellId> touched) {
   std::vector<BeadId> seen;
   for (const CellId cell : touched) {

@@ -37,7 +37,7 @@ namespace kds {
 /// became flat since. All facets must be regular and all finite cells positive just after now. Cost: in the
 /// plane one sign for each edge of the hull, in space the squared number of faces around each vertex of a
 /// touched infinite cell.
-template <int Dimension>
-[[nodiscard]] bool hull_winds_once(DiagramState<Dimension>& state, std::span<const CellId> touched);
+[[nodiscard]] bool hull_winds_once(DiagramState<2>& state, std::span<const CellId> touched);
+[[nodiscard]] bool hull_winds_once(DiagramState<3>& state, std::span<const CellId> touched);
 
 }  // namespace kds
