@@ -177,11 +177,14 @@ CellRead cell_of(const std::string& file, const gemmi::cif::Block& block) {
   }
   const Table table(file, block, "_cell.");
   if (table.rows() == 0) return {};
-  const auto number = [&](const char* tag) {
-    return table.has(tag) ? table.number(0, table.place_of(tag)) : 0.0;
-  };
-  return read_cell_from_angles({number("length_a"), number("length_b"), number("length_c")},
-                               {number("angle_alpha"), number("angle_beta"), number("angle_gamma")});
+  std::array<double, 6> numbers{};
+  constexpr std::array tags{"length_a", "length_b", "length_c", "angle_alpha", "angle_beta", "angle_gamma"};
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    // A value that is not known means that there is no cell.
+    if (!table.has(tags[i]) || table.text(0, {table.place_of(tags[i])}).empty()) return {};
+    numbers[i] = table.number(0, table.place_of(tags[i]));
+  }
+  return read_cell_from_angles({numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]});
 }
 
 class MmcifModels : public StructureModels {

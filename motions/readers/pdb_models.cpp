@@ -42,7 +42,9 @@ CellRead box_cell(std::string_view cryst1) {
   std::array<double, 6> values{};
   constexpr std::array<std::size_t, 7> starts{7, 16, 25, 34, 41, 48, 55};
   for (std::size_t i = 0; i < 6; ++i) {
-    const auto value = parse_double(columns(cryst1, starts[i], starts[i + 1] - 1));
+    const std::string_view text = columns(cryst1, starts[i], starts[i + 1] - 1);
+    if (text.empty()) return {};  // no cell is told
+    const auto value = parse_double(text);
     if (!value) return {std::nullopt, "CRYST1 has a length or an angle that is no number"};
     values[i] = *value;
   }

@@ -129,7 +129,7 @@ TEST(Program, MemoryOfOtherCommandsDoesNotGrowWithFrames) {
     }
     return kilobytes;
   };
-  const std::vector<long> few = peaks(10), many = peaks(3000);
+  const std::vector<long> few = peaks(500), many = peaks(3000);
   for (std::size_t c = 0; c < commands.size(); ++c)
     EXPECT_LT(many[c], few[c] + few[c] / 8) << testing::PrintToString(commands[c]) << few[c];
 }

@@ -66,16 +66,13 @@ TEST_P(HullWinding, TwoBeadsCrossAnEdgeTogether) {
 }
 
 // A bead at 10^80 times the others' distances: cells that fill a hole may fold the hull flat.
-TEST_P(HullWinding, ABeadFromFarAway) {
+TEST_P(HullWinding, SurvivesABeadFromFarAway) {
   for (const double far : {1e30, 1e80, 1e150}) {
     const auto motion = between<3>({{1, 1, -1}, {-1, -1, -1}, {1, -1, -1}, {far, -far, 0}, {-1, 1, -1}},
                                    {{0, 0, -1}, {0, 0, 1}, {1, -1, -1}, {0, 0, -far}, {1, -1, -1}},
                                    std::vector<double>(5, 0.0));
-    try {
-      EXPECT_FALSE(cells_at_the_end(motion, GetParam()).empty()) << far;
-    } catch (const std::invalid_argument& error) {  // an InputError names a limit
-      ADD_FAILURE() << far << ": " << error.what();
-    }
+    // All beads end in one plane.
+    EXPECT_TRUE(cells_at_the_end(motion, GetParam()).empty()) << far;
   }
 }
 
