@@ -100,7 +100,7 @@ TEST(Program, MemoryDoesNotGrowWithTheFrames) {
   EXPECT_LT(many, few + few / 4) << few;
 }
 
-TEST(Program, MemoryOfOtherCommandsDoesNotGrowWithFrames) {
+TEST(Program, MemoryDoesNotGrowInOtherCommands) {
   const ScratchDirectory directory;
   const std::vector<std::vector<std::string>> commands{
       {"info", "--radius", "auto"},
