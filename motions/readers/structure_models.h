@@ -26,7 +26,7 @@ struct StructureAtom {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
-/// What the file says about the molecule that a residue belongs to.
+/// The kind of molecule that the file says a residue belongs to.
 enum class Entity { unknown, polymer, other };
 
 struct StructureResidue {

@@ -33,7 +33,7 @@ class Pass {
     file_ = scratch.file("pass.xyz",
                          fmt::format("2\n\nC 0 0 0\nC {} {} 0\n2\n\nC 0 0 0\nC {} {} 0\n", from, y, to, y));
   }
-  /// Where they touch: sign -1 at the beginning, 1 at the end.
+  /// The times at which they touch: sign -1 at the beginning, 1 at the end.
   [[nodiscard]] std::string time(int sign) const {
     const long double half = std::sqrt((2.0L - y_) * (2.0L + y_));
     return fmt::format("{:.12g}", (sign * half - from) / (static_cast<long double>(to) - from));

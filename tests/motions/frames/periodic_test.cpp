@@ -117,7 +117,7 @@ TEST(Periodic, NearestImagesInCellsOfAnyShape) {
   std::uniform_int_distribution<int> multiple(-4, 4);
   for (int round = 0; round < 40; ++round) {
     const Cell small = *cell_from_angles({12.0 + round % 3, 11, 13.0 + round % 5}, {60.0 + round, 70, 75});
-    // The same lattice in other vectors, which may lean on each other as far as they like.
+    // Spans the same lattice by other vectors, which may lean on each other as far as they like.
     Cell steps = Cell::Identity();
     steps(0, 1) = multiple(random);
     steps(0, 2) = multiple(random);

@@ -480,7 +480,7 @@ TEST(KineticRun, IsAuditedWhereItStands) {
   EXPECT_EQ(run.structures()[1]->statistics.audits_run, 6U);
 }
 
-/// What the exception says, or nothing.
+/// Returns the message of the exception, or nothing.
 template <class Call>
 std::string wrong_index(Call call) {
   try {
