@@ -393,6 +393,17 @@ TEST(PdbKinds, NumbersThatOverflowTheirColumns) {
     EXPECT_EQ(read(with(31, coordinates), {.selection = Selection::all}).bead_count(), 4U) << coordinates;
 }
 
+// An element of columns 77 and 78 counts. A C-alpha without one is carbon.
+TEST(PdbKinds, ElementsThatTheFileGives) {
+  const std::string chain = test::pdb_residue(1) + test::pdb_residue(2);
+  for (const auto& [element, radius] : {std::pair("CA", 2.31), std::pair("C", 1.7), std::pair("", 1.7)}) {
+    const std::string atom = pdb_line({.name = "CA", .number = 3, .x = 20, .element = element});
+    const Trajectory trajectory = read(chain + atom + "END\n", {.selection = Selection::all});
+    ASSERT_EQ(trajectory.element_radii.size(), 7U) << element;
+    EXPECT_EQ(trajectory.element_radii.back(), radius) << element;
+  }
+}
+
 TEST(PdbKinds, AtomsOutsideTheModels) {
   const std::string one = File().add(1, 3).text;
   const std::string model = "MODEL        1\n" + one + "ENDMDL\n";
