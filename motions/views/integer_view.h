@@ -8,13 +8,16 @@
 //   WordsView      so many words of them (fixed_digits.h)
 //   IntegerView    whole numbers of any width
 //   MomentView     whole numbers, at one dyadic time: polynomials of degree 0
+//   KeptMoment     a MomentView that computes each bead's position once, for many functions of the same time
 
 #include <algorithm>
 #include <bit>
 #include <concepts>
 #include <cstdint>
 #include <cstdlib>
+#include <numeric>
 #include <span>
+#include <vector>
 
 #include "motions/curves/curves.h"
 #include "motions/curves/lifted_motion.h"
@@ -241,10 +244,65 @@ class MomentView {
   unsigned time_exponent_;
 };
 
+/// Positions relative to those of bead 0, which functions of differences do not see. Exact.
+template <Motion M>
+class KeptMoment {
+ public:
+  using Number = Integer;
+  static constexpr int dimension = M::dimension;
+  static constexpr int degree = 0;
+
+  /// The motion of all beads, coordinates and weights, at `time` in [0,1]. The motion must outlive this.
+  KeptMoment(const M& motion, const Dyadic& time)
+      : rows_(motion.bead_count()), view_(motion, all(rows_.size()), time, {.weights = true}) {}
+
+  [[nodiscard]] BernsteinVector<Integer, 0, dimension> difference(BeadId i, BeadId j) const {
+    const auto &a = row(i).position, &b = row(j).position;
+    BernsteinVector<Integer, 0, dimension> result;
+    for (std::size_t axis = 0; axis < result.size(); ++axis) result[axis] = a[axis] - b[axis];
+    return result;
+  }
+  [[nodiscard]] Bernstein<Integer, 0> weight_difference(BeadId i, BeadId j) const requires(!lifted<M>) {
+    return row(i).square - row(j).square;
+  }
+  [[nodiscard]] Bernstein<Integer, 0> lift_difference(BeadId i, BeadId j) const requires(lifted<M>) {
+    return row(i).square - row(j).square;
+  }
+
+ private:
+  struct Row {
+    bool is_known = false;
+    BernsteinVector<Integer, 0, dimension> position;
+    Bernstein<Integer, 0> square;  // the weight, or the lift
+  };
+  static std::vector<BeadId> all(std::size_t count) {
+    std::vector<BeadId> beads(count);
+    std::iota(beads.begin(), beads.end(), BeadId{0});
+    return beads;
+  }
+  [[nodiscard]] const Row& row(BeadId bead) const {
+    Row& row = rows_[bead];
+    if (!row.is_known) {
+      row.position = view_.difference(bead, 0);
+      if constexpr (lifted<M>) {
+        row.square = view_.lift_difference(bead, 0);
+      } else {
+        row.square = view_.weight_difference(bead, 0);
+      }
+      row.is_known = true;
+    }
+    return row;
+  }
+
+  mutable std::vector<Row> rows_;
+  MomentView<M> view_;
+};
+
 static_assert(MotionView<IntegerView<Curves<3>>>);
 static_assert(MotionView<FixedView<Curves<3>>>);
 static_assert(MotionView<ResidueView<Curves<3>>>);
 static_assert(MotionView<DigitsView<Curves<3>>>);
 static_assert(MotionView<MomentView<Curves<3>>>);
+static_assert(MotionView<KeptMoment<Curves<3>>>);
 
 }  // namespace kds

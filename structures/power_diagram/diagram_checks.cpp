@@ -3,10 +3,11 @@
 #include <algorithm>
 
 #include "certificates/exact/exact_polynomial.h"
+#include "motions/views/integer_view.h"
 #include "structures/power_diagram/hull_winding.h"
 #include "structures/power_diagram/static_diagrams.h"
 #include "structures/triangulation/regularity_fault.h"
-#include "structures/triangulation/strict_regularity.h"
+#include "structures/triangulation/regularity_proof.h"
 
 namespace kds {
 
@@ -47,32 +48,34 @@ bool is_wrong_just_after(DiagramState<Dimension>& state) {
 
 template <int Dimension>
 std::optional<std::string> audit_of(const DiagramState<Dimension>& state, const Dyadic& time) {
-  const bool start = time == Dyadic(0.0);
-  const bool end = time == Dyadic(1.0);
-  const bool frame = start || end;
   if (!state.has_cells()) return std::nullopt;  // at a frame only, where the answer is CGAL's
-  if (!frame &&
-      is_strictly_regular(state.triangulation, state.hidden.with_hosts(),
-                          RoundedPositions<Dimension>(state.motion, time), state.present_beads.absent()))
-    return std::nullopt;
-  if (!frame || !state.flat) {
-    const auto built =
-        frame ? static_diagram_at_end(state, start ? 0 : state.motion.degree())
-              : static_diagram(state, std::span<const BeadId>(state.present_beads.all()), time, false);
-    if ((!frame || state.triangulation.is_valid()) && built.cells == state.triangulation.finite_cells() &&
-        built.hidden == state.hidden.beads())
-      return std::nullopt;
-  }
-  // Degenerate positions have several regular triangulations: ours must satisfy the definition. Between
-  // events what is zero at this very moment only is judged by its sign just after.
-  return regularity_fault(
-      state.triangulation, state.bead_count(), state.hidden.with_hosts(), state.flat,
-      [&]<class Function>(const Function& function) {
-        const auto& search = state.template search<Function>();
-        const int sign = search.sign_at(function, time);
-        return sign != 0 || frame ? sign : search.exact_function(function)->sign_after(time);
-      },
-      state.present_beads.absent());
+  const bool start = time == Dyadic(0.0);
+  const bool frame = start || time == Dyadic(1.0);
+  const auto& t = state.triangulation;
+  const std::vector<HiddenBead> hidden = state.hidden.with_hosts();
+  const std::span<const char> absent = state.present_beads.absent();
+  return state.motion.visit([&](const auto& curves) -> std::optional<std::string> {
+    const KeptMoment positions(curves, time);
+    const auto sign = [&]<class Function>(const Function& function) {
+      int now = Function::formula(positions, function.beads).scaled[0].sign();
+      if constexpr (requires { function.sign; }) now *= function.sign;
+      if (now != 0 || frame) return now;
+      // Zero at this very moment only: the sign just after decides.
+      return state.template search<Function>().exact_function(function)->sign_after(time);
+    };
+    const SignsBy<Dimension, decltype(sign)> judge(sign);
+    const RoundedPositions<Dimension> rounded(state.motion, time);
+    if (!frame && is_proved_regular(t, hidden, rounded, absent, &judge)) return std::nullopt;
+    if (!frame || !state.flat) {
+      const auto built =
+          frame ? static_diagram_at_end(state, start ? 0 : state.motion.degree())
+                : static_diagram(state, std::span<const BeadId>(state.present_beads.all()), time, false);
+      if ((!frame || t.is_valid()) && built.cells == t.finite_cells() && built.hidden == state.hidden.beads())
+        return std::nullopt;
+    }
+    // Degenerate positions have several regular triangulations: ours must satisfy the definition.
+    return regularity_fault(t, state.bead_count(), hidden, state.flat, judge, absent);
+  });
 }
 
 template bool is_wrong_just_after(DiagramState<2>&);

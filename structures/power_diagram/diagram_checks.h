@@ -1,8 +1,8 @@
 #pragma once
 // Whether a kinetic power diagram is right. At a frame it is compared with the static build. Between events
-// it is proved to be the only regular triangulation of its beads (strict_regularity.h), or, where doubles do
-// not prove that, compared with a static build from exact positions. Where there are several, the definition
-// decides (regularity_fault.h).
+// it is proved regular (regularity_proof.h) or, where the proof fails, compared with a static build from exact
+// positions. Degenerate positions have several regular triangulations: where the static build differs, the
+// definition decides by exact signs alone (regularity_fault.h).
 
 #include <optional>
 #include <string>

@@ -1,4 +1,4 @@
-#include "structures/triangulation/strict_regularity.h"
+#include "structures/triangulation/regularity_proof.h"
 
 #include <algorithm>
 #include <array>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "motions/numbers/lanes.h"
+#include "structures/triangulation/facet_certificate.h"
 #include "structures/triangulation/hull_faces.h"
 
 namespace kds {
@@ -93,38 +94,47 @@ template <int Dimension>
   test_positive(determinant(row), positive);
 }
 
-/// Makes tests four at a time, and tells in the end whether all results are positive.
-template <std::size_t Count, class Test>
+/// Makes tests of beads four at a time, and asks `judge` about each that is not proved positive.
+template <int Dimension, std::size_t Count, class Test, class Judge>
 class FourByFour {
  public:
-  FourByFour(const Errors& errors, Test test) : errors_(errors), test_(test) {}
+  FourByFour(const RoundedPositions<Dimension>& positions, Test test, Judge judge)
+      : positions_(positions), test_(test), judge_(judge) {}
 
-  void add(const std::array<const Row*, Count>& beads) {
-    for (std::size_t i = 0; i < Count; ++i) beads_[i][filled_] = beads[i];
+  void add(const std::array<BeadId, Count>& beads) {
+    beads_[filled_] = beads;
     if (++filled_ == Lanes::width) flush();
   }
-  [[nodiscard]] bool all_positive() {
+  /// Makes the tests that wait, and returns whether all since the start have passed.
+  [[nodiscard]] bool all_pass() {
     if (filled_ > 0) {
-      for (Four& four : beads_) std::fill(four.begin() + filled_, four.end(), four[0]);
+      std::fill(beads_.begin() + filled_, beads_.end(), beads_[0]);
       flush();
     }
-    return all_positive_;
+    return all_pass_;
   }
-  [[nodiscard]] bool failed() const { return !all_positive_; }
+  [[nodiscard]] bool failed() const { return !all_pass_; }
 
  private:
   void flush() {
+    std::array<Four, Count> rows;
+    for (std::size_t i = 0; i < Count; ++i) {
+      for (std::size_t lane = 0; lane < Lanes::width; ++lane)
+        rows[i][lane] = &positions_.row(beads_[lane][i]);
+    }
     Lanes::Mask positive;
-    test_(beads_, errors_, positive);
-    all_positive_ = all_positive_ && Lanes::all(positive);
+    test_(rows, Errors{positions_.coordinate_error(), positions_.weight_error()}, positive);
+    for (std::size_t lane = 0; lane < filled_; ++lane)
+      all_pass_ = all_pass_ && (positive[lane] != 0 || judge_(beads_[lane]));
     filled_ = 0;
   }
 
-  Errors errors_;
+  const RoundedPositions<Dimension>& positions_;
   Test test_;
-  std::array<Four, Count> beads_{};
+  Judge judge_;
+  std::array<std::array<BeadId, Count>, Lanes::width> beads_{};
   std::size_t filled_ = 0;
-  bool all_positive_ = true;
+  bool all_pass_ = true;
 };
 
 /// Returns whether an odd number of exchanges turns `a` into `b`. The beads of `a` are all different.
@@ -141,20 +151,36 @@ bool is_odd_permutation(std::array<BeadId, Size> a, const std::array<BeadId, Siz
   return is_odd;
 }
 
+/// The item of largest size so far.
+template <class Item>
+struct Largest {
+  std::optional<Item> item;
+  double size = 0;
+  void offer(const Item& other, double other_size) {
+    if (item && !(other_size > size)) return;
+    item = other;
+    size = other_size;
+  }
+};
+
 template <int Dimension>
-class StrictRegularity {
+class RegularityProof {
   using Beads = CellBeads<Dimension>;
   using Face = std::array<BeadId, static_cast<std::size_t>(Dimension)>;
   using Point = std::array<TrackedDouble, static_cast<std::size_t>(Dimension)>;
+  using Points = std::array<Point, Dimension + 1>;
 
  public:
-  StrictRegularity(const RegularTriangulation<Dimension>& triangulation,
-                   const RoundedPositions<Dimension>& positions)
-      : triangulation_(triangulation), positions_(positions), is_vertex_(positions.size(), 0) {}
+  RegularityProof(const RegularTriangulation<Dimension>& triangulation,
+                  const RoundedPositions<Dimension>& positions, const SignsOfFunctions<Dimension>* judge)
+      : triangulation_(triangulation),
+        positions_(positions),
+        judge_(judge),
+        is_vertex_(positions.size(), 0) {}
 
   [[nodiscard]] bool prove(std::span<const HiddenBead> hidden, std::span<const char> absent) {
-    return cells_close_up() && is_hull_convex() && all_are_positive() && hidden_are_inside(hidden) &&
-           all_are_named(hidden, absent);
+    return cells_close_up() && is_hull_convex() && cells_and_facets_are_right() &&
+           hidden_are_inside(hidden) && all_are_named(hidden, absent);
   }
 
  private:
@@ -194,73 +220,102 @@ class StrictRegularity {
     return is_odd_permutation(across, beads_of(other));
   }
 
+  [[nodiscard]] auto orientations(bool may_be_zero) const {
+    return four_by_four<Dimension + 1>(&four_orientations<Dimension>, [this, may_be_zero](const Beads& v) {
+      return judge_ != nullptr && judge_->of(Orientation<Dimension>(v, 1)) >= (may_be_zero ? 0 : 1);
+    });
+  }
+  /// Of cells, each with a bead beyond.
+  [[nodiscard]] auto power_tests() const {
+    return four_by_four<Dimension + 2>(
+        &four_power_tests<Dimension>, [this](const std::array<BeadId, Dimension + 2>& beads) {
+          Beads cell;
+          std::copy(beads.begin(), beads.end() - 1, cell.begin());
+          return judge_ != nullptr &&
+                 with_facet_certificate(cell, beads.back(), [&](const auto& certificate) {
+                   return judge_->of(certificate) >= 0;
+                 });
+        });
+  }
+  template <std::size_t Count, class Test, class Judge>
+  [[nodiscard]] auto four_by_four(Test test, Judge judge) const {
+    return FourByFour<Dimension, Count, Test, Judge>(positions_, test, judge);
+  }
+
   /// Checks 2 and 4.
-  [[nodiscard]] bool all_are_positive() const {
-    const Errors errors{positions_.coordinate_error(), positions_.weight_error()};
-    FourByFour<Dimension + 1, decltype(&four_orientations<Dimension>)> orientations(
-        errors, &four_orientations<Dimension>);
-    FourByFour<Dimension + 2, decltype(&four_power_tests<Dimension>)> power_tests(
-        errors, &four_power_tests<Dimension>);
+  [[nodiscard]] bool cells_and_facets_are_right() const {
+    auto orientations = this->orientations(false);
+    auto power_tests = this->power_tests();
     for (CellId cell = 0; cell < triangulation_.cells().size(); ++cell) {
       if (!triangulation_.is_live(cell) || is_infinite(cell)) continue;
-      std::array<const Row*, Dimension + 2> rows{};
       const Beads& v = beads_of(cell);
-      std::transform(v.begin(), v.end(), rows.begin(), [&](BeadId b) { return &positions_.row(b); });
-      std::array<const Row*, Dimension + 1> own{};
-      std::copy(rows.begin(), rows.end() - 1, own.begin());
-      orientations.add(own);
+      orientations.add(v);
       for (int i = 0; i <= Dimension; ++i) {
         const BeadId apex = triangulation_.apex_beyond(cell, i);
-        if (apex == infinite_bead || cell_of(triangulation_.beyond(cell, i)) < cell) continue;
-        rows.back() = &positions_.row(apex);
-        power_tests.add(rows);
+        if (apex != infinite_bead && cell_of(triangulation_.beyond(cell, i)) >= cell)
+          power_tests.add(with(v, apex));
       }
       if (orientations.failed() || power_tests.failed()) return false;
     }
-    return orientations.all_positive() && power_tests.all_positive();
+    return orientations.all_pass() && power_tests.all_pass();
   }
 
-  /// Check 3.
+  /// Check 3. The point is a mean of the beads of one cell; the ray goes through the middle of one face.
   [[nodiscard]] bool is_hull_convex() const {
     std::vector<Face> faces;
-    std::optional<CellId> some_finite;
+    Largest<Beads> cell_in_the_middle;
+    Largest<Face> face_met;
     for (CellId cell = 0; cell < triangulation_.cells().size(); ++cell) {
       if (!triangulation_.is_live(cell)) continue;
       const auto face = hull_face<Dimension>(beads_of(cell));
       if (!face) {
-        if (!some_finite) some_finite = cell;
+        cell_in_the_middle.offer(beads_of(cell), volume(beads_of(cell)));
         continue;
       }
+      face_met.offer(*face, area(*face));
       faces.push_back(*face);
       for (int i = 0; i <= Dimension; ++i) {
         const BeadId apex = triangulation_.apex_beyond(cell, i);
         const bool ridge = beads_of(cell)[static_cast<std::size_t>(i)] != infinite_bead;
-        if (ridge && !lies_inside(*face, point(apex))) return false;
+        if (ridge && side(*face, apex) < 0) return false;
       }
     }
-    if (!some_finite || faces.empty()) return false;
-    const Point inside = somewhere_in<Dimension + 1>(beads_of(*some_finite));
-    const Point aim = somewhere_in<Dimension>(faces.front());
-    if (meets_no_ray(faces.front(), inside, aim)) return false;
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      if (!lies_inside(faces[i], inside)) return false;
-      if (i > 0 && !meets_no_ray(faces[i], inside, aim)) return false;
-    }
-    return true;
+    if (!cell_in_the_middle.item || !face_met.item) return false;
+    const Point inside = mean(*cell_in_the_middle.item);
+    Point aim = mean(*face_met.item);
+    for (TrackedDouble& x : aim) x.error = 0;  // any point will do
+    return std::all_of(faces.begin(), faces.end(), [&](const Face& face) {
+      return lies_inside(face, *cell_in_the_middle.item) &&
+             (face == *face_met.item || meets_no_ray(face, inside, aim));
+    });
   }
 
-  /// Returns whether a point is proved to lie strictly on the inner side of a face.
-  [[nodiscard]] bool lies_inside(const Face& face, const Point& of) const {
-    std::array<Point, Dimension + 1> points;
-    for (std::size_t i = 0; i < Dimension; ++i) points[i] = point(face[i]);
-    points.back() = of;
-    return is_positive(-orientation(points));
+  /// Returns 1 if a bead is proved to lie strictly on the inner side of a face, 0 if it lies in the face's
+  /// plane, -1 if neither is proved.
+  [[nodiscard]] int side(const Face& face, BeadId bead) const {
+    if (std::find(face.begin(), face.end(), bead) != face.end()) return 0;
+    Beads cell{};
+    std::copy(face.begin(), face.end(), cell.begin());
+    cell.back() = bead;
+    if (is_positive(-orientation(points(cell)))) return 1;
+    return judge_ == nullptr ? -1 : judge_->of(Orientation<Dimension>(cell, -1));
+  }
+
+  /// Returns whether any mean of a cell's beads is proved to lie strictly on the inner side of a face.
+  [[nodiscard]] bool lies_inside(const Face& face, const Beads& cell) const {
+    bool is_strict = false;
+    for (const BeadId bead : cell) {
+      const int at = side(face, bead);
+      if (at < 0) return false;
+      is_strict |= at > 0;
+    }
+    return is_strict;
   }
 
   /// Returns whether the ray from `from` through `to` is proved to miss the face. `from` lies inside of the
   /// face.
   [[nodiscard]] bool meets_no_ray(const Face& face, const Point& from, const Point& to) const {
-    std::array<Point, Dimension + 1> points;
+    Points points;
     points.back() = from;
     for (std::size_t out = 0; out < Dimension; ++out) {
       for (std::size_t i = 0; i < Dimension; ++i) points[i] = i == out ? to : point(face[i]);
@@ -271,27 +326,21 @@ class StrictRegularity {
 
   /// Check 5 for hidden beads.
   [[nodiscard]] bool hidden_are_inside(std::span<const HiddenBead> hidden) const {
-    const Errors errors{positions_.coordinate_error(), positions_.weight_error()};
-    FourByFour<Dimension + 1, decltype(&four_orientations<Dimension>)> orientations(
-        errors, &four_orientations<Dimension>);
-    FourByFour<Dimension + 2, decltype(&four_power_tests<Dimension>)> power_tests(
-        errors, &four_power_tests<Dimension>);
+    auto orientations = this->orientations(true);
+    auto power_tests = this->power_tests();
     for (const auto& [bead, host] : hidden) {
       if (bead >= positions_.size() || host >= triangulation_.cells().size() ||
           !triangulation_.is_live(host) || is_infinite(host))
         return false;
-      std::array<const Row*, Dimension + 2> rows{};
-      std::array<const Row*, Dimension + 1> own{};
-      for (std::size_t i = 0; i <= Dimension; ++i) own[i] = rows[i] = &positions_.row(beads_of(host)[i]);
-      rows.back() = &positions_.row(bead);
-      power_tests.add(rows);
+      const Beads& v = beads_of(host);
+      power_tests.add(with(v, bead));
       for (std::size_t i = 0; i <= Dimension; ++i) {
-        auto part = own;
-        part[i] = rows.back();
+        Beads part = v;
+        part[i] = bead;
         orientations.add(part);
       }
     }
-    return orientations.all_positive() && power_tests.all_positive();
+    return orientations.all_pass() && power_tests.all_pass();
   }
 
   /// Check 5: every bead is a vertex, hidden or absent, and only one of the three.
@@ -312,21 +361,47 @@ class StrictRegularity {
     const Beads& v = beads_of(cell);
     return std::find(v.begin(), v.end(), infinite_bead) != v.end();
   }
+  [[nodiscard]] static std::array<BeadId, Dimension + 2> with(const Beads& cell, BeadId bead) {
+    std::array<BeadId, Dimension + 2> beads;
+    std::copy(cell.begin(), cell.end(), beads.begin());
+    beads.back() = bead;
+    return beads;
+  }
   [[nodiscard]] Point point(BeadId bead) const {
     Point point;
     for (std::size_t axis = 0; axis < Dimension; ++axis) point[axis] = positions_.coordinate(bead, axis);
     return point;
   }
-  /// Returns a point near the centroid. It counts as exact, so it has no error.
-  template <std::size_t Size>
-  [[nodiscard]] Point somewhere_in(const std::array<BeadId, Size>& beads) const {
-    Point point{};
-    for (std::size_t axis = 0; axis < Dimension; ++axis) {
-      for (const BeadId bead : beads) point[axis].value += positions_.row(bead)[axis] / double{Size};
-    }
-    return point;
+  [[nodiscard]] Points points(const Beads& beads) const {
+    Points points;
+    std::transform(beads.begin(), beads.end(), points.begin(), [&](BeadId bead) { return point(bead); });
+    return points;
   }
-  [[nodiscard]] static TrackedDouble orientation(const std::array<Point, Dimension + 1>& points) {
+  /// Returns a mean of the beads by positive weights that are powers of two.
+  template <std::size_t Size>
+  [[nodiscard]] Point mean(const std::array<BeadId, Size>& beads) const {
+    Point mean{};
+    double weight = Size == 4 ? 0.25 : 0.5;
+    for (std::size_t i = 0; i < Size; ++i) {
+      for (std::size_t axis = 0; axis < Dimension; ++axis)
+        mean[axis] += TrackedDouble{weight, 0} * positions_.coordinate(beads[i], axis);
+      if (Size == 3) weight = 0.25;
+    }
+    return mean;
+  }
+  /// Returns twice the area, or six times the volume, rounded.
+  [[nodiscard]] double volume(const Beads& cell) const { return orientation(points(cell)).value; }
+  /// Returns the squared length, or four times the squared area, rounded.
+  [[nodiscard]] double area(const Face& face) const {
+    std::array<std::array<double, 3>, Dimension - 1> edge{};
+    for (std::size_t i = 1; i < Dimension; ++i)
+      for (std::size_t axis = 0; axis < Dimension; ++axis)
+        edge[i - 1][axis] = positions_.row(face[i])[axis] - positions_.row(face[0])[axis];
+    const auto dot = [](const auto& a, const auto& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+    const auto &a = edge.front(), &b = edge.back();
+    return Dimension == 2 ? dot(a, a) : dot(a, a) * dot(b, b) - dot(a, b) * dot(a, b);
+  }
+  [[nodiscard]] static TrackedDouble orientation(const Points& points) {
     std::array<TrackedRow<double>, Dimension> row;
     for (std::size_t i = 0; i < Dimension; ++i)
       for (std::size_t axis = 0; axis < Dimension; ++axis)
@@ -339,21 +414,24 @@ class StrictRegularity {
 
   const RegularTriangulation<Dimension>& triangulation_;
   const RoundedPositions<Dimension>& positions_;
+  const SignsOfFunctions<Dimension>* judge_;
   std::vector<char> is_vertex_;
 };
 
 }  // namespace
 
 template <int Dimension>
-bool is_strictly_regular(const RegularTriangulation<Dimension>& triangulation,
-                         std::span<const HiddenBead> hidden, const RoundedPositions<Dimension>& positions,
-                         std::span<const char> absent) {
-  return StrictRegularity<Dimension>(triangulation, positions).prove(hidden, absent);
+bool is_proved_regular(const RegularTriangulation<Dimension>& triangulation,
+                       std::span<const HiddenBead> hidden, const RoundedPositions<Dimension>& positions,
+                       std::span<const char> absent, const SignsOfFunctions<Dimension>* judge) {
+  return RegularityProof<Dimension>(triangulation, positions, judge).prove(hidden, absent);
 }
 
-template bool is_strictly_regular(const RegularTriangulation<2>&, std::span<const HiddenBead>,
-                                  const RoundedPositions<2>&, std::span<const char>);
-template bool is_strictly_regular(const RegularTriangulation<3>&, std::span<const HiddenBead>,
-                                  const RoundedPositions<3>&, std::span<const char>);
+template bool is_proved_regular(const RegularTriangulation<2>&, std::span<const HiddenBead>,
+                                const RoundedPositions<2>&, std::span<const char>,
+                                const SignsOfFunctions<2>*);
+template bool is_proved_regular(const RegularTriangulation<3>&, std::span<const HiddenBead>,
+                                const RoundedPositions<3>&, std::span<const char>,
+                                const SignsOfFunctions<3>*);
 
 }  // namespace kds
