@@ -98,14 +98,14 @@ int update_command(const Arguments& arguments) {
   Json json;
   json["input"] = input_json(options, scene_at(1, FrameMotion::linear));
   json["settings"] = settings_json(options);
-  json["rows"] = update_rows_json(rows);
+  json["rows"] = update_columns().json(rows);
   json["warnings"] = warnings;
   add_provenance(json, command_line);
-  deliver_table(destinations, kUpdateName, {text_of(json), update_csv(rows), update_table(rows), [&] {
-                                              return update_page(
-                                                  rows, file_names(options),
-                                                  made_by(kUpdateName, command_line, settings_json(options)));
-                                            }});
+  deliver_table(destinations, kUpdateName,
+                {text_of(json), update_columns().csv(rows), update_table(rows), [&] {
+                   return update_page(rows, file_names(options),
+                                      made_by(kUpdateName, command_line, settings_json(options)));
+                 }});
   return 0;
 }
 

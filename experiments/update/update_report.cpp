@@ -13,10 +13,6 @@ namespace kds {
 
 namespace {
 
-std::string count_or_dash(const std::optional<std::uint64_t>& count) {
-  return count ? with_thousands(*count) : "-";
-}
-
 double per_step(const UpdateRow& row, double sum) {
   return row.task.steps == 0 ? 0 : sum / static_cast<double>(row.task.steps);
 }
@@ -91,22 +87,9 @@ std::vector<std::span<const UpdateRow>> by_stride(std::span<const UpdateRow> row
 
 std::string tables(std::span<const UpdateRow> rows) {
   std::string html;
-  for (const auto& group : by_stride(rows)) {
-    std::vector<HtmlRow> lines;
-    for (const UpdateRow& row : group) {
-      const auto efficiency = row.efficiency();
-      const auto micros = [&](double seconds) { return short_decimal(1e6 * per_step(row, seconds)); };
-      lines.push_back(
-          {{row.technique, fmt::format("{:.3f}", row.ratio), micros(row.seconds.median),
-            micros(row.seconds.least), micros(row.seconds.most), count_or_dash(row.activated),
-            count_or_dash(row.removed), count_or_dash(row.events),
-            efficiency ? fmt::format("{:.3f}", *efficiency) : "-", with_thousands(row.rebuilds)}});
-    }
-    html += fmt::format("<p>{}.</p>\n", html_escaped(task_line(group.front().task)));
-    html += html_table({"technique", "ratio", "us a step", "least", "most", "activated", "removed", "events",
-                        "a change", "rebuilds"},
-                       lines);
-  }
+  for (const auto& group : by_stride(rows))
+    html += fmt::format("<p>{}.</p>\n", html_escaped(task_line(group.front().task))) +
+            update_columns().html(group);
   return html;
 }
 
@@ -126,62 +109,45 @@ std::string findings(std::span<const UpdateRow> rows) {
 
 }  // namespace
 
-Json update_rows_json(std::span<const UpdateRow> rows) {
-  Json json = Json::array();
-  for (const UpdateRow& row : rows) {
-    json.push_back({{"stride", row.task.stride},
-                    {"technique", row.technique},
-                    {"steps", row.task.steps},
-                    {"cells", row.task.cells},
-                    {"hidden", row.task.hidden},
-                    {"cells_changed", row.task.cells_changed},
-                    {"certificates", row.task.certificates},
-                    {"certificates_failed", row.task.failed},
-                    {"activated", row.activated},
-                    {"removed", row.removed},
-                    {"events", row.events},
-                    {"efficiency", row.efficiency()},
-                    {"rebuilds", row.rebuilds},
-                    {"audits", row.audits},
-                    {"seconds", row.seconds.median},
-                    {"seconds_least", row.seconds.least},
-                    {"seconds_most", row.seconds.most},
-                    {"ratio", row.ratio}});
-  }
-  return json;
-}
-
-std::string update_csv(std::span<const UpdateRow> rows) {
-  std::string text =
-      "stride,technique,steps,cells,hidden,cells_changed,certificates,certificates_failed,activated,removed,"
-      "events,efficiency,rebuilds,audits,seconds,ratio,seconds_least,seconds_most\n";
-  for (const UpdateRow& row : rows) {
-    const UpdateTask& task = row.task;
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", task.stride, row.technique,
-                        task.steps, task.cells, task.hidden, task.cells_changed, task.certificates,
-                        task.failed, value_or_empty(row.activated), value_or_empty(row.removed),
-                        value_or_empty(row.events), value_or_empty(row.efficiency()), row.rebuilds,
-                        row.audits, row.seconds.median, row.ratio, row.seconds.least, row.seconds.most);
-  }
-  return text;
+const Table<UpdateRow>& update_columns() {
+  using Row = UpdateRow;
+  const auto micros = [](const char* heading, double Spread::*seconds, Shown shown) {
+    return Column<Row>{.heading = heading,
+                       .value = [=](const Row& r) { return Field(1e6 * per_step(r, r.seconds.*seconds)); },
+                       .format = shortly,
+                       .shown = shown};
+  };
+  static const Table<Row> table{{
+      {.key = "stride", .value = [](const Row& r) { return Field(r.task.stride); }},
+      {"technique", "technique", [](const Row& r) { return Field(r.technique); }},
+      {.key = "steps", .value = [](const Row& r) { return Field(r.task.steps); }},
+      {.key = "cells", .value = [](const Row& r) { return Field(r.task.cells); }},
+      {.key = "hidden", .value = [](const Row& r) { return Field(r.task.hidden); }},
+      {.key = "cells_changed", .value = [](const Row& r) { return Field(r.task.cells_changed); }},
+      {.key = "certificates", .value = [](const Row& r) { return Field(r.task.certificates); }},
+      {.key = "certificates_failed", .value = [](const Row& r) { return Field(r.task.failed); }},
+      {"activated", "activated", [](const Row& r) { return Field(r.activated); }},
+      {"removed", "removed", [](const Row& r) { return Field(r.removed); }},
+      {"events", "events", [](const Row& r) { return Field(r.events); }},
+      {"efficiency", "a change", [](const Row& r) { return Field(r.efficiency()); }, with_decimals(3)},
+      {"rebuilds", "rebuilds", [](const Row& r) { return Field(r.rebuilds); }},
+      {.key = "audits", .value = [](const Row& r) { return Field(r.audits); }},
+      micros("us a step", &Spread::median, Shown::everywhere),
+      micros("least", &Spread::least, Shown::on_pages),
+      micros("most", &Spread::most, Shown::on_pages),
+      {.key = "seconds", .value = [](const Row& r) { return Field(r.seconds.median); }},
+      {"ratio", "ratio", [](const Row& r) { return Field(r.ratio); }, with_decimals(3)},
+      {.key = "seconds_least", .value = [](const Row& r) { return Field(r.seconds.least); }},
+      {.key = "seconds_most", .value = [](const Row& r) { return Field(r.seconds.most); }},
+  }};
+  return table;
 }
 
 std::string update_table(std::span<const UpdateRow> rows) {
   std::string text;
-  std::size_t stride = 0;
-  for (const UpdateRow& row : rows) {
-    if (row.task.stride != stride) {
-      stride = row.task.stride;
-      text += fmt::format("{}{}\n", text.empty() ? "" : "\n", task_line(row.task));
-      text += fmt::format("  {:<10}{:>12}{:>12}{:>12}{:>10}{:>10}{:>12}{:>9}\n", "technique", "activated",
-                          "removed", "events", "a change", "rebuilds", "us a step", "ratio");
-    }
-    const auto efficiency = row.efficiency();
-    text += fmt::format("  {:<10}{:>12}{:>12}{:>12}{:>10}{:>10}{:>12.1f}{:>9.3f}\n", row.technique,
-                        count_or_dash(row.activated), count_or_dash(row.removed), count_or_dash(row.events),
-                        efficiency ? fmt::format("{:.3f}", *efficiency) : "-", with_thousands(row.rebuilds),
-                        1e6 * per_step(row, row.seconds.median), row.ratio);
-  }
+  for (const auto& group : by_stride(rows))
+    text += fmt::format("{}{}\n{}", text.empty() ? "" : "\n", task_line(group.front().task),
+                        update_columns().text(group, "  "));
   std::uint64_t audits = 0;  // one that fails ends the program
   for (const UpdateRow& row : rows) audits += row.audits;
   if (audits > 0)

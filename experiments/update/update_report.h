@@ -5,17 +5,16 @@
 #include <string>
 
 #include "experiments/output/page/html_page.h"
-#include "experiments/output/result_json.h"
+#include "experiments/output/table.h"
 #include "experiments/update/compare_updates.h"
 
 namespace kds {
 
-[[nodiscard]] Json update_rows_json(std::span<const UpdateRow> rows);
-/// A header and one line a row.
-[[nodiscard]] std::string update_csv(std::span<const UpdateRow> rows);
+/// The columns of update.json and update.csv, of the terminal and of the page.
+[[nodiscard]] const Table<UpdateRow>& update_columns();
 /// A line for each stride, then one for each technique.
 [[nodiscard]] std::string update_table(std::span<const UpdateRow> rows);
-/// `page` says how it was made.
+/// Fills a page that made_by began.
 [[nodiscard]] std::string update_page(std::span<const UpdateRow> rows, const std::string& input, Page page);
 
 }  // namespace kds

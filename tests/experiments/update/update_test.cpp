@@ -146,15 +146,15 @@ TEST(UpdateReport, RowsInAllForms) {
   kinetic.seconds = {0.0005, 0.0004, 0.0007};
   kinetic.ratio = 0.5;
   const std::array rows{rebuild, kinetic};
-  const Json json = Json::parse(text_of(update_rows_json(rows)));
+  const Json json = Json::parse(text_of(update_columns().json(rows)));
   EXPECT_EQ(json[0]["events"], nullptr);
   EXPECT_EQ(json[0]["efficiency"], nullptr);
   EXPECT_EQ(json[1]["efficiency"], 0.5);
   EXPECT_EQ(json[1]["certificates_failed"], 50);
-  EXPECT_THAT(update_csv(rows),
+  EXPECT_THAT(update_columns().csv(rows),
               HasSubstr("4,kinetic,10,1000,0,40,2000,50,70,,20,0.5,0,0,0.0005,0.5,0.0004,0.0007\n"));
   EXPECT_THAT(update_table(rows), HasSubstr("2.5% of 200.0 certificates failed"));
-  EXPECT_THAT(update_table(rows), HasSubstr("50.0    0.500"));
+  EXPECT_THAT(update_table(rows), HasSubstr("50.00  0.500"));
 }
 
 TEST(Update, OfATrajectoryWithPlots) {

@@ -1,0 +1,154 @@
+#include "experiments/output/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "experiments/output/page/html_page.h"
+#include "experiments/output/text.h"
+#include "motions/base/csv_field.h"
+
+namespace kds {
+
+namespace {
+
+/// The name of a column in CSV.
+std::string_view last_name(std::string_view key) { return key.substr(key.rfind('.') + 1); }
+
+}  // namespace
+
+double Field::number() const {
+  if (const auto* whole = std::get_if<std::uint64_t>(&value_)) return static_cast<double>(*whole);
+  if (const auto* real = std::get_if<double>(&value_)) return *real;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+Json Field::json() const {
+  if (const auto* real = std::get_if<double>(&value_); real != nullptr && !std::isfinite(*real)) return {};
+  return std::visit(
+      []<class Value>(const Value& value) {
+        if constexpr (std::is_same_v<Value, std::monostate>) {
+          return Json();
+        } else {
+          return Json(value);
+        }
+      },
+      value_);
+}
+
+std::string Field::csv() const {
+  if (is_empty()) return "";
+  if (const auto* text = std::get_if<std::string>(&value_)) return csv_field(*text);
+  if (const auto* truth = std::get_if<bool>(&value_)) return *truth ? "true" : "false";
+  if (const auto* whole = std::get_if<std::uint64_t>(&value_)) return fmt::format("{}", *whole);
+  return fmt::format("{}", std::get<double>(value_));
+}
+
+std::string plainly(const Field& field) {
+  if (const auto* text = std::get_if<std::string>(&field.value_)) return *text;
+  if (const auto* truth = std::get_if<bool>(&field.value_)) return *truth ? "yes" : "no";
+  if (const auto* whole = std::get_if<std::uint64_t>(&field.value_)) return with_thousands(*whole);
+  return field.csv();
+}
+
+std::string shortly(const Field& field) { return short_decimal(field.number()); }
+
+FieldFormat with_decimals(int digits) {
+  return [digits](const Field& field) { return fmt::format("{:.{}f}", field.number(), digits); };
+}
+
+FieldFormat with_figures(int digits) {
+  return [digits](const Field& field) { return fmt::format("{:.{}g}", field.number(), digits); };
+}
+
+std::string in_percent(const Field& field) { return fmt::format("{:.3g}%", 100 * field.number()); }
+
+std::string TableOfFields::shown(std::size_t row, std::size_t column) const {
+  const Field& field = rows_[row][column];
+  return field.is_empty() ? "-" : columns_[column].format(field);
+}
+
+std::vector<std::size_t> TableOfFields::columns_for(Shown reader) const {
+  std::vector<std::size_t> places;
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const Shown shown = columns_[c].shown;
+    if (!columns_[c].heading.empty() && (shown == Shown::everywhere || shown == reader)) places.push_back(c);
+  }
+  return places;
+}
+
+Json TableOfFields::json() const {
+  Json rows = Json::array();
+  for (const std::vector<Field>& fields : rows_) {
+    Json row = Json::object();
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      const std::string& key = columns_[c].key;
+      if (key.empty()) continue;
+      const std::size_t dot = key.find('.');
+      if (dot == std::string::npos) {
+        row[key] = fields[c].json();
+        continue;
+      }
+      const std::string_view object = std::string_view(key).substr(0, dot + 1);
+      const bool has_values = std::ranges::any_of(columns_, [&](const ColumnNames& other) {
+        const auto place = static_cast<std::size_t>(&other - columns_.data());
+        return other.key.starts_with(object) && !fields[place].is_empty();
+      });
+      Json& member = row[object.substr(0, dot)];
+      if (has_values) member[last_name(key)] = fields[c].json();
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string TableOfFields::csv() const {
+  std::string text;
+  for (const ColumnNames& column : columns_) {
+    if (!column.key.empty()) text += fmt::format("{}{}", text.empty() ? "" : ",", last_name(column.key));
+  }
+  text += '\n';
+  for (const std::vector<Field>& fields : rows_) {
+    std::string line;
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      if (!columns_[c].key.empty()) line += fields[c].csv() + ',';
+    }
+    if (!line.empty()) line.back() = '\n';
+    text += line;
+  }
+  return text;
+}
+
+std::string TableOfFields::text(std::string_view indent) const {
+  const std::vector<std::size_t> columns = columns_for(Shown::in_text);
+  std::string alignment;
+  std::vector<std::vector<std::string>> lines(1);
+  for (const std::size_t c : columns) {
+    lines[0].push_back(columns_[c].heading);
+    const bool is_text = std::ranges::any_of(rows_, [&](const auto& fields) { return fields[c].is_text(); });
+    alignment += is_text ? '<' : '>';
+  }
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    std::vector<std::string>& line = lines.emplace_back();
+    for (const std::size_t c : columns) line.push_back(shown(row, c));
+  }
+  std::string text;
+  for (const std::string& line : in_columns(lines, alignment)) text += fmt::format("{}{}\n", indent, line);
+  return text;
+}
+
+std::string TableOfFields::html() const {
+  const std::vector<std::size_t> columns = columns_for(Shown::on_pages);
+  std::vector<std::string> headings;
+  for (const std::size_t c : columns) headings.push_back(columns_[c].heading);
+  std::vector<HtmlRow> lines;
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    HtmlRow& line = lines.emplace_back();
+    for (const std::size_t c : columns) line.cells.push_back(shown(row, c));
+  }
+  return html_table(headings, lines);
+}
+
+}  // namespace kds
