@@ -21,8 +21,8 @@ namespace {
 
 Json input_json(const CollideOptions& options, const CollideFrames& frames) {
   Json files = Json::array();
-  for (const auto& input : options.input.inputs) files.push_back(input.string());
-  if (options.input.obstacle) files.push_back(options.input.obstacle->string());
+  for (const auto& input : options.inputs) files.push_back(input.string());
+  if (options.obstacle) files.push_back(options.obstacle->string());
   const auto [least, most] = std::minmax_element(frames.radii().begin(), frames.radii().end());
   return {{"files", files},
           {"beads", frames.radii().size()},
@@ -33,24 +33,9 @@ Json input_json(const CollideOptions& options, const CollideFrames& frames) {
           {"radius_max", *most}};
 }
 
-Json settings_json(const CollideOptions& options) {
-  const ReadOptions& reading = options.input.reading;
-  return {{"topology", reading.topology ? reading.topology->string() : ""},
-          {"select", name_of(reading.selection)},
-          {"chain", reading.chain.value_or("")},
-          {"frames", name_of(reading.frames)},
-          {"radius", options.input.radius},
-          {"obstacle", options.input.obstacle ? options.input.obstacle->string() : ""},
-          {"method", options.methods},
-          {"pairs", name_of(options.pairs)},
-          {"apart", options.apart},
-          {"within", options.within},
-          {"rounds", options.rounds}};
-}
-
 std::string file_names(const CollideOptions& options) {
   std::vector<std::string> names;
-  for (const auto& input : options.input.inputs) names.push_back(input.filename().string());
+  for (const auto& input : options.inputs) names.push_back(input.filename().string());
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -73,18 +58,18 @@ CollideTask task_of(const CollideOptions& options, const CollideFrames& frames) 
 
 int collide_command(const Arguments& arguments) {
   const CollideOptions options = parse_collide_options(arguments);
-  check_inputs_exist(options.input);
+  check_inputs_exist(options);
   TakenPaths taken;
-  taken.read(options.input);
+  taken.read(options);
   check_collide_destinations(options.destinations, taken);
 
   ProgressBar bar(!options.destinations.quiet, "frame");
-  if (const auto instance = read_lone_instance(options.input))
+  if (const auto instance = read_lone_instance(options))
     throw InputError(instance->file + ": an instance file has points, no balls; expected a trajectory");
   Json warnings = Json::array();
   HeldWarnings held;
   const auto warn = held.hold();
-  CollideFrames frames(options.input, warn);
+  CollideFrames frames(options, warn);
   const CollideTask task = task_of(options, frames);
   CollideResults results(options.destinations);
   results.begin(frames);
@@ -103,13 +88,13 @@ int collide_command(const Arguments& arguments) {
   const std::string command_line = "kds collide " + shell_words(arguments);
   Json json;
   json["input"] = input_json(options, frames);
-  json["settings"] = settings_json(options);
+  json["settings"] = collide_options().settings_json(options);
   json["rows"] = collide_rows_json(report);
   json["frames"] = Json::array();  // filled in by the results
   json["warnings"] = warnings;
   add_provenance(json, command_line);
   results.deliver(report, json, file_names(options),
-                  made_by("collide", command_line, settings_json(options)));
+                  made_by("collide", command_line, collide_options().settings_json(options)));
   return 0;
 }
 

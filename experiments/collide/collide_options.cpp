@@ -11,22 +11,6 @@ namespace kds {
 
 namespace {
 
-constexpr std::array kFurtherOptions{
-    OptionSpec{"--pairs", "NAME", "of beads within a necklace, between two, or all (default: all)"},
-    OptionSpec{"--apart", "K", "only beads at least so many apart along their necklace (default: 2)"},
-    OptionSpec{"--within", "X",
-               "pairs whose surfaces are at most so far apart (default: 0, those that meet)"},
-    OptionSpec{
-        "--rounds", "N",
-        "each method so often: times are the median, with the least and most (default: 3 where methods "
-        "are compared, else 1)"},
-    OptionSpec{
-        "--out", "DIR",
-        "write collide.json, collide.csv, pairs.csv, frames.csv and report.html there (default: none)"},
-    OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
-    OptionSpec{"--quiet", "", "no table, no progress bar"},
-};
-
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (const Method& method : collision_methods()) names.emplace_back(method.name);
@@ -40,23 +24,16 @@ std::string method_help() {
   return fmt::format("comma list of {}, or all (default: all)", fmt::join(methods, ", "));
 }
 
-const CommandSpec& command() {
-  static const std::string help = method_help();
-  static const auto options = joined(
-      kInputOptions,
-      joined(kObstacleOption, joined(std::array{OptionSpec{"--method", "LIST", help}}, kFurtherOptions)));
-  static const CommandSpec spec{
-      "kds collide",
-      "Which beads collide in each frame, exactly: closed balls, so touching counts. Methods are compared.",
-      kInputOperand,
-      kTrajectoryHelp,
-      options,
-      "kds collide 1l2y.pdb --select all --radius element --apart 4\n"
-      "kds collide a.xyz b.xyz --pairs between --method wrapped,layered --json -\n"
-      "kds collide 1l2y.pdb --radius 0.1 --within 4.5 --apart 9 --method auto\n"
-      "kds collide villin.dcd --topology villin.pdb --radius 1.9 --apart 5 --out report"};
-  return spec;
-}
+constexpr CommandSpec kCollideCommand{
+    "kds collide",
+    "Which beads collide in each frame, exactly: closed balls, so touching counts. Methods are compared.",
+    kInputOperand,
+    kTrajectoryHelp,
+    {},
+    "kds collide 1l2y.pdb --select all --radius element --apart 4\n"
+    "kds collide a.xyz b.xyz --pairs between --method wrapped,layered --json -\n"
+    "kds collide 1l2y.pdb --radius 0.1 --within 4.5 --apart 9 --method auto\n"
+    "kds collide villin.dcd --topology villin.pdb --radius 1.9 --apart 5 --out report"};
 
 std::vector<std::string> parse_methods(const std::string& list) {
   const std::vector<std::string> all = method_names(), names = split(list, ',');
@@ -75,21 +52,44 @@ std::vector<std::string> parse_methods(const std::string& list) {
 
 }  // namespace
 
+const OptionList<CollideOptions>& collide_options() {
+  using O = CollideOptions;
+  static const std::string method_help = kds::method_help();
+  static const auto list =
+      OptionList<O>()
+          .with(input_options().with({obstacle_option()}))
+          .with(
+              {Option<O>(
+                   {"--method", "LIST", method_help},
+                   [](O& o, const std::string& text) {
+                     o.all_methods = text == "all";
+                     o.methods = o.all_methods ? method_names() : parse_methods(text);
+                   },
+                   [](const O& o) { return fmt::format("{}", fmt::join(o.methods, ",")); }, nullptr,
+                   [](const O& o) { return Json(o.methods); }),
+               choice_option(
+                   {"--pairs", "NAME", "of beads within a necklace, between two, or all (default: all)"},
+                   &O::pairs, which_pairs_names),
+               apart_option("only beads at least K apart along their necklace (default: 2)", &O::apart),
+               real_option({"--within", "X",
+                            "pairs whose surfaces are at most X apart (default: 0, those that meet)"},
+                           &O::within, {0, std::numeric_limits<double>::max()}),
+               whole_option({"--rounds", "N",
+                             "repeat each method N times and report the median time, with the least and most "
+                             "(default: 3 where methods are compared, else 1)"},
+                            &O::rounds, 1, 1000)})
+          .with(&O::destinations,
+                destination_options("write collide.json, collide.csv, pairs.csv, frames.csv and report.html "
+                                    "there (default: none)"));
+  return list;
+}
+
 CollideOptions parse_collide_options(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(command(), arguments);
   CollideOptions options;
-  options.input = parse_input_options(parsed, command().name);
-  const std::string methods = parsed.value("--method").value_or("all");
-  options.all_methods = methods == "all";
-  options.methods = options.all_methods ? method_names() : parse_methods(methods);
-  options.pairs = chosen<WhichPairs>(parsed, "--pairs", which_pairs_names).value_or(options.pairs);
-  if (const auto text = parsed.value("--apart")) options.apart = parse_apart(*text);
-  if (const auto text = parsed.value("--within"))
-    options.within = parse_real("--within", *text, {0, std::numeric_limits<double>::max()});
-  options.rounds = options.methods.size() > 1 ? 3 : 1;
-  if (const auto text = parsed.value("--rounds"))
-    options.rounds = parse_whole_number("--rounds", *text, 1, 1000);
-  options.destinations = {path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
+  options.methods = method_names();
+  const ParsedArguments parsed = read_arguments(kCollideCommand, collide_options(), arguments, options);
+  take_inputs(parsed, kCollideCommand.name, options);
+  if (!parsed.has("--rounds")) options.rounds = options.methods.size() > 1 ? 3 : 1;
   return options;
 }
 

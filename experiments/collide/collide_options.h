@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "experiments/output/destinations.h"
-#include "experiments/program/command_line.h"
 #include "experiments/program/input_options.h"
 #include "motions/base/bead.h"
 
@@ -21,8 +20,7 @@ inline constexpr std::array<std::string_view, 3> which_pairs_names{"all", "withi
   return which_pairs_names[static_cast<std::size_t>(pairs)];
 }
 
-struct CollideOptions {
-  InputOptions input;
+struct CollideOptions : InputOptions {
   std::vector<std::string> methods;  ///< in the order of all methods
   bool all_methods = true;           ///< nobody has named them
   WhichPairs pairs = WhichPairs::all;
@@ -31,6 +29,8 @@ struct CollideOptions {
   std::size_t rounds = 3;  ///< each method so often in each frame
   Destinations destinations;
 };
+
+[[nodiscard]] const OptionList<CollideOptions>& collide_options();
 
 /// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.
 [[nodiscard]] CollideOptions parse_collide_options(const Arguments& arguments);

@@ -24,30 +24,12 @@ namespace {
 
 constexpr const char* kMissedName = "missed";
 
-constexpr std::array kMissedOptions{
-    OptionSpec{"--strides", "LIST",
-               "every how many frames beads are looked at (default: 1,2,4,8,16,32,64, as far as that is two "
-               "frames or more)"},
-    OptionSpec{"--factors", "LIST",
-               "radii are those of --radius times this, a run each; where beads of a chain just touch, those "
-               "that are no neighbours meet from 2.2 to 2.5 on (default: 1)"},
-    OptionSpec{
-        "--apart", "K",
-        "of beads of one chain, those at least K apart along it; with factors above 2 others are always "
-        "near, and 5 leaves those out (default: 2)"},
-    OptionSpec{"--motion", "NAME", "linear or hermite (default: linear)"},
-    OptionSpec{"--out", "DIR", "write missed.json, missed.csv and report.html there (default: none)"},
-    OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
-    OptionSpec{"--quiet", "", "no table, no progress bar"},
-};
-constexpr auto kAllMissedOptions = joined(kInputOptions, joined(kObstacleOption, kMissedOptions));
-
 constexpr CommandSpec kMissedCommand{
     "kds missed",
     "Which share of contacts, whose times are exact, is missed by looking at every stride-th frame only.",
     kInputOperand,
     kTrajectoryHelp,
-    kAllMissedOptions,
+    {},
     "kds missed villin.dcd --topology villin.pdb --factors 2.2,2.5 --apart 5 --out report\n"
     "kds missed a.xyz b.xyz --radius 1.9 --strides 1,10,100 --json -"};
 
@@ -63,8 +45,8 @@ std::vector<double> parse_factors(const std::string& list) {
 
 Json input_json(const MissedTask& task, const MissedInput& input) {
   Json files = Json::array();
-  for (const auto& file : task.input.inputs) files.push_back(file.string());
-  if (task.input.obstacle) files.push_back(task.input.obstacle->string());
+  for (const auto& file : task.inputs) files.push_back(file.string());
+  if (task.obstacle) files.push_back(task.obstacle->string());
   return {{"files", files},
           {"beads", input.beads},
           {"necklaces", input.necklaces},
@@ -74,29 +56,40 @@ Json input_json(const MissedTask& task, const MissedInput& input) {
           {"radius_max", input.radius_max}};
 }
 
-Json settings_json(const MissedTask& task) {
-  const ReadOptions& reading = task.input.reading;
-  return {{"topology", reading.topology ? reading.topology->string() : ""},
-          {"select", name_of(reading.selection)},
-          {"chain", reading.chain.value_or("")},
-          {"frames", name_of(reading.frames)},
-          {"radius", task.input.radius},
-          {"obstacle", task.input.obstacle ? task.input.obstacle->string() : ""},
-          {"factors", task.factors},
-          {"apart", task.apart},
-          {"motion", name_of(task.motion)}};
+const OptionList<MissedTask>& task_options() {
+  using O = MissedTask;
+  static const auto list =
+      OptionList<O>()
+          .with(input_options().with({obstacle_option()}))
+          .with(
+              {of_output(list_option(
+                   {"--strides", "LIST",
+                    "every how many frames beads are looked at (default: 1,2,4,8,16,32,64, as far as "
+                    "that is two frames or more)"},
+                   &O::strides, parse_strides)),
+               list_option({"--factors", "LIST",
+                            "radii are those of --radius times this, a run each; where beads of a chain just "
+                            "touch, those that are no neighbours meet from 2.2 to 2.5 on (default: 1)"},
+                           &O::factors, parse_factors),
+               apart_option("of beads of one chain, those at least K apart along it; with factors above 2 "
+                            "others are always near, and 5 leaves those out (default: 2)",
+                            &O::apart),
+               // Lifted motion has no radii between frames.
+               choice_option({"--motion", "NAME", "linear or hermite (default: linear)"}, &O::motion,
+                             std::span(frame_motion_names).first(2))});
+  return list;
 }
 
 std::string file_names(const MissedTask& task) {
   std::vector<std::string> names;
-  for (const auto& input : task.input.inputs) names.push_back(input.filename().string());
+  for (const auto& input : task.inputs) names.push_back(input.filename().string());
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
 void check_destinations(const MissedOptions& options) {
   const Destinations& destinations = options.destinations;
   TakenPaths taken;
-  taken.read(options.task.input);
+  taken.read(options.task);
   if (destinations.out) {
     taken.write_into("--out", *destinations.out, {"report.html"});
   }
@@ -108,28 +101,26 @@ void check_destinations(const MissedOptions& options) {
 }  // namespace
 
 MissedOptions parse_missed_options(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kMissedCommand, arguments);
-  MissedOptions options;
-  MissedTask& task = options.task;
-  task.input = parse_input_options(parsed, kMissedCommand.name);
-  if (const auto list = parsed.value("--strides")) task.strides = parse_strides(*list);
-  if (const auto list = parsed.value("--factors")) task.factors = parse_factors(*list);
-  if (const auto text = parsed.value("--apart")) task.apart = parse_apart(*text);
-  // Lifted motion has no radii between frames.
-  task.motion =
-      chosen<FrameMotion>(parsed, "--motion", std::span(frame_motion_names).first(2)).value_or(task.motion);
-  options.destinations = {path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
+  using O = MissedOptions;
+  static const auto list =
+      OptionList<O>()
+          .with(&O::task, task_options())
+          .with(&O::destinations,
+                destination_options("write missed.json, missed.csv and report.html there (default: none)"));
+  O options;
+  const ParsedArguments parsed = read_arguments(kMissedCommand, list, arguments, options);
+  take_inputs(parsed, kMissedCommand.name, options.task);
   return options;
 }
 
 int missed_command(const Arguments& arguments) {
   const MissedOptions options = parse_missed_options(arguments);
   const MissedTask& task = options.task;
-  check_inputs_exist(task.input);
+  check_inputs_exist(task);
   check_destinations(options);
 
   ProgressBar bar(!options.destinations.quiet, "step");
-  if (const auto instance = read_lone_instance(task.input))
+  if (const auto instance = read_lone_instance(task))
     throw InputError(instance->file + ": an instance file has points, no balls; expected a trajectory");
   Json warnings = Json::array();
   HeldWarnings held;
@@ -144,14 +135,14 @@ int missed_command(const Arguments& arguments) {
   const std::string command_line = "kds missed " + shell_words(arguments);
   Json json;
   json["input"] = input_json(task, report.input);
-  json["settings"] = settings_json(task);
+  json["settings"] = task_options().settings_json(task);
   json["rows"] = missed_rows_json(report.rows);
   json["warnings"] = warnings;
   add_provenance(json, command_line);
   deliver_table(options.destinations, kMissedName,
                 {text_of(json), missed_csv(report.rows), missed_table(report.rows), [&] {
                    return missed_page(report.rows, file_names(task),
-                                      made_by(kMissedName, command_line, settings_json(task)));
+                                      made_by(kMissedName, command_line, task_options().settings_json(task)));
                  }});
   return 0;
 }

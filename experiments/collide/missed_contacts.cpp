@@ -21,7 +21,7 @@ std::vector<std::size_t> strides_for(const MissedTask& task, std::size_t frames)
   if (!task.strides.empty()) {
     if (too_long(task.strides.back()))
       throw InputError(fmt::format("--strides: {} looks at one of the {} frames of {}; expected two or more",
-                                   task.strides.back(), frames, task.input.inputs.front().string()));
+                                   task.strides.back(), frames, task.inputs.front().string()));
     return task.strides;
   }
   std::vector<std::size_t> strides;
@@ -39,7 +39,7 @@ std::vector<SampledContacts::Sampling> samplings_of(const MissedTask& task, cons
                                                     std::span<const std::size_t> strides,
                                                     const std::function<void(std::size_t)>& at_frame) {
   RunOptions options;
-  options.inputs = task.input.inputs;
+  options.inputs = task.inputs;
   options.structures = {"contacts"};
   options.motion = task.motion;
   options.apart = task.apart;
@@ -63,11 +63,11 @@ std::vector<SampledContacts::Sampling> samplings_of(const MissedTask& task, cons
 MissedReport count_missed(const MissedTask& task, const std::function<void(const std::string&)>& warn,
                           const std::function<void(std::size_t, std::size_t)>& progress) {
   MissedReport report;
-  report.input = input_of(load_necklaces(task.input, task.motion, 1, warn));
+  report.input = input_of(load_necklaces(task, task.motion, 1, warn));
   const std::vector<std::size_t> strides = strides_for(task, report.input.frames);
   for (std::size_t run = 0; run < task.factors.size(); ++run) {
     const double factor = task.factors[run];
-    const Scene scene = load_necklaces(task.input, task.motion, factor, [](const std::string&) {});
+    const Scene scene = load_necklaces(task, task.motion, factor, [](const std::string&) {});
     const auto samplings = samplings_of(task, scene, strides, [&](std::size_t frame) {
       progress(run * scene.step_count() + frame, task.factors.size() * scene.step_count());
     });
@@ -75,7 +75,7 @@ MissedReport count_missed(const MissedTask& task, const std::function<void(const
       report.rows.push_back({factor, sampling.stride, frames_looked_at(scene.frame_count(), sampling.stride),
                              sampling.contacts, sampling.found});
     const bool none = std::ranges::all_of(report.rows, [](const auto& row) { return row.contacts == 0; });
-    if (none && run + 1 == task.factors.size() && task.input.radius == "auto")
+    if (none && run + 1 == task.factors.size() && task.radius == "auto")
       if (const auto hint = radius_hint(scene, task.apart)) warn(*hint);
   }
   return report;

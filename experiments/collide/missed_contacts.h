@@ -15,8 +15,7 @@
 
 namespace kds {
 
-struct MissedTask {
-  InputOptions input;
+struct MissedTask : InputOptions {
   FrameMotion motion = FrameMotion::linear;
   std::vector<double> factors{1};    ///< of radii, a run each
   std::vector<std::size_t> strides;  ///< ascending; none: 1, 2, 4 ... 64, as far as they look at two frames

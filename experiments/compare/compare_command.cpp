@@ -20,25 +20,9 @@ namespace {
 
 constexpr const char* kCompareName = "compare";
 
-Json settings_json(const CompareOptions& options) {
-  const ReadOptions& reading = options.input.reading;
-  std::vector<std::string_view> motions;
-  for (const FrameMotion motion : options.motions) motions.push_back(name_of(motion));
-  return {{"structures", options.structures},
-          {"strides", options.strides},
-          {"motions", motions},
-          {"topology", reading.topology ? reading.topology->string() : ""},
-          {"select", name_of(reading.selection)},
-          {"chain", reading.chain.value_or("")},
-          {"frames", name_of(reading.frames)},
-          {"radius", options.input.radius},
-          {"rounds", options.rounds},
-          {"apart", options.apart ? std::to_string(*options.apart) : ""}};
-}
-
 void check_destinations(const CompareOptions& options, const Destinations& destinations) {
   TakenPaths taken;
-  taken.read(options.input);
+  taken.read(options);
   if (options.out) taken.write_into("--out", *options.out, {"report.html"});
   check_table_destinations(destinations, kCompareName, taken);
   if (!options.out) return;
@@ -49,8 +33,8 @@ void check_destinations(const CompareOptions& options, const Destinations& desti
 
 int compare_command(const Arguments& arguments) {
   const CompareOptions options = parse_compare_options(arguments);
-  const Destinations destinations{options.out, options.json, options.quiet};
-  check_inputs_exist(options.input);
+  const Destinations& destinations = options;
+  check_inputs_exist(options);
   check_destinations(options, destinations);
 
   ProgressBar bar(!options.quiet, "step");
@@ -67,14 +51,14 @@ int compare_command(const Arguments& arguments) {
   const std::string command_line = "kds compare " + shell_words(arguments);
   Json json;
   json["inputs"] = compared_inputs_json(comparison);
-  json["settings"] = settings_json(options);
+  json["settings"] = compare_options().settings_json(options);
   json["rows"] = compare_rows_json(comparison);
   json["warnings"] = warnings;
   add_provenance(json, command_line);
   deliver_table(destinations, kCompareName,
                 {text_of(json), compare_csv(comparison), compare_table(comparison), [&] {
-                   return compare_page(comparison,
-                                       made_by(kCompareName, command_line, settings_json(options)));
+                   return compare_page(comparison, made_by(kCompareName, command_line,
+                                                           compare_options().settings_json(options)));
                  }});
   return 0;
 }

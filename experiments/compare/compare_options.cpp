@@ -12,23 +12,6 @@ namespace kds {
 
 namespace {
 
-constexpr std::array kCompareOptions{
-    OptionSpec{"--structures", "LIST",
-               "comma list of sorted, box, hull, closest, wrapped, power, contacts (default: wrapped,power)"},
-    OptionSpec{"--strides", "LIST", "run over every frame, every second, ...: 1,2,4 (default: 1)"},
-    OptionSpec{"--motions", "LIST",
-               "how beads move between frames: comma list of linear, hermite, lifted (default: linear)"},
-    OptionSpec{"--apart", "K",
-               "contacts: of beads of one chain, those at least K apart along it (default: 2)"},
-    OptionSpec{"--rounds", "N",
-               "each run so often: times are the median, with the least and most (default: 3)"},
-    OptionSpec{"--out", "DIR", "write compare.json, compare.csv and report.html there (default: none)"},
-    OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
-    OptionSpec{"--quiet", "", "no table, no progress bar"},
-};
-
-constexpr auto kAllCompareOptions = joined(kInputOptions, kCompareOptions);
-
 constexpr CommandSpec kCompareCommand{
     "kds compare",
     "Compares how often structures change, by stride, motion and input: each is a run of all structures.\n\n"
@@ -40,7 +23,7 @@ constexpr CommandSpec kCompareCommand{
     "  responsiveness  the seconds an event takes",
     kInputOperand,
     "necklaces, each for itself: .pdb .ent .cif .mmcif .dcd .xyz .extxyz (also .gz)",
-    kAllCompareOptions,
+    {},
     "kds compare villin.dcd --topology villin.pdb --strides 1,2,4,8,16,32 --out report\n"
     "kds compare 300K.dcd 400K.dcd --topology villin.pdb --structures wrapped,contacts --motions "
     "linear,hermite",
@@ -57,21 +40,46 @@ std::vector<FrameMotion> parse_motions(const std::string& list) {
   return motions;
 }
 
+/// JSON has the distance as text, empty if it is not given.
+Option<CompareOptions> compare_apart_option() {
+  auto option = apart_option("contacts: of beads of one chain, those at least K apart along it (default: 2)",
+                             &CompareOptions::apart);
+  option.json = nullptr;
+  return option;
+}
+
 }  // namespace
 
+const OptionList<CompareOptions>& compare_options() {
+  using O = CompareOptions;
+  static const auto list =
+      OptionList<O>()
+          .with(input_options())
+          .with(
+              {list_option({"--structures", "LIST",
+                            "comma list of sorted, box, hull, closest, wrapped, power, contacts (default: "
+                            "wrapped,power)"},
+                           &O::structures, parse_structures),
+               list_option(
+                   {"--strides", "LIST", "run over every frame, every second, ...: 1,2,4 (default: 1)"},
+                   &O::strides, parse_strides),
+               list_option({"--motions", "LIST",
+                            "how beads move between frames: comma list of linear, hermite, lifted (default: "
+                            "linear)"},
+                           &O::motions, parse_motions),
+               compare_apart_option(),
+               whole_option({"--rounds", "N",
+                             "repeat each run N times and report the median time, with the least and most "
+                             "(default: 3)"},
+                            &O::rounds, 1, 1000)})
+          .with(destination_options("write compare.json, compare.csv and report.html there (default: none)"));
+  return list;
+}
+
 CompareOptions parse_compare_options(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kCompareCommand, arguments);
   CompareOptions options;
-  options.input = parse_input_options(parsed, kCompareCommand.name);
-  if (const auto list = parsed.value("--structures")) options.structures = parse_structures(*list);
-  if (const auto list = parsed.value("--strides")) options.strides = parse_strides(*list);
-  if (const auto list = parsed.value("--motions")) options.motions = parse_motions(*list);
-  if (const auto apart = parsed.value("--apart")) options.apart = parse_apart(*apart);
-  if (const auto text = parsed.value("--rounds"))
-    options.rounds = parse_whole_number("--rounds", *text, 1, 1000);
-  options.out = path_of(parsed, "--out");
-  options.json = parsed.value("--json");
-  options.quiet = parsed.has("--quiet");
+  const ParsedArguments parsed = read_arguments(kCompareCommand, compare_options(), arguments, options);
+  take_inputs(parsed, kCompareCommand.name, options);
   return options;
 }
 

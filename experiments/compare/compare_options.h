@@ -2,29 +2,27 @@
 // `kds compare`: what it was asked to do, and how that is parsed.
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "experiments/program/command_line.h"
+#include "experiments/output/destinations.h"
 #include "experiments/program/input_options.h"
 #include "motions/base/bead.h"
 #include "motions/scene/scene.h"
 
 namespace kds {
 
-struct CompareOptions {
-  InputOptions input;                   ///< each input is a run of its own
+/// Each input is a run of its own. Results: compare.json, compare.csv, report.html.
+struct CompareOptions : InputOptions, Destinations {
   std::vector<std::string> structures;  ///< in their order; empty: the input's default
   std::vector<std::size_t> strides{1};  ///< ascending
   std::vector<FrameMotion> motions{FrameMotion::linear};
-  std::size_t rounds = 3;                    ///< each run so often, for its time
-  std::optional<BeadId> apart;               ///< --apart
-  std::optional<std::filesystem::path> out;  ///< directory for compare.json, compare.csv, report.html
-  std::optional<std::string> json;           ///< file, or - for standard output
-  bool quiet = false;
+  std::size_t rounds = 3;       ///< each run so often, for its time
+  std::optional<BeadId> apart;  ///< --apart
 };
+
+[[nodiscard]] const OptionList<CompareOptions>& compare_options();
 
 /// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.
 [[nodiscard]] CompareOptions parse_compare_options(const Arguments& arguments);

@@ -20,13 +20,13 @@ using Warn = std::function<void(const std::string&)>;
 double ratio(std::uint64_t count, double of) { return static_cast<double>(count) / of; }
 
 // A run of one input as `kds run` has it.
-RunOptions run_options(const CompareOptions& options, std::size_t input, FrameMotion motion) {
+RunOptions run_of(const CompareOptions& options, std::size_t input, FrameMotion motion) {
   RunOptions run;
-  run.inputs = {options.input.inputs[input]};
+  run.inputs = {options.inputs[input]};
   run.structures = options.structures;
   run.motion = motion;
-  run.reading = reading_of(options.input, input);
-  run.radius = options.input.radius;
+  run.reading = reading_of(options, input);
+  run.radius = options.radius;
   run.apart = options.apart;
   return run;
 }
@@ -46,7 +46,7 @@ void refuse_without_events(const Session& session) {
 ComparedInput look_at(const CompareOptions& options, std::size_t input, const Warn& warn) {
   ComparedInput found;
   for (const FrameMotion motion : options.motions) {
-    const RunOptions run = run_options(options, input, motion);
+    const RunOptions run = run_of(options, input, motion);
     const Scene scene = load_scene(
         run, motion == options.motions.front() ? warn : [](const std::string&) {});
     refuse_without_events(*open_session(run, scene, AuditMode::none));
@@ -127,20 +127,20 @@ std::optional<double> CompareRow::seconds_per_event() const {
 
 Comparison compare_runs(const CompareOptions& options,
                         const std::function<void(std::size_t, std::size_t)>& progress, const Warn& warn) {
-  for (const auto& input : options.input.inputs)
+  for (const auto& input : options.inputs)
     if (is_instance_file(input))
       throw InputError(input.string() + ": an instance file has no frames; expected a trajectory");
   Comparison comparison;
   std::size_t done = 0, total = 0;
-  for (std::size_t i = 0; i < options.input.inputs.size(); ++i) {
+  for (std::size_t i = 0; i < options.inputs.size(); ++i) {
     const ComparedInput& input = comparison.inputs.emplace_back(look_at(options, i, warn));
     for (const std::size_t stride : options.strides)
       total += options.rounds * options.motions.size() * (strided(input.frames, stride) - 1);
   }
-  for (std::size_t i = 0; i < options.input.inputs.size(); ++i)
+  for (std::size_t i = 0; i < options.inputs.size(); ++i)
     for (const FrameMotion motion : options.motions)
       for (const std::size_t stride : options.strides) {
-        RunOptions run = run_options(options, i, motion);
+        RunOptions run = run_of(options, i, motion);
         run.reading.frames.stride *= stride;
         if (run.radius == "auto") run.radius = fmt::format("{}", comparison.inputs[i].radius_min);
         const std::function<void()> step_done = [&] { progress(++done, total); };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "experiments/output/text.h"
+#include "experiments/program/option_names.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/suggestion.h"
 #include "motions/base/input_file.h"
@@ -71,23 +72,60 @@ void check_exists(const std::filesystem::path& path) {
   require_regular_file(path);
 }
 
-InputOptions parse_input_options(const ParsedArguments& parsed, std::string_view command) {
-  InputOptions options;
+const OptionList<InputOptions>& input_options() {
+  static const OptionList<InputOptions> list{{
+      {{"--topology", "FILE",
+        "PDB or mmCIF that names the atoms of a DCD (default: its atoms are the beads)"},
+       [](InputOptions& o, const std::string& text) { o.reading.topology = parse_path("--topology", text); },
+       [](const InputOptions& o) { return o.reading.topology ? o.reading.topology->string() : ""; },
+       [](const InputOptions& o) {
+         return o.reading.topology ? std::filesystem::absolute(*o.reading.topology).string() : "";
+       }},
+      {{"--select", "NAME", "backbone (N, CA, C), ca or all (default: backbone where residues are known)"},
+       [](InputOptions& o, const std::string& text) { o.reading.selection = parse_selection(text); },
+       [](const InputOptions& o) { return std::string(name_of(o.reading.selection)); },
+       [](const InputOptions& o) {
+         const bool is_asked_for = o.reading.selection != Selection::automatic;
+         return std::string(is_asked_for ? name_of(o.reading.selection) : "");
+       }},
+      {{"--chain", "IDS",
+        "the chain to read, or several, a necklace each: A,B; for each INPUT its own: A,B/C; a "
+        "molecule by its number: A.2 of chain A, 2 of those without a chain "
+        "(default: the first polymer chain)"},
+       [](InputOptions& o, const std::string& text) { o.reading.chain = text; },
+       [](const InputOptions& o) { return o.reading.chain.value_or(""); }},
+      {{"--frames", "RANGE", "FIRST:LAST:STRIDE, from 0, LAST excluded (default: all)"},
+       [](InputOptions& o, const std::string& text) { o.reading.frames = parse_frame_range(text); },
+       [](const InputOptions& o) { return name_of(o.reading.frames); }},
+      {{"--radius", "RULE", "auto, a number, element, element:fit or file:PATH (default: auto)"},
+       [](InputOptions& o, const std::string& text) { o.radius = parse_radius(text); },
+       [](const InputOptions& o) { return o.radius; },
+       [](const InputOptions& o) {
+         if (!o.radius.starts_with("file:")) return o.radius;
+         return "file:" + std::filesystem::absolute(o.radius.substr(5)).string();
+       }},
+  }};
+  return list;
+}
+
+const Option<InputOptions>& obstacle_option() {
+  static const Option<InputOptions> option = path_option(
+      {"--obstacle", "FILE",
+       "a necklace of one frame, which rests while the others move; its chain behind a / of --chain: A,B/C "
+       "(default: none)"},
+      &InputOptions::obstacle);
+  return option;
+}
+
+void take_inputs(const ParsedArguments& parsed, std::string_view command, InputOptions& options) {
   if (parsed.operands().empty())
     throw InputError(fmt::format("{0} needs at least one INPUT (see {0} --help)", command));
   for (const std::string& input : parsed.operands()) {
     if (input.empty()) throw InputError("an INPUT is empty; give the path of a file");
     options.inputs.emplace_back(input);
   }
-  options.reading.topology = path_of(parsed, "--topology");
-  if (const auto word = parsed.value("--select")) options.reading.selection = parse_selection(*word);
-  options.reading.chain = parsed.value("--chain");
-  if (const auto range = parsed.value("--frames")) options.reading.frames = parse_frame_range(*range);
-  options.obstacle = path_of(parsed, "--obstacle");
   if (options.reading.chain)
     check_chains(*options.reading.chain, options.inputs.size(), options.obstacle.has_value());
-  if (const auto rule = parsed.value("--radius")) options.radius = parse_radius(*rule);
-  return options;
 }
 
 ReadOptions reading_of(const InputOptions& options, std::size_t input) {

@@ -33,11 +33,14 @@ std::size_t place_among(std::string_view option, std::string_view word,
   return static_cast<std::size_t>(found - names.begin());
 }
 
+std::filesystem::path parse_path(std::string_view option, const std::string& text) {
+  if (text == "-") throw InputError(fmt::format("{} needs a path; - is for --json only", option));
+  return text;
+}
+
 std::optional<std::filesystem::path> path_of(const ParsedArguments& parsed, std::string_view option) {
   const std::optional<std::string> text = parsed.value(option);
-  if (!text) return std::nullopt;
-  if (*text == "-") throw InputError(fmt::format("{} needs a path; - is for --json only", option));
-  return std::filesystem::path(*text);
+  return text ? std::optional(parse_path(option, *text)) : std::nullopt;
 }
 
 std::uint64_t parse_whole_number(std::string_view option, std::string_view text, std::uint64_t least,

@@ -43,6 +43,8 @@ template <class Enum>
   return word ? std::optional(choice_of(option, *word, names, first)) : std::nullopt;
 }
 
+/// The path of a file or directory; - is refused.
+[[nodiscard]] std::filesystem::path parse_path(std::string_view option, const std::string& text);
 /// The path of a file or directory; none where the option is not given, - is refused.
 [[nodiscard]] std::optional<std::filesystem::path> path_of(const ParsedArguments& parsed,
                                                            std::string_view option);

@@ -20,7 +20,7 @@ namespace kds {
 namespace {
 
 std::unique_ptr<SceneStream> frames_of(const RunOptions& options, std::size_t stride) {
-  InputOptions input = inputs_of(options);
+  InputOptions input = options;
   input.reading.frames.stride = stride;
   return std::make_unique<SceneStream>(open_frames(input, [](const std::string&) {}));
 }

@@ -9,7 +9,7 @@
 
 #include "experiments/output/provenance.h"
 #include "experiments/output/result_json.h"
-#include "experiments/run/run_settings.h"
+#include "experiments/run/parse_run_options.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -93,7 +93,7 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const RunOptio
                                const Scene& scene)
     : file_(path) {
   const std::optional<std::string> header = line_of({{"version", program_version()},
-                                                     {"arguments", option_arguments(options)},
+                                                     {"arguments", repeating_arguments(options)},
                                                      {"beads", scene.bead_count()},
                                                      {"steps", scene.step_count()}});
   if (!header)

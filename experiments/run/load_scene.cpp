@@ -109,10 +109,6 @@ void check_inputs_of_one_frame(const std::vector<InputAtoms>& inputs, const Inpu
 
 }  // namespace
 
-InputOptions inputs_of(const RunOptions& options) {
-  return {options.inputs, options.reading, options.radius, options.obstacle};
-}
-
 SceneStream open_frames(const InputOptions& options, const std::function<void(const std::string&)>& warn,
                         std::size_t stride) {
   std::vector<NecklaceStream> files;
@@ -170,7 +166,7 @@ Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radiu
 }
 
 Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn) {
-  const InputOptions input = inputs_of(options);
+  const InputOptions& input = options;
   if (std::optional<Instance> instance = read_lone_instance(input)) {
     if (options.motion != FrameMotion::linear)
       throw InputError(

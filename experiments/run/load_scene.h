@@ -18,9 +18,6 @@ namespace kds {
 /// option has no meaning for it.
 [[nodiscard]] std::optional<Instance> read_lone_instance(const InputOptions& options);
 
-/// Returns the input options of a run.
-[[nodiscard]] InputOptions inputs_of(const RunOptions& options);
-
 /// Opens all inputs, then the obstacle, to be read frame by frame: every `stride`-th of the frames that the
 /// options ask for. No input may be an instance file.
 ///

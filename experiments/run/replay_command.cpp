@@ -5,7 +5,6 @@
 #include <array>
 #include <filesystem>
 
-#include "experiments/events/events_option.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/text.h"
 #include "experiments/program/input_options.h"
@@ -14,6 +13,7 @@
 #include "experiments/program/taken_paths.h"
 #include "experiments/program/warnings.h"
 #include "experiments/run/load_scene.h"
+#include "experiments/run/parse_run_options.h"
 #include "experiments/run/replay_log.h"
 #include "experiments/run/report_json.h"
 #include "experiments/run/run_results.h"
@@ -23,19 +23,20 @@
 namespace kds {
 namespace {
 
-constexpr std::array kReplayOptions{
-    kEventsOption,
-    OptionSpec{
-        "--out", "DIR",
-        "write summary.json, events.csv, report.html and, of contacts, contacts.csv there (default: none)"},
-    OptionSpec{"--json", "FILE", "write the summary there; - is standard output (default: none)"},
-    OptionSpec{"--quiet", "", "no table, no progress bar"},
+struct ReplayOptions : Destinations {
+  std::optional<std::filesystem::path> events;
 };
 
+const OptionList<ReplayOptions>& replay_options() {
+  using O = ReplayOptions;
+  static const auto list = OptionList<O>().with({events_option(&O::events)}).with(run_destination_options());
+  return list;
+}
+
 constexpr CommandSpec kReplayCommand{
-    "kds replay",   "Runs a logged run again and tells whether the same happens (exit code 0) or not (1).",
-    "LOG",          "an event log, as written by kds run --log",
-    kReplayOptions, "kds run models.pdb --log models.kdslog\nkds replay models.kdslog",
+    "kds replay", "Runs a logged run again and tells whether the same happens (exit code 0) or not (1).",
+    "LOG",        "an event log, as written by kds run --log",
+    {},           "kds run models.pdb --log models.kdslog\nkds replay models.kdslog",
 };
 
 std::string verdict(const ReplayReport& replay) {
@@ -50,21 +51,21 @@ std::string verdict(const ReplayReport& replay) {
 }  // namespace
 
 int replay_command(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kReplayCommand, arguments);
+  ReplayOptions options;
+  const ParsedArguments parsed = read_arguments(kReplayCommand, replay_options(), arguments, options);
   if (parsed.operands().size() != 1)
     throw InputError(
         fmt::format("kds replay takes one LOG, not {} (see kds replay --help)", parsed.operands().size()));
   const std::filesystem::path log = parsed.operands().front();
   check_exists(log);
 
-  Destinations destinations{std::nullopt, parsed.value("--json"), parsed.has("--quiet")};
-  if (const auto out = parsed.value("--out")) destinations.out = *out;
+  const Destinations& destinations = options;
   TakenPaths paths;
   paths.add("the log", log);
   const RunOptions run = logged_run(log);
-  paths.read(inputs_of(run));
+  paths.read(run);
   paths.write(destinations);
-  const auto events = path_of(parsed, kEventsOption.name);
+  const auto& events = options.events;
   if (events) paths.write("--events", *events);
   check_destinations(destinations, "replay", run);
   if (events) ensure_writable_file(*events, "--events");

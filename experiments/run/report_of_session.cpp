@@ -7,7 +7,7 @@
 
 #include "experiments/events/contacts_csv.h"
 #include "experiments/output/text.h"
-#include "experiments/run/run_settings.h"
+#include "experiments/run/parse_run_options.h"
 
 namespace kds {
 
@@ -60,8 +60,8 @@ RunReport report_of(Session& session, const Scene& scene, const RunOptions& opti
   const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
   report.radius_min = *least;
   report.radius_max = *most;
-  report.settings = option_settings(options);
-  report.command_line = "kds run " + shell_words(option_arguments(options));
+  report.settings = run_options().settings(options);
+  report.command_line = "kds run " + shell_words(repeating_arguments(options));
   for (std::size_t s = 0; s < session.structures().size(); ++s) {
     report.structures.push_back(
         report_of(*session.structures()[s], session.simulator().seconds_of(s), counts.courses()[s]));

@@ -42,7 +42,7 @@ void refuse_file_in(const std::filesystem::path& dump, const RunOptions& options
 
 void check_apart(const RunOptions& options, const Destinations& destinations) {
   TakenPaths paths;
-  paths.read(inputs_of(options));
+  paths.read(options);
   paths.write(destinations);
   if (options.events) paths.write("--events", *options.events);
   if (options.log) paths.write("--log", *options.log);
@@ -54,7 +54,7 @@ void check_apart(const RunOptions& options, const Destinations& destinations) {
 }
 
 void check_before_run(const RunOptions& options, const Destinations& destinations) {
-  check_inputs_exist(inputs_of(options));
+  check_inputs_exist(options);
   check_apart(options, destinations);
   check_destinations(destinations, "run", options);
   if (options.events) ensure_writable_file(*options.events, "--events");
@@ -69,7 +69,7 @@ void check_before_run(const RunOptions& options, const Destinations& destination
 
 int run_command(const Arguments& arguments) {
   const RunOptions options = parse_run_options(arguments);
-  const Destinations destinations{options.out, options.json, options.quiet};
+  const Destinations& destinations = options;
   check_before_run(options, destinations);
 
   RunResults results("run", destinations, options.events);

@@ -1,5 +1,7 @@
 #pragma once
-// What `kds run` was asked to do. Parsed and checked by parse_run_options; see docs of each option there.
+// What `kds run` was asked to do. run_option_list.cpp declares the options.
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -10,8 +12,9 @@
 #include <vector>
 
 #include "certificates/base/kernel.h"
+#include "experiments/output/destinations.h"
+#include "experiments/program/input_options.h"
 #include "kds/audit.h"
-#include "motions/readers/read_trajectory.h"
 #include "motions/scene/scene.h"
 #include "structures/session/structure_spec.h"
 
@@ -22,19 +25,17 @@ struct MotionTolerance {
   double amount = 0;
   bool of_radius = false;
 
+  /// Returns it as --tolerance takes it.
+  [[nodiscard]] std::string text() const { return fmt::format("{}{}", amount, of_radius ? "r" : ""); }
   [[nodiscard]] double length(std::span<const double> radii) const {
     return of_radius ? amount * *std::min_element(radii.begin(), radii.end()) : amount;
   }
 };
 
-struct RunOptions {
-  std::vector<std::filesystem::path> inputs;
+struct RunOptions : InputOptions, Destinations {
   std::vector<std::string> structures;  ///< by name, in their order; empty: the input's default
   FrameMotion motion = FrameMotion::linear;
   Kernel kernel = Kernel::filtered;
-  ReadOptions reading;  ///< --topology, --select, --chain, --frames
-  std::string radius = "auto";
-  std::optional<std::filesystem::path> obstacle;  ///< --obstacle
   AuditMode audit = AuditMode::none;
   NodeSelection nodes;                          ///< --levels, --nodes
   std::optional<BeadId> apart;                  ///< --apart; none: not given
@@ -44,13 +45,10 @@ struct RunOptions {
   std::optional<MotionTolerance> tolerance;     ///< --tolerance; none: not given
   bool certify = false;                         ///< --certify
   std::optional<std::filesystem::path> dump;    ///< directory for the structures at every frame
-  std::optional<std::filesystem::path> out;     ///< directory for summary.json, events.csv, report.html
   std::optional<std::filesystem::path> events;  ///< file for every event
   std::optional<std::filesystem::path> log;     ///< event log, for `kds replay`
   std::size_t rounds = 1;                       ///< the run so often, for its times
   std::optional<std::uint64_t> work;            ///< most limb operations of exact arithmetic
-  std::optional<std::string> json;              ///< file, or - for standard output
-  bool quiet = false;
 };
 
 }  // namespace kds

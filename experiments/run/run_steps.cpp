@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "experiments/output/text.h"
-#include "experiments/run/run_settings.h"
+#include "experiments/run/parse_run_options.h"
 #include "kds/audit.h"
 #include "motions/base/input_error.h"
 
@@ -36,7 +36,7 @@ void in_step(Session& session, const Scene& scene, std::size_t step, const RunOp
     with_limit(session, options, work);
   } catch (const AuditError& error) {
     throw AuditError(fmt::format("{}\nto see it again: kds run {}", named(error.what()),
-                                 shell_words(option_arguments(options))));
+                                 shell_words(repeating_arguments(options))));
   } catch (const InputError& error) {
     throw InputError(named(error.what()));
   }

@@ -24,17 +24,6 @@ namespace {
 
 constexpr std::string_view kInfoName = "info";
 
-Json settings_json(const InfoOptions& options) {
-  const ReadOptions& reading = options.input.reading;
-  const double rho = options.validate.rho;
-  return {{"topology", reading.topology ? reading.topology->string() : ""},
-          {"select", name_of(reading.selection)},
-          {"chain", reading.chain.value_or("")},
-          {"frames", name_of(reading.frames)},
-          {"radius", options.input.radius},
-          {"rho", std::isinf(rho) ? Json(nullptr) : Json(rho)}};
-}
-
 // Points with weights, not balls in a chain: there is nothing to judge.
 TableResults describe(const Instance& instance, bool beads, const std::string& command_line) {
   if (beads)
@@ -60,18 +49,17 @@ TableResults describe(const Instance& instance, bool beads, const std::string& c
 
 TableResults describe_beads(const InfoOptions& options, const std::string& command_line, ProgressBar& bar) {
   HeldWarnings held;
-  const SceneSurvey survey =
-      open_frames(options.input, held.hold()).survey(options.input.radius == "auto", held.hold());
+  const SceneSurvey survey = open_frames(options, held.hold()).survey(options.radius == "auto", held.hold());
   const std::vector<BeadRow> rows =
-      bead_rows(survey.necklaces, bead_radii(options.input.radius, survey.necklaces, survey.bonds));
+      bead_rows(survey.necklaces, bead_radii(options.radius, survey.necklaces, survey.bonds));
   Json json, files = Json::array(), warnings = Json::array();
-  for (const auto& input : options.input.inputs) files.push_back(input.string());
+  for (const auto& input : options.inputs) files.push_back(input.string());
   held.release([&](const std::string& warning) {
     warnings.push_back(warning);
     print_warning(bar, warning);
   });
   json["input"] = {{"files", files}, {"beads", rows.size()}};
-  json["settings"] = settings_json(options);
+  json["settings"] = info_options().settings_json(options);
   json["rows"] = bead_rows_json(rows);
   json["warnings"] = warnings;
   add_provenance(json, command_line);
@@ -82,9 +70,9 @@ TableResults describe(const InfoOptions& options, const std::string& command_lin
   if (options.beads) return describe_beads(options, command_line, bar);
   Json warnings = Json::array();
   HeldWarnings held;
-  SceneStream frames = open_frames(options.input, held.hold());
-  const SceneSurvey survey = frames.survey(options.input.radius == "auto", held.hold());
-  const std::vector<double> radii = bead_radii(options.input.radius, survey.necklaces, survey.bonds);
+  SceneStream frames = open_frames(options, held.hold());
+  const SceneSurvey survey = frames.survey(options.radius == "auto", held.hold());
+  const std::vector<double> radii = bead_radii(options.radius, survey.necklaces, survey.bonds);
   const SceneInfo info = describe_frames(
       survey.necklaces, survey.frames_of_necklaces,
       [&frames](FrameRead& frame) { return frames.next(frame); }, radii, options.validate,
@@ -96,7 +84,7 @@ TableResults describe(const InfoOptions& options, const std::string& command_lin
   });
   Json json;
   add_scene(json, info);
-  json["settings"] = settings_json(options);
+  json["settings"] = info_options().settings_json(options);
   json["warnings"] = warnings;
   add_provenance(json, command_line);
   return {text_of(json), conditions_csv(info), scene_table(info)};
@@ -106,15 +94,15 @@ TableResults describe(const InfoOptions& options, const std::string& command_lin
 
 int info_command(const Arguments& arguments) {
   const InfoOptions options = parse_info_options(arguments);
-  const Destinations destinations{options.out, options.json, options.quiet};
-  check_inputs_exist(options.input);
+  const Destinations& destinations = options;
+  check_inputs_exist(options);
   TakenPaths taken;
-  taken.read(options.input);
+  taken.read(options);
   check_table_destinations(destinations, std::string(kInfoName), taken);
 
   const std::string command_line = "kds info " + shell_words(arguments);
   ProgressBar bar(!options.quiet, "frame");
-  const std::optional<Instance> instance = read_lone_instance(options.input);
+  const std::optional<Instance> instance = read_lone_instance(options);
   deliver_table(
       destinations, std::string(kInfoName),
       instance ? describe(*instance, options.beads, command_line) : describe(options, command_line, bar));

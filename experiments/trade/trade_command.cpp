@@ -27,38 +27,12 @@ namespace {
 
 constexpr const char* kTradeName = "trade";
 
-constexpr std::array kTradeOptions{
-    OptionSpec{"--want", "LIST",
-               "comma list of contacts, cages, diagram, events, and scenes, which is what each part of the "
-               "scene costs "
-               "(default: contacts,cages,diagram)"},
-    OptionSpec{"--apart", "K",
-               "contacts: of beads of one chain, those at least K apart along it (default: 2)"},
-    OptionSpec{
-        "--cutoff", "LENGTH",
-        "diagram: edges shorter than this are counted where they are missed (default: 4 times the largest "
-        "radius)"},
-    OptionSpec{
-        "--without-exact", "",
-        "leave out the exact kernel, which has the same events at a hundred to thousands of times the cost"},
-    OptionSpec{"--rounds", "N", "runs of each setting in turn, of which the median counts (default: 5)"},
-    OptionSpec{"--times", "N", "random times at which errors are taken, and as many frames (default: 200)"},
-    OptionSpec{"--seed", "N", "of the random times (default: 1)"},
-    OptionSpec{"--out", "DIR", "write trade.json, trade.csv and report.html there (default: none)"},
-    OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
-    OptionSpec{
-        "--quiet", "",
-        "no table, no progress bar, which counts runs: of each setting one for its errors, then the rounds"},
-};
-
-constexpr auto kAllTradeOptions = joined(kInputOptions, kTradeOptions);
-
 constexpr CommandSpec kTradeCommand{
     "kds trade",
     "Measures what speed can be had for what accuracy: every lever on this trajectory, beside the exact run.",
     kInputOperand,
     kTrajectoryHelp,
-    kAllTradeOptions,
+    {},
     "kds trade villin.dcd --topology villin.pdb --frames 0:200 --out report\n"
     "kds trade villin.dcd --topology villin.pdb --want contacts --radius 2 --apart 5\n"
     "kds trade models.pdb --chain A,B --want scenes",
@@ -75,26 +49,63 @@ std::vector<Want> parse_wants(const std::string& list) {
   return wants;
 }
 
-Json settings_json(const TradeOptions& options) {
-  const ReadOptions& reading = options.input.reading;
-  Json wants = Json::array();
-  for (const Want want : options.task.wants) wants.push_back(name_of(want));
-  return {{"topology", reading.topology ? reading.topology->string() : ""},
-          {"select", name_of(reading.selection)},
-          {"chain", reading.chain.value_or("")},
-          {"frames", name_of(reading.frames)},
-          {"radius", options.input.radius},
-          {"want", wants},
-          {"apart", options.task.apart},
-          {"exact_kernel", options.task.exact_kernel},
-          {"rounds", options.task.rounds},
-          {"times", options.task.sampling.times},
-          {"seed", options.task.sampling.seed}};
+Option<TradeTask> without_exact_option() {
+  Option<TradeTask> option(
+      {"--without-exact", "",
+       "leave out the exact kernel, which has the same events at a hundred to thousands of times the cost"},
+      [](TradeTask& task, const std::string&) { task.exact_kernel = false; },
+      [](const TradeTask& task) { return task.exact_kernel ? "" : "yes"; }, nullptr,
+      [](const TradeTask& task) { return Json(task.exact_kernel); });
+  option.setting = "exact_kernel";
+  return option;
+}
+
+/// What is measured. --cutoff is no setting of the JSON.
+const OptionList<TradeTask>& task_options() {
+  using O = TradeTask;
+  static const auto list =
+      OptionList<O>()
+          .with(
+              {list_option({"--want", "LIST",
+                            "comma list of contacts, cages, diagram, events, and scenes, which is what each "
+                            "part of the scene costs (default: contacts,cages,diagram)"},
+                           &O::wants, parse_wants),
+               apart_option("contacts: of beads of one chain, those at least K apart along it (default: 2)",
+                            &O::apart),
+               of_output(real_option({"--cutoff", "LENGTH",
+                                      "diagram: edges shorter than this are counted where they are missed "
+                                      "(default: 4 times the largest radius)"},
+                                     &O::cutoff, {0, 1e300, true})),
+               without_exact_option(),
+               whole_option(
+                   {"--rounds", "N", "runs of each setting in turn, of which the median counts (default: 5)"},
+                   &O::rounds, 1, 1000)})
+          .with(&O::sampling,
+                {{whole_option({"--times", "N",
+                                "random times at which errors are taken, and as many frames (default: 200)"},
+                               &SamplingOfTimes::times, 1, 1'000'000),
+                  whole_option({"--seed", "N", "of the random times (default: 1)"}, &SamplingOfTimes::seed, 0,
+                               ~std::uint64_t{0})}});
+  return list;
+}
+
+const OptionList<TradeOptions>& trade_options() {
+  using O = TradeOptions;
+  static const auto list =
+      OptionList<O>()
+          .with(input_options())
+          .with(&O::task, task_options())
+          .with(destination_options(
+              "write trade.json, trade.csv and report.html there (default: none)",
+              "write the rows there; - is standard output (default: none)",
+              "no table, no progress bar, which counts runs: of each setting one for its errors, then the "
+              "rounds"));
+  return list;
 }
 
 Json input_json(const TradeOptions& options, const FinestData& finest) {
   Json files = Json::array();
-  for (const auto& input : options.input.inputs) files.push_back(input.string());
+  for (const auto& input : options.inputs) files.push_back(input.string());
   const auto [least, most] = std::minmax_element(finest.radii().begin(), finest.radii().end());
   return {{"files", files},
           {"beads", finest.radii().size()},
@@ -178,7 +189,7 @@ void refuse_needless_options(const ParsedArguments& parsed, const std::vector<Wa
 }
 
 void refuse_lone_frame(const TradeOptions& options, const std::vector<Trajectory>& necklaces) {
-  const FrameRange& frames = options.input.reading.frames;
+  const FrameRange& frames = options.reading.frames;
   const bool all = frames.first == 0 && !frames.last && frames.stride == 1;
   const bool lone = std::all_of(necklaces.begin(), necklaces.end(),
                                 [](const Trajectory& necklace) { return necklace.frames.size() < 2; });
@@ -190,32 +201,19 @@ void refuse_lone_frame(const TradeOptions& options, const std::vector<Trajectory
 }  // namespace
 
 TradeOptions parse_trade_options(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kTradeCommand, arguments);
   TradeOptions options;
-  options.input = parse_input_options(parsed, kTradeCommand.name);
-  TradeTask& task = options.task;
-  if (const auto list = parsed.value("--want")) task.wants = parse_wants(*list);
-  if (const auto apart = parsed.value("--apart")) task.apart = parse_apart(*apart);
-  if (const auto length = parsed.value("--cutoff"))
-    task.cutoff = parse_real("--cutoff", *length, {0, 1e300, true});
-  if (const auto text = parsed.value("--rounds"))
-    task.rounds = parse_whole_number("--rounds", *text, 1, 1000);
-  if (const auto text = parsed.value("--times"))
-    task.sampling.times = parse_whole_number("--times", *text, 1, 1'000'000);
-  if (const auto text = parsed.value("--seed"))
-    task.sampling.seed = parse_whole_number("--seed", *text, 0, ~std::uint64_t{0});
-  task.exact_kernel = !parsed.has("--without-exact");
-  refuse_needless_options(parsed, task.wants);
-  options.destinations = {path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
+  const ParsedArguments parsed = read_arguments(kTradeCommand, trade_options(), arguments, options);
+  take_inputs(parsed, kTradeCommand.name, options);
+  refuse_needless_options(parsed, options.task.wants);
   return options;
 }
 
 int trade_command(const Arguments& arguments) {
   const TradeOptions options = parse_trade_options(arguments);
-  const Destinations& destinations = options.destinations;
-  check_inputs_exist(options.input);
+  const Destinations& destinations = options;
+  check_inputs_exist(options);
   TakenPaths taken;
-  taken.read(options.input);
+  taken.read(options);
   if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
   check_table_destinations(destinations, kTradeName, taken);
   if (destinations.out) {
@@ -223,13 +221,13 @@ int trade_command(const Arguments& arguments) {
   }
 
   ProgressBar bar(!destinations.quiet, "run");
-  if (const auto instance = read_lone_instance(options.input))
+  if (const auto instance = read_lone_instance(options))
     throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
   HeldWarnings held;
-  std::vector<Trajectory> necklaces = read_necklaces(options.input, held.hold());
+  std::vector<Trajectory> necklaces = read_necklaces(options, held.hold());
   refuse_lone_frame(options, necklaces);
-  std::vector<double> radii = bead_radii(options.input.radius, necklaces);
-  const FinestData finest(std::move(necklaces), std::move(radii), options.input.radius);
+  std::vector<double> radii = bead_radii(options.radius, necklaces);
+  const FinestData finest(std::move(necklaces), std::move(radii), options.radius);
   TradeTask task = options.task;
   task.exact_kernel = !leave_out_exact_kernel(finest, task, held.hold());
   if (!destinations.quiet) foretell(foretold_seconds(finest, task));
@@ -239,7 +237,7 @@ int trade_command(const Arguments& arguments) {
   const bool no_contacts = std::ranges::any_of(rows, [](const TradeRow& row) {
     return row.want == Want::contacts && row.is_exact && row.cost.events == 0;
   });
-  if (no_contacts && options.input.radius == "auto")
+  if (no_contacts && options.radius == "auto")
     if (const auto hint = radius_hint(finest.scene(), task.apart)) held.hold()(*hint);
   Json warnings = Json::array();
   held.release([&](const std::string& warning) {
@@ -248,20 +246,21 @@ int trade_command(const Arguments& arguments) {
   });
 
   std::vector<std::string> names;
-  for (const auto& input : options.input.inputs) names.push_back(input.filename().string());
+  for (const auto& input : options.inputs) names.push_back(input.filename().string());
   const std::string command_line = "kds trade " + shell_words(arguments);
   Json json;
   json["input"] = input_json(options, finest);
-  json["settings"] = settings_json(options);
+  json["settings"] = trade_options().settings_json(options);
   json["rows"] = trade_rows_json(rows);
   json["recommendation"] = recommendation(rows);
   json["warnings"] = warnings;
   add_provenance(json, command_line);
-  deliver_table(destinations, kTradeName, {text_of(json), trade_csv(rows), trade_table(rows), [&] {
-                                             return trade_page(
-                                                 rows, fmt::format("{}", fmt::join(names, ", ")),
-                                                 made_by(kTradeName, command_line, settings_json(options)));
-                                           }});
+  deliver_table(destinations, kTradeName,
+                {text_of(json), trade_csv(rows), trade_table(rows), [&] {
+                   return trade_page(
+                       rows, fmt::format("{}", fmt::join(names, ", ")),
+                       made_by(kTradeName, command_line, trade_options().settings_json(options)));
+                 }});
   return 0;
 }
 

@@ -8,10 +8,9 @@
 
 namespace kds {
 
-struct TradeOptions {
-  InputOptions input;
+/// Results: trade.json, trade.csv and report.html.
+struct TradeOptions : InputOptions, Destinations {
   TradeTask task;
-  Destinations destinations;  ///< trade.json, trade.csv and report.html
 };
 
 /// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.

@@ -199,7 +199,7 @@ std::vector<UpdateRow> compare_updates(const SceneAtStride& scene_at, const Upda
     if (stride >= all.frame_count())
       throw InputError(fmt::format(
           "--strides: {} leaves one of the {} frames{}; expected two or more", stride, all.frame_count(),
-          options.input.inputs.empty() ? "" : fmt::format(" of {}", options.input.inputs.front().string())));
+          options.inputs.empty() ? "" : fmt::format(" of {}", options.inputs.front().string())));
   std::vector<UpdateRow> rows;
   std::size_t done = 0;
   for (const std::size_t stride : options.strides) {

@@ -27,13 +27,13 @@ constexpr const char* kUpdateName = "update";
 
 std::string file_names(const UpdateOptions& options) {
   std::vector<std::string> names;
-  for (const auto& input : options.input.inputs) names.push_back(input.filename().string());
+  for (const auto& input : options.inputs) names.push_back(input.filename().string());
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
 Json input_json(const UpdateOptions& options, const Scene& scene) {
   Json files = Json::array();
-  for (const auto& input : options.input.inputs) files.push_back(input.string());
+  for (const auto& input : options.inputs) files.push_back(input.string());
   const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
   return {{"files", files},
           {"beads", scene.bead_count()},
@@ -43,27 +43,14 @@ Json input_json(const UpdateOptions& options, const Scene& scene) {
           {"radius_max", *most}};
 }
 
-Json settings_json(const UpdateOptions& options) {
-  const ReadOptions& reading = options.input.reading;
-  return {{"topology", reading.topology ? reading.topology->string() : ""},
-          {"select", name_of(reading.selection)},
-          {"chain", reading.chain.value_or("")},
-          {"frames", name_of(reading.frames)},
-          {"radius", options.input.radius},
-          {"techniques", options.techniques},
-          {"strides", options.strides},
-          {"rounds", options.rounds},
-          {"audit", name_of(options.audit)}};
-}
-
 }  // namespace
 
 int update_command(const Arguments& arguments) {
   const UpdateOptions options = parse_update_options(arguments);
-  const Destinations destinations{options.out, options.json, options.quiet};
-  check_inputs_exist(options.input);
+  const Destinations& destinations = options;
+  check_inputs_exist(options);
   TakenPaths taken;
-  taken.read(options.input);
+  taken.read(options);
   if (options.out) taken.write_into("--out", *options.out, {"report.html"});
   check_table_destinations(destinations, kUpdateName, taken);
   if (options.out) {
@@ -71,18 +58,16 @@ int update_command(const Arguments& arguments) {
   }
 
   ProgressBar bar(!options.quiet, "round");
-  if (const auto instance = read_lone_instance(options.input))
+  if (const auto instance = read_lone_instance(options))
     throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
   Json warnings = Json::array();
   HeldWarnings held;
   std::map<std::size_t, SceneSurvey> surveys;  // by stride
-  surveys.emplace(
-      1, open_frames(options.input, held.hold()).survey(options.input.radius == "auto", held.hold()));
-  const std::vector<double> radii =
-      bead_radii(options.input.radius, surveys.at(1).necklaces, surveys.at(1).bonds);
+  surveys.emplace(1, open_frames(options, held.hold()).survey(options.radius == "auto", held.hold()));
+  const std::vector<double> radii = bead_radii(options.radius, surveys.at(1).necklaces, surveys.at(1).bonds);
   const SceneAtStride scene_at = [&](std::size_t stride, FrameMotion motion) {
     auto frames = std::make_unique<SceneStream>(open_frames(
-        options.input, [](const std::string&) {}, stride));
+        options, [](const std::string&) {}, stride));
     if (!surveys.contains(stride)) surveys.emplace(stride, frames->survey(false, [](const std::string&) {}));
     return Scene(std::move(frames), surveys.at(stride), radii, motion);
   };
@@ -97,14 +82,15 @@ int update_command(const Arguments& arguments) {
   const std::string command_line = "kds update " + shell_words(arguments);
   Json json;
   json["input"] = input_json(options, scene_at(1, FrameMotion::linear));
-  json["settings"] = settings_json(options);
+  json["settings"] = update_options().settings_json(options);
   json["rows"] = update_columns().json(rows);
   json["warnings"] = warnings;
   add_provenance(json, command_line);
   deliver_table(destinations, kUpdateName,
                 {text_of(json), update_columns().csv(rows), update_table(rows), [&] {
-                   return update_page(rows, file_names(options),
-                                      made_by(kUpdateName, command_line, settings_json(options)));
+                   return update_page(
+                       rows, file_names(options),
+                       made_by(kUpdateName, command_line, update_options().settings_json(options)));
                  }});
   return 0;
 }

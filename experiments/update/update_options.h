@@ -2,13 +2,11 @@
 // `kds update`: what it was asked to do, and how that is parsed.
 
 #include <array>
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "experiments/program/command_line.h"
+#include "experiments/output/destinations.h"
 #include "experiments/program/input_options.h"
 #include "kds/audit.h"
 #include "structures/power_diagram/update_technique.h"
@@ -28,16 +26,14 @@ inline constexpr auto kTechniques = [] {
   return names;
 }();
 
-struct UpdateOptions {
-  InputOptions input;
+struct UpdateOptions : InputOptions, Destinations {  // update.json, update.csv, report.html
   std::vector<std::string> techniques{kTechniques.begin(), kTechniques.end()};  ///< rebuild among them
   std::vector<std::size_t> strides{1};                                          ///< ascending
   std::size_t rounds = 3;
-  AuditMode audit = AuditMode::none;         ///< none or frames
-  std::optional<std::filesystem::path> out;  ///< directory for update.json, update.csv, report.html
-  std::optional<std::string> json;           ///< file, or - for standard output
-  bool quiet = false;
+  AuditMode audit = AuditMode::none;  ///< none or frames
 };
+
+[[nodiscard]] const OptionList<UpdateOptions>& update_options();
 
 /// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.
 [[nodiscard]] UpdateOptions parse_update_options(const Arguments& arguments);

@@ -41,7 +41,7 @@ TEST(CollideOptions, DefaultsAndAll) {
   const CollideOptions all = parse_collide_options({"a.xyz", "--method", "power,brute", "--apart", "5",
                                                     "--pairs", "between", "--out", "there", "--json", "-",
                                                     "--quiet", "b.xyz", "--radius", "2", "--frames", ":9"});
-  EXPECT_THAT(all.input.inputs, ElementsAre("a.xyz", "b.xyz"));
+  EXPECT_THAT(all.inputs, ElementsAre("a.xyz", "b.xyz"));
   EXPECT_THAT(all.methods, ElementsAre("brute", "power"));
   EXPECT_FALSE(all.all_methods);
   EXPECT_EQ(all.apart, 5U);

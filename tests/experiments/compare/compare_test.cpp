@@ -49,7 +49,7 @@ TEST(CompareOptions, DefaultsAndAll) {
   const CompareOptions all = parse_compare_options({"a.dcd", "--structures", "contacts,wrapped", "--strides",
                                                     "8,1", "--motions", "hermite,linear", "--apart", "4",
                                                     "--out", "there", "--json", "-", "--quiet", "b.dcd"});
-  EXPECT_THAT(all.input.inputs, ElementsAre("a.dcd", "b.dcd"));
+  EXPECT_THAT(all.inputs, ElementsAre("a.dcd", "b.dcd"));
   EXPECT_THAT(all.structures, ElementsAre("wrapped", "contacts"));
   EXPECT_THAT(all.strides, ElementsAre(1U, 8U));
   EXPECT_THAT(all.motions, ElementsAre(FrameMotion::linear, FrameMotion::hermite));

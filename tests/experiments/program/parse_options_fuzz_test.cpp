@@ -173,7 +173,7 @@ TEST(GenerateOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
 TEST(InfoOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
   fuzz({{}, {"a.xyz"}, {"a.xyz", "--rho", "2"}}, [](const Arguments& arguments) {
     const InfoOptions options = parse_info_options(arguments);
-    EXPECT_FALSE(options.input.inputs.empty());
+    EXPECT_FALSE(options.inputs.empty());
     EXPECT_GE(options.validate.rho, 1);
   });
 }
@@ -181,7 +181,7 @@ TEST(InfoOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
 TEST(UpdateOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
   fuzz({{}, {"a.xyz"}, {"a.xyz", "--strides", "1,8"}}, [](const Arguments& arguments) {
     const UpdateOptions options = parse_update_options(arguments);
-    EXPECT_FALSE(options.input.inputs.empty());
+    EXPECT_FALSE(options.inputs.empty());
     EXPECT_EQ(options.techniques.front(), "rebuild");
     EXPECT_FALSE(options.strides.empty());
     EXPECT_GE(options.strides.front(), 1U);
@@ -192,7 +192,7 @@ TEST(UpdateOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
 TEST(CollideOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
   fuzz({{}, {"a.xyz"}, {"a.xyz", "--apart", "5", "--method", "power"}}, [](const Arguments& arguments) {
     const CollideOptions options = parse_collide_options(arguments);
-    EXPECT_FALSE(options.input.inputs.empty());
+    EXPECT_FALSE(options.inputs.empty());
     EXPECT_FALSE(options.methods.empty());
     EXPECT_GE(options.apart, 1U);
   });

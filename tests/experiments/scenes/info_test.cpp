@@ -32,20 +32,20 @@ std::string refusal(const Arguments& arguments) {
 
 TEST(InfoOptions, TakesTheInputOptionsOfRunAndItsOwn) {
   const InfoOptions plain = parse_info_options({"a.pdb"});
-  EXPECT_THAT(plain.input.inputs, ElementsAre("a.pdb"));
-  EXPECT_EQ(plain.input.radius, "auto");
+  EXPECT_THAT(plain.inputs, ElementsAre("a.pdb"));
+  EXPECT_EQ(plain.radius, "auto");
   EXPECT_TRUE(std::isinf(plain.validate.rho));
   EXPECT_EQ(plain.validate.most_listed, 5U);
   const InfoOptions all =
       parse_info_options({"a.dcd",    "--topology", "t.pdb",    "--select", "all",    "--chain", "B",
                           "--frames", ":9",         "--radius", "2",        "--rho",  "1.5",     "--list",
                           "0",        "--out",      "there",    "--json",   "j.json", "--quiet", "b.dcd"});
-  EXPECT_THAT(all.input.inputs, ElementsAre("a.dcd", "b.dcd"));
-  EXPECT_EQ(all.input.reading.topology, "t.pdb");
-  EXPECT_EQ(all.input.reading.selection, Selection::all);
-  EXPECT_EQ(all.input.reading.chain, "B");
-  EXPECT_EQ(all.input.reading.frames.last, 9U);
-  EXPECT_EQ(all.input.radius, "2");
+  EXPECT_THAT(all.inputs, ElementsAre("a.dcd", "b.dcd"));
+  EXPECT_EQ(all.reading.topology, "t.pdb");
+  EXPECT_EQ(all.reading.selection, Selection::all);
+  EXPECT_EQ(all.reading.chain, "B");
+  EXPECT_EQ(all.reading.frames.last, 9U);
+  EXPECT_EQ(all.radius, "2");
   EXPECT_EQ(all.validate.rho, 1.5);
   EXPECT_EQ(all.validate.most_listed, 0U);
   EXPECT_EQ(all.out, "there");

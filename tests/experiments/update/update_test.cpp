@@ -38,7 +38,7 @@ TEST(UpdateOptions, DefaultsAndAll) {
   const UpdateOptions all = parse_update_options({"a.dcd", "--techniques", "lifted,kinetic", "--strides",
                                                   "8,1,2", "--rounds", "7", "--audit", "frames", "--frames",
                                                   ":9", "--out", "there", "--json", "-", "--quiet", "b.dcd"});
-  EXPECT_THAT(all.input.inputs, ElementsAre("a.dcd", "b.dcd"));
+  EXPECT_THAT(all.inputs, ElementsAre("a.dcd", "b.dcd"));
   EXPECT_THAT(all.techniques, ElementsAre("rebuild", "kinetic", "lifted"));
   EXPECT_THAT(all.strides, ElementsAre(1U, 2U, 8U));
   EXPECT_EQ(all.rounds, 7U);

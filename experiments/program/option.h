@@ -1,0 +1,327 @@
+#pragma once
+// An option of a command, declared once: its name, its help, how its value is read, and the value as text. A
+// command's list of them yields its parser and its help, the settings that reports and JSON show, and the
+// command line that repeats a run.
+//
+//   const OptionList<UpdateOptions>& update_options() {
+//     using O = UpdateOptions;
+//     static const auto list =
+//         OptionList<O>()
+//             .with(&O::input, input_options())
+//             .with({whole_option({"--rounds", "N", "runs of each (default: 3)"}, &O::rounds, 1, 1000)})
+//             .with(&O::destinations, destination_options("write ...", "write the rows ..."));
+//     return list;
+//   }
+
+#include <concepts>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "experiments/output/destinations.h"
+#include "experiments/output/result_json.h"
+#include "experiments/program/command_line.h"
+#include "experiments/program/option_values.h"
+
+namespace kds {
+
+template <class Options>
+struct Option {
+  using Read = std::function<void(Options&, const std::string&)>;
+  using Show = std::function<std::string(const Options&)>;
+  using ShowJson = std::function<Json(const Options&)>;
+
+  OptionSpec spec;
+  /// Reads the value as it is given. Throws InputError that names the option.
+  Read read;
+  /// Returns the value as the option takes it, empty if there is none. No function: the option says only
+  /// where results go or how they are printed, so it is no setting.
+  Show text;
+  /// Returns the value with paths made absolute. No function: as `text`.
+  Show text_anywhere;
+  /// Returns the value in JSON. No function: as `text`.
+  ShowJson json;
+  /// The setting's name; unless changed the option's without its dashes.
+  std::string setting;
+
+  // A constructor, since g++ 12 fails on default member initializers here.
+  Option(OptionSpec its_spec = {}, Read its_read = {}, Show its_text = {}, Show its_text_anywhere = {},
+         ShowJson its_json = {})
+      : spec(its_spec),
+        read(std::move(its_read)),
+        text(std::move(its_text)),
+        text_anywhere(std::move(its_text_anywhere)),
+        json(std::move(its_json)),
+        setting(spec.name.empty() ? "" : spec.name.substr(2)) {}
+};
+
+/// Options in the order of the help and of reading.
+template <class Options>
+class OptionList {
+ public:
+  OptionList() = default;
+  OptionList(std::vector<Option<Options>> options) : options_(std::move(options)) {}
+
+  /// Appends options. Those of a base class, or of a member, read into that part of the options.
+  [[nodiscard]] OptionList with(const std::vector<Option<Options>>& others) const {
+    OptionList all = *this;
+    all.options_.insert(all.options_.end(), others.begin(), others.end());
+    return all;
+  }
+  template <class Part>
+  [[nodiscard]] OptionList with(Part Options::*member, const OptionList<Part>& others) const {
+    return with_part(
+        others, [member](auto& options) -> auto& { return options.*member; });
+  }
+  template <class Base>
+  requires std::derived_from<Options, Base>
+  [[nodiscard]] OptionList with(const OptionList<Base>& others) const {
+    return with_part(
+        others, [](auto& options) -> auto& { return options; });
+  }
+
+  [[nodiscard]] const std::vector<Option<Options>>& all() const { return options_; }
+
+  [[nodiscard]] std::vector<OptionSpec> specs() const {
+    std::vector<OptionSpec> specs;
+    for (const auto& option : options_) specs.push_back(option.spec);
+    return specs;
+  }
+
+  void read(const ParsedArguments& parsed, Options& options) const {
+    for (const auto& option : options_) {
+      if (const auto value = parsed.value(option.spec.name)) option.read(options, *value);
+    }
+  }
+
+  /// Each setting by its name without dashes, empty where there is no value.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> settings(const Options& options) const {
+    std::vector<std::pair<std::string, std::string>> settings;
+    for (const auto& option : options_) {
+      if (option.text) settings.emplace_back(option.setting, option.text(options));
+    }
+    return settings;
+  }
+  [[nodiscard]] Json settings_json(const Options& options) const {
+    Json settings = Json::object();
+    for (const auto& option : options_) {
+      if (option.text)
+        settings[option.setting] = option.json ? option.json(options) : Json(option.text(options));
+    }
+    return settings;
+  }
+
+  /// The arguments that ask for the same settings from any directory.
+  [[nodiscard]] Arguments arguments(const Options& options) const {
+    Arguments arguments;
+    for (const auto& option : options_) {
+      if (!option.text) continue;
+      const std::string value = (option.text_anywhere ? option.text_anywhere : option.text)(options);
+      if (value.empty()) continue;
+      arguments.emplace_back(option.spec.name);
+      if (!option.spec.value.empty()) arguments.push_back(value);
+    }
+    return arguments;
+  }
+
+ private:
+  template <class Part, class PartOf>
+  [[nodiscard]] OptionList with_part(const OptionList<Part>& others, PartOf part_of) const {
+    std::vector<Option<Options>> options;
+    for (const Option<Part>& o : others.all()) {
+      Option<Options>& option = options.emplace_back();
+      option.spec = o.spec;
+      option.setting = o.setting;
+      option.read = [read = o.read, part_of](Options& all, const std::string& text) {
+        read(part_of(all), text);
+      };
+      const auto in_part = [part_of]<class Show>(const Show& show) {
+        return [show, part_of](const Options& all) { return show(part_of(all)); };
+      };
+      if (o.text) option.text = in_part(o.text);
+      if (o.text_anywhere) option.text_anywhere = in_part(o.text_anywhere);
+      if (o.json) option.json = in_part(o.json);
+    }
+    return with(options);
+  }
+
+  std::vector<Option<Options>> options_;
+};
+
+/// Reads the arguments of a command into `options`; `command` need not list them. Throws InputError and
+/// HelpRequest as parse_arguments does.
+template <class Options>
+ParsedArguments read_arguments(CommandSpec command, const OptionList<Options>& list,
+                               const Arguments& arguments, Options& options) {
+  const std::vector<OptionSpec> specs = list.specs();
+  command.options = specs;
+  ParsedArguments parsed = parse_arguments(command, arguments);
+  list.read(parsed, options);
+  return parsed;
+}
+
+/// Makes an option one of where results go, which no report shows and no repetition needs.
+template <class Options>
+[[nodiscard]] Option<Options> of_output(Option<Options> option) {
+  option.text = nullptr;
+  option.text_anywhere = nullptr;
+  option.json = nullptr;
+  return option;
+}
+
+// Options for a member `Value Options::*` or `std::optional<Value> Options::*`. A member that is no optional
+// has its default value where the option is not given.
+
+namespace detail {
+
+template <class Value>
+struct MemberValue {
+  using Type = Value;
+  static const Value* of(const Value& member) { return &member; }
+};
+template <class Value>
+struct MemberValue<std::optional<Value>> {
+  using Type = Value;
+  static const Value* of(const std::optional<Value>& member) { return member ? &*member : nullptr; }
+};
+
+}  // namespace detail
+
+/// `read(text)` gives the member's value, `show(value)` its text.
+template <class Options, class Member, class Read, class Show>
+[[nodiscard]] Option<Options> value_option(OptionSpec spec, Member Options::*member, Read read, Show show) {
+  return {spec, [=](Options& options, const std::string& text) { options.*member = read(text); },
+
+          [=](const Options& options) {
+            const auto* value = detail::MemberValue<Member>::of(options.*member);
+            return value != nullptr ? std::string(show(*value)) : std::string();
+          }};
+}
+
+template <class Options, class Member>
+[[nodiscard]] Option<Options> whole_option(OptionSpec spec, Member Options::*member, std::uint64_t least,
+                                           std::uint64_t most) {
+  using Value = typename detail::MemberValue<Member>::Type;
+  auto option = value_option(
+      spec, member,
+      [=](const std::string& text) {
+        return static_cast<Value>(parse_whole_number(spec.name, text, least, most));
+      },
+      [](const Value& value) { return std::to_string(value); });
+  option.json = [=](const Options& options) { return Json(options.*member); };
+  return option;
+}
+
+template <class Options, class Member>
+[[nodiscard]] Option<Options> real_option(OptionSpec spec, Member Options::*member, RealRange range) {
+  auto option = value_option(
+      spec, member, [=](const std::string& text) { return parse_real(spec.name, text, range); },
+      [](double value) { return fmt::format("{}", value); });
+  option.json = [=](const Options& options) { return Json(options.*member); };
+  return option;
+}
+
+/// One of `names`, which are those of the enumerators from `first` on.
+template <class Options, class Member>
+[[nodiscard]] Option<Options> choice_option(OptionSpec spec, Member Options::*member,
+                                            std::span<const std::string_view> names,
+                                            typename detail::MemberValue<Member>::Type first = {}) {
+  using Value = typename detail::MemberValue<Member>::Type;
+  return value_option(
+      spec, member, [=](const std::string& text) { return choice_of(spec.name, text, names, first); },
+      [](Value value) { return name_of(value); });
+}
+
+/// Words between commas, or enumerators or numbers by their text. `parse` reads the whole list.
+template <class Options, class Item, class Parse>
+[[nodiscard]] Option<Options> list_option(OptionSpec spec, std::vector<Item> Options::*member, Parse parse) {
+  const auto text_of = [](const Item& item) {
+    if constexpr (requires { name_of(item); }) {
+      return std::string(name_of(item));
+    } else {
+      return fmt::format("{}", item);
+    }
+  };
+  auto option = value_option(spec, member, parse, [=](const std::vector<Item>& items) {
+    std::vector<std::string> words;
+    for (const Item& item : items) words.push_back(text_of(item));
+    return fmt::format("{}", fmt::join(words, ","));
+  });
+  option.json = [=](const Options& options) {
+    Json items = Json::array();
+    for (const Item& item : options.*member) {
+      if constexpr (requires { name_of(item); }) {
+        items.push_back(name_of(item));
+      } else {
+        items.push_back(item);
+      }
+    }
+    return items;
+  };
+  return option;
+}
+
+template <class Options, class Member>
+[[nodiscard]] Option<Options> text_option(OptionSpec spec, Member Options::*member) {
+  return value_option(
+      spec, member, [](const std::string& text) { return text; },
+      [](const std::string& text) { return text; });
+}
+
+/// A file or directory; - is refused.
+template <class Options>
+[[nodiscard]] Option<Options> path_option(OptionSpec spec,
+                                          std::optional<std::filesystem::path> Options::*member) {
+  using Path = std::filesystem::path;
+  auto option = value_option(
+      spec, member, [=](const std::string& text) { return parse_path(spec.name, text); },
+      [](const Path& path) { return path.string(); });
+  option.text_anywhere = [=](const Options& options) {
+    return options.*member ? std::filesystem::absolute(*(options.*member)).string() : std::string();
+  };
+  return option;
+}
+
+/// A flag that sets a member to true.
+template <class Options>
+[[nodiscard]] Option<Options> flag_option(std::string_view name, std::string_view help,
+                                          bool Options::*member) {
+  return {{name, "", help},
+          [=](Options& options, const std::string&) { options.*member = true; },
+          [=](const Options& options) { return options.*member ? "yes" : ""; },
+          nullptr,
+          [=](const Options& options) { return Json(options.*member); }};
+}
+
+// Options that several commands have.
+
+/// --out, --json and --quiet, with their help.
+[[nodiscard]] inline OptionList<Destinations> destination_options(
+    std::string_view out,
+    std::string_view json = "write the rows there; - is standard output (default: none)",
+    std::string_view quiet = "no table, no progress bar") {
+  return {{of_output(path_option({"--out", "DIR", out}, &Destinations::out)),
+           of_output(text_option({"--json", "FILE", json}, &Destinations::json)),
+           of_output(flag_option("--quiet", quiet, &Destinations::quiet))}};
+}
+
+template <class Options>
+[[nodiscard]] Option<Options> events_option(std::optional<std::filesystem::path> Options::*events) {
+  return of_output(path_option({"--events", "FILE",
+                                "write every event there, with its beads and residues: as CSV, or as JSON "
+                                "lines where its name ends in "
+                                ".jsonl (default: none)"},
+                               events));
+}
+/// --apart: the least distance along a chain of two of its beads that a pair may consist of.
+template <class Options, class Member>
+[[nodiscard]] Option<Options> apart_option(std::string_view help, Member Options::*apart) {
+  return whole_option({"--apart", "K", help}, apart, 1, 1'000'000'000);
+}
+
+}  // namespace kds
