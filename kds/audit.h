@@ -1,6 +1,6 @@
 #pragma once
-// A kinetic structure that disagrees with its static rebuild: an internal failure, with what it takes to see
-// it again.
+// Audit modes, and the error thrown if a kinetic structure disagrees with its static rebuild. Such a
+// disagreement is an internal failure; its message says how to reproduce it.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@ enum class AuditMode : std::uint8_t {
   frames,  ///< at the start and end of every step
   events,  ///< also strictly between all events
 };
-/// In the order of the enumerators.
+/// Names of the modes, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 3> audit_mode_names{"none", "frames", "events"};
 [[nodiscard]] constexpr std::string_view name_of(AuditMode mode) {
   return audit_mode_names[static_cast<std::size_t>(mode)];

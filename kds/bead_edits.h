@@ -1,7 +1,8 @@
 #pragma once
-// What a structure offers whose beads come, go and change course while time runs. All of it is exact, at any
-// time at which the simulator stands still, the irrational time of an event too: from then on the structure
-// is the one of the beads then present, on the curves that they then have, just after that time.
+// Interfaces of structures whose beads are inserted, erased or given other curves during a run. Every edit is
+// exact and may be made at any time at which the simulator stands still, including the irrational time of an
+// event. After an edit, the structure is the one of the beads now present, on their present curves, just
+// after the present time.
 
 #include <concepts>
 #include <span>
@@ -11,50 +12,52 @@
 
 namespace kds {
 
-/// A structure whose beads can change course: Simulator::change_motion alone asks it, for each of some beads
-/// once. All structures are asked before any releases.
+/// A structure whose beads can change course. Only Simulator::change_motion calls these functions, and it
+/// names each bead once. It calls require_release on all structures before it calls release on any.
 class CourseFollower {
  public:
   virtual ~CourseFollower() = default;
 
  protected:
-  /// Throws std::invalid_argument where there is no such bead, or where the structure cannot follow these,
-  /// whatever their curves will be.
+  /// Throws std::invalid_argument if a bead does not exist, or if the structure cannot follow these beads
+  /// whatever their new curves are.
   virtual void require_release(std::span<const BeadId> beads) const = 0;
 
  private:
   friend class Simulator;
-  /// The motion is about to have other curves for these beads: whatever was derived from them is given up.
+  /// Called before the motion gets other curves for these beads: discards everything derived from the old
+  /// curves.
   virtual void release(std::span<const BeadId> beads) = 0;
-  /// It has them.
+  /// Called after the motion got the new curves of these beads.
   virtual void take_up(std::span<const BeadId> beads) = 0;
 };
 
-/// One whose beads can come and go, too; those that change course may be absent. Bad calls are refused by
-/// std::invalid_argument, and nothing is changed: beads that there are not, or are there already, and any
-/// time but one at which a step is under way and nothing happens (Simulator::require_standing_still).
+/// A structure whose beads can also be inserted and erased; beads that change course may be absent. The calls
+/// below throw std::invalid_argument and change nothing if the bead does not exist, if it is already present
+/// or already absent, or if the simulator does not stand still within a step
+/// (Simulator::require_standing_still).
 class BeadEdits : public CourseFollower {
  public:
-  /// Before the structure is built: the bead does not take part until it is inserted.
+  /// Called before the structure is built: the bead does not take part until it is inserted.
   virtual void leave_out(BeadId bead) = 0;
-  /// The bead takes part from now on, on the curve that the motion has.
+  /// Adds the bead from now on, on its present curve in the motion.
   virtual void insert(BeadId bead) = 0;
-  /// It does not any more.
+  /// Removes the bead from now on.
   virtual void erase(BeadId bead) = 0;
-  /// Throws std::invalid_argument where there is no such bead.
+  /// Throws std::invalid_argument if the bead does not exist.
   [[nodiscard]] virtual bool is_absent(BeadId bead) const = 0;
 
  protected:
   void require_release(std::span<const BeadId> beads) const override {
-    for (const BeadId bead : beads) static_cast<void>(is_absent(bead));  // there is one
+    for (const BeadId bead : beads) static_cast<void>(is_absent(bead));  // throws if the bead does not exist
   }
 };
 
-/// A structure whose beads can come, go and change course.
+/// A structure whose beads can be inserted, erased and given other curves.
 template <class S>
 concept EditableStructure = std::derived_from<S, KineticStructure> && std::derived_from<S, BeadEdits>;
 
-/// Null where its beads cannot come and go.
+/// Returns null if the beads of this structure cannot be inserted or erased.
 [[nodiscard]] inline BeadEdits* edits_of(KineticStructure& structure) {
   return dynamic_cast<BeadEdits*>(&structure);
 }

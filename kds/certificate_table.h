@@ -1,7 +1,7 @@
 #pragma once
-// The certificates of one type that a structure holds. Those that never fail in the step are counted and
-// forgotten; the others get a slot here and an entry in the queue. No allocation per certificate once the
-// table has grown.
+// The certificates of one type that a structure holds. Certificates that never fail in the step are only
+// counted. Each other certificate gets a slot in the table and an entry in the queue. A table that has grown
+// to its size makes no allocation per certificate.
 
 #include <algorithm>
 #include <concepts>
@@ -21,12 +21,12 @@
 
 namespace kds {
 
-/// A structure's hold on a certificate it created.
+/// What a structure keeps of a certificate it created: a slot number or one of the values below.
 enum class CertificateHandle : std::uint32_t {
   never = 0xffffffffU,     ///< holds for the rest of the step; nothing is kept
-  zero = 0xfffffffeU,      ///< its function is zero for the whole step: as `never`
+  zero = 0xfffffffeU,      ///< the function is zero for the whole step; treated as `never`
   violated = 0xfffffffdU,  ///< does not hold just after the present time; nothing is kept
-};                         // else: the slot
+};                         // any other value is the slot
 [[nodiscard]] constexpr bool has_slot(CertificateHandle guard) { return guard < CertificateHandle::violated; }
 [[nodiscard]] constexpr std::uint32_t slot_of(CertificateHandle guard) {
   return static_cast<std::uint32_t>(guard);
@@ -34,13 +34,14 @@ enum class CertificateHandle : std::uint32_t {
 
 namespace detail {
 
-/// In the identity of a certificate with constants the last place names the table, after one that is unused.
+/// The identity of a certificate with constants needs two more places: its last place names the table, and
+/// the place before the last stays unused.
 template <class Certificate>
 concept IdentityHasRoom = !HasConstants<Certificate> ||
                           (std::tuple_size_v<decltype(Certificate{}.beads)> + 2 <= Identity::most_beads);
 
-/// Whether a table's constants are in use: a certificate was searched in this step. Nothing where it has
-/// none.
+/// Tells whether a table's constants are in use: they are once a certificate was searched in this step. Empty
+/// for certificates without constants.
 template <class Certificate>
 struct ConstantsInUse {};
 template <HasConstants Certificate>
@@ -50,7 +51,8 @@ struct ConstantsInUse<Certificate> {
 
 }  // namespace detail
 
-/// Of a NamedCertificate: what it lacks is said here in a sentence, before the compiler says it at length.
+/// A table of certificates of one type, a NamedCertificate. The static assertions say in one sentence what a
+/// type lacks, before the compiler reports the violated concept at length.
 template <class Certificate>
 class CertificateTable final : public FailureSource {
   static_assert(HasCertificateType<Certificate>,
@@ -65,8 +67,8 @@ class CertificateTable final : public FailureSource {
   static_assert(detail::IdentityHasRoom<Certificate>, "a certificate with constants has at most 6 beads");
 
  public:
-  /// `number` tells the structure's tables apart in KineticStructure::fail. Throws std::logic_error where the
-  /// run has certificates of another type with the same number.
+  /// `number` tells the structure's tables apart in KineticStructure::fail. Throws std::logic_error if the
+  /// run has certificates of another type with the same type number.
   template <int Dimension>
   CertificateTable(Simulator& simulator, KineticStructure& owner, std::size_t structure, unsigned number,
                    const MotionRef<Dimension>& motion, TouchPolicy touches = TouchPolicy::ignored)
@@ -81,9 +83,10 @@ class CertificateTable final : public FailureSource {
     simulator.add_table(*this, Certificate::type);
   }
 
-  /// For all certificates from now to the end of the step, or until they are set again: the first ones before
-  /// the structure is built. Throws std::invalid_argument where one cannot be a constant over the motion, and
-  /// std::logic_error where there have been certificates in this step, which are about those before.
+  /// Sets the constants of all certificates from now to the end of the step, or until constants are set
+  /// again. Set them for the first time before the structure is built. Throws std::invalid_argument if a
+  /// value cannot be a constant over the motion. Throws std::logic_error if certificates were already
+  /// searched in this step, because these depend on the previous constants.
   void set_constants(const ConstantsOf<Certificate>& constants) requires(HasConstants<Certificate>) {
     if (constants_in_use_.value)
       throw std::logic_error(std::string(Certificate::type.name) +
@@ -91,11 +94,12 @@ class CertificateTable final : public FailureSource {
     search_->set_constants(constants);
   }
 
-  /// With `fast`, looks at so much fewer certificates in a step than it does otherwise.
+  /// With the `fast` kernel, divides the limit of certificates per step by `times`.
   void expect_fewer(std::uint64_t times) { most_in_step_ /= times; }
 
-  /// Guards the structure by `certificate` from now to the end of the step. `place` says where it stands in
-  /// the structure: it comes back with the failure and breaks ties of one function.
+  /// Guards the structure by `certificate` from now to the end of the step. `place` is the certificate's
+  /// place in the structure: it is passed back with the failure, and it breaks ties between certificates of
+  /// one function.
   [[nodiscard]] CertificateHandle watch(const Certificate& certificate, std::uint32_t place,
                                         KnownAtStart birth = KnownAtStart::unknown) {
     Failure failure;
@@ -103,23 +107,25 @@ class CertificateTable final : public FailureSource {
     return hold(certificate, place, failure);
   }
 
-  /// The same for many, of which four at once cost little more than one: enqueue them, then watch them all.
+  /// Enqueues a certificate to be searched with others: searching four at once costs little more than
+  /// searching one. Enqueue many certificates, then call watch_enqueued.
   void enqueue(const Certificate& certificate, std::uint32_t place, KnownAtStart birth) {
     enqueue_empty(place, birth) = certificate;
   }
-  /// The same of one whose failure is known already.
+  /// Enqueues a certificate whose failure is already known.
   void enqueue_known(const Certificate& certificate, std::uint32_t place, const Failure& failure) {
     enqueue(certificate, place, KnownAtStart::unknown);
     known_[waiting_count_ - 1] = 1;
     failures_[waiting_count_ - 1] = failure;
     any_known_ = true;
   }
-  /// Enqueues where many may be: a few at a time are searched at once, so that they need little room. They
-  /// cannot be forgotten.
+  /// Enqueues one of possibly very many certificates. They are searched a few hundred at a time, so that they
+  /// need little memory. Certificates enqueued this way cannot be forgotten by forget_enqueued.
   void enqueue_one_of_many(const Certificate& certificate, std::uint32_t place, KnownAtStart birth) {
     one_of_many(place, birth) = certificate;
   }
-  /// The same of one to be made where it will lie: one just made elsewhere is slow to copy.
+  /// Enqueues one of many as above, and returns its place in memory, where the caller constructs it. Copying
+  /// a certificate just made elsewhere is slow.
   [[nodiscard]] Certificate& one_of_many(std::uint32_t place, KnownAtStart birth) {
     constexpr std::size_t at_a_time = 512;
     if (waiting_count_ >= at_a_time)
@@ -128,7 +134,8 @@ class CertificateTable final : public FailureSource {
       });
     return enqueue_empty(place, birth);
   }
-  /// Calls `visit` with the place and the guard of each, in the order in which they were enqueued.
+  /// Searches the enqueued certificates and calls `visit` with the place and the handle of each, in the order
+  /// in which they were enqueued.
   template <std::invocable<std::uint32_t, CertificateHandle> Visit>
   void watch_enqueued(Visit visit) {
     for (const SearchedCertificate& s : settled_) visit(s.place, s.guard);
@@ -140,7 +147,7 @@ class CertificateTable final : public FailureSource {
     any_known_ = false;
   }
 
-  /// Gives up a certificate that has not failed.
+  /// Removes a certificate that has not failed.
   void drop(CertificateHandle guard) {
     if (guard == CertificateHandle::violated) return;
     --owner_.statistics.certificates.alive;
@@ -150,8 +157,8 @@ class CertificateTable final : public FailureSource {
     free_.push_back(slot_of(guard));
   }
 
-  /// Gives up all those in the queue of which `asked(certificate)` is true. A look at each, and no event may
-  /// be under way.
+  /// Removes all certificates in the queue for which `asked(certificate)` is true. Visits every slot. Must
+  /// not be called while an event is being handled.
   template <std::predicate<const Certificate&> Asked>
   void drop_if(Asked asked) {
     std::vector<std::uint8_t> is_free(entries_.size(), 0);
@@ -160,7 +167,7 @@ class CertificateTable final : public FailureSource {
       if (is_free[slot] == 0 && asked(entries_[slot].certificate)) drop(static_cast<CertificateHandle>(slot));
     }
   }
-  /// Where it stands in the structure from now on.
+  /// Sets the certificate's place in the structure from now on.
   void set_place(CertificateHandle guard, std::uint32_t place) {
     if (has_slot(guard)) entries_[slot_of(guard)].place = place;
   }
@@ -174,11 +181,11 @@ class CertificateTable final : public FailureSource {
     counts.peak = std::max(counts.peak, counts.alive);
   }
 
-  /// It will soon be asked for.
+  /// Prefetches the certificate, which will be needed soon.
   void fetch(CertificateHandle guard) const {
     if (has_slot(guard)) __builtin_prefetch(&entries_[slot_of(guard)]);
   }
-  /// It will soon be given up.
+  /// Prefetches the queue entry of a certificate that will be removed soon.
   void fetch_scheduled(CertificateHandle guard) const {
     if (has_slot(guard)) simulator_.fetch(entries_[slot_of(guard)].handle);
   }
@@ -189,13 +196,14 @@ class CertificateTable final : public FailureSource {
   [[nodiscard]] const Certificate& certificate(std::uint32_t slot) const {
     return entries_[slot].certificate;
   }
-  /// The certificate does not fail, it touches zero, if it is this that the table reports.
+  /// Returns whether the certificate only touches zero at its time and does not fail. Always false unless the
+  /// table reports touches.
   [[nodiscard]] bool touches(std::uint32_t slot) const { return entries_[slot].touch; }
   [[nodiscard]] std::uint32_t place_in_structure(std::uint32_t slot) const { return entries_[slot].place; }
 
-  /// What tells of certificates that are not in the table.
+  /// Returns the search, which also answers questions about certificates that are not in the table.
   [[nodiscard]] const CertificateSearch<Certificate>& search() const { return *search_; }
-  /// What tells the structure's tables apart.
+  /// Returns the number that tells the structure's tables apart.
   [[nodiscard]] unsigned number() const { return number_; }
 
   [[nodiscard]] ExactFunction exact_function(std::uint32_t slot) const override {
@@ -204,8 +212,8 @@ class CertificateTable final : public FailureSource {
   [[nodiscard]] Identity identity(std::uint32_t slot) const override {
     return identity(entries_[slot].certificate);
   }
-  /// Of a certificate as this table has it: that of its beads, but tables with other constants have other
-  /// functions of the same beads.
+  /// Returns the identity of `certificate` in this table. It names the beads and, for a type with constants,
+  /// the table, because other constants give another function of the same beads.
   [[nodiscard]] Identity identity(const Certificate& certificate) const {
     Identity identity = certificate.identity();
     if constexpr (HasConstants<Certificate>) identity.beads.back() = among_tables_.table();
@@ -217,7 +225,7 @@ class CertificateTable final : public FailureSource {
   [[nodiscard]] std::size_t structure() const override { return structure_; }
 
  private:
-  // What the engine alone asks.
+  // Called by the engine only.
 
   [[nodiscard]] bool side(std::uint32_t slot) const override { return entries_[slot].certificate.side(); }
   void fetch(std::uint32_t slot, unsigned bins_ahead) const override {
@@ -256,7 +264,7 @@ class CertificateTable final : public FailureSource {
   template <std::invocable<std::uint32_t, CertificateHandle> Visit>
   void search_enqueued(Visit visit) {
     const std::size_t count = waiting_count_;
-    for (std::size_t from = 0; from < count;) {  // those between known ones at once
+    for (std::size_t from = 0; from < count;) {  // search all between two known ones at once
       std::size_t to = count;
       if (any_known_) {
         while (from < count && known_[from] != 0) ++from;
@@ -296,8 +304,8 @@ class CertificateTable final : public FailureSource {
                      std::span<Failure> failures) {
     if constexpr (HasConstants<Certificate>) constants_in_use_.value = true;
     if (simulator_.kernel() == Kernel::fast) {
-      // Doubles may contradict themselves without end: after so many certificates in a step none is looked at
-      // any more, and all are taken to hold.
+      // Contradictions between rounded values may create events without end. Beyond the limit of certificates
+      // per step, no further certificate is searched, and each is taken to hold.
       created_in_step_ += certificates.size();
       if (created_in_step_ > most_in_step_) {
         std::fill(failures.begin(), failures.end(), Failure{});
@@ -338,7 +346,8 @@ class CertificateTable final : public FailureSource {
     return static_cast<CertificateHandle>(slot);
   }
 
-  /// More than true motions ask for, and about what `filtered` takes for as much time.
+  /// A limit above the number that real motions create. Searching this many certificates takes about as
+  /// long as the `filtered` kernel takes for the same span of time.
   [[nodiscard]] static std::uint64_t most_in_step(std::uint64_t beads) {
     return 20'000 + 4'000 * beads + 4 * beads * beads;
   }
@@ -350,18 +359,19 @@ class CertificateTable final : public FailureSource {
   PlaceAmongTables among_tables_;
   std::unique_ptr<CertificateSearch<Certificate>> search_;
   TouchPolicy touches_;
-  std::uint64_t most_in_step_;  // of certificates, with `fast`
+  std::uint64_t most_in_step_;  // limit of certificates in a step with `fast`
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> free_;
-  // Enqueued, with their places and births, and what becomes of them: room for more than there are.
+  // The enqueued certificates with their places, births and failures. These arrays have room for more than
+  // `waiting_count_` entries.
   std::vector<Certificate> waiting_;
   std::vector<std::uint32_t> places_;
   std::vector<KnownAtStart> births_;
   std::vector<Failure> failures_;
-  std::vector<std::uint8_t> known_;  // a flag each
+  std::vector<std::uint8_t> known_;  // a flag for each
   bool any_known_ = false;
   std::size_t waiting_count_ = 0;
-  std::vector<SearchedCertificate> settled_;  // of many
+  std::vector<SearchedCertificate> settled_;  // already searched, from enqueue_one_of_many
   std::uint64_t created_in_step_ = 0;
   [[no_unique_address]] detail::ConstantsInUse<Certificate> constants_in_use_;
 };

@@ -1,7 +1,7 @@
 #pragma once
-// The tables of a structure that holds certificates of several types: one table a type, numbered from 1 in
-// the order of the types. No virtual call and no search finds a type's table. Types that the structure will
-// hold none of, whatever comes, have no table.
+// The tables of a structure that holds certificates of several types: one table for each type, numbered from
+// 1 in the order of the types. Finding the table of a type takes neither a virtual call nor a search. A type
+// has no table if the structure can never hold a certificate of this type.
 
 #include <cstddef>
 #include <optional>
@@ -17,8 +17,8 @@ class CertificateTables {
  public:
   static constexpr std::size_t count = sizeof...(Certificates);
 
-  /// `touches(certificate type)` says what the table of this type does about touches, or, by an empty
-  /// optional, that there is none: it is called with a `std::type_identity`.
+  /// `touches` is called with the `std::type_identity` of each certificate type. It returns the touch
+  /// policy of the table of this type, or an empty optional if the type has no table.
   template <int Dimension, class TouchesOf>
   CertificateTables(Simulator& simulator, KineticStructure& owner, std::size_t structure,
                     const MotionRef<Dimension>& motion, TouchesOf touches) {
@@ -33,7 +33,7 @@ class CertificateTables {
   [[nodiscard]] auto& of() {
     return *std::get<std::optional<CertificateTable<Certificate>>>(tables_);
   }
-  /// Calls `visit` with the table of this number.
+  /// Calls `visit` with the table that has this number.
   template <class Visit>
   void visit(unsigned number, Visit&& visit) {
     const auto visit_if = [&](auto& table) {

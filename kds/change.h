@@ -1,6 +1,6 @@
 #pragma once
-// A combinatorial change of a structure: what the event log holds, what the fingerprint hashes, and all that
-// a structure needs to make the change again without any certificate (replay).
+// A combinatorial change of a structure. The event log holds changes, the fingerprint hashes them, and replay
+// needs nothing else to make the change again without certificates.
 
 #include <array>
 #include <cstdint>
@@ -10,8 +10,8 @@
 namespace kds {
 
 struct Change {
-  std::uint8_t kind = 0;         ///< place in the structure's kinds
-  std::uint8_t size = 0;         ///< how many of `ids` are used
+  std::uint8_t kind = 0;         ///< index into the structure's kinds
+  std::uint8_t size = 0;         ///< number of `ids` in use
   std::array<BeadId, 10> ids{};  ///< beads or nodes, as the structure documents for each kind
 
   friend bool operator==(const Change&, const Change&) = default;

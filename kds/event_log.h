@@ -1,6 +1,6 @@
 #pragma once
-// A run's history as those hear of it who listen: every change in order, each as one record that tells all
-// there is to tell, and that outlives the run.
+// Events as listeners receive them: every change of a run in order, each a complete record that remains valid
+// after the run.
 
 #include <cstddef>
 #include <optional>
@@ -17,13 +17,13 @@ namespace kds {
 
 struct Event {
   std::size_t step = 0;
-  double lower = 0, upper = 0;      ///< its time in the step lies between, or equals both
+  double lower = 0, upper = 0;      ///< the time in the step lies strictly between, or equals both
   std::size_t structure_index = 0;  ///< in the order in which structures were added to the simulator
   Change change;
-  std::string_view structure;  ///< its name, of static storage
+  std::string_view structure;  ///< the structure's name, in static storage
   EventKind kind;
   FrameStamp from,
-      to;  ///< the frames that the step leads from and to, where none are known steps are counted
+      to;  ///< the frames that the step leads from and to; steps are counted if no frames are known
   /// The time of the event in digits that are all certain. Set only if a listener prints it.
   std::optional<RoundedTime> rounded;
 
@@ -72,7 +72,7 @@ class EventListener {
   }
 };
 
-/// Keeps everything.
+/// Keeps all events.
 class EventLog final : public EventListener {
  public:
   void on_event(const Event& event) override { events.push_back(event); }

@@ -1,18 +1,21 @@
 #pragma once
-// Addressable priority queue of failures. Most of them are given up long before their time, so only those of
-// the near future are kept in order: a 4-ary heap. The others lie in bins of equal spans of [0,1] by their
-// earliest time, and a bin joins the heap when its time has come. n entries, m of them near, about n / bins.
+// Addressable priority queue of failures. Most failures are cancelled long before their time, so only
+// failures of the near future are kept in order, in a 4-ary heap. All others lie in bins: [0,1] is divided
+// into equal spans, and each failure is put into the bin of its earliest time. A bin is moved into the heap
+// when its time has come. Costs for n entries, m of them near, where m is about n / bins:
 //
 //   push        O(log4 m) near, O(1) far      erase   O(4 log4 m) near, O(1) far
 //   top         O(1), a bin of k joining O(k log4 m)       pop     O(4 log4 m)
 //
-// Where all times fall into one bin it is a heap. No allocation once it has grown. The order may narrow the
-// entries it compares (their bracket shrinks around the same time), which never changes how they compare.
+// The queue is a plain heap if all times fall into one bin. It does not allocate once it has grown to its
+// size. The order may narrow the entries it compares: their brackets shrink around the same time, which never
+// changes how they compare.
 //
-// What an event needs lies anywhere in memory, and each piece tells where the next one is. An order that has
-// `fetch(key, bins_ahead)` is told which failures come near, bins_ahead = 2, 1, 0, so that each piece is on
-// its way while other events run. Not where entries are few: then all is at hand.
-// Slow obvious twin: tests/support/judges/linear_queue.h.
+// The data that an event needs are scattered in memory, and each piece holds the address of the next one. If
+// the order has a function `fetch(key, bins_ahead)`, the queue calls it for failures that come near, with
+// bins_ahead = 2, 1, 0, so that each piece is prefetched while earlier events run. The queue skips this if it
+// has few entries, because these are in the cache anyway. Slow obvious twin:
+// tests/support/judges/linear_queue.h.
 
 #include <array>
 #include <bit>
@@ -23,10 +26,10 @@
 
 namespace kds {
 
-/// Names an entry from push to pop or erase; then it may be used again.
+/// Names an entry from push until pop or erase, and may be reused afterwards.
 using QueueHandle = std::uint32_t;
 
-/// `a` is before `b` wherever latest(a) < earliest(b).
+/// An order must put `a` before `b` whenever latest(a) < earliest(b).
 template <class O, class Key>
 concept QueueOrder = requires(O& order, Key& a, Key& b) {
   { order.before(a, b) } -> std::same_as<bool>;  // strict total order
@@ -42,7 +45,7 @@ class EventQueue {
   [[nodiscard]] bool empty() const { return size() == 0; }
   [[nodiscard]] std::size_t size() const { return near_.size() + far_count_; }
 
-  /// `make_key` is given the handle, so that keys can know theirs.
+  /// Calls `make_key` with the new entry's handle, so that a key can store its handle.
   template <std::invocable<QueueHandle> MakeKey>
   QueueHandle push(MakeKey&& make_key) {
     QueueHandle handle;
@@ -71,7 +74,7 @@ class EventQueue {
     return near_.front();
   }
   [[nodiscard]] Key& at(QueueHandle handle) { return entries_[handle].key; }
-  /// It will soon be asked for.
+  /// Prefetches an entry that will be needed soon.
   void fetch(QueueHandle handle) const { __builtin_prefetch(&entries_[handle], 1); }
 
   void pop() { erase(top_handle()); }
@@ -102,22 +105,22 @@ class EventQueue {
   static constexpr std::uint32_t bin_count = 1024;
   static constexpr std::uint32_t none = 0xffffffffU;
   static constexpr std::uint32_t in_heap = none;
-  static constexpr std::size_t many = 4096;  // below, fetching costs more than it spares
+  static constexpr std::size_t many = 4096;  // with fewer entries, prefetching costs more than it saves
 
   struct Entry {
     Key key;
-    std::uint32_t bin;    // or in_heap
-    std::uint32_t place;  // there
+    std::uint32_t bin;    // bin number, or in_heap
+    std::uint32_t place;  // position in the bin or in the heap
   };
 
-  // Far.
+  // Far entries.
 
   [[nodiscard]] static std::uint32_t bin_of(double earliest) {
-    const double bin = earliest * bin_count;  // a power of two: exact
+    const double bin = earliest * bin_count;  // exact, because bin_count is a power of two
     if (!(bin > 0)) return 0;
     return bin < bin_count ? static_cast<std::uint32_t>(bin) : bin_count - 1;
   }
-  /// What is far is no earlier.
+  /// Returns a time that no far entry precedes.
   [[nodiscard]] double far_from() const { return static_cast<double>(first_far_) / bin_count; }
 
   void push_far(QueueHandle handle, std::uint32_t bin) {
@@ -144,7 +147,7 @@ class EventQueue {
     if constexpr (requires(Key & key) { order_.fetch(key, 0U); }) {
       if (entries_.size() >= many) fetch_ahead(first_far_);
     }
-    // Out of the bins first: where the order throws, clear() finds them as they should be.
+    // Take the bin's entries out first, so that clear() finds consistent bins if the order throws.
     coming_.swap(bins_[first_far_]);
     far_count_ -= coming_.size();
     empty(first_far_++);
@@ -156,7 +159,7 @@ class EventQueue {
     bins_[bin].clear();
     filled_[bin / 64] &= ~(1ULL << (bin % 64));
   }
-  /// From this one on; there is one.
+  /// Returns the first bin that is not empty, from `bin` on. There must be one.
   [[nodiscard]] std::uint32_t next_filled(std::uint32_t bin) const {
     std::uint32_t word = bin / 64;
     std::uint64_t some = filled_[word] & (~0ULL << (bin % 64));
@@ -172,7 +175,7 @@ class EventQueue {
     for (const QueueHandle handle : bins_[next + 3]) __builtin_prefetch(&entries_[handle]);
   }
 
-  // Near.
+  // Near entries.
 
   [[nodiscard]] bool before(QueueHandle a, QueueHandle b) { return order_.before(at(a), at(b)); }
 
@@ -227,10 +230,10 @@ class EventQueue {
   Order& order_;
   std::vector<Entry> entries_;
   std::vector<QueueHandle> free_;
-  std::vector<QueueHandle> near_;                         // heap
-  std::array<std::vector<QueueHandle>, bin_count> bins_;  // those before first_far_ are empty
-  std::array<std::uint64_t, bin_count / 64> filled_{};    // a bit for each bin that is not
-  std::vector<QueueHandle> coming_;                       // a bin on its way into the heap
+  std::vector<QueueHandle> near_;                         // the heap
+  std::array<std::vector<QueueHandle>, bin_count> bins_;  // bins before first_far_ are empty
+  std::array<std::uint64_t, bin_count / 64> filled_{};    // a bit for each bin, set if it is not empty
+  std::vector<QueueHandle> coming_;                       // a bin while it is moved into the heap
   std::size_t far_count_ = 0;
   std::uint32_t first_far_ = 0;
 };

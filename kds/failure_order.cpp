@@ -19,13 +19,13 @@ int FailureOrder::compare(ScheduledFailure& a, ScheduledFailure& b, bool& one_fu
   const bool point_a = a.time.lower == a.time.upper;
   const bool point_b = b.time.lower == b.time.upper;
   if (point_a && point_b) return 0;
-  // A proper bracket's ends are not its time.
+  // If lower < upper, neither end of the bracket is the time itself.
   if (a.time.upper == b.time.lower) return -1;
   if (b.time.upper == a.time.lower) return 1;
   if (a.source->identity(a.slot) == b.source->identity(b.slot) &&
       a.source->side(a.slot) == b.source->side(b.slot) && !a.time.touch && !b.time.touch) {
-    // Both hold until they fail, so both wait for the next descent of one function. (After a touch the same
-    // certificate may wait for its next root already.)
+    // Each certificate holds until it fails, so both wait for the next descent of the same function. (After a
+    // touch, a certificate may already wait for the next root of the same function.)
     ++counts_.by_identity;
     one_function = true;
     return 0;
@@ -52,7 +52,7 @@ int FailureOrder::compare(ScheduledFailure& a, ScheduledFailure& b, bool& one_fu
 bool FailureOrder::before_closely(ScheduledFailure& a, ScheduledFailure& b) {
   bool one_function = false;
   if (const int order = compare(a, b, one_function)) return order < 0;
-  // The facets of one event come together in the queue: as often as not these are two of them.
+  // The facets of one event meet in the queue: about half of the close comparisons are between two of them.
   if (one_function) return a.source->place(a.slot) < b.source->place(b.slot);
   const auto key = [](const ScheduledFailure& f) {
     return std::tuple(f.source->identity(f.slot), f.source->place(f.slot));

@@ -1,6 +1,7 @@
 #pragma once
-// The total order of failures within a step: exact time, then the certificate's identity, then its structure
-// and place there. Never an address or the order of creation, so every kernel and every run orders alike.
+// The total order of failures within a step: by exact time, then by the certificate's identity, then by its
+// structure and its place there. The order never depends on addresses or on the order of creation, so it is
+// the same for every kernel and every run.
 
 #include <algorithm>
 #include <cstdint>
@@ -16,11 +17,11 @@ namespace kds {
 class ScheduledSource : public CertificateSource {
  public:
   [[nodiscard]] virtual Identity identity(std::uint32_t slot) const = 0;
-  /// Which sign of its identity's function the certificate wants.
+  /// Returns the sign of its identity's function that the certificate requires: true for positive.
   [[nodiscard]] virtual bool side(std::uint32_t) const { return true; }
-  /// Breaks ties between certificates of one function: unique within a run for live certificates.
+  /// Breaks ties between certificates of one function. Unique among the live certificates of a run.
   [[nodiscard]] virtual std::uint64_t place(std::uint32_t slot) const = 0;
-  /// The failure comes near: see EventQueue.
+  /// Prefetches data of a failure that comes near; see EventQueue.
   virtual void fetch(std::uint32_t slot, unsigned bins_ahead) const {
     static_cast<void>(slot);
     static_cast<void>(bins_ahead);
@@ -29,7 +30,7 @@ class ScheduledSource : public CertificateSource {
 
 struct ScheduledFailure {
   FailureTime time;
-  std::uint32_t tie = 0;  ///< same non-zero number: known to be the same time
+  std::uint32_t tie = 0;  ///< failures with the same non-zero number are known to be at the same time
   std::uint32_t slot = 0;
   ScheduledSource* source = nullptr;
 
@@ -39,14 +40,15 @@ struct ScheduledFailure {
 struct ComparisonCounts {
   std::uint64_t by_identity = 0;  ///< overlapping brackets of one function: the same time
   std::uint64_t exact = 0;        ///< overlapping brackets settled on integers
-  std::uint64_t ties = 0;         ///< of those, equal times of different functions
+  std::uint64_t ties = 0;         ///< exact comparisons that found equal times of different functions
 };
 
 class FailureOrder {
  public:
-  /// Strict: a before b, narrowing both where their brackets overlap.
+  /// Returns whether a is strictly before b. Narrows both times if their brackets overlap.
   [[nodiscard]] bool before(ScheduledFailure& a, ScheduledFailure& b) {
-    // Apart, nearly always; which one is earlier no one foretells: no branch on that.
+    // The brackets are nearly always disjoint. Which one is earlier cannot be predicted, so the comparison
+    // does not branch on it.
     if (std::max(a.time.lower, b.time.lower) > std::min(a.time.upper, b.time.upper)) [[likely]]
       return a.time.lower < b.time.lower;
     return before_closely(a, b);
@@ -54,14 +56,14 @@ class FailureOrder {
   [[nodiscard]] static double earliest(const ScheduledFailure& f) { return f.time.lower; }
   [[nodiscard]] static double latest(const ScheduledFailure& f) { return f.time.upper; }
   static void fetch(const ScheduledFailure& f, unsigned bins_ahead) { f.source->fetch(f.slot, bins_ahead); }
-  /// -1, 0, 1 by time alone.
+  /// Returns -1, 0 or 1 by time alone.
   [[nodiscard]] int compare_times(ScheduledFailure& a, ScheduledFailure& b);
 
   [[nodiscard]] const ComparisonCounts& counts() const { return counts_; }
 
  private:
   [[nodiscard]] bool before_closely(ScheduledFailure& a, ScheduledFailure& b);
-  /// `one_function` becomes true if they are at the same time for being of one function.
+  /// Sets `one_function` to true if both times are equal because both certificates have the same function.
   [[nodiscard]] int compare(ScheduledFailure& a, ScheduledFailure& b, bool& one_function);
 
   ComparisonCounts counts_;

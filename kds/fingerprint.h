@@ -1,6 +1,7 @@
 #pragma once
-// A hash over the order of events and their combinatorial changes, never over doubles: equal for equal
-// histories on every kernel, run and machine. FNV-1a over 32-bit words with a final mix (splitmix64).
+// A hash of the order of events and their combinatorial changes, never of doubles. Equal histories have equal
+// fingerprints on every kernel, run and machine. Computed by FNV-1a over 32-bit words with the final mix of
+// splitmix64.
 
 #include <cstdint>
 

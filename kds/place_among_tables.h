@@ -1,5 +1,6 @@
 #pragma once
-// What tells the certificates of a run's tables apart: structure, table, then the place in the structure.
+// Numbers that tell the certificates of a run's tables apart: structure, table, then the place in the
+// structure.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +10,7 @@ namespace kds {
 
 class PlaceAmongTables {
  public:
-  /// Throws std::logic_error where there are more structures, or tables of one structure, than have room.
+  /// Throws std::logic_error if the structure or the table has a number of 65536 or more.
   PlaceAmongTables(std::size_t structure, unsigned number) {
     if (structure >= most || number >= most)
       throw std::logic_error("a run has at most 65536 structures, and each as many tables of certificates");
@@ -17,7 +18,7 @@ class PlaceAmongTables {
   }
 
   [[nodiscard]] std::uint32_t table() const { return table_; }
-  /// In the order in which simultaneous failures of one function are handled.
+  /// Returns a number that orders simultaneous failures of one function: they are handled in ascending order.
   [[nodiscard]] std::uint64_t of(std::uint32_t place) const { return std::uint64_t{table_} << 32U | place; }
 
  private:

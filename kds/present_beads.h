@@ -1,6 +1,6 @@
 #pragma once
-// Which beads of a motion a structure is of whose beads come and go (bead_edits.h): all, but those that were
-// left out or have gone.
+// The set of beads that are present in a structure whose beads can be inserted and erased (bead_edits.h): all
+// beads of the motion except those left out or erased.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,27 +19,28 @@ namespace kds {
 template <int Dimension>
 class PresentBeads {
  public:
-  /// `structure`: its name, of static storage, for messages.
+  /// `structure` is the structure's name for messages, in static storage.
   PresentBeads(std::string_view structure, const MotionRef<Dimension>& motion)
       : structure_(structure), motion_(motion) {}
 
-  /// Throws std::invalid_argument where there is no such bead.
+  /// Throws std::invalid_argument if the bead does not exist.
   [[nodiscard]] bool is_absent(BeadId bead) const {
     require_index("bead", bead, motion_.bead_count());
     return bead < absent_.size() && absent_[bead] != 0;
   }
   [[nodiscard]] std::size_t count() const { return motion_.bead_count() - absent_count_; }
-  /// Ascending.
+  /// Returns the beads that are present, in ascending order.
   [[nodiscard]] std::vector<BeadId> all() const {
     std::vector<BeadId> beads;
     for (BeadId bead = 0; bead < motion_.bead_count(); ++bead)
       if (!is_absent(bead)) beads.push_back(bead);
     return beads;
   }
-  /// Of each bead whether it is absent; empty where none ever was.
+  /// Returns a flag for each bead, true if the bead is absent. Empty if no bead was ever absent.
   [[nodiscard]] std::span<const char> absent() const { return absent_; }
 
-  /// Throws std::invalid_argument where the bead is not absent, or not present, or there is none.
+  /// Throws std::invalid_argument if the bead does not exist, or if it is not absent (`absent`) or not
+  /// present (otherwise) as required.
   void require(BeadId bead, bool absent) const {
     if (is_absent(bead) == absent) return;
     refuse("bead " + std::to_string(bead) +
@@ -52,7 +53,7 @@ class PresentBeads {
     absent_count_ += absent ? 1 : std::size_t(-1);
   }
 
-  /// What BeadEdits says of it; no more, once the structure says that it is built.
+  /// Implements BeadEdits::leave_out. Throws once structure_is_built has been called.
   void leave_out(BeadId bead) {
     require(bead, false);
     if (built_) refuse("its beads are left out before it is built");
@@ -60,7 +61,8 @@ class PresentBeads {
   }
   void structure_is_built() { built_ = true; }
 
-  /// What a logged edit changes here. Of its kind are, in this order, `inserts`, erases and other curves.
+  /// Updates this set by a logged edit. The kinds of edits are consecutive: `inserts`, then erases, then
+  /// other curves.
   void apply(const Change& edit, std::uint8_t inserts) {
     const BeadId bead = edit.ids[0];
     require(bead, edit.kind == inserts);

@@ -85,7 +85,7 @@ int compare_with(ExactTime& time, const Rational& place) {
   return ExactTime::compare(time, there);
 }
 
-/// A scale whose values run from `begin` at u = 0 to `end` at u = 1.
+/// A linear scale with value `begin` at u = 0 and `end` at u = 1.
 class Scale {
  public:
   Scale(double begin, double end) : begin_(begin), length_(Rational(end) - begin_) {}
@@ -106,15 +106,16 @@ class Scale {
     }
     const Decimal first = kds::rounded(at_lower), last = kds::rounded(at_upper);
     if (first == last) return first;
-    // The bracket is so narrow that these numbers are neighbours. The number half way between them decides.
+    // The bracket is so narrow that these two numbers are neighbours. The number half way between them
+    // decides which one is nearer.
     const Rational tie = (first.value() + last.value()) / Rational(2);
     const int side = compare_with(time, place_of(tie));
     return side < 0 ? first : side > 0 ? last : kds::rounded(tie);
   }
 
  private:
-  /// Returns whether the bracket is longer than 10^-13 of its smaller end, at most a tenth of the last
-  /// digit.
+  /// Returns whether the bracket is longer than 10^-13 of its smaller end. (This width is at most a tenth of
+  /// the last digit.)
   static bool is_wide(const Rational& a, const Rational& b) {
     return abs(a - b) * Rational(power_of_ten(most_digits + 1)) > std::min(abs(a), abs(b));
   }
@@ -131,7 +132,7 @@ class Scale {
   Rational begin_, length_;
 };
 
-/// Rounds one time on several scales. Makes the exact root only if the bracket does not suffice.
+/// Rounds one time on several scales. Constructs the exact root only if the bracket does not suffice.
 class TimeOnScales {
  public:
   explicit TimeOnScales(const Instant& now) : now_(now), lower_(now.lower()), upper_(now.upper()) {}

@@ -11,8 +11,8 @@ namespace kds {
 /// A time on a scale that runs from one frame to the next, rounded to twelve significant digits (half to
 /// even). A number printed with `{:.12g}` shows these digits.
 struct RoundedTime {
-  double frame = 0;                   ///< by the numbers of frames, with a fraction between two
-  std::optional<double> picoseconds;  ///< none if a frame has no time
+  double frame = 0;                   ///< counted in frames, with a fraction between two frames
+  std::optional<double> picoseconds;  ///< empty if a frame has no time
 };
 
 /// Rounds `now`, a time in the step between two frames. Narrows a copy of the exact root behind `now` until

@@ -1,6 +1,6 @@
 #pragma once
-// What some work takes: by the clock, and of the processor, all threads together, where other programs on the
-// machine do not count.
+// Measures what some work takes: wall time, and the processor time of all threads of this process together.
+// Other programs on the machine do not add to the processor time.
 
 #include <chrono>
 #include <ctime>

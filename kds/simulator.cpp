@@ -17,7 +17,7 @@ namespace kds {
 
 namespace {
 
-/// In the order in which they are named first.
+/// Returns each bead once, in the order in which the beads are first named.
 std::vector<BeadId> each_once(std::span<const BeadId> named) {
   std::vector<BeadId> beads;
   std::unordered_set<BeadId> found;
@@ -28,8 +28,8 @@ std::vector<BeadId> each_once(std::span<const BeadId> named) {
 
 }  // namespace
 
-/// While it lasts structures change. Where that ends by an exception they are who knows how, and it is never
-/// said to have ended.
+/// Marks the run as running while structures change. If an exception escapes, the structures are in an
+/// unknown state, so the run stays marked as running.
 class Simulator::Running {
  public:
   explicit Running(Simulator& simulator)
@@ -153,7 +153,8 @@ bool Simulator::run_next() {
   return any;
 }
 
-/// The certificate that failed may be forgotten from now on, and its beads go another way.
+/// Keeps the function whose root is the present time, because the certificate that failed may be dropped and
+/// its beads may get other curves.
 void Simulator::hold_now() {
   if (present_.time.lower == present_.time.upper) {
     now_ = Instant(present_.time.lower);
@@ -188,7 +189,8 @@ void Simulator::change_motion(std::span<const BeadId> beads, const std::function
     followers[s]->release(beads);
   }
   watch_.charge(Stopwatch::stopped);
-  std::exception_ptr refused;  // structures go on along whatever curves there are then
+  std::exception_ptr refused;  // after an exception, structures continue with the curves that the motion then
+                               // has
   try {
     set_curves();
   } catch (...) {
@@ -284,7 +286,7 @@ template <bool one_moment>
 bool Simulator::run_events(const Dyadic* until, std::uint64_t most) {
   Running running(*this);
   [[maybe_unused]] bool any = false;
-  const bool alone = structures_.size() == 1;  // then the engine's time is the structure's
+  const bool alone = structures_.size() == 1;  // then the engine's time is charged to the structure
   watch_.charge(alone ? lane_of(0) : nobody);
   while (true) {
     advance(queue_.empty() ? nullptr : &queue_.top());
@@ -325,7 +327,8 @@ bool Simulator::is_after(const ScheduledFailure& failure, const Dyadic& time) {
   return ExactTime::compare(limit, failing) < 0;
 }
 
-// Nothing more happens at the present time: structures settle, and between two times they can be audited.
+// Called when nothing more happens at the present time: settles the structures, then audits them, if asked,
+// at a time before the next event.
 void Simulator::advance(ScheduledFailure* next) {
   const bool waiting =
       audits_ == AuditMode::events ||
@@ -341,8 +344,8 @@ void Simulator::advance(ScheduledFailure* next) {
   static_cast<void>(audit_before(next));
 }
 
-/// Audits all structures at a time between now and the next failure, or the end of the step. Returns false
-/// if that failure is due now.
+/// Audits all structures at a time between now and the next failure, or between now and the end of the step.
+/// Returns false if the next failure is due now.
 bool Simulator::audit_before(ScheduledFailure* next) {
   ExactTime then = next == nullptr ? ExactTime(Dyadic(1.0))
                                    : exact_time(*next->source->exact_function(next->slot), next->time);
@@ -420,10 +423,11 @@ void Simulator::Running::tell(Simulator& simulator, std::size_t structure, const
   const KineticStructure& s = *simulator.structures_[structure];
   Event event{simulator.step_, simulator.now_.lower(), simulator.now_.upper(), structure,     change,
               s.name(),        s.kinds()[change.kind], simulator.from_,        simulator.to_, {}};
-  Running running(simulator);  // also where a structure is edited
+  Running running(simulator);  // also if the change is an edit
   for (EventListener* listener : simulator.listeners_) {
     if (!event.rounded && listener->prints_time_of(event)) {
-      const ExactWork::Open account(simulator.listeners_work_);  // the run's own work stays the same
+      const ExactWork::Open account(simulator.listeners_work_);  // keep the run's own count of exact work
+                                                                 // unchanged
       event.rounded = rounded_time(simulator.now_, simulator.from_, simulator.to_);
     }
     listener->on_event(event);

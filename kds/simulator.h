@@ -1,5 +1,5 @@
 #pragma once
-// One clock and one queue for all structures of a run. Knows no geometry.
+// The event loop: one clock and one queue for all structures of a run. Knows no geometry.
 
 #include <cstdint>
 #include <functional>
@@ -28,11 +28,11 @@ namespace kds {
 /// The engine's side of a certificate table.
 class FailureSource : public ScheduledSource {
  public:
-  /// The failure in `slot` is the present event.
+  /// Handles the failure of the certificate in `slot`, which is the present event.
   virtual void fail(std::uint32_t slot) = 0;
-  /// Its time is past: the slot may be used again.
+  /// Called when the failure's time is past: the slot may be reused.
   virtual void retire(std::uint32_t slot) = 0;
-  /// The step is over: forget all certificates.
+  /// Called at the end of a step: discards all certificates.
   virtual void clear() = 0;
   [[nodiscard]] virtual std::size_t structure() const = 0;
 };
@@ -41,13 +41,13 @@ class Simulator {
  public:
   explicit Simulator(AuditMode audits = AuditMode::none, Kernel kernel = Kernel::filtered)
       : queue_(order_), audits_(audits), kernel_(kernel) {
-    watch_.add_lane();  // of listeners
+    watch_.add_lane();  // for the listeners
   }
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 
-  /// What all computing of a run goes on under: rounding to nearest, and the run's account of exact work. A
-  /// structure opens one where it is called by others than the simulator.
+  /// Scope under which all computations of a run take place: sets rounding to nearest and charges exact work
+  /// to this run. A structure opens one in each function that is called from outside the simulator.
   class Entry {
    public:
     explicit Entry(Simulator& simulator) : account_(simulator.work_) {}
@@ -57,32 +57,34 @@ class Simulator {
     ExactWork::Open account_;
   };
 
-  /// Structures act in the order they are added. They must outlive the simulator's use. Throws
-  /// std::logic_error once the structures are built, std::runtime_error where the processor has not what the
-  /// libraries were compiled for (motions/numbers/processor.h).
+  /// Adds a structure. Structures act in the order in which they are added, and must remain valid as long as
+  /// the simulator is used. Throws std::logic_error once the structures are built. Throws std::runtime_error
+  /// if the processor lacks instructions for which the libraries were compiled (motions/numbers/processor.h).
   std::size_t add(KineticStructure& structure);
-  /// Throws std::logic_error where certificates of another type have the same number.
+  /// Throws std::logic_error if certificates of another type have the same number.
   void add_table(FailureSource& table, const CertificateType& type);
   void listen(EventListener& listener) { listeners_.push_back(&listener); }
 
   /// Builds all structures. The motion must be that of the first step.
   void build();
-  /// Runs [0,1) of the motion's present step, the simulator's next, and reaches its end. Throws
-  /// std::logic_error where nothing has been built.
+  /// Runs the simulator's next step over [0,1) of the motion's present step, and then finishes it at u = 1.
+  /// Throws std::logic_error if nothing has been built.
   void run_step();
-  /// No step follows.
+  /// Tells all structures that no step follows.
   void finish();
-  /// What events say of the frames that the next step leads from and to. Until it is said, steps are counted.
+  /// Sets the frames that the next step leads from and to, as events report them. Steps are counted until
+  /// frames are set.
   void set_frames(const FrameStamp& from, const FrameStamp& to);
-  /// The same in parts, for what is done to structures while time runs: enters the step, runs to some times,
-  /// ascending, and leaves. At each of them all that happens until then, or right then, has happened, and the
-  /// structures are settled. Throws std::invalid_argument where a time is not in [now, 1), std::logic_error
-  /// outside a step.
+  /// Together these three do the work of run_step in parts, so that structures can be edited within a step:
+  /// enter_step enters the step, run_until runs to given times in ascending order, and leave_step leaves the
+  /// step. When run_until returns, all events up to and including that time are handled, and the structures
+  /// are settled. Throws std::invalid_argument if a time is not in [now, 1), and std::logic_error outside a
+  /// step.
   void enter_step();
   void run_until(const Dyadic& time);
   void leave_step();
-  /// Within the step: runs all that happens at the next time at which something does, irrational as it may
-  /// be. False, and time stays, where nothing happens any more in the step.
+  /// Handles all events at the next time in the step at which something happens; this time may be irrational.
+  /// Returns false, and leaves the time unchanged, if nothing more happens in the step.
   bool run_next();
 
   /// Audits all structures now, whatever AuditMode was chosen, and counts the audit. Within a step the
@@ -93,49 +95,50 @@ class Simulator {
   /// being handled or a failure is due at this very time.
   void audit_now();
 
-  /// While time stands still: `set_curves()` gives some beads other curves in the motion, along which they go
-  /// on from now; elsewhere than they are now, if need be. All structures follow, or, where one cannot,
-  /// std::invalid_argument, and nothing is changed. A log does not hold curves: a replay must follow the same
-  /// motion.
+  /// Gives some beads other curves while time stands still: `set_curves()` sets them in the motion, and the
+  /// beads follow them from now on. The new curves may begin at other positions. All structures follow.
+  /// Throws std::invalid_argument, and changes nothing, if a structure cannot follow. A log does not hold
+  /// curves, so a replay must use the same motion.
   void change_motion(std::span<const BeadId> beads, const std::function<void()>& set_curves);
-  /// Throws std::invalid_argument unless a step is under way and nothing happens: not while an event is
-  /// handled, nor after a run that was broken off by an exception.
+  /// Throws std::invalid_argument unless a step is under way and nothing is happening: while an event is
+  /// handled, and after a run that an exception ended.
   void require_standing_still() const;
-  /// As run_step, but not beyond `most` failures: if there are more the step is given up, and false. Then
-  /// the structures stand somewhere within it, are not asked to finish, and must be built anew at its end.
+  /// Runs a step like run_step, but handles at most `most` failures. Returns false if there are more; the
+  /// step is then abandoned. In this case the structures stand somewhere within the step, are not asked to
+  /// finish, and must be built anew at its end.
   [[nodiscard]] bool try_step(std::uint64_t most);
 
-  /// A logged event, to be made again; `where` names it in messages.
+  /// A logged event to be replayed. `where` names it in messages.
   struct Replayed {
     std::size_t structure;
     double lower, upper;
     Change change;
     std::string where;
   };
-  /// The same as build and run_step, but the changes come from a log: no certificate, no queue. Throws
-  /// std::invalid_argument, with the event's `where`, if a change cannot be made.
+  /// Like build and run_step, but the changes come from a log, without certificates and without a queue.
+  /// Throws std::invalid_argument, with the event's `where`, if a change cannot be made.
   void build_for_replay();
   void replay_step(std::span<const Replayed> events);
 
   [[nodiscard]] Kernel kernel() const { return kernel_; }
   [[nodiscard]] std::size_t step() const { return step_; }
   [[nodiscard]] const Instant& now() const { return now_; }
-  /// Counts different times: events at the very same time share a moment.
+  /// Counts the different times so far. Events at exactly the same time share a moment.
   [[nodiscard]] std::uint64_t moment() const { return moment_; }
 
   QueueHandle schedule(const FailureTime& time, FailureSource& source, std::uint32_t slot);
   void cancel(QueueHandle handle) { queue_.erase(handle); }
   [[nodiscard]] const FailureTime& scheduled(QueueHandle handle) { return queue_.at(handle).time; }
-  /// It will soon be asked for, or cancelled.
+  /// Prefetches an entry that will be needed or cancelled soon.
   void fetch(QueueHandle handle) const { queue_.fetch(handle); }
-  /// A structure reports what it did now.
+  /// Records a change that a structure made at the present time.
   void record(std::size_t structure, const Change& change);
 
-  /// The exact stage's work in this run, to be watched and limited: then what runs may throw
-  /// WorkLimitReached, after which nothing but the end of the run is possible.
+  /// Returns the account of exact work in this run, on which limits can be set. When a limit is reached,
+  /// running functions throw WorkLimitReached, and the run can only be ended.
   [[nodiscard]] ExactWork& exact_work() { return work_; }
-  /// What work is spent on, in words: this certificate, or, if none is named, the one whose failure is the
-  /// present event.
+  /// Describes in words what the exact work is spent on: the certificate `subject` or, if there is none, the
+  /// certificate whose failure is the present event.
   [[nodiscard]] std::string name_of_work(std::optional<Identity> subject) const;
 
   [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_.value(); }
@@ -150,7 +153,7 @@ class Simulator {
   [[nodiscard]] double seconds_of_listeners() const { return watch_.seconds(listening); }
 
  private:
-  /// What an irrational time is a root of, whatever becomes of the certificate that failed then.
+  /// Keeps the function of an irrational present time, whatever becomes of the certificate that failed.
   class HeldFunction final : public CertificateSource {
    public:
     [[nodiscard]] ExactFunction exact_function(std::uint32_t) const override { return function; }
@@ -158,7 +161,7 @@ class Simulator {
   };
 
   enum class Phase : std::uint8_t { new_run, between_steps, within_step };
-  // The stopwatch's lanes: engine, listeners, then structures.
+  // Lanes of the stopwatch: engine, listeners, then structures.
   static constexpr std::size_t nobody = 0, listening = 1;
   [[nodiscard]] static constexpr std::size_t lane_of(std::size_t structure) { return structure + 2; }
 
@@ -172,8 +175,9 @@ class Simulator {
   void finish_step();
   void end_step();
   static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
-  /// Those until a time, or all of the step; false where `most` were not enough. Or those of one moment,
-  /// whose last is `present_` then: false where there are none.
+  /// If `one_moment` is false, runs all events until the given time or, if null, to the end of the step;
+  /// returns false if there are more than `most`. If `one_moment` is true, runs the events of one moment, the
+  /// last of which is then `present_`; returns false if there are none.
   template <bool one_moment>
   bool run_events(const Dyadic* until, std::uint64_t most = no_limit);
   [[nodiscard]] static bool is_after(const ScheduledFailure& failure, const Dyadic& time);
@@ -193,12 +197,12 @@ class Simulator {
   AuditMode audits_;
   Kernel kernel_;
   Phase phase_ = Phase::new_run;
-  bool running_ = false;  // and still so where an exception ended it
+  bool running_ = false;  // stays true if an exception ended the run
   std::size_t step_ = 0;
   FrameStamp from_, to_{1, {}};
   HeldFunction held_;
   Instant now_;
-  ScheduledFailure present_;  // the event that made it now; no source at the start of a step
+  ScheduledFailure present_;  // the failure being handled; no source at the start of a step
   std::uint64_t moment_ = 0;
   Fingerprint fingerprint_;
   Stopwatch watch_;

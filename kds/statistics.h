@@ -1,5 +1,5 @@
 #pragma once
-// What a structure counted in a run.
+// Counts that a structure keeps in a run.
 
 #include <array>
 #include <cstdint>
@@ -16,32 +16,32 @@ struct CertificateCounts {
   std::uint64_t never_failing = 0;  ///< proved at birth to hold for the rest of their step
   std::uint64_t cancelled = 0;      ///< would have failed, but the structure changed first
   std::uint64_t failed = 0;
-  std::uint64_t touched = 0;  ///< touched zero without failing, where a structure asked for it
+  std::uint64_t touched = 0;  ///< touched zero without failing, if the structure asked for touches
   std::uint64_t alive = 0;
-  std::uint64_t peak = 0;          ///< most alive at once: compactness
-  std::uint64_t per_bead_max = 0;  ///< most that name one bead, at the starts of steps: locality
+  std::uint64_t peak = 0;          ///< most alive at once (compactness)
+  std::uint64_t per_bead_max = 0;  ///< most that name one bead, at the starts of steps (locality)
 };
 
-/// What some of an event's ids are: those of its first role come first.
+/// The role of some of an event's ids. The ids of the first role come first.
 struct IdRole {
   enum class Of : std::uint8_t {
-    beads,   ///< beads, or no_bead: the infinite vertex, or none
-    node,    ///< two: the first and the last bead below a node of a hierarchy
+    beads,   ///< beads, or no_bead for the infinite vertex or for none
+    node,    ///< two ids: the first and the last bead below a node of a hierarchy
     number,  ///< no beads
   };
   std::string_view name;
-  std::uint8_t count = 1;  ///< so many ids; 0: all that are left
+  std::uint8_t count = 1;  ///< number of ids with this role; 0: all that are left
   Of of = Of::beads;
 };
 
-/// Of kinds that do not say what their ids are.
+/// Roles of the kinds that do not say what their ids are.
 inline constexpr std::array<IdRole, 1> unnamed_ids{{{"beads", 0}}};
 
-/// A kind of event by name. Internal events change bookkeeping only and are left out of totals.
+/// A kind of event. Internal events change only bookkeeping and are left out of totals.
 struct EventKind {
   std::string_view name;
   bool external = true;
-  bool counted_apart = false;  ///< not listed among the events (rebuilds)
+  bool counted_apart = false;  ///< not listed among the events (used for rebuilds)
   std::span<const IdRole> roles = unnamed_ids;
 };
 
@@ -49,11 +49,11 @@ struct StructureStatistics {
   CertificateCounts certificates;
   StageCounts stages;
   std::vector<std::uint64_t> events_by_kind;   ///< in the structure's order of kinds
-  std::vector<std::uint64_t> events_per_step;  ///< external
+  std::vector<std::uint64_t> events_per_step;  ///< external events only
   std::uint64_t rebuilds = 0;
   std::uint64_t audits_run = 0;
   std::uint64_t audits_failed = 0;
-  double build_seconds = 0;  ///< of the first build
+  double build_seconds = 0;  ///< time of the first build
 };
 
 }  // namespace kds

@@ -12,8 +12,8 @@ class Stopwatch {
   static constexpr std::size_t stopped = static_cast<std::size_t>(-1);
 
   void add_lane() { seconds_.push_back(0); }
-  /// From now on time counts for `lane`, or for none if `stopped`. Returns the lane before. Looking at the
-  /// clock takes some 30 ns; where the lane stays nobody does.
+  /// Charges time to `lane` from now on, or to no lane if `stopped`. Returns the previous lane. Reading the
+  /// clock takes about 30 ns; it is not read if the lane stays the same.
   std::size_t charge(std::size_t lane) {
     if (lane == lane_) return lane;
     const auto now = std::chrono::steady_clock::now();
