@@ -21,7 +21,7 @@
 
 namespace kds {
 
-/// What a structure keeps of a certificate it created: a slot number or one of the values below.
+/// A structure keeps this handle of each certificate it created: a slot number or one of the values below.
 enum class CertificateHandle : std::uint32_t {
   never = 0xffffffffU,     ///< holds for the rest of the step; nothing is kept
   zero = 0xfffffffeU,      ///< the function is zero for the whole step; treated as `never`

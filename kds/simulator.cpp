@@ -189,8 +189,7 @@ void Simulator::change_motion(std::span<const BeadId> beads, const std::function
     followers[s]->release(beads);
   }
   watch_.charge(Stopwatch::stopped);
-  std::exception_ptr refused;  // after an exception, structures continue with the curves that the motion then
-                               // has
+  std::exception_ptr refused;  // structures continue with the curves set so far
   try {
     set_curves();
   } catch (...) {
@@ -426,8 +425,7 @@ void Simulator::Running::tell(Simulator& simulator, std::size_t structure, const
   Running running(simulator);  // also if the change is an edit
   for (EventListener* listener : simulator.listeners_) {
     if (!event.rounded && listener->prints_time_of(event)) {
-      const ExactWork::Open account(simulator.listeners_work_);  // keep the run's own count of exact work
-                                                                 // unchanged
+      const ExactWork::Open account(simulator.listeners_work_);  // not counted as the run's own work
       event.rounded = rounded_time(simulator.now_, simulator.from_, simulator.to_);
     }
     listener->on_event(event);

@@ -11,8 +11,8 @@ namespace kds {
 
 namespace {
 
-/// The side of a facet on which a cell is: the same for two cells with the facet on the same side. `v` is
-/// positively oriented.
+/// Names a facet together with one of its sides: two cells with this facet have equal values if they lie on
+/// the same side. `v` must be positively oriented.
 template <std::size_t N>
 struct FacetSide {
   std::array<BeadId, N - 1> beads{};
@@ -32,14 +32,16 @@ struct FacetSide {
   friend auto operator<=>(const FacetSide&, const FacetSide&) = default;
 };
 
-/// The beads of a cell ascending, but for the last two where that would turn it over.
+/// Returns the beads of a cell in ascending order, except that the last two are exchanged if this is needed
+/// to keep the cell's orientation.
 template <std::size_t N>
 std::array<BeadId, N> in_order(std::array<BeadId, N> cell) {
   if (sort_beads(cell) < 0) std::swap(cell[N - 2], cell[N - 1]);
   return cell;
 }
 
-/// Calls `visit` with each facet, as a cell of these has it, that bounds them.
+/// Calls `visit(cell, i)` for each facet that bounds the region of the given cells, as a facet of the inner
+/// cell.
 template <int Dimension, class Visit>
 void for_facets_around(const DiagramState<Dimension>& state, std::span<const CellId> cells, Visit visit) {
   std::vector<CellId> inside(cells.begin(), cells.end());
@@ -97,7 +99,7 @@ bool CellExchange<Dimension>::can_fill(std::span<const CellId> hole, std::span<c
 template <int Dimension>
 bool CellExchange<Dimension>::is_regular(std::span<const CellId> hole, std::span<const Beads> made) {
   using Side = FacetSide<Dimension + 1>;
-  std::map<Side, std::pair<Beads, BeadId>> beyond;  // of a facet's side the cell there, and its bead off it
+  std::map<Side, std::pair<Beads, BeadId>> beyond;  // facet side -> the cell there and its bead off the facet
   for_facets_around(state_, hole, [&](CellId cell, int i) {
     const auto [other, k] = state_.across(cell, i);
     beyond.emplace(Side(state_.beads_of(other), static_cast<std::size_t>(k)),

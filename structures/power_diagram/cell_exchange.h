@@ -1,7 +1,7 @@
 #pragma once
-// Some cells of a power diagram in the place of others: what an edit does, and what is done where flips block
-// each other. The new ones are of a static triangulation of the beads around; the facets that bound the old
-// ones stay. All signs are taken just after the present time, exactly.
+// Replaces some cells of a power diagram by others. Edits do this, and so do repairs after flips that block
+// each other. The new cells are taken from a static triangulation of the beads around; the facets that bound
+// the old cells stay. All signs are exact and are taken just after the present time.
 
 #include <span>
 #include <vector>
@@ -21,21 +21,23 @@ class CellExchange {
   CellExchange(State& state, FacetGuards<Dimension>& facets, HiddenGuards<Dimension>& hidden)
       : state_(state), facets_(facets), hidden_(hidden) {}
 
-  /// Cells for the place of some, of the static triangulation of some beads at `time`, among them all around
-  /// that place; none if it does not have the facets around.
+  /// Returns cells that fill the place of `hole`. The cells are taken from the static triangulation of
+  /// `beads` at `time`; `beads` must include all beads around the hole. Returns an empty vector if this
+  /// triangulation lacks one of the facets that bound the hole.
   [[nodiscard]] std::vector<Beads> fill_of(std::span<const CellId> hole, std::vector<BeadId> beads,
                                            const Dyadic& time) const;
-  /// Whether they fit in, finite ones positive.
+  /// Returns whether the cells `made` fit into the hole with all finite cells positive.
   [[nodiscard]] bool can_fill(std::span<const CellId> hole, std::span<const Beads> made);
-  /// Whether cells that fit in are regular, with those around them.
+  /// Returns whether cells that fit into the hole are regular, together with the cells around them.
   [[nodiscard]] bool is_regular(std::span<const CellId> hole, std::span<const Beads> made);
-  /// Exchanges cells whose hidden beads are displaced, records that, and guards the new ones.
+  /// Exchanges the cells, records the exchange and guards the new cells. The hidden beads of the hole must
+  /// already be displaced.
   void fill(std::span<const CellId> hole, std::span<const Beads> made);
-  /// Records that some cells go and that others, positively oriented, come. Returns the latter as they are
-  /// recorded, sorted.
+  /// Records that the cells `gone` are removed and the cells `made`, positively oriented, are added. Returns
+  /// the added cells as they are recorded, sorted.
   std::vector<Beads> record(std::span<const Beads> gone, std::span<const Beads> made);
-  /// The exchange alone. Beads that have no cell any more are hidden, and displaced; hidden ones that have
-  /// cells come back.
+  /// Only exchanges the cells. Beads that lose all their cells become hidden and displaced; hidden beads that
+  /// get cells become visible.
   std::vector<CellId> exchange(std::span<const CellId> hole, std::span<const Beads> made);
 
  private:

@@ -30,8 +30,8 @@ bool is_wrong_at(DiagramState<Dimension>& state, CellId cell) {
 template <int Dimension>
 bool is_wrong_just_after(DiagramState<Dimension>& state) {
   if (state.simulator.kernel() == Kernel::fast) return false;
-  // Functions turn negative where they are zero now, which is at the cells touched: the others are as right
-  // as they were.
+  // A function can turn negative only if it is zero now, which happens only at touched cells. All other cells
+  // are as correct as they were before.
   const bool known = !state.touched.empty() && state.touched_moment == state.simulator.moment() &&
                      state.touched.size() < state.triangulation.live_count();
   if (state.hidden.empty() && known) {
@@ -48,7 +48,7 @@ bool is_wrong_just_after(DiagramState<Dimension>& state) {
 
 template <int Dimension>
 std::optional<std::string> audit_of(const DiagramState<Dimension>& state, const Dyadic& time) {
-  if (!state.has_cells()) return std::nullopt;  // at a frame only, where the answer is CGAL's
+  if (!state.has_cells()) return std::nullopt;  // checked only at frames, by comparison with CGAL
   const bool start = time == Dyadic(0.0);
   const bool frame = start || time == Dyadic(1.0);
   const auto& t = state.triangulation;
@@ -60,7 +60,7 @@ std::optional<std::string> audit_of(const DiagramState<Dimension>& state, const 
       int now = Function::formula(positions, function.beads).scaled[0].sign();
       if constexpr (requires { function.sign; }) now *= function.sign;
       if (now != 0 || frame) return now;
-      // Zero at this very moment only: the sign just after decides.
+      // The function is zero only at this very moment: its sign just after decides.
       return state.template search<Function>().exact_function(function)->sign_after(time);
     };
     const SignsBy<Dimension, decltype(sign)> judge(sign);
@@ -73,7 +73,7 @@ std::optional<std::string> audit_of(const DiagramState<Dimension>& state, const 
       if ((!frame || t.is_valid()) && built.cells == t.finite_cells() && built.hidden == state.hidden.beads())
         return std::nullopt;
     }
-    // Degenerate positions have several regular triangulations: ours must satisfy the definition.
+    // Degenerate positions have several regular triangulations: this one must satisfy the definition.
     return regularity_fault(t, state.bead_count(), hidden, state.flat, judge, absent);
   });
 }

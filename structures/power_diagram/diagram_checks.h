@@ -1,7 +1,7 @@
 #pragma once
-// Whether a kinetic power diagram is right. At a frame it is compared with the static build. Between events
-// it is proved regular (regularity_proof.h) or, where the proof fails, compared with a static build from exact
-// positions. Degenerate positions have several regular triangulations: where the static build differs, the
+// Checks of a kinetic power diagram. At a frame, the diagram is compared with the static build. Between
+// events, it is proved regular (regularity_proof.h) or, if the proof fails, compared with a static build from
+// exact positions. Degenerate positions have several regular triangulations: if the static build differs, the
 // definition decides by exact signs alone (regularity_fault.h).
 
 #include <optional>
@@ -11,7 +11,8 @@
 
 namespace kds {
 
-/// Just after the present time, by exact signs. With `fast` no one knows, and nothing is said.
+/// Returns whether the diagram is wrong just after the present time, by exact signs. Always returns false
+/// with the kernel `fast`, which cannot decide this.
 template <int Dimension>
 [[nodiscard]] bool is_wrong_just_after(DiagramState<Dimension>& state);
 

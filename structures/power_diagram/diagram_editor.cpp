@@ -34,7 +34,8 @@ void DiagramEditor<Dimension>::require_release(std::span<const BeadId> beads) co
     require_cells();
 }
 
-/// A cell of others tells that these do not stay flat, nearly always the first one.
+/// If a cell has none of these beads, the other beads span space; the first cell examined is nearly always
+/// such a cell.
 template <int Dimension>
 bool DiagramEditor<Dimension>::is_flat_without(BeadId bead) const {
   if (state_.present_beads.count() <= Dimension + 1) return true;
@@ -54,7 +55,8 @@ bool DiagramEditor<Dimension>::is_flat_without(BeadId bead) const {
   return stays_flat(others);
 }
 
-/// At all times: at more than a function of theirs has roots that is not zero throughout.
+/// Returns whether the beads lie in one plane (on one line) at all times. It suffices to test more times than
+/// a function of theirs has roots, unless that function is zero throughout.
 template <int Dimension>
 bool DiagramEditor<Dimension>::stays_flat(std::span<const BeadId> beads) const {
   for (int times = 0; times <= Dimension * state_.motion.degree(); ++times) {
@@ -234,7 +236,8 @@ auto DiagramEditor<Dimension>::fill_without(BeadId bead, std::span<const CellId>
   }
   std::vector<Beads> made = exchange_.fill_of(hole, beads, time);
   if (!made.empty()) return made;
-  for (const CellId cell : hole) {  // these may lie in one plane: the beads beyond do not
+  // The beads of the hole may lie in one plane; together with the beads beyond they do not.
+  for (const CellId cell : hole) {
     if (const BeadId b = state_.apex(cell, state_.place_of(cell, bead)); b != infinite_bead)
       beads.push_back(b);
   }
@@ -255,7 +258,7 @@ void DiagramEditor<Dimension>::take_out(BeadId bead, std::span<const CellId> hol
   if (const auto now = rational_now()) {
     if (try_at(*now, false)) return;
   } else {
-    for (const unsigned bits : {80U, 200U}) {  // hardly ever does anything happen sooner
+    for (const unsigned bits : {80U, 200U}) {  // an event before these times is very unlikely
       const Dyadic time = next_on_grid(state_.simulator.now().exact(), bits);
       if (time < Dyadic(1.0) && try_at(time, true)) return;
     }
@@ -263,7 +266,7 @@ void DiagramEditor<Dimension>::take_out(BeadId bead, std::span<const CellId> hol
   rebuild_after_edit(Events::erases, bead);
 }
 
-/// The connected cells that the bead is in conflict with, among them `start`.
+/// Returns the connected cells that are in conflict with the bead, starting with `start`.
 template <int Dimension>
 std::vector<CellId> DiagramEditor<Dimension>::cells_in_conflict(BeadId bead, CellId start, bool zero_too) {
   std::vector<CellId> found{start};
@@ -299,8 +302,8 @@ void DiagramEditor<Dimension>::finish_edit(Kind kind, BeadId bead) {
   settle();
 }
 
-/// Doubts the touched cells if a certificate vanishes now: new cells or courses may then turn cells over,
-/// or wind the hull around twice, without an event.
+/// Raises a doubt about the touched cells if a certificate vanishes now: in this case new cells or courses
+/// may turn cells over, or wind the hull around twice, without an event.
 template <int Dimension>
 void DiagramEditor<Dimension>::settle() {
   if (!state_.is_generic_now()) state_.suspect_touched(Doubt::unclear);

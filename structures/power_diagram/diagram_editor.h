@@ -1,23 +1,25 @@
 #pragma once
-// Beads that come, go and change course while time runs. All signs are taken just after the present time,
-// exactly.
+// Inserts and erases beads and gives them other curves during a run. All signs are exact and are taken just
+// after the present time.
 //
-//   insert   on a walk to where the bead is; the cells whose power spheres hold it are replaced by those that
-//            join it to the facets around them (Bowyer-Watson), or it is hidden. Beads in their midst are
-//            hidden from then on.
-//   erase    the cells around it are replaced by those of the static triangulation of their other beads and
-//            of the beads hidden there that fill the same place: all of these are cells of the whole, and
-//            hidden beads come back as they are in it.
-//   change   the certificates that name the bead are made anew; where it jumps, it is erased and inserted.
-//            Of many beads at once, or where the others alone would have no diagram: all certificates; where
-//            any jumps, all cells, and that is counted.
+//   insert   Walks to the bead's position. The cells whose power spheres contain the bead are replaced by the
+//            cells that join the bead to the facets around them (Bowyer-Watson); if there are none, the bead
+//            is hidden. Beads inside the replaced cells become hidden.
+//   erase    Builds the static triangulation of the other beads of the cells around the bead and of the
+//            beads hidden there. Its cells that fill the same place replace the cells around the bead. These
+//            are cells of the whole diagram too, and hidden beads become visible if they are vertices there.
+//   change   Makes the certificates that name the bead anew. If the bead jumps, it is erased and inserted.
+//            If many beads change at once, or if the others alone would have no diagram, all certificates are
+//            made anew; if any of these beads jumps, all cells are rebuilt, and the rebuild is counted.
 //
-// At an irrational time, that of an event, nobody can build a static triangulation: cells come from one at a
-// time soon after, once their signs just after the present time say that they are those of then. And whether
-// a bead jumps is not looked at: it is taken to, unless its curve is the one that it had.
+// No static triangulation can be built at an irrational time, which is the time of an event. Instead, cells
+// are taken from a static triangulation at a rational time soon after; they are accepted if their signs just
+// after the present time prove them correct at that time. At an irrational time, every bead whose curve
+// changes is treated as if it jumped.
 //
-// Infinite cells take part like any other. Ties for good (whole grids at rest) may leave flat cells, or a
-// static triangulation that decided otherwise than the cells that stay: then all is built anew, and counted.
+// Infinite cells are treated like any others. Permanent ties (for example a whole grid at rest) may leave
+// flat cells, or a static triangulation may resolve a tie differently from the cells that stay. In this case
+// the whole diagram is rebuilt, and the rebuild is counted.
 
 #include <array>
 #include <optional>
@@ -47,31 +49,32 @@ class DiagramEditor {
         rebuilder_(rebuilder),
         exchange_(state, facets, hidden) {}
 
-  // What PowerDiagram says of them.
+  // Implements the functions of PowerDiagram with these names.
   void insert(BeadId bead, BeadId near);
   void erase(BeadId bead);
   void require_release(std::span<const BeadId> beads) const;
   void release(std::span<const BeadId> beads);
   void take_up();
 
-  /// Makes a logged edit again, without certificates: first the cells that it clears and fills. No cells
-  /// before it: the bead is hidden, or a rebuild follows. Throws std::invalid_argument if it cannot be made.
+  /// Repeats a logged edit without certificates, beginning with the cells that it clears and fills. If no
+  /// cells precede the edit, the bead is hidden or a rebuild follows. Throws std::invalid_argument if the
+  /// edit cannot be made.
   void apply(const Change& change);
 
  private:
   void require_time() const;
   void require_cells() const;
   static constexpr const char* in_what = Dimension == 3 ? "in one plane" : "on one line";
-  /// Whether the others are too few for a diagram, or stay in one plane (on one line).
+  /// Returns whether the other beads are too few for a diagram, or stay in one plane (on one line).
   [[nodiscard]] bool is_flat_without(BeadId bead) const;
   [[nodiscard]] bool stays_flat(std::span<const BeadId> beads) const;
-  /// The present time, if it is rational.
+  /// Returns the present time if it is rational.
   [[nodiscard]] std::optional<Dyadic> rational_now() const;
   void put_in(BeadId bead, CellId from);
-  /// With the cells around it, whose hidden beads are displaced.
+  /// Removes the bead together with the cells around it, whose hidden beads are displaced.
   void take_out(BeadId bead, std::span<const CellId> hole);
   void take_out_hidden(BeadId bead);
-  /// Cells in its place as they are at `time`, without the bead.
+  /// Returns cells that fill the bead's place, as they are at `time` without the bead.
   [[nodiscard]] std::vector<Beads> fill_without(BeadId bead, std::span<const CellId> hole,
                                                 const Dyadic& time) const;
   [[nodiscard]] std::vector<ExactPosition> positions_of_released(const Dyadic& time) const;
@@ -90,13 +93,13 @@ class DiagramEditor {
   HiddenGuards<Dimension>& hidden_;
   DiagramRebuilder<Dimension>& rebuilder_;
   CellExchange<Dimension> exchange_;
-  // Beads between two courses, the control points of the first, where they are if that is rational, and the
-  // cells around one of them.
+  // Beads between release and take_up, the control points of their old curves, their positions now if the
+  // time is rational, and the cells around the bead if it is a single one.
   std::vector<BeadId> released_;
   std::vector<double> numbers_before_;
   std::vector<ExactPosition> before_;
   std::vector<CellId> around_;
-  // Replay: cells that the edit being read clears and fills.
+  // Replay: the cells that the edit being read clears and fills.
   std::vector<CellId> cleared_;
   std::vector<Beads> filled_;
 };

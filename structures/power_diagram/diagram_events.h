@@ -1,5 +1,5 @@
 #pragma once
-// What happens to a kinetic power diagram, by kinds: events, and edits as logs have them.
+// The kinds of changes of a kinetic power diagram: events, and edits as they are logged.
 
 #include <algorithm>
 #include <array>
@@ -12,16 +12,16 @@
 namespace kds {
 
 /// The ids of an event:
-///   flip                   the face that goes, then the face that comes, each ascending; in space the
-///                          triangle comes before the edge
+///   flip                   the face that is removed, then the face that is added, each ascending; in
+///                          space the triangle comes before the edge
 ///   hides, shows           the beads of the one cell, ascending, then the bead
 ///   wanders                the bead, then its host's beads, ascending
 ///   rebuild                no beads, but the time u = numerator / 2^exponent of the step at which the whole
 ///                          diagram is built anew from exact positions: the exponent, then at most seven
 ///                          32-bit words of the numerator, lowest first
-///   clears                 the beads of a cell that goes, ascending
-///   fills                  the beads of a cell that comes, positively oriented: ascending, except that the
-///                          last two may be exchanged
+///   clears                 the beads of a cell that is removed, ascending
+///   fills                  the beads of a cell that is added, positively oriented: ascending, except that
+///                          the last two may be exchanged
 ///   inserts, erases,       the bead
 ///   changes
 ///   repairs                the least bead of the cells cleared and filled before
@@ -29,7 +29,7 @@ namespace kds {
 /// again.
 template <int Dimension>
 struct DiagramEvents {
-  /// In the plane `to_edge` is the 2-2 flip, and there is no `to_facet`.
+  /// In the plane, `to_edge` is the 2-2 flip, and `to_facet` does not exist.
   enum Kind : std::uint8_t {
     to_edge,
     to_facet,
@@ -37,13 +37,13 @@ struct DiagramEvents {
     shows,
     wanders,
     rebuild,
-    // Edits: all their cells that go and that come, then what it was.
+    // Edits: first all cells cleared and filled, then the edit itself.
     clears,
     fills,
     inserts,
     erases,
     changes,
-    // Cells that go and that come where flips block each other, then this.
+    // A repair after flips that block each other: first all cells cleared and filled, then this kind.
     repairs,
   };
 
@@ -87,7 +87,7 @@ struct DiagramEvents {
     return in_plane;
   }
 
-  /// A bead that vanishes into a cell, or comes back there.
+  /// Returns the change in which a bead becomes hidden in a cell, or becomes visible there.
   [[nodiscard]] static Change of_hidden(Kind kind, const std::array<BeadId, Dimension + 1>& cell,
                                         BeadId bead) {
     Change change{kind, Dimension + 2, {}};

@@ -44,12 +44,12 @@ void DiagramFlips<Dimension>::begin_event(const Identity& identity) {
 
 template <int Dimension>
 void DiagramFlips<Dimension>::repair(CellId cell, int facet) {
-  // Vertices of the facet across which both cells meet the same one: the others span a face that only cells
-  // among the beads contain.
+  // Find the vertices of the facet across which both cells have the same neighbour. The other beads span a
+  // face that is contained only in cells among these beads.
   const CellId other = state_.neighbor(cell, facet);
   int met = 0;
   int across_from_face = 0;
-  int in_all = 0;  // a vertex of the facet that is none of them
+  int in_all = 0;  // a vertex of the facet without such a neighbour
   for (int k = 0; k <= Dimension; ++k) {
     if (k == facet) continue;
     if (state_.neighbor(cell, k) == state_.neighbor(other, state_.place_of(other, state_.vertex(cell, k)))) {
@@ -64,10 +64,10 @@ void DiagramFlips<Dimension>::repair(CellId cell, int facet) {
   if constexpr (Dimension == 3) {
     if (met == 1) return flip_to_facet(cell, facet, across_from_face);
   }
-  state_.suspect(Doubt::wrong);  // there are no other beads
+  state_.suspect(Doubt::wrong);  // unreachable in general position
 }
 
-/// Whether new cells may take the place of old ones.
+/// Returns whether the new cells may take the place of the old ones.
 template <int Dimension>
 bool DiagramFlips<Dimension>::can_replace(std::span<const Beads> old, std::span<const Beads> made) {
   std::array<Orientation<Dimension>, Dimension + 1> finite;
@@ -79,7 +79,7 @@ bool DiagramFlips<Dimension>::can_replace(std::span<const Beads> old, std::span<
       all_finite = false;
       continue;
     }
-    if (orientation.identity() == state_.present) continue;  // flat now, and opening: that is the event
+    if (orientation.identity() == state_.present) continue;  // flat now, and opening
     finite[count++] = orientation;
   }
   if (!state_.all_positive_now({finite.data(), count})) {
@@ -102,10 +102,10 @@ bool DiagramFlips<Dimension>::can_replace(std::span<const Beads> old, std::span<
   return true;
 }
 
-/// Whether a face of these beads stands, each of them a vertex of one of two cells.
+/// Returns whether a face of these beads exists already. Each bead must be a vertex of one of the two cells.
 template <int Dimension>
 bool DiagramFlips<Dimension>::stands_already(std::span<const BeadId> face, CellId a, CellId b) const {
-  // Infinity may have many cells.
+  // Start from a finite bead, because the infinite vertex may have many cells.
   const BeadId bead = face[0] == infinite_bead ? face[1] : face[0];
   return state_.triangulation.stand_together(bead, state_.place_of(a, bead) <= Dimension ? a : b, face);
 }
@@ -186,7 +186,8 @@ void DiagramFlips<Dimension>::flip_to_facet(CellId cell, int facet,
   hidden_.rehouse(made[0]);
 }
 
-/// 1-4 (1-3): a hidden bead gets cells in the place of one, its host or an infinite one beside it.
+/// 1-4 (1-3): a hidden bead becomes visible and gets cells in the place of `cell`, which is its host or an
+/// infinite cell beside its host.
 template <int Dimension>
 void DiagramFlips<Dimension>::show(BeadId bead, CellId cell) {
   const Beads v = state_.beads_of(cell);
@@ -203,7 +204,7 @@ void DiagramFlips<Dimension>::show(BeadId bead, CellId cell) {
   hidden_.rehouse(cell);
 }
 
-/// 4-1 (3-1): vertex i of `cell`, with no cells but those of a star, is hidden.
+/// 4-1 (3-1): vertex i of `cell`, whose only cells form the star, becomes hidden.
 template <int Dimension>
 void DiagramFlips<Dimension>::hide(CellId cell, int i) {
   const BeadId bead = state_.vertex(cell, i);
@@ -262,7 +263,7 @@ void DiagramFlips<Dimension>::apply_to_facet(const Change& change) requires(Dime
   state_.triangulation.flip_edge(*cell, state_.place_of(*cell, id[3]), state_.place_of(*cell, id[4]));
 }
 
-/// Where hidden beads are is not followed.
+/// The hosts of hidden beads are not tracked during a replay.
 template <int Dimension>
 void DiagramFlips<Dimension>::apply_to_hidden(const Change& change) {
   const BeadId bead = change.kind == Events::wanders ? change.ids[0] : change.ids[Dimension + 1];

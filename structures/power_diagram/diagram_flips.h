@@ -1,10 +1,14 @@
 #pragma once
 // Flips of a power diagram. When a certificate fails, the Radon partition of the beads decides the flip. In
-// general position the cells themselves tell which it is, for those among the beads change: in space 4-1 if a
-// vertex of the facet has just four cells, all among them, 3-2 if an edge has just three, else 2-3; in the
-// plane 3-1 if a vertex has just three, else 2-2. What general position does not guarantee is checked: finite
-// new cells must be positive just after the event, and on the hull the faces that go and those that come must
-// turn the same way in their common plane now.
+// general position, the cells themselves show which flip it is, because only cells among these beads change.
+//
+// - In space: 4-1 if a vertex of the facet has exactly four cells, all among these beads; 3-2 if an edge has
+//   exactly three; otherwise 2-3.
+// - In the plane: 3-1 if a vertex has exactly three cells; otherwise 2-2.
+//
+// Conditions that general position does not guarantee are checked. New finite cells must be positive just
+// after the event. On the hull, the removed faces and the added faces must turn the same way in their common
+// plane now.
 
 #include <cstdint>
 #include <span>
@@ -24,19 +28,20 @@ class DiagramFlips {
   DiagramFlips(State& state, FacetGuards<Dimension>& facets, HiddenGuards<Dimension>& hidden)
       : state_(state), facets_(facets), hidden_(hidden) {}
 
-  /// The certificate in `slot` of a table fails now: the diagram is repaired, or in doubt.
+  /// Handles the failure, at the present time, of the certificate in `slot` of a table: repairs the diagram
+  /// or marks it as doubtful.
   void fail(unsigned table, std::uint32_t slot);
-  /// Makes a logged flip again, or what happened to a hidden bead, without certificates. Throws
+  /// Repeats a logged flip, or a logged event of a hidden bead, without certificates. Throws
   /// std::invalid_argument if it cannot be made.
   void apply(const Change& change);
 
  private:
-  /// The certificate that fails now.
+  /// Sets the certificate that fails now as the present event.
   void begin_event(const Identity& identity);
   void repair(CellId cell, int facet);
   [[nodiscard]] bool can_replace(std::span<const Beads> old, std::span<const Beads> made);
-  /// In exact geometry new cells that are positive have no face that stands already, unless more happens at
-  /// once.
+  /// In exact arithmetic, positive new cells have no face that already exists, unless several events
+  /// coincide.
   [[nodiscard]] bool may_stand_already() const {
     return state_.simulator.kernel() == Kernel::fast || state_.doubt != Doubt::none ||
            state_.present.type == Orientation<Dimension>::type.number;

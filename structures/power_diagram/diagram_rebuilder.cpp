@@ -16,9 +16,9 @@ namespace kds {
 
 namespace {
 
-constexpr std::size_t most_times = 64;  // of many, which are much alike
+constexpr std::size_t most_times = 64;  // limit, because further times are much like these
 
-/// The cells in a ring around some, too.
+/// Returns the cells together with the ring of cells around them.
 template <int Dimension>
 std::vector<CellId> with_those_around(const DiagramState<Dimension>& state, std::vector<CellId> cells) {
   const std::size_t count = cells.size();
@@ -57,7 +57,7 @@ void DiagramRebuilder<Dimension>::watch_all() {
 template <int Dimension>
 void DiagramRebuilder<Dimension>::after_batch() {
   const bool wrong = state_.doubt == Doubt::wrong || is_wrong_just_after(state_);
-  std::vector<CellId> cells;  // those that may be wrong, if these are all
+  std::vector<CellId> cells;  // the cells that may be wrong; empty if they are unknown
   if (state_.known_places) cells.swap(state_.touched);
   state_.clear_doubt();
   if (!wrong) return;
@@ -158,7 +158,7 @@ template <int Dimension>
 std::vector<ExactTime> DiagramRebuilder<Dimension>::contradictions(const Dyadic& time) {
   std::vector<ExactTime> times;
   ExactTime limit(time);
-  // What fails before that time.
+  // Collects the failures before that time.
   const auto later = [&](const auto& table, CertificateHandle guard) {
     if (!has_slot(guard)) return true;
     ExactTime failure = exact_time(*table.exact_function(slot_of(guard)), table.time(slot_of(guard)));
@@ -167,7 +167,7 @@ std::vector<ExactTime> DiagramRebuilder<Dimension>::contradictions(const Dyadic&
     return times.size() < most_times;
   };
   static_cast<void>(facets_.all_of(later) && hidden_.all_of(later));
-  add_beginnings(times);  // what holds then and not yet just after now
+  add_beginnings(times);  // certificates that hold then but not just after now
   return times;
 }
 
@@ -219,7 +219,7 @@ bool DiagramRebuilder<Dimension>::try_to_repair(std::span<const CellId> wrong) {
     }
   }
   state_.present = {};
-  for (const unsigned bits : {80U, finest_logged_grid}) {  // hardly ever does anything happen sooner
+  for (const unsigned bits : {80U, finest_logged_grid}) {  // an event before these times is very unlikely
     const Dyadic time = next_on_grid(state_.simulator.now().exact(), bits);
     if (!(time < Dyadic(1.0))) continue;
     const std::vector<Beads> made = exchange_.fill_of(wrong, beads, time);
@@ -236,13 +236,13 @@ bool DiagramRebuilder<Dimension>::try_to_repair(std::span<const CellId> wrong) {
 
 template <int Dimension>
 bool DiagramRebuilder<Dimension>::try_to_rebuild() {
-  std::vector<ExactTime> before;  // a rebuild must be before these
+  std::vector<ExactTime> before;  // a rebuild must precede these times
   add_beginnings(before);
   drop_all();
   facets_.remember();
   state_.present = {};
   const auto cells_before = live_cells(state_);
-  bool solid = false;  // at some time
+  bool solid = false;  // whether the beads span space at one of the times tried
   const auto is_late = [&](const Dyadic& time) {
     return std::any_of(before.begin(), before.end(), [limit = ExactTime(time)](ExactTime& other) mutable {
       return ExactTime::compare(limit, other) >= 0;
@@ -269,7 +269,7 @@ bool DiagramRebuilder<Dimension>::try_to_rebuild() {
   facets_.forget_known();
   state_.clear_doubt();
   if (!solid) return false;
-  if (state_.simulator.kernel() == Kernel::fast) {  // doubles contradict themselves
+  if (state_.simulator.kernel() == Kernel::fast) {  // rounded signs may contradict each other
     rebuild_roughly();
     return true;
   }
@@ -300,7 +300,7 @@ void DiagramRebuilder<Dimension>::rebuild_roughly() {
   state_.present = {};
   const auto cells_before = live_cells(state_);
   const Dyadic time(state_.simulator.now().upper() + 0x1p-16);
-  if (!(time < Dyadic(1.0)) || !assign_static(time)) return watch_all();  // as it is
+  if (!(time < Dyadic(1.0)) || !assign_static(time)) return watch_all();  // keep the diagram as it is
   watch_all();
   state_.clear_doubt();
   record(time, cells_before);

@@ -1,8 +1,9 @@
 #pragma once
-// Where flips do not suffice: simultaneous events that block each other, cells that turn over unseen, frames
-// where beads coincide or all lie in one plane. Then the diagram is built anew, by CGAL with exact numbers,
-// at a time after the present one so near that nothing is skipped, and the rebuild is counted. Where it is
-// known which cells are wrong and these are few, only they and perhaps some around them are.
+// Rebuilds a power diagram if flips do not suffice: simultaneous events that block each other, cells that
+// turn over without an event, and frames at which beads coincide or all lie in one plane. CGAL builds the
+// diagram anew with exact numbers, at a time so soon after the present one that no event is skipped, and the
+// rebuild is counted. If the wrong cells are known and few, only these cells and possibly some rings around
+// them are replaced.
 
 #include <vector>
 
@@ -23,33 +24,33 @@ class DiagramRebuilder {
   DiagramRebuilder(State& state, FacetGuards<Dimension>& facets, HiddenGuards<Dimension>& hidden)
       : state_(state), facets_(facets), hidden_(hidden), exchange_(state, facets, hidden) {}
 
-  /// From the k-th control points, an end of the step.
+  /// Builds the diagram from the k-th control points, at an end of the step.
   void build_from_control_points(int k);
-  /// As CGAL does it at the end of the step; the mirror is made when a step starts.
+  /// Builds the diagram by CGAL at the end of the step. The mirror is made when the next step starts.
   void build_bare_at_end();
-  /// Rebuilds are counted anew.
+  /// Resets the counts that limit rebuilds within a step.
   void start_step();
-  /// Guards facets and hidden beads, all of them.
+  /// Guards all facets and all hidden beads.
   void watch_all();
-  /// If the diagram is wrong just after the events of one time, it is built anew.
+  /// Called after the events of one time: if the diagram is wrong just after them, repairs or rebuilds it.
   void after_batch();
-  /// False, and no cells, where all beads stay in one plane or on one line.
+  /// Returns false, and leaves no cells, if all beads stay in one plane or on one line.
   [[nodiscard]] bool try_to_rebuild();
-  /// Rebuilds at the first time on ever finer grids after now before which nothing fails.
+  /// Rebuilds at the first suitable time after now, on ever finer grids, before which nothing fails.
   void rebuild_at_first_time_that_works();
-  /// That no cells can be built in a step.
+  /// Throws the error that no cells can be built in this step.
   [[noreturn]] static void refuse_flat(std::size_t step);
-  /// Makes a logged rebuild again, without certificates. Throws std::invalid_argument if it cannot be made.
+  /// Repeats a logged rebuild without certificates. Throws std::invalid_argument if it cannot be made.
   void apply(const Change& change);
-  /// Makes a rebuild again whose cells are in the log, positively oriented, infinite ones included.
+  /// Repeats a rebuild whose cells are in the log, positively oriented, including infinite ones.
   void assign_logged(std::span<const Beads> cells);
 
  private:
-  // Binary places of a rebuild's time. Up to the finest logged grid a log holds the time, whose numerator
-  // fits into a Change. Beyond that grid a log holds all cells that go and come, and the number of places
-  // doubles up to the finest grid.
-  // The finest grid suffices for doubles of all exponents (2^-1074 to 2^1024): roots can be 2^-2098 of a
-  // step apart in lengths, and 2^-10490 in power tests, which have degree 5.
+  // Binary places of a rebuild's time. Up to the finest logged grid, the log holds the time, because its
+  // numerator fits into a Change. Beyond this grid, the log holds all cells removed and added, and the
+  // number of places doubles up to the finest grid. The finest grid suffices for doubles of all exponents
+  // (2^-1074 to 2^1024): roots can be as close as 2^-2098 of a step in lengths, and 2^-10490 in power tests,
+  // which have degree 5.
   static constexpr unsigned coarsest_grid = 8, finest_logged_grid = 200, finest_grid = 12800;
   [[nodiscard]] static unsigned next_grid(unsigned bits) {
     if (bits >= finest_logged_grid) return 2 * bits;
@@ -57,16 +58,18 @@ class DiagramRebuilder {
   }
 
   void forget_steps(const StaticTriangulation<Dimension>& built);
-  /// The static diagram at `time`; false, and nothing changed, where it is flat.
+  /// Assigns the static diagram at `time`. Returns false, and changes nothing, if that diagram is flat.
   [[nodiscard]] bool assign_static(const Dyadic& time);
-  /// `fast`: rebuilds near now from doubles, a few times a step; what is violated then stays so.
+  /// For the kernel `fast`: rebuilds near now from doubles, at most a few times in a step. Certificates that
+  /// are violated afterwards stay violated.
   void rebuild_roughly();
   void drop_all();
-  /// Times after now before which a rebuild must be, of what the one just made contradicts.
+  /// Returns the times after now that must follow the rebuild, because certificates of the diagram just built
+  /// fail or begin to hold there.
   [[nodiscard]] std::vector<ExactTime> contradictions(const Dyadic& time);
-  /// Those at which certificates that do not hold just after now begin to.
+  /// Adds the times at which certificates that do not hold just after now begin to hold.
   void add_beginnings(std::vector<ExactTime>& times);
-  /// Puts other cells in the place of these, or of these and those around them; false where it cannot.
+  /// Replaces these cells, or these and rings of cells around them. Returns false if this is not possible.
   [[nodiscard]] bool repair(std::vector<CellId> wrong);
   [[nodiscard]] bool try_to_repair(std::span<const CellId> wrong);
   /// Records a rebuild at `time` that replaces `cells_before`.
@@ -77,7 +80,7 @@ class DiagramRebuilder {
   HiddenGuards<Dimension>& hidden_;
   CellExchange<Dimension> exchange_;
   int rough_rebuilds_ = 0;                         // in this step
-  unsigned coarsest_that_worked_ = coarsest_grid;  // in this step: blocked flips come in crowds
+  unsigned coarsest_that_worked_ = coarsest_grid;  // in this step; blocked flips come in groups
 };
 
 extern template class DiagramRebuilder<2>;

@@ -1,6 +1,6 @@
 #pragma once
-// What the parts of a power diagram share: the triangulation and its hidden beads, the motion, the event that
-// is being handled, and whether the diagram is in doubt.
+// The state shared by the parts of a power diagram: the triangulation and its hidden beads, the motion, the
+// event being handled, and whether the diagram is in doubt.
 
 #include <algorithm>
 #include <array>
@@ -26,9 +26,9 @@
 
 namespace kds {
 
-/// In general position an event changes one flip's beads and nothing else. Where more happens at once, or a
-/// certificate touches zero, the diagram is checked after it, and rebuilt if it is wrong: cells can turn over
-/// unseen only at such moments.
+/// In general position, an event changes the beads of one flip and nothing else. If several events coincide,
+/// or a certificate touches zero, the diagram is checked afterwards and rebuilt if it is wrong. Cells can
+/// turn over without an event only at such moments.
 enum class Doubt : std::uint8_t { none, unclear, wrong };
 
 template <int Dimension>
@@ -37,7 +37,7 @@ struct DiagramState {
   using Beads = CellBeads<Dimension>;
   using Events = DiagramEvents<Dimension>;
 
-  /// `structure`: the owner's number in the simulator.
+  /// `structure` is the owner's number in the simulator.
   DiagramState(Simulator& in, const MotionRef<Dimension>& of, KineticStructure& diagram,
                std::size_t structure)
       : simulator(in),
@@ -53,27 +53,29 @@ struct DiagramState {
   KineticStructure& owner;
   std::size_t index;
 
-  Curves<Dimension> curves;  ///< of the motion: taken when it is built, and when a step starts
+  Curves<Dimension> curves;  ///< of the motion; loaded by build and at the start of each step
   RegularTriangulation<Dimension> triangulation;
   HiddenBeads hidden;
   PresentBeads<Dimension> present_beads;
-  int affine_dimension = Dimension;  ///< of the beads; below, no cells
+  int affine_dimension = Dimension;  ///< of the set of beads; there are no cells if it is below Dimension
   bool has_had_cells = false;
   bool flat = false;         ///< some cell is flat at the frame just reached
-  bool within_step = false;  ///< of all beads
+  bool within_step = false;  ///< the step moves all beads
 
-  /// The certificate that fails now; outside events no certificate's.
+  /// The certificate that fails now; a default value outside events.
   Identity present;
   Doubt doubt = Doubt::none;
-  /// Cells, some gone again, to which something happened at this moment: only there a function can have
-  /// turned negative unless `known_places` denies it.
+  /// Cells, some of them already removed, that changed at this moment. If `known_places` is true, functions
+  /// can have turned negative only at these cells.
   std::vector<CellId> touched;
   std::uint64_t touched_moment = 0;
   bool known_places = true;
-  /// No certificate has vanished in this step after this time, and no cell has been flat. -1: not at all.
+  /// No certificate vanished in this step after this time, and no cell was flat after it. -1: none did in the
+  /// whole step.
   double vanished_until = -1;
 
-  /// Something is amiss, who knows where if it is wrong; if it is unclear, among the cells touched.
+  /// Marks the diagram as doubtful. If `more` is `wrong`, the faulty cells are unknown; if it is `unclear`,
+  /// they are among the touched cells.
   void suspect(Doubt more) {
     if (more == Doubt::wrong) known_places = false;
     suspect_touched(more);
@@ -92,7 +94,7 @@ struct DiagramState {
     known_places = true;
     touched.clear();
   }
-  /// Something happens to these cells, or they are made, at the present moment.
+  /// Notes that these cells change, or are made, at the present moment.
   void touch(std::span<const CellId> cells) {
     if (touched_moment != simulator.moment()) touched.clear();
     touched_moment = simulator.moment();
@@ -103,7 +105,7 @@ struct DiagramState {
   [[nodiscard]] bool is_generic_now() const { return simulator.now().lower() > vanished_until; }
 
   [[nodiscard]] BeadId bead_count() const { return static_cast<BeadId>(motion.bead_count()); }
-  /// The infinite bead is not.
+  /// Returns whether the bead is absent. The infinite bead never is.
   [[nodiscard]] bool is_absent(BeadId bead) const {
     const std::span<const char> absent = present_beads.absent();
     return bead < absent.size() && absent[bead] != 0;
@@ -117,26 +119,27 @@ struct DiagramState {
   [[nodiscard]] BeadId vertex(CellId cell, int i) const {
     return beads_of(cell)[static_cast<std::size_t>(i)];
   }
-  /// Dimension + 1 where it is no vertex.
+  /// Returns the place of `bead` in the cell, or Dimension + 1 if the bead is not a vertex.
   [[nodiscard]] int place_of(CellId cell, BeadId bead) const {
     const Beads& v = beads_of(cell);
     return static_cast<int>(std::find(v.begin(), v.end(), bead) - v.begin());
   }
   [[nodiscard]] bool is_infinite(CellId cell) const { return place_of(cell, infinite_bead) <= Dimension; }
   [[nodiscard]] CellId neighbor(CellId cell, int i) const { return cell_of(triangulation.beyond(cell, i)); }
-  /// The same facet as the cell beyond it has it.
+  /// Returns facet i of the cell as a facet of the cell beyond it.
   [[nodiscard]] std::pair<CellId, int> across(CellId cell, int i) const {
     const FacetId beyond = triangulation.beyond(cell, i);
     return {cell_of(beyond), index_of(beyond)};
   }
-  /// The bead beyond facet i.
+  /// Returns the bead beyond facet i.
   [[nodiscard]] BeadId apex(CellId cell, int i) const { return triangulation.apex_beyond(cell, i); }
   [[nodiscard]] CellId some_finite_cell() const {
     CellId cell = 0;
     while (!triangulation.is_live(cell) || is_infinite(cell)) ++cell;
     return cell;
   }
-  /// The cell with `bead` in place i instead: its orientation is that of the cell if it is on the same side.
+  /// Returns the cell with `bead` in place i. It has the same orientation if `bead` is on the same side of
+  /// facet i.
   [[nodiscard]] static Beads with(Beads cell, int i, BeadId bead) {
     cell[static_cast<std::size_t>(i)] = bead;
     return cell;
@@ -158,10 +161,11 @@ struct DiagramState {
     return search<Function>().sign_just_after(simulator.kernel(), function, simulator.now(),
                                               owner.statistics.stages);
   }
-  /// Whether a cell's facet is, beyond which is that cell with that bead off the facet: its certificate is
-  /// not negative, and faces of the hull in one plane do not fold over each other.
+  /// Returns whether a facet of `cell` is regular, given the cell beyond it and that cell's bead off the
+  /// facet. A facet is regular if its certificate is not negative and if faces of the hull in one plane do
+  /// not fold over each other.
   [[nodiscard]] bool is_regular_just_after(const Beads& cell, const Beads& beyond, BeadId apex) {
-    // Infinite cells on both sides of a finite facet: the hull folds flat there.
+    // If both cells of a finite facet are infinite, the hull folds flat there.
     if (apex == infinite_bead && std::find(cell.begin(), cell.end(), infinite_bead) != cell.end())
       return false;
     const int sign = with_facet_certificate(
@@ -181,8 +185,8 @@ struct DiagramState {
   [[nodiscard]] KnownAtStart known_of(const Certificate& certificate) const {
     return certificate.identity() == present ? KnownAtStart::at_own_root : KnownAtStart::unknown;
   }
-  /// Gives up a guard. Returns whether it fails right now as well with other beads than the present event's:
-  /// then more happens at this moment than that event.
+  /// Drops a guard. Returns whether its certificate also fails right now, but names other beads than the
+  /// present event's certificate; in this case another event happens at this moment too.
   template <class Table>
   bool give_up(Table& table, CertificateHandle guard) {
     const bool vanishes = has_slot(guard) && table.time(slot_of(guard)).lower <= simulator.now().upper() &&

@@ -1,8 +1,8 @@
 #pragma once
-// Facets whose power test is positive all over a step, as in most steps most are: they are looked at as they
-// lie in the cells, in lanes (certificates/filters/cell_filter.h), without a certificate made for each. What
-// is not found positive here is for the certificates. Cells that are found positive where the step ends are
-// told as well: they need not be looked at again there.
+// Finds facets whose power test is positive over the whole step, as most are in most steps. The filter reads
+// facets directly from the cells and evaluates them in lanes (certificates/filters/cell_filter.h), without
+// making a certificate for each. Facets not found positive are left to certificates. The filter also reports
+// cells that are found positive at the end of the step, so that they need no check there.
 
 #include <algorithm>
 #include <array>
@@ -21,18 +21,20 @@
 
 namespace kds {
 
-/// One bit for each facet of a cell.
+/// Bit set of all facets of a cell.
 template <int Dimension>
 inline constexpr unsigned all_facets = (2U << Dimension) - 1;
 
-/// How many facets; without a call where the processor it is compiled for need not be able to count.
+/// Returns the number of facets in the set. Avoids std::popcount, which is a call unless the compiler may
+/// assume an instruction for it.
 template <int Dimension>
 [[nodiscard]] constexpr unsigned count_of(unsigned facets) {
-  constexpr std::uint64_t counts = 0x4332322132212110;  // a digit each
+  constexpr std::uint64_t counts = 0x4332322132212110;  // one digit for each set
   return static_cast<unsigned>(counts >> (4 * (facets & all_facets<Dimension>)) & 0xfU);
 }
 
-/// Facets of a finite cell to finite ones, one bit each; of an infinite cell none.
+/// Returns the set of facets between a finite cell and finite neighbours, one bit each. Empty for an infinite
+/// cell.
 template <int Dimension>
 [[nodiscard]] unsigned finite_facets(const TriangulationCell<Dimension>& cell) {
   unsigned facets = 0;
@@ -44,13 +46,14 @@ template <int Dimension>
   return facets & (0U - finite);
 }
 
-/// Each facet is looked at from one of its two cells, and from few cells, as a cell costs more than a facet:
-/// one is left out where none of its neighbours is, in space a third of them.
+/// Chooses one of the two cells of each facet, so that few cells are visited, because a cell costs more than
+/// a facet. A cell is left out if none of its neighbours is; in space this leaves out a third of all cells.
 class FacetCover {
  public:
   void start(std::size_t cells) { left_out_.assign(cells, 0); }
 
-  /// Facets to look at from a cell, one bit each; asked of all that count, ascending.
+  /// Returns the set of facets to examine from this cell, one bit each. Must be called for all relevant cells
+  /// in ascending order.
   template <int Dimension>
   [[nodiscard]] unsigned facets_of(const TriangulationCell<Dimension>& cell, CellId id, bool may_be_left) {
     unsigned facets = 0, left_before = 0;
@@ -60,7 +63,7 @@ class FacetCover {
       left_before |= left;
       facets |= (left | (id < other ? 1U : 0U)) << i;
     }
-    const unsigned leave = (may_be_left ? 1U : 0U) & (left_before == 0 ? 1U : 0U);  // no branch
+    const unsigned leave = (may_be_left ? 1U : 0U) & (left_before == 0 ? 1U : 0U);  // branch-free
     left_out_[id] = static_cast<std::uint8_t>(leave);
     return facets & (leave - 1);
   }
@@ -69,8 +72,8 @@ class FacetCover {
   std::vector<std::uint8_t> left_out_;
 };
 
-/// The binary exponent of a length that cells have in the motion's step: of the longest side at its start, by
-/// a median over some cells. 0 where there is nothing to be measured.
+/// Returns the binary exponent of a typical cell length in the step: the median of the longest side at its
+/// start, over some cells. Returns 0 if no cell can be measured.
 template <int Dimension>
 [[nodiscard]] int exponent_of_length(
     const Curves<Dimension>& curves,
@@ -91,11 +94,11 @@ template <int Dimension>
   if (count == 0) return 0;
   const auto middle = longest.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(longest.begin(), middle, longest.begin() + static_cast<std::ptrdiff_t>(count));
-  constexpr int most = 500;  // so that its square is a double
+  constexpr int most = 500;  // keeps the square within the range of doubles
   return std::clamp(std::ilogb(*middle), -most, most);
 }
 
-/// Of each set of facets of a cell, one bit each, those facets in order, two bits each.
+/// Maps a set of facets of a cell, one bit each, to these facets in ascending order, two bits each.
 inline constexpr auto facet_orders = [] {
   std::array<std::uint8_t, 16> orders{};
   for (unsigned facets = 0; facets < orders.size(); ++facets) {
@@ -112,7 +115,7 @@ inline constexpr auto facet_orders = [] {
   return static_cast<int>(facet_orders[facets] >> (2 * place) & 3U);
 }
 
-/// The other way round: facets, one bit each, at those of the places in that order that have one.
+/// The inverse: maps a set of facets and a set of places in their order to the set of facets at these places.
 inline constexpr auto facets_at_places = [] {
   std::array<std::array<std::uint8_t, 16>, 16> facets{};
   for (unsigned wanted = 0; wanted < facets.size(); ++wanted) {
@@ -129,7 +132,8 @@ inline constexpr auto facets_at_places = [] {
   return facets;
 }();
 
-/// What is found at places of wanted facets, and of their cell, with these facets' bits in place of those.
+/// Converts what is found at places of wanted facets into bits of the facets themselves, and keeps the bits
+/// that concern the cell.
 template <int Dimension>
 [[nodiscard]] unsigned with_facets_at_places(unsigned wanted, unsigned found) {
   constexpr unsigned of_each_part = 0x01010101U;
@@ -142,25 +146,27 @@ template <int Dimension>
   return facets | (found & ~(all_facets<Dimension> * of_each_part));
 }
 
-/// What is found of the step or of some part of it.
+/// Returns the bits that are set for the step or for some part of it.
 [[nodiscard]] constexpr unsigned in_some_part(unsigned found) {
   found |= found >> (2 * bits_of_part);
   found |= found >> bits_of_part;
   return found & ((1U << bits_of_part) - 1);
 }
 
-/// As the certificates want them: the beads of a cell, then those beyond its wanted facets, in order.
+/// Lists a cell as certificates do: the beads of the cell, then the beads beyond its wanted facets, in order.
 template <int Dimension>
 void put_in_lane(const TriangulationCell<Dimension>& cell, unsigned wanted,
                  std::array<BeadId, 2 * (static_cast<std::size_t>(Dimension) + 1)>& beads) {
   for (std::size_t i = 0; i <= Dimension; ++i) {
     beads[i] = cell.vertex[i];
-    // No branch: no one foretells which are wanted. What comes after them is not asked for.
+    // Branch-free, because the set of wanted facets is unpredictable. The places after the wanted facets are
+    // ignored.
     beads[Dimension + 1 + i] = cell.apex[static_cast<std::size_t>(facet_at(wanted, static_cast<int>(i)))];
   }
 }
 
-/// The same of all facets, in their order. Where there is no bead beyond, one of the cell serves.
+/// Like the function above, for all facets in their order. If a facet has no finite bead beyond it, a bead of
+/// the cell takes its place.
 template <int Dimension>
 void put_in_lane(const TriangulationCell<Dimension>& cell,
                  std::array<BeadId, 2 * (static_cast<std::size_t>(Dimension) + 1)>& beads) {
@@ -170,8 +176,8 @@ void put_in_lane(const TriangulationCell<Dimension>& cell,
   }
 }
 
-/// The cells that an event made, up to four: of each what the filter tells of all its facets and of itself.
-/// Of an infinite cell, and of facets to one, that is nothing.
+/// Filters up to four cells made by an event. Returns for each cell the bits found for all its facets and for
+/// the cell itself. Infinite cells, and facets to them, have no bits set.
 inline constexpr std::size_t few_cells = 4;
 template <int Dimension>
 [[nodiscard]] std::array<unsigned, few_cells> filter_few_cells(
@@ -200,17 +206,17 @@ template <int Dimension>
 template <int Dimension>
 class FacetFilter {
  public:
-  /// Where lengths are a thousand times as long as the unit or as short, nothing is found.
+  /// Finds nothing if lengths differ from the unit by a factor above one thousand.
   FacetFilter(const CellFilter<Dimension>& filter, const LengthUnit& unit, Rounding rounding)
       : filter_(filter), unit_(unit), rounding_(rounding) {}
 
-  /// Those facets of a finite cell, one bit each, that are wanted, of finite_facets, or none. Tells of this
-  /// cell or earlier ones, by `found(cell, wanted, positive)`: what the filter tells of the wanted facets
-  /// and of the cell (PositiveBits).
+  /// Adds the wanted facets of a finite cell, one bit each, a possibly empty subset of finite_facets. Reports
+  /// results for this cell or earlier ones by calling `found(cell, wanted, positive)`, where `positive`
+  /// tells what the filter finds for the wanted facets and for the cell (PositiveBits).
   template <class Found>
   void look_at(const TriangulationCell<Dimension>& cell, CellId id, unsigned wanted, Found& found) {
     const unsigned count = count_of<Dimension>(wanted);
-    Batch& batch = batches_[count];  // cells of as many wanted facets: none waits for another's
+    Batch& batch = batches_[count];  // of cells with equally many wanted facets: no lane is idle
     put_in_lane(cell, wanted, batch.beads[batch.waiting]);
     batch.cells[batch.waiting] = id;
     batch.wanted[batch.waiting] = wanted;
@@ -226,7 +232,7 @@ class FacetFilter {
       flush(count, found);
     }
   }
-  /// How many were found positive.
+  /// Returns the number of facets found positive.
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
  private:
@@ -255,7 +261,7 @@ class FacetFilter {
   const CellFilter<Dimension>& filter_;
   LengthUnit unit_;
   Rounding rounding_;
-  std::array<Batch, Dimension + 2> batches_;  // by how many facets are wanted of a cell
+  std::array<Batch, Dimension + 2> batches_;  // by the number of wanted facets in a cell
   std::uint64_t count_ = 0;
 };
 

@@ -4,8 +4,8 @@ namespace kds {
 
 namespace {
 
-/// Of the beads: a facet rests only if all of its four or five go straight on, and where fewer do, looking
-/// ahead costs more than it saves.
+/// Least share of beads that go straight on. A facet rests only if all of its four or five beads do, so with
+/// a smaller share looking ahead costs more than it saves.
 constexpr double worth_a_look = 0.7;
 constexpr int steps_in_mean = 8;
 

@@ -1,10 +1,11 @@
 #pragma once
-// Facets that are known to hold for some steps ahead if all their beads go straight on (motion_ahead.h), and
-// rest for as long as these do: in the steps that follow they are not looked at. So it is with cells, which
-// are known to stay positive. Of each facet one of its two cells keeps until when. Where a step starts all
-// cells are asked at once, without a branch, which of their beads have turned, and what has to be looked at.
+// Facets that are known to hold for some steps ahead, provided that all their beads go straight on
+// (motion_ahead.h). Such facets rest while this condition holds: the following steps skip them. Likewise,
+// cells are known to stay positive. One of the two cells of each facet stores until which step the facet
+// holds. At the start of a step, one branch-free pass over all cells determines which of their beads have
+// turned and which facets must be examined.
 //
-// Where too many beads turn from step to step nothing is looked at ahead, and only a few beads are watched.
+// If too many beads turn from step to step, looking ahead is switched off, and only a few beads are watched.
 
 #include <algorithm>
 #include <array>
@@ -24,16 +25,16 @@ class FacetForesight {
  public:
   using Triangulation = RegularTriangulation<Dimension>;
 
-  /// At the start of a step of a linear motion.
+  /// Called at the start of a step of a linear motion.
   void start_step(const Curves<Dimension>& curves, const Triangulation& triangulation);
-  /// Whether it pays to look ahead in this step.
+  /// Returns whether looking ahead pays in this step.
   [[nodiscard]] bool any() const { return used_; }
   [[nodiscard]] const MotionAhead<Dimension>& ahead() const { return ahead_; }
 
-  /// Calls `each(cell)` with all cells, and `visit(cell, facets)` with all facets of live cells that are to
-  /// be looked at, one bit each, each at one of its cells; also with no facets where the cell itself is not
-  /// known to stay positive. Asked at the start of the step, and then `proved` is told what is known of the
-  /// cell from now on.
+  /// Calls `each(cell)` for all cells. Then calls `visit(cell, facets)` for live cells with the set of facets
+  /// to be examined, one bit each; each facet is reported at one of its cells. Also calls `visit` with an
+  /// empty set if the cell itself is not known to stay positive. Must be called at the start of the step;
+  /// afterwards `proved` must be called with what is known of these cells from now on.
   template <class Each, class Visit>
   void for_the_others(const Triangulation& triangulation, Each each, Visit visit) {
     const auto cells = triangulation.cells();
@@ -42,7 +43,7 @@ class FacetForesight {
     for (CellId id = 0; id < cells.size(); ++id) {
       each(id);
       others_[count] = others_of(cells[id], id);
-      // No branch: no one foretells which.
+      // Branch-free, because the outcome is unpredictable.
       count += (others_[count].facets != 0 ? 1U : 0U) | (positive_until_[id] <= step_ ? 1U : 0U);
     }
     for (std::size_t n = 0; n < count; ++n) {
@@ -50,8 +51,8 @@ class FacetForesight {
       if (triangulation.is_live(id)) visit(id, facets);
     }
   }
-  /// What a filter of parts finds of a cell (PositiveBits, one bit for each facet) from this step's start on.
-  /// These facets, if they are not found positive, are looked at again in the next step.
+  /// Stores what a filter with parts finds for a cell from the start of this step (PositiveBits, one bit for
+  /// each facet). Facets in the set that are not found positive are examined again in the next step.
   void proved(CellId cell, unsigned facets, unsigned found) {
     Until steps{};
     std::int32_t cell_steps = 0;
@@ -66,11 +67,12 @@ class FacetForesight {
     until_[cell] = steps != 0 ? steps + step_ : until_[cell];
     positive_until_[cell] = cell_steps != 0 ? step_ + cell_steps : positive_until_[cell];
   }
-  /// One facet holds for that many steps.
+  /// Stores that one facet holds for `steps` steps.
   void proved(CellId cell, int i, int steps) { until_[cell][i] = step_ + steps; }
-  /// It cannot be anything else.
+  /// Stores that the cell stays positive, for cells that cannot become anything else.
   void stays_positive_ahead(CellId cell) { positive_until_[cell] = step_ + all_steps; }
-  /// The facet, as this cell and the other have it, has got other beads, and so may this cell have.
+  /// Notes that the facet, facet i of this cell and facet k of the other, has other beads, and that the cell
+  /// may have others too.
   void forget(CellId cell, int i, CellId other, int k) {
     if (!used_) return;
     grow(std::max(cell, other) + 1);
@@ -78,34 +80,34 @@ class FacetForesight {
     until_[other][k] = at_other_cell;
     positive_until_[cell] = nothing_known;
   }
-  /// Whether a cell is known to stay positive in this step.
+  /// Returns whether a cell is known to stay positive in this step.
   [[nodiscard]] bool stays_positive(CellId cell) const {
     return used_ && cell < positive_until_.size() && positive_until_[cell] > step_;
   }
-  /// Nothing is known, and in this step nothing more is looked at ahead.
+  /// Discards all knowledge and switches looking ahead off for this step.
   void forget_all();
 
  private:
-  /// Of each facet of a cell the first step in which it is to be looked at again.
+  /// For each facet of a cell, the first step in which it must be examined again.
   using Until = std::int32_t __attribute__((vector_size(16)));
-  /// Steps are counted from 1.
+  /// Steps are counted from 1, so that this step is always past.
   static constexpr std::int32_t nothing_known = 0;
   static constexpr std::int32_t all_steps = MotionAhead<Dimension>::steps;
   static_assert(all_steps >> positive_parts == 1);
   static constexpr std::int32_t at_other_cell = std::numeric_limits<std::int32_t>::max();
 
-  /// Facets of new cells are forgotten before they are asked for.
+  /// Makes room for new cells. All facets of new cells are passed to `forget` before they are read.
   void grow(std::size_t cells) {
     if (cells <= until_.size()) return;
     until_.resize(cells + cells / 8, Until{} + at_other_cell);
     positive_until_.resize(until_.size(), nothing_known);
   }
-  /// Facets of a cell that are to be looked at there, one bit each.
+  /// The facets of a cell that must be examined there, one bit each.
   struct Others {
     CellId cell;
     unsigned facets;
   };
-  /// Once what its beads end by turning is forgotten.
+  /// First discards the knowledge that became invalid because beads of the cell turned.
   [[nodiscard, gnu::always_inline]] Others others_of(const TriangulationCell<Dimension>& cell, CellId id) {
     std::int32_t in_cell = 0;
     Until beyond{};
@@ -123,7 +125,7 @@ class FacetForesight {
 
   MotionAhead<Dimension> ahead_;
   bool used_ = false;
-  double share_straight_ = 0;  ///< of the beads, a mean of some steps
+  double share_straight_ = 0;  ///< share of the beads that go straight on, averaged over some steps
   int in_mean_ = 0;
   std::int32_t step_ = 1;
   std::vector<Until> until_;

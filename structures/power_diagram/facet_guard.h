@@ -1,5 +1,5 @@
 #pragma once
-// What guards a facet of a kinetic power diagram, in the 32 bits that its cell keeps for it.
+// The guard of a facet of a kinetic power diagram, stored in the 32 bits that its cell keeps for it.
 
 #include <cstdint>
 
@@ -8,14 +8,15 @@
 namespace kds {
 
 struct FacetGuard {
-  /// Where a power test is zero for the whole step, all its beads on one sphere, it would not see the facet's
-  /// cells turn over: then each side guards its own cell's orientation instead.
+  /// The function of the certificate: a power test, an orientation on the hull, or the orientation of a cell.
+  /// If a power test is zero for the whole step (all its beads stay on one sphere), it would not notice that
+  /// the facet's cells turn over. Each side then guards the orientation of its own cell.
   enum class About : std::uint8_t { power, hull, cell };
 
   CertificateHandle guard = CertificateHandle::violated;
   About about = About::power;
 
-  /// As the cell notes it: 0 is the guard of a new cell.
+  /// Returns the guard as the cell stores it. A new cell stores 0, which means `violated`.
   [[nodiscard]] constexpr std::uint32_t packed() const {
     return static_cast<std::uint32_t>(about) << 30U |
            ((static_cast<std::uint32_t>(guard) - first_name) & mask);

@@ -19,7 +19,7 @@ FacetGuards<Dimension>::FacetGuards(State& state)
 
 template <int Dimension>
 void FacetGuards<Dimension>::start_step() {
-  // Tolerances take weights as constant.
+  // Slack is computed as if weights were constant.
   if (state_.simulator.kernel() != Kernel::exact && !state_.motion.is_lifted() && all_move())
     slack_.start_step(state_.curves, state_.triangulation);
   if (state_.simulator.kernel() == Kernel::exact || state_.motion.is_lifted() ||
@@ -36,7 +36,7 @@ template <int Dimension>
 void FacetGuards<Dimension>::move_only(std::vector<char> moving) {
   moving_ = std::move(moving);
   flipped_.clear();
-  ends_positive_.clear();  // steps of other beads end elsewhere
+  ends_positive_.clear();  // steps of other beads end at other positions
   if (all_move()) return;
   slack_.forget_all();
   foresight_.forget_all();
@@ -64,8 +64,9 @@ void FacetGuards<Dimension>::enqueue(CellId cell, int i) {
 template <int Dimension>
 void FacetGuards<Dimension>::enqueue(const FacetCertificates<Dimension + 1>& certificates, CellId cell, int i,
                                      KnownAtStart known) {
-  // Either side may tell, which depends on what filters proved. Not so the facet's place: in which order
-  // failures of one time are handled, and what a flip makes.
+  // Which side reports the facet depends on which facets the filters proved. The facet's place must not
+  // depend on it, because the place determines the order of simultaneous failures and the cells that a flip
+  // makes.
   const FacetId place = std::min(facet_id(cell, i), state_.triangulation.beyond(cell, i));
   const BeadId beyond = state_.apex(cell, i);
   const auto make = [&](auto& certificate) { certificates.make(beyond, certificate); };
@@ -166,7 +167,7 @@ void FacetGuards<Dimension>::watch_all_moving() {
   state_.owner.statistics.stages.slack += at_rest;
 }
 
-/// Facets that are not found positive get certificates.
+/// Gives certificates to facets that are not found positive.
 template <int Dimension>
 auto FacetGuards<Dimension>::taking_doubts() {
   return [this](CellId cell, unsigned wanted, unsigned positive) {
@@ -212,7 +213,7 @@ std::uint64_t FacetGuards<Dimension>::watch_with_foresight(FacetFilter<Dimension
   return triangulation.live_count() * (Dimension + 1) / 2 - others;
 }
 
-/// What guards a facet of the hull is an orientation, as that of a cell. Returns how many are not found to
+/// Facets of the hull are guarded by an orientation, like cells. Returns the number of facets not found to
 /// hold.
 template <int Dimension>
 std::uint64_t FacetGuards<Dimension>::watch_hull_ahead() {
@@ -248,7 +249,7 @@ std::uint64_t FacetGuards<Dimension>::watch_hull_ahead() {
   return doubts;
 }
 
-/// Notes of all facets that they rest: cells whose notes say so already are not touched.
+/// Marks all facets as resting. Skips cells whose notes say so already.
 template <int Dimension>
 void FacetGuards<Dimension>::note_resting() {
   if (notes_ == Notes::resting) {
@@ -264,10 +265,10 @@ void FacetGuards<Dimension>::note_resting() {
 template <int Dimension>
 void FacetGuards<Dimension>::remember_noted(CellId cell) {
   append_little(noted_, cell);
-  if (8 * noted_.size() > state_.triangulation.cells().size()) notes_ = Notes::any;  // then it does not pay
+  if (8 * noted_.size() > state_.triangulation.cells().size()) notes_ = Notes::any;  // too many to list
 }
 
-/// Guards the facets with a bead that moves.
+/// Guards the facets that have a moving bead.
 template <int Dimension>
 void FacetGuards<Dimension>::watch_marked() {
   notes_ = Notes::any;
@@ -311,7 +312,7 @@ void FacetGuards<Dimension>::watch_enqueued() {
   });
 }
 
-/// Where a power test is zero for the whole step.
+/// Replaces a power test that is zero for the whole step by the orientations of both cells.
 template <int Dimension>
 void FacetGuards<Dimension>::watch_cells_beside(CellId cell, int i) {
   power_tests_.drop(guard(cell, i).guard);
@@ -327,8 +328,8 @@ void FacetGuards<Dimension>::watch_cell(CellId cell, int i) {
   if (guard == CertificateHandle::violated) state_.suspect_at(cell, state_.neighbor(cell, i));
 }
 
-/// Of each of a few new cells what filters find: of facets whose power test is positive all over the step, as
-/// most to other cells than these are, and some steps ahead where it pays to look there.
+/// Returns for each of at most four new cells what the filters find: facets whose power test is positive over
+/// the whole step, as it is for most facets to older cells, and over some steps ahead if looking ahead pays.
 template <int Dimension>
 auto FacetGuards<Dimension>::found_around(std::span<const CellId> cells) -> std::array<unsigned, few_cells> {
   const Kernel kernel = state_.simulator.kernel();
@@ -376,7 +377,7 @@ void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
           enqueue(certificates, cell, i, KnownAtStart::unknown);
         }
       } else if (at < static_cast<std::ptrdiff_t>(c)) {
-        continue;  // met already
+        continue;  // handled already
       } else if (inner_hold) {
         hold_inner(cell, i);
         ++(first_inner ? stages.isolation : stages.shared);
@@ -392,7 +393,7 @@ void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
   watch_enqueued();
 }
 
-/// A facet between two cells of an event whose function has no root any more.
+/// Sets the guard of a facet between two cells of an event, whose function has no further root.
 template <int Dimension>
 void FacetGuards<Dimension>::hold_inner(CellId cell, int i) {
   const bool on_hull = state_.present.type == Orientation<Dimension>::type.number;
@@ -417,7 +418,7 @@ auto FacetGuards<Dimension>::take_failure(unsigned table, std::uint32_t slot) ->
     if (touch) {
       watch_cell(cell, facet);
     } else {
-      // Cospherical cells turn over: no flip tells how to go on.
+      // Cospherical cells turn over: no flip describes this event.
       state_.suspect_at(cell, state_.neighbor(cell, facet));
     }
     return std::nullopt;

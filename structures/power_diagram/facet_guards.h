@@ -1,6 +1,6 @@
 #pragma once
-// The certificates of a power diagram's facets (facet_certificate.h), made and given up together. Facets that
-// filters find to hold all over a step have no certificate of their own and are counted only.
+// The certificates of a power diagram's facets (facet_certificate.h), created and dropped together. Facets
+// that filters prove to hold over the whole step have no certificate of their own and are only counted.
 
 #include <array>
 #include <memory>
@@ -27,20 +27,20 @@ class FacetGuards {
   using Beads = typename State::Beads;
 
  public:
-  /// Numbers of its tables.
+  /// Numbers of the tables.
   enum : unsigned { powers = 0, orientations = 1 };
 
   explicit FacetGuards(State& state);
 
-  /// The guards of the step before are gone.
+  /// Called at the start of a step, when the guards of the previous step are gone.
   void start_step();
-  /// Guards all facets; those that rest in this step need no certificate, and those whose test is positive
-  /// all over the step, as most are, nothing but to be counted.
+  /// Guards all facets. Facets that rest in this step need no certificate. Facets whose test is positive over
+  /// the whole step, as most are, are only counted.
   void watch_all();
-  /// Guards all facets of new cells. Those between two of them, where an event made these, have all of its
-  /// beads, and its function.
+  /// Guards all facets of new cells. If an event made these cells, a facet between two of them has all
+  /// beads of the event and therefore its function.
   void watch_around(std::span<const CellId> cells);
-  /// Gives up a facet's guard; where there is none any more, nothing.
+  /// Drops a facet's guard, if it has one.
   void drop(CellId cell, int i) {
     const FacetGuard facet = guard(cell, i);
     bool vanishes = facet.about == About::power ? state_.give_up(power_tests_, facet.guard)
@@ -52,25 +52,27 @@ class FacetGuards {
     if (vanishes) state_.touch(std::array{cell, state_.neighbor(cell, i)});
     forget(cell, i);
   }
-  /// All those of some cells; the second drop of a facet between two of them finds it gone.
+  /// Drops the guards of all facets of these cells. Dropping a facet between two of them a second time has no
+  /// effect.
   void drop_around(std::span<const CellId> cells) {
     for (const CellId cell : cells) {
       for (int i = 0; i <= Dimension; ++i) drop(cell, i);
     }
   }
   void drop_all();
-  /// From now on what is found out about certificates is kept, and asked for before they are searched: while
-  /// time stands still and all diagrams that follow are of the same curves.
+  /// From now on, keeps all search results and reuses them, until forget_known. Must be called only while
+  /// time stands still and all diagrams that follow have the same curves.
   void remember() {
     if (all_move() && !known_ && state_.simulator.kernel() != Kernel::fast) known_.emplace();
   }
   void forget_known() { known_.reset(); }
-  /// Another triangulation follows: nothing is known of its cells and facets, and none is guarded.
+  /// Called before another triangulation: discards all knowledge of its cells and facets and leaves all
+  /// facets unguarded.
   void forget_cells();
-  /// Beads are about to go on along other curves.
+  /// Called when beads are about to get other curves.
   void forget_courses() { foresight_.forget_all(); }
 
-  /// A certificate that fails, or touches zero, and what asks for a flip.
+  /// A certificate that fails or touches zero, and calls for a flip.
   struct Failed {
     CellId cell;
     int facet;
@@ -78,7 +80,7 @@ class FacetGuards {
   };
   [[nodiscard]] std::optional<Failed> take_failure(unsigned table, std::uint32_t slot);
 
-  /// Whether `holds(table, guard)` of all guards.
+  /// Returns whether `holds(table, guard)` is true for all guards.
   template <class Holds>
   [[nodiscard]] bool all_of(Holds holds) const {
     const auto guard_holds = [&](FacetGuard g) {
@@ -93,7 +95,8 @@ class FacetGuards {
     return all;
   }
 
-  /// Calls `visit` with the certificates that do not hold just after now, at most so many: negated they do.
+  /// Calls `visit` with at most `most` of the certificates that do not hold just after now; their negations
+  /// hold.
   template <class Visit>
   void for_violated(std::size_t most, Visit visit) const {
     if (!guarded_) return;
@@ -115,19 +118,20 @@ class FacetGuards {
     });
   }
 
-  /// From now on only the beads marked, one entry a bead, move in a step. Facets of beads that all rest need
-  /// no certificate. Empty: all beads move.
+  /// From now on, only the marked beads move in a step (one entry for each bead). Facets whose beads all rest
+  /// need no certificate. If empty, all beads move.
   void move_only(std::vector<char> moving);
   [[nodiscard]] bool all_move() const { return moving_.empty(); }
-  /// Cells that flips made since then, some more than once, some gone again.
+  /// Returns the cells that flips made since move_only; cells may be listed repeatedly or may be removed
+  /// already.
   [[nodiscard]] std::span<const CellId> flipped() const { return flipped_; }
 
-  /// Of each cell whether it is known to be positive where the step ends; fewer than there are cells, or
-  /// none.
+  /// Returns for each cell whether it is known to be positive at the end of the step. The span may be shorter
+  /// than the list of cells, or empty.
   [[nodiscard]] std::span<const std::uint8_t> known_positive_at_end() const { return ends_positive_; }
   void forget_ends() { ends_positive_.clear(); }
 
-  /// A flip there comes near: first its cell, then what that names.
+  /// Prefetches data for a flip that comes near: first the cell, then, if `next`, the data it refers to.
   void fetch(CellId cell, bool next) const;
 
  private:
@@ -137,7 +141,7 @@ class FacetGuards {
   [[nodiscard]] FacetGuard guard(CellId cell, int i) const {
     return FacetGuard::of(state_.triangulation.cells()[cell].note[static_cast<std::size_t>(i)]);
   }
-  /// As this cell has it alone.
+  /// Sets the guard as this cell alone stores it.
   [[gnu::always_inline]] void set_own_guard(CellId cell, int i, FacetGuard value) {
     state_.triangulation.note(cell, i) = value.packed();
     if (notes_ != Notes::any && value.packed() != resting_note) remember_noted(cell);
@@ -159,23 +163,24 @@ class FacetGuards {
     }
   }
 
-  /// Facets are guarded together: enqueue some, then watch them.
+  /// Facets are guarded together: enqueue several, then call watch_enqueued.
   void enqueue(CellId cell, int i);
   void enqueue(const FacetCertificates<Dimension + 1>& certificates, CellId cell, int i, KnownAtStart known);
   void watch_enqueued();
-  /// One certificate of a facet, searched for with others, or known.
+  /// Enqueues one certificate of a facet, to be searched with others or already known.
   template <class Certificate, class Make>
   void enqueue_in(CertificateTable<Certificate>& table, FacetId place, KnownAtStart birth, Make make);
   template <class Certificate>
   void remember(const CertificateTable<Certificate>& table, FacetId facet, CertificateHandle guard);
-  /// With the filter, or, without lanes, one facet at a time.
+  /// Guards all facets, using the filter or, if `in_lanes` is false, one facet at a time.
   template <bool in_lanes>
   void watch_all_moving();
   [[nodiscard]] auto taking_doubts();
-  /// What is not known from steps before is looked at ahead, and then as it is. Returns how many are known.
+  /// Looks ahead for facets not known from previous steps, and examines the remaining ones for this step
+  /// only. Returns the number of facets known to hold.
   std::uint64_t watch_with_foresight(FacetFilter<Dimension>& positive);
   [[nodiscard]] std::uint64_t watch_hull_ahead();
-  /// Where beads are not known ahead, only one step is found out about.
+  /// Returns whether facets are searched for some steps ahead: only if all beads are known ahead.
   [[nodiscard]] bool looks_ahead() const { return foresight_.any() && foresight_.ahead().all_known(); }
   void watch_marked();
   void note_resting();
@@ -183,7 +188,7 @@ class FacetGuards {
   void watch_cells_beside(CellId cell, int i);
   void watch_cell(CellId cell, int i);
   [[nodiscard]] std::array<unsigned, few_cells> found_around(std::span<const CellId> cells);
-  /// Fetches the failures that a flip will cancel.
+  /// Prefetches the queue entries that a flip will cancel.
   void fetch_scheduled(CellId cell) const {
     for (int i = 0; i <= Dimension; ++i) {
       if (const FacetGuard facet = guard(cell, i); facet.about == About::power)
@@ -196,19 +201,20 @@ class FacetGuards {
   CertificateTable<Orientation<Dimension>> orientations_;
   std::unique_ptr<CellFilter<Dimension>> filter_;
   bool guarded_ = false;
-  /// What the notes of cells say: anything, or that all facets rest but perhaps those of `noted_`.
+  /// The meaning of the notes in cells: `any` makes no promise; with `resting`, all facets rest except
+  /// perhaps those of the cells in `noted_`.
   enum class Notes : std::uint8_t { any, resting };
   Notes notes_ = Notes::any;
   std::vector<CellId> noted_;
   FacetCover cover_;
-  LengthUnit unit_;  // near the cells' lengths in this step
+  LengthUnit unit_;  // close to the cells' lengths in this step
   std::vector<std::uint8_t> ends_positive_;
   FacetSlack<Dimension> slack_;
   std::optional<KnownFailures> known_;
   FacetForesight<Dimension> foresight_;
   std::unique_ptr<CellFilter<Dimension>> filter_ahead_;
-  std::vector<FacetId> on_hull_;  // to be looked at ahead
-  std::vector<char> moving_;      // of each bead; empty: all move
+  std::vector<FacetId> on_hull_;  // facets of the hull to be examined ahead
+  std::vector<char> moving_;      // for each bead; empty: all move
   std::vector<CellId> flipped_;
 };
 

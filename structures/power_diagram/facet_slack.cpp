@@ -9,21 +9,23 @@ namespace kds {
 
 namespace {
 
-/// Finding slack costs about as much as a search in double, so a reference must let this share of all
-/// facets rest that do not yet.
+/// Computing slack costs about as much as a search in doubles, so a new reference must let at least this
+/// share of all facets rest in addition to those that rest already.
 constexpr double worth_a_reference = 0.25;
-/// And this share of all: looking at slack and keeping it up to date is not free either.
+/// A new reference must also let at least this share of all facets rest, because comparing slack and keeping
+/// it up to date also costs time.
 constexpr double least_share = 0.4;
-/// Below this share a reference is given up.
+/// A reference below this share is dropped.
 constexpr double least_worth = 0.05;
-/// Looking at what its own beads stray costs a facet most of what a certificate does: so it must spare many
-/// facets one, a share of all.
+/// Comparing the slack of a facet with the strays of its own beads costs nearly as much as a certificate. It
+/// must therefore save at least this share of all facets their certificate.
 constexpr double share_worth_a_look = 1.0 / 32;
 constexpr std::size_t sample_size = 128;
 
-// Floats are half as long to read. A stray is no smaller than it was, slack no larger.
+// Slack is stored in floats, which are half as long to read as doubles. Strays are rounded up, slack is
+// rounded down.
 
-/// Returns the largest.
+/// Rounds the strays up. Returns the largest.
 float round_up(std::span<const double> strays, std::vector<float>& floats) {
   floats.resize(strays.size());
   std::array<float, 4> most{};
@@ -40,7 +42,7 @@ float round_up(std::span<const double> strays, std::vector<float>& floats) {
   return static_cast<float>(std::min(slack, most) * (1 - 0x1p-23));
 }
 
-/// Some facets of live cells.
+/// Calls `visit` with some facets of live cells.
 template <int Dimension, class Visit>
 void for_sample(const RegularTriangulation<Dimension>& triangulation, Visit visit) {
   const std::size_t stride = std::max<std::size_t>(1, triangulation.cells().size() / sample_size);
@@ -53,7 +55,8 @@ void for_sample(const RegularTriangulation<Dimension>& triangulation, Visit visi
   return all == 0 ? 0 : static_cast<double>(some) / static_cast<double>(all);
 }
 
-/// Facets of finite beads, four at a time: `use(cell, i, slack of one bead)`.
+/// Computes the slack of facets with finite beads, four at a time, and calls `use(cell, i, slack for one
+/// bead)`.
 template <int Dimension, class Use>
 class FourAtOnce {
  public:
@@ -74,7 +77,7 @@ class FourAtOnce {
     for (std::size_t lane = count_; lane < Lanes::width; ++lane) tuples_[lane] = tuples_[0];
     Lanes slack;
     slack_lanes<PowerTest<Dimension>>(at_start_, tuples_, Lanes(1.0), slack);
-    // A difference moves by what both of its beads stray.
+    // The difference of two beads changes by at most the sum of both strays.
     for (std::size_t lane = 0; lane < count_; ++lane)
       use_(facets_[lane].first, facets_[lane].second, rounded_down(0.5 * slack.v[lane]));
     count_ = 0;
@@ -95,7 +98,7 @@ template <int Dimension>
 void FacetSlack<Dimension>::start_step(const Curves<Dimension>& curves, const Triangulation& triangulation) {
   if (triangulation.cells().empty()) return forget_all();
   const double rest = measure(curves, triangulation);
-  if (displacements_.has_reference() && rest < least_worth) forget_all();  // too far away to be of use
+  if (displacements_.has_reference() && rest < least_worth) forget_all();  // too far away to be useful
   const double wanted = std::max(rest + worth_a_reference, least_share);
   if (wanted > 1) return;
   if (samples_.skips()) return;
@@ -126,7 +129,8 @@ double FacetSlack<Dimension>::measure(const Curves<Dimension>& curves, const Tri
     rest += among_others ? 0 : 1;
     by_beads += !among_others && !coarsely ? 1 : 0;
   });
-  // Where nothing bounds all beads a facet's two cells must be told apart by their beads.
+  // If the strays are unbounded, the slack of one cell does not tell at which of its two cells a facet is
+  // stored; the comparison by beads does.
   by_beads_ = share_of(by_beads, looked_at) > share_worth_a_look ||
               !(farthest_ < std::numeric_limits<float>::infinity());
   return share_of(rest, looked_at);

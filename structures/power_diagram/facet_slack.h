@@ -1,12 +1,13 @@
 #pragma once
-// The slack of a triangulation's facets (certificates/filters/slack.h), kept across steps: a facet whose
-// beads stray less from where they were than it has slack is not looked at in the step. All slack is found at
-// one reference frame, which is moved up when a fresh one would let many more facets rest; a sample of facets
-// tells. Where motion is fast, none is.
+// The slack of a triangulation's facets (certificates/filters/slack.h), kept across steps. The stray of a
+// bead is its distance from its position at the reference frame. A step skips a facet if the strays of its
+// beads are smaller than its slack. All slack is computed at one reference frame. A newer reference frame
+// replaces it if a sample of facets shows that many more facets would rest. In fast motion there is no
+// reference.
 //
-// Of each cell the least slack is compared with what any bead strays, an array against one number: where
-// motion is slow that is all that most cells cost. What is left is compared facet by facet, and with what its
-// own beads stray if, by the sample, that tells more.
+// The least slack of each cell is first compared with the largest stray of any bead, in one pass over an
+// array; in slow motion most cells need nothing else. The remaining cells are compared facet by facet. If the
+// sample shows that it helps, a facet's slack is compared with the strays of its own beads.
 
 #include <algorithm>
 #include <array>
@@ -27,12 +28,12 @@ class FacetSlack {
  public:
   using Triangulation = RegularTriangulation<Dimension>;
 
-  /// At the start of a step, its motion loaded.
+  /// Called at the start of a step, when its motion is loaded.
   void start_step(const Curves<Dimension>& curves, const Triangulation& triangulation);
-  /// Whether any facet may rest.
+  /// Returns whether any facet may rest.
   [[nodiscard]] bool any() const { return displacements_.has_reference(); }
-  /// Calls `visit(cell, facets)` with all other facets of live cells, one bit each, each facet at one of its
-  /// cells. Asked before any flip in the step.
+  /// Calls `visit(cell, facets)` for all facets of live cells that do not rest, one bit each; each facet is
+  /// reported at one of its cells. Must be called before any flip in the step.
   template <class Visit>
   void for_the_others(const Triangulation& triangulation, Visit visit) {
     const auto cells = triangulation.cells();
@@ -40,7 +41,7 @@ class FacetSlack {
     std::size_t count = 0;
     for (CellId id = 0; id < cells.size(); ++id) {
       candidates_[count] = id;
-      count += farthest_ < least_[id] ? 0 : 1;  // no branch: no one foretells which
+      count += farthest_ < least_[id] ? 0 : 1;  // branch-free, because the outcome is unpredictable
     }
     constexpr std::size_t ahead = 8;
     for (std::size_t k = 0; k < count; ++k) {
@@ -51,7 +52,7 @@ class FacetSlack {
       if (facets != 0) visit(id, facets);
     }
   }
-  /// The facet, as this cell has it, has got other beads.
+  /// Notes that the facet, as stored at this cell, has other beads.
   void forget(CellId cell, int i) {
     if (!displacements_.has_reference()) return;
     grow(cell + 1);
@@ -65,7 +66,8 @@ class FacetSlack {
   }
 
  private:
-  /// What both cells say of a facet that was forgotten; else one of them says that any stray is tolerated.
+  /// Slack at both cells of a facet that was forgotten. Otherwise the cell with the larger id stores
+  /// infinity.
   static constexpr float forgotten = -1;
 
   [[nodiscard]] unsigned others(const TriangulationCell<Dimension>& cell, CellId id) const {
@@ -90,9 +92,9 @@ class FacetSlack {
     return facets;
   }
 
-  /// How far beads stray; of a sample, the share of facets that may rest.
+  /// Measures the strays. Returns the share of facets that may rest, in a sample.
   double measure(const Curves<Dimension>& curves, const Triangulation& triangulation);
-  /// New ones are forgotten before they are asked for.
+  /// Makes room for new cells, whose facets are passed to `forget` before they are read.
   void grow(std::size_t cells) {
     grow_little(slack_, cells);
     grow_little(least_, cells);
@@ -103,17 +105,18 @@ class FacetSlack {
     return most;
   }
   void take_all(const Curves<Dimension>& curves, const Triangulation& triangulation);
-  /// The share of some facets that a reference at this step's start would let rest.
+  /// Returns the share of sampled facets that would rest if the start of this step were the reference.
   [[nodiscard]] double sampled(const Curves<Dimension>& curves, const Triangulation& triangulation,
                                std::span<const float> strays) const;
 
   BackOff samples_{0, 15};
   Displacements<Dimension, channels_of<PowerTest<Dimension>>> displacements_, fresh_;
-  /// Of each facet, at the cell with the smaller id; at the other infinite. Or forgotten.
+  /// The slack of each facet, stored at the cell with the smaller id; infinite at the other cell. `forgotten`
+  /// at both if unknown.
   std::vector<std::array<float, Dimension + 1>> slack_;
-  std::vector<float> least_;                  ///< of each cell's
+  std::vector<float> least_;                  ///< the least of each cell
   std::vector<float> strays_, fresh_strays_;  ///< of each bead
-  float farthest_ = 0;                        ///< any bead strays no more
+  float farthest_ = 0;                        ///< the largest stray of any bead
   bool by_beads_ = false;
   std::vector<CellId> candidates_;
 };

@@ -10,8 +10,8 @@ HiddenGuards<Dimension>::HiddenGuards(State& state)
     : state_(state),
       appearances_(state.simulator, state.owner, state.index, appearing, state.motion),
       departures_(state.simulator, state.owner, state.index, departing, state.motion) {
-  // Where doubles contradict themselves a hidden bead may wander to and fro without end. It does not cross as
-  // many cells in truth as there are flips.
+  // Contradictions between rounded values may make a hidden bead wander back and forth without end. In exact
+  // arithmetic, hidden beads cross far fewer cells than there are flips.
   appearances_.expect_fewer(10);
   departures_.expect_fewer(10);
 }
@@ -152,7 +152,7 @@ CellId HiddenGuards<Dimension>::walk_to(BeadId bead, CellId cell, int came_from)
   return no_cell;
 }
 
-/// The host of a bead just after now; no_cell where none is found.
+/// Returns the host of a bead just after now, or no_cell if none is found.
 template <int Dimension>
 CellId HiddenGuards<Dimension>::find_host(BeadId bead, CellId cell, int came_from) {
   const CellId at = walk_to(bead, cell, came_from);
@@ -185,7 +185,8 @@ auto HiddenGuards<Dimension>::take_failure(unsigned table, std::uint32_t slot) -
     guards_[failed.bead][static_cast<std::size_t>(index_of(place))] = CertificateHandle::violated;
   }
   if (state_.doubt != Doubt::wrong) return failed;
-  state_.suspect(Doubt::wrong);  // what fails is not done where it is: repairs elsewhere are not enough
+  // This failure is not handled at its place, so a repair of other cells would not suffice.
+  state_.suspect(Doubt::wrong);
   return std::nullopt;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
-// The certificates of hidden beads. Each is guarded against its host cell: a power test (when it fails the
-// bead comes back, 1-4), and an orientation for each facet (when one fails the bead wanders to the cell
-// beyond, or comes back there if that is an infinite one).
+// The certificates of hidden beads. Each hidden bead is guarded against its host cell by a power test and by
+// an orientation for each facet of the host. When the power test fails, the bead becomes visible (1-4). When
+// an orientation fails, the bead wanders to the cell beyond that facet, or becomes visible there if that cell
+// is infinite.
 
 #include <array>
 #include <optional>
@@ -20,45 +21,47 @@ class HiddenGuards {
   using Beads = typename State::Beads;
 
  public:
-  /// Numbers of its tables.
+  /// Numbers of the tables.
   enum : unsigned { appearing = 2, departing = 3 };
 
   explicit HiddenGuards(State& state);
 
-  /// The guards of the step before are gone.
+  /// Called at the start of a step, when the guards of the previous step are gone.
   void start_step() { guards_.clear(); }
-  /// Hosts all hidden beads anew where they are in no cell, or not in theirs any more, and guards them.
+  /// Finds a new host for each hidden bead that has no host or has left it, and guards all hidden beads.
   void watch_all();
-  /// Gives up the guards of a hidden bead.
+  /// Drops the guards of a hidden bead.
   void drop(BeadId bead);
   void drop_all();
 
-  /// A bead that was visible, without guards yet, becomes hidden.
+  /// Hides a bead that was visible; it has no guards yet.
   void hide(BeadId bead);
-  /// It enters a cell, and is guarded there.
+  /// Sets the host of a hidden bead and guards the bead there.
   void enter(BeadId bead, CellId host);
-  /// A hidden bead that leaves its host through a facet enters the cell where it is.
+  /// Moves a hidden bead that leaves its host through `facet` into the cell where it is now, and guards it
+  /// there.
   void wander(BeadId bead, int facet);
-  /// The certificates of a bead that stays where it is are made anew.
+  /// Makes the certificates of a bead anew; its host stays the same.
   void watch(BeadId bead);
 
-  /// The hidden beads of cells that will go are without host and guards until they are housed again.
+  /// Called before these cells are removed: their hidden beads have no host and no guards until rehouse.
   void displace(std::span<const CellId> cells);
-  /// Such beads, ascending.
+  /// Returns the displaced beads, ascending.
   [[nodiscard]] std::span<const BeadId> displaced() const { return displaced_; }
   void forget_displaced() { displaced_.clear(); }
-  /// A bead hidden just now is to be housed with them; one that comes back is not.
+  /// Adds a bead hidden just now, to be housed with the displaced beads. A bead that becomes visible is
+  /// removed from them.
   void add_displaced(BeadId bead);
   void remove_displaced(BeadId bead) { std::erase(displaced_, bead); }
-  /// They are looked for from `near`, and guarded.
+  /// Finds hosts for all displaced beads, searching from `near`, and guards the beads.
   void rehouse(CellId near);
 
-  /// The cell in which a bead is just after now, an infinite one where it is outside the hull, on a walk from
-  /// some cell, on which it came through a facet; no_cell where signs contradict each other.
+  /// Walks from `cell`, entered through facet `came_from`, to the cell that contains the bead just after now.
+  /// This cell is infinite if the bead is outside the hull. Returns no_cell if signs contradict each other.
   [[nodiscard]] CellId walk_to(BeadId bead, CellId cell, int came_from = -1);
 
-  /// A certificate that fails and asks for a repair: the bead comes back into its host, or leaves it through
-  /// a facet.
+  /// A certificate that fails and calls for a repair: the bead becomes visible in its host, or leaves it
+  /// through a facet.
   struct Failed {
     BeadId bead;
     std::optional<int> facet;
@@ -66,7 +69,7 @@ class HiddenGuards {
   };
   [[nodiscard]] std::optional<Failed> take_failure(unsigned table, std::uint32_t slot);
 
-  /// Whether `holds(table, guard)` of all guards.
+  /// Returns whether `holds(table, guard)` is true for all guards.
   template <class Holds>
   [[nodiscard]] bool all_of(Holds holds) const {
     for (const Guards& guards : guards_) {
@@ -78,7 +81,7 @@ class HiddenGuards {
   }
 
  private:
-  /// Against the host's facets, then the power test.
+  /// One orientation for each facet of the host, then the power test.
   using Guards = std::array<CertificateHandle, Dimension + 2>;
   static constexpr Guards no_guards = [] {
     Guards none{};
@@ -93,7 +96,7 @@ class HiddenGuards {
   State& state_;
   CertificateTable<PowerTest<Dimension>> appearances_;
   CertificateTable<Orientation<Dimension>> departures_;
-  std::vector<Guards> guards_;  // of each bead, if any is hidden
+  std::vector<Guards> guards_;  // for each bead; empty if none is hidden
   std::vector<BeadId> displaced_;
 };
 

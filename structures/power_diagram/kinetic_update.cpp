@@ -94,7 +94,8 @@ void MovingDiagram<Dimension>::load(const Eigen::Matrix3Xd& centers, std::span<c
         moved[axis] += machine_->motion.coordinate(b, 1, axis) - machine_->motion.coordinate(b, 0, axis);
     }
   }
-  if (motion_ == UpdateMotion::lifted) {  // any vector makes a motion, the mean dips weights the least
+  // Any vector is correct; the mean lowers the weights least between frames.
+  if (motion_ == UpdateMotion::lifted) {
     typename LiftedMotion<Dimension>::Vector drift{};
     for (int axis = 0; axis < Dimension; ++axis) {
       const double mean = moved[axis] / static_cast<double>(weights.size());
@@ -131,7 +132,7 @@ bool MovingDiagram<Dimension>::try_to_move_all(const Eigen::Matrix3Xd& centers,
                                                std::span<const double> weights, UpdateCounts& counts) {
   load(centers, weights);
   counts.activated += weights.size();
-  // A rebuild takes the time of about two events a bead in space, of one in the plane.
+  // A rebuild takes the time of about two events for each bead in space, and of one in the plane.
   constexpr std::uint64_t most_of_a_bead = Dimension == 3 ? 3 : 2;
   const std::uint64_t most = most_of_a_bead * weights.size();
   const bool moved = machine_->simulator.try_step(most);
@@ -148,7 +149,7 @@ void MovingDiagram<Dimension>::rebuild(const Eigen::Matrix3Xd& centers, std::spa
   ++counts.rebuilds;
 }
 
-/// All beads of failed certificates.
+/// Marks all beads of failed certificates.
 template <int Dimension>
 void MovingDiagram<Dimension>::activate(const SnapshotFaults& faults, std::vector<char>& moves) const {
   const RegularTriangulation<Dimension>& t = machine_->power.triangulation();
@@ -169,8 +170,8 @@ void MovingDiagram<Dimension>::activate(const SnapshotFaults& faults, std::vecto
 
 namespace {
 
-/// The finite cell that a bead is in where beads are put, on a walk from some cell; no_cell where there is
-/// none, or the walk gets lost among inverted cells.
+/// Walks to the finite cell that contains the bead at the positions of `snapshot`. Returns no_cell if there
+/// is none or if the walk gets lost among inverted cells.
 template <int Dimension>
 CellId host_at_snapshot(const RegularTriangulation<Dimension>& t, BeadId bead, CellId cell,
                         const Snapshot<Dimension>& snapshot) {
@@ -195,8 +196,8 @@ CellId host_at_snapshot(const RegularTriangulation<Dimension>& t, BeadId bead, C
 
 }  // namespace
 
-/// Hidden beads, wherever they are hidden, and the beads of the cell they will be in if it does not hide
-/// them.
+/// Marks the hidden beads that their next cell does not hide at the new positions, together with the beads of
+/// this cell.
 template <int Dimension>
 void MovingDiagram<Dimension>::hidden_that_show(const Snapshot<Dimension>& next, std::vector<char>& moves) {
   PowerDiagram<Dimension>& power = machine_->power;
@@ -218,7 +219,7 @@ void MovingDiagram<Dimension>::hidden_that_show(const Snapshot<Dimension>& next,
   }
 }
 
-/// Cells that hidden beads are in now.
+/// Sets the hosts of hidden beads to the cells that contain them now.
 template <int Dimension>
 void MovingDiagram<Dimension>::house_hidden(const Snapshot<Dimension>& next) {
   PowerDiagram<Dimension>& power = machine_->power;
@@ -242,12 +243,12 @@ void MovingDiagram<Dimension>::move_some(const Eigen::Matrix3Xd& centers, std::s
   activate(faults, moves);
   hidden_that_show(next, moves);
   const auto count = static_cast<std::size_t>(std::count(moves.begin(), moves.end(), 1));
-  // Then hardly any facet would rest.
+  // Otherwise hardly any facet would rest.
   if (4 * count > 3 * weights.size()) return move_all(centers, weights, counts);
 
   for (BeadId b = 0; b < weights.size(); ++b) rest_at_end(b);
   while (true) {
-    // Those that have moved rest where they are.
+    // Beads that have moved rest at their new positions.
     bool any = false;
     for (BeadId b = 0; b < weights.size(); ++b) {
       if (moved[b] != 0) {
@@ -264,7 +265,7 @@ void MovingDiagram<Dimension>::move_some(const Eigen::Matrix3Xd& centers, std::s
     power.move_only(moves);
     const std::uint64_t before = counts.rebuilds;
     run_step(counts);
-    // What no flip has touched was tested at the new positions before.
+    // Cells that no flip touched were already tested at the new positions.
     std::vector<CellId> flipped(power.flipped().begin(), power.flipped().end());
     std::sort(flipped.begin(), flipped.end());
     flipped.erase(std::unique(flipped.begin(), flipped.end()), flipped.end());
@@ -275,7 +276,7 @@ void MovingDiagram<Dimension>::move_some(const Eigen::Matrix3Xd& centers, std::s
     activate(faults, moves);
     hidden_that_show(next, moves);
   }
-  // The others hold where they go: nothing happens on the way that matters.
+  // The remaining beads violate nothing at their new positions, so no event matters on their way.
   for (BeadId b = 0; b < weights.size(); ++b) set_end(b, centers, weights);
   power.move_only({});
   house_hidden(next);
@@ -302,11 +303,12 @@ UpdateCounts Activation<Dimension>::advance(const Eigen::Matrix3Xd& centers,
 template <int Dimension>
 UpdateCounts AutomaticUpdate<Dimension>::advance(const Eigen::Matrix3Xd& centers,
                                                  std::span<const double> weights) {
-  // Moving takes as long as rebuilding at about this share of failed certificates, on trajectories of 100 to
-  // 1100 beads at strides up to 64 and on chains and grids of 10240 beads that move 0.1 to 0.4 radii a frame.
+  // At about this share of failed certificates, moving takes as long as rebuilding. Measured on
+  // trajectories of 100 to 1100 beads at strides up to 64, and on chains and grids of 10240 beads that move
+  // 0.1 to 0.4 radii a frame.
   constexpr double limit = 0.165;
-  // A sample near every eighth bead, of four facets each, costs a hundredth of it. Where the answer is clear
-  // the next samples are further and further apart.
+  // A sample of four facets near every eighth bead costs about a hundredth of an update. While the answer is
+  // clear, samples are taken less and less often.
   constexpr std::size_t every = 8, every_at_first = 2, most_sampled = 64;
   constexpr double remembered = 0.9, clearly = 0.2, very_clearly = 0.5;
   UpdateCounts counts;
@@ -324,7 +326,7 @@ UpdateCounts AutomaticUpdate<Dimension>::advance(const Eigen::Matrix3Xd& centers
     const auto is_clear = [&](double some, double all, double by) {
       return std::abs(some - limit * all) > by * limit * all;
     };
-    // Another motion than before.
+    // The motion has changed: discard older counts.
     if ((failed > limit * tested) != (failed_ > limit * tested_) && is_clear(failed, tested, very_clearly))
       tested_ = failed_ = 0;
     tested_ = remembered * tested_ + tested;
@@ -340,8 +342,8 @@ UpdateCounts AutomaticUpdate<Dimension>::advance(const Eigen::Matrix3Xd& centers
   } else if (this->try_to_move_all(centers, weights, counts)) {
     given_up_moves_.reset();
   } else {
-    // Another motion, or much happens on the way that is undone again, which no sample tells: the less often
-    // it is tried.
+    // The motion has changed, or many events on the way are reversed later, which no sample shows. Try moving
+    // less often after each such failure.
     this->rebuild(centers, weights, counts);
     failed_ = tested_;
     samples_.reset();

@@ -1,6 +1,6 @@
 #pragma once
-// Updates of a power diagram by motion (diagram_update.h): all beads in time order, or only those that have
-// to move.
+// Updates of a power diagram by motion (diagram_update.h): all beads move in time order, or only the beads
+// that must.
 
 #include <cstdint>
 #include <memory>
@@ -17,10 +17,10 @@
 
 namespace kds {
 
-/// How beads move between frames.
+/// The motion of beads between frames.
 enum class UpdateMotion : std::uint8_t { linear, lifted };
 
-/// A power diagram on a clock of its own that goes from frame to frame.
+/// A power diagram with a simulator of its own that moves from frame to frame.
 template <int Dimension>
 class MovingDiagram : public DiagramUpdate<Dimension> {
  public:
@@ -31,14 +31,14 @@ class MovingDiagram : public DiagramUpdate<Dimension> {
   [[nodiscard]] std::optional<std::string> fault() const override;
 
  protected:
-  /// All beads move, in one step.
+  /// Moves all beads in one step.
   void move_all(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
-  /// Like move_all; returns false, and is given up, once more events happen than a rebuild takes time for: it
-  /// is to be rebuilt then.
+  /// Like move_all, but gives up and returns false if handling the events would take longer than a rebuild.
+  /// The caller must then rebuild.
   [[nodiscard]] bool try_to_move_all(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
                                      UpdateCounts& counts);
-  /// Only beads that must, in as many steps as it takes. Falls back on move_all where cells are flat or
-  /// missing, and where most beads would have to move at once.
+  /// Moves only the beads that must move, in as many steps as needed. Falls back on move_all if cells are
+  /// flat or missing, or if most beads would have to move at once.
   void move_some(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
   void rebuild(const Eigen::Matrix3Xd& centers, std::span<const double> weights, UpdateCounts& counts);
   [[nodiscard]] const RegularTriangulation<Dimension>& triangulation() const;
@@ -74,8 +74,8 @@ class Activation final : public MovingDiagram<Dimension> {
   UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
 };
 
-/// What it has seen fail counts the less the longer ago: motion goes on much as before, and a sample of one
-/// frame is small.
+/// The counts of failed certificates are weighted averages in which older samples count less: motion usually
+/// continues as before, and the sample of one frame is small.
 template <int Dimension>
 class AutomaticUpdate final : public MovingDiagram<Dimension> {
  public:
@@ -83,9 +83,9 @@ class AutomaticUpdate final : public MovingDiagram<Dimension> {
 
  private:
   double tested_ = 0, failed_ = 0;
-  BackOff samples_{1, 7};          ///< whose answer is clear
-  BackOff given_up_moves_{7, 56};  ///< after which no sample is taken for a while
-  std::uint64_t turn_ = 0;         ///< of samples
+  BackOff samples_{1, 7};          ///< between samples while their answer is clear
+  BackOff given_up_moves_{7, 56};  ///< after a move that was given up: no sample for a while
+  std::uint64_t turn_ = 0;         ///< counts samples
 };
 
 extern template class MovingDiagram<2>;

@@ -1,7 +1,7 @@
 #pragma once
-// What searches of one moment have found, by certificate. A diagram that is rebuilt is built at several times
-// until one is right, and most facets are the same each time: where their functions are zero but for what
-// coordinates were rounded by, each search is one on integers.
+// Search results at one moment, stored by certificate. A rebuild builds the diagram at several times until
+// one is correct, and most facets are the same each time. If their functions would be zero but for the
+// rounding of coordinates, each search needs exact integers, so reusing its result pays.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@ class KnownFailures {
   void add(const Certificate& certificate, const Failure& failure) {
     failures_.insert_or_assign(Key{certificate.identity(), certificate.side()}, failure);
   }
-  /// Null where it was never added.
+  /// Returns null if the result was never added.
   template <NamedCertificate Certificate>
   [[nodiscard]] const Failure* of(const Certificate& certificate) const {
     const auto found = failures_.find(Key{certificate.identity(), certificate.side()});

@@ -64,11 +64,11 @@ void PowerDiagram<Dimension>::start_step() {
   state.vanished_until = state.flat ? 0.0 : -1.0;
   const bool wrong = state.flat && is_wrong_just_after(state);
   state.clear_doubt();
-  // Also where it is wrong: its certificates tell how soon a rebuild must be.
+  // Also if the diagram is wrong: its certificates limit the time of the rebuild.
   if (wrong) facets.remember();
   if (state.has_cells()) rebuilder.watch_all();
   if ((wrong || !state.has_cells()) && !rebuilder.try_to_rebuild()) {
-    // All beads stay in one plane, or on one line: no cells, no events.
+    // All beads stay in one plane or on one line: there are no cells and no events.
     rebuilder.build_from_control_points(0);
   }
   state.flat = false;
@@ -274,9 +274,10 @@ CellId PowerDiagram<Dimension>::some_finite_cell() const {
   return parts_->state.some_finite_cell();
 }
 
-/// A cell's own facets name all of its vertices but one each, and the beads beyond them: a bead is named by
-/// half its cells' facets with it, each shared by two of its cells, and once by each of its cells for the
-/// facet opposite to it. In space that makes 5/2 for each cell, in the plane 2.
+/// Counts, for each bead, the certificates that name it. A facet's certificate names the beads of the facet
+/// and the two beads opposite it. A bead is a vertex of Dimension facets in each of its cells, and each such
+/// facet is shared by two of these cells; in addition, each of its cells has one facet opposite to the bead.
+/// This makes 5/2 certificates for each cell in space, and 2 in the plane.
 template <int Dimension>
 void PowerDiagram<Dimension>::count_certificates_per_bead() {
   const auto& state = parts_->state;

@@ -1,24 +1,25 @@
 #pragma once
-// Kinetic power diagram in the plane or in space: CGAL's regular triangulation flipped while time runs. Each
-// facet has its certificate, each hidden bead some. This is the interface; behind it, each with its own
-// header:
+// Kinetic power diagram in the plane or in space: a regular triangulation built by CGAL and updated by flips
+// during the run. Each facet has a certificate, each hidden bead several. This header is the interface; its
+// parts have their own headers:
 //
-//   DiagramState      what all of them share
-//   FacetGuards       which certificate guards a facet
-//   HiddenGuards      hidden beads: how they are guarded, and housed
-//   DiagramFlips      what happens when a certificate fails
-//   DiagramEditor     beads that come, go and change course while time runs
-//   DiagramRebuilder  where flips do not suffice
+//   DiagramState      the state shared by all parts
+//   FacetGuards       the certificates of facets
+//   HiddenGuards      the certificates and the host cells of hidden beads
+//   DiagramFlips      handles failed certificates
+//   DiagramEditor     inserts and erases beads, and gives them other curves
+//   DiagramRebuilder  rebuilds the diagram if flips do not suffice
 //
-// Guarantee (kernels filtered and exact): just after every time at which something happens, the triangulation
-// is the regular one. That holds if finite cells are positive, facets are regular, hidden beads are hidden
-// and the hull winds once (hull_winding.h). In general position one function vanishes at a time, and its flip
-// keeps all four. Anything else raises a doubt, and the four are checked after the last event of that time. A
-// diagram that fails the check is repaired, or built anew at a time before the next event.
+// Guarantee (kernels filtered and exact): just after every time at which an event happens, the triangulation
+// is regular. This is so if finite cells are positive, facets are regular, hidden beads are hidden and the
+// hull winds once (hull_winding.h). In general position one function vanishes at a time, and its flip
+// preserves all four conditions. Any other case raises a doubt, and the four conditions are checked after the
+// last event of that time. A diagram that fails the check is repaired, or rebuilt at a time before the next
+// event.
 //
 // Order of ties: failures at exactly the same time are handled by certificate type, then by bead ids
-// (failure_order.h), so every kernel makes the same flips. A flip that another one blocks is left to the
-// repair.
+// (failure_order.h), so every kernel makes the same flips. If one flip blocks another, the blocked one is
+// left to the repair.
 
 #include <cstddef>
 #include <functional>
@@ -50,7 +51,8 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
  public:
   static constexpr int dimension = Dimension;
 
-  /// Of all beads of a motion, any of this dimension; both must outlive the diagram.
+  /// The diagram contains all beads of `motion`, any motion of this dimension. The simulator and the motion
+  /// must outlive the diagram.
   PowerDiagram(Simulator& simulator, const MotionRef<Dimension>& motion);
   ~PowerDiagram() override;
 
@@ -63,7 +65,8 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   void fetch(unsigned table, std::uint32_t place, bool next) const override;
   void after_batch() override;
   void finish_step() override;
-  /// Ends as CGAL builds it where cells are flat. Throws InputError if there never were any.
+  /// If cells are flat at the end, builds the diagram by CGAL there. Throws InputError if there were no cells
+  /// at any time.
   void finish() override;
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
@@ -75,48 +78,53 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   /// diagram is not built, or all beads lie in one plane (on one line).
   [[nodiscard]] std::vector<BeadId> neighbors(BeadId bead) const;
 
-  /// Finite cells and hidden beads at the frame just reached, as a static build has them where cells are flat
-  /// there.
+  /// Returns the finite cells and the hidden beads at the frame just reached: the first frame of the step if
+  /// `first`, otherwise its last. If cells are flat there, returns the static build.
   [[nodiscard]] StaticTriangulation<Dimension> at_frame(bool first) const;
-  /// Its edges there, of all beads, none being absent: what closest_pair (closest_pair.h) asks for.
+  /// Returns the edges of the diagram at that frame, as closest_pair (closest_pair.h) needs them. No bead may
+  /// be absent.
   [[nodiscard]] DiagramEdges edges_at_frame(bool first) const;
 
-  // Edits (bead_edits.h). Cost: the beads around, and the way to them. Where ties decide how cells lie, and
-  // where many beads jump at once, the diagram is built anew instead, and the rebuild counted. Refused
-  // besides is what leaves too few beads, or only such as stay in one plane (on one line), and all edits in a
-  // step in which all beads do. Where other courses make them do, InputError, and the run is over.
+  // Edits (bead_edits.h). The cost of an edit depends on the beads around and on the walk to them. If ties
+  // decide how cells lie, or if many beads jump at once, the diagram is rebuilt instead, and the rebuild is
+  // counted. An edit also throws std::invalid_argument if too few beads would remain, if the remaining beads
+  // would stay in one plane (on one line), or if all beads stay there in this step. If new curves leave all
+  // beads there, InputError is thrown and the run is over.
 
   void leave_out(BeadId bead) override;
   void insert(BeadId bead) override { insert(bead, no_bead); }
-  /// The bead is looked for from `near`, if given: that is quicker.
+  /// Inserts the bead; the search for its position starts from `near`, if given, which is faster.
   void insert(BeadId bead, BeadId near);
   void erase(BeadId bead) override;
   [[nodiscard]] bool is_absent(BeadId bead) const override;
-  /// Simulator::change_motion of one bead that takes part.
+  /// Does the work of Simulator::change_motion for one bead that is present.
   void change_motion(BeadId bead, const std::function<void()>& set_curve);
 
-  // Steps that bring but a part of the beads to the next frame (diagram_update.h).
+  // Steps that move only some of the beads to the next frame (diagram_update.h).
 
-  /// From now on only the beads marked, one entry a bead, move in a step, and a step does not end at a frame:
-  /// that is for reach_frame. Facets of beads that all rest need no certificate. Empty: all beads move.
+  /// From now on, only the marked beads move in a step (one entry for each bead), and a step does not end at
+  /// a frame; call reach_frame for that. Facets whose beads all rest need no certificate. If empty, all beads
+  /// move.
   void move_only(std::vector<char> moving);
-  /// Cells that flips made since then, some more than once, some gone again.
+  /// Returns the cells that flips made since move_only; cells may be listed repeatedly or may be removed
+  /// already.
   [[nodiscard]] std::span<const CellId> flipped() const;
-  /// Whether cells are neither missing nor flat, so that flips alone lead on.
+  /// Returns whether cells exist and none is flat, so that flips suffice from here.
   [[nodiscard]] bool is_solid() const;
-  /// All beads are where the motion's step ends. Cells that are flat there stay: they open again on the way.
+  /// Called when all beads are at the end of the motion's step. Cells that are flat there stay: they open
+  /// again in the next step.
   void reach_frame();
-  /// At a frame where cells are flat it is built anew, as CGAL does it, and the rebuild counted.
+  /// If cells are flat at the frame, rebuilds the diagram by CGAL and counts the rebuild.
   void rebuild_if_flat();
-  /// Built anew at the end of the motion's step, run to its end or given up, as CGAL does it; the mirror is
-  /// made when a step starts.
+  /// Builds the diagram by CGAL at the end of the motion's step, whether this step was completed or given up.
+  /// The mirror is made when the next step starts.
   void build_at_end();
   [[nodiscard]] const RegularTriangulation<Dimension>& triangulation() const;
-  /// Makes the mirror of the cells. After build_at_end there is none until this function or a step makes
-  /// it.
+  /// Makes the mirror of the cells. After build_at_end there is no mirror until this function or the next
+  /// step makes it.
   void make_mirror();
   [[nodiscard]] const HiddenBeads& hidden() const;
-  /// A hidden bead's host, if it is a cell.
+  /// Sets a hidden bead's host, if `host` is a cell.
   void house(BeadId hidden, CellId host);
   [[nodiscard]] CellId some_finite_cell() const;
 

@@ -9,7 +9,7 @@ namespace kds {
 
 namespace {
 
-/// The triangulation of some beads, which it numbers from 0, with their own names.
+/// Replaces the numbers of a triangulation, which count the given beads from 0, by the beads themselves.
 template <int Dimension>
 StaticTriangulation<Dimension> with_names(StaticTriangulation<Dimension> triangulation,
                                           std::span<const BeadId> beads) {
@@ -43,7 +43,7 @@ StaticTriangulation<Dimension> static_diagram_at_end(const DiagramState<Dimensio
   Eigen::Matrix3Xd points = control_points(curves, k);
   std::vector<double> weights = control_weights(curves, k);
   const std::vector<BeadId> beads = state.present_beads.all();
-  for (std::size_t i = 0; i < beads.size(); ++i) {  // each moves to the front
+  for (std::size_t i = 0; i < beads.size(); ++i) {  // each bead moves to the front
     points.col(static_cast<Eigen::Index>(i)) = points.col(Eigen::Index{beads[i]});
     weights[i] = weights[beads[i]];
   }

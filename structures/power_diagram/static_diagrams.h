@@ -1,6 +1,6 @@
 #pragma once
-// The static diagrams that a kinetic one is built from and compared with, of its beads that are present, by
-// CGAL: from exact positions at a time of the step, or from doubles at its ends.
+// Static diagrams of the beads present, built by CGAL from exact positions at a time of the step, or from
+// doubles at its ends. The kinetic diagram is built from them and compared with them.
 
 #include <span>
 
@@ -11,17 +11,19 @@ namespace kds {
 
 class Dyadic;
 
-/// Of some beads, ascending. With `oriented`, infinite cells too, as they are; else finite ones, sorted.
+/// Returns the diagram of the given beads, which must be ascending. If `oriented`, infinite cells are
+/// included and cells keep their orientation; otherwise the finite cells are returned, sorted.
 template <int Dimension>
 [[nodiscard]] StaticTriangulation<Dimension> static_diagram(const DiagramState<Dimension>& state,
                                                             std::span<const BeadId> beads, const Dyadic& time,
                                                             bool oriented);
 
-/// Of all that are present, from the k-th control points, an end of the step; finite cells, sorted.
+/// Returns the diagram of all beads present, from the k-th control points, at an end of the step. Finite
+/// cells only, sorted.
 template <int Dimension>
 [[nodiscard]] StaticTriangulation<Dimension> static_diagram_at_end(const DiagramState<Dimension>& state,
                                                                    int k);
-/// The edges there, of all beads, none being absent.
+/// Returns the edges of this diagram. No bead may be absent.
 template <int Dimension>
 [[nodiscard]] DiagramEdges static_edges_at_end(const DiagramState<Dimension>& state, int k);
 

@@ -14,7 +14,7 @@ namespace kds {
 
 namespace {
 
-/// The finite beads of a failed certificate; places left over hold infinity.
+/// The finite beads of a failed certificate; unused places hold infinite_bead.
 template <int Dimension>
 using Suspects = std::array<BeadId, Dimension + 2>;
 
@@ -34,7 +34,7 @@ std::vector<Suspects<Dimension>> suspects_of(const RegularTriangulation<Dimensio
     for (const FacetId f : *facets) add(cell_of(f), triangulation.apex_beyond(cell_of(f), index_of(f)));
   for (const auto* cells : {&faults.cells, &faults.flat_cells})
     for (const CellId cell : *cells) add(cell, infinite_bead);
-  std::sort(all.begin(), all.end());  // whatever cells are called, the same beads
+  std::sort(all.begin(), all.end());  // independent of the numbers of cells
   return all;
 }
 
@@ -58,7 +58,7 @@ std::vector<BeadId> most_failed_first(const std::vector<Suspects>& failed, std::
       if (b != infinite_bead) of_bead[b].push_back(f);
   }
   std::vector<std::size_t> left(bead_count);
-  // Of equally many the lowest id. Counts only fall: an entry that is out of date is put back.
+  // Among beads with equal counts, take the lowest id. Counts only decrease: an outdated entry is put back.
   using Entry = std::pair<std::size_t, BeadId>;
   const auto after = [](const Entry& a, const Entry& b) {
     return a.first != b.first ? a.first < b.first : a.second > b.second;
@@ -122,7 +122,7 @@ StaticTriangulation<Dimension> StaticUpdate<Dimension>::diagram() const {
 
 template <int Dimension>
 std::optional<std::string> StaticUpdate<Dimension>::fault() const {
-  if (!triangulation_.has_mirror()) return std::nullopt;  // as CGAL built it
+  if (!triangulation_.has_mirror()) return std::nullopt;  // as built by CGAL
   std::vector<HiddenBead> hidden;
   for (const BeadId b : hidden_) hidden.push_back({b, no_cell});
   return regularity_fault(triangulation_, static_cast<BeadId>(frame_.bead_count()), hidden, false,
@@ -156,7 +156,8 @@ UpdateCounts Reinsertion<Dimension>::advance(const Eigen::Matrix3Xd& centers,
   SnapshotFaults faults = snapshot_faults(this->triangulation_, next);
   counts.tested = faults.tested;
   counts.failed = faults.failed();
-  // Where a test is zero another triangulation is as good, and CGAL would take its own: those beads too.
+  // If a test is zero, another triangulation is equally correct, and CGAL would choose its own. Therefore
+  // also take out the beads of tests that are zero.
   std::vector<BeadId> out;
   const std::size_t most = static_cast<std::size_t>(most_taken_out * static_cast<double>(weights.size()));
   while (!faults.none_strictly()) {
@@ -170,7 +171,7 @@ UpdateCounts Reinsertion<Dimension>::advance(const Eigen::Matrix3Xd& centers,
     faults = snapshot_faults(this->triangulation_, std::span<const CellId>(made), next);
   }
   this->triangulation_.set_points(centers, weights);
-  out.insert(out.end(), this->hidden_.begin(), this->hidden_.end());  // any of them may have come back
+  out.insert(out.end(), this->hidden_.begin(), this->hidden_.end());  // any of them may have become visible
   std::sort(out.begin(), out.end());
   this->frame_ = next;
   if (!out.empty()) {

@@ -1,5 +1,5 @@
 #pragma once
-// Updates of a power diagram that know no time: rebuilding it, or taking beads out and putting them in again
+// Updates of a power diagram that use no time: rebuilding it, or taking beads out and inserting them again
 // (diagram_update.h).
 
 #include "motions/curves/snapshot.h"
@@ -8,7 +8,7 @@
 
 namespace kds {
 
-/// What the updates by CGAL share. Hidden beads are those without a vertex.
+/// Common part of the updates by CGAL. Hidden beads are the beads without a vertex.
 template <int Dimension>
 class StaticUpdate : public DiagramUpdate<Dimension> {
  public:
@@ -22,7 +22,7 @@ class StaticUpdate : public DiagramUpdate<Dimension> {
 
   RegularTriangulation<Dimension> triangulation_;
   std::vector<BeadId> hidden_;  ///< ascending
-  Snapshot<Dimension> frame_;   ///< of the frame reached
+  Snapshot<Dimension> frame_;   ///< the frame reached
   int affine_dimension_ = Dimension;
 };
 
@@ -32,7 +32,7 @@ class Rebuild final : public StaticUpdate<Dimension> {
   UpdateCounts advance(const Eigen::Matrix3Xd& centers, std::span<const double> weights) override;
 };
 
-/// Which bead of a failed certificate is taken out: any, or one of most failed certificates.
+/// Which bead of a failed certificate is taken out: any bead, or one with the most failed certificates.
 enum class Choice : std::uint8_t { any, most_failed };
 
 template <int Dimension>

@@ -1,5 +1,5 @@
 #pragma once
-// The techniques of diagram_update.h by name.
+// Names of the techniques in diagram_update.h.
 
 #include <array>
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace kds {
 
 enum class UpdateTechnique : std::uint8_t { rebuild, reinsert, greedy, kinetic, lifted, activate, automatic };
-/// In the order of the enumerators.
+/// Names of the techniques, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 7> update_technique_names{
     "rebuild", "reinsert", "greedy", "kinetic", "lifted", "activate", "auto"};
 [[nodiscard]] constexpr std::string_view name_of(UpdateTechnique technique) {
