@@ -13,7 +13,7 @@ namespace kds {
 
 namespace {
 
-/// Ahead is who is nearer to an end of an axis.
+/// A bead is "ahead" if it is nearer to this end of the axis.
 template <int Axis>
 struct Nearer {
   bool high;
@@ -22,7 +22,7 @@ struct Nearer {
   }
 };
 
-/// Just after u = 0; the first control points that differ decide.
+/// Returns whether a is nearer than b just after u = 0; the first control points that differ decide.
 template <int Dimension>
 bool is_nearer(const Curves<Dimension>& curves, int axis, bool high, BeadId a, BeadId b) {
   for (int k = 0; k <= curves.own_degree(); ++k) {
@@ -34,25 +34,25 @@ bool is_nearer(const Curves<Dimension>& curves, int axis, bool high, BeadId a, B
 
 }  // namespace
 
-/// Both ends along one axis.
+/// Both ends of the box along one axis.
 template <int Dimension>
 class EnclosingBox<Dimension>::Ends {
  public:
   virtual ~Ends() = default;
   virtual void start(std::span<const char> absent, std::vector<std::uint32_t>& certificates_of) = 0;
-  /// no_bead where all are absent.
+  /// Returns no_bead if all beads are absent.
   [[nodiscard]] virtual BeadId at(bool high) const = 0;
-  /// The first two ids of what is recorded of a failure.
+  /// The overtaking that a failure means; `behind` and `ahead` are the first two ids of the recorded change.
   struct Overtaking {
     bool high;
     BeadId behind, ahead;
   };
   virtual Overtaking fail(std::uint32_t slot) = 0;
-  // As of a Tournament, of both.
+  // These functions act on the tournaments of both ends like the functions of Tournament with these names.
   virtual void give_up(BeadId bead) = 0;
   virtual void set_present(BeadId bead, bool present) = 0;
   virtual void hold_again() = 0;
-  /// Whether the one lies beyond the other at this time.
+  /// Returns whether `one` lies beyond `other` at this time.
   [[nodiscard]] virtual bool is_beyond(bool high, BeadId one, BeadId other, const Dyadic& time) const = 0;
 };
 
@@ -175,7 +175,7 @@ template <int Dimension>
 void EnclosingBox<Dimension>::apply(const Change& change) {
   if (change.kind >= inserts) return present_.apply(change, inserts);
   const auto [was, is] = std::array{change.ids[0], change.ids[1]};
-  if (change.kind == overtake) {  // tournaments are not replayed, only what they tell
+  if (change.kind == overtake) {  // tournaments are not replayed; only check the beads
     present_.require(was, false);
     return present_.require(is, false);
   }
@@ -185,7 +185,7 @@ void EnclosingBox<Dimension>::apply(const Change& change) {
   end = is;
 }
 
-// Beads that come, go and change course.
+// Edits: beads are inserted, erased, or change course.
 
 template <int Dimension>
 void EnclosingBox<Dimension>::edit(Kind kind, BeadId bead) {

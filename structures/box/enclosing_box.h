@@ -1,14 +1,13 @@
 #pragma once
-// The smallest axis-aligned box around the beads' centres: of each axis the first and the last bead along it.
-// A kinetic tournament for each end. Where all radii are equal, the box of the balls is larger by the radius
-// on every side; where they are not, it may be of other beads.
+// The smallest axis-aligned box around the beads' centres, given by the first and the last bead along each
+// axis. Each end is kept by a kinetic tournament. If all radii are equal, the box of the balls is larger by
+// the radius on every side; otherwise other beads may determine it.
 //
-// Of beads that tie at an end for the rest of a step the least is there. At a time when several beads meet
-// the end changes hands once, if at all: changes are recorded when all that happens at that time has
-// happened.
+// If several beads tie at an end for the rest of a step, the least of them is the end. If several beads meet
+// at one time, an end changes at most once: changes are recorded after all events at that time.
 //
-// A bead that comes, goes or changes course costs, for each end, at most the contests on one way to the root
-// of its tournament.
+// A bead that is inserted, erased or changes course costs, for each end, at most the contests on one path to
+// the root of its tournament.
 
 #include <cstdint>
 #include <memory>
@@ -26,9 +25,10 @@ class Simulator;
 template <int Dimension>
 class EnclosingBox final : public KineticStructure, public BeadEdits {
  public:
-  /// Ids of an overtaking further down in a tournament: the bead that was ahead, the bead that is. Of a
-  /// change of an end, of the first axis low and high, then of the next: the bead that was there, the bead
-  /// that is, no_bead where there is none. Of an edit: the bead; the ends that it changes follow.
+  /// Ids of an overtaking inside a tournament: the bead that was ahead, then the bead that is ahead now.
+  /// Ids of a change of an end: the previous bead and the new bead, no_bead if there is none; the kinds of
+  /// these changes are ordered low, high for the first axis, then for the next. Ids of an edit: the bead; the
+  /// changes of ends follow as separate changes.
   enum Kind : std::uint8_t { overtake, first_end, inserts = first_end + 2 * Dimension, erases, changes };
 
   EnclosingBox(Simulator& simulator, const MotionRef<Dimension>& motion);
@@ -36,8 +36,8 @@ class EnclosingBox final : public KineticStructure, public BeadEdits {
 
   [[nodiscard]] std::string_view name() const override { return "box"; }
   [[nodiscard]] std::span<const EventKind> kinds() const override;
-  /// First and last bead along the first axis, then the next: each no_bead where all are absent, and nothing
-  /// over a motion of no beads.
+  /// Returns the first and the last bead along the first axis, then along the next. All are no_bead if all
+  /// beads are absent. Empty for a motion without beads.
   [[nodiscard]] const std::vector<BeadId>& ends() const { return ends_; }
 
   void build() override;

@@ -11,9 +11,9 @@ namespace kds {
 namespace {
 
 constexpr std::size_t most_pairs = 100'000'000;
-constexpr double more = 1 + 0x1p-40;  // than all roundings of a difference and a sum of three
+constexpr double more = 1 + 0x1p-40;  // factor above all roundings of a difference and a sum of three
 
-/// All that a coordinate is in the step.
+/// The range of a bead's coordinate during the step.
 struct Extent {
   double low, high;
   BeadId bead;
@@ -37,7 +37,7 @@ std::vector<Extent> extents(const Curves<Dimension>& curves, std::span<const cha
   return all;
 }
 
-/// Along the axis on which they reach farthest, where the fewest beads are level.
+/// Returns the extents along the axis on which they reach farthest, where the fewest beads are level.
 template <int Dimension>
 std::vector<Extent> widest_extents(const Curves<Dimension>& curves, std::span<const char> absent) {
   std::vector<Extent> widest = extents(curves, absent, 0);
@@ -50,8 +50,9 @@ std::vector<Extent> widest_extents(const Curves<Dimension>& curves, std::span<co
   return widest;
 }
 
-/// Between which two numbers the distance of two beads is throughout, but for rounding: along one axis they
-/// are at least so far apart, and the way along all of them is at most so long. Squares might underflow.
+/// Bounds of the distance of two beads throughout the step, up to rounding. The lower bound is the largest
+/// distance along one axis; the upper bound is the sum over all axes. Squares are avoided because they might
+/// underflow.
 struct Distance {
   double least = 0, most = 0;
 };
@@ -83,7 +84,7 @@ std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<Dimension>& curv
                                                    std::span<const char> absent) {
   const std::vector<Extent> sorted = widest_extents(curves, absent);
   double limit = std::numeric_limits<double>::infinity();
-  // Each two whose extents are not farther apart than the limit, which may shrink meanwhile.
+  // Visits all pairs whose extents are at most `limit` apart; `limit` may shrink meanwhile.
   const auto each_near_pair = [&](auto visit) {
     for (std::size_t i = 0; i < sorted.size(); ++i)
       for (std::size_t j = i + 1; j < sorted.size() && sorted[j].low - sorted[i].high <= limit; ++j)

@@ -1,7 +1,8 @@
 #pragma once
-// The pairs of beads that may be the closest at some time of a step: all others are always farther apart than
-// some pair ever is. Proved from control points in double, rounding included. Where beads move little beside
-// their distances these are few, whatever the number of beads; where all meet, all pairs.
+// The pairs of beads that may be the closest pair at some time of a step. Every other pair is always farther
+// apart than the largest distance of some candidate pair. Proved from control points in doubles, including
+// rounding. The candidates are few if beads move little compared with their distances, whatever the number of
+// beads; they are all pairs if all beads meet.
 
 #include <array>
 #include <span>
@@ -11,8 +12,8 @@
 
 namespace kds {
 
-/// Ascending, each pair too; of beads that are not marked as absent, if any are. Throws InputError where
-/// there are more than 10^8, which is too many to hold.
+/// Returns the pairs in ascending order, each pair ascending too. Uses only beads that are not marked in
+/// `absent`. Throws InputError if there are more than 10^8 pairs, which are too many to store.
 template <int Dimension>
 [[nodiscard]] std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<Dimension>& curves,
                                                                  std::span<const char> absent = {});

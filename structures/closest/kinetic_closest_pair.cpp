@@ -95,7 +95,7 @@ void KineticClosestPair<Dimension>::apply(const Change& change) {
     if (pair[0] >= pair[1]) throw std::invalid_argument("there is no such pair of beads");
     for (const BeadId bead : pair) present_.require(bead, false);
   };
-  if (change.kind == overtake) {  // the tournament is not replayed, only what it tells
+  if (change.kind == overtake) {  // the tournament is not replayed; only check the beads
     require_pair(before);
     return require_pair(now);
   }
@@ -105,7 +105,7 @@ void KineticClosestPair<Dimension>::apply(const Change& change) {
   pair_ = none ? std::nullopt : std::optional(now);
 }
 
-// Beads that come, go and change course.
+// Edits: beads are inserted, erased, or change course.
 
 template <int Dimension>
 void KineticClosestPair<Dimension>::edit(Kind kind, BeadId bead) {

@@ -1,10 +1,11 @@
 #pragma once
-// The closest pair of beads, by their centres, while they move: a kinetic tournament among the pairs that may
-// be the closest at some time of the step (candidate_pairs.h). Of pairs equally close for the rest of the
-// step the first by ids. Radii are not looked at: the pairs of balls that meet are what contacts are about.
+// The closest pair of beads, by their centres, while they move. It is kept by a kinetic tournament among the
+// pairs that may be the closest at some time of the step (candidate_pairs.h). If pairs are equally close for
+// the rest of the step, the first by ids wins. Radii are ignored; for pairs of balls that meet, see the
+// structure `contacts`.
 //
-// Beads that come, go and change course cost what the start of a step does; a bead that comes or goes, and is
-// of no candidate pair, a search for candidates alone.
+// Inserting, erasing or redirecting a bead costs as much as the start of a step. If a bead in no candidate
+// pair is inserted or erased, it costs only a search for candidates.
 
 #include <array>
 #include <cstdint>
@@ -26,15 +27,16 @@ class KineticClosestPair final : public KineticStructure, public BeadEdits {
  public:
   using Pair = std::array<BeadId, 2>;
 
-  /// Ids: the pair that was closest, or, further down in the tournament, closer; then the pair that is; twice
-  /// no_bead where there is none. Of an edit: the bead; what it replaces follows.
+  /// Ids: the pair that was closest (`replace`) or closer inside the tournament (`overtake`), then the pair
+  /// that is so now; no_bead twice if there is none. Ids of an edit: the bead; the replacement that it causes
+  /// follows.
   enum Kind : std::uint8_t { overtake, replace, inserts, erases, changes };
 
   KineticClosestPair(Simulator& simulator, const MotionRef<Dimension>& motion);
 
   [[nodiscard]] std::string_view name() const override { return "closest"; }
   [[nodiscard]] std::span<const EventKind> kinds() const override;
-  /// Ascending; none where fewer than two beads are present.
+  /// Returns the closest pair, ascending, or nothing if fewer than two beads are present.
   [[nodiscard]] const std::optional<Pair>& pair() const { return pair_; }
 
   void build() override;
@@ -44,8 +46,8 @@ class KineticClosestPair final : public KineticStructure, public BeadEdits {
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
-  // Throws InputError where an edit would leave more than 10^8 pairs that may be the closest: of insert and
-  // erase nothing is changed; after other curves the run is over.
+  // Edits throw InputError if more than 10^8 pairs might be the closest afterwards. In this case, insert and
+  // erase change nothing; after a change of curves, the run is over.
 
   void leave_out(BeadId bead) override { present_.leave_out(bead); }
   void insert(BeadId bead) override { edit(inserts, bead); }
@@ -53,7 +55,7 @@ class KineticClosestPair final : public KineticStructure, public BeadEdits {
   [[nodiscard]] bool is_absent(BeadId bead) const override { return present_.is_absent(bead); }
 
  private:
-  /// Of candidates by their places in the list.
+  /// Makes certificates between candidates, which are named by their places in the list.
   struct Ahead {
     const std::vector<Pair>* candidates;
     Closer operator()(std::uint32_t ahead, std::uint32_t behind) const {
@@ -64,7 +66,7 @@ class KineticClosestPair final : public KineticStructure, public BeadEdits {
   void release(std::span<const BeadId> beads) override;
   void take_up(std::span<const BeadId> beads) override;
   void edit(Kind kind, BeadId bead);
-  /// The tournament among other candidates, at the present time.
+  /// Starts the tournament anew among other candidates, at the present time.
   void start_among(std::vector<Pair> candidates);
 
   Simulator& simulator_;

@@ -20,14 +20,14 @@ double length(const Vector<Dimension>& v) {
   if constexpr (Dimension == 3) return std::hypot(v[0], v[1], v[2]);
 }
 
-/// The difference of two centres on a part of the step.
+/// The difference of two centres on a part of the step, in Bernstein form.
 template <int Dimension>
 struct Part {
   std::vector<Vector<Dimension>> points;
   double from = 0;
   int halvings = 0;
 
-  /// Keeps the half that comes later, returns the other (de Casteljau).
+  /// Splits the part by de Casteljau's algorithm. Keeps the later half and returns the earlier one.
   [[nodiscard]] Part split_off_first_half() {
     Part first{points, from, ++halvings};
     from += std::ldexp(1.0, -halvings);
@@ -39,7 +39,7 @@ struct Part {
     }
     return first;
   }
-  /// No difference in the part is shorter, but for rounding.
+  /// Returns a lower bound of the length of the difference on this part, up to rounding.
   [[nodiscard]] double least_along(const Vector<Dimension>& direction) const {
     const double norm = length<Dimension>(direction);
     if (!(norm > 0)) return 0;

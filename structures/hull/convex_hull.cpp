@@ -29,7 +29,7 @@ bool is_in(const Circle& sorted, BeadId bead) {
   return std::binary_search(sorted.begin(), sorted.end(), bead);
 }
 
-/// Those of the one that are in the other too.
+/// Returns the corners of the first circle that are also in the second one, in order.
 Circle common(const Circle& circle, const Circle& other) {
   const Circle others = sorted(other);
   Circle both;
@@ -43,7 +43,7 @@ std::size_t place_of(const Circle& circle, BeadId bead) {
   return static_cast<std::size_t>(std::find(circle.begin(), circle.end(), bead) - circle.begin());
 }
 
-/// So many steps further around.
+/// Returns the corner `steps` places further around the circle.
 BeadId further(const Circle& circle, std::size_t from, std::size_t steps) {
   return circle[(from + steps) % circle.size()];
 }
@@ -106,16 +106,16 @@ void ConvexHull::fail(unsigned table, std::uint32_t slot) {
     simulator_.record(index_, Change{interchange, 2, {failed.before, failed.after}});
 }
 
-// From the corners there were to those that the halves have now.
+// Records the changes from the previous corners to the present corners of both halves.
 void ConvexHull::after_batch() {
   Circle now = StaticHull{lower_.chain(), upper_.chain()}.circle();
-  if (simulator_.kernel() == Kernel::fast) {  // the halves may contradict each other: each bead once
+  if (simulator_.kernel() == Kernel::fast) {  // the halves may contradict each other: keep each bead once
     std::set<BeadId> seen;
     std::erase_if(now, [&](BeadId b) { return !seen.insert(b).second; });
   }
   Circle staying = common(now, corners_);
-  // Where all meet in a line or a point those that stay may come out in another order: then all but one leave
-  // and enter again.
+  // If all corners meet in a line or a point, the corners that stay may come out in another order. In this
+  // case all but one leave and enter again.
   if (staying != common(corners_, now)) staying.resize(1);
   const std::size_t start = staying.empty() ? 0 : place_of(now, staying.front());
   staying = sorted(std::move(staying));
@@ -142,7 +142,7 @@ void ConvexHull::change_corners(const Change& change) {
 void ConvexHull::apply(const Change& change) {
   if (change.kind >= inserts) return present_.apply(change, inserts);
   const auto [bead, before, after] = std::array{change.ids[0], change.ids[1], change.ids[2]};
-  if (change.kind == interchange) {  // halves are not replayed, only what they tell
+  if (change.kind == interchange) {  // halves are not replayed; only check the beads
     present_.require(bead, false);
     return present_.require(before, false);
   }
@@ -168,7 +168,7 @@ void ConvexHull::apply(const Change& change) {
   begin_with_least(corners_);
 }
 
-// Beads that come, go and change course.
+// Edits: beads are inserted, erased, or change course.
 
 void ConvexHull::edit(Kind kind, BeadId bead) {
   const Simulator::Entry entry(simulator_);
@@ -210,7 +210,8 @@ std::optional<std::string> ConvexHull::audit(const Dyadic& time) {
     if (std::none_of(corners_.begin(), corners_.end(), [&](BeadId b) { return order(b, corner) == 0; }))
       return "bead " + std::to_string(corner) + " is a corner, but is not known as one";
   }
-  // In order around the first corner, and nowhere a turn inwards; at a time of ties corners may lie on edges.
+  // Corners must be in order around the first corner, without inward turns. At a time of ties, corners may
+  // lie on edges.
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const BeadId b = corners_[i], next = further(corners_, i, 1);
     if (turn(b, next, further(corners_, i, 2)) < 0 || turn(corners_[0], b, next) < 0)

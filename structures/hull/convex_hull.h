@@ -1,14 +1,16 @@
 #pragma once
-// Kinetic convex hull of the beads' centres in the plane: its corners counterclockwise. Made of an upper and
-// a lower half, each with certificates of its own (half_hull.h), which meet in the first and the last bead.
+// Kinetic convex hull of the beads' centres in the plane: its corners in counterclockwise order. It
+// consists of an upper and a lower half, each with its own certificates (half_hull.h). The halves meet in the
+// first and the last bead.
 //
-// Only strict corners: a bead that lies on an edge for the rest of a step is none, and of beads that stay
-// together the least is the corner. One corner where all beads are together, two where all are on one line.
-// A corner that comes or goes is recorded when all that happens at that time has happened.
+// Corners are strict: a bead that lies on an edge for the rest of a step is not a corner, and if several
+// beads stay together, the least of them is the corner. The hull has one corner if all beads are together,
+// and two if all beads lie on one line. A corner that enters or leaves is recorded after all events at that
+// time.
 //
-// A bead that comes, or jumps, walks along both halves to where it belongs, a few certificates a corner. One
-// that goes or changes course costs its own certificates and, where it is on a half, those of its neighbours
-// there and of the beads under its edges.
+// A bead that is inserted or jumps walks along both halves to its place, with a few certificates for each
+// corner on the way. A bead that is erased or changes course costs its own certificates. If it is in a half,
+// it also costs the certificates of its neighbours there and of the beads under its edges.
 
 #include <cstdint>
 #include <span>
@@ -25,16 +27,17 @@ namespace kds {
 
 class ConvexHull final : public KineticStructure, public BeadEdits {
  public:
-  /// Ids where a corner comes or goes: itself, then the corners before and after it, counterclockwise; itself
-  /// where it is alone. Where two beads trade places along an axis, of which a half of the hull knows: first
-  /// the one that was first. Of an edit: the bead; the corners that it changes follow.
+  /// Ids of `enter` and `leave`: the corner, then the corners before and after it, counterclockwise; the
+  /// corner itself in their place if it is alone. Ids of `interchange`, two beads of a half of the hull that
+  /// trade places along an axis: the bead that was first, then the other. Ids of an edit: the bead; the
+  /// changes of corners follow as separate changes.
   enum Kind : std::uint8_t { enter, leave, interchange, inserts, erases, changes };
 
   ConvexHull(Simulator& simulator, const MotionRef<2>& motion);
 
   [[nodiscard]] std::string_view name() const override { return "hull"; }
   [[nodiscard]] std::span<const EventKind> kinds() const override;
-  /// Counterclockwise, from the least corner on.
+  /// Returns the corners counterclockwise, starting with the least one.
   [[nodiscard]] const std::vector<BeadId>& corners() const { return corners_; }
 
   void build() override;

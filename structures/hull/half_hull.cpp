@@ -77,25 +77,26 @@ void HalfHull::give_up(BeadId b) {
       loosen(left);
     }
     if (right != no_bead) loosen(right);
-  } else if (beads_[b].place_under != not_under) {  // else it waits already
+  } else if (beads_[b].place_under != not_under) {  // otherwise it is displaced already
     take_away(b);
     displace(b);
   }
 }
 
-/// Until nothing is missing.
+/// Repeats until no certificate is missing.
 void HalfHull::hold_all() {
   while (!unheld_.empty() || !displaced_.empty()) {
     auto& waiting = unheld_.empty() ? displaced_ : unheld_;
     const bool in_chain = !unheld_.empty();
     const BeadId b = waiting.back();
     waiting.pop_back();
-    if (beads_[b].in_chain != in_chain) continue;  // it has come or gone meanwhile
+    if (beads_[b].in_chain != in_chain) continue;  // it has moved into or out of the chain meanwhile
     in_chain ? hold(b) : place(b);
   }
 }
 
-/// What is missing at a bead of the chain; or it leaves, or the one after it.
+/// Creates the certificates missing at a bead of the chain. If one does not hold, removes this bead or the
+/// next one from the chain.
 void HalfHull::hold(BeadId v) {
   Bead& vertex = beads_[v];
   if (vertex.left != no_bead && vertex.right != no_bead && vertex.turn == CertificateHandle::violated) {
@@ -110,7 +111,7 @@ void HalfHull::hold(BeadId v) {
   if (ordered == Ordered::after) remove(beads_[right].right == no_bead && v != first_ ? right : v);
 }
 
-/// Where it belongs: under an edge, or in the chain.
+/// Finds the place of a bead, and puts it under an edge or into the chain.
 void HalfHull::place(BeadId b) {
   if (first_ == no_bead) return put_in(b, no_bead);
   Bead& bead = beads_[b];
@@ -148,7 +149,7 @@ void HalfHull::put_under(BeadId b, BeadId left) {
   beads_[left].under.push_back(b);
 }
 
-/// Into the chain; `after` none: as the first.
+/// Puts a bead into the chain behind `after`, or at the front if `after` is no_bead.
 void HalfHull::put_in(BeadId b, BeadId after) {
   release(b);
   const BeadId right = after == no_bead ? first_ : beads_[after].right;
@@ -170,7 +171,7 @@ void HalfHull::put_in(BeadId b, BeadId after) {
   unheld_.push_back(b);
 }
 
-/// Out of the chain, which it leaves unheld around it.
+/// Takes a bead out of the chain; certificates around it are then missing.
 void HalfHull::take_out(BeadId v) {
   const BeadId left = beads_[v].left, right = beads_[v].right;
   open_edge(v, left != no_bead ? left : right);
@@ -192,21 +193,21 @@ void HalfHull::take_out(BeadId v) {
   release(v);
 }
 
-/// It looks for another place.
+/// Takes a bead out of the chain and marks it as displaced.
 void HalfHull::remove(BeadId v) {
   take_out(v);
   displaced_.push_back(v);
 }
 
-/// For a bead of the chain that is together with it.
+/// Replaces a bead of the chain by the bead `b` that is together with it.
 void HalfHull::stand_in(BeadId b, BeadId vertex) {
   const BeadId left = beads_[vertex].left;
   remove(vertex);
   put_in(b, left);
 }
 
-/// Nothing lies under the edge any more, and nothing is held of it; what lay there will look for its place
-/// from a bead of the chain on.
+/// Drops the certificate of an edge and displaces the beads under it. These beads will search for their
+/// places from `look_from`, a bead of the chain.
 void HalfHull::open_edge(BeadId left, BeadId look_from) {
   guards_.drop(beads_[left].after_left);
   for (const BeadId b : beads_[left].under) {
@@ -216,13 +217,14 @@ void HalfHull::open_edge(BeadId left, BeadId look_from) {
   beads_[left].under.clear();
 }
 
-/// Its turn is held anew, and the edge after it where that is open.
+/// Drops the turn at a bead of the chain, so that this certificate, and the one of the following edge if
+/// missing, are created anew.
 void HalfHull::loosen(BeadId v) {
   guards_.drop(beads_[v].turn);
   unheld_.push_back(v);
 }
 
-/// From under its edge.
+/// Removes a bead from under its edge.
 void HalfHull::take_away(BeadId b) {
   std::vector<BeadId>& under = beads_[beads_[b].left].under;
   beads_[under.back()].place_under = beads_[b].place_under;
@@ -235,7 +237,7 @@ void HalfHull::displace(BeadId b) {
   displaced_.push_back(b);
 }
 
-/// Nothing is held of it any more.
+/// Drops all certificates of the bead.
 void HalfHull::release(BeadId b) {
   beads_[b].place_under = not_under;
   guards_.drop(beads_[b].after_left);

@@ -1,27 +1,27 @@
 #pragma once
 // The upper or the lower half of a kinetic convex hull: a chain of beads in their order (hull_guards.h), and
-// every other bead under one of its edges. Three kinds of certificates:
+// every other bead under one of its edges. There are three kinds of certificates:
 //
 //   each bead of the chain comes before the next                            (1)
 //   the chain turns strictly, always to the same side, at each inner bead   (2)
 //   a bead under an edge comes between its ends, and not beyond its line    (3)
 //
-// Why they imply the answer, of the upper half: by (1) and (2) the chain is the graph of a concave function,
-// which has a corner at each inner bead, over the first axis, turned by an angle as small as one likes so
-// that no two beads are level. By (3) no bead lies above the graph, or before or after it. So the chain is
-// the upper hull, and its beads are the corners.
+// Proof that they imply the answer, for the upper half: turn the first axis by an arbitrarily small angle, so
+// that no two beads are level. By (1) and (2), the chain is the graph of a concave function over this axis,
+// with a corner at each inner bead. By (3), no bead lies above the graph, or before or after it. Therefore
+// the chain is the upper hull, and its beads are the corners.
 //
-// When a certificate fails, a bead of the chain leaves it, or a bead goes to the next edge, or into the
-// chain, and what is held around is held anew. Why this ends however many fail at one time: a step takes a
-// pair of beads in the chain that are in the wrong order away, and none ever makes one, or the function grows
-// between such pairs.
+// When a certificate fails, a bead of the chain leaves it, or a bead moves to the next edge or into the
+// chain. The certificates around are then created anew. This ends, however many certificates fail at one
+// time: each step either removes a pair of beads in the chain that are in the wrong order, and no step
+// creates such a pair, or it increases the function between such pairs.
 //
-// Beads that stay together count as one, by the least of them: the others may lie under an edge at it, or,
-// where the chain is one bead, under that.
+// Beads that stay together count as one, represented by the least of them. The others may lie under an edge
+// at this bead, or under the bead itself if it is the whole chain.
 //
-// Beads come and go as they go into the chain and leave it. Those that change course stay where they are, in
-// the chain or not, until what is held around them is held anew: in whatever order the chain is then, beads
-// leave it until (1) and (2) hold, before others are looked at.
+// Inserted and erased beads enter and leave the chain in the same way. Beads that change course keep their
+// places, in the chain or not, until the certificates around them are created anew. Whatever order the chain
+// then has, beads leave it until (1) and (2) hold, before other beads are considered.
 
 #include <cstdint>
 #include <span>
@@ -36,26 +36,26 @@ class HalfHull {
  public:
   HalfHull(HullGuards& guards, bool upper) : guards_(guards), upper_(upper) {}
 
-  /// Of beads of which some may be marked as absent: a chain of some of the others, for start() to begin
-  /// with.
+  /// Sets the number of beads, the absent beads (if any are marked) and a chain of some present beads, with
+  /// which start() begins.
   void assign(std::size_t beads, std::span<const char> absent, const std::vector<BeadId>& chain);
-  /// When a step starts.
+  /// Called at the start of a step.
   void start();
-  /// The certificate at this place of this table fails now.
+  /// Handles the failure, at the present time, of the certificate at this place of this table.
   void fail(unsigned table, std::uint32_t place);
-  // While time stands still within a step:
+  // Edits, while time stands still within a step:
   void insert(BeadId bead);
   void erase(BeadId bead);
-  /// All that is held of a bead that is present is given up, until hold_all().
+  /// Drops all certificates of a bead that is present, until hold_all().
   void give_up(BeadId bead);
   void hold_all();
   [[nodiscard]] static bool is_upper(std::uint32_t place) { return place / 2 % 2 == 1; }
 
-  /// From the first to the last bead.
+  /// Returns the beads of the chain from the first to the last.
   [[nodiscard]] std::vector<BeadId> chain() const;
-  /// Beads went into the chain or left it since this was last asked.
+  /// Returns whether beads entered or left the chain since the last call.
   [[nodiscard]] bool take_changed() { return std::exchange(changed_, false); }
-  /// Adds to each bead how many certificates name it.
+  /// Adds to each bead's entry the number of certificates that name it.
   void count_certificates(std::vector<std::uint32_t>& of_bead) const;
 
  private:
@@ -64,12 +64,13 @@ class HalfHull {
   struct Bead {
     bool present = true;
     bool in_chain = false;
-    BeadId left = no_bead;   // the bead before it in the chain; or the left end of the edge it is under
-    BeadId right = no_bead;  // the bead after it in the chain
-    OrderGuard after_left;   // in the chain: of it and the bead after it; else: of the left end and it
+    BeadId left = no_bead;   // in the chain: the bead before it; otherwise: the left end of its edge
+    BeadId right = no_bead;  // in the chain: the bead after it
+    OrderGuard after_left;   // in the chain: its order with the bead after it; otherwise: with the left end
     OrderGuard before_right;
-    CertificateHandle turn = CertificateHandle::violated;  // in the chain: at it; else: it is not beyond
-    std::vector<BeadId> under;                             // of the edge that begins at it
+    CertificateHandle turn =
+        CertificateHandle::violated;  // in the chain: at it; otherwise: not beyond its edge
+    std::vector<BeadId> under;        // beads under the edge that begins at it
     std::uint32_t place_under = not_under;
   };
 
@@ -93,7 +94,7 @@ class HalfHull {
   bool upper_;
   BeadId first_ = no_bead;
   std::vector<Bead> beads_;
-  std::vector<BeadId> unheld_;     // in the chain, some of their certificates missing
+  std::vector<BeadId> unheld_;     // in the chain, with certificates missing
   std::vector<BeadId> displaced_;  // neither in the chain nor under it
   bool changed_ = false;
 };

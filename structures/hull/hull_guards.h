@@ -1,5 +1,5 @@
 #pragma once
-// The certificates of a convex hull: which of two beads comes first along the axes, and how three turn.
+// The certificates of a convex hull: the order of two beads along the axes, and the turn of three beads.
 
 #include <array>
 #include <cstdint>
@@ -10,7 +10,8 @@
 
 namespace kds {
 
-/// Beads are ordered along the first axis; along the second where they are level for the rest of the step.
+/// The order of two beads: along the first axis or, if they are level for the rest of the step, along the
+/// second axis.
 enum class Ordered : std::uint8_t { before, together, after };
 
 struct OrderGuard {
@@ -29,10 +30,11 @@ class HullGuards {
         y_(simulator, owner, structure, orders_in_y, motion),
         turns_(simulator, owner, structure, turns, motion) {}
 
-  /// What fails now. Until failure_is_over its function, asked for again, is known to have a root now.
+  /// The certificate that fails now. Until failure_is_over, a new certificate with its function is known to
+  /// have a root now.
   struct Failed {
     std::uint32_t place;
-    BeadId before, after;  // of an order, what it was
+    BeadId before, after;  // for an order: the order before the failure
   };
   [[nodiscard]] Failed failure(unsigned table, std::uint32_t slot) {
     const auto in = [&](const auto& held) -> Failed {
@@ -46,8 +48,8 @@ class HullGuards {
   }
   void failure_is_over() { failed_ = {}; }
 
-  /// How two beads are ordered just after now. The guard holds while that is so; where the first comes after
-  /// the second nothing is held.
+  /// Returns the order of two beads just after now, and guards it while it is so. If the first bead comes
+  /// after the second, creates no guard.
   [[nodiscard]] Ordered watch_order(BeadId first, BeadId second, std::uint32_t place, OrderGuard& guard) {
     guard.x = watch(x_, Precedes{{first, second}}, place);
     if (guard.x == CertificateHandle::violated) return Ordered::after;
@@ -58,7 +60,8 @@ class HullGuards {
     drop(guard);
     return Ordered::after;
   }
-  /// Holds while three beads in this order turn counterclockwise (side 1) or clockwise (-1), or never turn.
+  /// Guards that three beads in this order turn counterclockwise (side 1) or clockwise (-1), or that they
+  /// never turn.
   [[nodiscard]] CertificateHandle watch_turn(const std::array<BeadId, 3>& beads, int side,
                                              std::uint32_t place) {
     return watch(turns_, Orientation<2>{beads, side}, place);
@@ -73,7 +76,7 @@ class HullGuards {
     turn = CertificateHandle::violated;
   }
 
-  /// Signs just after the start of the step.
+  /// Returns signs just after the start of the step.
   [[nodiscard]] int order_at_start(Kernel kernel, BeadId first, BeadId second, StageCounts& stages) const {
     if (const int sign = at_start(x_, Precedes{{first, second}}, kernel, stages)) return -sign;
     return -at_start(y_, PrecedesAlong<1>{{first, second}}, kernel, stages);
@@ -100,7 +103,7 @@ class HullGuards {
   CertificateTable<Precedes> x_;
   CertificateTable<PrecedesAlong<1>> y_;
   CertificateTable<Orientation<2>> turns_;
-  Identity failed_;  // of no certificate otherwise
+  Identity failed_;  // a default value if nothing fails
   bool failed_side_ = false;
 };
 

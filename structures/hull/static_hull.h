@@ -1,5 +1,5 @@
 #pragma once
-// The convex hull in the plane of beads that stand still, by Andrew's monotone chain.
+// The convex hull in the plane of beads at fixed positions, by Andrew's monotone chain.
 
 #include <algorithm>
 #include <concepts>
@@ -10,11 +10,11 @@
 
 namespace kds {
 
-/// Both halves from the first to the last bead, strictly convex; of coincident beads the least.
+/// Both halves from the first to the last bead, strictly convex. If beads coincide, only the least is used.
 struct StaticHull {
   std::vector<BeadId> lower, upper;
 
-  /// Counterclockwise from the first bead.
+  /// Returns the corners counterclockwise from the first bead.
   [[nodiscard]] std::vector<BeadId> circle() const {
     std::vector<BeadId> all = lower;
     for (std::size_t i = upper.size(); i-- > 2;) all.push_back(upper[i - 1]);
@@ -22,8 +22,9 @@ struct StaticHull {
   }
 };
 
-/// Of beads that ascend at first. `order(a, b)`: along the first axis, then the second, negative where a is
-/// before b, zero where they coincide. `turn(a, b, c)`: positive counterclockwise.
+/// Computes the hull of `sorted`, which must list the beads in ascending order of their ids. `order(a, b)`
+/// compares along the first axis, then along the second: negative if a is before b, zero if they coincide.
+/// `turn(a, b, c)` is positive if the beads turn counterclockwise.
 template <std::invocable<BeadId, BeadId> Order, std::invocable<BeadId, BeadId, BeadId> Turn>
 [[nodiscard]] StaticHull static_hull(std::vector<BeadId> sorted, Order order, Turn turn) {
   std::stable_sort(sorted.begin(), sorted.end(), [&](BeadId a, BeadId b) { return order(a, b) < 0; });

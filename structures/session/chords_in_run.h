@@ -1,5 +1,5 @@
 #pragma once
-// A hierarchy of chord cages in a run: what wrapped and layered ones have in common.
+// A hierarchy of chord cages in a run: the common part of wrapped and layered hierarchies.
 
 #include <cstdint>
 #include <optional>

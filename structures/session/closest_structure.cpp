@@ -25,7 +25,7 @@ class ClosestInRun final : public RunningStructure {
     if (const auto& pair = closest_.pair()) elements.add({0}, *pair);
     return elements;
   }
-  /// One edge of the Delaunay triangulation is the closest pair.
+  /// Times a Delaunay triangulation, because one of its edges joins the closest pair.
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     const std::vector<double> no_weights(scene_.bead_count(), 0);
     return seconds_to_triangulate<Dimension>(scene_.centers(frame), no_weights).clock;

@@ -40,11 +40,11 @@ class ContactsInRun final : public RunningStructure {
 
  private:
   const Scene& scene_;
-  mutable CellList<Dimension> cells_;  // what it finds depends on nothing that was before
+  mutable CellList<Dimension> cells_;  // its results do not depend on earlier use
   Contacts<Dimension> contacts_;
 };
 
-// With `exact` pairs are listed, all of them.
+// With the kernel `exact`, all pairs are listed.
 void check_exact_pairs(const PairsAsked& asked) {
   constexpr double most = 1e8;  // 2.5 GB, and minutes a step
   double before = 0, pairs = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The texts of --dump. Doubles are printed so that they read back exactly.
+// The files written by --dump. Doubles are printed with enough digits to read back the same double.
 
 #include <array>
 #include <optional>

@@ -14,7 +14,8 @@ namespace kds {
 
 namespace {
 
-// Bytes that are no ASCII, whatever their encoding is, as the characters of these numbers: always JSON.
+// Returns the text as a JSON string. Bytes that are not ASCII are written as the characters with these
+// numbers, whatever the encoding is, so the result is always valid JSON.
 std::string json_text(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {

@@ -1,7 +1,7 @@
 #pragma once
-// A run's events as text, for other programs; written while the run goes on. What is counted apart, rebuilds
-// and edits, has no line: it is no event of what is described. Who owns the stream looks whether all could be
-// written.
+// Writes a run's events as text for other programs, as the events happen. Changes that are counted apart
+// (rebuilds and edits) get no line, because they are not events of the motion. The owner of the stream must
+// check whether all text could be written.
 
 #include <filesystem>
 #include <memory>
@@ -13,25 +13,28 @@
 
 namespace kds {
 
-/// What a scene's names say of a bead: CHAIN:RESIDUE:NUMBER:ATOM, or -.
+/// Returns the scene's name of a bead: CHAIN:RESIDUE:NUMBER:ATOM, or - if the bead has none.
 [[nodiscard]] std::string residue_of(const Scene& scene, BeadId bead);
 
-/// Header `frame,lower,upper,structure,kind,external,node,beads,residues`; where frames have times
-/// `picoseconds` follows `upper`. `frame` is the number of the frame that the event's step begins with,
-/// `lower` and `upper` bracket its time in the step, `picoseconds` is its time, rounded, empty where
-/// its frames have none. `node` is
-/// FIRST-LAST, of an event of a hierarchy; `beads` are the others that it names, between spaces, and
-/// `residues` what the scene says of each of them.
+/// Writes events as CSV with the header `frame,lower,upper,structure,kind,external,node,beads,residues`. If
+/// frames have times, `picoseconds` follows `upper`.
+///
+/// - `frame` is the number of the frame with which the event's step begins.
+/// - `lower` and `upper` bracket the event's time in the step.
+/// - `picoseconds` is the event's time, rounded; empty if its frames have none.
+/// - `node` is FIRST-LAST for an event of a hierarchy.
+/// - `beads` are the other beads that the event names, separated by spaces.
+/// - `residues` are the scene's names of these beads.
 class EventCsv final : public EventListener {
  public:
-  /// The scene must outlive it; its first frame tells whether there are times. Where it is there already the
-  /// header is written now, else at the first event.
+  /// The scene must outlive the writer; its first frame determines whether there are times. Writes the header
+  /// now if the first frame exists, otherwise before the first event.
   EventCsv(std::ostream& stream, const Scene& scene);
   void on_event(const Event& event) override;
   [[nodiscard]] bool prints_time_of(const Event& event) const override {
     return is_timed() && !event.kind.counted_apart;
   }
-  /// Writes the header if it is not there yet: of a run without events.
+  /// Writes the header if it has not been written, which happens in a run without events.
   void finish();
 
  private:
@@ -44,14 +47,17 @@ class EventCsv final : public EventListener {
   bool begun_ = false, timed_ = false;
 };
 
-/// An object a line: `step`; `frame`, the number of the frame that it begins with; `time`, that of the event
-/// by the numbers of frames, rounded, and, where frames have times, `picoseconds`; `lower` and `upper`, the
-/// bracket in the step; `structure`, `kind`, `external`; `ids`, an object of arrays by the roles that they
-/// have, null the infinite vertex; and where the scene names beads, `residues` of those in `ids`, in their
-/// order.
+/// Writes one JSON object a line, with these members:
+///
+/// - `step` and `frame`, the number of the frame with which the step begins.
+/// - `time`, the event's time counted in frames, rounded; and, if frames have times, `picoseconds`.
+/// - `lower` and `upper`, which bracket the time in the step.
+/// - `structure`, `kind` and `external`.
+/// - `ids`, an object with one array for each role of ids; null means the infinite vertex.
+/// - `residues`, if the scene names beads: the names of the beads in `ids`, in the same order.
 class EventJsonLines final : public EventListener {
  public:
-  /// The scene must outlive it.
+  /// The scene must outlive the writer.
   EventJsonLines(std::ostream& stream, const Scene& scene) : stream_(stream), scene_(scene) {}
   void on_event(const Event& event) override;
   [[nodiscard]] bool prints_time_of(const Event& event) const override { return !event.kind.counted_apart; }
@@ -61,7 +67,7 @@ class EventJsonLines final : public EventListener {
   const Scene& scene_;
 };
 
-/// As a file of this name has it: JSON lines where it ends in .jsonl, else CSV.
+/// Returns a writer for the format of this file name: JSON lines if it ends in .jsonl, otherwise CSV.
 [[nodiscard]] std::unique_ptr<EventListener> make_event_writer(const std::filesystem::path& file,
                                                                std::ostream& stream, const Scene& scene);
 

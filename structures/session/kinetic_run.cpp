@@ -14,14 +14,14 @@
 
 namespace kds {
 
-/// What its user did, and when.
+/// An edit made by the user, with its time.
 struct KineticRun::Edit {
   std::size_t step;
   ExactTime time;
   std::function<void()> make;
 };
 
-/// A bead on another curve than the frames', and where that ends.
+/// A bead whose curve differs from the curve between frames, and the end of its curve.
 struct KineticRun::Bend {
   BeadId bead;
   std::array<double, 3> end;
@@ -136,7 +136,7 @@ void KineticRun::leave() {
   within_ = false;
 }
 
-/// Spheres and contacts rely on what was said of radii.
+/// Checks that the motion has the radii given at the start, on which spheres and contacts rely.
 void KineticRun::check_radii() const {
   if (!scene_.has_radii()) return;
   std::visit(
@@ -154,7 +154,8 @@ void KineticRun::check_radii() const {
       *motion_);
 }
 
-/// Structures go on from where the step before ended.
+/// Checks that each curve changed in the previous step ends where the next step begins, because structures
+/// continue from there.
 void KineticRun::check_bends() const {
   for (const Bend& bend : bends_) {
     if (control_point(session_->motion()->ref(), bend.bead, false) != bend.end)
@@ -195,7 +196,7 @@ bool KineticRun::next_event() {
     if (!within_) {
       const std::uint64_t before = changes_made();
       enter();
-      if (changes_made() != before) return true;  // right at the frame
+      if (changes_made() != before) return true;  // at the frame itself
     }
     if (simulator().run_next()) return true;
     leave();
@@ -241,7 +242,7 @@ void KineticRun::go_to(double time) {
     throw std::invalid_argument(
         fmt::format("time {}: the run is past it, and its steps are not kept; expected a later one", time));
   make_session();
-  struct TellAgain {  // nobody hears of what happens before that time
+  struct TellAgain {  // listeners are not notified of events before that time
     KineticRun& run;
     ~TellAgain() {
       for (EventListener* listener : run.listeners_) run.simulator().listen(*listener);
@@ -260,7 +261,7 @@ void KineticRun::run_to(std::size_t step) {
     if (!run_step()) throw std::logic_error(fmt::format("step {} does not come any more", step));
 }
 
-/// Stands within the step unless u is 0.
+/// Runs to time u of the step. Enters the step unless u is 0.
 void KineticRun::go_on_to(std::size_t step, double u) {
   run_to(step);
   if (u == 0) return;
@@ -308,7 +309,7 @@ void KineticRun::change_motion(std::vector<BeadId> beads,
   edit([this, kept = std::move(beads), set_curves] {
     simulator().require_standing_still();
     NewCourses courses(*session_->motion(), kept);
-    set_curves(courses);  // where it throws nothing has happened yet
+    set_curves(courses);  // if this throws, nothing has changed yet
     courses.hold_back();
     simulator().change_motion(kept, [&] { courses.set_for_good(); });
     for (const BeadId bead : kept) {

@@ -1,11 +1,16 @@
 #pragma once
-// A run that its user leads through time: over frames that are pushed one by one, over a scene, or over a
-// motion that the user sets; structures by name or by type, all or some of the beads in each; step by step,
-// event by event, to a time, or back to one by replay; beads that come, go and change course on the way. Who
-// listens hears of every event as it happens, in one record (kds/event_log.h).
+// A run that the user drives through time.
 //
-// Times count steps: 2.25 is u = 0.25 of step 2, and frame k is the time k. Nothing is rounded: a time that
-// is a double is met exactly, and where the run stands at an event, it stands at its exact time.
+// - The motion comes from frames that are pushed one by one, from a scene, or from a motion that the user
+//   sets.
+// - Structures are chosen by name or by type; each contains all beads or some of them.
+// - The run advances step by step, event by event, or to a given time; it can go back to an earlier time by
+//   replay.
+// - Beads can be inserted, erased and given other curves on the way.
+// - Listeners are notified of every event as it happens, in one record (kds/event_log.h).
+//
+// Times count steps: 2.25 is u = 0.25 of step 2, and frame k is the time k. Times are not rounded: a time
+// given as a double is reached exactly, and a run that stops at an event stands at the event's exact time.
 
 #include <concepts>
 #include <cstddef>
@@ -25,40 +30,43 @@ namespace kds {
 
 class BeadEdits;
 
-/// The beads of a motion that its user sets.
+/// The beads of a motion that the user sets.
 struct BeadsOfMotion {
-  std::vector<std::size_t> necklaces = {};  ///< how many beads each has; none: all are of one
-  /// One a bead, or one for all, as the motion has them in all steps; none: points, whatever their weights.
+  std::vector<std::size_t> necklaces = {};  ///< number of beads of each; empty: one necklace
+  /// One radius for each bead, or one for all; the motion must have these radii in all steps. If empty, beads
+  /// are points, whatever their weights.
   std::vector<double> radii = {};
 };
 
 class KineticRun {
  public:
-  /// Frames are pushed. Throws InputError, or StructureRefusal (session.h).
+  /// A run over frames that are pushed. Throws InputError or StructureRefusal (session.h).
   KineticRun(PushedFrames frames, const SessionOptions& options);
-  /// The scene must outlive it.
+  /// A run over a scene, which must outlive the run.
   KineticRun(const Scene& scene, const SessionOptions& options);
-  /// The motion must outlive it. Its user sets it to each step before that is run.
+  /// A run over a motion that the user sets to each step before the step is run. The motion must outlive the
+  /// run.
   KineticRun(const SceneMotion::Ref& motion, const BeadsOfMotion& beads, const SessionOptions& options);
   KineticRun(const KineticRun&) = delete;
   KineticRun& operator=(const KineticRun&) = delete;
   ~KineticRun();
 
-  /// Adds a structure by its type, made of simulator, motion and these arguments, which are kept. Before the
-  /// first step. References to structures are good until the run goes back in time.
+  /// Adds a structure by its type, constructed from the simulator, the motion and these arguments, which are
+  /// kept. Must be called before the first step. References to structures remain valid until the run goes
+  /// back in time.
   template <std::derived_from<KineticStructure> Structure, class... Arguments>
   Structure& add(const Arguments&... arguments) {
     plan([=](Session& session) { session.add<Structure>(arguments...); });
     return structure<Structure>(structures().size() - 1);
   }
-  /// Before the first step: a structure, by its index, is of these beads only.
+  /// Restricts a structure, given by its index, to these beads. Must be called before the first step.
   void keep_only(std::size_t structure, std::vector<BeadId> beads) {
     plan([structure, kept = std::move(beads)](Session& session) { session.keep_only(structure, kept); });
   }
-  /// In the order in which they were added, those by name first.
+  /// Returns the structures in the order in which they were added; structures chosen by name come first.
   [[nodiscard]] const std::vector<KineticStructure*>& structures() const { return session_->structures(); }
-  /// Returns a structure by index and type. Throws std::invalid_argument if there is none of this index, or
-  /// it is of another type.
+  /// Returns a structure by index and type. Throws std::invalid_argument if there is no structure with this
+  /// index or if it has another type.
   template <class Structure>
   [[nodiscard]] Structure& structure(std::size_t index) const {
     require_index("structure", index, structures().size());
@@ -70,51 +78,57 @@ class KineticRun {
   [[nodiscard]] Simulator& simulator() { return session_->simulator(); }
   [[nodiscard]] Session& session() { return *session_; }
 
-  /// Hears of all that happens from now on. Must outlive the run.
+  /// Adds a listener, which is notified of all events from now on. It must outlive the run.
   void listen(EventListener& listener);
-  /// ExactWork::set_limit and set_watcher, also of the run made anew where it goes back: its work is counted
-  /// from 0 again. Said to Simulator::exact_work() itself they hold until then.
+  /// Like ExactWork::set_limit and set_watcher, but also valid after the run goes back in time; the work is
+  /// then counted from 0 again. Settings made on Simulator::exact_work() itself are lost at that point.
   void limit_work(std::uint64_t most);
   void watch_work(std::function<void()> watcher, std::uint64_t every);
 
-  /// Hands over the next frame, and runs all steps whose motion is known then. Throws InputError, and nothing
-  /// has happened, where it is no frame of these beads.
+  /// Adds the next frame, and runs all steps whose motion is then known. Throws InputError, and changes
+  /// nothing, if the coordinates are not a frame of these beads.
   void push(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt);
-  /// The same, but the step that becomes known is left to the calls below; one left before is run first.
+  /// Adds the next frame like `push`, but leaves the step that becomes known to the calls below. A step left
+  /// from before is run first.
   void take(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt);
-  /// Runs to the end of the step under way, or, between two, the whole next one. False where none is known.
+  /// Runs to the end of the present step or, between two steps, runs the whole next step. Returns false if no
+  /// step is known.
   bool run_step();
-  /// All steps that are known. Not over a motion that the user sets.
+  /// Runs all known steps. Must not be called over a motion that the user sets.
   void run();
-  /// All that happens at the next time at which something does, a frame's too: then it stands at u = 0 of the
-  /// step that begins there. False, at the end of the steps known, or of one over a motion that the user
-  /// sets, where nothing does any more.
+  /// Handles all events at the next time at which something happens. If this is the time of a frame, the run
+  /// then stands at u = 0 of the step that begins there. Returns false if nothing more happens until the
+  /// end of the known steps or, over a motion that the user sets, until the end of the step.
   bool next_event();
-  /// To a time, forward, or, of a scene's, back: then it is run anew from the start, edits included, without
-  /// telling who listens; they hear again of what happens after that time. Edits after it are forgotten, and
-  /// remade are only those by the functions below: not what was done to structures, session or simulator.
-  /// Throws std::invalid_argument where the time is none of those known.
+  /// Runs forward to a time. A run over a scene can also go back: it is then repeated from the start,
+  /// including edits, without notifying listeners until that time; listeners are notified again of all later
+  /// events. Edits after that time are forgotten. Only edits made by the functions below are repeated, not
+  /// changes made directly on structures, session or simulator. Throws std::invalid_argument if the time is
+  /// outside the known steps.
   void go_to(double time);
-  /// No step follows: frames have ended.
+  /// Ends the frames: no step follows.
   void finish();
   /// Audits all structures where the run stands, whatever the option `audits` says (Simulator::audit_now).
   /// Throws AuditError if a structure is wrong, std::logic_error if the run has not begun.
   void audit_now();
-  /// Whether a step is under way. Else the run stands at a frame, or has not begun.
+  /// Returns whether a step is under way. Otherwise the run stands at a frame or has not begun.
   [[nodiscard]] bool within_step() const { return within_; }
 
-  // While time stands still within a step, exactly now, just after an event if the run stands at one.
+  // Edits within a step while time stands still. They take effect exactly now; if the run stands at an event,
+  // just after it.
 
-  /// A bead takes part in a structure, or does not any more. Throws StructureRefusal where its beads cannot
-  /// come and go, std::invalid_argument where this one cannot.
+  /// Adds a bead to a structure or removes it. Throws StructureRefusal if the structure does not support
+  /// this. Throws std::invalid_argument if it is not possible for this bead.
   void insert(std::size_t structure, BeadId bead);
   void erase(std::size_t structure, BeadId bead);
-  /// Beads go on along other curves: `set_curves` sets their control points (SceneMotion::set_coordinate, of
-  /// other beads std::invalid_argument), and is called again if the run goes back and comes here again. Where
-  /// it throws nothing has happened. Curves are those of the whole step, also where the bead has never been;
-  /// where the step ends they must be where the next frame has the bead, or the next step, if one follows,
-  /// throws InputError. All structures follow, or std::invalid_argument says which cannot, and nothing is
-  /// changed. Over a motion that the user sets there is Simulator::change_motion.
+  /// Gives beads other curves from now on. `set_curves` sets their control points by
+  /// SceneMotion::set_coordinate, which throws std::invalid_argument for any other bead; it is called again
+  /// if the run goes back and reaches this time again. If `set_curves` throws, nothing has changed.
+  ///
+  /// A curve is given for the whole step, including the part before now. At the end of the step it must reach
+  /// the bead's position in the next frame; otherwise the next step, if there is one, throws InputError. All
+  /// structures follow. If a structure cannot follow, std::invalid_argument names it, and nothing is changed.
+  /// Over a motion that the user sets, use Simulator::change_motion instead.
   void change_motion(std::vector<BeadId> beads, const std::function<void(SceneMotion&)>& set_curves);
 
  private:
@@ -137,7 +151,7 @@ class KineticRun {
 
   std::unique_ptr<Scene> own_scene_;
   const Scene& scene_;
-  std::optional<SceneMotion::Ref> motion_;  // that the user sets
+  std::optional<SceneMotion::Ref> motion_;  // set by the user
   SessionOptions options_;
   std::vector<std::function<void(Session&)>> additions_;
   std::vector<EventListener*> listeners_;
@@ -146,7 +160,7 @@ class KineticRun {
   std::unique_ptr<Session> session_;
   bool built_ = false, within_ = false, finished_ = false;
   std::vector<Edit> edits_;
-  std::vector<Bend> bends_;  // of this step or the one before
+  std::vector<Bend> bends_;  // in this step or the previous one
 };
 
 }  // namespace kds

@@ -1,5 +1,5 @@
 #pragma once
-// How a specification makes its structure for motions of each dimension.
+// Helpers by which a specification makes its structure for motions of each dimension.
 
 #include <memory>
 #include <utility>
@@ -9,8 +9,8 @@
 
 namespace kds {
 
-/// A specification's `make`, by make(simulator, scene, motion, settings) for motions of at least so many
-/// dimensions. Scenes of fewer are refused by the specification before.
+/// Returns a specification's `make`, which calls make(simulator, scene, motion, settings) for motions of at
+/// least LeastDimension dimensions. The specification must refuse scenes of fewer dimensions beforehand.
 template <int LeastDimension, class Make>
 [[nodiscard]] auto make_of_motion(Make make) {
   return [make = std::move(make)](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,
@@ -27,7 +27,7 @@ template <int LeastDimension, class Make>
   };
 }
 
-/// The same of a structure that has no settings: InRun<D>(simulator, scene, motion).
+/// Same for a structure without settings, constructed by InRun<D>(simulator, scene, motion).
 template <template <int> class InRun, int LeastDimension>
 [[nodiscard]] auto make_of_motion() {
   return make_of_motion<LeastDimension>(

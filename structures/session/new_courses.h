@@ -1,6 +1,6 @@
 #pragma once
-// The motion of a step for who gives some of its beads other curves. These are tried first: where that fails,
-// by whatever exception, nothing has happened to anybody.
+// A view of a step's motion through which a user gives some beads other curves. The new curves are tried
+// first: if any exception is thrown meanwhile, nothing has changed.
 
 #include <cstddef>
 #include <vector>
@@ -11,25 +11,27 @@ namespace kds {
 
 class NewCourses final : public SceneMotion {
  public:
-  /// The motion must outlive it. Throws std::invalid_argument where there is no such bead.
+  /// The motion must outlive this object. Throws std::invalid_argument if a bead does not exist.
   NewCourses(SceneMotion& motion, std::vector<BeadId> beads);
   NewCourses(const NewCourses&) = delete;
   NewCourses& operator=(const NewCourses&) = delete;
-  /// The old curves are back, unless the new ones were set for good.
+  /// Restores the old curves unless set_for_good was called.
   ~NewCourses() override;
 
-  /// Throws std::logic_error: this is no time for another step.
+  /// Throws std::logic_error, because no other step may be loaded now.
   void load(std::size_t step) override;
   [[nodiscard]] Ref ref() const override { return motion_.ref(); }
-  /// Throws std::invalid_argument for other beads, too.
+  /// Like SceneMotion::set_coordinate, but also throws std::invalid_argument for beads other than those
+  /// given.
   void set_coordinate(BeadId bead, int k, int axis, double value) override;
 
-  /// What was set until now are the new curves; the motion has the old ones until they are set for good.
+  /// Takes the curves set so far as the new curves, and restores the old ones in the motion until
+  /// set_for_good.
   void hold_back();
   void set_for_good();
 
  private:
-  /// Of these beads, in the order of beads, control points and axes.
+  /// Returns the coordinates of these beads, ordered by bead, control point and axis.
   [[nodiscard]] std::vector<double> now() const;
   void set(const std::vector<double>& numbers);
 

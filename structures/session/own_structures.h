@@ -1,11 +1,11 @@
 #pragma once
-// The framework's own structures as runs know them.
+// The specifications of the framework's own structures.
 
 #include "structures/session/structure_spec.h"
 
 namespace kds {
 
-/// Refusals that several have.
+/// Reasons for refusals that several structures share.
 inline constexpr const char* fictitious_radii =
     "in lifted motion radii between frames are fictitious, and it needs physical ones";
 [[nodiscard]] inline std::string needs_plane_or_space(const Scene& scene) {
@@ -13,7 +13,7 @@ inline constexpr const char* fictitious_radii =
          " coordinate";
 }
 
-/// Of hierarchies; nothing where scene and hierarchy go together.
+/// Returns the reason why hierarchies refuse a scene, or nothing if they accept it.
 [[nodiscard]] inline std::optional<std::string> refusal_of_spheres(const Scene& scene) {
   if (scene.is_lifted()) return fictitious_radii;
   if (scene.dimension() < 2) return needs_plane_or_space(scene);

@@ -1,5 +1,5 @@
 #pragma once
-// The motion of a scene's present step, of whatever dimension, degree and kind the scene has.
+// The motion of a scene's present step, for scenes of any dimension, degree and kind of motion.
 
 #include <cstddef>
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace kds {
 
-/// Above this degree functions are too long for double's range of binomials.
+/// With a higher degree, the binomials in certificate functions exceed the range of doubles.
 inline constexpr int highest_degree = 10;
 
 class SceneMotion {
@@ -21,12 +21,12 @@ class SceneMotion {
   /// Sets the motion to that of the step.
   virtual void load(std::size_t step) = 0;
   [[nodiscard]] virtual Ref ref() const = 0;
-  /// Sets one number of a bead's k-th control point, until a step is loaded. Throws std::invalid_argument
-  /// where there is no such number, or the value is not finite, and the motion is as before.
+  /// Sets one number of a bead's k-th control point, until a step is loaded. Throws std::invalid_argument,
+  /// and changes nothing, if there is no such number or the value is not finite.
   virtual void set_coordinate(BeadId bead, int k, int axis, double value) = 0;
 };
 
-/// The scene must outlive it. Throws InputError where the degree is above highest_degree.
+/// The scene must outlive the motion. Throws InputError if the degree is above highest_degree.
 [[nodiscard]] std::unique_ptr<SceneMotion> make_scene_motion(const Scene& scene);
 
 }  // namespace kds

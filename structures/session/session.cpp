@@ -54,7 +54,7 @@ void Session::make_by_name(const SessionOptions& options) {
   };
   for (const auto& [name, beads] : options.only)
     if (!is_named(name)) throw StructureRefusal(name, "is to be of some beads only, and is not in the run");
-  for (const StructureSpec& spec : structure_registry().all()) {  // in their order
+  for (const StructureSpec& spec : structure_registry().all()) {  // in the registry's order
     if (!is_named(spec.name)) continue;
     add_made(spec.make(simulator_, scene_, ref_, options.settings));
     if (const auto only = options.only.find(spec.name); only != options.only.end())

@@ -1,6 +1,6 @@
 #pragma once
-// A run of structures, chosen by name, over one scene: its motion, the structures, and the simulator that
-// drives them.
+// A run of structures, chosen by name, over one scene. It owns the motion, the structures, and the simulator
+// that drives them.
 
 #include <concepts>
 #include <cstddef>
@@ -21,57 +21,61 @@
 namespace kds {
 
 struct SessionOptions {
-  std::vector<std::string> structures = {};  ///< by name; none: as `by_default` says
+  std::vector<std::string> structures = {};  ///< by name; if empty, see `by_default`
   Kernel kernel = Kernel::filtered;
   AuditMode audits = AuditMode::none;
   StructureSettings settings = {};
-  bool by_default = true;  ///< whether there are those that the scene has by default where none is named
-  /// Structures that are of some beads only, by their names.
+  bool by_default = true;  ///< if no name is given: whether the scene's default structures are used
+  /// The beads of each structure that contains only some beads, by the structure's name.
   std::map<std::string, std::vector<BeadId>, std::less<>> only = {};
 };
 
-/// A structure that does not go with a scene or is not known.
+/// Thrown if a structure is not known or does not fit the scene.
 class StructureRefusal : public InputError {
  public:
   StructureRefusal(const std::string& structure, const std::string& reason)
       : InputError(structure + ": " + reason) {}
 };
 
-/// Indices of structures, frames and steps that are too large are refused by std::invalid_argument, which
+/// Throws std::invalid_argument for any index of a structure, frame or step that is too large; the message
 /// says how many there are.
 class Session {
  public:
-  /// The scene must outlive it. Throws StructureRefusal, or InputError where the scene's motion is refused.
+  /// The scene must outlive the session. Throws StructureRefusal, or InputError if the scene's motion is
+  /// refused.
   Session(const Scene& scene, const SessionOptions& options);
-  /// Over a motion that its owner sets from step to step, and that must outlive it: the scene has its beads
-  /// and radii, and no frames.
+  /// A session over a motion that the owner sets from step to step and that must outlive the session. The
+  /// scene has the beads and radii, but no frames.
   Session(const Scene& scene, const SceneMotion::Ref& motion, const SessionOptions& options);
 
-  /// Adds a structure by its type, made of the simulator, the motion and these arguments, behind those there
-  /// are. Throws StructureRefusal where it is none of motions in this dimension.
+  /// Adds a structure by its type, after the existing ones. It is constructed from the simulator, the motion
+  /// and these arguments. Throws StructureRefusal if the structure has no constructor for motions of this
+  /// dimension.
   template <std::derived_from<KineticStructure> Structure, class... Arguments>
   Structure& add(const Arguments&... arguments);
-  /// Before it is built: the structure is of these beads only. Throws StructureRefusal where its beads cannot
-  /// come and go, or there is no such bead, or it is left out already; then nothing is changed.
+  /// Restricts a structure to these beads. Must be called before it is built. Throws StructureRefusal, and
+  /// changes nothing, if beads of this structure cannot be left out, if a bead does not exist, or if a bead
+  /// is left out already.
   void keep_only(std::size_t structure, std::span<const BeadId> beads);
 
   /// Sets the motion to that of the step.
   void load(std::size_t step);
-  /// The motion; null where its owner sets it.
+  /// Returns the motion, or null if its owner sets it.
   [[nodiscard]] SceneMotion* motion() { return motion_.get(); }
   [[nodiscard]] Simulator& simulator() { return simulator_; }
-  /// In the order in which they act.
+  /// Returns the structures in the order in which they act.
   [[nodiscard]] const std::vector<KineticStructure*>& structures() const { return kinetic_; }
-  /// All structures at a frame that has just been reached (or, frame 0, built).
+  /// Returns the dumps of all structures at a frame just reached (frame 0: just built).
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const;
-  /// What a structure was built as: the changes that would make it of nothing (RunningStructure::built), as
-  /// events at the first frame.
+  /// Returns the changes that build a structure from nothing (RunningStructure::built), as events at the
+  /// first frame.
   [[nodiscard]] std::vector<Event> built(std::size_t structure) const;
-  /// The spheres of a structure's nodes now, at time u of the step (RunningStructure::spheres_at).
+  /// Returns the spheres of a structure's nodes now, at time u of the step (RunningStructure::spheres_at).
   [[nodiscard]] std::vector<NodeSphere> spheres_at(std::size_t structure, const Dyadic& u) const;
-  /// What a structure is there, to be compared from frame to frame (RunningStructure::elements).
+  /// Returns the combinatorial elements of a structure, which can be compared from frame to frame
+  /// (RunningStructure::elements).
   [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t structure, std::size_t frame) const;
-  /// Builds the same structures statically at a frame; adds the seconds, one entry a structure.
+  /// Builds all structures statically at a frame, and adds the time of each to its entry in `seconds`.
   void time_static_builds(std::size_t frame, std::vector<double>& seconds) const;
 
  private:
@@ -86,7 +90,7 @@ class Session {
   std::vector<KineticStructure*> kinetic_;
 };
 
-/// A structure that is no more to a run than what the simulator drives.
+/// A structure for which a run needs nothing beyond the interface to the simulator.
 template <class Structure>
 class StructureByType final : public RunningStructure {
  public:
@@ -123,7 +127,7 @@ Structure& Session::add(const Arguments&... arguments) {
   return static_cast<Structure&>(*kinetic_.back());
 }
 
-/// The names of those the scene has by default.
+/// Returns the names of the structures that the scene has by default.
 [[nodiscard]] std::vector<std::string> default_structures(const Scene& scene);
 
 }  // namespace kds

@@ -27,7 +27,8 @@ class WrappedInRun final : public RunningStructure {
 
   [[nodiscard]] KineticStructure& kinetic() override { return hierarchy_; }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const override {
-    // A basis as events tell it may have beads to spare at the frame itself; its sphere needs one without.
+    // At a frame, the basis from events may contain beads that the sphere does not need; the sphere must be
+    // computed from a basis without them.
     const std::vector<Basis> bases = hierarchy_.bases_at(Dyadic(frame == 0 ? 0.0 : 1.0));
     const Balls<Dimension> balls(scene_.centers(frame), scene_.radii());
     std::vector<WrappedNode> nodes;
@@ -68,7 +69,8 @@ class WrappedInRun final : public RunningStructure {
   }
 
  private:
-  /// So that it holds all beads of the node, rounded as its numbers are: each by 2^-52 of itself.
+  /// Enlarges the sphere so that it contains all beads of the node. Each of its numbers may be rounded by
+  /// 2^-52 of itself.
   void enlarge(Sphere& sphere) const {
     constexpr double rounding = 0x1p-49;
     sphere.radius = sphere.radius * (1 + hierarchy_.relaxation().share()) * (1 + rounding) +
@@ -86,7 +88,7 @@ class WrappedChordsInRun final : public ChordsInRun<StaticWrappedHierarchy<Dimen
  public:
   using ChordsInRun<StaticWrappedHierarchy<Dimension>>::ChordsInRun;
 
-  /// The cages, which hold the beads exactly.
+  /// Dumps the cages, which contain the beads exactly.
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override {
     const StaticWrappedHierarchy<Dimension>& at_frame = this->cages().hierarchy();
     const auto cages = this->cages().cages(this->cages().last());

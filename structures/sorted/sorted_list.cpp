@@ -32,7 +32,7 @@ void SortedList<D>::build() {
   const Curves<D> curves = motion_.curves();
   present_.structure_is_built();
   order_ = present_.all();
-  // The first control points that differ decide just after u = 0.
+  // Just after u = 0, the first control points that differ decide.
   std::stable_sort(order_.begin(), order_.end(), [&](BeadId a, BeadId b) {
     int k = 0;
     while (k < curves.own_degree() && curves.coordinate(a, k, 0) == curves.coordinate(b, k, 0)) ++k;
@@ -55,7 +55,7 @@ void SortedList<D>::fail(unsigned, std::uint32_t slot) {
   guard_all();
 }
 
-/// Guards the pairs that wait for it; one that is out of order just after now trades places at once.
+/// Guards all pairs that have no guard. A pair that is out of order just after now trades places at once.
 template <int D>
 void SortedList<D>::guard_all() {
   while (!unguarded_.empty()) {
@@ -88,7 +88,7 @@ void SortedList<D>::give_up(std::size_t i) {
   unguarded_.push_back(i);
 }
 
-// Beads that come, go and change course.
+// Edits: beads are inserted, erased, or change course.
 
 template <int D>
 std::size_t SortedList<D>::place_for(BeadId bead) {
@@ -114,7 +114,7 @@ void SortedList<D>::insert(BeadId bead) {
   guards_.insert(guards_.begin() + static_cast<std::ptrdiff_t>(guard), CertificateHandle::violated);
   renumber_from(guard + 1);
   give_up(guard);
-  if (i > 0 && i + 1 < order_.size()) give_up(i - 1);  // the pair that it comes between
+  if (i > 0 && i + 1 < order_.size()) give_up(i - 1);  // the bead separates this pair
   guard_all();
 }
 
@@ -130,7 +130,7 @@ void SortedList<D>::erase(BeadId bead) {
   table_.drop(guards_[guard]);
   guards_.erase(guards_.begin() + static_cast<std::ptrdiff_t>(guard));
   renumber_from(guard);
-  if (i > 0 && i < order_.size()) give_up(i - 1);  // the pair that it stood between
+  if (i > 0 && i < order_.size()) give_up(i - 1);  // the bead separated this pair
   guard_all();
 }
 
@@ -147,7 +147,7 @@ std::size_t SortedList<D>::take_out(BeadId bead) {
   return static_cast<std::size_t>(order_.erase(at) - order_.begin());
 }
 
-/// Certificates know the places of their pairs.
+/// Updates the places stored with the certificates of the pairs from i on.
 template <int D>
 void SortedList<D>::renumber_from(std::size_t i) {
   for (; i < guards_.size(); ++i) table_.set_place(guards_[i], static_cast<std::uint32_t>(i));

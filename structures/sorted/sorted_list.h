@@ -1,7 +1,8 @@
 #pragma once
-// Beads sorted along the first axis, kept sorted while they move: the smallest complete kinetic structure,
-// and the one to read first, with its .cpp. One certificate a pair of neighbours; when it fails they trade
-// places. Beads come, go and change course at the cost of a few certificates and a shift of the list.
+// Beads sorted along the first axis, kept sorted while they move. This is the smallest complete kinetic
+// structure; read it first, together with its .cpp. Each pair of neighbours has one certificate; when it
+// fails, the two beads trade places. Inserting, erasing or redirecting a bead costs a few certificates and a
+// shift of the list.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,8 +19,8 @@ namespace kds {
 template <int Dimension>
 class SortedList final : public KineticStructure, public BeadEdits {
  public:
-  /// Kinds of its events; ids: the bead that was first, the other; a bead that comes, and the one before it
-  /// or no_bead; one that goes; one on another curve.
+  /// Kinds of events, with these ids: `interchanges`, the bead that was first, then the other; `inserts`, the
+  /// bead, then the bead before it or no_bead; `erases`, the bead; `changes`, the bead on another curve.
   enum Kind : std::uint8_t { interchanges, inserts, erases, changes };
 
   SortedList(Simulator& simulator, const MotionRef<Dimension>& motion);
@@ -42,7 +43,7 @@ class SortedList final : public KineticStructure, public BeadEdits {
  private:
   void release(std::span<const BeadId> beads) override;
   void take_up(std::span<const BeadId> beads) override;
-  /// Where a bead that is absent belongs just after now.
+  /// Returns the place in the order where an absent bead belongs just after now.
   [[nodiscard]] std::size_t place_for(BeadId bead);
   void put_in(std::size_t i, BeadId bead);
   std::size_t take_out(BeadId bead);
@@ -58,7 +59,7 @@ class SortedList final : public KineticStructure, public BeadEdits {
   CertificateTable<Precedes> table_;
   PresentBeads<Dimension> present_;
   std::vector<BeadId> order_;
-  std::vector<CertificateHandle> guards_;  // of the pair at i and i+1; violated: none yet
+  std::vector<CertificateHandle> guards_;  // for the pair at i and i+1; violated: no guard
   std::vector<std::size_t> unguarded_;
 };
 

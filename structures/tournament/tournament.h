@@ -1,15 +1,16 @@
 #pragma once
-// Kinetic tournament: which of some contestants is ahead of all others, kept while they move. The contestants
-// are the leaves of a balanced binary tree; every inner node has the winner of its two children, and one
-// certificate that says so: the winner is ahead of the loser. So the root's winner is ahead of all. When a
-// certificate fails the loser wins there, and its contests further up are held anew, as far as they change:
-// n - 1 certificates, of a contestant at most one a level.
+// Kinetic tournament tree: keeps the contestant that is ahead of all others while the contestants move. The
+// contestants are the leaves of a balanced binary tree. Every inner node stores the winner of its two
+// children and one certificate, which states that the winner is ahead of the loser. So the root's winner is
+// ahead of all others. When a certificate fails, the loser wins at this node, and the contests above it are
+// updated as far as their winners change. There are n - 1 certificates, and at most one on each level names a
+// given contestant.
 //
-// Contestants may be absent: who would meet one wins unopposed, without a certificate. One that comes, goes
-// or changes course while time runs costs at most the contests on one way to the root, held anew at that
-// time.
+// Contestants may be absent: the opponent of an absent contestant wins without a certificate. A contestant
+// that is inserted, erased or changes course during a step costs at most the contests on one path to the
+// root, which are then held anew.
 //
-// Of contestants level with each other for the rest of a step the least wins.
+// If contestants are level with each other for the rest of a step, the least of them wins.
 
 #include <algorithm>
 #include <bit>
@@ -24,7 +25,8 @@
 
 namespace kds {
 
-/// Ahead makes of two contestants, numbered from 0, the certificate that holds while the first is ahead.
+/// `Ahead` takes two contestants, numbered from 0, and makes the certificate that holds while the first is
+/// ahead.
 template <std::invocable<std::uint32_t, std::uint32_t> Ahead>
 class Tournament {
  public:
@@ -32,12 +34,12 @@ class Tournament {
 
   static constexpr std::uint32_t nobody = 0xffffffffU;
 
-  /// Several may share a table: this one's places in it are `which`, `which` + `of`, ...
+  /// Several tournaments may share a table: the places of this one are `which`, `which` + `of`, ...
   Tournament(CertificateTable<Certificate>& table, Ahead ahead, std::uint32_t which = 0, std::uint32_t of = 1)
       : table_(table), ahead_(std::move(ahead)), which_(which), of_(of) {}
 
-  /// When a step starts, or, all contests being given up, within it: among so many contestants, but for those
-  /// that are marked as absent, if any are.
+  /// Starts the tournament at the start of a step, or within it after give_up_all. Its contestants are 0 ...
+  /// contestants-1, except those marked in `absent`, if any are marked.
   void start(std::uint32_t contestants, std::span<const char> absent = {}) {
     contestants_ = contestants;
     winner_.resize(2 * std::size_t{contestants});
@@ -48,7 +50,7 @@ class Tournament {
       hold_contests(first, std::min(2 * first, contestants));
   }
 
-  /// There must have been contestants; nobody where all are absent.
+  /// Returns the winner, or `nobody` if all contestants are absent. There must be at least one contestant.
   [[nodiscard]] std::uint32_t winner() const { return winner_[1]; }
 
   /// The contest at a place of the table.
@@ -59,7 +61,7 @@ class Tournament {
     const std::uint32_t node = place / of_;
     return {winner_[node], loser(node)};
   }
-  /// The certificate at this place fails now.
+  /// Handles the failure, at the present time, of the certificate at this place.
   void fail(std::uint32_t place) {
     std::uint32_t node = place / of_;
     guards_[node] = CertificateHandle::violated;
@@ -74,8 +76,8 @@ class Tournament {
     } while (winner_[node] != before);
   }
 
-  // Contestants that come, go and change course: first all of them give up their contests, then what they are
-  // about is other, then these are held again.
+  // Edits: all contestants that are inserted, erased or change course first give up their contests; then
+  // their curves change; then hold_again holds these contests again.
 
   void give_up(std::uint32_t contestant) {
     for (std::uint32_t node = (contestants_ + contestant) / 2; node > 0; node /= 2) {
@@ -107,7 +109,7 @@ class Tournament {
     }
   }
 
-  /// Calls `visit` with the two of every contest.
+  /// Calls `visit` with the two contestants of every contest.
   template <std::invocable<std::uint32_t, std::uint32_t> Visit>
   void each_contest(Visit visit) const {
     for (std::uint32_t node = 1; node < contestants_; ++node)
@@ -115,16 +117,16 @@ class Tournament {
   }
 
  private:
-  // Node 1 is the root, 2i and 2i + 1 are the children of i, and leaves follow on the inner nodes.
+  // Node 1 is the root, nodes 2i and 2i + 1 are the children of i, and the leaves follow the inner nodes.
 
   [[nodiscard]] std::uint32_t left(std::uint32_t node) const { return winner_[2 * std::size_t{node}]; }
   [[nodiscard]] std::uint32_t right(std::uint32_t node) const { return winner_[2 * std::size_t{node} + 1]; }
-  /// Nobody where the winner is unopposed.
+  /// Returns the loser, or `nobody` if the winner is unopposed.
   [[nodiscard]] std::uint32_t loser(std::uint32_t node) const {
     return winner_[node] == left(node) ? right(node) : left(node);
   }
 
-  /// One of its children's: who won it before, if possible.
+  /// Chooses one of the children's winners: the previous winner of this node, if possible.
   void enter_contest(std::uint32_t node) {
     if (winner_[node] == right(node) && right(node) != nobody) return;
     winner_[node] = left(node) != nobody ? left(node) : right(node);
@@ -152,14 +154,14 @@ class Tournament {
     if (!stands(node)) turn(node);
   }
 
-  /// The other wins.
+  /// Makes the other contestant win.
   void turn(std::uint32_t node) {
     table_.drop(guards_[node]);
     winner_[node] = loser(node);
     guards_[node] = watch(node, KnownAtStart::unknown);
   }
 
-  /// Those of nodes on one level, all at once.
+  /// Holds the contests of nodes on one level, all at once.
   void hold_contests(std::uint32_t first, std::uint32_t end) {
     for (std::uint32_t node = first; node < end; ++node) {
       enter_contest(node);
@@ -176,9 +178,9 @@ class Tournament {
   Ahead ahead_;
   std::uint32_t which_, of_;
   std::uint32_t contestants_ = 0;
-  std::vector<std::uint32_t> winner_;      // of a node
-  std::vector<CertificateHandle> guards_;  // of an inner node's contest; violated: none
-  std::vector<std::uint32_t> given_up_;    // nodes whose contests are to be held again
+  std::vector<std::uint32_t> winner_;      // for each node
+  std::vector<CertificateHandle> guards_;  // for each inner node's contest; violated: no guard
+  std::vector<std::uint32_t> given_up_;    // nodes whose contests must be held again
 };
 
 }  // namespace kds

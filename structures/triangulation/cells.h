@@ -1,5 +1,6 @@
 #pragma once
-// Cells of a regular triangulation in the plane or in space, by name, and a static one as a list of them.
+// The cells of a regular triangulation in the plane or in space: their names and data, and static
+// triangulations as lists of cells.
 
 #include <array>
 #include <cstddef>
@@ -17,23 +18,23 @@ inline constexpr CellId no_cell = std::numeric_limits<CellId>::max();
 template <int Dimension>
 using CellBeads = std::array<BeadId, static_cast<std::size_t>(Dimension) + 1>;
 
-/// The facet opposite to vertex i of a cell, as that cell has it: 4 cell + i.
+/// The facet opposite to vertex i of a cell, named as a facet of this cell: 4 cell + i.
 using FacetId = std::uint32_t;
 [[nodiscard]] constexpr FacetId facet_id(CellId cell, int i) { return 4 * cell + static_cast<FacetId>(i); }
 [[nodiscard]] constexpr CellId cell_of(FacetId facet) { return facet / 4; }
 [[nodiscard]] constexpr int index_of(FacetId facet) { return static_cast<int>(facet % 4); }
 
-/// In space just a cache line.
+/// One cell of a triangulation. In space it fills exactly one cache line.
 template <int Dimension>
 struct alignas(Dimension == 3 ? 64 : 4) TriangulationCell {
   CellBeads<Dimension> vertex{};
   std::array<FacetId, static_cast<std::size_t>(Dimension) + 1>
-      beyond{};                 ///< its facets as the neighbours have them
+      beyond{};                 ///< its facets, named as facets of the neighbours
   CellBeads<Dimension> apex{};  ///< the bead beyond each facet
-  /// What the triangulation's owner notes of its facets. 0 where a cell is new; flips leave it as it is.
+  /// Data that the triangulation's owner stores for each facet. 0 in a new cell; flips leave it unchanged.
   std::array<std::uint32_t, static_cast<std::size_t>(Dimension) + 1> note{};
 
-  /// dimension + 1 where the bead is no vertex.
+  /// Returns the place of the bead, or Dimension + 1 if the bead is not a vertex.
   [[nodiscard]] int place_of(BeadId bead) const {
     int place = 0;
     while (place <= Dimension && vertex[static_cast<std::size_t>(place)] != bead) ++place;
@@ -41,12 +42,12 @@ struct alignas(Dimension == 3 ? 64 : 4) TriangulationCell {
   }
 };
 
-/// Cells of a static triangulation, and beads without a cell of their own in the power diagram.
+/// Cells of a static triangulation, and the beads that have no cell of their own in the power diagram.
 template <int Dimension>
 struct StaticTriangulation {
-  std::vector<CellBeads<Dimension>> cells;  ///< positively oriented; infinite ones too where asked for
+  std::vector<CellBeads<Dimension>> cells;  ///< positively oriented; infinite ones only if requested
   std::vector<BeadId> hidden;               ///< ascending
-  int dimension = Dimension;                ///< of the points' affine hull; no cells below the space's own
+  int dimension = Dimension;                ///< of the points' affine hull; no cells if below Dimension
 };
 
 }  // namespace kds

@@ -1,5 +1,5 @@
 #pragma once
-// CGAL's two regular triangulations under one set of names. For the few files that see CGAL.
+// CGAL's two regular triangulations under common names. Include it only in the few files that use CGAL.
 
 #include <CGAL/Regular_triangulation_2.h>
 #include <CGAL/Regular_triangulation_3.h>
@@ -20,7 +20,7 @@
 
 namespace kds {
 
-/// The name of a vertex or cell: none while CGAL alone knows it.
+/// The name of a vertex or cell; `none` while only CGAL knows the vertex or cell.
 template <class Id, Id none>
 class Name {
  public:
@@ -34,7 +34,7 @@ class Name {
 using VertexName = Name<BeadId, no_bead>;
 using CellName = Name<CellId, no_cell>;
 
-/// Vertices know their bead, cells their id.
+/// Vertices store their bead, cells their id.
 template <class Geometry, int Dimension>
 struct CgalTriangulation;
 
@@ -73,7 +73,8 @@ struct CgalTriangulation<Geometry, 2> {
   static Cell cell_beside(VertexHandle v) {
     return v->face();
   }
-  /// Whether a point would be in the power circle of a cell's beads where these are `moved`, or on it.
+  /// Returns whether a point would lie inside or on the power circle of the cell's beads at their positions
+  /// `moved`.
   template <class Moved, class Point>
   static bool in_power_sphere(const CellBeads<2>& cell, const Moved& moved, const Point& point) {
     return typename Geometry::Power_side_of_oriented_power_circle_2()(
@@ -118,7 +119,8 @@ struct CgalTriangulation<Geometry, 3> {
   static Cell cell_beside(VertexHandle v) {
     return v->cell();
   }
-  /// Whether a point would be in the power sphere of a cell's beads where these are `moved`, or on it.
+  /// Returns whether a point would lie inside or on the power sphere of the cell's beads at their positions
+  /// `moved`.
   template <class Moved, class Point>
   static bool in_power_sphere(const CellBeads<3>& cell, const Moved& moved, const Point& point) {
     return

@@ -9,8 +9,7 @@ template <int Dimension>
 DiagramEdges edges_of(const RegularTriangulation<Dimension>& triangulation, std::size_t beads,
                       std::vector<BeadId> hidden) {
   const auto cells = triangulation.cells();
-  // Each pair of a cell's beads, lower first, in a list for the lower: an edge comes as often as it has
-  // cells.
+  // List each pair of a cell's beads under its lower bead. An edge is listed once for each of its cells.
   std::vector<std::size_t> start(beads + 1, 0);
   const auto for_pairs = [&](auto visit) {
     for (CellId c = 0; c < cells.size(); ++c) {

@@ -1,5 +1,5 @@
 #pragma once
-// The edges of a regular triangulation: the pairs of beads whose power cells share a face.
+// The edges of a regular triangulation: pairs of beads whose power cells share a face.
 
 #include <Eigen/Core>
 #include <span>
@@ -11,18 +11,18 @@
 namespace kds {
 
 struct DiagramEdges {
-  BeadPairs edges;             ///< of all beads; hidden ones have none
+  BeadPairs edges;             ///< of all beads; a hidden bead has none
   std::vector<BeadId> hidden;  ///< ascending
 };
 
-/// The edges of a kinetic triangulation, which must have cells; `hidden` are those of its beads 0 ... beads-1
-/// that are. Time linear in the cells.
+/// Returns the edges of a kinetic triangulation of the beads 0 ... beads-1, which must have cells; `hidden`
+/// lists its hidden beads. Takes time linear in the number of cells.
 template <int Dimension>
 [[nodiscard]] DiagramEdges edges_of(const RegularTriangulation<Dimension>& triangulation, std::size_t beads,
                                     std::vector<BeadId> hidden);
 
-/// The edges of the diagram that CGAL builds from doubles with exact predicates, also where the beads span
-/// less than the space. Centres have three rows; in the plane the third is not looked at.
+/// Returns the edges of the diagram that CGAL builds from doubles with exact predicates. The beads may span
+/// less than the space. Centres have three rows; the third is ignored in the plane.
 template <int Dimension>
 [[nodiscard]] DiagramEdges static_edges(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
 

@@ -15,8 +15,8 @@ namespace kds {
 
 namespace {
 
-/// A power test of whole numbers, after CGAL's own filter: what CGAL does with rationals takes several times
-/// as long.
+/// A power test of points with integer coordinates, used if CGAL's own filter fails. CGAL's power test with
+/// rationals takes several times as long.
 struct ExactPowerTest {
   using result_type = CGAL::Oriented_side;
 
@@ -47,8 +47,8 @@ struct ExactPowerTest {
   }
 };
 
-/// Rationals, each with an interval around it. (Points that know their numbers only on demand, as CGAL's own
-/// exact kernel has them, are made anew for each predicate.)
+/// A kernel of lazy rationals, each with an enclosing interval. (CGAL's own exact kernel has lazy points
+/// instead, which would be constructed anew for each predicate.)
 using Rationals = CGAL::Filtered_kernel<CGAL::Simple_cartesian<CGAL::Lazy_exact_nt<CGAL::Epeck_ft>>, false>;
 
 struct AsItIs {
@@ -61,7 +61,7 @@ struct AsItIs {
 template <class Approximate>
 using FilteredPowerTest = CGAL::Filtered_predicate<ExactPowerTest, Approximate, AsItIs, Rationals::C2F>;
 
-/// CGAL's exact numbers for points whose coordinates are whole.
+/// CGAL's exact numbers for points with integer coordinates.
 struct Geometry : Rationals {
   struct Power_side_of_oriented_power_sphere_3 : Rationals::Power_side_of_oriented_power_sphere_3 {
     using Rationals::Power_side_of_oriented_power_sphere_3::operator();
@@ -86,11 +86,12 @@ struct Geometry : Rationals {
   }
 };
 
-// Twos in the denominator.
+// Returns the exponent of two in the denominator.
 mp_bitcnt_t binary_places(const Rational& x) { return mpz_scan1(mpq_denref(x.data()), 0); }
 
-// Lengths are taken times two to this power: dyadic numbers are whole then, which CGAL's rationals need no
-// common divisors for. The triangulation stays as it is.
+// Returns the exponent of the power of two by which lengths are multiplied. Dyadic numbers then become
+// integers, for which CGAL's rationals need no common divisors. The scaling does not change the
+// triangulation.
 mp_bitcnt_t places_of(std::span<const ExactBead> beads) {
   mp_bitcnt_t places = 0;
   for (const ExactBead& b : beads) {
@@ -111,7 +112,7 @@ Geometry::FT to_cgal(const Rational& x, mp_bitcnt_t places) {
 
 }  // namespace kds
 
-/// Points are looked for as over CGAL's own exact numbers.
+/// Point location filters as it does for CGAL's own exact numbers.
 template <>
 struct CGAL::Triangulation_structural_filtering_traits<kds::Geometry>
     : CGAL::Triangulation_structural_filtering_traits<CGAL::Epeck> {};

@@ -1,5 +1,5 @@
 #pragma once
-// Static regular triangulations of exact positions: for audits between events, and rebuilds there.
+// Static regular triangulations of exact positions, for audits between events and for rebuilds.
 
 #include <array>
 #include <span>
@@ -9,13 +9,14 @@
 
 namespace kds {
 
-/// Position and weight of a bead at one time, exactly.
+/// Exact position and weight of a bead at one time.
 struct ExactBead {
   std::array<Rational, 3> center;
   Rational weight;
 };
 
-/// Built by CGAL with exact numbers. With `oriented`, infinite cells too, as they are; else as from doubles.
+/// Returns the triangulation built by CGAL with exact numbers. If `oriented`, infinite cells are included and
+/// cells keep their orientation; otherwise the result has the same form as the one built from doubles.
 template <int Dimension>
 [[nodiscard]] StaticTriangulation<Dimension> static_triangulation(std::span<const ExactBead> beads,
                                                                   bool oriented);

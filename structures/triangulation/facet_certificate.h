@@ -1,6 +1,6 @@
 #pragma once
-// What guards a facet of a regular triangulation: the power test of its two cells' beads, or, where the
-// infinite vertex is among them, the orientation of the others (the hull is locally convex there).
+// The certificate of a facet of a regular triangulation: the power test of its two cells' beads or, if the
+// infinite vertex is among them, the orientation of the other beads (the hull is locally convex there).
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@
 
 namespace kds {
 
-/// The certificates of a cell's facets: its beads are sorted once for all of them.
+/// The certificates of a cell's facets. The cell's beads are sorted only once for all facets.
 template <std::size_t N>
 class FacetCertificates {
  public:
@@ -19,7 +19,7 @@ class FacetCertificates {
   [[gnu::always_inline]] explicit FacetCertificates(const std::array<BeadId, N>& cell)
       : sorted_(cell), sign_(sort_beads(sorted_)) {}
 
-  /// Calls `use` with the certificate of the facet to the cell with this apex beyond it.
+  /// Calls `use` with the certificate of the facet whose other cell has the vertex `apex` opposite to it.
   template <class Use>
   [[gnu::always_inline]] decltype(auto) to(BeadId apex, Use use) const {
     if (!on_hull(apex)) {
@@ -31,8 +31,8 @@ class FacetCertificates {
     make(apex, orientation);
     return use(orientation);
   }
-  /// What `to` does, in two parts and without a call: whether the certificate is an orientation, and `make`,
-  /// which makes it in place.
+  /// Same as `to`, in two parts and without a call: `on_hull` returns whether the certificate is an
+  /// orientation, and `make` constructs the certificate in place.
   [[nodiscard, gnu::always_inline]] bool on_hull(BeadId apex) const {
     return sorted_.back() == infinite_bead || apex == infinite_bead;
   }
@@ -44,7 +44,8 @@ class FacetCertificates {
   [[gnu::always_inline]] void make(BeadId apex, Orientation<dimension>& orientation) const {
     auto beads = with(apex);
     orientation.sign = sign_ * sort_last_bead(beads);
-    // Sorted, infinity is last: a row (0, ..., 0, 1) there leaves the determinant of the others.
+    // After sorting, the infinite vertex is last. Its row (0, ..., 0, 1) reduces the determinant to that of
+    // the other beads.
     std::copy(beads.begin(), beads.end() - 1, orientation.beads.begin());
   }
 

@@ -1,7 +1,7 @@
 #pragma once
-// The hidden beads of a power diagram, those without a cell of their own. Each has a host, the cell of the
-// triangulation that its centre is in, or none known. Flat arrays, and a list through the beads for each
-// cell.
+// The hidden beads of a power diagram, which have no cell of their own. Each hidden bead has a host, the
+// cell of the triangulation that contains its centre, or no known host. Stored in flat arrays, with a linked
+// list of the hidden beads in each cell.
 
 #include <algorithm>
 #include <cstdint>
@@ -20,7 +20,7 @@ struct HiddenBead {
 
 class HiddenBeads {
  public:
-  /// These are hidden, hosts unknown; all others are visible.
+  /// Makes exactly the beads `hidden` hidden, with unknown hosts.
   void assign(std::size_t beads, std::span<const BeadId> hidden) {
     count_ = hidden.size();
     host_.assign(beads, no_cell);
@@ -34,7 +34,7 @@ class HiddenBeads {
   [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] bool contains(BeadId bead) const { return is_hidden_[bead] != 0; }
   [[nodiscard]] CellId host(BeadId bead) const { return host_[bead]; }
-  /// Ascending.
+  /// Returns the hidden beads, ascending.
   [[nodiscard]] std::vector<BeadId> beads() const {
     std::vector<BeadId> beads;
     for (BeadId b = 0; b < is_hidden_.size() && beads.size() < count_; ++b) {
@@ -42,7 +42,7 @@ class HiddenBeads {
     }
     return beads;
   }
-  /// The hidden beads, ascending, with their hosts.
+  /// Returns the hidden beads, ascending, with their hosts.
   [[nodiscard]] std::vector<HiddenBead> with_hosts() const {
     std::vector<HiddenBead> hidden;
     for (const BeadId b : beads()) hidden.push_back({b, host_[b]});
@@ -65,7 +65,7 @@ class HiddenBeads {
     next_[bead] = first_[cell];
     first_[cell] = bead;
   }
-  /// All leave this cell, and are appended to `beads`.
+  /// Removes all hidden beads from this cell and appends them to `beads`.
   void empty_out(CellId cell, std::vector<BeadId>& beads) {
     if (cell >= first_.size()) return;
     for (BeadId b = first_[cell]; b != no_bead; b = next_[b]) {
@@ -86,9 +86,9 @@ class HiddenBeads {
 
   std::size_t count_ = 0;
   std::vector<char> is_hidden_;
-  std::vector<CellId> host_;   // of each bead
-  std::vector<BeadId> next_;   // in its host
-  std::vector<BeadId> first_;  // in each cell
+  std::vector<CellId> host_;   // for each bead
+  std::vector<BeadId> next_;   // the next bead in the same host
+  std::vector<BeadId> first_;  // the first bead in each cell
 };
 
 }  // namespace kds

@@ -1,5 +1,5 @@
 #pragma once
-// Faces of a triangulation's hull: the finite facets of its infinite cells.
+// The faces of a triangulation's hull, which are the finite facets of its infinite cells.
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,8 @@
 
 namespace kds {
 
-/// The finite facet of an infinite cell, positive seen from outside; none of a finite cell.
+/// Returns the finite facet of an infinite cell, positively oriented seen from outside. Returns nothing for a
+/// finite cell.
 template <int Dimension>
 [[nodiscard]] std::optional<std::array<BeadId, Dimension>> hull_face(const CellBeads<Dimension>& v) {
   const auto place = static_cast<std::size_t>(std::find(v.begin(), v.end(), infinite_bead) - v.begin());
@@ -20,7 +21,7 @@ template <int Dimension>
   std::copy(v.begin(), v.end() - 1, face.begin());
   if (place != Dimension) {
     face[place] = v[Dimension];
-    std::swap(face[0], face[1]);  // one exchange made good by another
+    std::swap(face[0], face[1]);  // a second exchange restores the orientation
   }
   return face;
 }

@@ -55,7 +55,7 @@ void RegularTriangulation<Dimension>::make_mirror() {
   forget_hidden_points();
 }
 
-/// CGAL keeps hidden points with its cells, which flips would not keep up.
+/// CGAL stores hidden points in its cells, and flips would not keep these lists correct.
 template <int Dimension>
 void RegularTriangulation<Dimension>::forget_hidden_points() {
   if constexpr (Dimension == 3) {
@@ -88,7 +88,7 @@ void RegularTriangulation<Dimension>::assign(std::size_t beads, std::span<const 
   infinite->info() = infinite_bead;
   triangulation.set_infinite_vertex(infinite);
   cgal_->vertex.assign(beads, {});
-  // Facets of two cells meet here by their beads.
+  // Matches the two cells of each facet by the facet's beads.
   std::map<std::array<BeadId, Dimension>, std::pair<typename Cgal::CellHandle, int>> open;
   for (const Beads& beads_of_cell : oriented_cells) {
     const auto c = Types::create_cell(tds);

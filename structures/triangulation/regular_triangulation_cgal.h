@@ -1,5 +1,6 @@
 #pragma once
-// CGAL's side of a RegularTriangulation, from doubles with exact predicates. For the few files that see CGAL.
+// The CGAL part of a RegularTriangulation, built from doubles with exact predicates. Include it only in the
+// few files that use CGAL.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -48,19 +49,19 @@ struct RegularTriangulation<Dimension>::Cgal {
   using VertexHandle = typename Triangulation::Vertex_handle;
 
   Triangulation triangulation;
-  std::vector<VertexHandle> vertex;  // of each bead
-  std::vector<CellHandle> cell;      // of each id; none where there is no such cell
-  // What the mirror is ahead by.
-  std::vector<BeadId> turned;  // beads that have become vertices, or are none any more
+  std::vector<VertexHandle> vertex;  // for each bead
+  std::vector<CellHandle> cell;      // for each id; empty if there is no such cell
+  // Changes of the mirror that are not yet copied.
+  std::vector<BeadId> turned;  // beads that became vertices or stopped being vertices
   std::vector<CellId> changed;
-  std::vector<char> is_turned, is_changed;  // of each bead, of each id
+  std::vector<char> is_turned, is_changed;  // for each bead, for each id
 
   [[nodiscard]] VertexHandle handle(BeadId bead) const {
     if (bead == infinite_bead) return triangulation.infinite_vertex();
     return bead < vertex.size() ? vertex[bead] : VertexHandle();
   }
 
-  /// Made if there is none yet.
+  /// Returns the vertex of a bead, and creates it if needed.
   VertexHandle vertex_of(BeadId bead) {
     if (vertex[bead] == VertexHandle()) {
       vertex[bead] = triangulation.tds().create_vertex();
@@ -75,14 +76,14 @@ struct RegularTriangulation<Dimension>::Cgal {
     c->info() = id;
   }
 
-  /// A cell is made or goes.
+  /// Notes that a cell was created or removed.
   void change(CellId id) {
     grow_little(is_changed, id + 1);
     if (is_changed[id] != 0) return;
     is_changed[id] = 1;
     append_little(changed, id);
   }
-  /// A bead becomes a vertex, or is none any more.
+  /// Notes that a bead became a vertex or stopped being one.
   void turn(BeadId bead) {
     grow_little(is_turned, bead + std::size_t{1});
     if (is_turned[bead] != 0) return;
@@ -97,7 +98,7 @@ struct RegularTriangulation<Dimension>::Cgal {
     std::fill(is_changed.begin(), is_changed.end(), char{0});
   }
 
-  /// Makes here what the mirror has.
+  /// Copies all changes of the mirror into CGAL's structure.
   void follow(std::span<const TriangulationCell<Dimension>> cells, std::span<const char> live,
               std::span<const std::uint32_t> cells_at) {
     auto& tds = triangulation.tds();
@@ -137,7 +138,8 @@ struct RegularTriangulation<Dimension>::Cgal {
     }
   }
 
-  /// Copies cells into the mirror, and themselves into their neighbours there, whose beads it has already.
+  /// Copies these cells into the mirror and links them with their neighbours. The mirror must already have
+  /// the beads of all other cells.
   template <class Cells>
   void mirror(const Cells& some, std::vector<TriangulationCell<Dimension>>& cells) const {
     for (const CellHandle c : some) cells[c->info()].vertex = beads_of<Dimension>(c);
@@ -145,7 +147,7 @@ struct RegularTriangulation<Dimension>::Cgal {
   }
 
  private:
-  // Cells lie anywhere in memory.
+  // Prefetches a cell, because cells are scattered in memory.
   void fetch(CellId id, std::span<const TriangulationCell<Dimension>> cells) const {
     __builtin_prefetch(&cells[id]);
     if (cell[id] == CellHandle()) return;

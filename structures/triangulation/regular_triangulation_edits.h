@@ -1,5 +1,5 @@
 #pragma once
-// Part of RegularTriangulation: cells that others replace, beads taken out and put in.
+// Part of RegularTriangulation: replaces cells by others, and removes and inserts beads.
 
 #include <algorithm>
 #include <iterator>
@@ -18,7 +18,7 @@ auto RegularTriangulation<Dimension>::meetings(std::span<const CellId> old, std:
     std::array<BeadId, Dimension> beads;
     FacetId facet;
     bool stays;
-    bool even;  // of two cells that meet only one
+    bool even;  // true for exactly one of two cells that match
   };
   std::vector<Side> sides;
   const auto add = [&sides](const Beads& v, int i, FacetId facet, bool stays) {
@@ -81,7 +81,7 @@ std::vector<CellId> RegularTriangulation<Dimension>::replace(std::span<const Cel
   std::vector<BeadId> kept;
   for (const Beads& beads : oriented_cells) kept.insert(kept.end(), beads.begin(), beads.end());
   std::sort(kept.begin(), kept.end());
-  std::vector<BeadId> left;  // vertices that have no cell any more
+  std::vector<BeadId> left;  // vertices that lose all their cells
   for (const CellId c : old) {
     std::copy_if(cells_[c].vertex.begin(), cells_[c].vertex.end(), std::back_inserter(left),
                  [&](BeadId b) { return !std::binary_search(kept.begin(), kept.end(), b); });
@@ -120,7 +120,7 @@ std::vector<CellId> RegularTriangulation<Dimension>::replace(std::span<const Cel
   for (const auto c : made) {
     ids.push_back(new_cell());
     cgal_->name(c, ids.back());
-    cells_[ids.back()] = {};  // the notes of a cell that was there before, too
+    cells_[ids.back()] = {};  // also clears the notes of an earlier cell
   }
   cgal_->mirror(made, cells_);
   for (const CellId id : ids) {
@@ -147,7 +147,7 @@ void RegularTriangulation<Dimension>::put_in(std::span<const BeadId> beads, cons
     const auto v = triangulation.insert(weighted_point<Dimension>(centers, weights, bead), hint);
     if (v == typename Cgal::VertexHandle()) continue;
     last = v;
-    if (v->info() == no_bead) v->info() = bead;  // else a coincident bead has it
+    if (v->info() == no_bead) v->info() = bead;  // otherwise a coincident bead has this vertex
   }
   cgal_->vertex.assign(weights.size(), {});
   for (const auto v : triangulation.finite_vertex_handles()) cgal_->vertex[v->info()] = v;
@@ -164,7 +164,7 @@ std::vector<CellId> RegularTriangulation<Dimension>::mirror_changes() {
   std::fill(live_.begin(), live_.end(), 0);
   std::vector<typename Cgal::CellHandle> made;
   for (const auto c : Cgal::Types::all_cells(cgal_->triangulation)) {
-    // In the plane CGAL goes on using a cell for other beads: it is new.
+    // In the plane, CGAL reuses a cell for other beads: such a cell is new.
     if (c->info() != no_cell && beads_of<Dimension>(c) != cells_[c->info()].vertex) c->info() = no_cell;
     if (c->info() == no_cell) {
       made.push_back(c);
@@ -181,7 +181,7 @@ std::vector<CellId> RegularTriangulation<Dimension>::mirror_changes() {
   std::vector<CellId> ids;
   for (const auto c : made) {
     ids.push_back(new_cell());
-    cells_[ids.back()] = {};  // the notes of a cell that was there before, too
+    cells_[ids.back()] = {};  // also clears the notes of an earlier cell
     cgal_->name(c, ids.back());
   }
   cgal_->mirror(made, cells_);
@@ -199,11 +199,11 @@ auto RegularTriangulation<Dimension>::sample(const Eigen::Matrix3Xd& centers, st
   const auto moved = [&](BeadId bead) { return weighted_point<Dimension>(centers, weights, bead); };
   for (std::size_t b = turn % stride; b < cgal_->vertex.size(); b += stride) {
     if (cgal_->vertex[b] == typename Cgal::VertexHandle()) continue;
-    // Beside a bead lies one of its latest cells, of which more fail than of all: far enough from there, on a
-    // way without a pattern, it may be any.
+    // The cell stored at a vertex is one of its latest cells, which fail more often than others. After enough
+    // hops on a random walk, any cell may be reached.
     auto c = Cgal::Types::cell_beside(cgal_->vertex[b]);
     std::minstd_rand turns(static_cast<std::minstd_rand::result_type>(b + 1));
-    turns.discard(2);  // the first are much alike
+    turns.discard(2);  // the first numbers of similar seeds are similar
     for (std::size_t hop = 0; hop < 20; ++hop)
       c = c->neighbor(static_cast<int>(turns() / 64 % (Dimension + 1)));
     if (triangulation.is_infinite(c)) continue;

@@ -1,7 +1,7 @@
 #pragma once
-// Part of RegularTriangulation: flips. They look at the index mirror alone; CGAL's structure follows when it
-// is asked for. A cell with one vertex exchanged keeps the places of the others, so that what lies beyond
-// each new facet can be read off.
+// Part of RegularTriangulation: flips. They use only the mirror; CGAL's structure is updated when it is next
+// used. A cell that exchanges one vertex keeps the places of its other vertices, which determine the
+// neighbour across each new facet.
 
 #include "structures/triangulation/regular_triangulation_cgal.h"
 
@@ -81,7 +81,7 @@ std::array<CellId, static_cast<std::size_t>(Dimension)> RegularTriangulation<Dim
   add_cells(here.vertex[static_cast<std::size_t>(i)], Dimension - 1);
   add_cells(apex, Dimension - 1);
   std::array<CellId, static_cast<std::size_t>(Dimension)> made{cell, other};
-  std::array<int, static_cast<std::size_t>(Dimension)> place{};  // of the facet's vertices
+  std::array<int, static_cast<std::size_t>(Dimension)> place{};  // places of the facet's vertices
   for (int k = 0, n = 0; k <= Dimension; ++k) {
     if (k != i) place[static_cast<std::size_t>(n++)] = k;
   }
@@ -104,7 +104,7 @@ std::array<CellId, 2> RegularTriangulation<Dimension>::flip_edge(CellId cell, in
                                                                  int j) requires(Dimension == 3) {
   const Cell here = cells_[cell];
   const std::array<int, 2> end{i, j};
-  std::array<int, 2> place{};  // of the other vertices: across from them are the other cells
+  std::array<int, 2> place{};  // places of the other vertices; the other cells are across from these
   for (int k = 0, n = 0; k < 4; ++k) {
     if (k != i && k != j) place[static_cast<std::size_t>(n++)] = k;
   }
@@ -156,7 +156,7 @@ template <int Dimension>
 CellId RegularTriangulation<Dimension>::flip_out(CellId cell, int i) {
   const Cell here = cells_[cell];
   const BeadId gone = here.vertex[static_cast<std::size_t>(i)];
-  // The cells share all but one vertex: the one beyond the facet of each.
+  // The cells share all vertices but one, which is the vertex beyond the facet of each.
   const BeadId apex = here.apex[i == 0 ? 1 : 0];
   add_cells(gone, -(Dimension + 1));
   cgal_->turn(gone);

@@ -17,8 +17,8 @@ int facet_sign(const CellBeads<Dimension>& cell, BeadId apex, const SignsOfFunct
   return with_facet_certificate(cell, apex, [&](const auto& certificate) { return signs.of(certificate); });
 }
 
-/// Whether the centroid of one face lies in another of the same plane (line; both edges run
-/// the same way), or on its boundary.
+/// Returns whether the centroid of one face lies in or on the boundary of another face in the same plane. (In
+/// the plane: of another edge on the same line that has the same direction.)
 template <int Dimension>
 bool holds_centroid(const std::array<BeadId, Dimension>& of, const std::array<BeadId, Dimension>& face,
                     const SignsOfFunctions<Dimension>& signs) {
@@ -35,8 +35,8 @@ bool holds_centroid(const std::array<BeadId, Dimension>& of, const std::array<Be
   }
 }
 
-/// Whether a bead is in its host, on the boundary perhaps, and not inside the host's power sphere. In a
-/// regular triangulation it does not matter which of the cells it is in.
+/// Returns whether a bead lies in its host or on its boundary, and not inside the host's power sphere. In a
+/// regular triangulation, any of the cells that contain the bead may be its host.
 template <int Dimension>
 bool hides(const RegularTriangulation<Dimension>& triangulation, const HiddenBead& hidden,
            const SignsOfFunctions<Dimension>& signs) {

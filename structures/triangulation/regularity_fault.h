@@ -1,11 +1,13 @@
 #pragma once
-// Whether a triangulation is regular, by the definition and by exact signs alone: sound in degenerate
-// positions, where several are right and comparing with a static build would not do.
+// Checks whether a triangulation is regular, by the definition and by exact signs alone. The check is also
+// sound for degenerate positions, which have several regular triangulations, so that a comparison with one
+// static build would not suffice.
 //
-// All beads are vertices or hidden, all finite cells positive, all facets regular, the hull's faces have no
-// bead outside, and each hidden bead is in a cell and not inside its power sphere. Then its triangles cover
-// the hull's boundary equally often everywhere, and the cells its inside as often; once, if the centroid of
-// one triangle lies in no other. (The cells close up: flips keep that.)
+// All beads must be vertices or hidden, all finite cells positive and all facets regular. No bead may lie
+// outside a face of the hull. Each hidden bead must lie in a cell and not inside the cell's power sphere.
+// Under these conditions, the hull's triangles cover its boundary equally often everywhere, and the cells
+// cover its inside as often. They cover it once if the centroid of one triangle lies in no other triangle.
+// (The cells close up: flips preserve this.)
 
 #include <optional>
 #include <span>
@@ -31,7 +33,7 @@ class SignsOfFunctions {
   [[nodiscard]] virtual int of(const CentroidInside<Dimension>& function) const = 0;
 };
 
-/// Those that `sign` gives of any of them.
+/// Signs computed by calling `sign` with the function.
 template <int Dimension, class Sign>
 class SignsBy final : public SignsOfFunctions<Dimension> {
  public:
@@ -45,15 +47,15 @@ class SignsBy final : public SignsOfFunctions<Dimension> {
   Sign sign_;
 };
 
-/// What is wrong with the triangulation of beads 0 ... beads-1 at one moment, or nothing. Cells may be flat
-/// where `flat_cells` says so. A hidden bead whose host is not known may be in any cell. Beads marked in
-/// `absent` do not take part.
+/// Returns a description of a fault of the triangulation of the beads 0 ... beads-1 at one moment, or
+/// nothing. Flat cells are accepted if `flat_cells` is true. A hidden bead without a known host may lie in
+/// any cell. Beads marked in `absent` are ignored.
 template <int Dimension>
 [[nodiscard]] std::optional<std::string> regularity_fault(
     const RegularTriangulation<Dimension>& triangulation, BeadId beads, std::span<const HiddenBead> hidden,
     bool flat_cells, const SignsOfFunctions<Dimension>& signs, std::span<const char> absent = {});
 
-/// The same with the sign that `sign` gives of a function of beads.
+/// Same, with the signs computed by `sign`, which takes any of these functions.
 template <int Dimension, class Sign>
 requires(!std::is_base_of_v<SignsOfFunctions<Dimension>, Sign>)
     [[nodiscard]] std::optional<std::string> regularity_fault(

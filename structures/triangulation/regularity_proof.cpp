@@ -65,7 +65,7 @@ template <std::size_t Count>
   positive = x.value > x.error * Lanes(Tracked<Lanes>::inflation);
 }
 
-/// Orientations: positive where the last bead lies to the left of the others (CGAL's convention).
+/// Orientations of four tuples: positive if the last bead lies to the left of the others (CGAL's convention).
 template <int Dimension>
 [[KDS_LANES_TARGETS]] void four_orientations(const std::array<Four, Dimension + 1>& beads,
                                              const Errors& errors, Lanes::Mask& positive) {
@@ -77,7 +77,8 @@ template <int Dimension>
   test_positive(determinant(row), positive);
 }
 
-/// Power tests: positive where the last bead is outside the power sphere of the others, a positive cell.
+/// Power tests of four tuples: positive if the last bead lies outside the power sphere of the others, which
+/// must form a positive cell.
 template <int Dimension>
 [[KDS_LANES_TARGETS]] void four_power_tests(const std::array<Four, Dimension + 2>& beads,
                                             const Errors& errors, Lanes::Mask& positive) {
@@ -94,7 +95,7 @@ template <int Dimension>
   test_positive(determinant(row), positive);
 }
 
-/// Makes tests of beads four at a time, and asks `judge` about each that is not proved positive.
+/// Tests beads four at a time, and asks `judge` about each test that is not proved positive.
 template <int Dimension, std::size_t Count, class Test, class Judge>
 class FourByFour {
  public:
@@ -105,7 +106,7 @@ class FourByFour {
     beads_[filled_] = beads;
     if (++filled_ == Lanes::width) flush();
   }
-  /// Makes the tests that wait, and returns whether all since the start have passed.
+  /// Makes the remaining tests, and returns whether all tests since the start have passed.
   [[nodiscard]] bool all_pass() {
     if (filled_ > 0) {
       std::fill(beads_.begin() + filled_, beads_.end(), beads_[0]);
@@ -151,7 +152,7 @@ bool is_odd_permutation(std::array<BeadId, Size> a, const std::array<BeadId, Siz
   return is_odd;
 }
 
-/// The item of largest size so far.
+/// Keeps the largest item added so far.
 template <class Item>
 struct Largest {
   std::optional<Item> item;
@@ -225,7 +226,7 @@ class RegularityProof {
       return judge_ != nullptr && judge_->of(Orientation<Dimension>(v, 1)) >= (may_be_zero ? 0 : 1);
     });
   }
-  /// Of cells, each with a bead beyond.
+  /// Returns a batch of power tests, each of a cell and the bead beyond one of its facets.
   [[nodiscard]] auto power_tests() const {
     return four_by_four<Dimension + 2>(
         &four_power_tests<Dimension>, [this](const std::array<BeadId, Dimension + 2>& beads) {

@@ -1,6 +1,7 @@
 #pragma once
-// Proves that a triangulation of beads is regular at one time. It is a program checker: it builds nothing
-// again. Doubles with error bounds decide nearly all signs; an exact judge decides the others (ties).
+// Proves that a triangulation of beads is regular at one time. This is a program checker: it builds no second
+// triangulation. Doubles with error bounds decide nearly all signs; an exact judge decides the remaining ones
+// (ties).
 //
 // The checks:
 //   1. The cells close up: two neighbours name each other, share their facet, and lie on its two sides.
@@ -13,11 +14,11 @@
 //
 // By 3 the hull bounds a convex polytope (Mehlhorn et al., "Checking geometric programs or verification of
 // geometric structures", 1999): seen from the point, the faces cover all directions equally often, and the
-// ray says how often. Two coplanar faces that share a ridge do not overlap, since the point lies inside of
+// ray shows how often. Two coplanar faces that share a ridge do not overlap, because the point lies inside of
 // both. By 1 and 2 the cells cover each point as often as the hull winds around it: once inside, never
 // outside. By 4 the lifted cells are a convex function over the hull. By 5 every bead lies on or above the
-// graph of that function. Where no sign is zero, the function is strictly convex at each facet, and the
-// triangulation is the only regular one.
+// graph of this function. If no sign is zero, the function is strictly convex at each facet, and no other
+// triangulation is regular.
 
 #include <span>
 
@@ -29,9 +30,9 @@
 namespace kds {
 
 /// Returns whether all five checks are proved, in time linear in the number of cells. Beads marked in
-/// `absent` do not take part. Without a `judge` of the signs that doubles leave open, these prove nothing:
-/// then only a triangulation that is the only regular one is proved. A false answer does not say that
-/// something is wrong: doubles alone place the point of check 3.
+/// `absent` are ignored. Without a `judge` for the signs that doubles leave open, only a triangulation that
+/// is the only regular one can be proved. A false result does not mean that the triangulation is wrong: the
+/// point of check 3 is placed by doubles alone.
 template <int Dimension>
 [[nodiscard]] bool is_proved_regular(const RegularTriangulation<Dimension>& triangulation,
                                      std::span<const HiddenBead> hidden,

@@ -12,7 +12,7 @@ namespace kds {
 
 namespace {
 
-/// Tests of one kind, four at a time.
+/// Tests of one kind, evaluated four at a time.
 template <class Certificate, int Dimension>
 class FourAtSnapshot {
  public:
@@ -20,7 +20,7 @@ class FourAtSnapshot {
 
   explicit FourAtSnapshot(const Snapshot<Dimension>& snapshot) : snapshot_(snapshot) {}
 
-  /// `failed(place, sign)` is called, now or later, where the certificate of these beads is not positive.
+  /// Calls `failed(place, sign)`, now or later, if the certificate of these beads is not positive.
   template <class Failed>
   void test(const Beads& beads, std::uint32_t place, Failed failed) {
     tuples_[count_] = beads;
@@ -53,7 +53,7 @@ class FourAtSnapshot {
 template <int Dimension, class Cells>
 SnapshotFaults faults_of(const RegularTriangulation<Dimension>& triangulation, const Cells& cells,
                          const Snapshot<Dimension>& snapshot) {
-  // Of all cells a facet is met twice, and tested once.
+  // If all cells are listed, each facet is visited twice, and is tested only once.
   constexpr bool of_all = !std::same_as<Cells, std::span<const CellId>>;
   SnapshotFaults faults;
   const auto facet_fails = [&](FacetId facet, int sign) {
@@ -77,7 +77,7 @@ SnapshotFaults faults_of(const RegularTriangulation<Dimension>& triangulation, c
       const FacetId beyond = triangulation.beyond(cell, i);
       const BeadId apex = triangulation.apex_beyond(cell, i);
       if (apex == infinite_bead || v[static_cast<std::size_t>(i)] == infinite_bead) {
-        if (finite || apex != infinite_bead) continue;  // the finite cell's own orientation
+        if (finite || apex != infinite_bead) continue;  // left to the orientation of the finite cell
       }
       if (of_all && cell_of(beyond) < cell) continue;
       ++faults.tested;

@@ -1,7 +1,7 @@
 #pragma once
-// Which certificates of a triangulation fail where its beads are put: the tests of its facets
-// (facet_certificate.h), and that its finite cells are positive. Exact. What is zero is listed too: the
-// triangulation may be valid then, but is not the only one.
+// Finds the certificates of a triangulation that fail at given positions: the certificates of its facets
+// (facet_certificate.h) and the orientations of its finite cells. Exact. Certificates that are zero are
+// listed too: in this case the triangulation may be valid, but other triangulations are valid as well.
 
 #include <cstdint>
 #include <span>
@@ -15,7 +15,7 @@ namespace kds {
 struct SnapshotFaults {
   std::uint64_t tested = 0;
   std::vector<FacetId> facets, zero_facets;
-  std::vector<CellId> cells, flat_cells;  ///< inverted; and flat
+  std::vector<CellId> cells, flat_cells;  ///< inverted cells; flat cells
 
   [[nodiscard]] std::uint64_t failed() const { return facets.size() + cells.size(); }
   [[nodiscard]] bool none_strictly() const {
@@ -23,19 +23,20 @@ struct SnapshotFaults {
   }
 };
 
-/// The least sign of a finite cell's orientation: 1, or 0 for a flat, -1 for an inverted one. Cells marked
-/// are known to be positive there; those beyond the marks are not.
+/// Returns the least sign of a finite cell's orientation: 1, 0 if some cell is flat, -1 if some cell is
+/// inverted. Marked cells are known to be positive; cells beyond the end of the marks are not.
 template <int Dimension>
 [[nodiscard]] int least_orientation(const RegularTriangulation<Dimension>& triangulation,
                                     const Snapshot<Dimension>& snapshot,
                                     std::span<const std::uint8_t> known_positive = {});
 
-/// Of all facets and finite cells.
+/// Tests all facets and finite cells.
 template <int Dimension>
 [[nodiscard]] SnapshotFaults snapshot_faults(const RegularTriangulation<Dimension>& triangulation,
                                              const Snapshot<Dimension>& snapshot);
 
-/// Of the live ones among these cells, and of all their facets: one between two of them is met twice.
+/// Tests the live ones among these cells, and all their facets. A facet between two of these cells is listed
+/// twice.
 template <int Dimension>
 [[nodiscard]] SnapshotFaults snapshot_faults(const RegularTriangulation<Dimension>& triangulation,
                                              std::span<const CellId> cells,

@@ -1,5 +1,5 @@
 #pragma once
-// Cells written one way: beads ascending, cells in lexicographic order.
+// A canonical form of lists of cells: each cell's beads ascending, cells in lexicographic order.
 
 #include <algorithm>
 #include <vector>

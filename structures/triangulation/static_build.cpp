@@ -48,7 +48,7 @@ void wrap(std::span<const BeadRange> nodes,
                                                               spheres.begin() + range.last + 1);
     sum += sphere.radius();
   }
-  volatile double used = sum;  // so that no build can be left out
+  volatile double used = sum;  // keeps the compiler from omitting a build
   static_cast<void>(used);
 }
 

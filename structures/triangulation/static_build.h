@@ -1,6 +1,6 @@
 #pragma once
-// What a user would do instead: build the structure anew at every frame with CGAL, in double. For comparing
-// times.
+// Times of the alternative to kinetic structures: building each structure anew at every frame with CGAL, in
+// doubles. For comparisons.
 
 #include <Eigen/Core>
 #include <span>
@@ -10,19 +10,19 @@
 
 namespace kds {
 
-/// What CGAL takes for the minimum enclosing sphere of every node (Min_sphere_of_spheres_d, its
-/// defaults).
+/// Measures the time that CGAL takes for the minimum enclosing spheres of all nodes (Min_sphere_of_spheres_d
+/// with its defaults).
 template <int Dimension>
 [[nodiscard]] Seconds seconds_to_wrap(std::span<const BeadRange> nodes, const Eigen::Matrix3Xd& centers,
                                       std::span<const double> radii);
 
-/// What it takes to sort the beads along the first axis.
+/// Measures the time to sort the beads along the first axis.
 [[nodiscard]] Seconds seconds_to_sort(const Eigen::Matrix3Xd& centers);
 
-/// What it takes to find the least and the greatest coordinates.
+/// Measures the time to find the least and the greatest coordinates.
 [[nodiscard]] Seconds seconds_to_box(const Eigen::Matrix3Xd& centers);
 
-/// What CGAL takes for the convex hull in the plane; the third row is not looked at.
+/// Measures the time that CGAL takes for the convex hull in the plane; the third row is ignored.
 [[nodiscard]] Seconds seconds_to_hull(const Eigen::Matrix3Xd& centers);
 
 }  // namespace kds

@@ -1,7 +1,7 @@
 #pragma once
-// The sign of a power test of points whose coordinates and weights are whole numbers, as rebuilds between
-// events ask for it by the thousand where beads lie regularly. Exact; numbers of any length lie in room that
-// is used again and again.
+// The exact sign of a power test of points whose coordinates and weights are integers. Rebuilds between
+// events need it thousands of times if beads lie regularly. Integers of any length are stored in memory that
+// is reused for each test.
 
 #include <gmp.h>
 
@@ -12,7 +12,7 @@
 
 namespace kds {
 
-/// Coordinates, and the weight last.
+/// The coordinates, followed by the weight.
 template <int Dimension>
 using WholePoint = std::array<mpz_srcptr, static_cast<std::size_t>(Dimension) + 1>;
 
@@ -22,12 +22,12 @@ class WholePowerTest {
   static constexpr std::size_t rows = static_cast<std::size_t>(Dimension) + 1;
 
  public:
-  /// 1, 0 or -1, of the determinant with rows (x-t, |x-t|^2 - w_x + w_t) for the points x before the last
-  /// one, t.
+  /// Returns 1, 0 or -1: the sign of the determinant with rows (x-t, |x-t|^2 - w_x + w_t), where t is the
+  /// last point and x runs over the other points.
   [[nodiscard]] int sign(const std::array<WholePoint<Dimension>, rows + 1>& points);
 
  private:
-  /// a b - c d.
+  /// Sets `minor` to a b - c d.
   static void set_minor(Integer& minor, const Integer& a, const Integer& b, const Integer& c,
                         const Integer& d);
 
