@@ -26,7 +26,7 @@ enum class CertificateHandle : std::uint32_t {
   never = 0xffffffffU,     ///< holds for the rest of the step; nothing is kept
   zero = 0xfffffffeU,      ///< the function is zero for the whole step; treated as `never`
   violated = 0xfffffffdU,  ///< does not hold just after the present time; nothing is kept
-};                         // any other value is the slot
+};                         // any other value is a slot number
 [[nodiscard]] constexpr bool has_slot(CertificateHandle guard) { return guard < CertificateHandle::violated; }
 [[nodiscard]] constexpr std::uint32_t slot_of(CertificateHandle guard) {
   return static_cast<std::uint32_t>(guard);
@@ -40,8 +40,8 @@ template <class Certificate>
 concept IdentityHasRoom = !HasConstants<Certificate> ||
                           (std::tuple_size_v<decltype(Certificate{}.beads)> + 2 <= Identity::most_beads);
 
-/// Tells whether a table's constants are in use: they are once a certificate was searched in this step. Empty
-/// for certificates without constants.
+/// Tells whether a table's constants are in use, which is so once a certificate was searched in this step.
+/// Empty for certificates without constants.
 template <class Certificate>
 struct ConstantsInUse {};
 template <HasConstants Certificate>

@@ -1,6 +1,6 @@
 #pragma once
 // A combinatorial change of a structure. The event log holds changes, the fingerprint hashes them, and replay
-// needs nothing else to make the change again without certificates.
+// repeats a change from this record alone, without certificates.
 
 #include <array>
 #include <cstdint>

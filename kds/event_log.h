@@ -23,7 +23,7 @@ struct Event {
   std::string_view structure;  ///< the structure's name, in static storage
   EventKind kind;
   FrameStamp from,
-      to;  ///< the frames that the step leads from and to; steps are counted if no frames are known
+      to;  ///< the frames that the step leads from and to; numbers of steps if no frames are known
   /// The time of the event in digits that are all certain. Set only if a listener prints it.
   std::optional<RoundedTime> rounded;
 

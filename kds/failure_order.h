@@ -13,7 +13,7 @@
 
 namespace kds {
 
-/// A holder of certificates in the queue.
+/// An owner of certificates whose failures are in the queue.
 class ScheduledSource : public CertificateSource {
  public:
   [[nodiscard]] virtual Identity identity(std::uint32_t slot) const = 0;

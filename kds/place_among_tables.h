@@ -1,5 +1,5 @@
 #pragma once
-// Numbers that tell the certificates of a run's tables apart: structure, table, then the place in the
+// Numbers the certificates of all tables of a run: by structure, then by table, then by place in the
 // structure.
 
 #include <cstddef>

@@ -4,9 +4,9 @@
 //
 // Let d(u) be the difference of the centres, in Bernstein form on a part of the step. For any unit vector n
 // and all u in this part, |d(u)| >= n d(u) >= min_k n d_k; and the least distance is at most the distance at
-// any u. Parts are halved, where n is the direction of d in the middle and d_k are the control points of both
-// halves, until the two bounds differ by at most 2^-36 of themselves or by the rounding of the whole
-// computation. The margin for this rounding is 2^-40 of the largest control point.
+// any u. Take the direction of d in the middle of the part as n, and the control points of both of its
+// halves as d_k. Parts are halved until the two bounds differ by at most 2^-36 of themselves or by the
+// rounding of the whole computation. The margin for this rounding is 2^-40 of the largest control point.
 
 #include "motions/curves/curves.h"
 

@@ -83,7 +83,7 @@ void HalfHull::give_up(BeadId b) {
   }
 }
 
-/// Repeats until no certificate is missing.
+/// Creates missing certificates and places displaced beads until there are none.
 void HalfHull::hold_all() {
   while (!unheld_.empty() || !displaced_.empty()) {
     auto& waiting = unheld_.empty() ? displaced_ : unheld_;

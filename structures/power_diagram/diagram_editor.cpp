@@ -34,8 +34,8 @@ void DiagramEditor<Dimension>::require_release(std::span<const BeadId> beads) co
     require_cells();
 }
 
-/// If a cell has none of these beads, the other beads span space; the first cell examined is nearly always
-/// such a cell.
+/// A cell without the bead proves that the other beads do not stay flat. The first cell examined nearly
+/// always is one.
 template <int Dimension>
 bool DiagramEditor<Dimension>::is_flat_without(BeadId bead) const {
   if (state_.present_beads.count() <= Dimension + 1) return true;

@@ -34,9 +34,9 @@ class DiagramRebuilder {
   void watch_all();
   /// Called after the events of one time: if the diagram is wrong just after them, repairs or rebuilds it.
   void after_batch();
-  /// Returns false, and leaves no cells, if all beads stay in one plane or on one line.
+  /// Rebuilds the diagram. Returns false, and leaves no cells, if all beads stay in one plane or on one line.
   [[nodiscard]] bool try_to_rebuild();
-  /// Rebuilds at the first suitable time after now, on ever finer grids, before which nothing fails.
+  /// Tries times after now on ever finer grids, and rebuilds at the first one before which nothing fails.
   void rebuild_at_first_time_that_works();
   /// Throws the error that no cells can be built in this step.
   [[noreturn]] static void refuse_flat(std::size_t step);

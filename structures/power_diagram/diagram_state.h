@@ -60,7 +60,7 @@ struct DiagramState {
   int affine_dimension = Dimension;  ///< of the set of beads; there are no cells if it is below Dimension
   bool has_had_cells = false;
   bool flat = false;         ///< some cell is flat at the frame just reached
-  bool within_step = false;  ///< the step moves all beads
+  bool within_step = false;  ///< a step that moves all beads is under way
 
   /// The certificate that fails now; a default value outside events.
   Identity present;

@@ -153,7 +153,8 @@ template <int Dimension>
   return found & ((1U << bits_of_part) - 1);
 }
 
-/// Lists a cell as certificates do: the beads of the cell, then the beads beyond its wanted facets, in order.
+/// Lists the beads that certificates name: the beads of the cell, then the beads beyond its wanted facets, in
+/// order.
 template <int Dimension>
 void put_in_lane(const TriangulationCell<Dimension>& cell, unsigned wanted,
                  std::array<BeadId, 2 * (static_cast<std::size_t>(Dimension) + 1)>& beads) {

@@ -1,7 +1,7 @@
 #pragma once
 // Facets that are known to hold for some steps ahead, provided that all their beads go straight on
 // (motion_ahead.h). Such facets rest while this condition holds: the following steps skip them. Likewise,
-// cells are known to stay positive. One of the two cells of each facet stores until which step the facet
+// cells can be known to stay positive. One of the two cells of each facet stores until which step the facet
 // holds. At the start of a step, one branch-free pass over all cells determines which of their beads have
 // turned and which facets must be examined.
 //
@@ -90,7 +90,7 @@ class FacetForesight {
  private:
   /// For each facet of a cell, the first step in which it must be examined again.
   using Until = std::int32_t __attribute__((vector_size(16)));
-  /// Steps are counted from 1, so that this step is always past.
+  /// A step before all others, because steps are counted from 1.
   static constexpr std::int32_t nothing_known = 0;
   static constexpr std::int32_t all_steps = MotionAhead<Dimension>::steps;
   static_assert(all_steps >> positive_parts == 1);
@@ -129,7 +129,7 @@ class FacetForesight {
   int in_mean_ = 0;
   std::int32_t step_ = 1;
   std::vector<Until> until_;
-  std::vector<std::int32_t> positive_until_;  ///< of each cell
+  std::vector<std::int32_t> positive_until_;  ///< for each cell: first step not covered
   std::vector<Others> others_;
 };
 

@@ -393,7 +393,7 @@ void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
   watch_enqueued();
 }
 
-/// Sets the guard of a facet between two cells of an event, whose function has no further root.
+/// Sets the guard of a facet between two cells made by an event. The event's function has no further root.
 template <int Dimension>
 void FacetGuards<Dimension>::hold_inner(CellId cell, int i) {
   const bool on_hull = state_.present.type == Orientation<Dimension>::type.number;

@@ -64,7 +64,7 @@ void PowerDiagram<Dimension>::start_step() {
   state.vanished_until = state.flat ? 0.0 : -1.0;
   const bool wrong = state.flat && is_wrong_just_after(state);
   state.clear_doubt();
-  // Also if the diagram is wrong: its certificates limit the time of the rebuild.
+  // Guard a wrong diagram too: its certificates limit the time of the rebuild.
   if (wrong) facets.remember();
   if (state.has_cells()) rebuilder.watch_all();
   if ((wrong || !state.has_cells()) && !rebuilder.try_to_rebuild()) {

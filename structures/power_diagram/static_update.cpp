@@ -34,7 +34,7 @@ std::vector<Suspects<Dimension>> suspects_of(const RegularTriangulation<Dimensio
     for (const FacetId f : *facets) add(cell_of(f), triangulation.apex_beyond(cell_of(f), index_of(f)));
   for (const auto* cells : {&faults.cells, &faults.flat_cells})
     for (const CellId cell : *cells) add(cell, infinite_bead);
-  std::sort(all.begin(), all.end());  // independent of the numbers of cells
+  std::sort(all.begin(), all.end());  // does not depend on how cells are numbered
   return all;
 }
 
@@ -122,7 +122,7 @@ StaticTriangulation<Dimension> StaticUpdate<Dimension>::diagram() const {
 
 template <int Dimension>
 std::optional<std::string> StaticUpdate<Dimension>::fault() const {
-  if (!triangulation_.has_mirror()) return std::nullopt;  // as built by CGAL
+  if (!triangulation_.has_mirror()) return std::nullopt;  // built by CGAL, hence correct
   std::vector<HiddenBead> hidden;
   for (const BeadId b : hidden_) hidden.push_back({b, no_cell});
   return regularity_fault(triangulation_, static_cast<BeadId>(frame_.bead_count()), hidden, false,
@@ -171,7 +171,8 @@ UpdateCounts Reinsertion<Dimension>::advance(const Eigen::Matrix3Xd& centers,
     faults = snapshot_faults(this->triangulation_, std::span<const CellId>(made), next);
   }
   this->triangulation_.set_points(centers, weights);
-  out.insert(out.end(), this->hidden_.begin(), this->hidden_.end());  // any of them may have become visible
+  out.insert(out.end(), this->hidden_.begin(),
+             this->hidden_.end());  // any hidden bead may have become visible
   std::sort(out.begin(), out.end());
   this->frame_ = next;
   if (!out.empty()) {

@@ -27,7 +27,8 @@ struct DumpFile {
   std::string text;
 };
 
-/// The state of a structure at a frame, as a set, so that two frames can be compared.
+/// An element of a structure's state at a frame. The state is a set of elements, so two frames can be
+/// compared.
 using CombinatorialElement = std::array<BeadId, 6>;  ///< unused places hold no_bead
 struct CombinatorialElements {
   /// The first `place_ids` ids of an element tell its place, the others its content: for example a

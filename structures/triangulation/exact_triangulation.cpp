@@ -112,7 +112,7 @@ Geometry::FT to_cgal(const Rational& x, mp_bitcnt_t places) {
 
 }  // namespace kds
 
-/// Point location filters as it does for CGAL's own exact numbers.
+/// Locates points with the same filter as for CGAL's own exact numbers.
 template <>
 struct CGAL::Triangulation_structural_filtering_traits<kds::Geometry>
     : CGAL::Triangulation_structural_filtering_traits<CGAL::Epeck> {};

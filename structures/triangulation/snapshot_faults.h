@@ -23,8 +23,8 @@ struct SnapshotFaults {
   }
 };
 
-/// Returns the least sign of a finite cell's orientation: 1, 0 if some cell is flat, -1 if some cell is
-/// inverted. Marked cells are known to be positive; cells beyond the end of the marks are not.
+/// Returns -1 if some finite cell is inverted, otherwise 0 if some finite cell is flat, otherwise 1. Marked
+/// cells are known to be positive; cells beyond the end of the marks count as not marked.
 template <int Dimension>
 [[nodiscard]] int least_orientation(const RegularTriangulation<Dimension>& triangulation,
                                     const Snapshot<Dimension>& snapshot,
