@@ -34,7 +34,7 @@ struct IdRole {
   Of of = Of::beads;
 };
 
-/// Roles of the kinds that do not say what their ids are.
+/// Roles used by the kinds that do not declare roles.
 inline constexpr std::array<IdRole, 1> unnamed_ids{{{"beads", 0}}};
 
 /// A kind of event. Internal events change only bookkeeping and are left out of totals.

@@ -50,9 +50,9 @@ std::vector<Extent> widest_extents(const Curves<Dimension>& curves, std::span<co
   return widest;
 }
 
-/// Bounds of the distance of two beads throughout the step, up to rounding. The lower bound is the largest
-/// distance along one axis; the upper bound is the sum over all axes. Squares are avoided because they might
-/// underflow.
+/// Bounds of the distance of two beads throughout the step, up to rounding. The lower bound is the least
+/// distance along the axis for which it is largest; the upper bound is the largest sum of the distances along
+/// all axes. Squares are avoided because they might underflow.
 struct Distance {
   double least = 0, most = 0;
 };

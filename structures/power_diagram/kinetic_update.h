@@ -83,8 +83,8 @@ class AutomaticUpdate final : public MovingDiagram<Dimension> {
 
  private:
   double tested_ = 0, failed_ = 0;
-  BackOff samples_{1, 7};          ///< between samples while their answer is clear
-  BackOff given_up_moves_{7, 56};  ///< after a move that was given up: no sample for a while
+  BackOff samples_{1, 7};          ///< skips samples while their answer is clear
+  BackOff given_up_moves_{7, 56};  ///< skips samples after a move that was given up
   std::uint64_t turn_ = 0;         ///< counts samples
 };
 

@@ -87,9 +87,9 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
 
   // Edits (bead_edits.h). The cost of an edit depends on the beads around and on the walk to them. If ties
   // decide how cells lie, or if many beads jump at once, the diagram is rebuilt instead, and the rebuild is
-  // counted. An edit also throws std::invalid_argument if too few beads would remain, if the remaining beads
-  // would stay in one plane (on one line), or if all beads stay there in this step. If new curves leave all
-  // beads there, InputError is thrown and the run is over.
+  // counted. An edit also throws std::invalid_argument if too few beads would remain, or if the remaining
+  // beads, or all beads before the edit, stay in one plane (on one line) in this step. If new curves keep all
+  // beads in one plane (on one line), InputError is thrown and the run is over.
 
   void leave_out(BeadId bead) override;
   void insert(BeadId bead) override { insert(bead, no_bead); }
@@ -97,7 +97,7 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   void insert(BeadId bead, BeadId near);
   void erase(BeadId bead) override;
   [[nodiscard]] bool is_absent(BeadId bead) const override;
-  /// Does the work of Simulator::change_motion for one bead that is present.
+  /// Same as Simulator::change_motion, for one bead that is present.
   void change_motion(BeadId bead, const std::function<void()>& set_curve);
 
   // Steps that move only some of the beads to the next frame (diagram_update.h).

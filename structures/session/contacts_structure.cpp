@@ -44,7 +44,7 @@ class ContactsInRun final : public RunningStructure {
   Contacts<Dimension> contacts_;
 };
 
-// With the kernel `exact`, all pairs are listed.
+// Throws if there are too many pairs for the kernel `exact`, which lists all of them.
 void check_exact_pairs(const PairsAsked& asked) {
   constexpr double most = 1e8;  // 2.5 GB, and minutes a step
   double before = 0, pairs = 0;

@@ -21,7 +21,7 @@ struct KineticRun::Edit {
   std::function<void()> make;
 };
 
-/// A bead whose curve differs from the curve between frames, and the end of its curve.
+/// A bead whose curve the user changed, and the end of its new curve.
 struct KineticRun::Bend {
   BeadId bead;
   std::array<double, 3> end;

@@ -1,6 +1,6 @@
 #pragma once
-// Times of the alternative to kinetic structures: building each structure anew at every frame with CGAL, in
-// doubles. For comparisons.
+// Measures the alternative to kinetic structures, for comparison: building each structure anew at every frame
+// with CGAL, in doubles.
 
 #include <Eigen/Core>
 #include <span>
