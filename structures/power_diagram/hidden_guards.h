@@ -49,8 +49,7 @@ class HiddenGuards {
   /// Returns the displaced beads, ascending.
   [[nodiscard]] std::span<const BeadId> displaced() const { return displaced_; }
   void forget_displaced() { displaced_.clear(); }
-  /// Adds a bead hidden just now, to be housed with the displaced beads. A bead that becomes visible is
-  /// removed from them.
+  /// Adds a bead hidden just now to the displaced beads, or removes a bead that became visible from them.
   void add_displaced(BeadId bead);
   void remove_displaced(BeadId bead) { std::erase(displaced_, bead); }
   /// Finds hosts for all displaced beads, searching from `near`, and guards the beads.
