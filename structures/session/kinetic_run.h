@@ -122,8 +122,9 @@ class KineticRun {
   void insert(std::size_t structure, BeadId bead);
   void erase(std::size_t structure, BeadId bead);
   /// Gives beads other curves from now on. `set_curves` sets their control points by
-  /// SceneMotion::set_coordinate, which throws std::invalid_argument for any other bead; it is called again
-  /// if the run goes back and reaches this time again. If `set_curves` throws, nothing has changed.
+  /// SceneMotion::set_coordinate, which throws std::invalid_argument for any other bead. `set_curves` is
+  /// called again if the run goes back and reaches this time again. If `set_curves` throws, nothing has
+  /// changed.
   ///
   /// A curve is given for the whole step, including the part before now. At the end of the step it must reach
   /// the bead's position in the next frame; otherwise the next step, if there is one, throws InputError. All
