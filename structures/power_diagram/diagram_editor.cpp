@@ -34,8 +34,8 @@ void DiagramEditor<Dimension>::require_release(std::span<const BeadId> beads) co
     require_cells();
 }
 
-/// A cell without the bead proves that the other beads do not stay flat. The first cell examined is nearly
-/// always without it.
+/// The other beads do not stay flat if the beads of some cell without `bead` do not. The first such cell
+/// nearly always shows this.
 template <int Dimension>
 bool DiagramEditor<Dimension>::is_flat_without(BeadId bead) const {
   if (state_.present_beads.count() <= Dimension + 1) return true;

@@ -64,7 +64,7 @@ void DiagramFlips<Dimension>::repair(CellId cell, int facet) {
   if constexpr (Dimension == 3) {
     if (met == 1) return flip_to_facet(cell, facet, across_from_face);
   }
-  state_.suspect(Doubt::wrong);  // unreachable in general position
+  state_.suspect(Doubt::wrong);  // all neighbours are shared: there are no other vertices
 }
 
 /// Returns whether the new cells may take the place of the old ones.
