@@ -196,8 +196,8 @@ CellId host_at_snapshot(const RegularTriangulation<Dimension>& t, BeadId bead, C
 
 }  // namespace
 
-/// Marks the hidden beads that their next cell does not hide at the new positions, together with the beads of
-/// this cell.
+/// Marks all hidden beads. If the cell that contains a hidden bead at the new positions does not hide it,
+/// also marks the beads of this cell.
 template <int Dimension>
 void MovingDiagram<Dimension>::hidden_that_show(const Snapshot<Dimension>& next, std::vector<char>& moves) {
   PowerDiagram<Dimension>& power = machine_->power;
@@ -243,7 +243,7 @@ void MovingDiagram<Dimension>::move_some(const Eigen::Matrix3Xd& centers, std::s
   activate(faults, moves);
   hidden_that_show(next, moves);
   const auto count = static_cast<std::size_t>(std::count(moves.begin(), moves.end(), 1));
-  // Otherwise hardly any facet would rest.
+  // With so many moving beads, hardly any facet would rest.
   if (4 * count > 3 * weights.size()) return move_all(centers, weights, counts);
 
   for (BeadId b = 0; b < weights.size(); ++b) rest_at_end(b);
