@@ -18,7 +18,7 @@ namespace {
 KDS_AVX2 __m256 four_twice(const float* four) {
   return _mm256_broadcast_ps(reinterpret_cast<const __m128*>(four));
 }
-/// Each of the first two, or of the last two, of four in four lanes.
+/// Broadcasts two of four numbers into four lanes each: the last two if `last`, else the first two.
 KDS_AVX2 __m256 each_four_times(const float* four, bool last) {
   return _mm256_permutevar_ps(four_twice(four), last ? _mm256_setr_epi32(2, 2, 2, 2, 3, 3, 3, 3)
                                                      : _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1));
@@ -46,7 +46,7 @@ KDS_AVX2 unsigned meeting_children(const BlockNode<Dimension>& node, const Box& 
 }
 
 using Floats = float __attribute__((vector_size(32)));
-/// Group g in the four lanes that its bits are of.
+/// Shuffles group g into the four lanes that its bits stand for.
 template <int Dimension>
 struct SpreadGroups {
   std::array<std::array<Floats, static_cast<std::size_t>(Dimension)>, 2> low, high;
@@ -139,7 +139,7 @@ KDS_AVX2 unsigned steps_ahead(const Blocks<Dimension>& blocks, std::size_t i,
   return bits;
 }
 
-/// Of eight bits, the numbers of those that are set, a byte each.
+/// Table: for each eight-bit mask, the positions of its set bits, one byte each.
 inline constexpr auto bit_numbers = [] {
   std::array<std::uint64_t, 256> table{};
   for (std::size_t bits = 0; bits < table.size(); ++bits) {

@@ -18,7 +18,7 @@ namespace {
 KDS_AVX512 __m512 four_by_four(const float* four) {
   return _mm512_maskz_broadcast_f32x4(0xffff, _mm_loadu_ps(four));
 }
-/// Each of four in four lanes.
+/// Broadcasts each of four numbers into four lanes.
 KDS_AVX512 __m512 each_four_times(const float* four) {
   const __m512i lane = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
   return _mm512_maskz_permutevar_ps(0xffff, four_by_four(four), lane);
@@ -37,7 +37,7 @@ KDS_AVX512 unsigned meeting_children(const BlockNode<Dimension>& node, const Box
 }
 
 using Floats = float __attribute__((vector_size(64)));
-/// Group g in the four lanes that its bits are of.
+/// Shuffles group g into the four lanes that its bits stand for.
 template <int Dimension>
 struct SpreadGroups {
   std::array<Floats, static_cast<std::size_t>(Dimension)> low, high;

@@ -4,14 +4,14 @@
 
 #include "structures/blocks/block_kernels.h"
 
-#define KDS_BLOCK_TARGET gnu::hot  // nothing in particular
+#define KDS_BLOCK_TARGET gnu::hot  // a placeholder: no special instructions
 
 namespace kds {
 
 namespace {
 
 using PlainRow = float __attribute__((vector_size(16)));
-using PlainFlags = decltype(PlainRow{} < PlainRow{});  // -1 where true, else 0
+using PlainFlags = decltype(PlainRow{} < PlainRow{});  // -1 for true, else 0
 
 inline PlainRow plain_row(const float* from) {
   PlainRow row;

@@ -20,7 +20,7 @@ double dot(const std::array<double, Dimension>& a, const std::array<double, Dime
   return sum;
 }
 
-/// Of length one; none of what is nearly zero beside one.
+/// Returns `a` scaled to length one, or none if its length is negligible beside one.
 template <std::size_t Dimension>
 std::optional<std::array<double, Dimension>> unit(std::array<double, Dimension> a, double least) {
   const double length = std::sqrt(dot(a, a));
@@ -43,7 +43,8 @@ std::vector<Direction<Dimension>> some_bonds(const Balls<Dimension>& balls, doub
   return directions;
 }
 
-/// How much longer the bonds are from axis to axis than straight on, on average: 0 where all lie along axes.
+/// Returns how much longer the bonds are on average along the axes (sum of absolute components) than
+/// straight. The result is 0 if every bond lies along an axis.
 template <int Dimension>
 double detour(const std::vector<Direction<Dimension>>& bonds, const Axes<Dimension>& axes) {
   double sum = 0;
@@ -52,7 +53,8 @@ double detour(const std::vector<Direction<Dimension>>& bonds, const Axes<Dimensi
   return sum / static_cast<double>(bonds.size()) - 1;
 }
 
-/// Axes along the first, and across it as near as can be to the second; none where that is nearly the first.
+/// Returns axes with the first along `first` and the next as close to `second` as a perpendicular can be.
+/// Returns none if `second` is nearly parallel to `first`.
 template <int Dimension>
 std::optional<Axes<Dimension>> axes_along(const Direction<Dimension>& first, Direction<Dimension> second) {
   if constexpr (Dimension == 2) {
@@ -68,7 +70,7 @@ std::optional<Axes<Dimension>> axes_along(const Direction<Dimension>& first, Dir
   }
 }
 
-/// From a bond and the one that is most nearly across it.
+/// Returns axes made from one bond and the bond most nearly perpendicular to it.
 template <int Dimension>
 std::optional<Axes<Dimension>> axes_from(const std::vector<Direction<Dimension>>& bonds, std::size_t first) {
   const auto across = std::min_element(bonds.begin(), bonds.end(), [&](const auto& a, const auto& b) {
@@ -77,7 +79,7 @@ std::optional<Axes<Dimension>> axes_from(const std::vector<Direction<Dimension>>
   return axes_along<Dimension>(bonds[first], *across);
 }
 
-/// Along the mean directions of the bonds that are nearest to each axis.
+/// Returns axes along the mean directions of the bonds nearest to each axis.
 template <int Dimension>
 std::optional<Axes<Dimension>> averaged(const std::vector<Direction<Dimension>>& bonds,
                                         const Axes<Dimension>& axes) {
@@ -111,7 +113,8 @@ std::optional<Axes<Dimension>> bond_axes(const Balls<Dimension>& balls, double s
     auto axes = axes_from<Dimension>(bonds, k * bonds.size() / tries);
     if (axes) axes = averaged<Dimension>(bonds, *axes);
     if (!axes || detour<Dimension>(bonds, *axes) >= short_enough) continue;
-    // A long row of beads leaves its box by as much as the axes are askew: now it pays to ask more.
+    // A long row of beads leaves its box in proportion to the error of the axes, so more bonds are sampled
+    // now.
     return averaged<Dimension>(some_bonds(balls, scale, few + std::min<std::size_t>(balls.size() / 32, 2000)),
                                *axes);
   }

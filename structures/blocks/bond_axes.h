@@ -1,7 +1,7 @@
 #pragma once
-// Axes along a chain's bonds. Boxes around pieces of a chain that is packed on a lattice, or stretched along
-// few directions, are small only if their sides lie along these: where a lattice is turned, the boxes of its
-// rows are several times as large and meet many others.
+// Computes axes along a chain's bonds. If a chain is packed on a lattice or stretched along few directions,
+// the boxes of its pieces are small only if their sides lie along these directions. On a rotated lattice,
+// axis-aligned boxes of its rows are several times as large and meet many others.
 
 #include <optional>
 
@@ -10,8 +10,9 @@
 
 namespace kds {
 
-/// Axes that the steps from bead to bead mostly lie along, told from some of them; none where the
-/// coordinates' own axes are about as good. `scale`: a power of two, times which coordinates are moderate.
+/// Returns axes that most steps from bead to bead lie along, estimated from a sample of the bonds. Returns
+/// none if the coordinate axes are about as good. `scale` is a power of two; coordinates times `scale` are of
+/// moderate size.
 template <int Dimension>
 [[nodiscard]] std::optional<Axes<Dimension>> bond_axes(const Balls<Dimension>& balls, double scale);
 

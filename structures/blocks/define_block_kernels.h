@@ -1,21 +1,22 @@
 #pragma once
-// The loops of block_kernels.h, for the files that instantiate them, one a vector target. Such a file says
-// before what KDS_BLOCK_TARGET is, the attribute of all these functions, and defines for itself
+// Defines the loops of block_kernels.h. Each file that instantiates them, one per vector target, includes
+// this header. Before the include, the file defines KDS_BLOCK_TARGET, the attribute of all these functions.
+// The file itself also defines:
 //
-//   meeting_children(node, box)       a bit for each child of the node that the box meets
-//   spread_groups(a)                  the boxes of groups as the next wants them
-//   meeting_groups(spread, b)         bit 4 g + h: group g of those boxes meets group h of boxes b
+//   meeting_children(node, box)       a bit for each child of the node that meets the box
+//   spread_groups(a)                  the boxes of groups in the layout that meeting_groups takes
+//   meeting_groups(spread, b)         bit 4 g + h: group g of the spread boxes meets group h of boxes b
 //   near_beads<Equal>(blocks, i, j, limit)
 //                                     bit 4 k + l: bead i + k is near bead j + l
 //   near_along<Equal>(blocks, i, apart, limit)
-//                                     bit k: bead i + k is near bead i + k + apart; of 16
+//                                     bit k (of 16): bead i + k is near bead i + k + apart
 //   steps_ahead(blocks, i, along, least)
-//                                     bit k: bead i + k + 1 is ahead of bead i + k by more than `least`,
-//                                     times the length of the vector `along`; of 16
-//   append_bits(out, base, bits)      writes base + k for each bit k there is, in order, and returns how many
+//                                     bit k (of 16): bead i + k + 1 is ahead of bead i + k by more than
+//                                     `least`, times the length of the vector `along`
+//   append_bits(out, base, bits)      writes base + k for each set bit k, in order, and returns their number
 //
-// Such functions may only be inlined into others of their target, and code for other targets must not get to
-// see them: all is local to the file.
+// A compiler may inline these functions only into functions of their target, and code for other targets must
+// not see them. All of them are therefore local to the file.
 
 #include <algorithm>
 #include <array>
@@ -51,17 +52,18 @@ KDS_BLOCK_INLINE Row4 load_row(const float* from) {
 }
 KDS_BLOCK_INLINE void store_row(float* to, const Row4& row) { __builtin_memcpy(to, &row, sizeof row); }
 
-/// Four doubles times a factor plus a term, as floats.
+/// Returns four doubles, times a factor, plus a term, converted to floats.
 KDS_BLOCK_INLINE Row4 floats_of(const double* from, double factor, double term) {
   Doubles4 four;
   __builtin_memcpy(&four, from, sizeof four);
   return __builtin_convertvector(four * factor + term, Row4);
 }
 
-// The processor itself fetches what comes next only to the end of its page.
+// The hardware prefetcher stops at the end of a page, so later data is prefetched explicitly.
 inline constexpr std::size_t doubles_fetched_ahead = 256;
 
-/// Doubles of a later block than that of bead `from`; there may be none.
+/// Prefetches the doubles that lie doubles_fetched_ahead after bead `from`. The address may lie beyond the
+/// end.
 template <int Dimension>
 KDS_BLOCK_INLINE void fetch_doubles(const BlockSource<Dimension>& source, std::size_t from) {
   constexpr std::size_t doubles_in_line = 8;
@@ -70,7 +72,7 @@ KDS_BLOCK_INLINE void fetch_doubles(const BlockSource<Dimension>& source, std::s
       __builtin_prefetch(axis + from + doubles_fetched_ahead + k);
 }
 
-/// Lane g of the k-th is number k of row g.
+/// Transposes the rows: lane g of row k becomes number k of row g.
 KDS_BLOCK_INLINE void transpose(std::array<Row4, 4>& rows) {
   const Row4 ab01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5);
   const Row4 ab23 = __builtin_shufflevector(rows[0], rows[1], 2, 6, 3, 7);
@@ -85,7 +87,7 @@ template <int Dimension, bool Equal>
                                                      std::size_t first, std::size_t last,
                                                      const Blocks<Dimension>& into_blocks,
                                                      BlockNode<Dimension>* parents) {
-  // Copies, which nothing that is stored can change.
+  // Local copies, so that the compiler knows that no store changes them.
   const Blocks<Dimension> blocks = into_blocks;
   const BlockSource<Dimension> source = from_source;
   const Row4 zero{};
@@ -149,7 +151,7 @@ template <int Dimension>
                        load_row(before.centers[axis] + beads_in_block * b + 4 * g);
         square = axis == 0 ? d * d : square + d * d;
       }
-      farthest = larger(square, farthest);  // the second where one is NaN
+      farthest = larger(square, farthest);  // keeps the second operand if one is NaN
     }
   }
   return greatest(farthest);
@@ -186,7 +188,7 @@ template <int Dimension>
       square += along[axis] * along[axis];
     }
     const float its_least = least * __builtin_sqrtf(square);
-    // The last step of all leads to another block.
+    // Bit 15 is the step into the block after these two, so it is ignored.
     const bool is = square > shortest_square && steps_ahead(blocks, bead, along, its_least) == 0xffff &&
                     (steps_ahead(blocks, bead + beads_in_block, along, its_least) | 0x8000) == 0xffff;
     std::uint16_t& bits = stretched[b / children_of_node];
@@ -233,7 +235,7 @@ template <int Dimension>
   const BlockNode<Dimension>& first = nodes[a];
   const BlockNode<Dimension>& second = nodes[b];
   std::size_t count = 0;
-  // Bits of children that a child may be paired with, and of the children that may have any.
+  // Bits of the children of b that meet a's box, and of the children of a that meet b's box.
   unsigned others = 0xffff, ours = 0xffff;
   if (a != b) {
     ours = meeting_children(first, box_of(second));
@@ -250,8 +252,9 @@ template <int Dimension>
   return count;
 }
 
-/// Which pairs of beads are far enough apart in their necklace, that of bit 4 i + j of groups g and h by [4 g
-/// + h], and groups with any such by bit 4 g + h. By how far apart they must be within their blocks.
+/// Tells which pairs of beads are far enough apart in their necklace. Bit 4 i + j of beads[4 g + h] stands
+/// for bead i of group g and bead j of group h. Bit 4 g + h of `groups` is set if these groups have such a
+/// pair. The table `lanes_apart` is indexed by the least difference of the beads' places within their blocks.
 struct LanesApart {
   std::array<std::uint16_t, 16> beads{};
   std::uint16_t groups = 0;
@@ -274,15 +277,15 @@ inline constexpr auto lanes_apart = [] {
   return table;
 }();
 
-/// Groups of two blocks, so many apart, that compare_along has looked at, of blocks far apart none.
+/// Masks of the group pairs that compare_along leaves to `compare`, for blocks 0, 1, and at least 2 apart.
 inline constexpr std::array<std::uint16_t, 3> groups_not_along{0xffff & ~0x8c63, 0xffff & ~0x1000, 0xffff};
 
-/// Beads of a block that have one of their own group or the next so far behind them.
+/// Masks of the beads of a block whose partner, k beads further on, lies in their own group or the next one.
 inline constexpr std::array<std::uint16_t, farthest_along + 1> firsts_along{0xffff, 0xffff, 0xffff, 0xffff,
                                                                             0xffff, 0x7777, 0x3333, 0x1111};
 
-// Of scenes larger than a cache, each block is far from the one before: it is fetched while others are
-// compared.
+// If a scene exceeds the cache, each block is far from the one before in memory. Each block is therefore
+// prefetched while others are compared.
 inline constexpr std::size_t fetched_ahead = 8;
 
 template <int Dimension>
@@ -298,7 +301,7 @@ KDS_BLOCK_INLINE void fetch_beads(const Blocks<Dimension>& blocks, std::uint32_t
 }
 
 struct ComparedPair {
-  std::uint32_t first, second;  // beads
+  std::uint32_t first, second;  // numbers of the first beads of the two blocks
   const LanesApart* lanes;
 };
 
@@ -315,8 +318,8 @@ template <int Dimension, bool Equal>
   const std::int64_t within = asked.within ? std::int64_t{asked.apart} : std::int64_t{1} << 40;
   const std::int64_t between = asked.between ? least_all : least_none;
   const std::uint32_t never_along = asked.along_done ? 0 : 2;
-  // Which groups meet, and which beads are near, nobody foretells: no branch but the one that skips blocks of
-  // which no groups do, as next along a stretched chain.
+  // Branch prediction fails on which groups meet and which beads are near. The only branch skips pairs of
+  // blocks without meeting groups, which are common along a stretched chain.
   std::array<ComparedPair, block_pairs_at_once> compared;
   std::size_t meeting = 0;
   for (std::size_t p = 0; p < count;) {

@@ -22,11 +22,11 @@ Eigen::Vector3d in_space(const double* point) {
   return p;
 }
 
-/// A ball or cage at a time, its radius last.
+/// A ball or cage at one time, with its radius last.
 template <int Dimension>
 using ExactBall = std::array<Rational, static_cast<std::size_t>(Dimension) + 1>;
 
-/// Of Bernstein form: control points' numbers, by de Casteljau.
+/// Evaluates the Bernstein form with these control points at u by de Casteljau's algorithm.
 Rational blended(std::vector<Rational> points, const Rational& u) {
   for (std::size_t left = points.size(); left > 1; --left)
     for (std::size_t k = 0; k + 1 < left; ++k) points[k] += u * (points[k + 1] - points[k]);
@@ -61,7 +61,7 @@ std::optional<std::string> ball_outside_at(const NecklaceTree& tree,
   const Rational u = time.rational();
   std::vector<ExactBall<Dimension>> balls(curves.bead_count());
   for (BeadId b = 0; b < balls.size(); ++b) {
-    balls[b] = exact_position(curves, b, time);  // whose last is the weight
+    balls[b] = exact_position(curves, b, time);  // the last number is the weight
     balls[b].back() = exact_radius(curves, b, time);
   }
   std::vector<Rational> points(cages.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Whether cages hold their beads, in exact arithmetic.
+// Checks in exact arithmetic that cages hold their beads.
 
 #include <optional>
 #include <span>
@@ -12,13 +12,14 @@
 
 namespace kds {
 
-/// The node and bead of the first ball that sticks out of a cage at the k-th control point. A radius that has
-/// overflowed holds all.
+/// Returns the node and bead of the first ball that sticks out of a cage at the k-th control point, or none.
+/// A cage whose radius has overflowed holds all balls.
 template <int Dimension>
 [[nodiscard]] std::optional<std::string> ball_outside(const NecklaceTree& tree, OutwardCages<Dimension> cages,
                                                       const Curves<Dimension>& curves, int k);
 
-/// The same at a time, of cages blended from those of all control points: `cages[k]`.
+/// Does the check at time `time` for cages blended from the cages of all control points. `cages[k]` are those
+/// of control point k.
 template <int Dimension>
 [[nodiscard]] std::optional<std::string> ball_outside_at(const NecklaceTree& tree,
                                                          std::span<const OutwardCages<Dimension>> cages,

@@ -1,12 +1,13 @@
 #pragma once
-// Chord cages: spheres of a hierarchy's nodes that are right at the ends of a step and blended in between,
-// with no certificate and no event (docs/accuracy.md). At each control point of the motion a node has a
-// sphere around its balls there; centre and radius are the Bezier curves of these spheres, chords where the
-// motion is linear.
+// Chord cages: spheres of a hierarchy's nodes that are exact at the ends of a step and interpolated in
+// between, without certificates or events (docs/accuracy.md). At each control point of the motion, a node has
+// a sphere around its balls there. Centre and radius are the Bezier curves with these spheres as control
+// points; if the motion is linear, they are chords.
 //
-// They hold every bead at all times, exactly, for centres and radii as they stand, which are doubles. Let
-// x_k, r_k be a bead's control points and c_k, R_k the node's. The sphere at each is made such that |x_k -
-// c_k| + r_k <= R_k, its radius being rounded up. With B_k(u) >= 0 the Bernstein polynomials, whose sum is 1,
+// The cages hold every bead at all times. This is exact for the stored centres and radii, which are doubles.
+// Let x_k, r_k be the control points of a bead and c_k, R_k those of the node. Each sphere satisfies |x_k -
+// c_k| + r_k <= R_k because its radius is rounded up. The Bernstein polynomials B_k(u) are nonnegative and
+// sum to 1, so
 //
 //   |x(u) - c(u)| = |sum B_k (x_k - c_k)| <= sum B_k |x_k - c_k| <= sum B_k (R_k - r_k) = R(u) - r(u).
 
@@ -22,7 +23,7 @@
 
 namespace kds {
 
-/// `Hierarchy`: StaticWrappedHierarchy, whose spheres are the smallest at each control point, or
+/// `Hierarchy` is StaticWrappedHierarchy, whose spheres are the smallest at each control point, or
 /// LayeredHierarchy.
 template <class Hierarchy>
 class ChordCages {
@@ -30,27 +31,28 @@ class ChordCages {
   static constexpr int dimension = Hierarchy::dimension;
   using BallsAt = typename Hierarchy::BallsAt;
 
-  /// `keep_bases`: those of each step's start, too, where there are any.
+  /// If `keep_bases`, the bases of each step's start are kept too, provided that the hierarchy has bases.
   ChordCages(std::span<const BeadRange> necklaces, int degree, bool keep_bases = false);
 
-  /// Where beads are at the start of a first step. Until they move there are cages at control point 0 only.
+  /// Builds the cages at the beads' positions at the start of the first step. Until the beads move, only
+  /// control point 0 has cages.
   void build(const Curves<dimension>& curves);
-  /// Takes the cages of a step. One that begins where the last has ended costs `degree` updates.
+  /// Computes the cages of a step. A step that begins at the end of the last one costs `degree` updates.
   void move_to(const Curves<dimension>& curves);
 
   [[nodiscard]] const NecklaceTree& tree() const { return hierarchy_.tree(); }
   [[nodiscard]] int degree() const { return static_cast<int>(cages_.size()) - 1; }
-  /// Of all nodes at a control point, radii rounded up.
+  /// Returns the cages of all nodes at a control point, with radii rounded up.
   [[nodiscard]] OutwardCages<dimension> cages(int k) const {
     return cages_[static_cast<std::size_t>(k)].outward();
   }
   [[nodiscard]] const BallsAt& balls(int k) const { return balls_[static_cast<std::size_t>(k)]; }
-  /// Its bases are of the last control point: the step's end, or, before any step, where beads are built.
-  /// The cages it had are those here.
+  /// Returns the hierarchy. Its bases belong to control point last(): the end of the step or, before any
+  /// step, the positions it was built at. Its own cages have been moved into this object.
   [[nodiscard]] const Hierarchy& hierarchy() const { return hierarchy_; }
-  /// That control point.
+  /// Returns the control point of the hierarchy's bases.
   [[nodiscard]] int last() const { return moved_ ? degree() : 0; }
-  /// The bases at the step's start, where they are kept.
+  /// Returns the bases at the start of the step, if they are kept.
   [[nodiscard]] std::span<const Basis> start_bases() const { return start_bases_; }
 
  private:
@@ -58,7 +60,7 @@ class ChordCages {
 
   Hierarchy hierarchy_;
   std::vector<BallsAt> balls_;                // of each control point
-  std::vector<TakenCages<Hierarchy>> cages_;  // likewise
+  std::vector<TakenCages<Hierarchy>> cages_;  // of each control point
   std::vector<Basis> start_bases_;
   bool keep_bases_;
   bool moved_ = false;

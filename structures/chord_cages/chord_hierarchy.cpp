@@ -25,8 +25,8 @@ const MotionRef<D>& accepted(const MotionRef<D>& motion) {
   return motion;
 }
 
-// A basis that encloses all beads and has none to spare is that of the minimum enclosing sphere: checking
-// both on integers is as good as building it.
+// A basis whose sphere encloses all beads, and which has no superfluous bead, is the basis of the minimum
+// enclosing sphere. Checking both conditions on integers is therefore as good as building the sphere.
 template <int D>
 std::optional<std::string> not_as_built(const ChordCages<StaticWrappedHierarchy<D>>& cages,
                                         const Curves<D>& curves, const Dyadic& time) {
@@ -62,8 +62,8 @@ std::optional<std::string> not_as_built(const ChordCages<LayeredHierarchy<D>>& c
   return std::nullopt;
 }
 
-// Of the cages at all control points, by de Casteljau's steps: each rounds every number four times, by 2^-53
-// of the largest of its kind.
+// Blends the cages of all control points by de Casteljau's algorithm. Each of its steps rounds every number
+// four times, by 2^-53 of the largest number of its kind.
 template <int D>
 Sphere blended(std::vector<Cage<D>> cages, double u) {
   if (u == 0 || u == 1) return sphere_of(u == 0 ? cages.front() : cages.back(), 0.0);

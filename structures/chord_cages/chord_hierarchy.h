@@ -1,6 +1,6 @@
 #pragma once
-// A hierarchy of chord cages in a run: beside other structures on their clock, but with no certificate and no
-// event. It cannot say when a basis changes, and has nothing to log or to replay.
+// A hierarchy of chord cages in a run. It shares the clock with the other structures but has no certificates
+// and no events. It cannot say when a basis changes, and it has nothing to log or to replay.
 
 #include <array>
 #include <cstdint>
@@ -23,31 +23,33 @@ class ChordHierarchy final : public KineticStructure {
  public:
   static constexpr int dimension = Hierarchy::dimension;
 
-  /// Of what is counted where tightness is asked for: parts of nodes' steps.
+  /// Kinds of counts if tightness is requested. Each one counts parts of the nodes' steps.
   enum Kind : std::uint8_t { bisection, unproved };
 
-  /// `tightness`: radii are to be within 1 + this of the smallest at all times (tight_cages.h). Throws
-  /// std::invalid_argument where the motion is lifted, and where layered spheres are to be tight.
+  /// If `tightness` is given, radii are kept within 1 + `tightness` of the smallest at all times
+  /// (tight_cages.h). Throws std::invalid_argument if the motion is lifted, or if tightness is requested for
+  /// layered spheres.
   ChordHierarchy(Simulator& simulator, const MotionRef<dimension>& motion,
                  std::span<const BeadRange> necklaces, std::optional<double> tightness = {});
 
   [[nodiscard]] std::string_view name() const override;
-  /// None, or what is counted: these are no events, they are not recorded.
+  /// Returns the kinds of counts, empty without tightness. They are no events and are not recorded.
   [[nodiscard]] std::span<const EventKind> kinds() const override;
   [[nodiscard]] const ChordCages<Hierarchy>& cages() const { return cages_; }
-  /// Null where no tightness is asked for.
+  /// Null if no tightness is requested.
   [[nodiscard]] const TightCages<dimension>* tight() const { return tight_ ? &*tight_ : nullptr; }
 
-  /// A node's sphere at time u of the present step, exactly a double: rounded up, so that it holds the true
-  /// one.
+  /// Returns a node's sphere at time u of the present step. Its radius is rounded up, so it encloses the
+  /// exact blended sphere.
   [[nodiscard]] Sphere sphere_at(NodeId node, double u) const;
 
   void build() override;
   void start_step() override;
   void fail(unsigned, std::uint32_t) override {}
   void apply(const Change& change) override;
-  /// At an end of the step the spheres are compared with those built statically, and all control points'
-  /// cages must hold their beads; at another time the blended ones. Exact.
+  /// Audits the cages exactly. At an end of the step, the spheres are compared with statically built ones,
+  /// and the cages at all control points must hold their beads. At any other time, the blended cages must
+  /// hold their beads.
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
  private:

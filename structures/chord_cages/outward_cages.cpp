@@ -9,13 +9,15 @@ namespace kds {
 
 namespace {
 
-// Why that is enough. Let u = 2^-53. Of a cage that doubles have proved, the radius is the root of the
-// greatest square distance computed of a basis bead, and no other bead's is greater (sphere_scan.h); balls
-// likewise. Computed distances and their roots err by 4u of themselves. Cages below that were settled as a
-// whole lie deeper inside than they err. Of a pair, half the difference of its beads is computed to 2u of
-// itself, and the centre, rounded once more, lies u of its coordinates beside the point that belongs to this
-// radius. All that is less than 8u of the radius and u of the coordinates; the sum with the common radius of
-// beads and the products take another 4u. Loose cages are measured.
+// Proof that these shares suffice. Let u = 2^-53.
+// - Cages that doubles have proved: the radius is the root of the greatest computed squared distance of a
+//   basis bead, and no other bead has a greater one (sphere_scan.h). Balls are treated alike. Computed
+//   distances and their roots have relative errors of at most 4u.
+// - Cages below a proved cage that were settled as a whole lie deeper inside than this error.
+// - Pairs: half the distance of the two beads is computed to 2u of itself. The centre is rounded once more
+//   and lies within u of its coordinates of the point that belongs to this radius.
+// All this is less than 8u of the radius and u of the coordinates. The sum with the common radius of the
+// beads and the products add another 4u. Loose cages are measured instead.
 constexpr double of_radius = 0x1p-49, of_center = 0x1p-51;
 
 }  // namespace

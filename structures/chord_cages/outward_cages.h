@@ -1,7 +1,7 @@
 #pragma once
-// A hierarchy's cages with radii rounded up: as they are answered, centres and radii doubles, they hold the
-// balls of their nodes exactly. Rounded when they are asked for: a run that only brings cages along does not
-// pay for it.
+// A hierarchy's cages with radii rounded up. Centres and radii, as returned in doubles, hold the balls of
+// their nodes exactly. The rounding happens on request, so a run that only maintains cages does not pay for
+// it.
 
 #include <array>
 #include <cmath>
@@ -17,12 +17,13 @@
 
 namespace kds {
 
-/// A view of all nodes' cages at one time.
+/// A view of the cages of all nodes at one time.
 template <int Dimension>
 class OutwardCages {
  public:
   OutwardCages() = default;
-  /// Radii are made wider by `wider`, then by these shares of themselves and of the centre's coordinates.
+  /// Each radius grows by `wider`, then by the share `of_radius` of itself and the share `of_center` of the
+  /// centre's coordinates.
   OutwardCages(std::span<const Cage<Dimension>> cages, double wider, double of_radius, double of_center)
       : cages_(cages), wider_(wider), factor_(1 + of_radius), of_center_(of_center) {}
 
@@ -34,7 +35,7 @@ class OutwardCages {
     cage.radius = (cage.radius + wider_) * factor_ + of_center_ * size;
     return cage;
   }
-  /// Four side by side, each the same double for double.
+  /// Returns four cages in four lanes. Each lane equals the single result, bit for bit.
   [[nodiscard, gnu::always_inline]] FourBalls<Dimension> four(const FourPlaces& nodes) const {
     FourBalls<Dimension> balls(cages_.data(), nodes);
     Lanes size = abs(balls.center[0]);
@@ -48,13 +49,14 @@ class OutwardCages {
   double wider_ = 0, factor_ = 1, of_center_ = 0;
 };
 
-/// Cages taken from a hierarchy at one time.
+/// Cages moved out of a hierarchy at one time.
 template <class Hierarchy>
 class TakenCages {
  public:
   static constexpr int dimension = Hierarchy::dimension;
 
-  /// `balls` are those the hierarchy was just brought to; it makes its cages anew with the next.
+  /// Takes the cages of `hierarchy`. `balls` are the balls it was last brought to; the hierarchy rebuilds its
+  /// cages with the next balls.
   void take(Hierarchy& hierarchy, const typename Hierarchy::BallsAt& balls);
   [[nodiscard]] OutwardCages<dimension> outward() const;
 
@@ -63,7 +65,7 @@ class TakenCages {
   double wider_ = 0;
 };
 
-/// The radius of a sphere of this centre around beads first..last.
+/// Returns a radius, rounded up, of a sphere with this centre around beads first..last.
 template <int Dimension>
 [[nodiscard]] double outward_radius(const Balls<Dimension>& balls, BeadId first, BeadId last,
                                     const Point<Dimension>& center);

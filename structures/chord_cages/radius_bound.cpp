@@ -16,10 +16,10 @@ using detail::dot;
 using detail::minus;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double rounding = 0x1p-42;  // of squares
+constexpr double rounding = 0x1p-42;  // relative, of squares
 
-/// Weights of the centre of the sphere around a basis. Their sum is 1 up to rounding; where doubles make no
-/// sense of the basis they may be anything.
+/// Returns the barycentric coordinates of the centre of the sphere around a basis. Their sum is 1 up to
+/// rounding. They are arbitrary if the basis is degenerate in doubles.
 template <bool of_points, class N, int D, std::size_t M>
 [[gnu::always_inline]] inline std::array<N, M + 1> weights_of(const BasisBalls<N, D, M>& balls) {
   const detail::Span<N, D, M> span(balls);
@@ -40,7 +40,8 @@ template <bool of_points, class N, int D, std::size_t M>
   }
 }
 
-/// How large G may be, given the extremes of R and of the mean radius.
+/// Returns an upper limit of G under which the radius is tight, given the extremes of R and of the mean
+/// radius.
 template <class N>
 [[gnu::always_inline]] inline N most_allowed(const N& least_radius, const N& greatest_radius,
                                              const N& least_mean, const N& greatest_mean, double tightness) {
@@ -52,13 +53,13 @@ template <class N>
                     step * (step + N(2.0) * tau));
 }
 
-// One piece of any degree.
+// One piece of a motion of any degree.
 
 /// Means, and the Bernstein coefficients of G.
 template <int D>
 struct Gap {
   std::array<double, 2 * 61 + 1> coefficients;
-  double least_mean, greatest_mean;  // of radii, over the control points
+  double least_mean, greatest_mean;  // of the radii's mean, over the control points
 };
 
 template <int D>
@@ -78,7 +79,7 @@ std::array<double, Basis::max_size> weights_at(const std::array<ControlBall<D>, 
   return weights;
 }
 
-/// G by the weights of the basis at one end, or false.
+/// Computes G with the weights of the basis at one end. Returns false if that fails.
 template <int D>
 bool find_gap(const Curves<D>& curves, const CagePiece<D>& piece, std::size_t which, Gap<D>& gap) {
   const Basis& basis = piece.bases[which];
@@ -107,7 +108,7 @@ bool find_gap(const Curves<D>& curves, const CagePiece<D>& piece, std::size_t wh
     if (!(sum >= 0.5 && sum <= 2)) return false;
     for (double& weight : weights) weight /= sum;
   }
-  std::array<Vector<D>, most_controls> mean{};  // seen from the cage's centre
+  std::array<Vector<D>, most_controls> mean{};  // relative to the cage's centre
   std::array<std::array<Vector<D>, Basis::max_size>, most_controls> seen;
   std::array<double, most_controls> mean_radius{};
   gap.least_mean = infinity;
@@ -123,7 +124,7 @@ bool find_gap(const Curves<D>& curves, const CagePiece<D>& piece, std::size_t wh
     gap.least_mean = std::min(gap.least_mean, mean_radius[k]);
     gap.greatest_mean = std::max(gap.greatest_mean, mean_radius[k]);
   }
-  // The product of two control points' numbers belongs to the coefficient of the sum of their places.
+  // The product of control points i and j contributes to Bernstein coefficient i + j.
   std::fill_n(gap.coefficients.begin(), 2 * degree + 1, 0.0);
   for (std::size_t k = 0; k < controls; ++k) {
     for (std::size_t l = 0; l < controls; ++l) {
@@ -142,7 +143,7 @@ bool find_gap(const Curves<D>& curves, const CagePiece<D>& piece, std::size_t wh
   return true;
 }
 
-/// A polynomial in Bernstein form, without memory of its own.
+/// A polynomial in Bernstein form, without heap memory.
 struct GapCoefficients {
   std::size_t count;
   std::array<double, 2 * 61 + 1> of;
@@ -156,7 +157,7 @@ void halve(const GapCoefficients& p, GapCoefficients& left, GapCoefficients& rig
   }
 }
 
-/// Everywhere one of two is not above its limit.
+/// Returns whether everywhere at least one of two polynomials is at most its limit (Bernstein subdivision).
 bool one_is_below(const std::array<GapCoefficients, 2>& of, const std::array<double, 2>& limit,
                   int halvings) {
   for (std::size_t which = 0; which < 2; ++which) {
@@ -166,14 +167,14 @@ bool one_is_below(const std::array<GapCoefficients, 2>& of, const std::array<dou
   if (halvings == 0) return false;
   std::array<GapCoefficients, 2> left, right;
   for (std::size_t which = 0; which < 2; ++which) halve(of[which], left[which], right[which]);
-  // In the middle both are above.
+  // Both exceed their limits in the middle.
   if (!(right[0].of[0] <= limit[0]) && !(right[1].of[0] <= limit[1])) return false;
   return one_is_below(left, limit, halvings - 1) && one_is_below(right, limit, halvings - 1);
 }
 
 // Many nodes in linear motion.
 
-/// Four nodes whose bases have M + 1 beads: which are proved tight.
+/// Returns which of four nodes, whose bases have M + 1 beads, are proved tight.
 template <bool of_points, int D, std::size_t M>
 [[gnu::always_inline]] inline Lanes::Mask are_tight(const LinearStep<D>& step, const FourPlaces& nodes,
                                                     double tightness) {
@@ -240,7 +241,7 @@ template <bool of_points, int D, std::size_t M>
   const Lanes allowed = most_allowed(Lanes::min(start_cages.radius, end_cages.radius), greatest,
                                      Lanes::min(start_mean_radius, end_mean_radius),
                                      Lanes::max(start_mean_radius, end_mean_radius), tightness);
-  // A comparison with what is no number is false. Lengths whose squares lose digits prove nothing.
+  // Comparisons with NaN are false. Lengths whose squares lose digits prove nothing.
   const auto sized = (greatest >= Lanes(0x1p-400)) & (greatest <= Lanes(0x1p400));
   return (least >= Lanes(0.0)) & (bulge <= Lanes(infinity)) & (most <= allowed) & sized;
 }
@@ -266,7 +267,7 @@ void look_at_all(const LinearStep<D>& step, double tightness, std::vector<NodeId
   for (std::size_t first = 0; first < step.start_bases.size(); first += at_a_time) {
     std::array<std::size_t, Basis::max_size> count{};
     const std::size_t end = std::min(step.start_bases.size(), first + at_a_time);
-    for (std::size_t node = first; node < end; ++node) {  // no branch, and no count to wait for
+    for (std::size_t node = first; node < end; ++node) {  // no branch, and no counter to wait for
       const std::size_t size = step.start_bases[node].size;
       for (std::size_t m = 0; m < Basis::max_size; ++m) {
         nodes[m][count[m]] = static_cast<NodeId>(node);
@@ -282,9 +283,9 @@ void look_at_all(const LinearStep<D>& step, double tightness, std::vector<NodeId
 
 }  // namespace
 
-// A curve's part has for control points its blossom at the part's ends, some times each: de Casteljau's
-// scheme with another parameter at each level. Every level takes means of numbers that are no larger than
-// `size`, each with less than 5 * 2^-53 of it in roundings.
+// The control points of a curve's part are blossom values whose arguments are the two ends of the part, each
+// repeated some number of times. De Casteljau's algorithm computes them with one parameter per level. Every
+// level averages numbers that are at most `size`, with rounding errors below 5 * 2^-53 `size`.
 template <int D>
 ControlBall<D> control_ball(const Curves<D>& curves, BeadId bead, double from, double to, int k) {
   const int degree = curves.own_degree();

@@ -35,7 +35,7 @@ void TightCages<D>::prove(const ChordCages<StaticWrappedHierarchy<D>>& cages, co
   }
 }
 
-// Depth first, from the left: those on the stack are not proved.
+// Depth-first search from the left: the parts on the stack are not proved yet.
 template <int D>
 void TightCages<D>::bisect(NodeId node, const BeadRange& range, const CagePiece<D>& whole,
                            const Curves<D>& curves) {
@@ -50,7 +50,7 @@ void TightCages<D>::bisect(NodeId node, const BeadRange& range, const CagePiece<
   double greatest = 0;
   for (const Cage<D>& cage : whole.cages) greatest = std::max(greatest, cage.radius);
   const double error = control_ball_error(degree, size);
-  if (!is_judged(greatest) || error > 0x1p-3 * tightness_ * greatest) {  // no part would be proved
+  if (!is_judged(greatest) || error > 0x1p-3 * tightness_ * greatest) {  // no part could be proved
     ++unproved_;
     return;
   }
@@ -91,7 +91,8 @@ void TightCages<D>::bisect(NodeId node, const BeadRange& range, const CagePiece<
   bisected_.push_back({node, first, parts_.size()});
 }
 
-// The smallest sphere around a node's control balls, from a basis that may be its own, which it becomes.
+// Returns the smallest sphere around a node's control balls. The search starts from `basis`, which becomes
+// the sphere's basis.
 template <int D>
 Cage<D> TightCages<D>::cage_at(const BeadRange& range, const Curves<D>& curves, double from, double to, int k,
                                double error, Basis& basis) {

@@ -31,9 +31,9 @@ TwoTerms exact_difference(const Eigen::Vector3d& a, const Eigen::Vector3d& b, Ei
   return exact_sum(a[axis], -b[axis]);
 }
 
-// The sign of the difference of two numbers that are not negative, each computed with at most eight roundings
-// in a row, hence with a relative error below 2^-49, if they tell it. What underflows in one of them is below
-// 2^-1000, which does not matter beside the larger one; infinities and NaN tell nothing.
+// Returns the sign of left - right if doubles can tell it, else none. Both numbers are nonnegative and
+// computed with at most eight roundings in a row, so their relative error is below 2^-49. Underflow in one
+// number stays below 2^-1000, which is negligible beside the larger number. Infinities and NaN give none.
 std::optional<int> sign_told(double left, double right) {
   constexpr double margin = 1 + 0x1p-48;
   const double larger = std::max(left, right);
@@ -59,7 +59,7 @@ int compare_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
 int compare_lengths(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double factor,
                     const Eigen::Vector3d& c, const Eigen::Vector3d& d) {
   const double first = square_in_double(a, b), factor_squared = factor * factor;
-  if (first >= 0x1p-900 && factor_squared >= 0x1p-900) {  // a factor would magnify what underflowed
+  if (first >= 0x1p-900 && factor_squared >= 0x1p-900) {  // a factor would magnify the underflow
     if (const auto sign = sign_told(first * factor_squared, square_in_double(c, d))) return *sign;
   }
   const Rational exact_factor(factor);
@@ -68,7 +68,7 @@ int compare_lengths(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double f
 
 namespace {
 
-// The sign of e - f sqrt(q), q not negative.
+// Returns the sign of e - f sqrt(q), where q is not negative.
 int sign_of_difference(const Rational& e, const Rational& f, const Rational& q) {
   const int s = sign_of(e), t = sign_of(f) * sign_of(q);
   if (s != t || s == 0) return s > t ? 1 : s < t ? -1 : 0;
@@ -82,7 +82,8 @@ int compare_gaps(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Exact
   const double first = std::sqrt(square_in_double(a, b)), second = std::sqrt(square_in_double(c, d));
   const double reach = r.first + r.second, other_reach = s.first + s.second;
   const double sizes = (first + std::abs(reach)) + (second + std::abs(other_reach));
-  // Each of the four is off by less than 2^-50 of itself, or by less than 2^-500 where squares underflow.
+  // Each of the four numbers has a relative error below 2^-50, or an absolute error below 2^-500 if squares
+  // underflow.
   const double difference = (first - reach) - (second - other_reach);
   if (sizes <= 0x1p500 && std::abs(difference) > 0x1p-48 * sizes + 0x1p-490) return difference > 0 ? 1 : -1;
   if (exact_sum(r.first, r.second) == exact_sum(s.first, s.second)) {
@@ -93,7 +94,7 @@ int compare_gaps(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Exact
     }
     if (total.is_exact()) return total.sign();
   }
-  // The sign of sqrt(p) - (sqrt(q) + u).
+  // Computes the sign of sqrt(p) - (sqrt(q) + u).
   const Rational p = square_in_rationals(a, b), q = square_in_rationals(c, d);
   const Rational u = Rational(r.first) + Rational(r.second) - Rational(s.first) - Rational(s.second);
   const int right = sign_of_difference(u, Rational(-1), q);

@@ -15,7 +15,7 @@ namespace {
 using Row = Lanes::Vector;
 using Bits = Lanes::Mask;
 
-/// In the weight's place.
+/// Puts the radius in the place of the weight.
 [[gnu::always_inline]] inline Row with_radius(const Row& point, const Row& radius) {
   return __builtin_shufflevector(point, radius, 0, 1, 2, 7);
 }
@@ -32,14 +32,14 @@ template <int D>
 
 constexpr long long exponent = 0x7ffLL << 52;
 
-/// What was seen of rows that were copied, number by number.
+/// Observations, number by number, about the rows that were copied.
 struct Seen {
-  Bits changed{};         // bits that are others than before
-  Bits finite = ~Bits{};  // negative where all are
-  Bits other_start{};     // bits of beads at the start that are others than those known
+  Bits changed{};         // bits that differ from before
+  Bits finite = ~Bits{};  // sign bit set while all numbers are finite
+  Bits other_start{};     // bits of the beads at the start that differ from the known start
 };
 
-// No branch, and no sum to wait for.
+// The loop has no branch and no running sum to wait for.
 template <int D, bool looks_at_start>
 [[KDS_LANES_TARGETS]] Seen copy_rows(const Curves<D>& curves, int k, BallRow<D>* rows,
                                      const BallRow<D>* start) {
@@ -53,11 +53,11 @@ template <int D, bool looks_at_start>
       seen.other_start |= reinterpret_cast<Bits>(row_of(curves, b, 0)) ^ bits_of(start[b]);
     __builtin_memcpy(static_cast<void*>(rows + b), &row, sizeof row);
   }
-  if (D == 2) seen.other_start[3] = 0;  // nobody's
+  if (D == 2) seen.other_start[3] = 0;  // the unused fourth double
   return seen;
 }
 
-/// The same in space where all radii are known to be what they were, as nearly always.
+/// Copies rows in space if all radii are known to be unchanged, which is the usual case.
 template <bool looks_at_start>
 [[KDS_LANES_TARGETS]] Seen copy_centers(const Curves<3>& curves, int k, double radius, BallRow<3>* rows,
                                         const BallRow<3>* start) {
@@ -70,11 +70,11 @@ template <bool looks_at_start>
       seen.other_start |= reinterpret_cast<Bits>(Lanes::load(curves.control_point(b, 0))) ^ bits_of(start[b]);
     __builtin_memcpy(static_cast<void*>(rows + b), &row, sizeof row);
   }
-  seen.other_start[3] = 0;  // there are weights
+  seen.other_start[3] = 0;  // the fourth number is a weight
   return seen;
 }
 
-/// Whether all are this, bit for bit.
+/// Returns whether all numbers equal `value`, bit for bit.
 [[KDS_LANES_TARGETS]] bool all_are(double value, const double* numbers, std::size_t count) {
   const Bits wanted = reinterpret_cast<Bits>(Lanes(value).v);
   Bits other{};
@@ -87,7 +87,8 @@ template <bool looks_at_start>
 template <int D>
 bool all_radii_are(double radius, const Curves<D>& curves) {
   const std::size_t beads = curves.bead_count(), each = static_cast<std::size_t>(curves.own_degree()) + 1;
-  if (beads > 1 && curves.radii(1) != curves.radii(0) + each) return false;  // they lie elsewhere
+  if (beads > 1 && curves.radii(1) != curves.radii(0) + each)
+    return false;  // this motion stores radii elsewhere
   return beads > 0 && all_are(radius, curves.radii(0), beads * each);
 }
 

@@ -6,7 +6,7 @@ namespace kds {
 
 namespace {
 
-/// Four by four: behind the last bead there is room.
+/// The loop handles four beads at a time; memory beyond the last bead is writable.
 template <int D>
 [[KDS_LANES_TARGETS]] void spread_rows(const BallRow<D>* rows, std::size_t beads,
                                        const std::array<double*, static_cast<std::size_t>(D)>& centers) {

@@ -1,7 +1,7 @@
 #pragma once
-// The balls of a scene at one time, one by one, and coordinate by coordinate, as the fast loops over
-// consecutive beads want them. Behind the last bead there is room that may be read. In the plane there is no
-// third coordinate.
+// The balls of a scene at one time as a structure of arrays, coordinate by coordinate, for the fast loops
+// over consecutive beads. Memory beyond the last bead is readable. In the plane the third coordinate is
+// absent.
 
 #include <Eigen/Core>
 #include <array>
@@ -24,8 +24,8 @@ class Balls : public BallRows<Dimension> {
   using BallRows<Dimension>::size;
 
   Balls() = default;
-  /// One column a bead; a third coordinate is left out in the plane. Throws InputError naming the bead whose
-  /// coordinates or radius are not finite, or its radius negative.
+  /// Constructs balls from centres, one column per bead. The plane ignores a third coordinate. Throws
+  /// InputError naming the bead if a coordinate or radius is not finite, or if a radius is negative.
   Balls(const Eigen::Matrix3Xd& centers, std::span<const double> radii) : radii_(radii.begin(), radii.end()) {
     if (static_cast<std::size_t>(centers.cols()) != radii.size())
       throw InputError("expected one radius a bead: " + std::to_string(centers.cols()) + " beads, " +
@@ -42,15 +42,15 @@ class Balls : public BallRows<Dimension> {
     move_to(centers);
   }
 
-  /// Those of a motion at its k-th control points. Throws as the other.
+  /// Constructs the balls of a motion at its k-th control points. Throws like the constructor from centres.
   Balls(const Curves<Dimension>& curves, int k) { move_to(curves, k); }
 
-  /// Puts the same balls elsewhere. Throws as the constructor does.
+  /// Moves the same balls to other centres. Throws like the constructor.
   void move_to(const Eigen::Matrix3Xd& centers) {
     if (static_cast<std::size_t>(centers.cols()) != size())
       throw InputError("expected " + std::to_string(size()) + " beads, not " +
                        std::to_string(centers.cols()));
-    double not_finite = 0;  // zero times what is not finite is NaN
+    double not_finite = 0;  // zero times infinity or NaN is NaN
     for (std::size_t b = 0; b < size(); ++b) {
       for (std::size_t axis = 0; axis < Dimension; ++axis) {
         const double x = centers(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(b));
@@ -61,15 +61,15 @@ class Balls : public BallRows<Dimension> {
     if (not_finite != 0) refuse(centers);
   }
 
-  /// Makes them those of a motion at its k-th control points, in the memory they have. Throws as the
-  /// constructor does.
+  /// Moves the balls to the k-th control points of a motion and reuses their memory. Throws like the
+  /// constructor.
   void move_to(const Curves<Dimension>& curves, int k) { (void)copy(curves, k, nullptr); }
-  /// As that of rows.
+  /// Like BallRows::move_on_from.
   [[nodiscard]] bool move_on_from(const Balls& start, const Curves<Dimension>& curves) {
     return copy(curves, 1, &start);
   }
 
-  /// Puts one ball elsewhere, or another in its place. All finite.
+  /// Gives one ball another centre and radius. All arguments are finite.
   void place(BeadId bead, const std::array<double, static_cast<std::size_t>(Dimension)>& center,
              double radius) {
     for (std::size_t axis = 0; axis < Dimension; ++axis) centers_[axis][bead] = center[axis];
@@ -87,7 +87,8 @@ class Balls : public BallRows<Dimension> {
   using BallRows<Dimension>::rows_;
   using BallRows<Dimension>::equal_radii_;
 
-  bool copy(const Curves<Dimension>& curves, int k, const Balls* start);  ///< whether `start` is known
+  bool copy(const Curves<Dimension>& curves, int k,
+            const Balls* start);  ///< returns whether `start` equals the known start
   [[noreturn]] static void refuse(const Eigen::Matrix3Xd& centers) {
     Eigen::Index b = 0;
     while (centers.col(b).template head<Dimension>().allFinite()) ++b;

@@ -1,5 +1,5 @@
 #pragma once
-// Beads in messages.
+// Formats beads for messages.
 
 #include <span>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace kds {
 
-/// "3, 7, infinity"
+/// Returns for example "3, 7, infinity".
 [[nodiscard]] inline std::string bead_names(std::span<const BeadId> beads) {
   std::string names;
   for (const BeadId b : beads) {

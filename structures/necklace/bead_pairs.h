@@ -1,6 +1,6 @@
 #pragma once
-// A symmetric set of pairs of beads as flat lists: the neighbours of each, ascending. The edges of a diagram,
-// or the family of beads that may meet. No bead is its own neighbour.
+// A symmetric set of pairs of beads as flat adjacency lists: the neighbours of each bead in ascending order.
+// It holds the edges of a diagram or the family of beads that may meet. No bead is its own neighbour.
 
 #include <algorithm>
 #include <cstddef>
@@ -19,10 +19,10 @@ class BeadPairs {
   using Pair = std::pair<BeadId, BeadId>;
 
   BeadPairs() = default;
-  /// Pairs of beads 0 ... beads-1, which may come twice and either way round. Throws std::invalid_argument
-  /// where a pair names one bead twice, or a bead that there is not.
+  /// Constructs the set from pairs of beads 0 ... beads-1. A pair may occur twice and in either order. Throws
+  /// std::invalid_argument if a pair names one bead twice or a bead that does not exist.
   BeadPairs(std::size_t beads, std::span<const Pair> pairs);
-  /// Consecutive beads of each necklace.
+  /// Returns the pairs of consecutive beads of each necklace.
   [[nodiscard]] static BeadPairs along(std::size_t beads, std::span<const BeadRange> necklaces);
 
   [[nodiscard]] std::size_t bead_count() const { return start_.empty() ? 0 : start_.size() - 1; }
@@ -35,7 +35,7 @@ class BeadPairs {
   }
 
  private:
-  std::vector<std::size_t> start_;  // of each bead's list, and the end
+  std::vector<std::size_t> start_;  // start of each bead's list, then the end of the last
   std::vector<BeadId> neighbors_;
 };
 

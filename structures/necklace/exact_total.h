@@ -1,8 +1,8 @@
 #pragma once
-// The sign of a sum of squares of doubles and of their differences, exactly and without memory of its own: a
-// sum that is never rounded, kept as doubles of which none overlaps another (Shewchuk, Adaptive precision
-// floating-point arithmetic and fast robust geometric predicates, 1997). A tenth of the time of rationals
-// where differences are exact, as those of near numbers of one sign are.
+// Computes the sign of a sum of squares of doubles and of their differences, exactly and without heap memory.
+// The sum is never rounded. It is stored as an expansion, a sum of nonoverlapping doubles (Shewchuk, Adaptive
+// precision floating-point arithmetic and fast robust geometric predicates, 1997). It takes a tenth of the
+// time of rationals if the differences are exact, which holds for close numbers of equal sign.
 
 #include <array>
 #include <cmath>
@@ -10,13 +10,13 @@
 
 namespace kds {
 
-/// Exactly high + low, high the rounded sum.
+/// Exactly high + low, where high is the rounded sum.
 struct TwoTerms {
   double high, low;
   friend bool operator==(const TwoTerms&, const TwoTerms&) = default;
 };
 
-/// a + b; where that overflows `high` is infinite.
+/// Returns a + b exactly. If the sum overflows, `high` is infinite.
 [[nodiscard]] inline TwoTerms exact_sum(double a, double b) {
   const double sum = a + b, of_b = sum - a;
   return {sum, (a - (sum - of_b)) + (b - of_b)};
@@ -24,11 +24,11 @@ struct TwoTerms {
 
 class ExactTotal {
  public:
-  /// Adds the square of a number, or takes it away.
+  /// Adds or subtracts the square of a number.
   void add_square(const TwoTerms& x) { add_products(x, 1); }
   void subtract_square(const TwoTerms& x) { add_products(x, -1); }
 
-  /// Nothing was so large or small that a product over- or underflowed: the sign is right.
+  /// Returns whether the sign is right: no product overflowed or underflowed.
   [[nodiscard]] bool is_exact() const { return exact_; }
   [[nodiscard]] int sign() const {
     if (size_ == 0) return 0;
@@ -36,7 +36,7 @@ class ExactTotal {
   }
 
  private:
-  // Squares of numbers within these have all their digits within those of doubles.
+  // Squares of numbers in this range fit into doubles with all their digits.
   static constexpr double least = 0x1p-480, most = 0x1p480;
 
   void add_products(const TwoTerms& x, double sign) {
@@ -51,7 +51,7 @@ class ExactTotal {
     add_product(x.low, sign * x.low);
   }
 
-  // Halves of 26 bits, whose products are exact (Dekker).
+  // Splits x into halves of 26 bits, whose products are exact (Dekker).
   static TwoTerms halves(double x) {
     const double shifted = 0x1p27 * x + x;
     const double high = shifted - (shifted - x);
@@ -65,7 +65,7 @@ class ExactTotal {
     add(product);
   }
 
-  // Terms by size, none of them zero.
+  // Adds x to the terms, which ascend in size and are never zero.
   void add(double x) {
     std::size_t kept = 0;
     for (std::size_t k = 0; k < size_; ++k) {
@@ -77,7 +77,7 @@ class ExactTotal {
     size_ = kept;
   }
 
-  std::array<double, 48> terms_;  // six for each of eight squares at most
+  std::array<double, 48> terms_;  // at most six for each of eight squares
   std::size_t size_ = 0;
   bool exact_ = true;
 };

@@ -13,7 +13,7 @@ namespace kds {
 
 namespace {
 
-// Counts all, keeps the smallest few.
+// Counts all violations and keeps the smallest few.
 class Collector {
  public:
   explicit Collector(std::size_t most) : most_(most) {}
@@ -41,7 +41,7 @@ class Collector {
 
   std::size_t most_;
   bool cut_ = false;
-  Violation last_;  // the largest kept by the last cut
+  Violation last_;  // the largest violation that the last cut kept
   Violations found_;
 };
 
@@ -64,7 +64,7 @@ class Validation {
     for (const Necklace& necklace : necklaces) count += necklace.bead_count();
     Eigen::Matrix3Xd centers(3, static_cast<Eigen::Index>(count));
     std::vector<double> radii;
-    std::vector<BeadId> beads;  // of the scene
+    std::vector<BeadId> beads;  // beads of the scene
     std::vector<std::size_t> necklace_of;
     for (std::size_t n = 0; n < necklaces.size(); ++n) {
       const BeadRange& range = necklaces[n].beads();
@@ -125,7 +125,7 @@ class Validation {
     BeadId longest = n.beads().first;
     for (BeadId b = longest; b < n.beads().last; ++b)
       if (compare(b, 1, longest) > 0) longest = b;
-    if (n.center(longest) == n.center(longest + 1)) return;  // all beads in one place
+    if (n.center(longest) == n.center(longest + 1)) return;  // all beads coincide
     for (BeadId b = n.beads().first; b < n.beads().last; ++b) {
       const bool too_short =
           std::isinf(options_.rho) ? n.center(b) == n.center(b + 1) : compare(b, options_.rho, longest) < 0;

@@ -1,7 +1,7 @@
 #pragma once
-// A necklace, and what makes it a proper one (Agarwal et al., section 2.1): consecutive beads touch, all
-// others are disjoint, no ball lies inside others, and radii are uniform. Conditions are reported, not
-// imposed: real files break them.
+// A necklace and the conditions of a proper one (Agarwal et al., section 2.1): consecutive beads touch, all
+// other beads are disjoint, no ball lies inside others, and radii are uniform. Violations are reported, not
+// rejected, because real files have them.
 
 #include <Eigen/Core>
 #include <array>
@@ -17,21 +17,21 @@ namespace kds {
 
 enum class Condition {
   connected,      ///< consecutive beads have a point in common
-  disjoint,       ///< no others have, nor have beads of two necklaces
+  disjoint,       ///< no other beads meet, nor do beads of two necklaces
   uncontained,    ///< no ball lies in another
   uniform_radii,  ///< no two radii have a ratio above rho
-  uniform_bonds,  ///< no two bonds have
+  uniform_bonds,  ///< no two bonds have a ratio above rho
 };
 inline constexpr std::array kConditions{Condition::connected, Condition::disjoint, Condition::uncontained,
                                         Condition::uniform_radii, Condition::uniform_bonds};
 [[nodiscard]] std::string_view name_of(Condition condition);
 
-/// Beads of the scene that violate a condition together.
+/// Two beads of the scene that violate a condition together.
 ///   connected, disjoint: first < second;
 ///   uncontained: `first` lies in `second`; of two equal balls the later lies in the earlier;
 ///   uniform_radii: `first` is too small beside `second`, the first of the largest beads of its necklace;
-///   uniform_bonds: the bond from `first` to the next bead is too short beside that from `second`, the first
-///   of the longest.
+///   uniform_bonds: the bond from `first` to the next bead is too short beside the bond from `second`, which
+///   is the first of the longest bonds.
 struct Violation {
   BeadId first = 0, second = 0;
   friend auto operator<=>(const Violation&, const Violation&) = default;
@@ -39,7 +39,7 @@ struct Violation {
 
 struct Violations {
   std::size_t count = 0;
-  std::vector<Violation> listed;  ///< the first of them, ascending
+  std::vector<Violation> listed;  ///< the first violations, in ascending order
 };
 
 struct NecklaceReport {
@@ -47,21 +47,21 @@ struct NecklaceReport {
   [[nodiscard]] const Violations& operator[](Condition condition) const {
     return conditions[static_cast<std::size_t>(condition)];
   }
-  /// No condition is violated.
+  /// Returns whether no condition is violated.
   [[nodiscard]] bool proper() const;
 };
 
 struct ValidateOptions {
-  /// The constant of uniformity, at least 1. Without one only beads of radius 0 beside others, and bonds of
-  /// length 0 beside others, are not uniform: no constant would do.
+  /// The constant of uniformity, at least 1. If it is infinite, only beads of radius 0 beside larger ones and
+  /// bonds of length 0 beside longer ones violate uniformity, because no constant would bound their ratio.
   double rho = std::numeric_limits<double>::infinity();
-  std::size_t most_listed = std::numeric_limits<std::size_t>::max();  ///< of each condition
+  std::size_t most_listed = std::numeric_limits<std::size_t>::max();  ///< maximum number listed per condition
 };
 
-/// A view: centres and radii are those of the whole scene and must outlive it.
+/// A view: the centres and radii belong to the whole scene and must outlive it.
 class Necklace {
  public:
-  /// Throws InputError naming the bead where a centre is not finite or a radius not finite or negative.
+  /// Throws InputError naming the bead if a centre is not finite, or if a radius is negative or not finite.
   Necklace(BeadRange beads, const Eigen::Matrix3Xd& scene_centers, std::span<const double> scene_radii);
 
   [[nodiscard]] const BeadRange& beads() const { return beads_; }
@@ -71,15 +71,15 @@ class Necklace {
 
   struct Extent {
     double least, most;
-    /// Infinite where no constant bounds it.
+    /// Returns the greatest ratio. It is infinite if no constant bounds it.
     [[nodiscard]] double ratio() const { return least == most ? 1 : most / least; }
   };
   [[nodiscard]] Extent radii() const;
-  /// Distances of consecutive centres, rounded. 0 to 0 for a single bead.
+  /// Returns the range of distances between consecutive centres, rounded. It is 0 to 0 for a single bead.
   [[nodiscard]] Extent bonds() const;
 
-  /// All violations in this necklace alone. Exact. Time n log n, times the number of powers of two among the
-  /// diameters, plus the pairs that are near.
+  /// Returns all violations within this necklace alone, exactly. Takes n log n time, times the number of
+  /// powers of two among the diameters, plus the number of near pairs.
   [[nodiscard]] NecklaceReport validate(const ValidateOptions& options = {}) const;
 
  private:
@@ -88,13 +88,13 @@ class Necklace {
   std::span<const double> radii_;
 };
 
-/// Several necklaces of one scene, in its order: what violates a condition in one of them, and the beads of
-/// two that meet or lie in each other.
+/// Validates several necklaces of one scene, in the scene's order. Returns the violations within each
+/// necklace, and the beads of two necklaces that meet or lie in each other.
 ///
-/// Why `uncontained` looks at pairs only, although the paper forbids a ball within several others together:
-/// where all nonadjacent beads are disjoint, a ball that lies in the union of others lies in the union of its
-/// neighbours, which are disjoint closed sets, and hence in one of them. So a scene of no violation is
-/// proper.
+/// The paper also forbids that a ball lies within several others together, but `uncontained` tests pairs
+/// only. Pairs suffice: if all nonadjacent beads are disjoint, a ball in the union of others lies in the
+/// union of its neighbours. The neighbours are disjoint closed sets, so the ball lies in one of them. A scene
+/// without violations is therefore proper.
 [[nodiscard]] NecklaceReport validate(std::span<const Necklace> necklaces,
                                       const ValidateOptions& options = {});
 

@@ -1,7 +1,8 @@
 #pragma once
-// Balanced binary trees over the bead sequences of a scene, one a necklace, in flat arrays: what the wrapped
-// hierarchy hangs its spheres on. Internal nodes only, children after their parent; a node covers beads
-// first..last, at least two, and halves them: first..middle and middle+1..last.
+// Balanced binary trees over the bead sequences of a scene, one tree per necklace, in flat arrays. The
+// wrapped hierarchy attaches its spheres to their nodes. Only internal nodes are stored, children after their
+// parent. A node covers beads first..last, at least two, and its children cover the halves first..middle and
+// middle+1..last.
 
 #include <cstddef>
 #include <cstdint>
@@ -28,14 +29,14 @@ class NecklaceTree {
   [[nodiscard]] std::size_t node_count() const { return ranges_.size(); }
   [[nodiscard]] const BeadRange& range(NodeId node) const { return ranges_[node]; }
   [[nodiscard]] std::span<const BeadRange> ranges() const { return ranges_; }
-  /// A child, or `leaf` where the half is a single bead.
+  /// Returns a child, or `leaf` if that half is a single bead.
   [[nodiscard]] NodeId left(NodeId node) const { return left_[node]; }
   [[nodiscard]] NodeId right(NodeId node) const { return right_[node]; }
 
   [[nodiscard]] std::optional<NodeId> find(const BeadRange& range) const {
     for (NodeId node = 0; node < ranges_.size();) {
       if (ranges_[node] == range) return node;
-      if (ranges_[node].last < range.first) {  // a necklace further on: skip this tree
+      if (ranges_[node].last < range.first) {  // the range lies in a later necklace: skip this tree
         node += ranges_[node].last - ranges_[node].first;
         continue;
       }

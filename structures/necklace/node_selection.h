@@ -1,6 +1,6 @@
 #pragma once
-// Which nodes of a hierarchy a scene requires: of some levels, over some beads, or those that a query looks
-// at.
+// Selects the nodes of a hierarchy that a scene requires: nodes of certain levels, nodes over certain beads,
+// or nodes that a query visits.
 
 #include <cstdint>
 #include <functional>
@@ -14,11 +14,11 @@ namespace kds {
 
 struct Sphere;
 
-/// All nodes, unless told otherwise.
+/// Selects all nodes by default.
 struct NodeSelection {
   std::uint32_t first_level = 0;  ///< roots are level 0
   std::uint32_t last_level = std::numeric_limits<std::uint32_t>::max();
-  std::optional<BeadRange> beads;  ///< nodes all of whose beads are among these
+  std::optional<BeadRange> beads;  ///< selects nodes whose beads all lie in this range
 
   [[nodiscard]] bool restricts() const {
     return first_level > 0 || last_level < std::numeric_limits<std::uint32_t>::max() || beads;
@@ -29,7 +29,7 @@ struct NodeSelection {
                                                             const NodeSelection& selection) {
   std::vector<std::uint32_t> level(tree.node_count(), 0);
   std::vector<std::uint8_t> selected(tree.node_count(), 0);
-  for (NodeId node = 0; node < tree.node_count(); ++node) {  // children after their parents
+  for (NodeId node = 0; node < tree.node_count(); ++node) {  // visits children after their parents
     for (const NodeId child : {tree.left(node), tree.right(node)}) {
       if (child != NecklaceTree::leaf) level[child] = level[node] + 1;
     }
@@ -41,8 +41,8 @@ struct NodeSelection {
   return selected;
 }
 
-/// Asked at the start of every step; it asks for the spheres of the nodes it wants to know, and they are kept
-/// during the step.
+/// A callback that runs at the start of each step. It requests the spheres of the nodes it needs, and these
+/// spheres are maintained during the step.
 using NodeQuery = std::function<void(const std::function<Sphere(NodeId)>&)>;
 
 }  // namespace kds

@@ -1,5 +1,5 @@
 #pragma once
-// A node of a hierarchy and its sphere, for people and programs to read.
+// A node of a hierarchy with its sphere, for output.
 
 #include "motions/base/bead_range.h"
 #include "structures/necklace/sphere.h"

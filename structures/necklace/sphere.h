@@ -1,11 +1,11 @@
 #pragma once
-// A sphere for people and programs to read: rounded.
+// A sphere in rounded numbers, for output.
 
 #include <Eigen/Core>
 
 namespace kds {
 
-/// In the plane a circle, its third coordinate 0.
+/// In the plane the sphere is a circle whose third coordinate is 0.
 struct Sphere {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double radius = 0;
