@@ -11,12 +11,13 @@ namespace kds {
 
 namespace {
 
-constexpr double frames_to_keep = 64;  // the skin is made for as many, where that is not too wide
-constexpr double fewest_frames = 4;    // keeping pairs for fewer costs more than starting from scratch
+constexpr double frames_to_keep = 64;  // the skin should last this many frames if it is not too wide then
+constexpr double fewest_frames = 4;    // for fewer frames, a search from scratch is cheaper
 constexpr std::uint64_t longest_wait = 16;
-// More, and the next skin is shorter; many more, and none are kept.
+// Above the first limit the next skin is shorter. Above the second no pairs are kept.
 constexpr std::size_t most_pairs_a_bead = 4, most_kept_a_bead = 32;
-// Blocks that have gone so far are looked at again alone while they are at most a fourth of all.
+// Blocks that have moved farther than far_in_skins are searched again alone if they are at most 1 /
+// share_of_few of all blocks.
 constexpr double far_in_skins = 0.25;
 constexpr std::size_t share_of_few = 4;
 
@@ -41,8 +42,8 @@ bool AutoDetector<Dimension>::same_radii(const Balls<Dimension>& balls) const {
   return radii_.size() == count && std::equal(radii_.begin(), radii_.end(), balls.radii());
 }
 
-// How wide a skin may be at first: half a mean radius, or a fourth of a mean bond of beads without one. What
-// is not finite or zero keeps nothing.
+// Sets the longest initial skin: half the mean radius, or a fourth of the mean bond if beads have no radius.
+// If this is zero or not finite, no pairs are kept.
 template <int Dimension>
 void AutoDetector<Dimension>::measure_scene(const Balls<Dimension>& balls) {
   const std::size_t beads = balls.size();
@@ -86,7 +87,7 @@ const std::vector<BeadPair>& AutoDetector<Dimension>::rebuild(const Balls<Dimens
   }
   ++counts_.rebuilds;
   kept_.keep(balls, *near, skin, tree_.frame());
-  // A wide skin is for scenes in which few beads are near others.
+  // A wide skin suits scenes in which few beads are near others.
   if (kept_.size() > most_pairs_a_bead * balls.size()) longest_skin_ = std::min(longest_skin_, 0.5 * skin);
   mode_ = Mode::kept;
   moved_ = 0;
@@ -95,7 +96,7 @@ const std::vector<BeadPair>& AutoDetector<Dimension>::rebuild(const Balls<Dimens
   return pairs_;
 }
 
-// How far all blocks but a few have gone at most.
+// Returns a bound of how far the beads of all but a few blocks have moved.
 template <int Dimension>
 double AutoDetector<Dimension>::most_stray(std::span<const double> strays) {
   strays_.assign(strays.begin(), strays.end());
@@ -105,8 +106,8 @@ double AutoDetector<Dimension>::most_stray(std::span<const double> strays) {
   return *most;
 }
 
-// How far beads have gone since the frame before, and where that is too far for keeping pairs, how far all
-// but those of a few blocks: repairs take care of these.
+// Returns how far beads have moved since the frame before. If this is too far for keeping pairs, returns
+// instead how far all but a few blocks have moved, because repairs handle the few.
 template <int Dimension>
 double AutoDetector<Dimension>::usual_step(const Balls<Dimension>& balls) {
   if (speed_) return *speed_;
@@ -114,9 +115,9 @@ double AutoDetector<Dimension>::usual_step(const Balls<Dimension>& balls) {
   return 2 * fewest_frames * step < longest_skin_ ? step : most_stray(tree_.strayed_by_block(balls));
 }
 
-// Finds the pairs of blocks anew that have gone far; false where there are too many. The others keep theirs:
-// two beads that meet now were at most the skin apart where their pairs were found, each bead where it was
-// looked at last, since none is farther from there than half the skin.
+// Searches again the pairs of blocks that have moved far. Returns false if there are too many pairs. The
+// other pairs stay valid: no bead is farther than half the skin from where its pairs were found, so two beads
+// that meet now were at most the skin apart there.
 template <int Dimension>
 bool AutoDetector<Dimension>::repair(const Balls<Dimension>& balls, std::span<const double> strays) {
   const double near_enough = far_in_skins * kept_.skin();
@@ -137,7 +138,8 @@ bool AutoDetector<Dimension>::repair(const Balls<Dimension>& balls, std::span<co
   return true;
 }
 
-// Where next to nothing is near, a skin may be wider. Each try is twice as wide, and ends when it finds more.
+// Widens the skin if almost no pairs are near. Each attempt doubles the skin and stops once it finds more
+// pairs.
 template <int Dimension>
 void AutoDetector<Dimension>::widen_skin(const Balls<Dimension>& balls, double wanted) {
   constexpr int most_tries = 4;
@@ -160,7 +162,7 @@ const std::vector<BeadPair>& AutoDetector<Dimension>::pairs(const Balls<Dimensio
   const FloatingPointGuard to_nearest;
   if (mode_ == Mode::nothing || balls.size() != tree_.bead_count() || balls.size() == 0 ||
       (!speed_ && !radii_.empty() && !same_radii(balls))) {
-    radii_.clear();  // nothing is measured that only a second frame would need
+    radii_.clear();  // measure the scene only once a second frame needs it
     until_look_ = 0;
     look_every_ = 1;
     return from_scratch(balls);
@@ -171,7 +173,7 @@ const std::vector<BeadPair>& AutoDetector<Dimension>::pairs(const Balls<Dimensio
       return from_scratch(balls);
     }
     if (radii_.empty()) measure_scene(balls);
-    // The tree has the positions of the frame before.
+    // The tree still holds the positions of the previous frame.
     const double step = usual_step(balls);
     widen_skin(balls, 2 * frames_to_keep * step);
     if (longest_skin_ > 2 * fewest_frames * step) return rebuild(balls, step);

@@ -1,17 +1,18 @@
 #pragma once
-// The collision detector to use: all pairs of beads that meet, frame after frame. It starts from scratch with
-// a block tree (block_tree.h), which itself chooses the order of beads; from the second frame on, where beads
-// move little, it keeps near pairs (kept_pairs.h) and looks only at those that can meet by now. Where a few
-// blocks of beads have gone far, pairs are repaired: those of these blocks are found anew, the others stay.
-// What it does follows from what it has counted, not from clocks: the same frames, the same work.
+// The recommended collision detector: finds all pairs of beads that meet, frame after frame. The first frame
+// is searched from scratch with a block tree (block_tree.h), which chooses the order of beads itself. From
+// the second frame on, if beads move little, the detector keeps near pairs (kept_pairs.h) and tests only
+// pairs that can meet by now. If a few blocks of beads have moved far, only their pairs are searched again.
+// All decisions follow from counts, not from clocks, so equal frames cause equal work.
 //
-// Where floats tell nothing, coordinates being huge beside radii, or where very many beads are near, a scene
-// is left to a cell list.
+// A scene is left to a cell list if floats cannot decide it, because coordinates are huge beside radii, or if
+// very many beads are near each other.
 //
-// With a declared speed, the farthest that any bead moves from one frame to the next, whatever it is, it does
-// not even read the positions of beads that are too far from others: not before they can have come near.
+// A declared speed is an upper bound of the distance that any bead moves from one frame to the next. With it,
+// the detector does not even read the positions of beads that are too far from others, until they can have
+// come near.
 //
-// Exact whatever beads do: at rest, slow, fast, or somewhere else.
+// The result is exact for every motion: beads at rest, slow, fast, or placed anew.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,16 +31,17 @@ namespace kds {
 template <int Dimension>
 class AutoDetector {
  public:
-  /// `speed`: no bead moves farther than this between two calls; finite, not negative, and taken on trust.
-  /// Throws std::invalid_argument as BlockTree does.
+  /// `speed` bounds how far a bead moves between two calls. It must be finite and not negative, and it is not
+  /// checked. Throws std::invalid_argument like BlockTree.
   explicit AutoDetector(PairsAsked asked, std::optional<double> speed = std::nullopt,
                         VectorTarget target = widest_vector_target());
 
-  /// All pairs asked about that meet, in order. Valid until the next call. Radii may change between calls
-  /// only without a declared speed.
+  /// Returns all pairs asked about that meet, in order. The result is valid until the next call. Radii may
+  /// change between calls only without a declared speed.
   const std::vector<BeadPair>& pairs(const Balls<Dimension>& balls);
 
-  /// Distance queries (distance_queries.h). They begin with each scene anew, and cost memory once asked.
+  /// Distance queries (distance_queries.h). Each one treats the scene as new. The first query allocates
+  /// memory.
   [[nodiscard]] std::optional<ClosestPair> closest_pair(const Balls<Dimension>& balls) {
     return distances().closest_pair(balls);
   }
@@ -47,16 +49,16 @@ class AutoDetector {
     return distances().pairs_within(balls, distance);
   }
 
-  /// What comes next is another scene.
+  /// Tells the detector that the next call brings another scene.
   void forget();
 
   struct Counts {
-    std::uint64_t from_scratch = 0;  ///< frames searched without anything kept
-    std::uint64_t by_cells = 0;      ///< of these, those left to a cell list
-    std::uint64_t rebuilds = 0;      ///< frames at which near pairs were found anew to be kept
-    std::uint64_t repairs = 0;       ///< frames at which those of a few blocks were
-    std::uint64_t read = 0;          ///< frames answered from kept pairs, all positions read
-    std::uint64_t unread = 0;        ///< the same, but for those of pairs that can meet
+    std::uint64_t from_scratch = 0;  ///< frames searched without kept pairs
+    std::uint64_t by_cells = 0;      ///< frames from scratch that a cell list searched
+    std::uint64_t rebuilds = 0;      ///< frames that searched all near pairs again to keep them
+    std::uint64_t repairs = 0;       ///< frames that searched the pairs of a few blocks again
+    std::uint64_t read = 0;          ///< frames answered from kept pairs after reading all positions
+    std::uint64_t unread = 0;        ///< frames answered from kept pairs without reading all positions
   };
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] const BlockTree<Dimension>& tree() const { return tree_; }
@@ -84,16 +86,16 @@ class AutoDetector {
   std::optional<CellList<Dimension>> cells_;
   std::optional<double> speed_;
   Mode mode_ = Mode::nothing;
-  double longest_skin_ = 0;        // worth keeping pairs for
-  double too_wide_ = 0;            // with such a skin more than a few are near
-  double moved_ = 0;               // no bead is farther from where it was when its pairs were found
+  double longest_skin_ = 0;        // longest skin for which keeping pairs is worthwhile
+  double too_wide_ = 0;            // shortest skin known to have more than a few near pairs
+  double moved_ = 0;               // bound of each bead's distance from where its pairs were found
   std::uint64_t frames_kept_ = 0;  // since the rebuild
   std::uint64_t until_look_ = 0, look_every_ = 1;  // frames from scratch before motion is measured again
-  std::vector<double> radii_;                      // that kept pairs are of; one where all are equal
+  std::vector<double> radii_;                      // radii of the kept pairs; one if all are equal
   std::vector<BeadPair> pairs_;
   std::vector<double> strays_;
   std::vector<std::uint32_t> far_blocks_;
-  std::optional<DistanceQueries<Dimension>> distances_;  // with a tree of its own: the other is of a frame
+  std::optional<DistanceQueries<Dimension>> distances_;  // has a tree of its own, because tree_ holds a frame
   Counts counts_;
 };
 

@@ -20,7 +20,7 @@ template bool balls_meet_exactly(const Balls<3>&, BeadId, BeadId);
 
 void PairSorter::sort(std::vector<BeadPair>& pairs, std::size_t beads) {
   if (pairs.size() < beads / 16) return std::sort(pairs.begin(), pairs.end());
-  // Counted out by the first bead; few have the same.
+  // Counting sort by the first bead; few pairs share one.
   places_.assign(beads + 1, 0);
   for (const BeadPair& pair : pairs) ++places_[pair.first + 1];
   for (std::size_t b = 0; b < beads; ++b) places_[b + 1] += places_[b];

@@ -1,5 +1,5 @@
 #pragma once
-// Whether two balls meet, in a line of the loops over candidates; and found pairs in order.
+// Tests whether two balls meet, inline in the loops over candidates, and sorts the pairs found.
 
 #include <algorithm>
 #include <cstddef>
@@ -14,13 +14,14 @@ namespace kds {
 
 namespace detail {
 
-/// Not in line: rationals where doubles do not tell.
+/// Not inline. Falls back on rationals if doubles do not decide.
 template <int Dimension>
 [[nodiscard]] bool balls_meet_exactly(const Balls<Dimension>& balls, BeadId a, BeadId b);
 
 }  // namespace detail
 
-/// Closed balls: touching is meeting. Exact. `reach`: the sum of their radii as a double.
+/// Returns exactly whether two closed balls meet; touching balls meet. `reach` is the sum of their radii as a
+/// double.
 template <int Dimension>
 [[nodiscard]] inline bool balls_meet(const Balls<Dimension>& balls, BeadId a, BeadId b, double reach) {
   double square = 0;
@@ -28,8 +29,8 @@ template <int Dimension>
     const double d = balls.coordinates(axis)[a] - balls.coordinates(axis)[b];
     square += d * d;
   }
-  // Each errs by less than 2^-50 of itself. What underflows is below 2^-1000, and where one is tiny or not
-  // finite nothing is said.
+  // Both sides have relative errors below 2^-50. Underflow is below 2^-1000. If a side is tiny or not finite,
+  // the exact test decides.
   const double limit = reach * reach;
   if (limit >= 0x1p-900 && limit <= 0x1p1000) {
     if (square > limit * (1 + 0x1p-48)) return false;
@@ -43,7 +44,7 @@ template <int Dimension>
   return balls_meet(balls, a, b, balls.radii()[a] + balls.radii()[b]);
 }
 
-/// The same for many pairs: of equal balls no radius is read again.
+/// Tests many pairs with balls_meet. If all radii are equal, they are read once only.
 template <int Dimension>
 class MeetingBalls {
  public:
@@ -61,14 +62,15 @@ class MeetingBalls {
   double reach_;
 };
 
-/// At most so far apart (finite, not negative). Exact.
+/// Returns exactly whether two balls are at most `distance` apart, where `distance` is finite and not
+/// negative.
 template <int Dimension>
 [[nodiscard]] bool balls_within(const Balls<Dimension>& balls, BeadId a, BeadId b, double distance) {
   return within<Dimension>(detail::center_of(balls, a), detail::center_of(balls, b), balls.radius(a),
                            balls.radius(b), distance);
 }
 
-/// By first bead, then by second. No pair twice.
+/// Sorts pairs by first bead, then by second. No pair may occur twice.
 class PairSorter {
  public:
   void sort(std::vector<BeadPair>& pairs, std::size_t beads);

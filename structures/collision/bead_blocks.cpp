@@ -10,7 +10,7 @@ namespace kds {
 
 namespace {
 
-constexpr std::size_t gathered_blocks = 64;  // at most, are copied at once
+constexpr std::size_t gathered_blocks = 64;  // maximum number of blocks copied at once
 
 }  // namespace
 
@@ -82,8 +82,8 @@ std::size_t BeadBlocks<Dimension>::beads_of(std::size_t block) const {
   return std::min(behind, beads_in_block);
 }
 
-// Blocks whose beads do not lie one after the other, or are too few, or are turned, are copied; a bead in
-// want stands for the last.
+// Blocks are copied if their beads are not consecutive, too few, or turned. Missing beads are filled with the
+// last bead.
 template <int Dimension>
 template <class Bead>
 BlockSource<Dimension> BeadBlocks<Dimension>::gather(const Balls<Dimension>& balls,
@@ -103,7 +103,7 @@ BlockSource<Dimension> BeadBlocks<Dimension>::gather(const Balls<Dimension>& bal
   return frame_.axes ? placed(source, lanes) : source;
 }
 
-// The same in a frame with axes.
+// Like gather, but in a frame with axes.
 template <int Dimension>
 BlockSource<Dimension> BeadBlocks<Dimension>::placed(BlockSource<Dimension> source, std::size_t lanes) {
   std::array<double*, static_cast<std::size_t>(Dimension)> places;
@@ -178,7 +178,7 @@ BlockExtent BeadBlocks<Dimension>::fill_in_frame(const Balls<Dimension>& balls, 
   return extent;
 }
 
-// False where the frame does not hold them.
+// Returns false if the frame cannot hold the beads.
 template <int Dimension>
 bool BeadBlocks<Dimension>::fill_again(const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks) {
   const auto kernel = equal_ ? kernels_.fill_equal : kernels_.fill_unequal;
@@ -200,12 +200,12 @@ void BeadBlocks<Dimension>::fill(const Balls<Dimension>& balls, double gap) {
   equal_ = balls.equal_radii();
   if (order_ == BlockOrder::spatial) {
     morton_order_.sort(balls, sorted_);
-    sorted_.resize(beads_ + beads_in_block);  // lanes without a bead name one
+    sorted_.resize(beads_ + beads_in_block);  // lanes without a bead read one too
   }
   const auto fits = [this](const BlockExtent& e) {
     return e.coordinate <= frame_.bound && e.radius <= largest_float_radius;
   };
-  const auto blunt = [this](const BlockExtent& e) {  // and a frame of this scene would not be
+  const auto blunt = [this](const BlockExtent& e) {  // and a new frame of this scene would not be
     return e.coordinate < 0x1p-6 * frame_.bound && frame_.bound > 0x1p-20;
   };
   BlockExtent extent;
@@ -216,8 +216,8 @@ void BeadBlocks<Dimension>::fill(const Balls<Dimension>& balls, double gap) {
     if (!fits(extent)) throw std::logic_error("a frame of floats does not hold its own scene");
   }
   gap_ = gap;
-  // Steps that the kernel finds to be so long are shorter by 2^-20 M at most, what differences and products
-  // have lost (below 15 u M), and `apart` of them are still longer than floats call near.
+  // A step that the kernel accepts is shorter than computed by at most 2^-20 M, the loss of differences and
+  // products (below 15 u M). Even so, `apart` such steps are longer than any distance that floats call near.
   least_ahead_ =
       static_cast<float>(2.0 * extent.radius * (1 + 0x1p-16) / asked_.apart + 0x1p-18 * frame_.bound);
   find_stretched(0, boxes_.size());
@@ -225,8 +225,8 @@ void BeadBlocks<Dimension>::fill(const Balls<Dimension>& balls, double gap) {
     kernels_.unite(levels_[level].data(), 0, levels_[level].size(), levels_[level + 1].data());
 }
 
-// Blocks in which, with the next, no two beads are near that are asked about: each bead lies so far ahead of
-// the one before it in one direction. Beads of a necklace only: the next must be of the same.
+// Marks blocks that, alone and with the next block, contain no near pair that is asked about: each bead lies
+// far enough ahead of the bead before it in one direction. The next block must belong to the same necklace.
 template <int Dimension>
 void BeadBlocks<Dimension>::find_stretched(std::size_t first, std::size_t last) {
   if (!goes_along()) return;

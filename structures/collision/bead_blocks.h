@@ -1,8 +1,9 @@
 #pragma once
-// The beads of a scene in blocks of 16, in float, with boxes of four beads each and nodes of 16 blocks, 16
-// nodes and so on above them: what a BlockTree searches. In sequence a block holds beads that follow each
-// other along one necklace, the last of a necklace maybe fewer; in spatial order beads that do along a Morton
-// curve. Lanes without a bead are NaN, which is near nothing.
+// The beads of a scene in blocks of 16, in float. Four boxes cover four beads each in a block, and a tree
+// lies above: nodes of 16 blocks, nodes of 16 nodes, and so on. A BlockTree searches this data. In sequence
+// order, a block holds consecutive beads of one necklace, and the last block of a necklace may hold fewer. In
+// spatial order, a block holds consecutive beads along a Morton curve. Lanes without a bead are NaN, which is
+// near nothing.
 
 #include <algorithm>
 #include <array>
@@ -24,7 +25,7 @@ enum class BlockOrder { sequence, spatial };
 template <int Dimension>
 class BeadBlocks {
  public:
-  /// Throws std::invalid_argument where `asked` does not name a scene's necklaces one after the other.
+  /// Throws std::invalid_argument unless `asked` names a scene's necklaces one after the other.
   BeadBlocks(PairsAsked asked, const BlockKernels<Dimension>& kernels, BlockOrder order);
 
   [[nodiscard]] const PairsAsked& asked() const { return asked_; }
@@ -32,46 +33,49 @@ class BeadBlocks {
   [[nodiscard]] BlockOrder order() const { return order_; }
   void arrange(BlockOrder order);
 
-  /// The place and scale at which floats hold the last scene.
+  /// Returns the origin and scale of the floats of the last scene.
   [[nodiscard]] const FloatFrame<Dimension>& frame() const { return frame_; }
-  /// The next scenes are filled in along these axes, or the coordinates'.
+  /// Sets the axes for the next scenes; none means the coordinate axes.
   void turn(const std::optional<Axes<Dimension>>& axes);
 
-  /// A scene of as many balls: all that follows is about it, and pairs at most `gap` apart are near.
+  /// Fills the blocks with a scene of the same number of balls. All other functions refer to this scene.
+  /// Pairs at most `gap` apart count as near.
   void fill(const Balls<Dimension>& balls, double gap);
-  /// The beads of these blocks (ascending) are now here; what is above them, unite() takes in. False where
-  /// the frame does not hold them, and then all must be filled anew.
+  /// Fills the beads of these blocks (ascending) again at their present positions. The caller then updates
+  /// the nodes above by unite(). Returns false if the frame cannot hold the beads; then all beads must be
+  /// filled again.
   [[nodiscard]] bool fill_again(const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks);
-  /// Makes the box of a node of levels()[level] known to the node above it.
+  /// Writes the box of a node of levels()[level] into its parent.
   void unite(std::size_t level, std::size_t node) {
     kernels_.unite(levels_[level].data(), node, node + 1, levels_[level + 1].data());
   }
-  /// How far a bead is at most from where it was filled in, rounded up; and the same of each block's beads.
+  /// Return upper bounds of the distance of a bead from where it was filled in, over all beads and per block.
   [[nodiscard]] double strayed(const Balls<Dimension>& balls);
   [[nodiscard]] std::span<const double> strayed_by_block(const Balls<Dimension>& balls);
 
   [[nodiscard]] std::size_t size() const { return boxes_.size(); }
-  /// For kernels.
+  /// Returns the blocks in the form that kernels take.
   [[nodiscard]] Blocks<Dimension> view();
-  /// From the nodes above blocks up to one root.
+  /// Levels of nodes, from the nodes above blocks up to a single root.
   [[nodiscard]] const std::vector<std::vector<BlockNode<Dimension>>>& levels() const { return levels_; }
   [[nodiscard]] std::size_t beads_of(std::size_t block) const;
   [[nodiscard]] BeadId bead_at(std::uint32_t block, std::size_t lane) const {
     return order_ == BlockOrder::sequence ? first_bead_[block] + static_cast<BeadId>(lane)
                                           : sorted_[beads_in_block * block + lane];
   }
-  /// In sequence only.
+  /// Valid in sequence order only.
   [[nodiscard]] BeadId first_bead(std::size_t block) const { return first_bead_[block]; }
-  /// Of each block; 0 in spatial order.
+  /// The necklace of each block; 0 in spatial order.
   [[nodiscard]] const std::vector<std::uint32_t>& necklaces() const { return necklace_of_block_; }
   [[nodiscard]] bool equal_radii() const { return equal_; }
-  /// The greatest square of a distance of beads of equal radii that is near.
+  /// Returns the greatest squared distance of beads of equal radii that counts as near.
   [[nodiscard]] float limit() const { return limit_; }
-  /// Whether pairs near along the chain are looked for in a row, and stretched blocks left out.
+  /// Returns whether pairs near along the chain are searched separately and stretched blocks are left out.
   [[nodiscard]] bool goes_along() const {
     return order_ == BlockOrder::sequence && asked_.within && asked_.apart <= farthest_along;
   }
-  /// Of each node above blocks, a bit a block: no near pairs that are asked about in it and with the next.
+  /// One bit per block, for each node above blocks: neither the block alone nor the block with the next one
+  /// has near pairs that are asked about.
   [[nodiscard]] const std::vector<std::uint16_t>& stretched() const { return stretched_; }
 
  private:
@@ -79,12 +83,12 @@ class BeadBlocks {
   void find_stretched(std::size_t first, std::size_t last);
   void clear_lanes_behind(std::size_t block);
   [[nodiscard]] BlockSource<Dimension> source_of(double gap, double radius) const;
-  /// The beads bead(0) to bead(count - 1), copied one after the other.
+  /// Copies the beads bead(0) to bead(count - 1) into consecutive memory.
   template <class Bead>
   [[nodiscard]] BlockSource<Dimension> gather(const Balls<Dimension>& balls, BlockSource<Dimension> source,
                                               std::size_t count, const Bead& bead);
   [[nodiscard]] BlockSource<Dimension> placed(BlockSource<Dimension> source, std::size_t lanes);
-  /// Calls visit(source, first block, last block) with sources for all blocks.
+  /// Calls visit(source, first block, last block) with sources that cover all blocks.
   template <class Visit>
   void with_sources(const Balls<Dimension>& balls, BlockSource<Dimension> source, const Visit& visit);
 
@@ -99,7 +103,7 @@ class BeadBlocks {
   float limit_ = 0;
   float least_ahead_ = 0;
 
-  // The blocks' first beads in sequence, or all their beads in spatial order.
+  // The first bead of each block in sequence order, or all beads of the blocks in spatial order.
   std::vector<BeadId> first_bead_;
   std::vector<std::uint32_t> necklace_of_block_;
   MortonOrder<Dimension> morton_order_;

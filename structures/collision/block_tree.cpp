@@ -16,17 +16,18 @@ namespace {
 
 constexpr std::size_t sample_stride = 8;
 
-// What a search has cost, in comparisons of four beads with four, about 2 ns each.
+// Returns the cost of a search in comparisons of four beads with four, about 2 ns each.
 template <class Counts>
 double work_of(const Counts& counts) {
   return 10.0 * static_cast<double>(counts.node_pairs) + 1.5 * static_cast<double>(counts.block_pairs) +
          static_cast<double>(counts.group_pairs);
 }
-// What sorting and a search of sorted beads cost a block, and turning boxes and a search in them.
+// Cost per block, in these units, of sorting and searching sorted beads, and of turning boxes and searching
+// in them.
 constexpr double work_of_sorted_block = 230, work_of_turned_block = 45;
 constexpr std::size_t fewest_beads_to_choose = 2000;
 
-// Of a scene larger than a cache, so many pairs before it is looked at.
+// If the scene exceeds the cache, a pair is prefetched this many pairs before it is compared.
 constexpr std::size_t fetched_ahead = 2 * sample_stride;
 template <int Dimension>
 void fetch(const BlockNode<Dimension>& node) {
@@ -47,7 +48,8 @@ BlockTree<Dimension>::BlockTree(PairsAsked asked, std::optional<BlockOrder> orde
   near_beads_.resize(groups_.size());
 }
 
-// Whether any pair of the nodes' beads may be asked about: nodes of levels()[level], a <= b.
+// Returns whether any pair of the nodes' beads may be asked about. The nodes belong to levels()[level], and
+// a <= b.
 template <int Dimension>
 bool BlockTree<Dimension>::asks(std::uint32_t a, std::uint32_t b, std::size_t level) const {
   if (blocks_.order() == BlockOrder::spatial) return true;
@@ -60,7 +62,7 @@ bool BlockTree<Dimension>::asks(std::uint32_t a, std::uint32_t b, std::size_t le
   return asked().within && (last - first + 1) * beads_in_block > asked().apart;
 }
 
-// Marks of what is below levels()[level]: blocks or nodes.
+// `marks` belong to the level below levels()[level]: blocks or nodes.
 template <int Dimension>
 void BlockTree<Dimension>::keep_marked(PairList& pairs, std::size_t from, std::size_t level) const {
   const std::vector<unsigned char>& marks = marks_[level];
@@ -143,13 +145,13 @@ void BlockTree<Dimension>::reserve_candidates(std::size_t groups) {
   if (candidates_.size() < needed) candidates_.resize(2 * needed);
 }
 
-// Beads that are near along the chain: boxes of four in a row always meet, so all such pairs are looked at in
-// a row, and no more when groups are compared.
+// Compares beads that are near along the chain. Boxes of consecutive groups always meet, so all these pairs
+// are compared in sequence here and are left out when groups are compared.
 template <int Dimension>
 void BlockTree<Dimension>::compare_along() {
   if (!blocks_.goes_along()) return;
   if (!only_marked_) return compare_along(0, blocks_.size());
-  // A block's beads are also the second of pairs that begin in the block before.
+  // A block's beads are also the second beads of pairs that begin in the block before.
   std::size_t done = 0;
   for (const std::uint32_t block : marked_blocks_) {
     compare_along(std::max<std::size_t>(done, block > 0 ? block - 1 : 0), block + 1);
@@ -160,7 +162,7 @@ void BlockTree<Dimension>::compare_along() {
 template <int Dimension>
 void BlockTree<Dimension>::compare_along(std::size_t first, std::size_t last) {
   const auto kernel = blocks_.equal_radii() ? kernels_.along_equal : kernels_.along_unequal;
-  constexpr std::size_t at_once = 2 * block_pairs_at_once;  // eight found a block at most
+  constexpr std::size_t at_once = 2 * block_pairs_at_once;  // a block gives at most eight results
   for (; first < last; first += at_once) {
     const std::size_t near =
         kernel(blocks_.view(), first, std::min(first + at_once, last), blocks_.stretched().data(),
@@ -171,7 +173,7 @@ void BlockTree<Dimension>::compare_along(std::size_t first, std::size_t last) {
       const BeadId end = asked().necklaces[blocks_.necklaces()[block]].last;
       for (unsigned bits = near_beads_[k]; bits != 0; bits &= bits - 1) {
         const BeadId bead = blocks_.first_bead(block) + static_cast<BeadId>(std::countr_zero(bits));
-        if (end - bead < along) continue;  // the next necklace's
+        if (end - bead < along) continue;  // the second bead is in the next necklace
         if (only_marked_ && (marked_beads_[bead] | marked_beads_[bead + along]) == 0) continue;
         candidates_[candidate_count_++] = {bead, bead + along};
       }

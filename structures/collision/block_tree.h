@@ -1,20 +1,23 @@
 #pragma once
-// All pairs of beads that meet, by the paper's idea of grouping them in sequence, on vectors: blocks of 16
-// beads in float, four boxes of four beads in each, and a tree above them, 16 children a node. Pairs of nodes
-// whose boxes meet are taken apart level by level, 16 boxes at once; of two blocks the 16 pairs of boxes at
-// once; of two boxes the 16 pairs of beads. Floats only rule out (float_frame.h has the proof); what is left
-// is decided exactly. Built anew for every scene, 1 to 2 ns a bead.
+// Finds all pairs of beads that meet with a linear BVH on vectors, following the paper's idea of grouping
+// beads in sequence. Blocks hold 16 beads in float, with four boxes of four beads each, and a tree with 16
+// children per node lies above them. The search descends into pairs of nodes whose boxes meet, level by
+// level, 16 boxes at once. A pair of blocks then compares its 16 pairs of boxes at once, and a pair of boxes
+// its 16 pairs of beads. Floats serve only to rule pairs out (proof in float_frame.h). The remaining pairs
+// are decided exactly. The tree is built anew for every scene, in 1 to 2 ns per bead.
 //
-// Blocks along which a chain goes straight on, or nearly, are not compared with themselves and the next: each
-// bead lies so far ahead of the one before it in one direction that none that are asked about can meet.
+// Blocks along a straight or nearly straight piece of chain are compared neither with themselves nor with the
+// next block. Each bead there lies so far ahead of the bead before it in one direction that no pair asked
+// about can meet.
 //
-// Where blocks of consecutive beads meet many others, boxes are turned to the chain's bonds (bond_axes.h) if
-// these lie along few directions. Where a chain is packed so densely that they still do, or has no such
-// directions, the beads are put in spatial order first, along a Morton curve, and blocks are made of these:
-// that costs sorting. Both are found out on an eighth of the work.
+// If blocks of consecutive beads meet many others, the boxes are turned to the chain's bonds (bond_axes.h),
+// provided that the bonds lie along few directions. If turned boxes still meet many others, or if the bonds
+// have no such directions, the beads are sorted along a Morton curve, which costs time, and blocks are made
+// in this spatial order. Both decisions are made after an eighth of the work.
 //
-// Exact for all finite input. Time: coordinates that are huge beside distances and radii (10^5 times and
-// more) blunt the filter, radii that differ widely the boxes; in the worst case all pairs are looked at.
+// The result is exact for all finite input. The time depends on the input. Coordinates that are huge beside
+// distances and radii (10^5 times and more) make the filter less effective, and widely different radii make
+// the boxes less effective. In the worst case all pairs are tested.
 
 #include <array>
 #include <cstddef>
@@ -33,67 +36,70 @@ namespace kds {
 template <int Dimension>
 class BlockTree {
  public:
-  /// What the last search did; the same on every machine.
+  /// Counts of the last search, equal on every machine.
   struct Counts {
-    std::uint64_t node_pairs = 0;  ///< of nodes above blocks
+    std::uint64_t node_pairs = 0;  ///< pairs of nodes above blocks
     std::uint64_t block_pairs = 0;
-    std::uint64_t group_pairs = 0;  ///< four beads against four
-    std::uint64_t candidates = 0;   ///< pairs that floats left
+    std::uint64_t group_pairs = 0;  ///< pairs of groups of four beads
+    std::uint64_t candidates = 0;   ///< pairs that the float filter left
   };
 
-  /// Without an order: whichever seems faster. Throws std::invalid_argument where `asked` does not name a
-  /// scene's necklaces one after the other or the target is not available.
+  /// Without `order`, the tree chooses the order that seems faster. Throws std::invalid_argument unless
+  /// `asked` names a scene's necklaces one after the other and the target is available.
   explicit BlockTree(PairsAsked asked, std::optional<BlockOrder> order = std::nullopt,
                      VectorTarget target = widest_vector_target());
 
   [[nodiscard]] const PairsAsked& asked() const { return blocks_.asked(); }
   [[nodiscard]] std::size_t bead_count() const { return blocks_.bead_count(); }
 
-  /// All pairs asked about that meet, in order. Valid until the next call. Throws std::invalid_argument where
-  /// the balls are not as many as the necklaces have.
+  /// Returns all pairs asked about that meet, in order. The result is valid until the next call. Throws
+  /// std::invalid_argument if the number of balls differs from the number of beads in the necklaces.
   const std::vector<BeadPair>& pairs(const Balls<Dimension>& balls);
-  /// The same, but null where floats leave more than `most` pairs, which is found out before there are many
-  /// more.
+  /// Returns pairs(), or null if the float filter leaves more than `most` pairs. The search stops soon after
+  /// it exceeds this number.
   const std::vector<BeadPair>* pairs_unless(const Balls<Dimension>& balls, std::size_t most);
 
-  /// All pairs asked about that are at most `gap` apart (finite, not negative), and some that are little
-  /// farther, in no order; none where there are more than `most`, which is found out before there are many
-  /// more.
+  /// Returns all pairs asked about that are at most `gap` apart (finite, not negative), and some pairs
+  /// slightly farther apart, in no particular order. Returns none if there are more than `most`; the search
+  /// stops soon after it exceeds this number.
   std::optional<std::span<const BeadPair>> near_pairs(const Balls<Dimension>& balls, double gap,
                                                       std::size_t most);
 
-  /// How far a bead is at most from where it was looked at last, rounded up; NaN and infinity are no bounds.
-  /// As many balls as then.
+  /// Returns an upper bound of the distance of a bead from its position in the last search. NaN and infinity
+  /// are no bounds. The number of balls must be unchanged.
   [[nodiscard]] double strayed(const Balls<Dimension>& balls) { return blocks_.strayed(balls); }
-  /// The same of each block's beads.
+  /// Returns the bounds of strayed() for the beads of each block.
   [[nodiscard]] std::span<const double> strayed_by_block(const Balls<Dimension>& balls) {
     return blocks_.strayed_by_block(balls);
   }
 
-  /// After near_pairs: looks again where the beads of these blocks are (ascending) and at no others. All
-  /// pairs asked about with such a bead that are at most the same gap apart, the others being where they were
-  /// looked at last, and some that are little farther; none where there are more than `most` or beads have
-  /// left the frame, and then all must be searched anew. The same radii as then.
+  /// May follow near_pairs. Updates the positions of the beads of these blocks (ascending) and of no others.
+  /// Returns all pairs asked about that contain such a bead and are at most the previous gap apart, and some
+  /// pairs slightly farther apart. All other beads count at the positions of the last search. Returns none if
+  /// there are more than `most` pairs or if beads have left the frame; then all must be searched again. Radii
+  /// must be unchanged.
   std::optional<std::span<const BeadPair>> near_pairs_of(const Balls<Dimension>& balls,
                                                          std::span<const std::uint32_t> blocks,
                                                          std::size_t most);
-  /// Not zero for the beads of these blocks.
+  /// Returns a mark per bead, nonzero for the beads of these blocks.
   [[nodiscard]] std::span<const unsigned char> looked_at_again() const { return marked_beads_; }
 
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] BlockOrder order() const { return blocks_.order(); }
-  /// Of the last scene.
+  /// Returns the frame of the last scene.
   [[nodiscard]] const FloatFrame<Dimension>& frame() const { return blocks_.frame(); }
-  /// The next searches are made in boxes along these axes, or the coordinates', until all is chosen anew.
+  /// Sets the axes of the boxes for the next searches, none for the coordinate axes. They hold until the tree
+  /// makes its choices anew.
   void turn(const std::optional<Axes<Dimension>>& axes) { blocks_.turn(axes); }
-  /// A new scene: the sequence, in boxes along the coordinates' axes, is tried first again.
+  /// Announces a new scene: the next search tries sequence order first again, with boxes along the coordinate
+  /// axes.
   void forget_order() { searches_since_choice_ = most_searches_as_chosen; }
 
  private:
   struct PairList {
     std::vector<std::uint32_t> first, second;
     std::size_t count = 0;
-    /// Room for `more`, and for what kernels write behind.
+    /// Makes room for `more` elements and for the padding that kernels may write.
     void reserve(std::size_t more) {
       const std::size_t needed = count + more + kernel_padding;
       if (first.size() >= needed) return;
@@ -107,7 +113,7 @@ class BlockTree {
   void keep_marked(PairList& pairs, std::size_t from, std::size_t level) const;
 
   void find_candidates(const Balls<Dimension>& balls, double gap, std::size_t most);
-  // Then the sequence is tried again.
+  // Number of searches after which sequence order is tried again.
   static constexpr std::uint64_t most_searches_as_chosen = 64;
   enum class Outcome { found, better_turned, better_sorted };
   [[nodiscard]] Outcome search(const Balls<Dimension>& balls, bool may_give_up);
@@ -122,11 +128,11 @@ class BlockTree {
   std::optional<BlockOrder> wanted_;
   const BlockKernels<Dimension>& kernels_;
   BeadBlocks<Dimension> blocks_;
-  bool may_turn_ = true;                      // it has not been asked yet whether bonds have axes
-  std::optional<Axes<Dimension>> bond_axes_;  // of a frame that is to be turned
+  bool may_turn_ = true;                      // bonds have not been tested for axes yet
+  std::optional<Axes<Dimension>> bond_axes_;  // axes for a frame that is to be turned
   std::uint64_t searches_since_choice_ = 0;
 
-  // Of blocks that are looked at again, of the nodes above them level by level, and of their beads.
+  // Marks of the blocks that are searched again, of the nodes above them level by level, and of their beads.
   bool only_marked_ = false;
   std::vector<std::vector<unsigned char>> marks_;
   std::vector<unsigned char> marked_beads_;

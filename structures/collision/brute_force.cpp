@@ -16,8 +16,8 @@ namespace {
 constexpr BeadId beads_at_a_time = 1024;
 using Found = std::array<BeadId, beads_at_a_time>;
 
-// The beads of first..end-1, at most so many as are looked at at a time, that are not surely_apart from this
-// one.
+// Finds the beads of first..end-1 that are not surely_apart from this bead. The range holds at most
+// beads_at_a_time beads.
 template <int Dimension>
 [[KDS_SCAN_TARGETS]] std::size_t find_near(const Balls<Dimension>& balls, BeadId bead, double distance,
                                            BeadId first, BeadId end, Found& found) {
@@ -37,7 +37,7 @@ template <int Dimension>
   return count;
 }
 
-// The beads after this one that it is asked about, as runs first..end-1.
+// Returns the later beads that form pairs asked about with this bead, as runs first..end-1.
 struct Run {
   BeadId first, end;
 };
@@ -47,8 +47,8 @@ std::array<Run, 2> asked_of(BeadId bead, std::size_t necklace, const PairsAsked&
   return {Run{first, asked.within ? end : first}, Run{end, asked.between ? beads : end}};
 }
 
-// Calls visit(i, j) for pairs that are not surely_apart, ascending, until it returns false. `distance()` is
-// asked for each bead.
+// Calls visit(i, j) for pairs that are not surely_apart, ascending, until it returns false. Reads
+// `distance()` anew for each run of beads.
 template <int Dimension, class Distance, class Visit>
 void visit_near(const Balls<Dimension>& balls, const PairsAsked& asked, const Distance& distance,
                 const Visit& visit) {

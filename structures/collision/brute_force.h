@@ -1,6 +1,6 @@
 #pragma once
-// Collision by looking at all pairs of beads: the obvious twin of the other detectors. Eight beads at a time
-// in double, exactly where that does not tell. Time n^2.
+// Finds collisions by testing all pairs of beads. It serves as the simple reference for the other detectors.
+// Tests eight beads at a time in double, and exactly if doubles do not decide. Takes n^2 time.
 
 #include <vector>
 
@@ -10,18 +10,19 @@
 
 namespace kds {
 
-/// All pairs asked for whose closed balls are at most so far apart, ascending. At a distance of 0: those that
-/// have a point in common.
+/// Returns all pairs asked for whose closed balls are at most `distance` apart, ascending. At distance 0
+/// these are the pairs with a common point.
 template <int Dimension>
 [[nodiscard]] std::vector<BeadPair> pairs_by_force(const Balls<Dimension>& balls, const PairsAsked& asked,
                                                    double distance = 0);
 
-/// The first of them, if there are any.
+/// Returns the first pair of pairs_by_force, or none.
 template <int Dimension>
 [[nodiscard]] std::optional<BeadPair> first_pair_by_force(const Balls<Dimension>& balls,
                                                           const PairsAsked& asked, double distance = 0);
 
-/// The closest of the pairs asked for, of several equally close the first; none if none are asked for.
+/// Returns the closest of the pairs asked for, or none if no pairs are asked for. Of several equally close
+/// pairs it returns the first.
 template <int Dimension>
 [[nodiscard]] std::optional<ClosestPair> closest_pair_by_force(const Balls<Dimension>& balls,
                                                                const PairsAsked& asked);

@@ -15,10 +15,10 @@ CellList<Dimension>::CellList(PairsAsked asked)
   if (one_necklace_) least_along_ = asked_.within ? asked_.apart : std::int64_t{no_bead} + 1;
 }
 
-// Scaled coordinates X are off by 2^-53 of the frame's bound M at most: two balls that meet have X no farther
-// apart than their radii and 2^-50 M, in the square with all roundings less than what `compare` allows. A
-// cell is wider by 2^-20 of itself than any two balls reach, and its number, below 2^20, errs by less than
-// 2^-30.
+// Scaled coordinates X have errors of at most 2^-53 of the frame's bound M. If two balls meet, the distance
+// of their X exceeds the sum of their radii by at most 2^-50 M; the squared excess, with all roundings, is
+// less than `compare` allows. A cell is wider than the reach of any two balls by 2^-20 of its width, and its
+// number, below 2^20, has an error below 2^-30.
 template <int Dimension>
 auto CellList<Dimension>::lay_grid(const Balls<Dimension>& balls, double gap) const -> Grid {
   const SceneBox<Dimension> box = scene_box(balls);
@@ -37,7 +37,7 @@ auto CellList<Dimension>::lay_grid(const Balls<Dimension>& balls, double gap) co
       std::max({(2 * largest + grid.gap) * (1 + 0x1p-20), longest * 0x1p-20, 0x1p-100}) * (1 + 0x1p-40);
   grid.cells_a_length = 1 / side;
   grid.keys = 1;
-  // One cell without beads on each side, so that keys of neighbours differ by strides.
+  // One empty cell on each side, so that keys of adjacent cells differ by strides.
   for (std::size_t axis = dimension; axis-- > 0;) {
     grid.stride[axis] = grid.keys;
     grid.keys *= static_cast<std::uint64_t>(length[axis] * grid.cells_a_length) + 3;
@@ -75,7 +75,7 @@ void CellList<Dimension>::count_out(const Balls<Dimension>& balls, const Grid& g
   for (const std::uint64_t key : keys_of_beads_) ++starts_[key + 1];
   for (std::size_t k = 1; k < starts_.size(); ++k) starts_[k] += starts_[k - 1];
   for (std::size_t b = 0; b < beads; ++b) {
-    // Filling a cell moves its start to its end, which is the next one's start.
+    // Filling a cell moves its start to its end, which is the next cell's start.
     const std::uint32_t place = starts_[keys_of_beads_[b]]++;
     entries_[place] = entry_of(balls, grid, static_cast<BeadId>(b));
     keys_[place] = keys_of_beads_[b];
@@ -104,8 +104,8 @@ void CellList<Dimension>::sort_by_radix(const Balls<Dimension>& balls, const Gri
   }
 }
 
-// The entries around a cell are listed first: then each bead looks through one list, of one length, and not
-// through five short ones whose ends nobody foretells.
+// The entries around a cell are listed first. Each bead then scans one list of known length instead of five
+// short lists whose ends mislead branch prediction.
 template <int Dimension>
 void CellList<Dimension>::list_more(std::uint32_t first, std::uint32_t last) {
   constexpr std::uint32_t at_once = 4;
@@ -137,7 +137,7 @@ void CellList<Dimension>::compare_cell(const Balls<Dimension>& balls, std::uint3
             (balls.radii()[entry.bead] + balls.radii()[other.bead]) * grid.frame.scale + grid.gap;
         limit = reach * reach * (1 + 0x1p-40) + 0x1p-1000;
       }
-      // Neighbours along the chain are always near: one question, not two.
+      // Neighbours along the chain are always near, so both conditions form a single branch.
       const std::int64_t along = std::int64_t{entry.bead} - std::int64_t{other.bead};
       if (static_cast<unsigned>(square <= limit) & static_cast<unsigned>(std::abs(along) >= least_along_)) {
         const BeadPair pair{std::min(entry.bead, other.bead), std::max(entry.bead, other.bead)};
@@ -156,7 +156,7 @@ void CellList<Dimension>::look_around(const Balls<Dimension>& balls, const Grid&
   const std::uint64_t row = grid.stride[dimension - 2], layer = dimension == 3 ? grid.stride[0] : 0;
   const std::array<std::uint64_t, 4> ahead{row, layer - row, layer, layer + row};
   constexpr std::size_t rows = dimension == 3 ? 4 : 1;
-  std::array<std::uint32_t, 4> from{};  // of the sorted form: the first entry in a row of cells or beyond
+  std::array<std::uint32_t, 4> from{};  // sorted form: the first entry in or after a row of cells
   for (std::uint32_t begin = 0, end; begin < beads; begin = end) {
     const std::uint64_t key = keys[begin];
     end = begin + 1;
@@ -165,7 +165,7 @@ void CellList<Dimension>::look_around(const Balls<Dimension>& balls, const Grid&
     while (keys[next_end] == key + 1) ++next_end;
     listed_ = 0;
     list_more(begin, next_end);
-    if (dense) {  // starts_[k] is where cell k ends and the next one starts
+    if (dense) {  // starts_[k] is the end of cell k and the start of the next
       for (std::size_t r = 0; r < rows; ++r)
         list_more(starts_[key + ahead[r] - 2], starts_[key + ahead[r] + 1]);
     } else {

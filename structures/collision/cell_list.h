@@ -1,16 +1,17 @@
 #pragma once
-// A cell list, what most programs find near pairs with: beads sorted into the cells of a uniform grid as wide
-// as two balls reach, so that balls that meet are in one cell or in neighbours. The baseline that other
-// detectors are measured against.
+// A cell list, the usual method for near pairs. Beads are sorted into the cells of a uniform grid. A cell is
+// as wide as the greatest reach of two balls, so balls that meet lie in one cell or in adjacent cells. It
+// serves as the baseline for the other detectors.
 //
-// Two forms, chosen by how many cells the scene's box has. Up to a few a bead: counted out, with an array
-// that says where each cell starts. More (a helix in a cube has n^3 / 10^4): only cells with beads, sorted by
-// their place; the rows of cells around move on along the sorted list as the cell does.
+// The number of cells in the scene's box decides between two forms. Dense grids have at most a few cells per
+// bead: beads are placed by counting sort, with an array of the start of each cell. Sparse grids have more
+// cells (a helix in a cube has n^3 / 10^4): only occupied cells are stored, sorted by key, and pointers into
+// the rows of adjacent cells advance along the sorted list together with the cell.
 //
-// Exact for all finite input: the cells and a filter in doubles only rule out. Time: n, or n log n by radix,
-// plus the pairs in neighbouring cells. One ball that is much larger than the others makes all cells as large
-// as itself, and a scene more than 2^20 balls long makes them as long as 2^-20 of it: at worst all pairs are
-// looked at.
+// The result is exact for all finite input: the cells and a filter in doubles only rule pairs out. Takes n
+// time (n log n for the radix sort) plus the number of pairs in adjacent cells. One ball that is much larger
+// than the others makes all cells as large as itself. A scene more than 2^20 balls long makes its cells as
+// long as 2^-20 of the scene. In the worst case all pairs are tested.
 
 #include <array>
 #include <cstddef>
@@ -29,17 +30,18 @@ class CellList {
  public:
   explicit CellList(PairsAsked asked);
 
-  /// All pairs asked about that meet, in order. Valid until the next call.
+  /// Returns all pairs asked about that meet, in order. The result is valid until the next call.
   const std::vector<BeadPair>& pairs(const Balls<Dimension>& balls) { return pairs_within(balls, 0); }
-  /// The same of pairs that are at most so far apart (finite, not negative).
+  /// Returns all pairs asked about that are at most `distance` apart (finite, not negative), in order. The
+  /// result is valid until the next call.
   const std::vector<BeadPair>& pairs_within(const Balls<Dimension>& balls, double distance);
-  /// All pairs asked about that are at most `gap` apart (finite, not negative), and some that are little
-  /// farther, in no order.
+  /// Returns all pairs asked about that are at most `gap` apart (finite, not negative), and some pairs
+  /// slightly farther apart, in no particular order.
   std::span<const BeadPair> near_pairs(const Balls<Dimension>& balls, double gap);
 
  private:
   static constexpr auto dimension = static_cast<std::size_t>(Dimension);
-  /// A bead in its cell, coordinates scaled.
+  /// A bead in its cell, with scaled coordinates.
   struct Entry {
     std::array<double, dimension> center;
     BeadId bead;
@@ -47,7 +49,7 @@ class CellList {
   struct Grid {
     FloatFrame<Dimension> frame;
     std::array<double, dimension> low;
-    std::array<std::uint64_t, dimension> stride;  // between cells, in keys
+    std::array<std::uint64_t, dimension> stride;  // key differences of adjacent cells
     double cells_a_length, gap;                   // scaled
     std::uint64_t keys;
     [[nodiscard]] bool is_dense(std::size_t beads) const { return keys <= 8 * beads + 4096; }
@@ -66,12 +68,12 @@ class CellList {
 
   PairsAsked asked_;
   bool one_necklace_;
-  std::int64_t least_along_ = 0;                     // of one necklace: beads must be so many apart
-  std::vector<std::uint64_t> keys_of_beads_, keys_;  // keys_: of entries, and one behind that is above all
+  std::int64_t least_along_ = 0;                     // least distance in sequence within a necklace
+  std::vector<std::uint64_t> keys_of_beads_, keys_;  // keys_: of entries, then one above all
   std::vector<std::uint32_t> starts_;                // of cells
   std::vector<std::array<std::uint64_t, 2>> keyed_, more_keyed_;
   std::vector<Entry> entries_;
-  std::vector<std::uint32_t> around_;  // entries to compare a cell's with, its own first
+  std::vector<std::uint32_t> around_;  // entries to compare with a cell's; its own come first
   std::size_t listed_ = 0;
   std::vector<BeadPair> candidates_, pairs_;
   PairSorter sorter_;

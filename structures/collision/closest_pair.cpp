@@ -21,8 +21,8 @@ std::vector<double> squares(std::span<const double> radii) {
   return result;
 }
 
-// Whether the diagram of the rounded squares may be another than that of the balls. Equal weights, whatever
-// they are, give one diagram.
+// Returns whether the diagram of the rounded squares may differ from the diagram of the balls. If all weights
+// are equal, their value does not change the diagram.
 bool rounds_squares(std::span<const double> radii) {
   const auto rounds = [](double r) { return std::fma(r, r, -(r * r)) != 0 || (r != 0 && r * r < 0x1p-900); };
   const bool equal = std::all_of(radii.begin(), radii.end(), [&](double r) { return r == radii[0]; });
@@ -93,7 +93,7 @@ class Search {
     }
   }
 
-  // Rounding the squares must not change the answer.
+  // The answer must not depend on the rounding of the squares.
   [[nodiscard]] bool certainly_meet(BeadId a, BeadId b) const {
     if (!rounded_) return compare_distance(center(a), center(b), radii_[a], radii_[b]) <= 0;
     return (center(a) - center(b)).stableNorm() <= (radii_[a] + radii_[b]) * (1 - 0x1p-48);
@@ -129,7 +129,7 @@ class Search {
     std::vector<char> is_hidden(bead_count(), 0);
     for (const BeadId b : hidden_) is_hidden[b] = 1;
     const auto visible = std::find(is_hidden.begin(), is_hidden.end(), 0);
-    auto near = static_cast<BeadId>(visible - is_hidden.begin());  // a visible bead not far, at best
+    auto near = static_cast<BeadId>(visible - is_hidden.begin());  // a visible bead, near at best
     for (BeadId a = 0; a < bead_count(); ++a) {
       if (is_hidden[a] == 0) near = a;
       const BeadId at = owner_of_center(a, near);
@@ -137,13 +137,13 @@ class Search {
       near = at;
     }
   }
-  /// The bead in whose cell the centre of a is: cells are convex, so a bead whose power there is not above
-  /// that of any bead joined to it has the least.
+  /// Returns the bead whose cell holds the centre of a. Cells are convex, so a bead has the least power at a
+  /// point if no bead joined to it has less power there.
   [[nodiscard]] BeadId owner_of_center(BeadId a, BeadId from) const {
     while (true) {
       BeadId best = from;
       for (const BeadId b : edges_.of(from)) {
-        if (from == a && weights_[b] <= weights_[a]) continue;  // its power is not below that of a
+        if (from == a && weights_[b] <= weights_[a]) continue;  // b's power is not below that of a
         if (compare_powers(center(a), center(b), weights_[b], center(best), weights_[best]) < 0) best = b;
       }
       if (best == from) return from;
@@ -151,13 +151,14 @@ class Search {
     }
   }
 
-  // The diagram is exactly that of balls of radii r' with |r' - r| <= 2^-53 R, R the largest. If the closest
-  // pair looked at is farther apart than x, no balls of radii r' collide (1.), so a closest pair of these is
-  // looked at (2.), and a closest pair of ours is that of theirs but for 4 x 2^-53 R. For such a pair the
-  // paper's inequalities, less this at each use, leave for Bk's power at the middle of the orthogonal ball
-  // at least
-  //   x^3 / (4 (x + 2R)) - 2^-50 R (x + 3R)
-  // above that of the pair: positive for x > 2^-14 R, so the pair is an edge.
+  // The diagram is exactly the diagram of balls of radii r' with |r' - r| <= 2^-53 R, where R is the largest
+  // radius. Let the closest candidate be farther apart than x. Then no balls of radii r' collide
+  // (by 1 in the header), so a closest pair of these balls is a candidate (by 2). A closest pair of our balls
+  // is a closest pair of theirs up to 4 x 2^-53 R. For such a pair the paper's inequalities, reduced by this
+  // amount at each use, leave Bk's power at the middle of the orthogonal ball above the pair's power by at
+  // least
+  //   x^3 / (4 (x + 2R)) - 2^-50 R (x + 3R).
+  // This is positive for x > 2^-14 R, so the pair is an edge.
   [[nodiscard]] bool rounding_matters() const {
     if (!rounded_ || !report_.pair) return false;
     const ClosestPair& p = *report_.pair;
@@ -166,7 +167,7 @@ class Search {
     const double largest = *std::max_element(radii_.begin(), radii_.end());
     return !(largest > 0x1p-400 && p.distance > 0x1p-14 * largest);
   }
-  /// All pairs that may be as close as the closest so far.
+  /// Visits all pairs that may be as close as the closest pair so far.
   template <std::invocable<BeadId, BeadId> Visit>
   void look_at_near_pairs(Visit visit) const {
     const auto& p = *report_.pair;

@@ -1,42 +1,45 @@
 #pragma once
-// Collision by power diagram (Agarwal et al., section 3.2, Theorem 3.5): of a few pairs of beads, those that
-// the diagram and the family of neighbours name, one is the closest of all that are no neighbours.
+// Collision by power diagram (Agarwal et al., section 3.2, Theorem 3.5). The diagram and the family of
+// neighbours name a few candidate pairs of beads. One of the candidates is the closest of all pairs that are
+// not neighbours.
 //
-// Neighbours are the pairs that may meet, in a necklace consecutive beads; all others should not. Distance is
-// between closed balls, |ci - cj| - ri - rj: touching is a collision. The pairs looked at:
+// Neighbours are the pairs that may meet; in a necklace these are consecutive beads. All other pairs should
+// be disjoint. Distance is measured between closed balls, |ci - cj| - ri - rj, so touching is a collision.
+// The candidates are:
 //
 //   edges of the diagram                                                                    (DT1)
 //   beads with a common neighbour                                                           (DT2)
 //   a bead with a neighbour that does not connect it, and every other bead                  (DT3)
-//   a bead whose centre is not in its own power cell, and the bead in whose cell it is      (not in the
-//   paper)
+//   a bead whose centre is outside its own power cell, and the bead of the cell around it
+//                                                                            (not in the paper)
 //
-// B connects A to the rest if B meets a third bead that is no neighbour of A. In a necklace whose consecutive
-// beads meet, only the first and the last bead connect no one, so DT3 is about the beads beside them.
+// B connects A to the rest if B meets a third bead that is not a neighbour of A. In a necklace whose
+// consecutive beads meet, only the first and the last bead connect no bead, so DT3 concerns only the beads
+// beside them.
 //
-// What holds, for balls of any radii, any family of neighbours, in any position, hidden beads among them:
+// Two statements hold for balls of any radii, any family of neighbours and any position, hidden beads
+// included:
 //
-//   1. Some beads that are no neighbours collide if and only if a pair looked at does. DT3 is not needed for
-//      that. (Proof: let Bi and Bj meet in x. The segment from the centre of Bi to x runs through cells whose
-//      balls all contain points of it where their power is at most that of Bi: each meets Bi and the next.
-//      If no edge collides they are neighbours one after the other, so none but Bi and its neighbours can
-//      come without a collision of DT2, or of the first cell's bead. The same for Bj: the bead of the cell at
-//      x is a common neighbour.)
-//   2. If none collide, the pair returned is the closest, of several equally close the first by ids. (Proof
-//   in
-//      the paper, which uses of a neighbour Bk of Bi what is said of connecting above. Where the distance is
-//      positive the edge's empty orthogonal ball is strictly empty: the edge is there however ties are
-//      broken.)
+//   1. Some pair of beads that are not neighbours collides if and only if a candidate does. DT3 is not needed
+//      for this. Proof: let Bi and Bj meet in x. Follow the segment from the centre of Bi to x through the
+//      power cells. At each point of the segment, the cell's ball has at most the power of Bi, so it contains
+//      the point. Each of these balls therefore meets Bi and the next ball. If no edge collides, consecutive
+//      balls are neighbours. Then only Bi and its neighbours can occur, unless DT2 or the bead of the first
+//      cell gives a collision. This holds for Bj too, so the bead of the cell at x is a common neighbour.
+//   2. If none collide, the returned pair is the closest. Of several equally close pairs it is the first by
+//      ids. The proof is in the paper; it uses the property of a neighbour Bk of Bi that is called "connects"
+//      above. If the distance is positive, the edge's empty orthogonal ball is strictly empty, so the edge
+//      exists however ties are broken.
 //
-// What does not: if some collide, the pair returned collides, but others may be deeper in one another, or
-// touch as well. As printed, the theorem fails where neighbours do not meet (chain breaks, thin beads): there
-// a bead may lie between two others without connecting anything. And a neighbour C of B that is also one of A
-// does not help, disjoint from A or not. Here such beads are treated as DT3 has it: at n pairs each, or,
-// where there are more than a few, with the pairs that a grid finds as near as the closest known by then.
+// If some pairs collide, the returned pair collides, but others may overlap more deeply or touch as well. As
+// printed, the theorem fails if neighbours do not meet (chain breaks, thin beads): a bead may then lie
+// between two others without connecting anything. A neighbour C of B that is also a neighbour of A does not
+// help, disjoint from A or not. The code treats such beads by DT3, at n pairs each. If there are more than a
+// few such beads, a grid finds only the pairs that are as near as the closest pair known by then.
 //
-// Exact. The diagram must be that of the weights r^2, rounded to doubles. Where this rounding could matter,
-// which takes unequal radii and a closest pair about 2^-14 of the largest radius apart or less, a grid finds
-// the near pairs instead (near_pairs.h) and is counted.
+// The result is exact. The diagram must be the diagram of the weights r^2, rounded to doubles. This rounding
+// can matter only if radii are unequal and the closest pair is at most about 2^-14 of the largest radius
+// apart. Then a grid finds the near pairs instead (near_pairs.h), and their number is reported.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -54,7 +57,7 @@ struct ClosestPair {
   double distance;       ///< rounded
 };
 
-/// Pairs looked at, by what named them first.
+/// Numbers of pairs tested, counted for the rule that named the pair first.
 struct PairsLookedAt {
   std::uint64_t edges = 0;
   std::uint64_t common_neighbors = 0;
@@ -69,14 +72,14 @@ struct ClosestPairReport {
   [[nodiscard]] bool collide() const { return pair && pair->sign <= 0; }
 };
 
-/// Centres have three rows; in the plane the third is not looked at. Finite; radii finite, not negative. Time
-/// linear in beads, edges and pairs with a common neighbour, and in the near pairs (near_pairs.h) where a
-/// grid is asked.
+/// Returns the closest pair of a scene with a given diagram. Centres have three rows; the plane ignores the
+/// third. All numbers are finite and no radius is negative. Takes time linear in the number of beads, edges
+/// and pairs with a common neighbour, and in the number of near pairs (near_pairs.h) if a grid is used.
 template <int Dimension>
 [[nodiscard]] ClosestPairReport closest_pair(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
                                              const DiagramEdges& diagram, const BeadPairs& neighbors);
 
-/// The closest pair, with a diagram built for the purpose.
+/// Returns the closest pair and builds the diagram itself.
 template <int Dimension>
 [[nodiscard]] ClosestPairReport closest_pair(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
                                              const BeadPairs& neighbors);

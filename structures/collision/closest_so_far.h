@@ -1,5 +1,5 @@
 #pragma once
-// The closest of the pairs of balls that are offered, decided exactly.
+// Keeps the closest of the pairs of balls that are offered, decided exactly.
 
 #include <optional>
 
@@ -13,10 +13,10 @@ class ClosestSoFar {
  public:
   explicit ClosestSoFar(const Balls<Dimension>& balls) : balls_(&balls) {}
 
-  /// Two beads in any order. Of equally close pairs the first by ids stays.
+  /// Offers two beads in any order. Of equally close pairs, the first by ids wins.
   void offer(BeadId a, BeadId b);
 
-  /// No less than the distance of the pair that is closest so far; infinite without one.
+  /// Returns an upper bound of the distance of the closest pair so far, infinite if there is none.
   [[nodiscard]] double at_most() const { return at_most_; }
   [[nodiscard]] std::optional<ClosestPair> result() const;
 
@@ -25,11 +25,12 @@ class ClosestSoFar {
   void take(BeadId a, BeadId b);
 
   const Balls<Dimension>* balls_;
-  std::optional<ClosestPair> best_;  // its sign is told at the end
+  std::optional<ClosestPair> best_;  // its sign is computed at the end
   double at_most_ = HUGE_VAL;
 };
 
-/// By how much at most the distance of two balls errs, computed as sqrt(square) - reach in double.
+/// Returns a bound of the error of the distance of two balls, if it is computed as sqrt(square) - reach in
+/// double.
 [[nodiscard]] inline double error_of_gap(double distance_of_centers, double reach) {
   return 0x1p-46 * (distance_of_centers + reach) + 0x1p-490;
 }

@@ -12,7 +12,7 @@ namespace kds {
 
 namespace {
 
-// Pairs of one necklace that are not asked about.
+// Returns the pairs within one necklace that are not asked about.
 BeadPairs near_along(const PairsAsked& asked, std::size_t beads) {
   std::vector<BeadPairs::Pair> pairs;
   for (const auto& [first, last] : asked.necklaces)
@@ -41,7 +41,7 @@ DiagramCollision collide_by_diagram(const Balls<Dimension>& balls, const PairsAs
   const FloatingPointGuard to_nearest;
   const std::size_t beads = balls.size();
   Eigen::Matrix3Xd centers = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(beads));
-  std::vector<double> weights(beads, 0);  // of equal radii whatever they are
+  std::vector<double> weights(beads, 0);  // the value of equal radii does not matter
   for (BeadId b = 0; b < beads; ++b) {
     for (std::size_t axis = 0; axis < Dimension; ++axis)
       centers(static_cast<Eigen::Index>(axis), Eigen::Index{b}) = balls.coordinate(b, axis);

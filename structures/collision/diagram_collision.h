@@ -1,6 +1,6 @@
 #pragma once
-// Collision by power diagram, built for the purpose: what Theorem 3.5 answers (closest_pair.h), and for equal
-// radii all pairs (neighbor_walk.h).
+// Collision by a power diagram that is built for the query. It answers Theorem 3.5 (closest_pair.h) and, for
+// equal radii, finds all pairs (neighbor_walk.h).
 
 #include <cstdint>
 #include <optional>
@@ -15,20 +15,20 @@ namespace kds {
 
 struct DiagramCollision {
   bool collide = false;
-  std::uint64_t edges = 0;                     ///< of the diagram: the pairs it takes to prove that none do
-  std::optional<std::vector<BeadPair>> pairs;  ///< all that collide, ascending; none for unequal radii
-  /// The closest; none where beads of unequal radii collide, which may be deeper in others that are not
-  /// looked at.
+  std::uint64_t edges = 0;  ///< edges of the diagram, the pairs that prove a scene free of collisions
+  std::optional<std::vector<BeadPair>> pairs;  ///< all colliding pairs, ascending; none if radii differ
+  /// The closest pair. None if beads of unequal radii collide, because a pair that was not tested may overlap
+  /// more deeply.
   std::optional<ClosestPair> closest;
 };
 
-/// Why the diagram does not answer this, in a sentence; nothing where it does. It is about all beads
-/// together: those that are not asked about must be neighbours along a chain.
+/// Returns a sentence that says why the diagram cannot answer the query, or none if it can. The diagram
+/// covers all beads together, so the pairs not asked about must be neighbours along a chain.
 template <int Dimension>
 [[nodiscard]] std::optional<std::string> diagram_refusal(const Balls<Dimension>& balls,
                                                          const PairsAsked& asked);
 
-/// Throws std::invalid_argument with the refusal.
+/// Throws std::invalid_argument with the sentence of diagram_refusal.
 template <int Dimension>
 [[nodiscard]] DiagramCollision collide_by_diagram(const Balls<Dimension>& balls, const PairsAsked& asked);
 

@@ -22,13 +22,13 @@ void DistanceQueries<Dimension>::offer_some(ClosestSoFar<Dimension>& closest) co
   }
 }
 
-// Whether the closest pair is among those offered.
+// Returns whether the closest pair is among the offered pairs.
 template <int Dimension>
 bool DistanceQueries<Dimension>::search(const Balls<Dimension>& balls, double largest_radius,
                                         ClosestSoFar<Dimension>& closest) {
   constexpr int most_tries = 24;
   const std::size_t most = 32 * balls.size() + 1024;
-  // What is offered first may be far from the closest: then its distance is come near to from below.
+  // The offered pairs may be far from the closest, so the search approaches its distance from below.
   double gap = std::max(0.0, closest.at_most());
   if (gap > largest_radius) gap /= 256;
   double none_within = 0, too_many_within = std::numeric_limits<double>::infinity();
@@ -56,7 +56,7 @@ std::optional<ClosestPair> DistanceQueries<Dimension>::closest_pair(const Balls<
   ClosestSoFar<Dimension> closest(balls);
   offer_some(closest);
   std::optional<ClosestPair> result = closest.result();
-  if (!result) return std::nullopt;  // none is asked about
+  if (!result) return std::nullopt;  // no pair is asked about
   if (search(balls, scene_box(balls).largest_radius, closest)) {
     result = closest.result();
   } else {

@@ -1,14 +1,14 @@
 #pragma once
-// Distance queries by a block tree (block_tree.h): the closest pair, and the pairs within a cutoff.
+// Answers distance queries with a block tree (block_tree.h): the closest pair, and all pairs within a cutoff.
 //
-// For the closest pair some pairs are offered first, those that are least apart along their chain and the one
-// that was closest at the last call: no pair that is farther apart than the closest of them need be looked
-// at. All pairs up to a gap are found, and the gap is made wider as long as none of them is within it,
-// narrower where they are too many. Where it comes to nothing, as for huge numbers or for more beads
-// equally far apart than memory should hold, a layered hierarchy is searched by branch and bound.
+// The search for the closest pair starts from a few offered pairs: the pairs that are least apart along their
+// chain and the closest pair of the last call. Their least distance bounds the search. All pairs up to a gap
+// are then found. The gap grows while it contains no pair, and shrinks while it contains too many. If this
+// fails, for huge numbers or for more equally close beads than memory should hold, a layered hierarchy is
+// searched by branch and bound.
 //
-// Exact, as the pairs up to a gap are all there (float_frame.h), and the closest of those offered is decided
-// exactly: if it is within the gap no other pair is closer.
+// The result is exact: all pairs up to the gap are found (float_frame.h), and the closest of them is decided
+// exactly. If its distance is within the gap, no other pair is closer.
 
 #include <optional>
 #include <vector>
@@ -21,15 +21,16 @@ namespace kds {
 template <int Dimension>
 class DistanceQueries {
  public:
-  /// Throws std::invalid_argument as BlockTree does.
+  /// Throws std::invalid_argument like BlockTree.
   explicit DistanceQueries(PairsAsked asked, VectorTarget target = widest_vector_target())
       : tree_(std::move(asked), std::nullopt, target) {}
 
-  /// The closest of the pairs asked about, of several equally close the first; none if none are asked about.
+  /// Returns the closest of the pairs asked about, or none if no pairs are asked about. Of several equally
+  /// close pairs it returns the first.
   [[nodiscard]] std::optional<ClosestPair> closest_pair(const Balls<Dimension>& balls);
 
-  /// All pairs asked about that are at most so far apart (finite, not negative), in order. Valid until the
-  /// next call.
+  /// Returns all pairs asked about that are at most `distance` apart (finite, not negative), in order. The
+  /// result is valid until the next call.
   const std::vector<BeadPair>& pairs_within(const Balls<Dimension>& balls, double distance);
 
  private:

@@ -13,11 +13,12 @@ namespace kds {
 namespace {
 
 struct NodePair {
-  std::uint32_t first, second;  // the beads of `first` come first, or both are one node
+  std::uint32_t first, second;  // the beads of `first` come first, or both are the same node
 };
 
-// A last-in first-out list without memory of its own to ask for. A tree over 2^32 beads has 32 levels: a node
-// against itself leaves two more entries behind a level, two nodes one a level of either.
+// A stack in a fixed array, without heap memory. A tree over 2^32 beads has 32 levels. Splitting a node
+// against itself leaves two more entries per level; splitting two nodes leaves one entry per level of either
+// tree.
 template <class Entry>
 class Stack {
  public:
@@ -46,8 +47,8 @@ void for_each_root(const SphereTree<Dimension>& tree, const PairsAsked& asked, c
   }
 }
 
-// Calls apart(pair) for pairs of nodes that are farther apart, and near(pair) for beads that are not, until
-// that returns false.
+// Calls apart(pair) for pairs of nodes that are farther apart, and near(pair) for pairs of beads that are
+// not, until near returns false.
 template <int Dimension, class Apart, class Near>
 void search_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked, double distance,
                   const Apart& apart, const Near& near) {
@@ -109,7 +110,7 @@ PairsFound search(const SphereTree<Dimension>& tree, const PairsAsked& asked, do
   return found;
 }
 
-// A pair of nodes, and what the distance of their beads is not below.
+// A pair of nodes and a lower bound of the distance of their beads.
 struct BoundedPair {
   NodePair nodes;
   double at_least;
@@ -161,7 +162,7 @@ std::optional<ClosestPair> find_closest_pair(const SphereTree<Dimension>& tree, 
                                              const PairsAsked& asked) {
   const FloatingPointGuard to_nearest;
   ClosestSoFar<Dimension> closest(balls);
-  if (asked.within)  // near along the chain is near: the bound is good from the start
+  if (asked.within)  // pairs near along the chain are close, which gives a good bound from the start
     for (const auto& [first, last] : asked.necklaces)
       for (BeadId b = first; last - b >= asked.apart && b <= last; ++b) closest.offer(b, b + asked.apart);
   const auto spheres = tree.spheres();

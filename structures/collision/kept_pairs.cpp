@@ -15,13 +15,13 @@ void KeptPairs<Dimension>::keep(const Balls<Dimension>& balls, std::span<const B
   replace(balls, {}, near, 0);
 }
 
-// A bead without a mark may have been nearer to a marked one, by `moved`, where it was than where it is: so
-// much less counts the gap that they have now.
+// An unmarked bead may have been nearer to a marked bead at its reference position than now, by up to
+// `moved`. The stored gap is reduced by this amount.
 template <int Dimension>
 void KeptPairs<Dimension>::replace(const Balls<Dimension>& balls, std::span<const unsigned char> marks,
                                    std::span<const BeadPair> near, double moved) {
   const double of_skin = classes / (skin_ * scale_), moved_since = moved * scale_;
-  // Of no skin all pairs are in the first class.
+  // Without a skin all pairs are in the first class.
   const double classes_a_gap = of_skin < 0x1p1000 ? of_skin * (1 - 0x1p-40) : 0.0;
   std::array<std::size_t, classes> added{};
   class_of_.resize(near.size());
@@ -39,7 +39,7 @@ void KeptPairs<Dimension>::replace(const Balls<Dimension>& balls, std::span<cons
     class_of_[k] = static_cast<unsigned char>(its);
     ++added[its];
   }
-  // Of each class first what stays, in its order, then what is new.
+  // Each class holds first the pairs that stay, in their order, then the new pairs.
   more_pairs_.resize(pairs_.size() + near.size() + 1);
   std::array<std::size_t, classes> places;
   std::size_t out = 0;
@@ -73,7 +73,7 @@ void KeptPairs<Dimension>::find_meeting(const Balls<Dimension>& balls, double mo
   const MeetingBalls meet(balls);
   std::size_t in_order = 0;
   for (std::size_t c = 0; c < classes; ++c) {
-    // Its gaps are at least that share of the skin.
+    // The gaps of class c are at least c / classes of the skin.
     if (c > 0 && 2 * moved < static_cast<double>(c) / classes * skin_ * (1 - 0x1p-40)) break;
     for (std::size_t k = starts_[c]; k < starts_[c + 1]; ++k)
       if (meet(pairs_[k].first, pairs_[k].second)) meeting.push_back(pairs_[k]);

@@ -7,7 +7,7 @@ namespace kds {
 
 namespace {
 
-// Every `spread`-th bit from the lowest.
+// Spreads the bits to every `spread`-th position from the lowest.
 std::uint64_t spread_bits(std::uint64_t bits, int spread) {
   std::uint64_t result = 0;
   for (int k = 0; bits >> k != 0; ++k) result |= (bits >> k & 1) << (k * spread);
@@ -23,7 +23,8 @@ void MortonOrder<Dimension>::make_keys(const Balls<Dimension>& balls, int bits) 
   double longest = 0;
   for (std::size_t axis = 0; axis < Dimension; ++axis)
     longest = std::max(longest, 0.5 * box.high[axis] - 0.5 * box.low[axis]);
-  // Any order will do: of a scene so small that this is infinite, that of beads.
+  // If the scene is so small that this ratio is infinite, beads stay in the order of their numbers. Any order
+  // is valid.
   const double cells_a_length = longest > 0 && cells / longest < 0x1p1000 ? cells / longest : 0.0;
   std::vector<std::uint64_t> spread(std::size_t{1} << bits);
   for (std::size_t k = 0; k < spread.size(); ++k) spread[k] = spread_bits(k, Dimension);
@@ -39,7 +40,7 @@ void MortonOrder<Dimension>::make_keys(const Balls<Dimension>& balls, int bits) 
   }
 }
 
-// By half of the bits, then by the other half.
+// Radix sort in two passes: by the lower half of the bits, then by the upper half.
 template <int Dimension>
 void MortonOrder<Dimension>::sort_keys(int key_bits) {
   const int half = (key_bits + 1) / 2;

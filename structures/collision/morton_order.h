@@ -1,5 +1,5 @@
 #pragma once
-// Beads in the order in which a Morton curve meets them: near in this order is, mostly, near in space.
+// Sorts beads along a Morton curve (Z-order). Beads near in this order are mostly near in space.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,20 +11,20 @@
 
 namespace kds {
 
-/// Keeps its memory from one sort to the next.
+/// Reuses its memory from one sort to the next.
 template <int Dimension>
 class MortonOrder {
  public:
-  /// `order` becomes all beads, by the cells that hold their centres, of about a fourth of a bead each, were
-  /// they evenly spread; by number within a cell. Of a scene so small that cells cannot be told apart, by
-  /// number.
+  /// Writes all beads to `order`, sorted by the cell that holds their centre, and by number within a cell. If
+  /// the beads were evenly spread, a cell would hold about a fourth of a bead. If the scene is so small that
+  /// cells cannot be told apart, beads are sorted by number.
   void sort(const Balls<Dimension>& balls, std::vector<BeadId>& order);
 
  private:
   void make_keys(const Balls<Dimension>& balls, int bits);
   void sort_keys(int key_bits);
 
-  std::vector<std::uint64_t> keys_, more_keys_;  // the cell above, the bead in the 32 bits below
+  std::vector<std::uint64_t> keys_, more_keys_;  // cell in the upper bits, bead in the lower 32 bits
 };
 
 }  // namespace kds

@@ -10,7 +10,7 @@ namespace kds {
 
 namespace {
 
-// Beads of one centre, by the one of them that is in the diagram.
+// Groups beads of equal centre under the one of them that is in the diagram.
 template <int Dimension>
 class Coincident {
  public:
@@ -32,7 +32,7 @@ class Coincident {
     std::sort(others_.begin(), others_.end());
   }
 
-  /// Calls visit(b) for the bead and all others of its centre.
+  /// Calls visit(b) for the bead and for all others with its centre.
   template <class Visit>
   void for_each_at(BeadId bead, const Visit& visit) const {
     visit(bead);
@@ -59,7 +59,7 @@ std::vector<BeadPair> pairs_by_walk(const Balls<Dimension>& balls, const Diagram
     const auto [first, second] = std::minmax(a, b);
     if (first != second && asked.asks({first, second})) pairs.push_back({first, second});
   };
-  std::vector<BeadId> met_from(balls.size(), no_bead);  // whose walk has come by last
+  std::vector<BeadId> met_from(balls.size(), no_bead);  // the last walk that met the bead
   std::vector<BeadId> walk;
   for (BeadId start = 0; start < balls.size(); ++start) {
     if (std::binary_search(diagram.hidden.begin(), diagram.hidden.end(), start)) continue;
@@ -76,7 +76,7 @@ std::vector<BeadPair> pairs_by_walk(const Balls<Dimension>& balls, const Diagram
       }
     }
     for (const BeadId b : walk) {
-      if (b < start) continue;  // found from there
+      if (b < start) continue;  // found by the walk from b
       coincident.for_each_at(start, [&](BeadId of_start) {
         coincident.for_each_at(b, [&](BeadId other) {
           if (b != start || of_start < other) add(of_start, other);

@@ -69,8 +69,8 @@ class Check {
     return "the spheres of " + name_of(a.beads) + " and of " + name_of(b.beads) + " are not disjoint";
   }
 
-  // Bead by bead: the beads after it that it is separated from, as the runs of all pairs with it in their
-  // earlier node; they and the collisions must make up those asked for.
+  // Checks row by row, for each bead: the later beads it is separated from form runs, one for each pair with
+  // the bead in its earlier node. These runs and the collisions together must equal the pairs asked for.
   Fault fault_of_cover() {
     struct Rectangle {
       BeadRange rows, columns;
@@ -137,7 +137,7 @@ class Check {
   std::span<const BeadPair> colliding_;
   const Balls<Dimension>& balls_;
   const PairsAsked& asked_;
-  std::map<BeadId, BeadId> separated_;  // runs of beads, by their first
+  std::map<BeadId, BeadId> separated_;  // last bead of each run, by its first bead
 };
 
 }  // namespace

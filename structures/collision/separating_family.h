@@ -1,11 +1,12 @@
 #pragma once
-// Separating family (Agarwal et al., section 3.1): pairs of disjoint spheres, of nodes of a hierarchy, that
+// Separating family (Agarwal et al., section 3.1): pairs of disjoint spheres of a hierarchy's nodes that
 // together prove that no beads collide:
 //
 //   (S1) the spheres of each pair are disjoint;
-//   (S2) each pair of beads asked for, but those that do collide, is within a pair: one bead in either node.
+//   (S2) each pair of beads asked for that does not collide is covered: its beads lie one in each node of
+//   some pair of the family.
 //
-// The paper asks for one pair at least; ours are found with exactly one.
+// The paper requires at least one covering pair. Our families have exactly one.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -21,12 +22,12 @@ namespace kds {
 
 struct FamilySphere {
   BeadRange beads;
-  Eigen::Vector3d center;  ///< in the plane its third coordinate is 0
+  Eigen::Vector3d center;  ///< its third coordinate is 0 in the plane
   double radius;
 };
 
 struct SeparatingFamily {
-  /// Places of two spheres.
+  /// Indices of two spheres.
   struct Pair {
     std::uint32_t first, second;
   };
@@ -34,10 +35,10 @@ struct SeparatingFamily {
   std::vector<Pair> pairs;
 };
 
-/// What is wrong with a family, or nothing: whether every sphere of a pair holds its beads, (S1), and (S2)
-/// with each pair of beads in one pair of the family only, and none of those that collide. Exact, from the
-/// definitions: it shares nothing with what finds families. `colliding`: ascending. Time linear in the beads
-/// of all spheres and pairs, times log n.
+/// Returns a fault of a family, or none. Checks that each sphere of a pair holds its beads, (S1), and (S2),
+/// where each pair of beads is covered once only and no colliding pair is covered. The check is exact and
+/// follows the definitions; it shares no code with the search for families. `colliding` is ascending. Takes
+/// time linear in the number of beads of all spheres and pairs, times log n.
 template <int Dimension>
 [[nodiscard]] std::optional<std::string> family_fault(const SeparatingFamily& family,
                                                       std::span<const BeadPair> colliding,

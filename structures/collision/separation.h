@@ -1,6 +1,6 @@
 #pragma once
-// Whether two balls are within a distance of each other, decided exactly: in double where a bound on its
-// errors allows, else on rationals.
+// Decides exactly whether two balls are within a distance of each other: in double if an error bound allows
+// it, else on rationals.
 
 #include <Eigen/Core>
 
@@ -8,22 +8,23 @@
 
 namespace kds {
 
-// With `square` a squared distance of centres and `reach` the sum of two radii and a distance, none of them
-// negative, each rounded as it was computed. Their roundings come to less than 2^-49 of each; what underflows
-// in one is below 2^-1000, where the other is at least 2^-900; infinity is larger than all that is finite, as
-// then the exact number is too.
+// In these functions, `square` is a squared distance of centres, and `reach` is the sum of two radii and a
+// distance. Neither is negative, and each is rounded as it was computed. The roundings are below 2^-49 of
+// each number. Underflow in one number is below 2^-1000, while the other is at least 2^-900. Infinity
+// compares as larger than all finite numbers, as the exact number would.
 
-/// The balls are farther apart, for certain.
+/// Returns true only if the balls are certainly farther apart.
 [[nodiscard]] inline bool surely_apart(double square, double reach) {
   return bool(int(square > reach * reach * (1 + 0x1p-46)) & int(square >= 0x1p-900));
 }
-/// They are not, for certain.
+/// Returns true only if the balls are certainly not farther apart.
 [[nodiscard]] inline bool surely_within(double square, double reach) {
   const double limit = reach * reach;
   return square < limit * (1 - 0x1p-46) && limit >= 0x1p-900 && limit <= 0x1p1000;
 }
 
-/// The sign of |a - b| - r - s - distance. All finite, radii and distance not negative. Exact.
+/// Returns the sign of |a - b| - r - s - distance exactly. All arguments are finite; radii and distance are
+/// not negative.
 [[nodiscard]] int compare_separation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s,
                                      double distance);
 
@@ -34,8 +35,8 @@ template <int Dimension>
   return vector;
 }
 
-/// Whether the closed balls are at most so far apart; at a distance of 0, whether they have a point in
-/// common.
+/// Returns whether the closed balls are at most `distance` apart. At distance 0 this asks whether they have a
+/// common point.
 template <int Dimension>
 [[nodiscard]] bool within(const Point<Dimension>& a, const Point<Dimension>& b, double r, double s,
                           double distance) {

@@ -10,12 +10,12 @@ namespace kds {
 
 namespace {
 
-// A radius computed with at most eight roundings.
+// Rounds up a radius that was computed with at most eight roundings.
 double radius_rounded_up(double radius) {
   return std::isfinite(radius) ? radius * (1 + 0x1p-48) + 0x1p-500 : HUGE_VAL;
 }
 
-// How far the ball reaches from there.
+// Returns the distance from `from` to the farthest point of the ball.
 template <int Dimension>
 [[gnu::always_inline]] inline double reach_of(const Point<Dimension>& center, double radius,
                                               const Point<Dimension>& from) {
@@ -23,7 +23,7 @@ template <int Dimension>
   return std::sqrt(detail::dot(d, d)) + radius;
 }
 
-// How far balls first..last reach from there, rounded.
+// Returns the greatest distance from `from` to a point of balls first..last, rounded.
 template <int Dimension>
 [[KDS_SCAN_TARGETS]] double farthest_reach(const Balls<Dimension>& balls, BeadId first, BeadId last,
                                            const Point<Dimension>& from) {

@@ -1,12 +1,12 @@
 #pragma once
-// The spheres of a hierarchy as a search over pairs of nodes wants them: beads are nodes too, and all lie in
-// one flat array, each with its children.
+// The spheres of a hierarchy in the form that a search over pairs of nodes needs. Beads are nodes too, and
+// all nodes lie in one flat array, each with its children.
 //
-// A sphere has the hierarchy's centre as it was rounded, and its radius is measured from there: the farthest
-// point of a bead (wrapped) or of a child's sphere (layered), rounded up. So it holds all beads of the node,
-// wherever rounding has put the centre, and spheres that are disjoint prove beads disjoint. Up to rounding it
-// is the hierarchy's sphere. Where squares overflow the radius is infinite; where they underflow it is 2^-500
-// too large: then spheres prove less, and beads themselves are looked at.
+// A sphere has the hierarchy's rounded centre. Its radius is measured from this centre to the farthest point
+// of a bead (wrapped) or of a child's sphere (layered), and rounded up. The sphere therefore holds all beads
+// of its node, however its centre was rounded, and disjoint spheres prove beads disjoint. Up to rounding it
+// is the hierarchy's sphere. If squares overflow, the radius is infinite; if they underflow, it is 2^-500 too
+// large. Then spheres prove less, and beads themselves are tested.
 
 #include <array>
 #include <cstdint>
@@ -21,14 +21,14 @@
 namespace kds {
 
 enum class Hierarchy : std::uint8_t { wrapped, layered };
-/// In the order of the enumerators.
+/// Names of the hierarchies, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 2> hierarchy_names{"wrapped", "layered"};
 
 template <int Dimension>
 struct TreeSphere {
   Point<Dimension> center;
   double radius;
-  std::uint32_t left, right;  ///< of a bead itself
+  std::uint32_t left, right;  ///< children; a bead names itself
   BeadId first, last;
 
   [[nodiscard]] bool is_bead() const { return first == last; }
@@ -40,12 +40,12 @@ class SphereTree {
  public:
   SphereTree(Hierarchy kind, std::span<const BeadRange> necklaces);
 
-  /// From scratch.
+  /// Builds the tree from scratch.
   void build(const Balls<Dimension>& balls);
 
-  /// Nodes of the hierarchy, then all beads, in their order. A bead's sphere is the bead, exactly.
+  /// Returns the nodes of the hierarchy, then all beads, in their order. A bead's sphere is exactly the bead.
   [[nodiscard]] std::span<const TreeSphere<Dimension>> spheres() const { return spheres_; }
-  /// Of each necklace.
+  /// The root of each necklace.
   [[nodiscard]] std::span<const std::uint32_t> roots() const { return roots_; }
   [[nodiscard]] BeadRange beads(std::uint32_t node) const {
     return {spheres_[node].first, spheres_[node].last};

@@ -7,7 +7,8 @@ namespace kds {
 
 namespace {
 
-/// The greatest square of how far any of these points, numbers of one axis a row, is from where it was.
+/// Returns the greatest squared displacement of any of these points, given by rows with the numbers of one
+/// axis.
 template <std::size_t Dimension>
 [[KDS_LANES_TARGETS]] double greatest_square(const std::array<const double*, Dimension>& now,
                                              const std::array<const double*, Dimension>& before,

@@ -1,12 +1,12 @@
 #pragma once
-// A Verlet list, what molecular dynamics finds near pairs with from frame to frame: pairs that are at most
-// the skin apart, from a cell list, looked through at every frame until some bead has moved by more than half
-// the skin. The baseline for slow motion.
+// A Verlet list, the method by which molecular dynamics finds near pairs from frame to frame. A cell list
+// finds all pairs that are at most the skin apart. These pairs are tested at every frame until some bead has
+// moved by more than half the skin. It serves as the baseline for slow motion.
 //
-// Exact: until then two balls that meet were at most the skin apart when the list was made. That no bead has
-// moved by more is told in doubles, with room for their rounding: squares err by less than 2^-50, and the
-// limit is smaller by 2^-40. Where its square is not a number far from underflow and overflow (below 2^-900,
-// above 2^900) the list is made anew at every frame.
+// The result is exact: until then, two balls that meet were at most the skin apart when the list was made.
+// The displacement test runs in doubles with room for rounding: squares have relative errors below 2^-50, and
+// the limit is smaller by 2^-40. If the squared limit is near underflow or overflow
+// (below 2^-900 or above 2^900), the list is made anew at every frame.
 
 #include <array>
 #include <cstddef>
@@ -23,8 +23,8 @@ class VerletList {
   /// A skin of one radius is usual.
   VerletList(PairsAsked asked, double skin) : cells_(std::move(asked)), skin_(skin) {}
 
-  /// All pairs asked about that meet, in order. Valid until the next call. Frame after frame of the same
-  /// beads, whose radii stay the same.
+  /// Returns all pairs asked about that meet, in order. The result is valid until the next call. Successive
+  /// calls are frames of the same beads with unchanged radii.
   const std::vector<BeadPair>& pairs(const Balls<Dimension>& balls);
 
   [[nodiscard]] std::uint64_t rebuilds() const { return rebuilds_; }
@@ -38,7 +38,7 @@ class VerletList {
   CellList<Dimension> cells_;
   double skin_;
   std::array<std::vector<double>, dimension> made_at_;
-  // The beads near each, after it: others_[starts_[b]] .. others_[starts_[b + 1]], ascending.
+  // The later beads near bead b: others_[starts_[b]] .. others_[starts_[b + 1]], ascending.
   std::vector<std::uint32_t> starts_;
   std::vector<BeadId> others_;
   std::vector<BeadPair> near_, pairs_;
