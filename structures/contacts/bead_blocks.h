@@ -1,6 +1,6 @@
 #pragma once
-// Necklaces cut into runs of consecutive beads, sixteen or, at a necklace's end, fewer: the cages at the
-// bottom of a family. Beads that follow each other along a necklace stay near each other.
+// Cuts necklaces into runs of sixteen consecutive beads, fewer at a necklace's end. These runs are the cages
+// at the bottom of a family, because consecutive beads of a necklace stay near each other.
 
 #include <algorithm>
 #include <cstddef>
@@ -19,11 +19,11 @@ struct BeadBlock {
   std::uint32_t count = 0;
   std::uint32_t necklace = 0;
 
-  /// One bit a bead.
+  /// Returns a mask with one bit per bead.
   [[nodiscard]] std::uint32_t bits() const { return (1U << count) - 1U; }
 };
 
-/// In the order of the beads.
+/// Returns the runs in the order of the beads.
 [[nodiscard]] inline std::vector<BeadBlock> blocks_of(std::span<const BeadRange> necklaces) {
   std::vector<BeadBlock> blocks;
   for (std::uint32_t necklace = 0; necklace < necklaces.size(); ++necklace) {

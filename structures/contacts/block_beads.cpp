@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t row = BeadBlock::most_beads;
 static_assert(row == beads_in_block);
 
-// A block in floats: rows of sixteen, one for each coordinate of each control point, two for radii made
-// larger and smaller.
+// Layout of a block in floats: one row of sixteen for each coordinate of each control point, and two rows for
+// the enlarged and the reduced radii.
 template <int Dimension>
 struct Layout {
   static constexpr std::size_t axes = static_cast<std::size_t>(Dimension);
@@ -45,7 +45,7 @@ template <class F>
   __builtin_memcpy(numbers, &lanes.v, sizeof lanes.v);
 }
 
-/// Put together four at once: one instruction each.
+/// Built from all lanes at once, which compiles to a single instruction.
 template <class F>
 [[gnu::always_inline]] inline F root(const F& a) {
   using Row = typename F::Row;
@@ -59,9 +59,10 @@ template <class F>
   }
 }
 
-// All pairs of four beads of one block and four of another side by side: pair 4 i + j from lane to lane.
+// All pairs of four beads of one block and four of another are tested in parallel: lane 4 i + j holds pair
+// (i, j).
 
-/// The j-th of four numbers in the lanes of its pairs.
+/// Puts number j into the lanes of the pairs (i, j).
 template <class F>
 [[gnu::always_inline]] inline F four_after_four(const float* numbers) {
   const auto four = load<FloatLanesIn<4>>(numbers);
@@ -71,19 +72,19 @@ template <class F>
     return F(__builtin_shufflevector(four.v, four.v, 0, 1, 2, 3, 0, 1, 2, 3));
   }
 }
-/// The i-th of four numbers in the lanes of its pairs, in the vector whose first lane is of pair `first`.
+/// Puts number i into the lanes of the pairs (i, j), for the vector whose first lane is pair `first`.
 template <class F>
 [[gnu::always_inline]] inline F each_four_times(const float* numbers, std::size_t first) {
   if constexpr (F::width == 4) {
     return F(numbers[first / 4]);
-  } else {  // within halves, where a shuffle is cheap
+  } else {  // shuffles within each half, which is cheap
     const auto v = four_after_four<F>(numbers).v;
     return F(first == 0 ? __builtin_shufflevector(v, v, 0, 0, 0, 0, 5, 5, 5, 5)
                         : __builtin_shufflevector(v, v, 2, 2, 2, 2, 7, 7, 7, 7));
   }
 }
 
-/// Bits of sixteen pairs, gathered vector by vector.
+/// Collects the bits of sixteen pairs, vector by vector.
 template <class F>
 class BitsOf {
  public:
@@ -105,7 +106,7 @@ class BitsOf {
   typename F::Mask bits_{}, weight_{};
 };
 
-/// `Controls`: of a curve, or 0 for as many as there are.
+/// `Controls` is the number of control points per curve; 0 means that it is known at run time only.
 template <class F, int Dimension, std::size_t Controls>
 struct Scan {
   using L = Layout<Dimension>;
@@ -113,7 +114,8 @@ struct Scan {
 
   [[nodiscard, gnu::always_inline]] std::size_t controls() const { return Controls == 0 ? given : Controls; }
 
-  /// Of four beads of a block with four of another; a, b: where their numbers begin in the blocks' first row.
+  /// Tests four beads of a block against four of another. a and b point to their numbers in the first row of
+  /// each block.
   [[nodiscard, gnu::always_inline]] ProvedBits proved(const float* a, const float* b) const {
     BitsOf<F> apart, inside;
     const std::size_t last = controls() - 1;
@@ -151,12 +153,12 @@ struct Scan {
   }
 };
 
-/// What is found of some pairs of blocks: groups of four beads as the block kernels number them, of which bit
-/// 4 i + j stands for bead i of the first and j of the second.
+/// Results for some pairs of blocks. Groups of four beads are numbered as in the block kernels. Bit 4 i + j
+/// stands for bead i of the first group and bead j of the second.
 struct Look {
   static constexpr std::size_t most_groups = 16 * block_pairs_at_once + kernel_padding;
 
-  std::array<std::uint32_t, block_pairs_at_once> firsts, seconds;  // blocks
+  std::array<std::uint32_t, block_pairs_at_once> firsts, seconds;  // numbers of blocks
   std::array<std::uint32_t, most_groups> scratch, groups;
   std::array<std::uint16_t, most_groups> unclear, inside;
   std::size_t count;
@@ -167,20 +169,20 @@ struct Look {
   [[nodiscard, gnu::always_inline]] std::uint32_t second_block(std::size_t k) const {
     return seconds[groups[k] / 16];
   }
-  /// The first of four beads, by its place in its block.
+  /// Returns the place in its block of the first of four beads.
   [[nodiscard, gnu::always_inline]] std::uint32_t first_bead(std::size_t k) const { return groups[k] & 12U; }
   [[nodiscard, gnu::always_inline]] std::uint32_t second_bead(std::size_t k) const {
     return 4 * (groups[k] & 3U);
   }
 };
 
-/// Blocks in floats, one after the other.
+/// Blocks in floats, stored consecutively.
 struct BlockNumbers {
   const float* floats;
   std::size_t stride, controls;
 };
 
-/// Goes on with those whose swept balls may meet.
+/// Applies the second filter to the groups whose swept balls may meet.
 template <class F, int Dimension, std::size_t Controls>
 [[gnu::always_inline]] inline void prove_groups(const BlockNumbers& blocks, Look& look) {
   const Scan<F, Dimension, Controls> scan{blocks.controls};
@@ -212,7 +214,7 @@ void prove_in_fours(const BlockNumbers& blocks, Look& look) {
   prove_groups<FloatLanesIn<4>, Dimension>(blocks, look);
 }
 
-/// Calls visit(bead, other) for each bit 4 i + j.
+/// Calls visit(bead, other) for each set bit 4 i + j.
 template <class Visit>
 void for_each_pair(BeadId first, BeadId second, std::uint32_t bits, const Visit& visit) {
   for (; bits != 0; bits &= bits - 1) {
@@ -221,7 +223,7 @@ void for_each_pair(BeadId first, BeadId second, std::uint32_t bits, const Visit&
   }
 }
 
-/// What a block's floats are made of.
+/// Input for the floats of a block.
 template <int Dimension>
 struct Move {
   const Curves<Dimension>* curves;
@@ -233,12 +235,12 @@ struct Move {
   Blocks<Dimension> swept;
 };
 
-/// A bead of a block; where there are fewer its last one stands for those that lack.
+/// Returns a bead of a block. In a block with fewer beads, the last bead fills the remaining places.
 [[nodiscard, gnu::always_inline]] inline BeadId bead_at(const BeadBlock& block, std::size_t place) {
   return block.first + std::min(static_cast<BeadId>(place), static_cast<BeadId>(block.count - 1));
 }
 
-/// The coordinates of a block.
+/// Converts the coordinates of a block.
 template <int Dimension>
 [[gnu::always_inline]] inline void convert(const Move<Dimension>& move, const BeadBlock& beads,
                                            float* numbers) {
@@ -267,7 +269,7 @@ template <int Dimension>
   }
 }
 
-/// The least and the greatest of each four of a row.
+/// Stores the least and the greatest of each four numbers of a row.
 [[gnu::always_inline]] inline void store_extremes(const std::array<float, row>& low,
                                                   const std::array<float, row>& high,
                                                   std::array<float, 4>& lowest,
@@ -283,8 +285,8 @@ template <int Dimension>
   store(F::max(F::max(h[0], h[1]), F::max(h[2], h[3])), highest.data());
 }
 
-/// The swept balls of a block, and the boxes around four each. A bead that lacks is in the box of four others
-/// what stands for it, and is itself near nothing, as is a box without a bead.
+/// Computes the swept balls of a block and the boxes around four balls each. In a box of four, the last bead
+/// stands for a missing one. On its own, a missing bead is near nothing, and so is a box without a bead.
 template <class F, int Dimension>
 [[gnu::always_inline]] inline void sweep(const Move<Dimension>& move, std::size_t block,
                                          const float* numbers) {
@@ -334,7 +336,7 @@ template <class F, int Dimension>
 template <class F, int Dimension>
 [[gnu::always_inline]] inline void move_blocks(const Move<Dimension>& move, std::size_t stride,
                                                float* floats) {
-  // One block behind: numbers just written in fours are slow to read in eights.
+  // Sweeping runs one block behind conversion, because data just written in fours is slow to read in eights.
   for (std::size_t block = 0; block <= move.blocks.size(); ++block) {
     if (block < move.blocks.size()) convert(move, move.blocks[block], floats + stride * block);
     if (block > 0) sweep<F>(move, block - 1, floats + stride * (block - 1));
@@ -392,7 +394,8 @@ void BlockBeads<Dimension>::move_to(const Curves<Dimension>& curves,
   }
 }
 
-// What a sample of beads moves on average, control point by control point. Any numbers would do.
+// Sets the drift to the mean motion of a sample of beads, control point by control point. Any numbers would
+// be correct.
 template <int Dimension>
 void BlockBeads<Dimension>::find_drift(const Curves<Dimension>& curves, double scale) {
   constexpr std::size_t axes = Layout<Dimension>::axes;
@@ -412,13 +415,13 @@ void BlockBeads<Dimension>::find_drift(const Curves<Dimension>& curves, double s
   }
 }
 
-// Only where they are not those of the step before.
+// Runs only if the radii differ from the previous step.
 template <int Dimension>
 void BlockBeads<Dimension>::set_radii(const Curves<Dimension>& curves, double scale) {
   using L = Layout<Dimension>;
   constexpr double spare = 0x1p-19;
   const std::size_t beads = curves.bead_count();
-  // Those of all beads at once, where they lie in a row.
+  // Handles all radii at once if they are stored consecutively.
   const std::size_t at_once = beads > 1 && curves.radii(1) == curves.radii(0) + controls_ ? beads : 1;
   bool same = scale == scale_of_radii_ && radii_.size() == beads * controls_;
   const double* known = radii_.data();

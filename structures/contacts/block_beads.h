@@ -1,27 +1,32 @@
 #pragma once
-// The balls of a step in floats, block by block and side by side, and which pairs of two blocks are proved
-// apart, or overlapping, all over the step. What is neither is not known: its polynomial must tell.
+// The balls of a step in floats, stored block by block for vector loads. Proves for pairs of beads of two
+// blocks that they stay apart, or overlap, during the whole step. All other pairs are unclear, and their
+// polynomial must decide.
 //
-// First by swept balls: relative to a drift that all beads share, a bead's control points lie within some
-// distance of a centre, and so does the bead at all times; its ball lies in a larger one that rests. Those
-// are sifted as balls at rest are, by the loops of the block tree: boxes around four each, then one by one.
-// What they leave over, by all control points: let d_k be the differences of two beads' control points and
-// R_k the sums of their radii. The beads' distance exceeds R all over the step if for some direction n all
-// n.d_k > R_k |n|, as their difference is a mean of the d_k with weights that are never negative. It is below
-// R if all |d_k| < R_k, by the triangle inequality. The direction taken is d_0 plus the last d_k: where beads
-// move little relative to each other it loses nothing.
+// The first filter uses swept balls. Relative to a drift that all beads share, a bead's control points lie
+// within some distance of a centre, and so does the bead at all times. Its ball therefore lies in a larger
+// ball at rest. The loops of the block tree filter swept balls like balls at rest: first boxes around four
+// balls each, then single balls.
 //
-// The bound of the errors. Coordinates are taken relative to the middle of all boxes and brought to [-1, 1]
-// by a power of two; let e = 2^-24. As a float one errs by at most 1.01 e, a difference of two by another 2e:
-// 4e in all, 7e as a vector. n is a direction as it stands, whatever it was meant to be. |d| < 3.5, so n.d is
-// rounded by at most 4e times 3.5 |n|, and n.d - R |n| is known within 21e |n|. Radii are made larger (for
-// `inside`, smaller) by 2^-19 = 32e each, so that their sums have 64e to spare, and by a factor of 1 + 2^-20
-// (1 - 2^-20), which is for the roundings of products and sums of radii and of squares, 8e relatively.
-// Squares are compared where n.d > 2^-40: then |n| > 2^-42, and nothing underflows. Of swept balls drift and
-// centre are what they are; how far a control point strays errs by at most 12.3e, for which 16e are added,
-// and by roundings of squares and root, for which there is another factor of 1 + 2^-20; the difference of two
-// centres errs by 7e, which the 64e cover. All of them are finite, so that what the loops of the block tree
-// do not find near is far; only where a block has no bead there is NaN.
+// The second filter uses all control points of the remaining pairs. Let d_k be the differences of two beads'
+// control points and R_k the sums of their radii. The beads' distance exceeds R during the whole step if all
+// n.d_k > R_k |n| for some direction n, because their difference is a mean of the d_k with nonnegative
+// weights. The distance is below R if all |d_k| < R_k, by the triangle inequality. The direction n is d_0
+// plus the last d_k, which loses nothing if beads move little relative to each other.
+//
+// Error bound. Coordinates are taken relative to the middle of all boxes and scaled to [-1, 1] by a power of
+// two. Let e = 2^-24. Rounded to float, a coordinate has an error of at most 1.01 e, and a difference of two
+// another 2e: 4e in all, 7e as a vector. n is exact as computed, whatever it approximates. |d| < 3.5, so the
+// rounding of n.d is at most 4e times 3.5 |n|, and n.d - R |n| is known within 21e |n|. Each radius is
+// enlarged (reduced for `inside`) by 2^-19 = 32e, so their sum has 64e to spare, and by a factor of 1 + 2^-20
+// (1 - 2^-20). The factor covers the roundings of products, of sums of radii and of squares, 8e relatively.
+// Squares are compared only if n.d > 2^-40; then |n| > 2^-42, and nothing underflows.
+//
+// For swept balls, drift and centre are exact as computed. The computed distance of a control point from its
+// centre has an error of at most 12.3e, for which 16e are added. Another factor of 1 + 2^-20 covers the
+// roundings of squares and root. The difference of two centres has an error of at most 7e, which the 64e
+// cover. All these numbers are finite, so a pair that the loops of the block tree do not report as near is
+// far. NaN occurs only in lanes without a bead.
 
 #include <array>
 #include <cstddef>
@@ -37,7 +42,7 @@
 
 namespace kds {
 
-/// Two blocks, by their places; the second does not lie before the first.
+/// Two blocks, given by their places. The second does not come before the first.
 struct BlockPair {
   std::uint32_t first, second;
 };
@@ -45,8 +50,8 @@ struct BlockPair {
 /// Pairs of beads that are not proved apart.
 struct PairsOfBlocks {
   std::vector<BeadPair> unclear;
-  std::vector<BeadPair> overlapping;  ///< all over the step; only where they are asked for
-  std::uint64_t proved_apart = 0;     ///< pairs of four beads and four, whose boxes meet
+  std::vector<BeadPair> overlapping;  ///< during the whole step; filled only on request
+  std::uint64_t proved_apart = 0;     ///< pairs of groups of four beads whose boxes meet
 
   void clear() {
     unclear.clear();
@@ -60,36 +65,36 @@ class BlockBeads {
  public:
   explicit BlockBeads(std::span<const BeadBlock> blocks, int degree);
 
-  /// Where the beads are in this step. The middle and half the longest side of all that moves, both of any
-  /// precision: half may be infinite.
+  /// Takes the positions of the beads in this step. `middle` is the middle of all moving boxes and `half` is
+  /// half their longest side. Both may have any precision, and `half` may be infinite.
   void move_to(const Curves<Dimension>& curves, const std::array<double, Dimension>& middle, double half);
 
-  /// Of pairs of beads of two blocks, or of one with itself, those at least `apart` beads apart along a
-  /// chain. Adds to `pairs`.
+  /// Tests the pairs of beads of two blocks, or of one block with itself, that are at least `apart` beads
+  /// apart along a chain. Adds to `pairs`.
   void look_at(std::span<const BlockPair> blocks, BeadId apart, bool list_overlapping, PairsOfBlocks& pairs);
-  /// From now on as on processors without long vectors, for tests.
+  /// Behaves from now on as on a processor without long vectors. For tests.
   void use_short_vectors() { target_ = VectorTarget::plain; }
 
  private:
-  /// Swept balls, and boxes around them.
+  /// Computes swept balls and the boxes around them.
   [[nodiscard]] Blocks<Dimension> swept();
   void find_drift(const Curves<Dimension>& curves, double scale);
   void set_radii(const Curves<Dimension>& curves, double scale);
   void look_at_all(const BeadBlock& a, const BeadBlock& b, BeadId apart, PairsOfBlocks& pairs) const;
 
   std::span<const BeadBlock> blocks_;
-  std::size_t controls_;  // a curve
-  std::size_t stride_;    // of a block, in floats
+  std::size_t controls_;  // control points per curve
+  std::size_t stride_;    // floats per block
   std::vector<float> floats_;
-  std::vector<float> drift_;  // of each control point
+  std::vector<float> drift_;  // per control point
   std::vector<double> radii_;
   double scale_of_radii_ = 0;
   std::array<std::vector<float>, static_cast<std::size_t>(Dimension)> centers_;  // of swept balls
-  std::vector<float> reaches_;                                                   // their radii
+  std::vector<float> reaches_;                                                   // radii of swept balls
   std::vector<GroupBoxes<Dimension>> boxes_;
   std::vector<std::uint32_t> necklaces_;  // of blocks
   VectorTarget target_ = widest_vector_target();
-  bool usable_ = false;  // floats: else lengths are too large or too small for them
+  bool usable_ = false;  // false if lengths are too large or too small for floats
 };
 
 }  // namespace kds

@@ -19,7 +19,7 @@ std::optional<std::string> contact_fault(const Curves<Dimension>& curves,
   const double u = time.round_down();
   const Eigen::Matrix3Xd centers = approximate_positions(curves, u);
   const std::vector<double> radii = approximate_radii(curves, u);
-  // What rounding of times, control points' sums and squares may add to a distance, and far more.
+  // Exceeds by far what the rounding of times, control points' sums and squares can add to a distance.
   double largest = 0;
   for (BeadId b = 0; b < curves.bead_count(); ++b) {
     for (int k = 0; k <= curves.own_degree(); ++k) {

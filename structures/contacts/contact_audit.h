@@ -1,6 +1,6 @@
 #pragma once
-// Whether a set of contacts is right at a time: by a grid over all beads, and the sign of each near pair's
-// function there, on integers where doubles do not tell.
+// Checks whether a set of contacts is right at a given time, with a grid over all beads. The sign of each
+// near pair's function is computed at that time, in integers if doubles do not decide.
 
 #include <optional>
 #include <span>
@@ -12,9 +12,9 @@
 
 namespace kds {
 
-/// What is wrong, or nothing. At the ends of a step pairs that touch exactly may be in contact or not: what
-/// happens at a frame is the next step's, what happens before the first is nobody's. `absent` marks beads
-/// that take no part; empty: all do.
+/// Returns a fault, or none. At the ends of a step, pairs that touch exactly may be in contact or not,
+/// because changes at a frame belong to the next step, and changes before the first frame belong to none.
+/// `absent` marks beads that take no part; if it is empty, all beads take part.
 template <int Dimension>
 [[nodiscard]] std::optional<std::string> contact_fault(const Curves<Dimension>& curves,
                                                        const CertificateSearch<Contact>& search,

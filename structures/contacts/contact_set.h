@@ -1,5 +1,6 @@
 #pragma once
-// The pairs of beads in contact: a hash table with open addressing, asked for each pair that may change.
+// The pairs of beads in contact, in a hash table with open addressing. The table is queried for each pair
+// that may change.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +17,7 @@ class ContactSet {
   [[nodiscard]] bool contains(const BeadPair& pair) const {
     return size_ > 0 && places_[place_of(key_of(pair))] != nobody;
   }
-  /// False where it was there already.
+  /// Returns false if the pair was in the set already.
   bool insert(const BeadPair& pair) {
     if (2 * (size_ + 1) > places_.size()) grow();
     std::uint64_t& place = places_[place_of(key_of(pair))];
@@ -25,11 +26,11 @@ class ContactSet {
     ++size_;
     return true;
   }
-  /// False where it was not there.
+  /// Returns false if the pair was not in the set.
   bool erase(const BeadPair& pair) {
     if (!contains(pair)) return false;
     std::size_t gap = place_of(key_of(pair));
-    // Those behind the gap move up where it lies between them and the place they would have.
+    // Moves later entries into the gap if the gap lies between their home place and their present place.
     for (std::size_t at = next(gap); places_[at] != nobody; at = next(at)) {
       const std::size_t home = home_of(places_[at]);
       if (((at - home) & mask()) < ((at - gap) & mask())) continue;
@@ -44,7 +45,7 @@ class ContactSet {
     std::fill(places_.begin(), places_.end(), nobody);
     size_ = 0;
   }
-  /// Ascending.
+  /// Returns all pairs, ascending.
   [[nodiscard]] std::vector<BeadPair> pairs() const {
     std::vector<BeadPair> all;
     all.reserve(size_);
@@ -55,7 +56,7 @@ class ContactSet {
   }
 
  private:
-  static constexpr std::uint64_t nobody = ~std::uint64_t{0};  // no pair: first < second
+  static constexpr std::uint64_t nobody = ~std::uint64_t{0};  // the key of no pair, because first < second
 
   static std::uint64_t key_of(const BeadPair& pair) {
     return (static_cast<std::uint64_t>(pair.first) << 32U) | pair.second;
@@ -65,7 +66,7 @@ class ContactSet {
   [[nodiscard]] std::size_t home_of(std::uint64_t key) const {
     return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ULL) >> 32U) & mask();
   }
-  /// Where it is, or where it would be put.
+  /// Returns the place that holds the key, or the place to insert it.
   [[nodiscard]] std::size_t place_of(std::uint64_t key) const {
     std::size_t place = home_of(key);
     while (places_[place] != key && places_[place] != nobody) place = next(place);
@@ -78,7 +79,7 @@ class ContactSet {
       if (key != nobody) places_[place_of(key)] = key;
   }
 
-  std::vector<std::uint64_t> places_;  // a power of two
+  std::vector<std::uint64_t> places_;  // size is a power of two
   std::size_t size_ = 0;
 };
 

@@ -113,8 +113,8 @@ void Contacts<D>::watch_from(std::uint32_t place, bool at_start) {
   });
 }
 
-// What happens right now, at a frame or when beads come or change course, in the order of the beads as all
-// that happens at one time; then the certificates of the pairs that changed.
+// Settles the changes of the present moment, at a frame or after edits, in the order of the beads, like all
+// simultaneous events. Then watches the certificates of the pairs that changed.
 template <int D>
 void Contacts<D>::settle_now() {
   std::sort(at_once_.begin(), at_once_.end());
@@ -129,7 +129,7 @@ void Contacts<D>::settle_now() {
   }
 }
 
-// Beads that come, go and change course.
+// Edits: beads are inserted, erased, or change course.
 
 template <int D>
 void Contacts<D>::insert(BeadId bead) {
@@ -180,7 +180,7 @@ void Contacts<D>::take_up(std::span<const BeadId> beads) {
   find_of(beads);
 }
 
-// Pairs of these beads, without certificates yet; how they were before is known.
+// Finds the pairs of these beads. Their previous state is known, but they have no certificates yet.
 template <int D>
 void Contacts<D>::find_of(std::span<const BeadId> beads) {
   const std::vector<char> marks = marked(beads);
@@ -227,7 +227,7 @@ void Contacts<D>::record(Kind kind, const BeadPair& pair) {
   simulator_.record(index_, {kind, 2, {pair.first, pair.second}});
 }
 
-// In double where that is certain: the sum errs by less than 2^-48 of its parts, unless these underflow.
+// Decides in double if that is certain: the sum has an error below 2^-48 of its terms unless these underflow.
 template <int D>
 bool Contacts<D>::is_zero_at_start(const Curves<D>& curves, const BeadPair& pair) {
   const double reach = curves.radius(pair.first, 0) + curves.radius(pair.second, 0);

@@ -1,17 +1,18 @@
 #pragma once
-// Contacts of beads, kept while they move: when any two closed balls begin to meet and when they part, and
-// when they only touch. At every moment it knows which pairs are in contact.
+// Kinetic contacts of beads: reports when two closed balls begin to meet, when they part, and when they only
+// touch. Knows at every moment which pairs are in contact.
 //
-// Exact. Each pair that a separating family (moving_family.h) does not prove apart in a step gets
-// certificates: "disjoint", whose failure is a beginning, or a touch where its function is zero and positive
-// again; "overlapping", whose failure is an end. A pair that stays exactly in touch for a while is in contact
-// for that time: closed balls. What happens at a frame is judged by what was before and what is just after:
-// balls that meet right then and part at once only touch. Before the first frame there is nothing, and balls
-// in contact then have begun by then: no event, but part of what is built. With `exact` no pair is left to
-// the family, each is looked at on integers.
+// A separating family (moving_family.h) proves most pairs apart for the whole step. Each remaining pair has a
+// certificate. The failure of "disjoint" is a beginning, or a touch if its function is zero and then positive
+// again. The failure of "overlapping" is an end. A pair that stays exactly in touch for a while is in contact
+// during that time, because balls are closed. Events at a frame follow from the states before and just after
+// the frame: balls that meet exactly then and part at once only touch. Contacts present at the first frame
+// are part of the built structure and cause no events. All results are exact. With the kernel `exact`, every
+// pair is decided on integers and none is left to the family.
 //
-// A bead that goes ends its contacts, one that comes begins those that it has just after that time. A bead
-// costs, when it goes, a look at all certificates, when it comes or changes course, what the family costs.
+// Erasing a bead ends its contacts. Inserting one begins the contacts that it has just after that time.
+// Erasing costs one pass over all certificates; inserting a bead or changing its course costs as much as the
+// family.
 
 #include <cstdint>
 #include <span>
@@ -29,16 +30,16 @@ namespace kds {
 template <int Dimension>
 class Contacts final : public KineticStructure, public BeadEdits {
  public:
-  /// Kinds of its events; ids: the two beads, ascending; of an edit: the bead.
+  /// Kinds of events. The ids are the two beads, ascending, or the edited bead.
   enum Kind : std::uint8_t { begin, end, touch, inserts, erases, changes };
 
   Contacts(Simulator& simulator, const MotionRef<Dimension>& motion, PairsAsked asked);
 
   [[nodiscard]] std::string_view name() const override { return "contacts"; }
   [[nodiscard]] std::span<const EventKind> kinds() const override;
-  /// Those in contact just after the present time, ascending.
+  /// Returns the pairs in contact just after the present time, ascending.
   [[nodiscard]] std::vector<BeadPair> pairs() const { return contacts_.pairs(); }
-  /// Pairs of boxes that were proved apart in the present step.
+  /// Returns the number of pairs of boxes proved apart in the present step.
   [[nodiscard]] std::uint64_t family_size() const { return family_.size(); }
 
   void build() override;
@@ -53,8 +54,8 @@ class Contacts final : public KineticStructure, public BeadEdits {
   [[nodiscard]] bool is_absent(BeadId bead) const override { return present_.is_absent(bead); }
 
  private:
-  static constexpr std::uint32_t no_place = 0xffffffffU;  // nothing to watch any more
-  struct Happens {                                        // at the present time
+  static constexpr std::uint32_t no_place = 0xffffffffU;  // no certificate is left
+  struct Happens {                                        // an event at the present time
     BeadPair pair;
     Kind kind;
     std::uint32_t place;
@@ -64,7 +65,7 @@ class Contacts final : public KineticStructure, public BeadEdits {
   void release(std::span<const BeadId> beads) override;
   void take_up(std::span<const BeadId> beads) override;
   [[nodiscard]] std::vector<char> marked(std::span<const BeadId> beads) const;
-  /// Gives up all certificates that name some of them.
+  /// Drops all certificates that name one of these beads.
   void drop_of(std::span<const BeadId> beads);
   void find_of(std::span<const BeadId> beads);
 

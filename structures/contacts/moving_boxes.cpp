@@ -12,11 +12,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Sides come from one rounded sum each, which errs by 2^-53 of it at most; where it is subnormal, by nothing.
+// A side is computed by one rounded sum. Its error is at most 2^-53 of the side, and zero if the side is
+// subnormal.
 double rounded_down(double side) { return side - std::abs(side) * 0x1p-51; }
 double rounded_up(double side) { return side + std::abs(side) * 0x1p-51; }
 
-/// A control point in lanes. What follows its coordinates is left out of all that is done with them.
+/// Loads a control point into lanes. The lanes after its coordinates are ignored in all computations.
 template <int Dimension>
 [[nodiscard, gnu::always_inline]] inline Lanes point_of(const Curves<Dimension>& curves, BeadId bead, int k) {
   const double* const p = curves.control_point(bead, k);
@@ -27,7 +28,7 @@ template <int Dimension>
   }
 }
 
-/// Whether all control points of a bead are the same, for each of a few.
+/// Returns whether each of a few beads has equal control points throughout.
 template <int Dimension>
 bool all_rest(const Curves<Dimension>& curves, const BeadBlock& block, int controls) {
   for (BeadId b = block.first; b < block.first + block.count; ++b) {
@@ -40,7 +41,7 @@ bool all_rest(const Curves<Dimension>& curves, const BeadBlock& block, int contr
   return true;
 }
 
-/// Bounds of the control points of a few beads.
+/// Computes bounds of the control points of a few beads.
 template <int Dimension>
 [[KDS_LANES_TARGETS]] void bound_beads(const Curves<Dimension>& curves, const BeadBlock& block, int controls,
                                        double* sides) {
@@ -58,7 +59,7 @@ template <int Dimension>
   }
 }
 
-/// `Controls`: of a curve, or 0 for as many as are given.
+/// `Controls` is the number of control points per curve; 0 means that it is known at run time only.
 template <int Dimension, int Controls>
 [[KDS_LANES_TARGETS]] std::uint32_t near_in_lanes(const double* box, const double* group, int given,
                                                   std::uint32_t asked) {

@@ -22,7 +22,7 @@ MovingFamily<Dimension>::MovingFamily(PairsAsked asked, int degree)
 template <int Dimension>
 void MovingFamily<Dimension>::find_pairs(const Curves<Dimension>& curves, Resting resting,
                                          bool list_overlapping, PairsOfBlocks& pairs) {
-  // Fewer make three levels of boxes at most.
+  // Up to this many blocks make at most three levels of boxes.
   constexpr std::size_t few = MovingBoxes<Dimension>::fan * MovingBoxes<Dimension>::fan;
   pairs.clear();
   if (blocks_.empty()) return;
@@ -57,7 +57,8 @@ auto MovingFamily<Dimension>::extent() const -> Extent {
   return all;
 }
 
-// Along a Morton curve. Any order would do: what cannot be told goes anywhere.
+// Sorts the blocks along a Morton curve. Any order is valid, so blocks whose place is unknown may go
+// anywhere.
 template <int Dimension>
 void MovingFamily<Dimension>::sort_blocks(const Extent& all) {
   constexpr unsigned bits = 63 / Dimension;
@@ -79,7 +80,8 @@ void MovingFamily<Dimension>::sort_blocks(const Extent& all) {
   });
 }
 
-// The children of two boxes of a level, or of one with itself; above the top one box holds all.
+// Splits two boxes of a level, or one box paired with itself, into pairs of their children. Above the top
+// level, one box holds all.
 template <int Dimension>
 void MovingFamily<Dimension>::split(Resting resting, std::size_t level, std::size_t first,
                                     std::size_t second) {

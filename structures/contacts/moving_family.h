@@ -1,20 +1,26 @@
 #pragma once
-// Pairs of cages that are disjoint all over a step, and with them all pairs of beads that need not be looked
-// at (Agarwal et al., section 3). The cages are moving boxes around runs of consecutive beads. A pair of
-// boxes that is not proved disjoint is split; where both are blocks, their beads are looked at, four with
-// four. The family is coarse again at the start of every step: what was split for one step need not be for
+// Pairs of cages that are disjoint during a whole step, which proves most pairs of beads disjoint
+// (Agarwal et al., section 3). The cages are moving boxes around runs of consecutive beads. A pair of boxes
+// that is not proved disjoint is split. If both boxes are blocks, their beads are tested, four against four.
+// The family is coarse again at the start of every step, because a pair split for one step may not need it in
 // the next.
 //
-// Boxes around blocks hold those that are near along the chain, where there are few blocks, else those that
-// are near in space: a long chain that is packed tightly comes back to a place again and again. They are
-// sorted anew when the family has grown.
+// If there are few blocks, the boxes above them group blocks near along the chain. Otherwise they group
+// blocks near in space, because a long, tightly packed chain returns to the same place again and again.
+// Blocks are sorted again when the family has grown.
 //
-// A pair that is disjoint for a part of the step only is split at the step's start and not when that part
-// ends. Boxes that move with their beads leave next to nothing to wait for: of 171 pairs of blocks of a
-// protein of 100 residues 20 may meet in a step of 20 fs, and 0.1 of these are disjoint at its start; of 2346
-// pairs of one of 363 residues 223 may in a step of 100 fs, 6.1 are disjoint at its start, 0.085 at all times
-// (balls 2.5 times as large as half the longest bond). Waiting would spare the beads of these 0.085, for an
-// entry in the queue for each of the 6.1.
+// A pair that is disjoint during only a part of the step is split at the start of the step and stays split. A
+// certificate for such pairs would save little. Counts of pairs of blocks (balls 2.5 times as large as half
+// the longest bond):
+//
+//   protein of         100 residues, steps of 20 fs   363 residues, steps of 100 fs
+//   all pairs                      171                          2346
+//   may meet in a step              20                           223
+//   of these, disjoint at start      0.1                           6.1
+//   of these, disjoint always                                      0.085
+//
+// A certificate would spare the tests of the beads in these 0.085 pairs and cost a queue entry for each of
+// the 6.1.
 
 #include <array>
 #include <cstdint>
@@ -35,16 +41,17 @@ class MovingFamily {
 
   [[nodiscard]] const PairsAsked& asked() const { return asked_; }
 
-  /// Pairs at rest: whose beads do not move in this step, nor did in the one before. Nothing becomes of them.
+  /// Pairs at rest: their beads do not move in this step and did not move in the previous one. Their state
+  /// does not change.
   enum class Resting : std::uint8_t { left_out, looked_at };
-  /// The motion is that of the first step: nothing is before.
+  /// Tells that the motion is that of a first step, with no step before.
   void forget_rest() { boxes_.forget_rest(); }
-  /// Once a step. Finds the pairs of beads asked about that are not proved apart all over the step of these
-  /// curves.
+  /// Finds the pairs of beads asked about that are not proved apart during the whole step of these curves.
+  /// Call it once per step.
   void find_pairs(const Curves<Dimension>& curves, Resting resting, bool list_overlapping,
                   PairsOfBlocks& pairs);
 
-  /// Pairs of boxes that it has.
+  /// Returns the number of pairs of boxes.
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
  private:
@@ -61,7 +68,7 @@ class MovingFamily {
   std::vector<BeadBlock> blocks_;
   MovingBoxes<Dimension> boxes_;
   BlockBeads<Dimension> beads_;
-  std::vector<std::uint32_t> order_;  // of blocks: those in one box one after the other
+  std::vector<std::uint32_t> order_;  // of blocks, with the blocks of one box consecutive
   std::vector<BlockPair> near_blocks_;
   std::uint64_t size_when_sorted_ = 0;
   std::uint64_t size_ = 0;

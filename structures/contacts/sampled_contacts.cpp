@@ -16,7 +16,7 @@ void SampledContacts::on_event(const Event& event) {
   using Kind = Contacts<3>::Kind;
   if (event.structure != "contacts") return;
   const BeadPair pair{event.change.ids[0], event.change.ids[1]};
-  // A bracket that is one number is the time itself.
+  // If the bracket is a single number, this number is the time itself.
   const bool at_frame = event.lower == 0 && event.upper == 0;
   const std::size_t next_frame = event.step + (at_frame ? 0 : 1), frame_before = event.step;
   switch (static_cast<Kind>(event.change.kind)) {
@@ -30,7 +30,7 @@ void SampledContacts::on_event(const Event& event) {
     case Kind::touch:
       count(next_frame, frame_before);
       break;
-    default:  // a bead comes, goes or changes course
+    default:  // an edit of a bead
       break;
   }
 }
@@ -40,7 +40,8 @@ void SampledContacts::finish(std::size_t last_frame) {
   since_.clear();
 }
 
-// Of a contact in which these frames lie, none where the last comes before the first.
+// Counts a contact that lasts over these frames. If the last frame precedes the first, the contact contains
+// no frame.
 void SampledContacts::count(std::size_t first_frame, std::size_t last_frame) {
   for (Sampling& sampling : samplings_) {
     const std::size_t looked_at = (first_frame + sampling.stride - 1) / sampling.stride * sampling.stride;

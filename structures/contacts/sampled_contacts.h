@@ -1,7 +1,7 @@
 #pragma once
-// How many contacts are missed by looking at frames only, at every frame, every second, every fourth ... A
-// contact goes from a beginning to an end, or is a touch; it is found if some frame looked at lies in it,
-// ends included. Exact, as the times of contacts are: which of them lie at frames is known.
+// Counts the contacts that are missed if only frames are examined: every frame, every second, every fourth
+// and so on. A contact lasts from a beginning to an end, or is a touch. It is found if an examined frame lies
+// in it, ends included. Times of contacts are exact, so it is known which of them lie at frames.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,10 +14,10 @@
 
 namespace kds {
 
-/// Hears of a run's events, of the structure `contacts` alone.
+/// Listens to a run's events of the structure `contacts`.
 class SampledContacts final : public EventListener {
  public:
-  /// Looked at are the frames 0, stride, 2 stride ... of the run.
+  /// Examines the frames 0, stride, 2 stride ... of the run.
   struct Sampling {
     std::size_t stride = 1;
     std::uint64_t contacts = 0, found = 0;
@@ -28,10 +28,10 @@ class SampledContacts final : public EventListener {
 
   explicit SampledContacts(std::span<const std::size_t> strides);
 
-  /// Those in contact at the first frame; before any event.
+  /// Adds the pairs in contact at the first frame. Must come before any event.
   void add_built(std::span<const BeadPair> pairs);
   void on_event(const Event& event) override;
-  /// Contacts that go on last until this frame, the run's last.
+  /// Ends all open contacts at this frame, the last of the run.
   void finish(std::size_t last_frame);
 
   [[nodiscard]] const std::vector<Sampling>& samplings() const { return samplings_; }
@@ -40,7 +40,7 @@ class SampledContacts final : public EventListener {
   void count(std::size_t first_frame, std::size_t last_frame);
 
   std::vector<Sampling> samplings_;
-  std::map<BeadPair, std::size_t> since_;  // the first frame in a contact that goes on
+  std::map<BeadPair, std::size_t> since_;  // first frame of each open contact
 };
 
 }  // namespace kds

@@ -15,7 +15,7 @@ namespace {
 using detail::dot;
 using detail::minus;
 
-/// Larger than all roundings of a square distance by far: 2^-45 of its parts, and what may underflow.
+/// Exceeds by far all roundings of a squared distance: 2^-45 of its terms, and possible underflow.
 constexpr double spare = 0x1p-45;
 
 template <int D>
@@ -25,23 +25,24 @@ template <int D>
   return dot(d, d) * (1 - spare) > reach * reach + 0x1p-900;
 }
 
-/// |d|^2 - s^2 along a step, d linear from d0 to d1 and s from s0 to s1: its Bernstein coefficients.
+/// Bernstein coefficients of |d|^2 - s^2 along a step, where d is linear from d0 to d1 and s from s0 to s1.
 template <class N>
 struct Quadratic {
   N q0, q1, q2;
 
-  /// Whether it has no zero and is positive. q1 > -sqrt(q0 q2) is exactly that where both ends are.
+  /// Returns whether the quadratic is positive and has no zero. If both ends are positive, this is equivalent
+  /// to q1 > -sqrt(q0 q2).
   [[nodiscard]] bool is_positive() const { return q0 > 0 && q2 > 0 && (q1 >= 0 || q1 * q1 < q0 * q2); }
 };
 
-/// 1: apart all over the step; -1: they meet; 0: not told.
+/// Returns 1 if the spheres stay apart during the whole step, -1 if they meet, 0 if doubles do not decide.
 template <int D>
 [[nodiscard]] int told_apart(const Cage<D>& a0, const Cage<D>& b0, const Cage<D>& a1, const Cage<D>& b1) {
   const Point<D> d0 = minus(a0.center, b0.center), d1 = minus(a1.center, b1.center);
   const double s0 = a0.radius + b0.radius, s1 = a1.radius + b1.radius;
   const double first = dot(d0, d0), last = dot(d1, d1), mixed = dot(d0, d1);
   const double size = first + last + s0 * s0 + s1 * s1;
-  if (!(size >= 0x1p-400 && size <= 0x1p400)) return 0;  // its square keeps its digits
+  if (!(size >= 0x1p-400 && size <= 0x1p400)) return 0;  // else its square loses digits
   const double error = spare * size;
   const double q0 = first - s0 * s0, q1 = mixed - s0 * s1, q2 = last - s1 * s1;
   if (Quadratic<double>{q0 - error, q1 - error, q2 - error}.is_positive()) return 1;
@@ -60,7 +61,7 @@ Cage<D> ball_at(const Curves<D>& curves, BeadId bead, int k) {
 
 template <int D>
 bool meet_exactly(const Curves<D>& curves, const BeadPair& pair, const std::array<int, 2>& controls) {
-  std::array<std::array<Rational, static_cast<std::size_t>(D) + 1>, 2> numbers;  // differences, sum of radii
+  std::array<std::array<Rational, static_cast<std::size_t>(D) + 1>, 2> numbers;  // differences, radii
   for (std::size_t end = 0; end < 2; ++end) {
     const int k = controls[end];
     for (int axis = 0; axis < D; ++axis)
@@ -76,8 +77,8 @@ bool meet_exactly(const Curves<D>& curves, const BeadPair& pair, const std::arra
   return !Quadratic<Rational>{product(0, 0), product(0, 1), product(1, 1)}.is_positive();
 }
 
-/// A sphere at rest that holds one moving linearly from one place to another: half the way is at most half
-/// the sum of its coordinates, which needs no root. Rounded up, the middle's own rounding included.
+/// Returns a static sphere that holds a sphere in linear motion. Half the path is at most half the sum of its
+/// coordinates, which needs no root. The radius is rounded up and covers the rounding of the middle.
 template <int D>
 [[gnu::always_inline]] inline Cage<D> around_way(const Cage<D>& start, const Cage<D>& end) {
   Cage<D> cage;
@@ -110,12 +111,12 @@ SweptContacts<D>::SweptContacts(const NecklaceTree& tree, PairsAsked asked)
   resting_.resize(ranges_.size());
 }
 
-/// `may_meet(a, b)`: of two items. Calls with both beads end the search.
+/// `may_meet(a, b)` tests two items. A pair of two beads is not split further.
 template <int D>
 template <class MayMeet>
 void SweptContacts<D>::traverse(const MayMeet& may_meet, FoundPairs& found) {
   struct Task {
-    Item a, b;  // one item: with itself
+    Item a, b;  // equal items: the item paired with itself
   };
   std::vector<Task> stack;
   for (std::size_t i = roots_.size(); i-- > 0;) {
@@ -143,7 +144,7 @@ void SweptContacts<D>::traverse(const MayMeet& may_meet, FoundPairs& found) {
       continue;
     }
     const auto open = [&](const Task& task) {
-      // Too near along the chain, all of them.
+      // All their beads are too near along the chain.
       if (ranges_[task.b].last - ranges_[task.a].first < asked_.apart &&
           (asked_.apart == 1 || asked_.necklace_of(of_a.first) == asked_.necklace_of(of_b.first)))
         return;

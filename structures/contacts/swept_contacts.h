@@ -1,10 +1,11 @@
 #pragma once
-// The contacts of a whole step by one traversal of chord cages (structures/chord_cages), of a necklace with
-// itself and of necklaces with each other: two nodes whose cages stay apart all over the step have no contact
-// in it, others are opened, the one of more beads first. Cages at rest around each node's way come before
-// the cages themselves: a look at two of these costs what one at two static spheres does.
+// Finds the contacts of a whole step by one traversal of chord cages (structures/chord_cages), within
+// necklaces and between them. If the cages of two nodes stay apart during the step, the nodes have no
+// contact. Otherwise the node with more beads is split first. A static sphere around each cage's path is
+// tested before the cages themselves, at the cost of a test of two static spheres.
 //
-// Runs do not use it: the boxes of blocks of moving_family.h find the same pairs faster (`kds bench trade`).
+// Runs do not use this class, because the boxes of moving_family.h find the same pairs faster (`kds bench
+// trade`).
 
 #include <cstdint>
 #include <span>
@@ -17,29 +18,29 @@
 
 namespace kds {
 
-/// Pairs that are found, in no order.
+/// Pairs found, in no particular order.
 struct FoundPairs {
   std::vector<BeadPair> pairs;
-  std::uint64_t tests = 0;  ///< of two spheres: nodes, beads or both
+  std::uint64_t tests = 0;  ///< number of tests of two spheres of nodes or beads
 };
 
 template <int Dimension>
 class SweptContacts {
  public:
-  /// `tree`: of the same necklaces.
+  /// `tree` must have the same necklaces as `asked`.
   SweptContacts(const NecklaceTree& tree, PairsAsked asked);
 
-  /// Pairs of beads that meet at any time of the step of these linear curves, the ends included, and no
-  /// others. `start`, `end`: cages that hold the balls of their nodes at both, exactly. Throws
-  /// std::invalid_argument where the motion is not linear.
+  /// Finds the pairs of beads that meet at any time of the step of these linear curves, ends included, and no
+  /// others. `start` and `end` are cages that hold the balls of their nodes exactly at both ends. Throws
+  /// std::invalid_argument if the motion is not linear.
   void find(const OutwardCages<Dimension>& start, const OutwardCages<Dimension>& end,
             const Curves<Dimension>& curves, FoundPairs& found);
-  /// The same at rest at the k-th control points: the static query to measure it by.
+  /// Finds the pairs that meet at the k-th control points, at rest. It is the static query for comparison.
   void find_static(const OutwardCages<Dimension>& cages, const Curves<Dimension>& curves, int k,
                    FoundPairs& found);
 
  private:
-  using Item = std::uint32_t;  ///< a node, or a bead, counted on from the nodes
+  using Item = std::uint32_t;  ///< a node, or a bead numbered after the nodes
 
   template <class MayMeet>
   void traverse(const MayMeet& may_meet, FoundPairs& found);
@@ -53,7 +54,7 @@ class SweptContacts {
   std::vector<Item> roots_;  // of the necklaces
   std::vector<Children> children_;
   std::vector<BeadRange> ranges_;         // of items
-  std::vector<Cage<Dimension>> resting_;  // of items, around their ways
+  std::vector<Cage<Dimension>> resting_;  // static spheres around the paths of items
 };
 
 }  // namespace kds
