@@ -1,7 +1,7 @@
 #pragma once
-// The basis of a minimum enclosing sphere: at most dimension + 1 beads whose own minimum enclosing sphere it
-// is, none to spare. What a basis is, and how to find one among a few beads, given who decides the signs that
-// say who lies in whose sphere: at a time, just after one, in double or exactly.
+// The basis of a minimum enclosing sphere: at most dimension + 1 beads that have the same minimum enclosing
+// sphere, without a superfluous bead. Defines bases and finds one among a few beads. A `SphereSigns` object
+// decides which beads lie in which sphere: at a time, just after a time, in double or exactly.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ namespace kds {
 struct Basis {
   static constexpr std::size_t max_size = 4;
 
-  std::array<BeadId, max_size> beads{};  ///< ascending, the first `size` of them
+  std::array<BeadId, max_size> beads{};  ///< the first `size` of them, ascending
   std::uint8_t size = 0;
 
   Basis() = default;
@@ -47,13 +47,13 @@ struct Basis {
   }
 };
 
-/// Knows, at whatever time it stands for, who lies in which sphere.
+/// Decides which bead lies in which sphere, at a time of its own.
 template <class S>
 concept SphereSigns = requires(S& signs, const Basis& basis, BeadId bead, bool inside, int orientation) {
   { S::dimension } -> std::convertible_to<int>;
-  // 1, 0 or -1: `bead` lies inside (or, not `inside`, outside) the sphere of `basis`; 0 on it
+  // 1, 0 or -1: `bead` is inside, on, or outside the sphere of `basis`; negated unless `inside`
   { signs.membership(basis, bead, inside, orientation) } -> std::convertible_to<int>;
-  // of a full basis, as membership wants it; 0 if its centres are dependent
+  // of a full basis, for `membership`; 0 if its centres are affinely dependent
   { signs.orientation(basis) } -> std::convertible_to<int>;
 };
 
@@ -73,13 +73,13 @@ template <SphereSigns Signs>
   return rest;
 }
 
-/// Inside or on the sphere.
+/// Returns whether the bead is inside or on the sphere.
 template <SphereSigns Signs>
 [[nodiscard]] bool is_inside(const Basis& basis, BeadId bead, int orientation, Signs& signs) {
   return signs.membership(basis, bead, true, orientation) >= 0;
 }
 
-/// Whether no bead of the basis is to spare: each lies strictly outside the sphere of the others.
+/// Returns whether no bead of the basis is superfluous: each lies strictly outside the sphere of the others.
 template <SphereSigns Signs>
 [[nodiscard]] bool is_proper(const Basis& basis, Signs& signs) {
   if (basis.size <= 1) return basis.size == 1;
@@ -87,16 +87,16 @@ template <SphereSigns Signs>
                      [&](BeadId b) { return signs.membership(without(basis, b), b, false, 0) > 0; });
 }
 
-/// What is known of the basis that is sought: where to look first, and who is in it for sure.
+/// Partial knowledge of the wanted basis: the size to try first, and a bead that is certainly in it.
 struct BasisHint {
   std::size_t size = 1;
   BeadId member = no_bead;
 };
 
-/// The basis of at most dimension + 2 beads of equal radii: the proper subset whose sphere holds the others.
-/// There is no answer only if `signs` contradict themselves, as plain double may. Where several bases will
-/// do, the hint decides which is found. `signs` are asked about any subset, since independent points have a
-/// sphere.
+/// Returns the basis of at most dimension + 2 beads of equal radii: the proper subset whose sphere holds the
+/// others. Returns none only if `signs` contradict themselves, which plain double may do. If several bases
+/// are valid, the hint decides which one is found. `signs` are queried for any subset, since independent
+/// points have a sphere.
 template <SphereSigns Signs>
 [[nodiscard]] std::optional<Basis> basis_of_points(std::span<const BeadId> beads, Signs& signs,
                                                    BasisHint hint = {}) {
@@ -123,12 +123,13 @@ template <SphereSigns Signs>
   return std::nullopt;
 }
 
-/// The basis of at most dimension + 2 balls of any radii. Independent balls need not have a sphere that
-/// touches them all: `signs` are asked only about bases that are proved proper, from single balls up.
+/// Finds the basis of at most dimension + 2 balls of any radii. Independent balls need not have a sphere that
+/// touches all of them. `signs` are therefore queried only for bases that are proved proper, from single
+/// balls up.
 template <SphereSigns Signs>
 class BasisOfBalls {
  public:
-  /// Ascending, at most dimension + 2.
+  /// `beads` are ascending, at most dimension + 2.
   BasisOfBalls(std::span<const BeadId> beads, Signs& signs) : beads_(beads), signs_(signs) {}
 
   [[nodiscard]] std::optional<Basis> find() { return of((1U << beads_.size()) - 1U); }
@@ -136,7 +137,8 @@ class BasisOfBalls {
  private:
   enum class State : std::uint8_t { unknown, none, known };
 
-  /// The basis of a subset: that of all but one bead, if its sphere holds this one, or else the subset.
+  /// Returns the basis of a subset: the basis of all its beads but one, if that sphere holds the remaining
+  /// bead, else the subset itself.
   std::optional<Basis> of(unsigned subset) {
     State& state = states_[subset];
     if (state == State::known) return bases_[subset];

@@ -1,6 +1,6 @@
 #pragma once
-// Beads come into a basis and leave it, its beads staying in order; no branches, as no processor guesses
-// them.
+// Inserts beads into a basis and erases them, keeping its beads in order. The code has no branches, because
+// they would be unpredictable.
 
 #include <algorithm>
 
@@ -14,10 +14,10 @@ namespace kds {
   --basis.size;
 }
 
-/// There is room for it.
+/// The basis must have room for the bead.
 [[gnu::always_inline]] inline void insert_bead(Basis& basis, BeadId bead) {
   auto& b = basis.beads;
-  for (std::size_t i = 0; i < Basis::max_size; ++i) {  // one bead sinks through the ordered ones
+  for (std::size_t i = 0; i < Basis::max_size; ++i) {  // insertion by compare and exchange
     const BeadId here = i < basis.size ? b[i] : no_bead;
     b[i] = std::min(here, bead);
     bead = std::max(here, bead);

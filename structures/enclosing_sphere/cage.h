@@ -1,5 +1,5 @@
 #pragma once
-// The sphere of a node of a hierarchy, as its loops hold it.
+// The sphere of a node of a hierarchy, in the form that its loops use.
 
 #include "structures/enclosing_sphere/sphere_of_points.h"
 #include "structures/necklace/ball_rows.h"
@@ -10,7 +10,8 @@ namespace kds {
 template <int Dimension>
 using Cage = BallRow<Dimension>;
 
-/// For people; `wider` by the common radius of beads where the cage is of their centres.
+/// Converts a cage for output. If the cage encloses centres only, `wider` is the common radius of the beads;
+/// it is added to the radius.
 template <int Dimension>
 [[nodiscard]] Sphere sphere_of(const Cage<Dimension>& cage, double wider) {
   Sphere sphere;

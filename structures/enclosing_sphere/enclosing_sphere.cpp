@@ -7,7 +7,7 @@ namespace kds {
 
 namespace {
 
-// Whether bead `b` alone sticks out.
+// Returns whether bead `b` sticks out of the sphere.
 template <class Form>
 bool sticks_out(const Balls<Form::Dimension>& balls, const typename Form::Sphere& sphere, BeadId b) {
   detail::Farthest one;
@@ -31,7 +31,7 @@ template <class Form>
       sphere, [&](const auto&, const auto& look) __attribute__((always_inline)) { look(first, last); });
 }
 
-// Whether the basis was proved.
+// Returns whether the basis was proved.
 template <class Form>
 bool pivot_to_proof(const Balls<Form::Dimension>& balls, BeadId first, BeadId last,
                     std::span<const BeadId> guess, Basis& basis, Cage<Form::Dimension>& cage) {

@@ -1,8 +1,8 @@
 #pragma once
-// The minimum enclosing sphere of consecutive balls with its basis, in the plane and in space, radii equal or
-// not: the LP-type pivoting of Fischer & Gaertner (Welzl's move-to-front is wrong for balls), from scratch or
-// from a guess. The basis is exact: its sphere holds all balls and none of its own is to spare. Centre and
-// radius are rounded, the radius to 1e-12 of its size and better.
+// Computes the minimum enclosing sphere of consecutive balls with its basis, in the plane and in space, for
+// equal or unequal radii. It uses the LP-type pivoting of Fischer & Gaertner, from scratch or from a guess
+// (Welzl's move-to-front is wrong for balls). The basis is exact: its sphere holds all balls and no basis
+// ball is superfluous. Centre and radius are rounded; the relative error of the radius is at most 1e-12.
 
 #include <array>
 #include <span>
@@ -20,14 +20,16 @@ struct SmallestSphere {
   bool took_exact = false;  ///< doubles did not suffice
 };
 
-/// Beads first..last. `guess`: beads among them that may be in the basis, as an earlier basis and beads that
-/// escaped from its sphere; any will do. ExactUse::everywhere: the slow twin that asks no double.
+/// Returns the smallest sphere of beads first..last. `guess` names beads of the range that may be in the
+/// basis, such as an earlier basis and beads that escaped from its sphere. Any guess is valid.
+/// ExactUse::everywhere selects the slow reference that uses no doubles.
 template <int Dimension>
 [[nodiscard]] SmallestSphere smallest_sphere(const Balls<Dimension>& balls, BeadId first, BeadId last,
                                              std::span<const BeadId> guess = {},
                                              ExactUse use = ExactUse::where_needed);
 
-/// Whether doubles prove that a basis is one: each of its balls strictly outside the sphere of the others.
+/// Returns whether doubles prove that a basis is proper: each of its balls lies strictly outside the sphere
+/// of the others.
 template <int Dimension>
 [[nodiscard]] bool is_certainly_proper(std::span<const std::array<double, Dimension>> centers,
                                        std::span<const double> radii);

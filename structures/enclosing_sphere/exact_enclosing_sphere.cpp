@@ -53,7 +53,7 @@ class ExactSearch {
     basis.sort();
     return basis;
   }
-  // Mends a basis with beads to spare.
+  // Reduces a basis with superfluous beads to a proper one.
   ExactSphere<Dimension> sphere_of_basis(Basis& basis) const {
     const std::span<const BeadId> beads(basis.begin(), basis.size);
     auto sphere = ExactSphere<Dimension>::touching(wholes(beads));
@@ -61,7 +61,8 @@ class ExactSearch {
     basis = basis_among(beads);
     return *ExactSphere<Dimension>::touching(wholes({basis.begin(), basis.size}));
   }
-  // The sphere in double, and how far beads may be and be inside, or outside, for certain.
+  // Sets the sphere in double, and the distances up to which beads are certainly inside and beyond which they
+  // are certainly outside.
   void look_from(const ExactSphere<Dimension>& sphere) {
     const Sphere rounded = sphere.rounded(unit_);
     double size = 0;
@@ -75,7 +76,7 @@ class ExactSearch {
     outer_ = rounded.radius + error;
     filtered_ = use_ == ExactUse::where_needed && rounded.radius >= 0x1p-150 && outer_ <= 0x1p150;
   }
-  // |p - center| + r, each rounded to within 8u.
+  // Returns |p - center| + r, with each term rounded to within 8u.
   double reach(BeadId bead) const {
     double square = 0;
     for (std::size_t axis = 0; axis < Dimension; ++axis) {
@@ -84,7 +85,8 @@ class ExactSearch {
     }
     return std::sqrt(square) + (of_points_ ? 0 : balls_.radius(bead));
   }
-  // The bead that sticks out most, by far enough to tell in double, or else the first that does at all.
+  // Returns the bead that sticks out most, if doubles can tell that it does. Otherwise returns the first bead
+  // that sticks out at all.
   BeadId escaped_from(const ExactSphere<Dimension>& sphere, const Basis& basis) const {
     constexpr double inflation = 1 + 16 * detail::unit_roundoff;
     BeadId farthest = no_bead;

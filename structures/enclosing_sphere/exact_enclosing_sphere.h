@@ -1,5 +1,6 @@
 #pragma once
-// The minimum enclosing sphere of consecutive beads, decided in exact arithmetic: what filters fall back to.
+// Computes the minimum enclosing sphere of consecutive beads in exact arithmetic. It is the fallback of the
+// filters.
 
 #include <span>
 
@@ -9,12 +10,13 @@
 
 namespace kds {
 
-/// Whether doubles may tell the beads that are clearly inside from those to be decided exactly.
+/// Selects whether doubles may sort out the beads that are clearly inside, so that only the others are
+/// decided exactly.
 enum class ExactUse { where_needed, everywhere };
 
-/// Makes `basis`, any beads of the range, at most Dimension + 1, that of beads first..last, and returns their
-/// sphere, rounded; of their centres if `of_points`, which takes equal radii. Always ends: with every pivot
-/// the sphere grows.
+/// Replaces `basis`, at most Dimension + 1 arbitrary beads of the range, by the basis of beads first..last.
+/// Returns their sphere, rounded. If `of_points`, it is the sphere of their centres, which requires equal
+/// radii. Always terminates, because the sphere grows with every pivot.
 template <int Dimension>
 Cage<Dimension> enclosing_sphere_exactly(const Balls<Dimension>& balls, BeadId first, BeadId last,
                                          Basis& basis, bool of_points, ExactUse use = ExactUse::where_needed);

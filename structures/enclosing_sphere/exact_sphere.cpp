@@ -16,7 +16,7 @@ int sign_of(const Integer& x) { return x.sign(); }
 /// Returns 1 if x is proved to be positive, otherwise -1: never 0.
 int sign_of(const TrackedDouble& x) { return x.value > x.error * TrackedDouble::inflation ? 1 : -1; }
 
-// The sign of a + b sqrt(d), d >= 0.
+// Returns the sign of a + b sqrt(d), d >= 0.
 template <class Number>
 int radical_sign(const Number& a, const Number& b, const Number& d) {
   const int sa = sign_of(a);
@@ -29,7 +29,7 @@ int radical_sign(const Number& a, const Number& b, const Number& d) {
   return sign_of(Number{0});
 }
 
-// n / d * 2^unit, truncated to 64 bits before it is rounded.
+// Returns n / d * 2^unit, truncated to 64 bits before it is rounded.
 double rounded_quotient(Integer n, const Integer& d, int unit) {
   if (n.sign() == 0) return 0;
   const bool negative = n.sign() < 0;
@@ -94,7 +94,7 @@ std::optional<TouchingSphere<Dimension, Number>> TouchingSphere<Dimension, Numbe
   for (std::size_t i = 0; i < m; ++i) {
     s[i] = basis[i + 1].radius - basis[0].radius;
     e[i] = gram(i, i) - s[i] * s[i];
-    if (sign_of(e[i]) <= 0) return std::nullopt;  // one holds the other
+    if (sign_of(e[i]) <= 0) return std::nullopt;  // one ball holds the other
   }
   sphere.g_ = gram.determinant();
   if (sign_of(sphere.g_) <= 0) return std::nullopt;
@@ -122,7 +122,8 @@ std::optional<TouchingSphere<Dimension, Number>> TouchingSphere<Dimension, Numbe
 template <int Dimension, class Number>
 bool TouchingSphere<Dimension, Number>::is_proper() const {
   if (m_ == 0) return true;
-  // Weight i is (A e)_i (sqrt(D) - b) + (A s)_i c, over something positive; the base has what is left.
+  // Weight i is (A e)_i (sqrt(D) - b) + (A s)_i c, divided by a positive number. The base has the remaining
+  // weight.
   Number rest_e = g_ + g_, rest_s{0};
   const auto positive = [this](const Number& e, const Number& s) {
     return radical_sign(s * c_ - e * b_, e, discriminant_) > 0;
@@ -146,11 +147,13 @@ bool TouchingSphere<Dimension, Number>::holds(const Ball& ball) const {
   if (sign_of(-s) < 0 && radical_sign(c_ + twice * b_, -twice, discriminant_) < 0) return false;
   const Number f = dot(d, qae_) - g_ * e;
   const Number w = dot(d, qas_) - g_ * s;
-  // With e twice as large as in F + W rho >= 0 there, rho = c / (2 (sqrt(D) - b)).
+  // The condition is F + W rho >= 0 (ball_in_sphere.h). Here e is twice as large, so rho = c / (2 (sqrt(D) -
+  // b)).
   return radical_sign(w * c_ - f * b_, f, discriminant_) >= 0;
 }
 
-// |d - z| <= (1 + eps) R - r, where rho = c / (2 w), w = sqrt(D) - b, and z = (w Q A e + c Q A s) / (2 g w).
+// Decides |d - z| <= (1 + eps) R - r, where rho = c / (2 w), w = sqrt(D) - b, and z = (w Q A e + c Q A s) /
+// (2 g w).
 template <int Dimension, class Number>
 bool TouchingSphere<Dimension, Number>::holds_when_larger(const Ball& ball, const Relaxation& by) const
     requires(std::same_as<Number, Integer>) {
@@ -187,15 +190,15 @@ Sphere TouchingSphere<Dimension, Number>::rounded(int unit) const requires(std::
     sphere.radius = rounded_quotient(base_.radius, 1, unit);
     return sphere;
   }
-  // rho = p / q from sqrt(D) = root / 2^bits, so that nothing cancels: c / (2 (sqrt(D) - b)), or by
-  // D - b^2 = -a c, where b > 0 (and so a < 0), (sqrt(D) + b) / (-2 a).
+  // Computes rho = p / q from sqrt(D) = root / 2^bits without cancellation. The formula is c / (2 (sqrt(D) -
+  // b)). If b > 0 (and so a < 0), it is rewritten by D - b^2 = -a c as (sqrt(D) + b) / (-2 a).
   constexpr unsigned bits = 256;
   const Integer root = sqrt(Integer(discriminant_ << (2 * bits)));
   const bool conjugate = b_.sign() > 0;
   const Integer shifted_b = b_ << bits;
   const Integer p = conjugate ? Integer(root + shifted_b) : Integer(c_ << bits);
   const Integer q = conjugate ? Integer((-2 * a_) << bits) : Integer(2 * (root - shifted_b));
-  // Centre: base + Q A (e / 2 + s rho) / g
+  // Centre: base + Q A (e / 2 + s rho) / g.
   const Integer whole = 2 * g_ * q;
   for (std::size_t axis = 0; axis < Dimension; ++axis) {
     const Integer offset = qae_[axis] * q + 2 * qas_[axis] * p;

@@ -1,5 +1,5 @@
 #pragma once
-// Four balls or spheres side by side, from rows and to rows: one load and one store each.
+// Four balls or spheres in lanes, loaded from rows and stored to rows with one load and one store each.
 
 #include <array>
 #include <cstddef>
@@ -10,11 +10,12 @@
 
 namespace kds {
 
-/// Four places in an array of rows. g++ 12 would make addresses of four pointers in an array by vectors, and
-/// take them out one by one.
+/// Four places in an array of rows. An array of four pointers would make g++ 12 compute the addresses in a
+/// vector and extract them one by one.
 using FourPlaces = std::array<std::uint32_t, Lanes::width>;
 
-/// Four rows of four: row i is lane i of all. Where rows are the same, the last of them stays.
+/// Stores four rows of four numbers: row i receives lane i of each vector. If places coincide, the last row
+/// stays.
 template <class OfFourDoubles>
 [[gnu::always_inline]] inline void store_rows(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d,
                                               OfFourDoubles* rows, const FourPlaces& places) {
@@ -61,7 +62,7 @@ struct FourBalls {
       radius.v = third;
     }
   }
-  /// Where lanes are of the same row, the last of them stays.
+  /// Stores each lane into its row. If places coincide, the last lane stays.
   [[gnu::always_inline]] void store(BallRow<Dimension>* rows, const FourPlaces& places) const {
     store_rows(center[0], center[1], Dimension == 3 ? center[Dimension - 1] : radius, radius, rows, places);
   }

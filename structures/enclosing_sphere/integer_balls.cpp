@@ -67,7 +67,7 @@ IntegerBalls<Dimension> integer_balls_at(const Curves<Dimension>& curves, const 
   if (lowest == std::numeric_limits<int>::max()) lowest = 0;
   const Integer later = time.numerator();
   const Integer earlier = (Integer(1) << time.exponent()) - later;
-  // de Casteljau, each round with one more factor 2^exponent of the time.
+  // De Casteljau's algorithm; each round multiplies by another factor 2^exponent of the time.
   const auto at_time = [&](auto&& control) {
     std::vector<Integer> p;
     for (int k = 0; k <= degree; ++k) {

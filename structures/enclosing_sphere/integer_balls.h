@@ -1,6 +1,5 @@
 #pragma once
-// All balls of a motion at one dyadic time, in whole numbers. Exact: for audits, and what is written at
-// frames.
+// All balls of a motion at one dyadic time, in integers. Exact. Used for audits and for output at frames.
 
 #include <optional>
 #include <span>
@@ -17,7 +16,7 @@ namespace kds {
 
 template <int Dimension>
 struct IntegerBalls {
-  int unit = 0;  ///< lengths are times 2^unit
+  int unit = 0;  ///< lengths are multiplied by 2^unit
   std::vector<IntegerBall<Dimension>> balls;
 
   [[nodiscard]] std::vector<IntegerBall<Dimension>> of(std::span<const BeadId> beads) const {
@@ -30,7 +29,7 @@ struct IntegerBalls {
 template <int Dimension>
 [[nodiscard]] IntegerBalls<Dimension> integer_balls_at(const Curves<Dimension>& curves, const Dyadic& time);
 
-/// The basis, without beads that are to spare.
+/// Returns the basis without its superfluous beads.
 template <int Dimension>
 [[nodiscard]] Basis proper_part(const Basis& basis, const IntegerBalls<Dimension>& whole);
 
@@ -40,13 +39,14 @@ template <int Dimension>
 [[nodiscard]] bool is_surely_basis_of(const Basis& basis, const BeadRange& range,
                                       const RoundedPositions<Dimension>& positions);
 
-/// The first bead of a range that is not inside the sphere of a proper basis, or, but for `members`, of that
-/// made larger (ExactSphere::holds_when_larger).
+/// Returns the first bead of a range that is not inside the sphere of a proper basis, or none. Beads outside
+/// `members` are tested against the enlarged sphere (ExactSphere::holds_when_larger).
 template <int Dimension>
 [[nodiscard]] std::optional<BeadId> bead_outside(const Basis& basis, const Basis& members,
                                                  const BeadRange& range, const Relaxation& relaxation,
                                                  const IntegerBalls<Dimension>& whole);
-/// The same of the sphere as it is.
+/// Returns the first bead of a range that is not inside the sphere of a proper basis, or none. The sphere is
+/// not enlarged.
 template <int Dimension>
 [[nodiscard]] std::optional<BeadId> bead_outside(const Basis& basis, const BeadRange& range,
                                                  const IntegerBalls<Dimension>& whole) {

@@ -1,5 +1,5 @@
 #pragma once
-// Who lies in which sphere, by certificates (SphereSigns of basis.h).
+// Decides by certificates which bead lies in which sphere (SphereSigns of basis.h).
 
 #include <algorithm>
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace kds {
 
-/// `sign(certificate)` says 1, 0 or -1 for any certificate of membership and any orientation.
+/// `sign(certificate)` returns 1, 0 or -1 for any membership or orientation certificate.
 template <int Dimension, class Sign>
 class MembershipSigns {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// What formulas ask of a number beyond arithmetic, for one double and for four side by side.
+// Operations beyond arithmetic that formulas need, for a single double and for four in lanes.
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ struct NumberTraits<Lanes> {
   [[gnu::always_inline]] static Lanes min(const Lanes& a, const Lanes& b) { return Lanes::min(a, b); }
   [[gnu::always_inline]] static Lanes abs(const Lanes& a) { return Lanes::abs(a); }
   [[gnu::always_inline]] static Lanes sqrt(const Lanes& a) {
-    // Put together at once: one instruction where the compiler may take it.
+    // Built from all lanes at once, which compiles to a single instruction if the target allows it.
     return Lanes::Vector{std::sqrt(a.v[0]), std::sqrt(a.v[1]), std::sqrt(a.v[2]), std::sqrt(a.v[3])};
   }
 };

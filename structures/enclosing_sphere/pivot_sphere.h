@@ -1,7 +1,7 @@
 #pragma once
-// Steps of the search for a minimum enclosing sphere from a likely basis: its sphere in double, a scan of the
-// beads, a pivot with the bead that sticks out most, until a scan proves the basis. What double cannot
-// decide, and what takes too many pivots, goes to exact arithmetic (exact_enclosing_sphere.h).
+// Steps of the search for a minimum enclosing sphere from a likely basis: compute the basis' sphere in
+// double, scan the beads, and pivot with the bead that sticks out most, until a scan proves the basis. If
+// doubles cannot decide or the pivots are too many, exact arithmetic takes over (exact_enclosing_sphere.h).
 
 #include <cstdint>
 
@@ -12,7 +12,7 @@ namespace kds::detail {
 
 inline constexpr int most_pivots = 32;
 
-/// The sphere of a basis, in double.
+/// Returns the sphere of a basis, in double.
 template <class Form>
 [[gnu::always_inline]] inline typename Form::Sphere sphere_of_basis(const Balls<Form::Dimension>& balls,
                                                                     const Basis& basis) {
@@ -24,8 +24,8 @@ template <class Form>
   return sphere;
 }
 
-/// How many beads are not inside for certain. `visit(sphere, look)` calls look(first, last) for the runs of
-/// beads that may be outside.
+/// Returns how many beads are not certainly inside. `visit(sphere, look)` calls look(first, last) for each
+/// run of beads that may be outside.
 template <class Form, class Visit>
 [[gnu::always_inline]] inline std::size_t count_outside(const Balls<Form::Dimension>& balls,
                                                         const typename Form::Sphere& sphere,
@@ -44,7 +44,8 @@ template <class Form>
   return sphere.certain & (outside == basis.size);
 }
 
-/// A bead that sticks out farthest, or no_bead where none does for certain; `visit` as above.
+/// Returns the bead that sticks out farthest, or no_bead if none certainly sticks out. `visit` is as in
+/// count_outside.
 template <class Form, class Visit>
 [[gnu::always_inline]] inline BeadId escaped_bead(const Balls<Form::Dimension>& balls,
                                                   const typename Form::Sphere& sphere, const Visit& visit) {
@@ -63,13 +64,13 @@ template <class Form, class Visit>
   return escaped;
 }
 
-/// Where that is no proof: the next basis. `find_escaped()` looks for the bead that has to come in. False if
-/// doubles know none.
+/// Replaces an unproved basis by the next one to try. `find_escaped()` searches for the bead to insert.
+/// Returns false if doubles find no next basis.
 template <class Form, class Find>
 bool next_basis(const Balls<Form::Dimension>& balls, Basis& basis, const typename Form::Sphere& sphere,
                 const Find& find_escaped) {
   if (basis.size > 1 && !(sphere.least > 0)) {
-    if (!(sphere.least < -1e-9)) return false;  // a right basis must not be changed
+    if (!(sphere.least < -1e-9)) return false;  // a correct basis must not be changed
     std::size_t place = 0;
     visit_size<Form::Dimension>(basis.size, [&](auto m) {
       if constexpr (m > 0) place = lightest<m>(balls, basis);
@@ -81,7 +82,8 @@ bool next_basis(const Balls<Form::Dimension>& balls, Basis& basis, const typenam
   return escaped != no_bead && !basis.contains(escaped) && Form::pivot(balls, basis, escaped);
 }
 
-/// Two beads that are far apart: that of `some` farthest from `from`, then that of `others` farthest from it.
+/// Returns two beads that are far apart: the bead of `some` farthest from `from`, then the bead of `others`
+/// farthest from the first.
 template <class Form>
 [[gnu::always_inline]] inline Basis far_pair(const Balls<Form::Dimension>& balls,
                                              std::span<const BeadId> some, std::span<const BeadId> others,
@@ -89,7 +91,7 @@ template <class Form>
   const auto farthest = [&](std::span<const BeadId> beads, const Point<Form::Dimension>& p) {
     BeadId best = beads[0];
     double most = -1;
-    for (std::size_t i = 0; i < Basis::max_size; ++i) {  // as many whatever the basis: no branches
+    for (std::size_t i = 0; i < Basis::max_size; ++i) {  // a fixed count avoids branches
       const BeadId b = beads[i < beads.size() ? i : 0];
       const double reach = Form::reach(balls, b, p);
       best = reach > most ? b : best;

@@ -5,10 +5,10 @@
 
 namespace kds {
 
-// Differences err by u = 2^-53 of themselves, their squares' sum by 5u and its root by 4u in all, unless
-// squares over- or underflow. Then differences are brought near 1 first: what of them is lost below 2^-1000
-// is less than the rest's roundings, and what is rounded on the way back, where numbers are subnormal, is
-// made up for by the next larger number.
+// Differences have relative errors of u = 2^-53, the sum of their squares 5u, and its root 4u in all, unless
+// squares overflow or underflow. In that case differences are scaled near 1 first. Their loss below 2^-1000
+// is less than the other roundings. The rounding on the way back, if numbers are subnormal, is covered by
+// taking the next larger number.
 template <int Dimension>
 double distance_rounded_up(const Point<Dimension>& a, const Point<Dimension>& b) {
   constexpr double up = 1 + 0x1p-49;

@@ -1,12 +1,12 @@
 #pragma once
-// What the search for a minimum enclosing sphere asks of its balls: points, for equal radii, or balls.
+// Two forms of balls for the search for a minimum enclosing sphere: points, for equal radii, or balls.
 
 #include "structures/enclosing_sphere/sphere_of_balls.h"
 #include "structures/enclosing_sphere/sphere_scan.h"
 
 namespace kds {
 
-/// Spheres through centres; the common radius is added by whoever shows them.
+/// Spheres through centres. The caller adds the common radius for output.
 template <int Dim>
 struct PointForm {
   static constexpr int Dimension = Dim;
@@ -24,7 +24,7 @@ struct PointForm {
   [[gnu::always_inline]] static auto measure(const Balls<Dimension>& balls, const Sphere& sphere) {
     return detail::PointMeasure<Dimension>{detail::coordinates_of(balls), sphere.center, sphere.inner};
   }
-  /// The radius within which centres are inside.
+  /// Returns the radius within which centres are inside.
   [[gnu::always_inline]] static double inner_radius(const Sphere& sphere) {
     return sphere.inner > 0 ? std::sqrt(sphere.inner) * (1 - 4 * detail::unit_roundoff) : 0;
   }

@@ -6,7 +6,7 @@ namespace kds {
 
 namespace {
 
-constexpr double slack = 1e-12;  // of the squared radius: to be verified
+constexpr double slack = 1e-12;  // of the squared radius; the result is verified later
 
 Basis without_place(Basis basis, std::size_t place) {
   erase_place(basis, place);
@@ -30,7 +30,7 @@ bool holds_all(const Balls<Dimension>& balls, const BasisSphere<double, Dimensio
   return inside(escaped) && std::all_of(basis.begin(), basis.end(), inside);
 }
 
-/// Of a full basis: the ball that is likely to be left behind.
+/// Returns the place in a full basis of the ball that is likely to leave.
 template <int Dimension>
 std::size_t place_to_leave(const Balls<Dimension>& balls, const Basis& basis, BeadId escaped) {
   Basis guess = basis;

@@ -1,18 +1,20 @@
 #pragma once
 // Minimum enclosing spheres of balls of any radii in double, with proved errors: the sphere of a basis, and
-// the basis after a ball has escaped. No allocation; what is not proved says so.
+// the basis after a ball has escaped. Allocates no memory. A result that is not proved is marked as such.
 //
-// The sphere that touches the balls from outside is put together (tangent_sphere.h); then centre z~ and
-// weights w_i are judged by what they do. F(x) = max_i |c_i - x| + r_i is convex, and its minimum, R at z, is
-// the sphere sought. With k_i = |c_i - z~| + r_i, K their maximum, S their spread with its rounding, u_i =
-// (c_i - z~) / |c_i - z~| and e = z - z~, convexity gives K >= R >= k_i - u_i.e, that is u_i.e >= -S for all
-// i. The multipliers m_i ~ w_i |c_i - z~|, with sum 1, nearly balance: v = sum m_i u_i is small. So u_i.e <=
-// (S + |v||e|) / m_i, and for the matrix of all u_i but the one of greatest m_i, least singular value sigma,
-// |e| <= sqrt(m) (S + |v||e|) / (min m_i sigma) =: E', plus O where z~ may have left the span of the centres
-// (sphere_of_points.h). From here on as there: |p - z~| + r <= K - 2E proves that a ball is inside. The basis
-// has no ball to spare: without ball j the minimum could stay only if the other u_i at z, each within 2E /
-// |c_i - z~| of what it is at z~, were dependent, and they are not if sigma_j > 2 sqrt(m) E / min |c_i - z~|,
-// where sigma_j follows from m_j by Cramer's rule.
+// The sphere that touches the balls from outside is computed first (tangent_sphere.h). Its centre z~ and
+// weights w_i are then verified by their residuals. F(x) = max_i |c_i - x| + r_i is convex, and its minimum,
+// R at z, is the wanted sphere. Let k_i = |c_i - z~| + r_i, K their maximum, S their spread with its
+// rounding, u_i = (c_i - z~) / |c_i - z~| and e = z - z~. By convexity K >= R >= k_i - u_i.e, so u_i.e >= -S
+// for all i. The multipliers m_i ~ w_i |c_i - z~|, with sum 1, nearly balance: v = sum m_i u_i is small. So
+// u_i.e <= (S + |v||e|) / m_i. Let sigma be the least singular value of the matrix of all u_i but the one of
+// greatest m_i. Then |e| <= sqrt(m) (S + |v||e|) / (min m_i sigma) =: E', plus O if z~ may have left the span
+// of the centres (sphere_of_points.h). The rest follows sphere_of_points.h: |p - z~| + r <= K - 2E proves
+// that a ball is inside.
+//
+// The basis has no superfluous ball. Without ball j the minimum could stay only if the other u_i at z were
+// dependent. Each u_i differs by at most 2E / |c_i - z~| from its value at z~. They are independent if
+// sigma_j > 2 sqrt(m) E / min |c_i - z~|, where sigma_j follows from m_j by Cramer's rule.
 
 #include "structures/enclosing_sphere/tangent_sphere.h"
 
@@ -20,7 +22,7 @@ namespace kds {
 
 namespace detail {
 
-/// Without `bounds` only centre, radius and least weight.
+/// Without `bounds`, computes only centre, radius and least weight.
 template <bool bounds = true, class N, int Dimension, std::size_t M>
 [[gnu::always_inline]] inline BasisSphere<N, Dimension> sphere_of_balls(
     const BasisBalls<N, Dimension, M>& members) {
@@ -59,20 +61,21 @@ template <bool bounds = true, class N, int Dimension, std::size_t M>
     for (std::size_t axis = 0; axis < Dimension; ++axis) balance[axis] = balance[axis] + weight[i] * d[axis];
   }
   sphere.radius = most;
-  // Written so that NaNs and signs that make no sense are no proof.
+  // Written so that NaNs and inconsistent signs prove nothing.
   const auto touches = (rho >= N(0.0)) & (sphere.least > N(0.0)) & (sphere.least <= N(1.0)) &
                        (most - fewest <= N(1e-6) * most);
   sphere.least = Is::choose(touches, sphere.least, N(-1.0));
   if constexpr (!bounds) return sphere;
-  N norm = N(32 * u) * sum;  // of the balance, or more
+  N norm = N(32 * u) * sum;  // an upper bound of the balance's length
   for (const N& x : balance) norm = norm + Is::abs(x);
-  // The volume of all unit vectors but the strongest pull's: w_i det Q / product of the other distances.
+  // The volume of all unit vectors but the one of greatest multiplier: w_i det Q / product of the other
+  // distances.
   N volume(1.0);
   if constexpr (M > 1) {
     const N whole = M == 2 ? Is::sqrt(span.determinant) : Is::abs(span.determinant);
     volume = N(0.99) * whole * strongest / product - N(4.0) * norm / near;
   }
-  constexpr std::array<double, 4> least_singular{0, 1, 0.7071, 0.6666};  // of a unit volume
+  constexpr std::array<double, 4> least_singular{0, 1, 0.7071, 0.6666};  // at unit volume
   const N sigma = N(least_singular[M]) * volume;
   const N rounding = N(u) * (N(2.0) * size + N(64.0) * most);
   const N left = M < Dimension ? rounding : N(0.0);
@@ -100,8 +103,9 @@ template <bool bounds = true, int Dimension>
 
 }  // namespace detail
 
-/// The basis of the balls of a basis and `escaped`, which is outside their sphere. Tries what is likely, then
-/// every subset with `escaped`. Likely right: to be verified. False if double finds none.
+/// Replaces `basis` by the basis of its balls and `escaped`, which is outside their sphere. Tries likely
+/// subsets first, then every subset with `escaped`. The result is likely right but must be verified. Returns
+/// false if doubles find none.
 template <int Dimension>
 [[nodiscard]] bool pivot_balls(const Balls<Dimension>& balls, Basis& basis, BeadId escaped);
 

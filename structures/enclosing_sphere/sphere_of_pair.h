@@ -1,5 +1,5 @@
 #pragma once
-// The sphere around two balls of which none holds the other, in double, of one pair or of four side by side.
+// The sphere around two balls of which neither holds the other, in double, for one pair or for four in lanes.
 
 #include "structures/enclosing_sphere/sphere_of_points.h"
 
@@ -9,11 +9,11 @@ template <class N, int Dimension>
 struct PairSphere {
   std::array<N, static_cast<std::size_t>(Dimension)> center;
   N radius;
-  typename NumberTraits<N>::Flag certain;  // both are needed
-  typename NumberTraits<N>::Flag loose;    // the centre has lost digits far from the origin
+  typename NumberTraits<N>::Flag certain;  // both balls are in the basis
+  typename NumberTraits<N>::Flag loose;    // the centre lost digits because it is far from the origin
 };
 
-/// `of_points`: radii are left out.
+/// If `of_points`, radii are ignored.
 template <bool of_points, int Dimension, class N>
 [[gnu::always_inline]] inline PairSphere<N, Dimension> sphere_of_pair(
     const BasisBalls<N, Dimension, 1>& pair) {
@@ -36,7 +36,7 @@ template <bool of_points, int Dimension, class N>
     size = Is::max(size, Is::abs(sphere.center[axis]));
   }
   sphere.certain = (sphere.radius >= N(0x1p-150)) & (sphere.radius <= N(0x1p150));
-  // The radius is greater than both, by more than it errs.
+  // The radius exceeds both radii by more than its error.
   if constexpr (!of_points) sphere.certain = sphere.certain & (sphere.radius > larger * N(1 + 0x1p-40));
   sphere.loose = size * N(0x1p-22) > sphere.radius;
   return sphere;

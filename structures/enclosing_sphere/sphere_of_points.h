@@ -1,23 +1,26 @@
 #pragma once
 // Minimum enclosing spheres of points (the centres of balls of equal radii) in double, with proved errors:
-// the sphere of a basis, and the basis after a point has escaped. No allocation; what is not proved says so.
+// the sphere of a basis, and the basis after a point has escaped. Allocates no memory. A result that is not
+// proved is marked as such.
 //
-// The centre z~ may be any doubles near the true one z = c_0 + Q y, Q = [d_1 .. d_m], d_i = c_i - c_0; it is
-// judged by what it does. Let t_i = |c_i - z~|^2, each rounded to within 6u of its size, and S the spread of
-// the t_i with that rounding. As |c_i - z| is the same for all i, 2 d_i.(z - z~) = t_i - t_0, so the part of
-// z - z~ in the span of Q is at most E' = sqrt(m) S / (2 sigma), where sigma, the least singular value of Q,
-// satisfies sigma^2 >= det G / (tr G / (m-1))^(m-1) for G = Q^T Q. Where the basis spans all of space, that
-// is all. Else z~ was put together from weights in [0,1], so that it leaves the span by no more than its
-// rounding, O = 2u max|z~_k| + 64u R. A midpoint errs by O alone. With E = E' + O:
+// The centre z~ may be any doubles near the true centre z = c_0 + Q y, where Q = [d_1 .. d_m], d_i = c_i -
+// c_0. Its error is bounded by its residuals. Let t_i = |c_i - z~|^2, each rounded to within 6u of its size,
+// and S the spread of the t_i including that rounding. |c_i - z| is equal for all i, so 2 d_i.(z - z~) =
+// t_i - t_0. The part of z - z~ in the span of Q is therefore at most E' = sqrt(m) S / (2 sigma), where sigma
+// is the least singular value of Q. It satisfies sigma^2 >= det G / (tr G / (m-1))^(m-1) for G = Q^T Q. If
+// the basis spans all of space, this is the whole error. Otherwise z~ was computed from weights in [0,1] and
+// leaves the span by no more than its rounding, O = 2u max|z~_k| + 64u R. A midpoint has the error O alone.
+// With E = E' + O:
 //
 //   |p - z~| <= R~ - 2E   implies   |p - z| <= |p - z~| + E <= |c_i - z~| - E <= |c_i - z|:   p is inside,
 //
-// and likewise outside. R~, the greatest of the computed |c_i - z~|, is R to within their spread and (E/R)^2,
-// since no sphere that holds the basis has a smaller square radius than the mean of the t_i by weights less
-// that of the mean's distance from z~. The weights err by 2 (E + O) / sigma at most: the basis has no bead to
-// spare if all of them are greater. Determinants of rounded differences err by 16u (tr G)^2 for m = 2, their
-// root for m = 3 by 16u (tr G)^(3/2), and are asked to be 200 times that. All this where 2^-300 <= tr G <=
-// 2^300, so that nothing overflows and what underflows is far below the bounds.
+// and likewise for outside. R~ is the greatest of the computed |c_i - z~|. It equals R to within their spread
+// and (E/R)^2: the squared radius of any sphere that holds the basis is at least the weighted mean of the t_i
+// less the squared distance of the weighted mean of the points from z~. The weights have errors of at most 2
+// (E + O) / sigma. The basis has no superfluous bead if all weights are greater. Determinants of rounded
+// differences have errors of 16u (tr G)^2 for m = 2, and their root for m = 3 of 16u (tr G)^(3/2). They are
+// required to be 200 times as large. All this holds for 2^-300 <= tr G <= 2^300, so that nothing overflows
+// and underflow is far below the bounds.
 
 #include <algorithm>
 #include <array>
@@ -38,7 +41,7 @@ namespace detail {
 inline constexpr double unit_roundoff = 0x1p-53;
 inline constexpr std::array<double, 4> root_of{0, 1, 1.4143, 1.7321};
 
-// Of numbers: those of polynomials are in motions/.
+// The dot product of numbers; for polynomials see motions/.
 template <LanesOrDouble N, std::size_t Size>
 [[gnu::always_inline]] inline N dot(const std::array<N, Size>& a, const std::array<N, Size>& b) {
   N sum = a[0] * b[0];
@@ -63,11 +66,11 @@ template <int Dimension>
   return p;
 }
 
-/// The balls of a basis of M + 1, of one node or of four nodes side by side.
+/// The balls of a basis of M + 1, for one node or for four nodes in lanes.
 template <class N, int Dimension, std::size_t M>
 struct BasisBalls {
   std::array<std::array<N, static_cast<std::size_t>(Dimension)>, M + 1> center;
-  std::array<N, M + 1> radius;  // where they are wanted
+  std::array<N, M + 1> radius;  // unused for points
 };
 
 template <std::size_t M, int Dimension>
@@ -81,8 +84,8 @@ template <std::size_t M, int Dimension>
   return b;
 }
 
-/// Three balls in an order in which the base is at the widest angle of their triangle. That is 60 degrees at
-/// least, and so the linear system is well conditioned, however short a side.
+/// Orders three balls so that the base is at the widest angle of their triangle. That angle is at least 60
+/// degrees, so the linear system is well conditioned even if a side is short.
 template <class N, int Dimension, std::size_t M>
 [[gnu::always_inline]] inline BasisBalls<N, Dimension, M> from_widest(
     const BasisBalls<N, Dimension, M>& balls) {
@@ -110,7 +113,7 @@ template <class N, int Dimension, std::size_t M>
   return turned;
 }
 
-/// Q of M points seen from a base, M = 1 to Dimension, and what solves G y = Q^T v.
+/// The matrix Q of M points relative to a base, M = 1 to Dimension, with the solver of G y = Q^T v.
 template <class N, int Dimension, std::size_t M>
 struct Span {
   using Vector = std::array<N, static_cast<std::size_t>(Dimension)>;
@@ -123,7 +126,7 @@ struct Span {
   N cosine;                       // M = 2: d_1.d_2
   N determinant;                  // M = 1, 2: of G; M = 3: of Q
   std::array<Vector, M> normals;  // M = 3: determinant times the rows of Q^-1
-  N over;                         // one by the determinant
+  N over;                         // 1 / determinant
 
   [[gnu::always_inline]] explicit Span(const BasisBalls<N, Dimension, M>& balls) {
     trace = N(0.0);
@@ -143,14 +146,14 @@ struct Span {
     }
     over = N(1.0) / determinant;
   }
-  /// Whether the determinant is known well enough for what follows; a NaN is not.
+  /// Returns whether the determinant is accurate enough for the bounds. NaN is not.
   [[gnu::always_inline]] typename NumberTraits<N>::Flag sound() const {
     constexpr double error = 16 * unit_roundoff * 200;
     if constexpr (M == 1) return square[0] > N(0.0);
     if constexpr (M == 2) return determinant > N(error) * (square[0] * square[1]);
     return determinant * determinant > N(error * error) * (square[0] * square[1] * square[2]);
   }
-  /// An upper bound of one by sigma where that is so.
+  /// Returns an upper bound of 1 / sigma, valid if sound().
   [[gnu::always_inline]] N most_by_singular_value() const {
     using Is = NumberTraits<N>;
     if constexpr (M == 1) {
@@ -161,7 +164,7 @@ struct Span {
       return N(0.505) * trace * Is::abs(over);
     }
   }
-  /// Weights of the point seen as p from the base, or of its projection on the span.
+  /// Returns the weights of the point p, relative to the base, or of its projection on the span.
   [[gnu::always_inline]] Weights weights_of(const Vector& p) const {
     if constexpr (by_normals) {
       return {dot(p, normals[0]) * over, dot(p, normals[1]) * over, dot(p, normals[2]) * over};
@@ -171,7 +174,7 @@ struct Span {
       return weights({dot(d[0], p)});
     }
   }
-  /// Weights of the point of the span whose products with the d_i are `h`, M <= 2.
+  /// Returns the weights of the point of the span whose dot products with the d_i are `h`, M <= 2.
   [[gnu::always_inline]] Weights weights(const std::array<N, M>& h) const {
     if constexpr (M == 1) {
       return {h[0] * over};
@@ -187,7 +190,7 @@ struct Span {
     }
     return v;
   }
-  /// The point of the span whose products with the d_i are `h`, and its weights.
+  /// Returns the point of the span whose dot products with the d_i are `h`, and its weights.
   [[gnu::always_inline]] Vector point_of(const std::array<N, M>& h, Weights& y) const {
     if constexpr (by_normals) {
       Vector z;
@@ -200,7 +203,8 @@ struct Span {
       return combination(y);
     }
   }
-  /// The centre of the sphere through all, seen from the base, and its weights but the base's.
+  /// Returns the centre of the sphere through all points, relative to the base, and all weights except the
+  /// base's.
   [[gnu::always_inline]] Vector circumcenter(Weights& y) const {
     if constexpr (M == 1) {
       y[0] = N(0.5);
@@ -214,20 +218,20 @@ struct Span {
 
 }  // namespace detail
 
-/// A sphere put together from a basis, or four.
+/// A sphere computed from a basis, or four of them in lanes.
 template <class N, int Dimension>
 struct BasisSphere {
   std::array<N, static_cast<std::size_t>(Dimension)> center;
-  N radius;  ///< the greatest of those computed from the basis' beads
-  N inner;   ///< within which beads are inside, if `certain`: see the scans
-  N outer;   ///< beyond which they are outside, or likely if not `certain`
-  N least;   ///< of the weights: a bead is likely to be to spare unless positive
-  typename NumberTraits<N>::Flag certain;  ///< and no bead is to spare
+  N radius;                                ///< the greatest computed from a basis bead
+  N inner;                                 ///< beads within it are inside, if `certain` (see the scans)
+  N outer;                                 ///< beads beyond it are outside; only likely unless `certain`
+  N least;                                 ///< least weight: unless positive, a bead is likely superfluous
+  typename NumberTraits<N>::Flag certain;  ///< the bounds are proved and no bead is superfluous
 };
 
 namespace detail {
 
-/// Without `bounds` only centre, radius and least weight.
+/// Without `bounds`, computes only centre, radius and least weight.
 template <bool bounds = true, class N, int Dimension, std::size_t M>
 [[gnu::always_inline]] inline BasisSphere<N, Dimension> sphere_of_points(
     const BasisBalls<N, Dimension, M>& members) {
@@ -258,7 +262,7 @@ template <bool bounds = true, class N, int Dimension, std::size_t M>
   if constexpr (!bounds) return sphere;
   const N rounding = N(u) * (N(2.0) * size + N(64.0) * sphere.radius);
   N error = rounding;
-  auto proper = sphere.least > N(0.0);  // a midpoint has equal weights and nothing to solve for
+  auto proper = sphere.least > N(0.0);  // a midpoint has equal weights and needs no solver
   if constexpr (M > 1) {
     const N over_sigma = span.most_by_singular_value();
     const N spread = most - fewest + N(12 * u) * most;
@@ -275,28 +279,28 @@ template <bool bounds = true, class N, int Dimension, std::size_t M>
   return sphere;
 }
 
-/// The sphere of one bead is its centre, without error: whether another one coincides with it is exact
-/// equality.
+/// The sphere of one bead is its centre, without error. Whether another bead coincides with it is a test of
+/// exact equality.
 template <bool bounds = true, int Dimension>
 [[gnu::always_inline]] inline BasisSphere<double, Dimension> sphere_of_points(
     const BasisBalls<double, Dimension, 0>& balls) {
   return {balls.center[0], 0, 0, 0, 1, false};
 }
 
-/// One round of the pivot: the place of the bead that is left behind, or the basis' size if none is.
+/// One round of the pivot: returns the place of the bead that leaves, or the basis' size if none does.
 template <std::size_t M, int Dimension>
 [[gnu::always_inline]] inline std::size_t left_behind(const Balls<Dimension>& balls, const Basis& basis,
                                                       const Point<Dimension>& p) {
   if constexpr (M == 0) return 1;
   const auto members = basis_balls<M>(balls, basis);
   const Point<Dimension> dp = minus(p, members.center[0]);
-  if constexpr (M == 1) {  // a triangle that is obtuse or right at one of the two, or acute
+  if constexpr (M == 1) {  // the triangle is acute, or not acute at one of the two beads
     const Point<Dimension> d = minus(members.center[1], members.center[0]);
     const double along = dot(d, dp);
     return along <= 0 ? 0 : along >= dot(d, d) ? 1 : 2;
   } else if constexpr (M > 1) {
     const Span<double, Dimension, M> span(members);
-    // Weights of the centre and of the point's projection, and how far the centre has to go.
+    // Weights of the centre and of the point's projection, and how far the centre has to move.
     typename Span<double, Dimension, M>::Weights y;
     const Point<Dimension> z = span.circumcenter(y);
     const auto w = span.weights_of(dp);
@@ -324,7 +328,7 @@ template <std::size_t M, int Dimension>
   }
 }
 
-/// The place of the bead of least weight.
+/// Returns the place of the bead of least weight.
 template <std::size_t M, int Dimension>
 [[nodiscard]] std::size_t lightest(const Balls<Dimension>& balls, const Basis& basis) {
   const Span<double, Dimension, M> span(basis_balls<M>(balls, basis));
@@ -343,7 +347,7 @@ template <std::size_t M, int Dimension>
 
 }  // namespace detail
 
-/// Calls `visit` with the number of beads but one, a constant.
+/// Calls `visit` with size - 1 as a compile-time constant.
 template <int Dimension, class Visit>
 [[gnu::always_inline]] inline decltype(auto) visit_size(std::size_t size, Visit&& visit) {
   if (size == 1) return visit(std::integral_constant<std::size_t, 0>{});
@@ -352,10 +356,11 @@ template <int Dimension, class Visit>
   return visit(std::integral_constant < std::size_t, Dimension == 3 ? 3 : 2 > {});
 }
 
-/// The basis of the points of a basis and `escaped`, which is outside their sphere. The centre moves from
-/// that of the old sphere, its weights all positive, towards the escaped point until that is on the sphere;
-/// points whose weight becomes zero on the way are left behind (Goldfarb & Idnani's dual method for convex
-/// quadratic programs). Likely right: to be verified. False if doubles make no sense.
+/// Replaces `basis` by the basis of its points and `escaped`, which is outside their sphere. The centre moves
+/// from the old one, whose weights are all positive, towards the escaped point until this point is on the
+/// sphere. Points whose weight becomes zero on the way leave the basis (Goldfarb & Idnani's dual method for
+/// convex quadratic programs). The result is likely right but must be verified. Returns false if doubles are
+/// inconsistent.
 template <int Dimension>
 [[gnu::always_inline]] inline bool pivot_points(const Balls<Dimension>& balls, Basis& basis, BeadId escaped) {
   const Point<Dimension> p = detail::center_of(balls, escaped);

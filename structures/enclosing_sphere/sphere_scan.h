@@ -1,8 +1,8 @@
 #pragma once
-// Consecutive beads against a sphere, eight at a time: how far the farthest sticks out, and how many are not
-// inside for certain. Basis beads always count among these, so a sphere holds all beads if it counts no more.
-// Every operation is rounded as written and the result does not depend on the order of beads: the same bits
-// on every machine.
+// Scans consecutive beads against a sphere, eight at a time: how far the farthest sticks out, and how many
+// are not certainly inside. Basis beads always count among the latter, so a sphere holds all beads if the
+// count equals the basis' size. Every operation is rounded as written and the result does not depend on the
+// order of beads, so all machines give the same bits.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ namespace kds {
 namespace detail {
 
 using Eight = double __attribute__((vector_size(64)));
-using EightFlags = decltype(Eight{} < Eight{});  // of whole numbers: -1 where true, else 0
+using EightFlags = decltype(Eight{} < Eight{});  // integers: -1 for true, else 0
 
 [[gnu::always_inline]] inline Eight load(const double* eight) {
   Eight v;
@@ -26,7 +26,8 @@ using EightFlags = decltype(Eight{} < Eight{});  // of whole numbers: -1 where t
   return v;
 }
 [[gnu::always_inline]] inline Eight all(double x) { return Eight{} + x; }
-/// Zero for the first `count` of eight, then what takes a bead out of the count.
+/// Returns zero for the first `count` of eight lanes, and a value that removes the bead from the count for
+/// the others.
 [[gnu::always_inline]] inline Eight only_first(std::size_t count) {
   static constexpr double no = -HUGE_VAL;
   alignas(64) static constexpr std::array<double, 16> table{0,  0,  0,  0,  0,  0,  0,  0,
@@ -34,7 +35,7 @@ using EightFlags = decltype(Eight{} < Eight{});  // of whole numbers: -1 where t
   return load(table.data() + (8 - count));
 }
 
-/// One bit each.
+/// Returns one bit per lane.
 [[gnu::always_inline]] inline unsigned bits_of(const EightFlags& flags) {
   constexpr EightFlags bit{1, 2, 4, 8, 16, 32, 64, 128};
   const EightFlags some = flags & bit;
@@ -55,8 +56,8 @@ template <int Dimension>
   return sum;
 }
 
-/// What is looked at of each bead: the square distance of a point, the excess of a ball. `taken` is added
-/// where not all eight are meant.
+/// Measures a bead: the squared distance of a point, the excess of a ball. `taken` is added if not all eight
+/// lanes are valid.
 template <int Dimension>
 struct PointMeasure {
   std::array<const double*, static_cast<std::size_t>(Dimension)> centers;
@@ -82,7 +83,8 @@ struct BallMeasure {
   [[gnu::always_inline]] Eight operator()(std::size_t b, EightFlags& outside, const Eight& taken) const {
     const Eight t = square_distance<Dimension>(centers, b, center) + taken;
     const Eight room = inner - (load(radii + b) + taken);
-    // Below 2^-200 of room a square may have lost its digits: then no square distance is small enough.
+    // If the room is below 2^-200, its square may have lost digits. Then no squared distance counts as small
+    // enough.
     const Eight none = all(-1.0);
     const Eight square = room * room;
     const Eight limit = room >= 0x1p-200 ? square * (1 - 32 * unit_roundoff) : none;
@@ -102,7 +104,7 @@ template <int Dimension>
   return c;
 }
 
-/// How many beads are not inside for certain, over several runs of beads.
+/// Counts the beads that are not certainly inside, over several runs of beads.
 class OutsideCount {
  public:
   template <class Measure>
@@ -124,10 +126,10 @@ class OutsideCount {
   }
 
  private:
-  EightFlags sum_{};  // negative
+  EightFlags sum_{};  // negative counts
 };
 
-/// How far the farthest bead is out, over several runs: points by square distance, balls by their excess.
+/// Finds how far out the farthest bead is, over several runs: squared distance for points, excess for balls.
 class Farthest {
  public:
   template <class Measure>
@@ -154,7 +156,7 @@ class Farthest {
   Eight most_ = all(-HUGE_VAL);
 };
 
-/// The first bead of first..last with this value, or no_bead.
+/// Returns the first bead of first..last with this value, or no_bead.
 template <class Measure>
 [[gnu::always_inline]] inline BeadId find_value(const Measure& measure, std::size_t first, std::size_t last,
                                                 double value) {

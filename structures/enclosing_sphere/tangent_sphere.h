@@ -1,8 +1,8 @@
 #pragma once
-// The sphere that touches the balls of a basis from outside, in double, of one basis or of four side by side,
-// without a bound of its error: whoever uses it judges what comes out. Its equations are those of
-// certificates/types/ball_in_sphere.h: the centre is at p + rho q in the span of the others' centres, seen
-// from the base, and rho solves a rho^2 + 2 b rho + c = 0.
+// The sphere that touches the balls of a basis from outside, in double, for one basis or for four in lanes.
+// It comes without an error bound; the caller verifies it. The equations are those of
+// certificates/types/ball_in_sphere.h: relative to the base, the centre is p + rho q in the span of the other
+// centres, and rho solves a rho^2 + 2 b rho + c = 0.
 
 #include "structures/enclosing_sphere/sphere_of_points.h"
 
@@ -12,13 +12,13 @@ template <class N, int Dimension, std::size_t M>
 struct TangentSphere {
   using Vector = typename Span<N, Dimension, M>::Vector;
 
-  N rho;                        // the radius less the base's
-  Vector center;                // seen from the base
-  std::array<N, M + 1> weight;  // barycentric coordinates of the centre; the base's first
-  Vector q;                     // how the centre moves with rho
+  N rho;                        // radius less the base's radius
+  Vector center;                // relative to the base
+  std::array<N, M + 1> weight;  // barycentric coordinates of the centre, the base's first
+  Vector q;                     // derivative of the centre by rho
 };
 
-/// `s`: radii less the base's.
+/// `s` holds the radii less the base's radius.
 template <class N, int Dimension, std::size_t M>
 [[gnu::always_inline]] inline TangentSphere<N, Dimension, M> tangent_sphere(const Span<N, Dimension, M>& span,
                                                                             const std::array<N, M>& s) {
