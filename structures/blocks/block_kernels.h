@@ -76,8 +76,7 @@ struct LanesAsked {
   bool within, between;
   bool along_done;  ///< beads of one group, or of two consecutive groups, have been compared already
 };
-inline constexpr std::uint32_t farthest_along =
-    7;  // the largest distance in sequence between beads of two consecutive groups
+inline constexpr std::uint32_t farthest_along = 7;  // for beads of two consecutive groups
 
 /// Groups with near beads: four beads of one block and four of another. `groups` holds 16 p + 4 g + h for
 /// compared pair p, group g of the first block and group h of the second. Bit 4 i + j of `beads` stands for

@@ -15,7 +15,7 @@ namespace kds {
 
 struct DiagramCollision {
   bool collide = false;
-  std::uint64_t edges = 0;  ///< edges of the diagram, the pairs that prove a scene free of collisions
+  std::uint64_t edges = 0;                     ///< edges of the diagram
   std::optional<std::vector<BeadPair>> pairs;  ///< all colliding pairs, ascending; none if radii differ
   /// The closest pair. None if beads of unequal radii collide, because a pair that was not tested may overlap
   /// more deeply.

@@ -22,7 +22,7 @@ namespace kds {
 
 struct PairsFound {
   std::vector<BeadPair> pairs;  ///< ascending
-  std::uint64_t family = 0;  ///< number of node pairs found farther apart: the size of the separating family
+  std::uint64_t family = 0;     ///< size of the separating family
 };
 
 /// Returns all pairs asked for whose closed balls are at most `distance` apart. At distance 0 these are the
