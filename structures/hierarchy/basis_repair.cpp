@@ -14,20 +14,20 @@ std::optional<Basis> BasisRepair<Dimension>::basis_just_after(std::span<const Be
                                                               BeadId escaped) {
   if (radii_ == Radii::any) return BasisOfBalls(among, signs_).find();
   BasisHint hint{std::max<std::size_t>(1, old.size - 1U)};
-  if (escaped != no_bead) hint = {old.size, escaped};  // it is outside the sphere of all the others
+  if (escaped != no_bead) hint = {old.size, escaped};  // it is outside the sphere of all others
   auto basis = basis_of_points(among, signs_, hint);
   return basis || escaped == no_bead ? basis : basis_of_points(among, signs_);
 }
 
-/// Where the bead's certificate fails now, if the sphere's path proves the next basis.
+/// Returns the next basis when the bead's certificate fails now, if the sphere's path proves it.
 template <int Dimension>
 std::optional<Basis> BasisRepair<Dimension>::proved_next_basis(const Basis& old, BeadId bead) {
-  if (old.contains(bead)) {  // it is inside the sphere of its fellows now
+  if (old.contains(bead)) {  // it is inside the sphere of the other basis beads now
     const Basis rest = without(old, bead);
     return proofs_.proved_bases({&rest, 1}, no_bead) == 0 ? std::nullopt : std::optional(rest);
   }
-  // It is outside the sphere of the others now: where their coordinates are positive and all is proved that
-  // a path proves, its own barycentric coordinate has the sign that says so.
+  // The bead is outside the sphere of the others now. If their barycentric coordinates are positive and the
+  // path's other conditions are proved, the bead's own coordinate is positive too.
   std::array<Basis, full> next;
   if (old.size < full) {
     next[0] = old;

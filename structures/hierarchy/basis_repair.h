@@ -1,6 +1,6 @@
 #pragma once
-// The next basis of a node of a wrapped hierarchy when one of its certificates has failed: by what the
-// sphere's path proves, or by the signs just after.
+// Finds the next basis of a node of a wrapped hierarchy when one of its certificates has failed. Uses proofs
+// from the sphere's path or, if they do not decide, the signs just after the event.
 
 #include <optional>
 
@@ -14,14 +14,15 @@ namespace kds {
 template <int Dimension>
 class BasisRepair {
  public:
-  /// `relaxed`: beads escape when they are out by a share of the radius.
+  /// If `relaxed`, a bead escapes only when it is out by a share of the radius.
   BasisRepair(Kernel kernel, Radii radii, bool relaxed, NodeProofs<Dimension>& proofs,
               SignsJustAfter<Dimension>& signs)
       : kernel_(kernel), radii_(radii), relaxed_(relaxed), proofs_(proofs), signs_(signs) {}
 
-  /// The basis just after now of the beads of `old`, of which one may be to spare, and of a bead that has
-  /// escaped from its sphere, or none. `failed`: the bead is the one whose certificate fails now. Nothing
-  /// only where doubles contradict themselves, as those of `fast` may.
+  /// Returns the basis, just after now, of the beads of `old`, one of which may be superfluous, and of
+  /// `bead`. `bead` has escaped from the sphere of `old`, or is no_bead. `failed` tells that `bead` is the
+  /// bead whose certificate fails now. Returns none only if doubles contradict themselves, which the kernel
+  /// `fast` may do.
   [[nodiscard]] std::optional<Basis> next_basis(const Basis& old, BeadId bead, bool failed);
 
  private:

@@ -6,7 +6,7 @@ namespace kds {
 
 namespace {
 
-// Enough for lanes to be full; the beads of such a subtree stay in a fast cache.
+// Enough nodes to fill the lanes; the beads of such a subtree stay in a fast cache.
 constexpr NodeId most_nodes_in_run = 1024;
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
-// Bottom-up passes over the nodes of a scene's trees, many nodes of one height at a time, which do not depend
-// on each other; with threads, disjoint subtrees at once and then what is above them. A pass must compute a
-// node from itself and what is below it only: then the result is the same bit for bit.
+// Bottom-up passes over the nodes of a scene's trees. Each pass handles many independent nodes of one height
+// at a time. With threads, disjoint subtrees run in parallel, followed by the nodes above them. A pass must
+// compute a node only from itself and the nodes below; then all orders give the same bits.
 
 #include <cstdint>
 #include <span>
@@ -15,12 +15,12 @@ class BottomUpOrder {
  public:
   explicit BottomUpOrder(const NecklaceTree& tree);
 
-  /// Nodes of one height, of subtrees whose groups stand one after the other.
+  /// Nodes of one height, from subtrees whose groups are stored consecutively.
   struct Group {
     std::uint32_t first, end;  ///< places in the order
   };
   struct Run {
-    std::uint32_t first, end;  ///< groups
+    std::uint32_t first, end;  ///< places of groups
   };
 
   [[nodiscard]] std::span<const NodeId> nodes(const Group& group) const {
@@ -29,7 +29,7 @@ class BottomUpOrder {
   [[nodiscard]] std::span<const Group> groups(const Run& run) const {
     return {groups_.data() + run.first, groups_.data() + run.end};
   }
-  /// Disjoint subtrees, or several; the last run holds all that is above others.
+  /// Each run holds one or several disjoint subtrees; the last run holds the nodes above all others.
   [[nodiscard]] std::span<const Run> runs() const { return runs_; }
 
  private:

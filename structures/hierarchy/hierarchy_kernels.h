@@ -1,6 +1,7 @@
 #pragma once
-// The work of a static wrapped hierarchy at its nodes, many nodes of one height together: bases from those of
-// the children or of the time before, spheres, proofs that all beads are inside (pivot_sphere.h).
+// The work of a static wrapped hierarchy at its nodes, many nodes of one height at a time. Computes bases
+// from the children's bases or from the previous time's, their spheres, and proofs that all beads are inside
+// (pivot_sphere.h).
 
 #include <algorithm>
 #include <array>
@@ -17,17 +18,17 @@
 
 namespace kds::detail {
 
-// Nodes of more beads look whether cages below are inside before they look at the beads.
+// A node with more beads first tests whether cages below it are inside, and only then tests beads.
 inline constexpr BeadId most_in_block = 256;
-// Nodes of more beads, built from scratch, look among the beads of their children's bases first.
+// A node with more beads, built from scratch, first searches the beads of its children's bases.
 inline constexpr BeadId most_scanned = 100;
-// By how much beads may be out of a cage that doubles have proved.
+// Bound of how far beads may be out of a cage that doubles have proved, as a factor of its radius.
 inline constexpr double looseness = 1 + 0x1p-27;
 inline constexpr std::size_t nodes_at_a_time = 64;
 
 enum class Start : std::uint8_t { children, old_bases };
 
-// The sphere of a basis as it is; of fewer beads where some are to spare.
+// Returns the sphere of a basis without verifying it. Superfluous beads are dropped.
 template <class Form>
 Cage<Form::Dimension> trusted_cage(const Balls<Form::Dimension>& balls, Basis basis) {
   while (true) {
@@ -41,9 +42,9 @@ Cage<Form::Dimension> trusted_cage(const Balls<Form::Dimension>& balls, Basis ba
   }
 }
 
-/// Spheres of nodes from those below or from old bases. Loops over beads and over the spheres of many nodes
-/// are functions of their own, compiled for each kind of vectors (scan_targets.h); what decides between them
-/// is not.
+/// Computes spheres of nodes from the nodes below or from old bases. Loops over beads and over the spheres of
+/// many nodes are separate functions, compiled for each vector target (scan_targets.h). The control flow
+/// between them is compiled once.
 template <class Form>
 class NodeWrapper {
  public:
@@ -59,7 +60,8 @@ class NodeWrapper {
   Frontiers& frontiers;
   WrapCounts counts{};
 
-  // Nodes that do not depend on each other. Until a node's sphere is proved its cage is what was tried last.
+  // Computes the spheres of independent nodes. Until a node's sphere is proved, its cage is the last one
+  // tried.
   void wrap(const NodeId* nodes, std::size_t count, Start start) {
     if (start == Start::children) {
       for (std::size_t i = 0; i < count; ++i) bases[nodes[i]] = far_pair_of(nodes[i]);
@@ -70,10 +72,10 @@ class NodeWrapper {
     std::array<Bounds, nodes_at_a_time> bounds;
     std::array<std::size_t, nodes_at_a_time> outside;
     std::array<NodeId, nodes_at_a_time> left;
-    std::array<Basis, nodes_at_a_time> before;  // bases of those that are left
+    std::array<Basis, nodes_at_a_time> before;  // old bases of the nodes in `left`
     const NodeId* waiting = nodes;
     for (int round = 0; count > 0; ++round) {
-      // One thing after the other for all of them: a processor overlaps what does not branch.
+      // Each loop runs over all nodes, so that the processor overlaps independent work without branches.
       spheres_of(waiting, count, bounds.data());
       count_all_outside(waiting, count, bounds.data(), outside.data());
       std::size_t lefts = 0;
@@ -100,7 +102,7 @@ class NodeWrapper {
     }
   }
 
-  // Spheres of the bases as they are.
+  // Computes the spheres of the present bases without verifying them.
   void trust(const NodeId* nodes, std::size_t count) {
     std::array<Bounds, nodes_at_a_time> bounds;
     spheres_of<false>(nodes, count, bounds.data());
@@ -108,8 +110,8 @@ class NodeWrapper {
       if (!(bounds[i].least > 0)) cages[nodes[i]] = trusted_cage<Form>(balls, bases[nodes[i]]);
   }
 
-  // By a cascade from where it ended last, or from the children; `known`: the run's list, `next`: the new
-  // one.
+  // Computes a sphere by a cascade that starts from the last frontier or from the children. `known` is the
+  // run's previous list, `next` its new one.
   void wrap_by_cascade(NodeId node, const std::vector<std::uint32_t>& known,
                        std::vector<std::uint32_t>& next) {
     const Sphere sphere = sphere_of_basis<Form>(balls, bases[node]);
@@ -126,7 +128,7 @@ class NodeWrapper {
     counts.frontier += next.size() - start;
   }
 
-  // Nodes of two beads.
+  // Handles nodes of two beads.
   void trust_pairs(const NodeId* nodes, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       const auto sphere = sphere_of_both(tree.range(nodes[i]));
@@ -150,9 +152,9 @@ class NodeWrapper {
   }
 
  private:
-  // Of a sphere that is a node's cage, what else a BasisSphere has.
+  // Complements a node's cage to a BasisSphere.
   struct alignas(32) Bounds {
-    double inner, outer, least, certain;  // 1 or 0
+    double inner, outer, least, certain;  // certain: 1 or 0
   };
   [[gnu::always_inline]] Sphere sphere_by(NodeId node, const Bounds& bounds) const {
     const Cage<Dimension>& cage = cages[node];
@@ -182,7 +184,7 @@ class NodeWrapper {
     return sphere_of_pair<Form::of_points, Dimension, double>(both);
   }
 
-  // If one ball holds the other for certain, it is the basis.
+  // Takes the larger ball as basis if it certainly holds the other. Returns whether it does.
   bool decide_nested_pair(NodeId node, const BeadRange& range) {
     if constexpr (Form::of_points) return false;
     const Point<Dimension> d = minus(center_of(balls, range.last), center_of(balls, range.first));
@@ -209,7 +211,7 @@ class NodeWrapper {
     cages[node] = enclosing_sphere_exactly(balls, range.first, range.last, bases[node], Form::of_points);
   }
 
-  // How many beads of each node are not inside its sphere for certain.
+  // Counts for each node the beads that are not certainly inside its sphere.
   [[KDS_SCAN_TARGETS]] void count_all_outside(const NodeId* nodes, std::size_t count, const Bounds* bounds,
                                               std::size_t* outside) {
     for (std::size_t i = 0; i < count; ++i)
@@ -227,11 +229,11 @@ class NodeWrapper {
     };
   }
 
-  // Spheres of the nodes' bases as their cages, four at a time among those of one size.
+  // Stores the spheres of the nodes' bases as their cages, four at a time among bases of one size.
   template <bool with_bounds = true>
   [[KDS_LANES_TARGETS]] void spheres_of(const NodeId* nodes, std::size_t count, Bounds* bounds) const {
     std::array<std::array<std::uint8_t, nodes_at_a_time>, Basis::max_size> places;
-    std::uint64_t counts_of_sizes = 0;  // 16 bits each: no branch, and nothing that is stored to wait for
+    std::uint64_t counts_of_sizes = 0;  // 16 bits per size avoid branches and stores to wait for
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t m = bases[nodes[i]].size - 1U;
       places[m][counts_of_sizes >> 16 * m & 0xffff] = static_cast<std::uint8_t>(i);
@@ -261,8 +263,8 @@ class NodeWrapper {
         four[lane] = nodes[beside[lane]];
       }
       gather(balls.rows(), bases, four, members);
-      // Stored by rows alone: of numbers that are taken out one by one g++ 12 takes the roots one by one,
-      // too.
+      // Stored as whole rows only: if lanes are extracted one by one, g++ 12 also computes the roots one by
+      // one.
       const BasisSphere<Lanes, Dimension> sphere = Form::template sphere<with_bounds>(members);
       FourBalls<Dimension> spheres;
       for (std::size_t axis = 0; axis < Dimension; ++axis) spheres.center[axis].v = sphere.center[axis].v;
@@ -278,14 +280,15 @@ class NodeWrapper {
     }
   }
 
-  // The sphere holds a cage, and so its beads, for certain. `inner`: within which beads are inside.
+  // Returns whether the sphere certainly holds a cage and therefore its beads. Beads within `inner` are
+  // inside.
   [[gnu::always_inline]] bool holds_cage(const Sphere& sphere, double inner, NodeId node) const {
     const double room = inner - cages[node].radius * looseness;
     const Point<Dimension> d = minus(cages[node].center, sphere.center);
     return room > 0x1p-200 && dot(d, d) <= room * room * (1 - 0x1p-40) && loose[node] == 0;
   }
 
-  // Blocks of beads below a node, from the left, without cages that are inside for certain.
+  // Visits blocks of beads below a node, from the left, except blocks whose cages are certainly inside.
   template <class Look>
   [[gnu::always_inline]] void visit_blocks(NodeId node, const Sphere& sphere, const Look& look) {
     const BeadRange all = tree.range(node);
@@ -313,7 +316,8 @@ class NodeWrapper {
     }
   }
 
-  // Whether all that is below the node is inside; appends where that was seen, from the left.
+  // Returns whether all beads below the node are inside. Appends the frontier where this was decided, from
+  // the left.
   [[KDS_SCAN_TARGETS]] bool cascade(NodeId node, const Sphere& sphere, std::span<const std::uint32_t> known,
                                     std::vector<std::uint32_t>& next) {
     const auto child = [](NodeId v, BeadId leaf) {
@@ -357,7 +361,7 @@ class NodeWrapper {
     return child == NecklaceTree::leaf ? std::span<const BeadId>(&leaf, 1)
                                        : std::span<const BeadId>(bases[child].begin(), bases[child].size);
   }
-  // Of the beads of both children's bases.
+  // Returns a far pair among the beads of both children's bases.
   Basis far_pair_of(NodeId node) const {
     const BeadRange range = tree.range(node);
     const NodeId left = tree.left(node);
@@ -365,7 +369,7 @@ class NodeWrapper {
                           left == NecklaceTree::leaf ? center_of(balls, range.first) : cages[left].center);
   }
 
-  // The beads of both children's bases, of which some may come twice.
+  // The beads of both children's bases; some may occur twice.
   struct Few {
     std::array<std::array<double, 8>, Dimension> centers;
     std::array<double, 8> radii;
@@ -385,7 +389,7 @@ class NodeWrapper {
     }
     return few;
   }
-  // Of each sphere the bead among `few[place]` that sticks out farthest, or no_bead.
+  // Finds for each sphere the bead of `few[place]` that sticks out farthest, or no_bead.
   [[KDS_SCAN_TARGETS]] void escaped_of_few(const Few* few, const std::uint8_t* place, const NodeId* nodes,
                                            std::size_t count, const Bounds* bounds, BeadId* escaped) const {
     const auto measure_of = [&](std::size_t i) __attribute__((always_inline)) {
@@ -409,7 +413,7 @@ class NodeWrapper {
     }
   }
 
-  // Makes the bases those of the beads of both children's bases, most likely.
+  // Replaces the bases by the likely bases of the beads of both children's bases.
   void pivot_among_children(const NodeId* nodes, std::size_t count) {
     std::array<Few, nodes_at_a_time> few;
     std::array<Bounds, nodes_at_a_time> bounds;

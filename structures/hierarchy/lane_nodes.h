@@ -1,6 +1,6 @@
 #pragma once
-// Nodes of a static wrapped hierarchy four side by side: the balls of their bases, and nodes of two beads,
-// half of all, where both are the basis as they were.
+// Nodes of a static wrapped hierarchy in four lanes: the balls of their bases, and a fast path for nodes of
+// two beads. These are half of all nodes, and usually both beads stay the basis.
 
 #include <algorithm>
 #include <array>
@@ -17,12 +17,12 @@ namespace kds::detail {
 template <int Dimension, std::size_t M>
 [[gnu::always_inline]] inline void set_ball(BasisBalls<Lanes, Dimension, M>& members, std::size_t j,
                                             const FourBalls<Dimension>& four) {
-  // Not whole arrays: g++ 12 would copy them in halves, and wait for those when it loads them.
+  // Assigned lane by lane: g++ 12 would copy whole arrays in halves, and later loads would stall on them.
   for (std::size_t axis = 0; axis < Dimension; ++axis) members.center[j][axis].v = four.center[axis].v;
   members.radius[j].v = four.radius.v;
 }
 
-/// The balls of the bases of four nodes, of M + 1 each.
+/// Loads the balls of the bases of four nodes, with M + 1 balls each.
 template <int Dimension, std::size_t M>
 [[gnu::always_inline]] inline void gather(const BallRow<Dimension>* rows, const Basis* bases,
                                           const FourPlaces& nodes, BasisBalls<Lanes, Dimension, M>& members) {
@@ -32,8 +32,9 @@ template <int Dimension, std::size_t M>
                                          bases[nodes[2]].beads[j], bases[nodes[3]].beads[j]}));
 }
 
-/// Of nodes of two beads those that are left: where both were not the basis, or may not be it any more.
-/// Others have their cages, which are not loose; of those that are left both may be anything.
+/// Computes the cages of nodes of two beads and keeps in the list only the nodes that need more work: both
+/// beads were not the basis, or may not be any more. All other nodes get their cages, which are not loose.
+/// The cage and flag of a kept node are undefined.
 template <bool of_points, int Dimension>
 [[KDS_LANES_TARGETS]] std::size_t keep_pairs(const NodeId* nodes, std::size_t count, const BeadRange* ranges,
                                              const BallRow<Dimension>* rows, const Basis* bases,

@@ -15,7 +15,7 @@ struct Nothing {
   Nothing& operator+=(const Nothing&) { return *this; }
 };
 
-// Nodes of one height.
+// Computes the spheres of nodes of one height.
 template <bool equal, int Dimension, class Four>
 void wrap(std::span<const Four> merges, const Cage<Dimension>* left_spheres,
           const Cage<Dimension>* right_spheres, Cage<Dimension>* cages) {
@@ -48,7 +48,7 @@ LayeredHierarchy<Dimension>::LayeredHierarchy(std::span<const BeadRange> necklac
       for (const NodeId node : order_.nodes(group)) {
         const NodeId left = tree_.left(node), right = tree_.right(node);
         const BeadRange& range = tree_.range(node);
-        if (left == NecklaceTree::leaf) {  // the larger half
+        if (left == NecklaceTree::leaf) {  // the left half is the larger, so both are single beads
           height.of_beads.append(node, range.first, range.last);
         } else if (right == NecklaceTree::leaf) {
           height.of_both.append(node, left, range.last);

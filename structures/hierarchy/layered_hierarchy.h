@@ -1,11 +1,12 @@
 #pragma once
-// Layered hierarchy of a scene at one time: at every internal node of the balanced tree over a necklace the
-// smallest sphere around the spheres of its two children (the paper's section 2.2). A few nanoseconds a node,
-// four at a time. The centre is rounded: of the smallest sphere up to some ulps.
+// Layered hierarchy of a scene at one time: each internal node of the balanced tree over a necklace has the
+// smallest sphere around the spheres of its two children (the paper's section 2.2). It takes a few
+// nanoseconds per node, four nodes at a time. Centres are rounded; they are centres of the smallest sphere up
+// to some ulps.
 //
-// A sphere as it stands, centre and radius doubles, holds those of its children as they stand, and so its
-// beads, exactly: radii are rounded up, by less than 2^-48 of the radius and 2^-50 of the centre's
-// coordinates for each level.
+// Each stored sphere, whose centre and radius are doubles, holds the stored spheres of its children, and so
+// its beads, exactly. Radii are rounded up, at each level by less than 2^-48 of the radius and 2^-50 of the
+// centre's coordinates.
 
 #include <array>
 #include <cstdint>
@@ -31,7 +32,7 @@ class LayeredHierarchy {
 
   [[nodiscard]] const NecklaceTree& tree() const { return tree_; }
   [[nodiscard]] Sphere sphere(NodeId node) const { return sphere_of(cages_[node], 0); }
-  /// Gives its cages away for the memory of others, to make them anew with the next build.
+  /// Moves the cages out in exchange for the memory of `others`. The next build computes new ones.
   void exchange_cages(std::vector<Cage<Dimension>>& others) {
     others.resize(cages_.size());
     cages_.swap(others);
@@ -40,7 +41,7 @@ class LayeredHierarchy {
   void build(const BallRows<Dimension>& balls, Threads threads = Threads::one);
 
  private:
-  /// Nodes and what is below them, in fours: where there are fewer, the last of them again.
+  /// Nodes and their children in groups of four. A group with fewer nodes repeats the last one.
   class Merges {
    public:
     struct Four {
@@ -53,7 +54,7 @@ class LayeredHierarchy {
     std::vector<Four> fours_;
     std::size_t count_ = 0;
   };
-  /// Nodes of one height: of two beads, of a node and a bead, of two nodes.
+  /// Nodes of one height: over two beads, over a node and a bead, over two nodes.
   struct Height {
     Merges of_beads, of_both, of_nodes;
   };

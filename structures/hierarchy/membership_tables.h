@@ -1,6 +1,6 @@
 #pragma once
-// The certificates of membership (certificates/types/membership.h), a table for each type: equal radii first,
-// by the size of the basis from 1 on; then those of relaxed spheres.
+// The tables of membership certificates (certificates/types/membership.h), one for each type: equal radii
+// first, by the size of the basis from 1 on, then unequal radii, then relaxed spheres.
 
 #include <algorithm>
 
@@ -34,17 +34,17 @@ struct TablesOfMembership<3> {
 
 }  // namespace detail
 
-/// Whether a certificate is one of a relaxed sphere, which none but a relaxed hierarchy holds.
+/// Tells whether a certificate belongs to a relaxed sphere. Only a relaxed hierarchy holds such certificates.
 template <class Certificate>
 inline constexpr bool is_relaxed = requires(const Certificate& c) {
   c.beads.relaxation;
 };
 
-/// Where radii are promised to be equal there are none of unequal radii.
+/// The tables of unequal radii stay empty if radii are promised to be equal.
 template <int Dimension>
 using MembershipTables = typename detail::TablesOfMembership<Dimension>::Type;
 
-/// The bead that a certificate of a node with this basis is about.
+/// Returns the subject of the certificate of a node with this basis.
 template <class Certificate>
 [[nodiscard]] BeadId bead_of(const Certificate& certificate, const Basis&) {
   return certificate.beads.back();

@@ -17,8 +17,8 @@ inline constexpr bool radical_of_two_or_more =
 
 }  // namespace
 
-// A full basis may turn over where one of its certificates touches zero. Where radii are equal no radical is
-// asked for.
+// The simplex of a full basis may turn over when one of its certificates touches zero, so these touches are
+// reported. Equal radii need no radical certificates.
 template <int Dimension>
 NodeGuards<Dimension>::NodeGuards(Simulator& simulator, KineticStructure& owner, std::size_t index,
                                   const MotionRef<Dimension>& motion, const Curves<Dimension>& curves,
@@ -68,7 +68,7 @@ void NodeGuards<Dimension>::hold(NodeId id, CertificateHandle handle, unsigned t
   by.first = place;
 }
 
-/// The first failure of a radical certificate, where the path of the sphere proves it.
+/// Returns the first failure of a radical certificate, if the path of the sphere proves it.
 template <int Dimension>
 template <class Certificate>
 std::optional<Failure> NodeGuards<Dimension>::crossing_of(const Basis& basis, BeadId bead, bool inside,
@@ -110,7 +110,7 @@ void NodeGuards<Dimension>::enqueue(NodeId id, const Basis& basis, BeadId bead, 
 
 template <int Dimension>
 void NodeGuards<Dimension>::enqueue_basis(NodeId id, const Basis& basis, unsigned stays) {
-  if (basis.size < 2 || (radii_ == Radii::equal && basis.size == 2)) return;  // two of one radius never part
+  if (basis.size < 2 || (radii_ == Radii::equal && basis.size == 2)) return;  // they never part
   for (std::size_t i = 0; i < basis.size; ++i) {
     if ((stays >> i & 1U) == 0) enqueue(id, without(basis, basis.beads[i]), basis.beads[i], false, 0);
   }
@@ -195,7 +195,7 @@ typename NodeGuards<Dimension>::Failed NodeGuards<Dimension>::take_failed(unsign
   for (std::uint32_t place = held_by_[failed.node].first; place != none; place = held_[place].next) {
     HeldCertificate& held = held_[place];
     if (held.table == table && held.handle == static_cast<CertificateHandle>(slot))
-      held.handle = CertificateHandle::violated;  // gone already
+      held.handle = CertificateHandle::violated;  // removed already
   }
   drop(failed.node);
   return failed;
@@ -203,7 +203,7 @@ typename NodeGuards<Dimension>::Failed NodeGuards<Dimension>::take_failed(unsign
 
 template <int Dimension>
 void NodeGuards<Dimension>::count_per_bead() {
-  per_bead_.resize(curves_.bead_count());  // all zero in between
+  per_bead_.resize(curves_.bead_count());  // all zero between calls
   std::uint64_t& most = owner_.statistics.certificates.per_bead_max;
   for (const NamedBead& one : named_) most = std::max<std::uint64_t>(most, ++per_bead_[one.bead]);
   for (const NamedBead& one : named_) per_bead_[one.bead] = 0;

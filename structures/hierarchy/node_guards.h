@@ -1,7 +1,7 @@
 #pragma once
 // The certificates that the nodes of a wrapped hierarchy hold: each bead stays inside the sphere of its
-// node's basis, each basis bead outside the sphere of its fellows. Certificates are enqueued and then watched
-// together, since four cost little more than one.
+// node's basis, and each basis bead stays outside the sphere of the other basis beads. Certificates are
+// enqueued first and then watched together, because four cost little more than one.
 
 #include <array>
 #include <concepts>
@@ -19,7 +19,7 @@
 
 namespace kds {
 
-/// A bead, by a certificate of a node.
+/// A bead named by a certificate of a node.
 struct NamedBead {
   NodeId node;
   BeadId bead;
@@ -28,53 +28,56 @@ struct NamedBead {
 template <int Dimension>
 class NodeGuards {
  public:
-  /// Of the structure `owner`, number `index` of the simulator's. `curves`: of the present step.
+  /// Guards the structure `owner`, which has number `index` in the simulator. `curves` are those of the
+  /// present step.
   NodeGuards(Simulator& simulator, KineticStructure& owner, std::size_t index,
              const MotionRef<Dimension>& motion, const Curves<Dimension>& curves, Radii radii,
              std::size_t nodes, NodeProofs<Dimension>& proofs, const Relaxation& relaxation = {});
 
   [[nodiscard]] SignsJustAfter<Dimension>& signs() { return signs_; }
 
-  /// Forgets all certificates: the simulator has dropped them.
+  /// Forgets all certificates, which the simulator has dropped already.
   void start_step();
 
-  /// The basis beads that are not known to stay must leave no sphere of their fellows.
+  /// enqueue_basis: basis beads must not enter the sphere of the other basis beads; beads with a bit in
+  /// `stays` need no certificate. enqueue_beyond: these beads must stay inside.
   void enqueue_basis(NodeId node, const Basis& basis, unsigned stays);
   void enqueue_beyond(NodeId node, const Basis& basis, std::span<const BeadId> beyond);
-  /// Guards nodes by the certificates enqueued. Those that are violated or, unless `zero_will_do`, zero for
-  /// the whole step: valid until the next call.
+  /// Watches the enqueued certificates. Returns the beads whose certificates are violated or, unless
+  /// `zero_will_do`, zero for the whole step. The result is valid until the next call.
   [[nodiscard]] std::span<const NamedBead> watch_enqueued(bool zero_will_do);
-  /// The same of one node: the first such bead, if any. Where a certificate has just failed and would be
-  /// watched once more, it is that one's, and nothing is watched.
+  /// Watches the enqueued certificates of a single node and returns the first such bead, if any. If a
+  /// certificate has just failed and would be watched again, returns its bead and watches nothing.
   [[nodiscard]] std::optional<BeadId> watch_enqueued_of_one(bool zero_will_do);
 
   [[nodiscard]] bool holds_any(NodeId node) const { return held_by_[node].first != none; }
-  /// When the certificates of a node are made anew at the latest: at the first failure of any of them.
+  /// Returns the time by which the node's certificates are made anew at the latest: the first failure of any
+  /// of them.
   [[nodiscard]] double guarded_until(NodeId node);
   void drop(NodeId node);
 
   struct Failed {
     NodeId node = 0;
-    BeadId bead = no_bead;  ///< that the certificate is about, unless
-    bool touches = false;   ///< it does not fail, but touches zero
-    bool relaxed = false;   ///< the bead is as far outside as it may be, not on the sphere
+    BeadId bead = no_bead;  ///< the certificate's subject, unless it
+    bool touches = false;   ///< touches zero without failing
+    bool relaxed = false;   ///< the bead is as far outside as allowed, not on the sphere
   };
-  /// What fails now, by table and slot, with all the certificates of its node dropped. Until `forget_failure`
-  /// the failure is known to be the present one, unless it is a touch.
+  /// Takes the certificate that fails now, given by table and slot, and drops all certificates of its node.
+  /// Until forget_failure, signs use this failure as the present one, unless it is a touch.
   [[nodiscard]] Failed take_failed(unsigned table, std::uint32_t slot, std::span<const Basis> bases);
   void forget_failure() { signs_.present.reset(); }
 
-  // Which beads enqueued certificates name since the step's start or the last failure.
+  // Forgets beads that enqueued certificates have named since the start of the step or the last failure.
 
   template <std::predicate<NodeId> Of>
   void forget_named_if(Of of) {
     std::erase_if(named_, [&](const NamedBead& one) { return of(one.node); });
   }
-  /// Of the node that was the last to enqueue any.
+  /// Forgets those of the node that enqueued last.
   void forget_named_of(NodeId node) {
     while (!named_.empty() && named_.back().node == node) named_.pop_back();
   }
-  /// The most that name one bead go into the statistics.
+  /// Updates the statistics with the largest number of certificates that name one bead.
   void count_per_bead();
 
  private:
@@ -83,8 +86,8 @@ class NodeGuards {
   using Tables = MembershipTables<Dimension>;
 
   struct HeldBy {
-    std::uint32_t first = none;       // its certificates in the queue, a list in held_
-    std::uint32_t never_failing = 0;  // how many more it has
+    std::uint32_t first = none;       // head of its queued certificates, a list in held_
+    std::uint32_t never_failing = 0;  // number of its certificates that never fail
   };
   struct HeldCertificate {
     CertificateHandle handle;
@@ -106,13 +109,13 @@ class NodeGuards {
   NodeProofs<Dimension>& proofs_;
   Tables tables_;
   SignsJustAfter<Dimension> signs_;
-  std::vector<HeldBy> held_by_;  // a node
+  std::vector<HeldBy> held_by_;  // per node
   std::vector<HeldCertificate> held_;
   std::vector<std::uint32_t> free_;
-  std::array<std::vector<BeadId>, Tables::count + 1> watched_;  // by what is enqueued, a table
+  std::array<std::vector<BeadId>, Tables::count + 1> watched_;  // enqueued subjects, per table
   std::vector<NamedBead> violated_, named_;
-  std::vector<std::uint32_t> per_bead_;  // certificates that name it, while they are counted
-  std::optional<BeadId> failed_again_;   // whose certificate has just failed and would be watched once more
+  std::vector<std::uint32_t> per_bead_;  // number of certificates per bead while they are counted
+  std::optional<BeadId> failed_again_;   // its certificate just failed and would be watched again
 };
 
 }  // namespace kds

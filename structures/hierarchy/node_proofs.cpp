@@ -35,14 +35,15 @@ void NodeProofs<Dimension>::take_curves() {
   chord_cache_.forget();
 }
 
-// Of balls: where neither holds the other. Of beads of one radius: where they are not in one place.
+// A pair of balls needs a guard if neither holds the other. A pair of beads of equal radius needs one if
+// their centres differ.
 template <int Dimension>
 void NodeProofs<Dimension>::add_unsettled(std::span<const NodeId> pairs, std::span<const Basis> bases,
                                           std::vector<NodeId>& nodes) {
   const auto add_those = [&](auto are_apart) {
     std::size_t count = nodes.size();
     nodes.resize(count + pairs.size());
-    for (const NodeId id : pairs) {  // no branch: no one foretells who is settled
+    for (const NodeId id : pairs) {  // no branch, because settled nodes are unpredictable
       const bool apart = are_apart(tree_.range(id).first);
       const bool settled = (bases[id].size == 2) & apart;
       nodes[count] = id;
@@ -161,7 +162,8 @@ unsigned NodeProofs<Dimension>::take_out_staying(const Basis& basis, const BeadR
   return unproved < few ? stays : stays | look_closely(basis, 1, beyond);
 }
 
-/// The same by the sphere's chords in the quarters of the time until then: a sixteenth as far from it.
+/// Like take_out_until, with the sphere's chords in the four quarters of the time until `until`. Their error
+/// is a sixteenth of a single chord's.
 template <int Dimension>
 unsigned NodeProofs<Dimension>::look_closely(const Basis& basis, double until, std::vector<BeadId>& beyond) {
   constexpr std::size_t parts = Lanes::width;
@@ -221,7 +223,7 @@ typename NodeProofs<Dimension>::ChordsAhead NodeProofs<Dimension>::chords_ahead(
   return ahead;
 }
 
-/// That of the basis in this place will be asked for, perhaps.
+/// Caches the chord of the basis in this place, because it will probably be needed.
 template <int Dimension>
 void NodeProofs<Dimension>::keep_rest(std::span<const Basis> bases, std::size_t place, ChordsAhead& ahead) {
   if (2 * bases.size() > Lanes::width) return;
@@ -248,7 +250,7 @@ unsigned NodeProofs<Dimension>::proved_bases(std::span<const Basis> bases, BeadI
 template <int Dimension>
 std::optional<Basis> NodeProofs<Dimension>::proved_basis_with(const Basis& old, BeadId bead) {
   constexpr std::size_t most_of_one_size = 6;
-  // Those that leave few out come first, as they do most often.
+  // Bases that drop few beads come first, because they are the most frequent.
   for (std::size_t size = std::min<std::size_t>(old.size, full - 1); size > 0; --size) {
     std::array<Basis, most_of_one_size> next;
     std::size_t count = 0;

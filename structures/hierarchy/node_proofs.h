@@ -1,7 +1,8 @@
 #pragma once
-// What the paths of beads and spheres prove of the nodes of a wrapped hierarchy, so that no certificate is
-// needed: nodes that rest (node_slack.h), and beads that stay inside or in their basis (sphere_chord.h). All
-// in double; the exact kernel, and motions of a higher degree than paths have, go without.
+// Proofs from the paths of beads and spheres that make certificates of a wrapped hierarchy's nodes
+// unnecessary: nodes that rest (node_slack.h), and beads that stay inside or stay in their basis
+// (sphere_chord.h). All proofs run in double. The exact kernel, and motions whose degree exceeds that of
+// paths, have no proofs.
 
 #include <cstdint>
 #include <optional>
@@ -23,12 +24,12 @@
 
 namespace kds {
 
-/// A node that is not proved to be steady in the step.
+/// A node that is not proved steady in the step.
 template <int Dimension>
 struct ChordCandidate {
   NodeId node;
   SphereChord<Dimension> chord;  ///< of its basis at the start of the step
-  std::size_t end;  ///< of its beads in NodeProofs::beyond(); where no chord is proved it has none there
+  std::size_t end;  ///< end of its beads in NodeProofs::beyond(); without a proved chord it has none there
 };
 
 template <int Dimension>
@@ -36,67 +37,69 @@ class NodeProofs {
  public:
   static constexpr std::size_t full = Dimension + 1;
 
-  /// `curves`: of the present step, of this degree. Beads stay inside spheres that are relaxed by so much.
+  /// `curves` are those of the present step, with this degree. Spheres are enlarged by `relaxation`.
   NodeProofs(const Simulator& simulator, const NecklaceTree& tree, const Curves<Dimension>& curves,
              int degree, Radii radii, const Relaxation& relaxation = {});
 
-  /// The curves are those of the next step, or of this one others than they were.
+  /// Takes the curves of the next step, or changed curves of this one.
   void take_curves();
-  /// The node has got another basis.
+  /// Tells that the node has another basis.
   void forget(NodeId node) { slack_.forget(node); }
 
-  // At the start of a step, of many nodes.
+  // For many nodes, at the start of a step.
 
-  /// Adds those of some nodes of two beads that have something to guard.
+  /// Adds to `nodes` the nodes of two beads in `pairs` that need a guard.
   void add_unsettled(std::span<const NodeId> pairs, std::span<const Basis> bases, std::vector<NodeId>& nodes);
-  /// Takes out nodes that rest.
+  /// Removes nodes that rest.
   void take_out_resting(std::span<const Basis> bases, std::vector<NodeId>& nodes);
-  /// Sets `candidates()` to those of some nodes that may not be steady, and `beyond()` to their beads that
-  /// may not stay inside, those of one node after another.
+  /// Sets `candidates()` to the given nodes that may not be steady, and `beyond()` to their beads that may
+  /// not stay inside, node by node.
   void find_candidates(std::span<const NodeId> nodes, std::span<const Basis> bases);
   [[nodiscard]] std::span<const ChordCandidate<Dimension>> candidates() const { return candidates_; }
   [[nodiscard]] std::span<const BeadId> beyond() const { return beyond_; }
-  /// Doubles prove that it is a basis of its balls.
+  /// Returns whether doubles prove the basis proper for its balls at the start.
   [[nodiscard]] bool is_proper_at_start(const Basis& basis) const;
-  /// Of a candidate: takes out of `beyond` what more than the chord alone proves to stay inside. Returns a
-  /// bit for each bead of the basis that is proved to stay in it. Where no chord is proved it sets `beyond`
-  /// first.
+  /// Removes from `beyond` further beads of a candidate that are proved to stay inside by more than the chord
+  /// alone. If no chord is proved, fills `beyond` first. Returns a bit for each bead of the basis that is
+  /// proved to stay in it.
   [[nodiscard]] unsigned take_out_staying(const Basis& basis, const BeadRange& range,
                                           const SphereChord<Dimension>& chord, std::vector<BeadId>& beyond);
 
-  // At any time, of one node.
+  // For a single node, at any time.
 
-  /// Sets `beyond` to what is not proved to stay inside; the same bits. `risen`: a bead, or none, whose
-  /// certificate has just failed, in the new basis or left by it, and which is where it belongs just after.
+  /// Sets `beyond` to the beads that are not proved to stay inside, and returns the bits of take_out_staying.
+  /// `risen` is no_bead or a bead of the new or the old basis whose certificate has just failed and which is
+  /// on its proper side just after.
   [[nodiscard]] unsigned find_beads_to_watch(const Basis& basis, const BeadRange& range, BeadId risen,
                                              std::vector<BeadId>& beyond);
-  /// Whether that many beads are worth take_out_until.
+  /// Returns whether take_out_until is worthwhile for this many beads.
   [[nodiscard]] bool worth_another_look(std::size_t beads) const {
     return any_ && beads >= (radii_ == Radii::equal ? 3U : 1U);
   }
-  /// Takes out of `beyond` what stays inside until then.
+  /// Removes from `beyond` the beads that stay inside until time `until`.
   void take_out_until(double until, const Basis& basis, std::vector<BeadId>& beyond) {
     static_cast<void>(look_closely(basis, until, beyond));
   }
-  /// The bead that is known to be where it belongs just after it has failed, of a basis and the next one: its
-  /// own root is the only one in the bracket. Or none.
+  /// Returns the failed bead if it is known to be on its proper side just after the failure, for the old and
+  /// the next basis: its own root is the only one in the bracket. Otherwise returns no_bead.
   [[nodiscard]] BeadId risen_bead(const Basis& old, const Basis& next, BeadId failed) const;
   [[nodiscard]] bool proves_bases() const { return any_; }
-  /// A bit for each of up to four that is proved to be the basis of its beads just after now, if the newcomer
-  /// does not have to be. Of one alone the chord is known then.
+  /// Returns a bit for each of up to four bases that is proved to be the basis of its beads just after now.
+  /// The newcomer need not be proved to stay. With a single basis, its chord is cached as well.
   [[nodiscard]] unsigned proved_bases(std::span<const Basis> bases, BeadId newcomer);
-  /// The basis of the smallest sphere around those of a basis and a bead just after now, if it is proved to
-  /// be of the bead and some of the others, the rest strictly inside: no other basis will do then.
+  /// Returns the basis just after now of the beads of `old` and `bead`, if it is proved to consist of `bead`
+  /// and some of the others, with the rest strictly inside. No other basis is possible then.
   [[nodiscard]] std::optional<Basis> proved_basis_with(const Basis& old, BeadId bead);
-  /// Whether `crossing` proves anything: radii unequal, motion linear, kernel `filtered`.
+  /// Returns whether `crossing` can prove anything: radii are unequal, the motion is linear and the kernel is
+  /// `filtered`.
   [[nodiscard]] bool proves_crossings() const { return proves_crossings_; }
-  /// The first failure of the certificate of a bead and a basis of two or more. At its own root it is known
-  /// to hold just after now.
+  /// Returns the first failure of the certificate of a bead and a basis of two or more beads. `at_own_root`
+  /// tells that it holds just after now, its own root.
   [[nodiscard]] std::optional<Failure> crossing(const Basis& basis, BeadId bead, bool inside,
                                                 bool at_own_root);
 
  private:
-  /// As many certificates at least are worth a closer look.
+  /// Least number of certificates that is worth a closer look.
   static constexpr std::size_t few = 4;
 
   [[nodiscard]] static unsigned all_of(const Basis& basis) { return (1U << basis.size) - 1U; }
@@ -108,8 +111,8 @@ class NodeProofs {
                                           BeadId risen, std::vector<BeadId>& beyond);
   [[nodiscard]] unsigned look_closely(const Basis& basis, double until, std::vector<BeadId>& beyond);
 
-  /// The chords of up to four bases of one size from now on for a little while; of one or two they are
-  /// followed by those until the end of the step, for the cache.
+  /// The chords of up to four bases of one size for a short period from now on. For one or two bases, their
+  /// chords until the end of the step follow, for the cache.
   struct ChordsAhead {
     Period soon;
     std::array<SphereChord<Dimension>, 4> chords;
@@ -129,8 +132,8 @@ class NodeProofs {
   const Curves<Dimension>& curves_;
   Radii radii_;
   bool any_, proves_crossings_;
-  double enlarged_by_;             // by which chords are, of equal radii
-  RelaxedSlack slack_of_relaxed_;  // by which limits are raised, of others
+  double enlarged_by_;             // factor of chords, for equal radii
+  RelaxedSlack slack_of_relaxed_;  // raises limits, for unequal radii
   BeadPaths<Dimension> paths_;
   NodeSlack<Dimension> slack_;
   ChordCache<Dimension> chord_cache_;
@@ -138,7 +141,7 @@ class NodeProofs {
   std::vector<ChordCandidate<Dimension>> candidates_;
   std::vector<BeadId> beyond_;
   std::vector<BeadId> left_out_;
-  std::vector<std::uint8_t> apart_from_next_;  // flags of beads
+  std::vector<std::uint8_t> apart_from_next_;  // one flag per bead
 };
 
 }  // namespace kds

@@ -10,7 +10,7 @@ namespace kds {
 
 namespace {
 
-/// Columns of coordinates that beads have and had.
+/// Columns of the present and the earlier coordinates of beads.
 template <int D>
 struct Moved {
   std::array<const double*, D> to, from;
@@ -29,7 +29,7 @@ template <int D>
   }
 }
 
-/// The most of what `stray` says already and of how far each bead has moved less the drift.
+/// Raises each number of `stray` to how far the bead has moved apart from the drift.
 template <int D>
 [[KDS_LANES_TARGETS]] void find_strays(const Moved<D>& moved, std::size_t beads,
                                        const std::array<double, D>& drift, double rounding, double* stray) {
@@ -43,7 +43,7 @@ template <int D>
                                           std::sqrt(square.v[2]), std::sqrt(square.v[3])}) *
                           Lanes(1 + 0x1p-40) +
                       Lanes(rounding);
-    // What overflows is no number perhaps, which a maximum would not keep.
+    // Overflow may give NaN, which a maximum would not keep.
     const Lanes known = Lanes::choose(far < Lanes(HUGE_VAL), far, Lanes(HUGE_VAL));
     const Lanes most = Lanes::max(known, Lanes(Lanes::load(stray + b)));
     __builtin_memcpy(stray + b, &most.v, sizeof most.v);
@@ -79,7 +79,7 @@ void NodeSlack<Dimension>::take_out_resting(const BeadPaths<Dimension>& paths, s
   }
   set_reference(paths);
   look_at(paths);
-  // A few nodes from all over the tree tell whether it is worth while.
+  // A few nodes from all over the tree tell whether slack is worthwhile.
   std::vector<NodeId> some;
   const std::size_t stride = nodes.size() / sample_size + 1;
   for (std::size_t i = 0; i < nodes.size(); i += stride) some.push_back(nodes[i]);
@@ -109,8 +109,8 @@ void NodeSlack<Dimension>::set_reference(const BeadPaths<Dimension>& paths) {
   forget_all();
 }
 
-// A difference of two positions, and that less the drift, are rounded by 2^-53 of them. Where squares are
-// subnormal lengths are below 2^-500; no slack is so small.
+// The difference of two positions, and this difference less the drift, are each rounded by 2^-53 of their
+// size. If squares are subnormal, lengths are below 2^-500; no slack is that small.
 template <int Dimension>
 void NodeSlack<Dimension>::look_at(const BeadPaths<Dimension>& paths) {
   const std::size_t nodes = halves_.size(), beads = paths.bead_count();
@@ -135,7 +135,7 @@ void NodeSlack<Dimension>::look_at(const BeadPaths<Dimension>& paths) {
     }
     find_strays<Dimension>(moved, beads, drift, 0x1p-50 * length + 0x1p-500, stray);
   }
-  // A radius that changes is no wandering.
+  // Slack does not cover radii that change.
   if (!same_radii) std::fill(stray, stray + beads, std::numeric_limits<double>::infinity());
   for (std::size_t id = nodes; id-- > 0;)
     stray_[id] = std::max(stray_[halves_[id][0]], stray_[halves_[id][1]]);
@@ -151,7 +151,7 @@ double NodeSlack<Dimension>::resting(std::span<const NodeId> nodes) const {
 template <int Dimension>
 void NodeSlack<Dimension>::take_out(std::vector<NodeId>& nodes) const {
   std::size_t count = 0;
-  for (const NodeId id : nodes) {  // no branch: no one foretells who rests
+  for (const NodeId id : nodes) {  // no branch, because resting nodes are unpredictable
     nodes[count] = id;
     count += rests(id) ? 0 : 1;
   }

@@ -1,8 +1,8 @@
 #pragma once
-// Nodes of a wrapped hierarchy that rest in a step: their beads stray less, from where they were at some
-// earlier frame, than their sphere's slack (sphere_slack.h), drift common to all left out. They need no
-// certificate. All slack is found at one reference frame, which is moved up when too much of it is used up.
-// Where motion is fast, none is: a sample tells.
+// Finds nodes of a wrapped hierarchy that rest in a step: their beads have moved from an earlier frame by
+// less than their sphere's slack (sphere_slack.h), apart from the common drift. These nodes need no
+// certificates. All slack refers to one reference frame, which is renewed when too much slack is used up. If
+// motion is too fast, no slack is computed; a sample of nodes decides.
 
 #include <array>
 #include <cstdint>
@@ -21,31 +21,32 @@ class NodeSlack {
  public:
   explicit NodeSlack(const NecklaceTree& tree);
 
-  /// At the start of a step. Takes out of `nodes` those that rest in it; `bases` are those of all nodes.
+  /// Removes from `nodes` the nodes that rest in the step. Call it at the start of a step. `bases` are those
+  /// of all nodes.
   void take_out_resting(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
                         std::vector<NodeId>& nodes);
-  /// The node has got another basis.
+  /// Tells that the node has another basis.
   void forget(NodeId node) { slack_[node] = none; }
 
  private:
   static constexpr double none = -1;
   static constexpr std::size_t sample_size = 16;
-  /// Of all nodes asked about: finding slack costs nearly as much as what it saves in a step. A
+  /// Least share of nodes that must rest. Finding slack costs nearly as much as it saves in one step. A
   /// reference must also last for another step.
   static constexpr double least_share = 0.7;
-  /// Of the share that rested at the reference frame.
+  /// A reference stays while this fraction of the share that rested at its frame still rests.
   static constexpr double still_worth = 0.72;
-  /// No slack is larger than a node strays in so many steps.
+  /// Slack is limited to the distance that a node strays in this many steps.
   static constexpr double steps_ahead = 16;
 
   void set_reference(const BeadPaths<Dimension>& paths);
-  /// How far beads and nodes stray in the step from the reference.
+  /// Computes how far beads and nodes stray in the step from the reference.
   void look_at(const BeadPaths<Dimension>& paths);
   void forget_all();
-  /// Motion is too fast for now.
+  /// Stops for now because motion is too fast.
   void give_up();
   [[nodiscard]] bool rests(NodeId node) const { return stray_[node] <= slack_[node]; }
-  /// The share of some nodes.
+  /// Returns the share of the given nodes that rests.
   [[nodiscard]] double resting(std::span<const NodeId> nodes) const;
   void take_out(std::vector<NodeId>& nodes) const;
 
@@ -65,11 +66,11 @@ class NodeSlack {
   void find(const BeadPaths<Dimension>& paths, Waiting& some);
 
   const NecklaceTree& tree_;
-  /// Where the halves of each node are in stray_.
+  /// Indices in stray_ of the two halves of each node.
   std::vector<std::array<std::uint32_t, 2>> halves_;
-  std::vector<double> stray_;  ///< the most of any bead of each node; then of each bead
+  std::vector<double> stray_;  ///< of each node, the most of any bead; then of each bead
   std::vector<double> slack_;  ///< of each node, or `none`
-  std::array<std::vector<double>, Dimension + 1> reference_;  ///< where beads were, and their radii
+  std::array<std::vector<double>, Dimension + 1> reference_;  ///< of beads at the reference
   std::array<Waiting, Basis::max_size> waiting_;
   bool has_reference_ = false, lasted_ = false;
   double worth_keeping_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// A pass over all runs of a bottom-up order, on one thread or on all.
+// Runs a pass over all runs of a bottom-up order, on one thread or on all.
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -10,7 +10,7 @@
 
 namespace kds {
 
-/// `pass(run)` does a run's groups in their order and returns what it counted; the sum of all.
+/// `pass(run)` handles a run's groups in their order and returns its counts. Returns the sum of all counts.
 template <class Counts, class Pass>
 Counts over_runs(const BottomUpOrder& order, Threads threads, const Pass& pass) {
   const std::size_t runs = order.runs().size();

@@ -1,17 +1,16 @@
 #pragma once
-// How far out of the sphere of a basis of balls, of any radii, every ball of a necklace may be for a whole
-// step while its relaxed certificate (relaxed_membership.h) holds, so that bounds of the sphere's path prove
-// that.
+// Computes how far every ball of a necklace, of any radius, may be out of the sphere of a basis during a
+// whole step while its relaxed certificate (relaxed_membership.h) holds. Bounds of the sphere's path can then
+// prove the certificate.
 //
-// With |d| >= least and p >= p' for the distance and the sum of radii of the basis' two balls farthest apart,
-// r the largest radius there is and R' >= R: where least >= r and p' >= r, all certificates of unequal balls
-// are relaxed, and in their tau, |d|^2 + p^2 - 2 p r_j >= least^2 + p' (p' - 2 r) =: q, since p^2 - 2 p r
-// grows for p
-// >= r. Let h = eps q / 2 / ((2 + eps) R'). As q <= 4 R^2, h <= eps R, and (R - r_j + h)^2 - (R - r_j)^2 <= h
-// (2 R
-// + h) <= tau: a ball that is out by h is allowed to be. So it is by the certificate of equal radii: there q
-// <= |d|^2 <= 4 R_c^2, and h <= eps R_c. A sphere is no larger than one of the centres, whose radius is at
-// most sqrt(3/8) times their largest distance (Jung), made larger by the largest radius: R'.
+// Let |d| >= least and p >= p' for the distance and the sum of radii of the basis' two balls farthest apart,
+// let r be the largest radius of all balls, and let R' >= R. Suppose least >= r and p' >= r. Then all
+// certificates of unequal balls are relaxed. In their tau, |d|^2 + p^2 - 2 p r_j >= least^2 + p' (p' - 2 r)
+// =: q, since p^2 - 2 p r grows for p >= r. Let h = eps q / 2 / ((2 + eps) R'). As q <= 4 R^2, h <= eps R,
+// and (R - r_j + h)^2 - (R - r_j)^2 <= h (2 R + h) <= tau. A ball that is out by h is therefore allowed. The
+// certificate of equal radii allows it too: there q <= |d|^2 <= 4 R_c^2, and h <= eps R_c. The radius is at
+// most that of the centres' sphere, which is at most sqrt(3/8) times their largest distance (Jung), plus the
+// largest radius: this sum is R'.
 
 #include <algorithm>
 #include <array>
@@ -25,7 +24,7 @@ namespace kds {
 
 class RelaxedSlack {
  public:
-  /// Without a relaxation there is none.
+  /// Without a relaxation there is no slack.
   explicit RelaxedSlack(const Relaxation& relaxation) : share_(relaxation.share()) {}
 
   [[nodiscard]] bool any() const { return share_ > 0; }
@@ -36,7 +35,7 @@ class RelaxedSlack {
     for (BeadId b = 0; b < curves.bead_count(); ++b)
       for (int k = 0; k <= curves.own_degree(); ++k) largest_ = std::max(largest_, curves.radius(b, k));
   }
-  /// Zero where nothing is known.
+  /// Returns zero if nothing is known.
   template <int Dimension>
   [[nodiscard]] double of(const Curves<Dimension>& curves, const Basis& basis) const {
     if (basis.size < 2) return 0;
@@ -63,7 +62,7 @@ class RelaxedSlack {
 
  private:
   double share_;
-  double largest_ = 0;  ///< radius in the step
+  double largest_ = 0;  ///< largest radius in the step
 };
 
 }  // namespace kds

@@ -1,6 +1,7 @@
 #pragma once
-// Who lies in which sphere just after the present time (SphereSigns of basis.h), as certificates say. While a
-// failure is handled the sign of its certificate is known, and so is that of its function elsewhere.
+// Decides by certificates which bead lies in which sphere just after the present time (SphereSigns of
+// basis.h). While a failure is handled, the sign of its certificate is known, and so is the sign of its
+// function in other certificates.
 
 #include <optional>
 
@@ -19,9 +20,9 @@ struct PresentFailure {
   using OfFull = BallInSphere<Dimension, Dimension + 1>;
 
   Identity identity;
-  bool side = true;  ///< which side of zero its certificate wants
-  /// The certificate itself, of the balls of a full basis and the one that came to its sphere: all
-  /// certificates of these have one norm (ball_in_sphere.h).
+  bool side = true;  ///< the side of zero that its certificate requires
+  /// The failing certificate, if it belongs to a full basis and a ball that reached its sphere. All
+  /// certificates of these balls have the same norm (ball_in_sphere.h).
   std::optional<OfFull> of_full;
 
   template <class Certificate>
@@ -33,7 +34,7 @@ struct PresentFailure {
   [[nodiscard]] bool is_of(const Certificate& certificate) const {
     return certificate.identity() == identity;
   }
-  /// Whether a certificate has the root that is now, though it is another function.
+  /// Returns whether a certificate with another function has the present root too.
   template <class Certificate>
   [[nodiscard]] bool shares_root_with(const Certificate& certificate) const {
     if constexpr (std::same_as<Certificate, OfFull>)
@@ -55,7 +56,7 @@ class SignsJustAfter {
  public:
   static constexpr int dimension = Dimension;
 
-  /// `curves`: of the present step.
+  /// `curves` are those of the present step.
   SignsJustAfter(const Simulator& simulator, const MotionRef<Dimension>& motion,
                  const Curves<Dimension>& curves, Radii radii, MembershipTables<Dimension>& tables,
                  StageCounts& stages)
@@ -69,7 +70,7 @@ class SignsJustAfter {
   [[nodiscard]] int membership(const Basis& basis, BeadId bead, bool inside, int orientation) const;
   [[nodiscard]] int orientation(const Basis& basis) const;
 
-  /// While it is handled.
+  /// Set while the failure is handled.
   std::optional<PresentFailure<Dimension>> present;
 
  private:

@@ -1,15 +1,15 @@
 #pragma once
-// The smallest sphere around two spheres, radius rounded up: as it stands, centre and radius doubles, it
-// holds both as they stand.
+// Computes the smallest sphere around two spheres, with the radius rounded up. The stored sphere, whose
+// centre and radius are doubles, holds both stored spheres.
 //
-// The bound. With u = 2^-53, D the true distance of centres, w = r_b - r_a, |w| < D, and R = (D + r_a + r_b)
-// / 2: where squares neither over- nor underflow the distance errs by less than 4u of itself and the ratio w
-// / D by less than 7u of itself, so that `share` errs by 3.5u |w| / D and u of itself. The centre is where it
-// should be up to 3.5u |w| + 3u share D, at most 6.5u R since |w| and share D are at most R, and u of its
-// coordinates; half the sum of distance and radii errs by 5u R, and the radius is rounded twice more. All
-// that is less than 16u R and u of the coordinates. One sphere lies in the other only if that is true in
-// spite of rounding. Where it all but does the centre is that of the larger, up to as much, and the radius no
-// less.
+// The bound. Let u = 2^-53, D the true distance of centres, w = r_b - r_a, |w| < D, and R = (D + r_a + r_b) /
+// 2. If squares neither overflow nor underflow, the distance has a relative error below 4u and the ratio w /
+// D one below 7u, so `share` has an error of 3.5u |w| / D plus u of itself. The centre's error is at most
+// 3.5u |w| + 3u share D, which is at most 6.5u R since |w| and share D are at most R, plus u of its
+// coordinates. Half the sum of distance and radii has an error of 5u R, and the radius is rounded twice more.
+// All this is less than 16u R plus u of the coordinates. One sphere is reported to lie in the other only if
+// this is true in spite of rounding. If it nearly does, the centre is the larger sphere's up to the same
+// error, and the radius is no smaller.
 
 #include "structures/enclosing_sphere/cage.h"
 #include "structures/enclosing_sphere/four_balls.h"
@@ -17,8 +17,9 @@
 
 namespace kds {
 
-/// Four at once, where squares of sizes neither over- nor underflow: lanes that are false are no such sphere.
-/// Two of equal radii, which must be those, need no quotient: the same bits.
+/// Computes four spheres at once. It requires sizes whose squares neither overflow nor underflow; lanes that
+/// are false in the result are not valid. If `equal`, radii must be equal; the code then needs no quotient
+/// and gives the same bits.
 template <bool equal, int Dimension>
 [[gnu::always_inline]] inline Lanes::Mask spheres_of_two(const FourBalls<Dimension>& a,
                                                          const FourBalls<Dimension>& b,
@@ -27,7 +28,7 @@ template <bool equal, int Dimension>
   const Lanes square = detail::dot(d, d);
   const Lanes distance = NumberTraits<Lanes>::sqrt(square);
   const Lanes wider = b.radius - a.radius;
-  // On the line of centres: both far ends on the sphere.
+  // The centre lies on the line of centres, with both far ends on the sphere.
   Lanes share(0.5), reach = Lanes(0.5) * (distance + (a.radius + b.radius));
   if constexpr (!equal) {
     const Lanes middle = Lanes(0.5) * (Lanes(1.0) + wider / square * distance);
@@ -52,7 +53,7 @@ template <bool equal, int Dimension>
   return (square >= Lanes(0x1p-900)) & (square <= Lanes(0x1p900)) & (abs(wider) >= Lanes(0.0));
 }
 
-/// One, of any sizes.
+/// Computes one sphere for any sizes.
 template <int Dimension>
 [[nodiscard]] Cage<Dimension> sphere_of_two(const Cage<Dimension>& a, const Cage<Dimension>& b);
 

@@ -16,7 +16,7 @@ using detail::NodeWrapper;
 using detail::Start;
 using detail::trusted_cage;
 
-// Groups of one run stand one after the other: `together` of them from `first` on as one list of nodes.
+// Groups of one run are consecutive. Returns `together` groups from `first` on as one list of nodes.
 std::span<const NodeId> nodes_of(const BottomUpOrder& order, std::span<const BottomUpOrder::Group> groups,
                                  std::size_t first, std::size_t together) {
   return order.nodes({groups[first].first, groups[first + together - 1].end});
@@ -36,8 +36,8 @@ void wrap_groups(NodeWrapper<Form>& wrapper, const BottomUpOrder& order,
       wrapper.wrap_pairs(pairs.data(), pairs.size(), start);
       continue;
     }
-    // Nodes that ask neither bases nor cages below do not wait for those: nodes of one height differ by less
-    // than a factor of two.
+    // Nodes that need neither bases nor cages below do not wait for them, so groups of several heights are
+    // merged. Bead counts of nodes of one height differ by less than a factor of two.
     if (start == Start::old_bases && 2 * beads(g) <= most_in_block)
       while (g + together < groups.size() && 2 * beads(g + together) <= most_in_block) ++together;
     const auto nodes = nodes_of(order, groups, g, together);
@@ -152,7 +152,8 @@ double StaticWrappedHierarchy<Dimension>::stick_out(NodeId node, double moved) c
   const FloatingPointGuard to_nearest;
   if (!trusting_) return 0;
   const Sphere now = sphere(node), then = sphere_of(verified_[node], wider_);
-  // Cages are rounded; loose ones, of degenerate beads far from the origin, to their size there.
+  // Cages are rounded. Loose cages, of degenerate beads far from the origin, are rounded relative to that
+  // distance.
   const double rounding = 0x1p-27 * then.radius + 0x1p-48 * then.center.template lpNorm<Eigen::Infinity>();
   return std::max(0.0, moved + then.radius + (then.center - now.center).norm() - now.radius + rounding);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// How many threads a computation may use. Results do not depend on it.
+// Number of threads of a computation. Results do not depend on it.
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 #pragma once
-// How much tighter the wrapped hierarchy is than the layered one: rho = wrapped radius / layered radius at a
-// node, at most 1, its average and its least over all internal nodes (Table 1 of Agarwal et al.).
+// Compares the wrapped hierarchy with the layered one: rho = wrapped radius / layered radius at a node, at
+// most 1. Computes its mean and minimum over all internal nodes (Table 1 of Agarwal et al.).
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ struct Tightness {
   double average = 1, least = 1;
 };
 
-/// Both over the same necklaces and built for the same balls. Nodes of radius 0 count as 1.
+/// Both hierarchies must be built over the same necklaces and balls. Nodes of radius 0 count as 1.
 template <int Dimension>
 [[nodiscard]] Tightness tightness_of(const StaticWrappedHierarchy<Dimension>& wrapped,
                                      const LayeredHierarchy<Dimension>& layered) {

@@ -152,7 +152,7 @@ std::string WrappedHierarchy<Dimension>::name_of(NodeId id) const {
   return "node " + std::to_string(range.first) + "-" + std::to_string(range.last);
 }
 
-// The bases at the start of a run, and what a query asks for.
+// Bases at the start of a run, and queries.
 
 template <int Dimension>
 SmallestSphere WrappedHierarchy<Dimension>::build_node(NodeId id, const Balls<Dimension>& balls) {
@@ -171,14 +171,14 @@ template <int Dimension>
 void WrappedHierarchy<Dimension>::build() {
   curves_ = motion_.curves();
   proofs_->take_curves();
-  if (query_) kept_.assign(bases_.size(), 0);  // it has not asked yet
+  if (query_) kept_.assign(bases_.size(), 0);  // the query has not run yet
   const Balls<Dimension> balls = balls_at_start(curves_);
   SignsJustAfter<Dimension>& signs = guards_->signs();
   std::vector<BeadId> touching;
   for (auto id = static_cast<NodeId>(bases_.size()); id-- > 0;) {  // children first
     if (!keeps(id)) continue;
     find_touching(balls, tree_.range(id), build_node(id, balls), touching);
-    // Put right for the moment after the start: beads on the sphere may leave it.
+    // Settled for the moment just after the start, when beads on the sphere may leave it.
     bool settled = false;
     for (int i = 0; !settled && (i < most_repairs || !is_fast()); ++i) {
       settled = true;
@@ -216,8 +216,8 @@ void WrappedHierarchy<Dimension>::sort_kept_nodes() {
   }
 }
 
-// The start of a step. Certificates of all nodes are looked at together, since four cost little more than
-// one; nodes whose basis is not right any more come after that, one by one.
+// The start of a step. Certificates of all nodes are watched together, because four cost little more than
+// one. Nodes whose basis is no longer right follow, one by one.
 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::start_step() {
@@ -292,7 +292,7 @@ void WrappedHierarchy<Dimension>::repair_faults() {
   guards_->count_per_bead();
 }
 
-// One node at any time.
+// Single nodes at any time.
 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::enqueue_beyond(NodeId id) {
@@ -306,8 +306,8 @@ std::optional<BeadId> WrappedHierarchy<Dimension>::watch_node(NodeId id, BeadId 
   guards_->forget_named_of(id);
   if (is_one_bead(id)) return bases_[id].beads[1];
   if (is_lone_pair(id)) return std::nullopt;
-  // Basis beads first: where one leaves the other certificates say nothing. Nor do they where a bead is to
-  // spare all the time, its function zero.
+  // Basis beads come first: if one leaves, or is superfluous all the time so that its function is zero, the
+  // other certificates mean nothing.
   const unsigned stays = proofs_->find_beads_to_watch(bases_[id], tree_.range(id), risen, beyond_);
   guards_->enqueue_basis(id, bases_[id], stays);
   if (const auto to_spare = guards_->watch_enqueued_of_one(false)) return to_spare;
@@ -320,7 +320,7 @@ void WrappedHierarchy<Dimension>::guard_node(NodeId id, Basis before, BeadId ris
   for (int repairs = 0;; ++repairs) {
     const std::optional<BeadId> violated = watch_node(id, risen);
     if (!violated) break;
-    // `fast` lives with a contradiction until the next event of the node or the next step.
+    // `fast` accepts a contradiction until the node's next event or the next step.
     if (is_fast() && repairs >= most_repairs) break;
     guards_->drop(id);
     risen = no_bead;
@@ -350,7 +350,7 @@ void WrappedHierarchy<Dimension>::rebuild_roughly(NodeId id) {
   ++statistics.rebuilds;
   const double now = simulator_.now().upper();
   std::vector<double> radii = approximate_radii(curves_, now);
-  for (double& r : radii) r = std::max(r, 0.0);  // it is rounded
+  for (double& r : radii) r = std::max(r, 0.0);  // a rounded radius may be negative
   const BeadRange range = tree_.range(id);
   const Basis before = bases_[id];
   proofs_->forget(id);
@@ -369,8 +369,9 @@ void WrappedHierarchy<Dimension>::fail(unsigned table, std::uint32_t slot) {
     if (!relaxed) risen = proofs_->risen_bead(before, bases_[id], bead);
     if (!repaired && is_fast()) rebuild_roughly(id);
   } else if (radii_ == Radii::any) {
-    // A full basis may turn over without one of its beads leaving: where all meet, or where each touches the
-    // sphere of the others. Then it stays and is guarded anew, for its certificates turn with it.
+    // The simplex of a full basis may turn over without losing a bead: when all beads meet, or when each
+    // touches the sphere of the others. The basis then stays, and its certificates, which turn too, are made
+    // anew.
     static_cast<void>(repair(id, no_bead));
   }
   guard_node(id, before, risen);
@@ -396,7 +397,7 @@ void WrappedHierarchy<Dimension>::record(NodeId id, const Basis& before) {
   simulator_.record(index_, change);
 }
 
-// Beads that change course.
+// Changes of course.
 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::require_release(std::span<const BeadId> beads) const {
@@ -420,7 +421,7 @@ void WrappedHierarchy<Dimension>::release(std::span<const BeadId> beads) {
       [this](NodeId id) { return std::binary_search(released_.begin(), released_.end(), id); });
 }
 
-/// Beads may be anywhere: what the basis was says nothing of what it is.
+/// A released bead may be anywhere, so the old basis says nothing about the new one.
 template <int Dimension>
 void WrappedHierarchy<Dimension>::take_up(std::span<const BeadId> beads) {
   for (const BeadId bead : beads) simulator_.record(index_, Change{changes, 1, {bead}});
@@ -434,7 +435,7 @@ void WrappedHierarchy<Dimension>::take_up(std::span<const BeadId> beads) {
   guards_->count_per_bead();
 }
 
-// Replayed changes, and the bases of a frame proved by their definition.
+// Replay of changes, and audits of bases by their definition.
 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::apply(const Change& change) {
@@ -469,10 +470,10 @@ std::vector<Basis> WrappedHierarchy<Dimension>::bases_at(const Dyadic& time) con
   return bases;
 }
 
-/// The sphere of a basis that encloses all beads and has no bead to spare is the minimum enclosing one, and
-/// the only one: checking both is as good as building it. Doubles with error bounds prove most nodes, whole
-/// numbers decide the rest. No certificate is used. A relaxed sphere encloses the basis, and all beads when
-/// it is made larger.
+/// If the sphere of a basis encloses all beads and no basis bead is superfluous, it is the unique minimum
+/// enclosing sphere. Checking both conditions is therefore as good as building the sphere. Doubles with error
+/// bounds prove most nodes; integers decide the rest. No certificate is used. A relaxed sphere must enclose
+/// its basis, and all beads once it is enlarged.
 template <int Dimension>
 std::optional<std::string> WrappedHierarchy<Dimension>::audit(const Dyadic& time) {
   const FloatingPointGuard to_nearest;

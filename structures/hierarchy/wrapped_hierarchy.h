@@ -1,18 +1,19 @@
 #pragma once
-// Kinetic wrapped hierarchy, in the plane and in space, radii equal or not: at every internal node of the
-// balanced tree over a necklace the minimum enclosing sphere of all its beads, kept as a basis of at most
-// dimension + 1 beads. Certificates of a node: each other bead stays inside the sphere of the basis; each
-// basis bead stays outside the sphere of its fellows. Those that a bound on the sphere's path proves at once
-// are not made. When one fails, the new basis is found among the basis and the bead: by such a bound on what
-// is next, or by signs just after the event. Exact with any kernel but `fast`. Spheres may be relaxed: then
-// beads may be out by a share of the radius, and events are fewer.
+// Kinetic wrapped hierarchy, in the plane and in space, for equal or unequal radii. Each internal node of the
+// balanced tree over a necklace has the minimum enclosing sphere of its beads, stored as a basis of at most
+// dimension + 1 beads. A node's certificates state that each other bead stays inside the sphere of the basis
+// and that each basis bead stays outside the sphere of the other basis beads. Certificates that a bound of
+// the sphere's path proves at once are not created. When a certificate fails, the new basis is found among
+// the basis and the bead, either by such a bound on the next sphere or by signs just after the event. The
+// result is exact with any kernel but `fast`. Spheres may be relaxed: beads may then be out by a share of the
+// radius, which causes fewer events.
 //
-// Beads can change course while time runs: a look at all paths and nodes, certificates of those nodes that
-// hold the beads, and a repair where one is not right any more. They cannot come and go: the tree is that of
-// their necklaces.
+// Beads can change course while time runs. This costs a pass over all paths and nodes, the certificates of
+// the nodes that hold the beads, and a repair for each basis that is no longer right. Beads cannot be
+// inserted or erased, because the tree depends on the necklaces.
 //
-// It is made of three parts, each with a file of its own: what is proved without certificates
-// (node_proofs.h), the certificates that are held (node_guards.h), the repair of a basis (basis_repair.h).
+// The class has three parts, each in its own file: proofs that replace certificates (node_proofs.h), the
+// certificates held (node_guards.h), and the repair of a basis (basis_repair.h).
 
 #include <array>
 #include <cstdint>
@@ -52,10 +53,11 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
  public:
   static constexpr int dimension = Dimension;
 
-  /// Keeps the selected nodes. `radii`: what is promised of them, for all steps; weights must be equal where
-  /// radii are. Where `relaxation` is a share of the radius, a bead escapes when it is out by that: the
-  /// basis' minimum enclosing sphere, its radius times one plus that share, holds all beads of the node, and
-  /// theirs is no smaller than the basis'. Throws std::invalid_argument where the motion is lifted.
+  /// Maintains the selected nodes. `radii` is a promise for all steps; if it promises equal radii, weights
+  /// must be equal too. If `relaxation` is a share of the radius, a bead escapes only when it is out by that
+  /// share: the basis' minimum enclosing sphere, its radius times one plus the share, holds all beads of the
+  /// node, and their own minimum enclosing sphere is no smaller than the basis'. Throws std::invalid_argument
+  /// if the motion is lifted.
   WrappedHierarchy(Simulator& simulator, const MotionRef<Dimension>& motion,
                    std::span<const BeadRange> necklaces, Radii radii, const NodeSelection& selection = {},
                    const Relaxation& relaxation = {});
@@ -64,19 +66,19 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   enum Kind : std::uint8_t { enter, leave, pivot, changes };
 
   [[nodiscard]] std::string_view name() const override { return "wrapped"; }
-  /// Ids: the node's first and last bead, then its new basis; of a change of course the bead.
+  /// The ids are the node's first and last bead, then its new basis; for a change of course, the bead.
   [[nodiscard]] std::span<const EventKind> kinds() const override;
 
   [[nodiscard]] const NecklaceTree& tree() const { return tree_; }
   /// Returns whether the node is kept in this step. Nothing else is known of other nodes. Throws
   /// std::invalid_argument if there is no such node.
   [[nodiscard]] bool keeps(NodeId node) const;
-  /// Throws likewise.
+  /// Throws std::invalid_argument if there is no such node.
   [[nodiscard]] const Basis& basis(NodeId node) const;
   [[nodiscard]] const Relaxation& relaxation() const { return relaxation_; }
 
-  /// From the next step on the nodes that `query` asks for are kept, and no others. Which they are is not
-  /// logged: such a run cannot be replayed.
+  /// From the next step on, keeps only the nodes that `query` asks for. The choice is not logged, so such a
+  /// run cannot be replayed.
   void keep_what_is_asked_for(NodeQuery query);
 
   void build() override;
@@ -85,18 +87,19 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
-  /// The bases of kept nodes at a frame, none with a bead to spare even where the frame is degenerate.
+  /// Returns the bases of kept nodes at a frame, without superfluous beads even if the frame is degenerate.
   [[nodiscard]] std::vector<Basis> bases_at(const Dyadic& time) const;
 
  private:
   static constexpr std::size_t full = Dimension + 1;
-  static constexpr int most_repairs = 64;  // of one node at one time, in `fast`
+  static constexpr int most_repairs = 64;  // maximum per node and time, in `fast`
 
   [[nodiscard]] bool is_fast() const;
   [[nodiscard]] bool move_together(BeadId a, BeadId b) const;
-  /// Two beads and no others, both in the basis, of one radius: nothing to guard unless they are one.
+  /// Returns whether the node consists of two beads of equal radius that are both in the basis. They need no
+  /// guard unless they coincide.
   [[nodiscard]] bool is_lone_pair(NodeId node) const;
-  /// A basis of two beads that are one all the time.
+  /// Returns whether the basis consists of two beads that coincide all the time.
   [[nodiscard]] bool is_one_bead(NodeId node) const;
   [[nodiscard]] std::string name_of(NodeId node) const;
 
@@ -105,20 +108,23 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   void ask_query();
   /// Sets `wide_` and `pairs_`.
   void sort_kept_nodes();
-  /// Guards them all at the start of a step; sets `faults_` of those whose basis is not right.
+  /// Guards all nodes at the start of a step. Sets `faults_` for the nodes whose basis is not right.
   void watch_all_nodes();
   /// Repairs the nodes whose basis is not right, and guards them.
   void repair_faults();
-  /// Guards a node, repairing its basis while a certificate is violated already; logs the change from
-  /// `before`. `risen`: a bead, or none, whose certificate has just failed and that is where it belongs.
+  /// Guards a node and repairs its basis while a certificate is violated already. Logs the change from
+  /// `before`. `risen` is no_bead or a bead whose certificate has just failed and that is on its proper side
+  /// now.
   void guard_node(NodeId node, Basis before, BeadId risen);
-  /// Guards the node's present basis; the first bead whose certificate is violated, if any.
+  /// Guards the node's present basis and returns the first bead whose certificate is violated, if any.
   [[nodiscard]] std::optional<BeadId> watch_node(NodeId node, BeadId risen);
-  /// Enqueues certificates of beads, without those that stay inside as long as the node's others are kept.
+  /// Enqueues certificates of beads, except beads that stay inside as long as the node's other certificates
+  /// are kept.
   void enqueue_beyond(NodeId node);
-  /// The basis of the node's basis and `bead`, which escaped or is to spare; false if it is the same.
+  /// Replaces the node's basis by that of its beads and `bead`, which has escaped or is superfluous. Returns
+  /// false if the basis stays unchanged.
   [[nodiscard]] bool repair(NodeId node, BeadId bead, bool failed = false);
-  /// From scratch, where doubles contradict themselves.
+  /// Rebuilds the basis from scratch after doubles have contradicted themselves.
   void rebuild_roughly(NodeId node);
   void record(NodeId node, const Basis& before);
 
@@ -133,19 +139,19 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   Curves<Dimension> curves_;  // of the present step
   NecklaceTree tree_;
   std::vector<Basis> bases_;        // of nodes
-  std::vector<std::uint8_t> kept_;  // a flag a node
+  std::vector<std::uint8_t> kept_;  // one flag per node
   std::size_t index_;
   std::unique_ptr<NodeProofs<Dimension>> proofs_;
   std::unique_ptr<NodeGuards<Dimension>> guards_;
   std::unique_ptr<BasisRepair<Dimension>> repair_;
   NodeQuery query_;
-  std::vector<NodeId> wide_, pairs_;  // those that are kept, of more than two beads and of two
+  std::vector<NodeId> wide_, pairs_;  // kept nodes of more than two beads, and of two
   std::vector<NodeId> guarded_;
-  std::vector<NodeId> released_;  // that hold beads whose course changes
+  std::vector<NodeId> released_;  // nodes that hold beads whose course changes
   enum class BasisFault : std::uint8_t { no, violated, improper };
-  std::vector<BasisFault> faults_;   // a node
+  std::vector<BasisFault> faults_;   // one per node
   std::vector<BeadId> beyond_;       // beads of a node that are not proved to stay inside
-  std::vector<BeadId> all_watched_;  // of all nodes at the start of a step, one after another
+  std::vector<BeadId> all_watched_;  // of all nodes at the start of a step, node by node
   std::vector<std::size_t> watched_ends_;
 };
 
