@@ -9,14 +9,14 @@ namespace kds {
 
 namespace {
 
-/// The least and the greatest of each column, in four lanes.
+/// The least and the greatest number of each column, in four lanes.
 template <std::size_t Columns>
 struct ColumnRanges {
   std::array<Lanes, Columns> low, high;
 };
 
-/// Columns of beads' coordinates, the k-th control point's one after another: four beads at a time, as long
-/// as there are four.
+/// Copies coordinates into columns, one control point after another, four beads at a time while four are
+/// left.
 template <int K>
 [[KDS_LANES_TARGETS]] void copy_columns(const FixedCurves<3, K>& curves,
                                         const std::array<double*, (K + 1) * 3>& to,
@@ -38,14 +38,14 @@ template <int K>
   }
 }
 
-// The distance is at least that along the sum of both ends' differences, by control points. Where it is no
-// small part of them the roundings, below 2^-45 of them, do not matter.
+// A lower bound of the distance is its component along the sum of both ends' differences, by control points.
+// If it is no small part of these differences, the roundings, below 2^-45 of them, do not matter.
 template <int D, int K>
 [[KDS_LANES_TARGETS]] void find_apart(const BeadPaths<D>& paths, std::uint8_t* apart) {
   constexpr double up = 1 + 0x1p-30, part = 0x1p-10;
   for (BeadId b = 0; b + 1 < paths.bead_count(); b += Lanes::width) {
     std::array<std::array<Lanes, D>, K + 1> d;
-    Lanes limit(0.0);  // the greatest square of a difference of radii, or of a part of d
+    Lanes limit(0.0);  // greatest square of a difference of radii, or of a part of d
     for (std::size_t k = 0; k <= K; ++k) {
       const auto to_next = [&](int axis) __attribute__((always_inline)) {
         const double* const column = paths.column(static_cast<int>(k), axis) + b;
@@ -70,7 +70,7 @@ template <int D, int K>
       for (std::size_t axis = 0; axis < D; ++axis) product += along[axis] * d[k][axis];
       least = Lanes::min(least, product);
     }
-    // Away from overflow and from subnormal numbers.
+    // Excludes overflow and subnormal numbers.
     const Lanes::Mask are = (Lanes(paths.extent()) < Lanes(0x1p150)) & (limit > Lanes(0x1p-300)) &
                             (least > Lanes(0.0)) & (least * least > limit * length * Lanes(up));
     for (std::size_t lane = 0; lane < Lanes::width; ++lane) apart[b + lane] = are[lane] != 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The paths of beads during a step as what scans and bounds of spheres read them: control points in columns.
+// The paths of beads during a step, stored for scans and for bounds of spheres: control points in columns.
 
 #include <array>
 #include <cstddef>
@@ -10,28 +10,28 @@
 
 namespace kds {
 
-/// Control points of all beads' centres and radii during a step, a column each.
+/// Control points of all beads' centres and radii during a step, one column per coordinate and control point.
 template <int Dimension>
 class BeadPaths {
  public:
   static constexpr int most_degree = 3;
-  static constexpr std::size_t padding = 3;  ///< read four at a time
+  static constexpr std::size_t padding = 3;  ///< columns are read four at a time
 
-  /// Of degree at most `most_degree`. Radii may be left out where they are promised to be equal: they are
-  /// taken to be zero.
+  /// Takes curves of degree at most `most_degree`. If radii are promised to be equal, `leave_out_radii`
+  /// allows them to be stored as zero.
   void set(const Curves<Dimension>& curves, bool leave_out_radii = false);
 
   [[nodiscard]] int degree() const { return degree_; }
   [[nodiscard]] std::size_t bead_count() const { return beads_; }
-  /// Of all beads for the whole step.
+  /// Returns whether all beads have equal radii during the whole step.
   [[nodiscard]] bool equal_radii() const { return equal_radii_; }
   [[nodiscard]] bool radii_are_left_out() const { return radii_are_left_out_; }
-  /// The k-th control points along an axis, or (axis = Dimension) of the radius.
+  /// Returns the k-th control points along an axis, or of the radius if axis = Dimension.
   [[nodiscard]] const double* column(int k, int axis) const { return columns_[place(k, axis)].data(); }
-  /// Sets a flag a bead, and some beyond the last: neither it nor the next holds the other at any time of the
-  /// step.
+  /// Sets one flag per bead, and some beyond the last: during the whole step, neither this bead nor the next
+  /// one holds the other.
   void find_apart_from_next(std::vector<std::uint8_t>& apart) const;
-  /// No difference within a column is larger, coordinates or radii.
+  /// Returns a bound of all differences within a column, of coordinates or radii.
   [[nodiscard]] double extent() const { return extent_; }
 
  private:

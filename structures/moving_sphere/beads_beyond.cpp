@@ -19,7 +19,7 @@ template <int D, int K, bool equal>
       from, [&](BeadId b) __attribute__((always_inline)) { beyond.push_back(b); });
 }
 
-/// Four chords, and their periods, side by side.
+/// Four chords and their periods, in lanes.
 template <int D>
 struct Parts {
   std::array<std::array<Lanes, D>, 2> center;
@@ -89,7 +89,8 @@ void find_beyond(const BeadPaths<Dimension>& paths, const BeadRange& range, cons
   }
 }
 
-// A bead's distance from the chord is below its own chord; see linear_chords.h.
+// A bead's distance from the chord's centre is below the linear interpolation of its end values; see
+// linear_chords.h.
 template <int Dimension>
 void take_out_dipping(const BeadPaths<Dimension>& paths, const Basis& basis,
                       const SphereChord<Dimension>& chord, const Period& period, BeadId risen,

@@ -1,6 +1,6 @@
 #pragma once
-// The beads that a sphere may lose during a step: those that its chord (sphere_chord.h) does not prove to
-// stay inside.
+// Finds the beads that a sphere may lose during a step: those that its chord (sphere_chord.h) does not prove
+// to stay inside.
 
 #include <vector>
 
@@ -9,21 +9,21 @@
 
 namespace kds {
 
-/// Sets `beyond` to the beads of a range, ascending, without those of the basis, that are not proved to stay
-/// inside the sphere with this chord, `from` the time it begins at.
+/// Sets `beyond` to the beads of a range, ascending and without basis beads, that are not proved to stay
+/// inside the sphere with this chord. The chord begins at time `from`.
 template <int Dimension>
 void find_beyond(const BeadPaths<Dimension>& paths, const BeadRange& range, const Basis& basis,
                  const SphereChord<Dimension>& chord, double from, std::vector<BeadId>& beyond);
 
-/// Takes out of `beyond` the beads that are proved to stay inside after all, the chord's dip allowed for: in
-/// linear motion, else none. `risen`, a bead or none, is on the sphere at a time before `sure`, and known to
-/// be inside from then to `sure`.
+/// Removes from `beyond` the beads that are proved to stay inside once the chord's dip is taken into account.
+/// Works in linear motion only. `risen` is no_bead or a bead that is on the sphere at a time before `sure`
+/// and is known to be inside from then until `sure`.
 template <int Dimension>
 void take_out_dipping(const BeadPaths<Dimension>& paths, const Basis& basis,
                       const SphereChord<Dimension>& chord, const Period& period, BeadId risen,
                       std::vector<BeadId>& beyond);
 
-/// Takes out of `beyond` the beads that are proved to stay inside in each of four periods.
+/// Removes from `beyond` the beads that are proved to stay inside in each of four periods.
 template <int Dimension>
 void keep_beyond(const BeadPaths<Dimension>& paths, const Basis& basis,
                  std::span<const SphereChord<Dimension>, 4> chords, std::span<const Period, 4> periods,

@@ -1,5 +1,5 @@
 #pragma once
-// The chord of the basis that was looked at last: who asks about the same again finds it here.
+// Caches the chord of the last basis, so that a repeated query finds it.
 
 #include "structures/moving_sphere/sphere_chord.h"
 
@@ -8,7 +8,7 @@ namespace kds {
 template <int Dimension>
 class ChordCache {
  public:
-  /// `chord` is that of `basis` in a period that ends with the step.
+  /// Stores `chord` as the chord of `basis` in a period that ends with the step.
   void keep(const Basis& basis, const Period& period, const SphereChord<Dimension>& chord) {
     basis_ = basis;
     from_ = period.from;
@@ -17,7 +17,8 @@ class ChordCache {
   }
   void forget() { from_ = none; }
 
-  /// `relax(basis, chord)` does to a new one what was done to those that were given to `keep`.
+  /// Returns the chord of `basis`. `relax(basis, chord)` is applied to a new chord; chords given to `keep`
+  /// must have undergone it already.
   template <class Relax>
   [[nodiscard]] const SphereChord<Dimension>& of(const BeadPaths<Dimension>& paths, const Basis& basis,
                                                  const Period& period, Relax relax) {

@@ -1,5 +1,5 @@
 #pragma once
-// The chords of four spheres side by side (sphere_chord.h), as they are found.
+// The chords of four spheres in lanes (sphere_chord.h), as they are computed.
 
 #include <array>
 #include <span>
@@ -18,7 +18,7 @@ struct ChordLanes {
   Lanes dip = Lanes(0.0);
   Lanes::Mask proved, stays, rises{};
 
-  /// As SphereChord::enlarge.
+  /// Like SphereChord::enlarge.
   [[gnu::always_inline]] void enlarge(double factor) {
     if (!(factor > 1)) return;
     const Lanes by =
@@ -27,7 +27,7 @@ struct ChordLanes {
     dip = dip * by;
   }
 
-  /// In place: put together elsewhere it would be slow to copy.
+  /// Writes a lane in place, because copying a chord built elsewhere is slow.
   [[gnu::always_inline]] void give(std::size_t lane, SphereChord<Dimension>& chord) const {
     chord.proved = proved[lane] != 0;
     chord.stays = static_cast<std::uint8_t>(stays[lane]);

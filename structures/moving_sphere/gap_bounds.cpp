@@ -30,7 +30,7 @@ void find_gaps_in_lanes(const BeadPaths<D>& paths, const SphereEnclosure<D>& sph
     for (std::size_t e = 0; e < 2; ++e) {
       const double* column = paths.column(static_cast<int>(e), static_cast<int>(axis));
       control[e] = Lanes(column[bead] - column[base]);
-      // Before it is cut: times are rounded, and a part of a long path is as uncertain as the whole.
+      // Computed before the cut: times are rounded, and a part of a long path is as uncertain as the whole.
       l = Lanes::max(l, abs(control[e]));
     }
     cut(control, period);
@@ -52,7 +52,7 @@ void find_gaps_in_lanes(const BeadPaths<D>& paths, const SphereEnclosure<D>& sph
   Vec<D> step;
   for (std::size_t axis = 0; axis < D; ++axis) step[axis] = p[1][axis] - p[0][axis];
   const Lanes sum = distance[0] + distance[1], change = detail::dot(step, step);
-  // |p| is at least its part along the sum of both.
+  // A lower bound of |p| is its component along the sum of both ends.
   Vec<D> along;
   for (std::size_t axis = 0; axis < D; ++axis) along[axis] = p[0][axis] + p[1][axis];
   const Lanes nearest =
@@ -89,13 +89,14 @@ void find_gaps_in_lanes(const BeadPaths<D>& paths, const SphereEnclosure<D>& sph
   put(reach[0] * reach_rate - detail::dot(p[0], step), gaps.square[1]);
   put(reach_rate * reach_rate - change, gaps.square[2]);
   put(get(sphere.q_error) * Lanes(2.0) * l + Lanes(4.0) * rounding, gaps.lever_error);
-  // |T| <= |G| (rho - s + |c_b - x|) / 2.
+  // Uses |T| <= |G| (rho - s + |c_b - x|) / 2.
   const Lanes factor = Lanes(0.5) * (Lanes::max(reach[0], reach[1]) + sum) + loss + l;
   const Lanes radius = Lanes::min(get(sphere.rho[0]), get(sphere.rho[1])) - loss;
   put((Lanes(1.0) + Lanes(0.5) * get(sphere.other_root)) * factor * Lanes(up) / radius, gaps.other_factor);
 }
 
-/// What find_motion_in_lanes and find_gaps_in_lanes know at the ends of a period, alone.
+/// Computes at single times the quantities that find_motion_in_lanes and find_gaps_in_lanes compute at the
+/// ends of a period.
 template <int D, std::size_t M>
 void find_gaps_at_times(const BeadPaths<D>& paths, const detail::BeadLanes<M + 1>& beads, BeadId bead,
                         double side, const Lanes& time, GapsAt& gaps) {
@@ -116,7 +117,7 @@ void find_gaps_at_times(const BeadPaths<D>& paths, const detail::BeadLanes<M + 1
     for (std::size_t i = 0; i < M; ++i) (axis < D ? d[i][place] : s[i]) = at_time(beads[i + 1][0], size);
     (axis < D ? of_bead[place] : radius_of_bead) = at_time(bead, size_with_bead);
   }
-  size = size * Lanes(detail::root_of[3]);  // no longer curve
+  size = size * Lanes(detail::root_of[3]);  // no curve is longer
   const detail::End<D, M> end = detail::end_of<false, D, M>(d, s);
   const Lanes distance = length(end.z);
   Lanes l = Lanes::max(size, Lanes::max(distance, abs(end.rho)));

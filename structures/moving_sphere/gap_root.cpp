@@ -9,18 +9,19 @@ namespace kds {
 
 namespace {
 
-/// A ball and the side of the sphere where its certificate holds.
+/// A ball and the side of the sphere on which its certificate holds.
 template <int D>
 struct Crossing {
   const BeadPaths<D>& paths;
   const Basis& basis;
   BeadId bead;
   double side;
-  double upper;  // no later than that is now
+  double upper;  // the present time is at most this
   int looks = 0;
 
   static constexpr int most_looks = 12, most_cuts = 2;
-  /// Enough; and so wide a bracket would overlap others, but may be as narrow as doubles tell.
+  /// A bracket of width `narrow` suffices. A bracket of width `wide` might overlap others, but is accepted if
+  /// doubles cannot narrow it.
   static constexpr double narrow = 0x1p-27, wide = 0x1p-26;
 
   [[nodiscard]] SphereGaps gaps_in(const SphereEnclosure<D>& sphere) const {
@@ -29,8 +30,9 @@ struct Crossing {
     return gaps;
   }
 
-  /// Walks through four periods. `holds`: positive at their start; `soon`: just after now, which is in the
-  /// first. Nothing if it cannot tell; `never`: positive to their end.
+  /// Walks through four periods. `holds` tells that the gap is positive at their start, `soon` that it is
+  /// positive just after now, which lies in the first period. Returns none if it cannot decide, and a failure
+  /// of kind `never` if the gap stays positive to the end.
   [[nodiscard]] std::optional<Failure> walk(const SphereEnclosure<D>& sphere, bool holds, bool soon,
                                             int cuts) {
     const SphereGaps gaps = gaps_in(sphere);
@@ -64,11 +66,11 @@ struct Crossing {
     return {{{time[0], time[1]}, {time[1], time[2]}, {time[2], time[3]}, {time[3], time[4]}}};
   }
 
-  /// A root in units of a quarter, and about how far off it is; none if negative.
+  /// An estimated root in units of a quarter, and its approximate error. A negative root means none.
   struct Guess {
     double root = -1, error = 0;
   };
-  /// In one of four quarters: of the polynomial through the gap at their ends.
+  /// Estimates the root in one of four quarters by the polynomial through the gap at their ends.
   [[nodiscard]] static Guess guess_of(const SphereGaps& gaps, std::size_t quarter) {
     const std::array<double, 5> g{gaps.at_end[0][0], gaps.at_end[0][1], gaps.at_end[0][2], gaps.at_end[0][3],
                                   gaps.at_end[1][3]};
@@ -96,8 +98,8 @@ struct Crossing {
     return {b - start, 0.05 * std::abs(difference[4] / slope)};
   }
 
-  /// The one root in a period where the gap falls, its signs at both ends known: the gap at four times about
-  /// a guess, again and again, tells ends with certain signs.
+  /// Locates the only root in a period where the gap falls and its signs at both ends are known. Repeatedly
+  /// evaluates the gap at four times around an estimate until the signs of a narrow bracket are certain.
   [[nodiscard]] std::optional<Failure> locate(const Period& part, const SphereGaps& gaps, std::size_t lane,
                                               Guess guess) {
     const double length = part.to - part.from, slope = -gaps.fastest[lane] / length;
@@ -105,7 +107,7 @@ struct Crossing {
     double from = part.from, to = part.to;
     double gap_from = gaps.at_end[0][lane], gap_to = gaps.at_end[1][lane];
     double loss = gaps.loss_at_ends[lane];
-    if (!(guess.root > 0 && guess.root < 1)) {  // the chord's, off by what is lost
+    if (!(guess.root > 0 && guess.root < 1)) {  // the chord's root, with its error
       const double c0 = gaps.square[0][lane], c1 = gaps.square[1][lane], c2 = gaps.square[2][lane];
       guess.root = c0 / (-c1 + std::copysign(std::sqrt(std::max(c1 * c1 - c0 * c2, 0.0)), c0));
       if (!(guess.root >= 0 && guess.root <= 1)) return std::nullopt;
@@ -113,8 +115,8 @@ struct Crossing {
     }
     double root = part.from + guess.root * length, error = guess.error * length;
     while (++looks <= most_looks) {
-      // Certain signs take a little more than what is rounded. Of two brackets the wider one, if it will do:
-      // it tells most of what comes just after.
+      // A certain sign needs slightly more than the rounding error. The wider of two valid brackets is
+      // preferred, because it says more about the time just after.
       const double before = to - from, least = std::max(3 * loss / slope, 0x1p-33);
       const bool sharp = 4 * error < 0.49 * narrow;
       const double near = std::max(sharp ? error : std::max(0.49 * narrow, 0.0625 * error), least);
@@ -153,7 +155,7 @@ struct Crossing {
     return std::nullopt;
   }
 
-  /// The root is that in a bracket where the gap is no larger than `most`, in a part with these gaps.
+  /// Returns the root in a bracket where the gap is at most `most`, in a part with these gaps.
   [[nodiscard]] std::optional<Failure> found(const Period& bracket, const SphereGaps& gaps, std::size_t lane,
                                              double most) const {
     if (!(bracket.from > upper)) return std::nullopt;
@@ -165,7 +167,7 @@ struct Crossing {
     return Failure{Failure::Kind::later, {bracket.from, bracket.to, 0, true}};
   }
 
-  /// Its root is the norm's as well, and no other is.
+  /// Returns whether the norm has this root too, and no other.
   [[nodiscard]] static bool names_root_of_norm(const SphereGaps& gaps, std::size_t lane, double most) {
     const double w0 = gaps.lever[0][lane], w1 = gaps.lever[1][lane];
     const double w = std::min(std::abs(w0), std::abs(w1)) - gaps.lever_error[lane];

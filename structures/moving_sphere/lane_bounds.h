@@ -1,6 +1,6 @@
 #pragma once
-// Bounds of polynomials, and of curves, on [0,1] by their Bernstein coefficients, for four at once. In
-// double, rounded as written: whoever uses them allows for that.
+// Bounds of polynomials and curves on [0,1] by their Bernstein coefficients, four at once. They are computed
+// in double and rounded as written; the caller allows for the rounding.
 
 #include <array>
 #include <cmath>
@@ -41,7 +41,7 @@ template <int N, std::size_t Size>
   for (std::size_t i = 1; i < Size; ++i) sum += coefficient(v[i], k) * coefficient(v[i], k);
   return sum;
 }
-/// An upper bound of the length of a vector of polynomials on [0,1].
+/// Returns an upper bound of the length of a vector of polynomials on [0,1].
 template <int N, std::size_t Size>
 [[gnu::always_inline]] inline Lanes most(const std::array<PolynomialLanes<N>, Size>& v) {
   Lanes highest = square(v, 0);
@@ -49,15 +49,15 @@ template <int N, std::size_t Size>
   return root(highest);
 }
 
-/// A polynomial that vanishes at both ends is at most this share of its largest coefficient:
-/// 1 - u^N - (1-u)^N <= 1 - 2^(1-N).
+/// A polynomial that vanishes at both ends is at most this share of its largest coefficient: 1 - u^N -
+/// (1-u)^N <= 1 - 2^(1-N).
 template <int N>
 inline constexpr double share_between = [] {
   double share = 1;
   for (int k = 1; k < N; ++k) share /= 2;
   return 1 - share;
 }();
-/// An upper bound like `most`, sharper where the polynomial nearly vanishes at both ends.
+/// Returns an upper bound like `most`, which is sharper if the polynomial nearly vanishes at both ends.
 template <int N>
 [[gnu::always_inline]] inline Lanes most_between(const PolynomialLanes<N>& p) {
   Lanes inner(0.0);
@@ -71,7 +71,7 @@ template <int N, std::size_t Size>
   return Lanes(share_between<N>) * root(inner) + root(Lanes::max(square(v, 0), square(v, N)));
 }
 
-/// A lower bound of the absolute value.
+/// Returns a lower bound of the absolute value.
 template <int N>
 [[gnu::always_inline]] inline Lanes least_magnitude(const PolynomialLanes<N>& p) {
   const Lanes::Mask falls = p.scaled[0] < Lanes(0.0);
@@ -82,7 +82,7 @@ template <int N>
   }
   return lowest;
 }
-/// A lower bound of the length: of its projection on the sum of both ends.
+/// Returns a lower bound of the length: the length of the projection on the sum of both ends.
 template <int N, std::size_t Size>
 [[gnu::always_inline]] inline Lanes least_length(const std::array<PolynomialLanes<N>, Size>& v) {
   std::array<Lanes, Size> along;

@@ -1,19 +1,21 @@
 #pragma once
-// The chords of four spheres side by side (sphere_chord.h) in linear motion, where all that comes between
-// both ends is u (1-u) times something known.
+// The chords of four spheres in lanes (sphere_chord.h) in linear motion. Here all terms between both ends are
+// u (1-u) times known factors.
 //
-// With D for the difference between both ends, the residual of ball i is linear between its ends' roundings,
-// less u (1-u) ((|D c_i|^2 - (D s_i)^2) / 2 + D s_i D rho' - D c_i.D z'). sum w_i c_i, in the hull, differs
-// from z' by u (1-u) b, b = sum D w_i D c_i, so that z' leaves the hull by the part of that along its normal.
-// And |z'| sags by at most u (1-u) |D z'|^2 / (2 min |z'|). So every bound here is R + 4 u (1-u) Q: R what is
-// rounded, Q the most at u = 1/2. What is to within that a function linear from a to b is positive if a' =
-// a - R and b' = b - R are and a' + b' + 2 sqrt(a' b') > 4 Q; from u = d on if a' + d (b' - a') > 4 d Q and
-// b' - a' > 4 Q, since then it rises there.
+// Let D denote the difference between both ends. The residual of ball i is linear between its ends'
+// roundings, less u (1-u) ((|D c_i|^2 - (D s_i)^2) / 2 + D s_i D rho' - D c_i.D z'). The point sum w_i c_i,
+// in the hull, differs from z' by u (1-u) b, b = sum D w_i D c_i, so z' leaves the hull by the component of
+// this along its normal. And |z'| sags by at most u (1-u) |D z'|^2 / (2 min |z'|). So every bound here has
+// the form R + 4 u (1-u) Q, where R is the rounding and Q is the most at u = 1/2. Consider a quantity that
+// equals a linear function from a to b up to such a bound, with a' = a - R and b' = b - R. It is positive if
+// a' and b' are positive and a' + b' + 2 sqrt(a' b') > 4 Q. It is positive from u = d on if a' + d
+// (b' - a') > 4 d Q and b' - a' > 4 Q, since it then rises there.
 //
-// Normals and volumes are bounded by their Bernstein coefficients: of a product, bilinear, the one in the
-// middle is half of the sum of both ends' less that of the two D. Of the slope q, the least solution of c_i.q
-// = s_i, there is another bound than that by the heights: with q' that of the start, residuals s_i - c_i.q',
-// linear in u, bound how far q is from the part of q' in the hull, which is no longer than q'.
+// Normals and volumes are bounded by their Bernstein coefficients. In a bilinear product, the middle
+// coefficient is half of the sum of both ends' products less the product of the two D. The slope q, the least
+// solution of c_i.q = s_i, has another bound besides the one by heights. With q' the slope at the start, the
+// residuals s_i - c_i.q', linear in u, bound the distance of q from the component of q' in the hull, which is
+// no longer than q'.
 
 #include <array>
 
@@ -22,8 +24,8 @@
 
 namespace kds::detail {
 
-/// Plays the part of `margin` in linear motion: a control point is rounded by up to 9 units of 2^-53 of the
-/// lengths that went in, a volume or a residual by 60, below 2^-47.
+/// Replaces `margin` in linear motion: a control point is rounded by up to 9 units of 2^-53 of the input
+/// lengths, a volume or a residual by 60, which is below 2^-47.
 inline constexpr double linear_margin = 0x1p-45;
 
 /// R and Q.
@@ -37,7 +39,8 @@ struct Stray {
   [[gnu::always_inline]] Lanes most() const { return rounded + between; }
 };
 
-/// What all spheres of one size need of their balls, in the notation of tangent_lanes.h; `off_hull` for b.
+/// Quantities of the balls that all spheres of one size need, in the notation of tangent_lanes.h. `off_hull`
+/// refers to b.
 template <std::size_t M>
 struct LinearSimplex {
   std::array<Lanes, M> gain;
@@ -97,7 +100,7 @@ template <int D, std::size_t M>
     simplex.volume = abs(volume[0]);
     for (std::size_t k = 1; k < 4; ++k)
       simplex.volume = Lanes::min(simplex.volume, Lanes::choose(falls, -volume[k], volume[k]));
-    // What the product of two steps adds in the middle is below half their squares' sum.
+    // The middle term of a product of two steps is below half the sum of their squares.
     const std::array<Lanes, 3> steps{square(step[0]), square(step[1]), square(step[2])};
     const Lanes sum = steps[0] + steps[1] + steps[2];
     Vec<3> first_sum, last_sum;
@@ -116,7 +119,7 @@ template <int D, std::size_t M, bool equal>
 void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads, const PeriodLanes& period,
                         ChordLanes<D>& chords) {
   const Lanes half(0.5);
-  std::array<Vec<D>, M> a, b, c;  // curves seen from the first ball: their ends, the steps between
+  std::array<Vec<D>, M> a, b, c;  // curves relative to the first ball: their ends, and the steps between
   std::array<Lanes, M> sa, sb, sc;
   Lanes size(0.0);
   for (int axis = 0; axis < D + (equal ? 0 : 1); ++axis) {
@@ -133,13 +136,13 @@ void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads
       (axis < D ? c[i][place] : sc[i]) = control[1] - control[0];
     }
   }
-  size = size * Lanes(root_of[3]);  // no longer curve
-  // Within these, products keep clear of overflow and of subnormal numbers.
+  size = size * Lanes(root_of[3]);  // no curve is longer
+  // Within these limits, products neither overflow nor become subnormal.
   Lanes::Mask proved = (size > Lanes(0x1p-150)) & (Lanes(paths.extent()) < Lanes(0x1p150));
   const std::array<End<D, M>, 2> end{end_of<equal, D, M>(a, sa), end_of<equal, D, M>(b, sb)};
   const Vec<D> turn = minus(end[1].z, end[0].z);
   std::array<Lanes, 2> length{end[0].rho, end[1].rho};
-  Lanes mismatch(0.0);  // | |z'| - rho' | at the ends
+  Lanes mismatch(0.0);  // difference of |z'| and rho' at the ends
   if constexpr (!equal) {
     for (std::size_t e = 0; e < 2; ++e) {
       length[e] = root(dot(end[e].z, end[e].z));
@@ -149,7 +152,7 @@ void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads
   const Lanes l = Lanes::max(size, Lanes::max(length[0], length[1]));
   const Lanes rounding = Lanes(linear_margin) * l;
 
-  // z' and the combination of the balls by weights: what is apart at the ends, and between.
+  // Distance of z' from the weighted combination of the balls, at the ends and between.
   Lanes heaviest(1.0), apart_at_ends(0.0);
   for (const End<D, M>& e : end)
     for (const Lanes& w : e.weight) heaviest = Lanes::max(heaviest, abs(w));
@@ -168,13 +171,13 @@ void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads
   const Stray combined{apart_at_ends + weight_rounding, Lanes(0.25) * root(dot(bend, bend))};
 
   const LinearSimplex<M> simplex = linear_simplex_of<D, M>(a, b, c, bend);
-  Lanes power(1.0);  // size to the (M - 1)-th
+  Lanes power(1.0);  // size to the power M - 1
   for (std::size_t i = 1; i < M; ++i) power = power * size;
   const Lanes volume = simplex.volume * Lanes(1 - 0x1p-30) - Lanes(linear_margin) * power * size;
   proved &= volume > Lanes(0.0);
   const Lanes over = Lanes(up) / volume;
 
-  // x = z' + (what follows from the residuals) + (slope of the radii) * (rho - rho').
+  // Uses x = z' + (term from the residuals) + (slope of the radii) * (rho - rho').
   Stray stray{power * size * rounding * over, Lanes(0.0)};
   if constexpr (M < D) {
     stray.rounded += power * size * combined.rounded * over;
@@ -215,7 +218,7 @@ void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads
     strays = (stray + radius_strays * slope.most) * Lanes(up);
   }
 
-  // How far x is from the combination, by the heights.
+  // Distance of x from the combination, by the heights.
   const Stray apart = (strays + combined) * (over * Lanes(up));
   chords.stays = chords.rises = Lanes::Mask{};
   for (std::size_t i = 0; i <= M; ++i) {
@@ -241,7 +244,7 @@ void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads
     chords.center[e] = end[e].z;
     chords.limit[e] = end[e].rho - loss;
   }
-  chords.proved = proved & (loss < Lanes(4.0) * l);  // nor where a bound is no number
+  chords.proved = proved & (loss < Lanes(4.0) * l);  // false too if a bound is NaN
 }
 
 }  // namespace kds::detail

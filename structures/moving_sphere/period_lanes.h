@@ -1,5 +1,5 @@
 #pragma once
-// Parts of a step side by side, and what the chords of four spheres need of them.
+// Parts of a step in lanes, and the data that the chords of four spheres need of them.
 
 #include <algorithm>
 #include <array>
@@ -10,13 +10,13 @@
 
 namespace kds {
 
-/// What is cut off before, and then after.
+/// The shares to cut off before and then after.
 struct PeriodLanes {
   Lanes from, to;
   Lanes sure;  // as a share of the part
-  bool whole;  // nothing at all
+  bool whole;  // nothing is cut off
 
-  /// Up to four, the last one as often as there are lanes left.
+  /// Takes up to four periods; the last one fills the remaining lanes.
   explicit PeriodLanes(std::span<const Period> periods) {
     const std::size_t last = periods.size() - 1;
     const Period &a = periods[0], &b = periods[std::min<std::size_t>(1, last)],
@@ -30,7 +30,7 @@ struct PeriodLanes {
   }
 };
 
-/// Control points of the part from those of the step.
+/// Computes the control points of the part from those of the step.
 template <std::size_t N>
 [[gnu::always_inline]] inline void cut(std::array<Lanes, N>& control, const PeriodLanes& period) {
   if (period.whole) return;
@@ -38,7 +38,7 @@ template <std::size_t N>
   casteljau_left(control, period.to);
 }
 
-/// Where all distances, given by their squares, are within what there is room for.
+/// Returns the lanes where all distances, given by their squares, are within the available room.
 template <std::size_t N>
 [[gnu::always_inline]] inline Lanes::Mask are_within(const std::array<Lanes, N>& square,
                                                      const std::array<Lanes, N>& room) {

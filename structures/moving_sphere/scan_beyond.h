@@ -1,6 +1,6 @@
 #pragma once
-// The scan for beads that the chord of a sphere (sphere_chord.h) does not prove to stay inside: four at a
-// time, at all control points.
+// Scans for beads that the chord of a sphere (sphere_chord.h) does not prove to stay inside, four at a time,
+// at all control points.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,8 @@
 
 namespace kds::detail {
 
-/// 64 beads from some bead on, a bit each: in four runs of every fourth bead, as lanes see them.
+/// A word with one bit for each of 64 consecutive beads, in four runs of every fourth bead, the order in
+/// which lanes produce them.
 class BeadWord {
  public:
   static constexpr BeadId size = 64;
@@ -29,7 +30,7 @@ class BeadWord {
   [[nodiscard]] static constexpr std::uint64_t bit_of(BeadId place) {
     return 1ULL << (16 * (place % 4) + place / 4);
   }
-  /// The bits of the first `count` beads.
+  /// Returns the bits of the first `count` beads.
   [[nodiscard]] static std::uint64_t first(BeadId count) {
     static constexpr auto words = [] {
       std::array<std::uint64_t, size + 1> word{};
@@ -43,10 +44,10 @@ class BeadWord {
   Lanes::Mask bits_{}, next_{1, 1, 1, 1};
 };
 
-/// What is rounded where a limit is compared.
+/// Allows for the rounding of the comparison with a limit.
 inline constexpr double below = 1 - 0x1p-40;
 
-/// Calls `visit` with beads of a range, ascending, without those of the basis, that are not proved to stay
+/// Calls `visit` with the beads of a range, ascending and without basis beads, that are not proved to stay
 /// inside from then on.
 template <int D, int K, bool equal, class Visit>
 [[gnu::always_inline]] inline void scan_beyond(const BeadPaths<D>& paths, const BeadRange& range,
@@ -90,11 +91,11 @@ template <int D, int K, bool equal, class Visit>
       }
       outside.add(~are_within(square, room));
     }
-    // Basis beads never lie inside: looked at on the way they would often be, and no one could foretell in
-    // which four.
+    // Basis beads never lie inside. They are removed here, because a branch on them during the scan would be
+    // unpredictable.
     std::uint64_t bits = outside.bits() & BeadWord::first(last - first + 1);
     for (const BeadId member : basis) {
-      const BeadId place = member - first;  // wraps around where it is before
+      const BeadId place = member - first;  // wraps around if the member lies before
       bits &= ~(place < BeadWord::size ? BeadWord::bit_of(place) : 0);
     }
     for (BeadId place = 0; bits != 0; ++place) {

@@ -29,7 +29,7 @@ using detail::Vec;
 template <int D, std::size_t M, int K>
 [[KDS_LANES_TARGETS]] void find_curved_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads,
                                               const PeriodLanes& period, ChordLanes<D>& chords) {
-  // Curves seen from the first ball; their ends.
+  // Curves relative to the first ball, and their ends.
   std::array<CurveLanes<K, D>, M> d;
   std::array<PolynomialLanes<K>, M> s;
   std::array<std::array<Vec<D>, M>, 2> d_at;
@@ -54,8 +54,8 @@ template <int D, std::size_t M, int K>
       for (std::size_t e = 0; e < 2; ++e) (axis < D ? d_at[e][i][place] : s_at[e][i]) = control[i][e * K];
     }
   }
-  size = size * Lanes(detail::root_of[3]);  // no longer curve
-  // Within these, products keep clear of overflow and of subnormal numbers.
+  size = size * Lanes(detail::root_of[3]);  // no curve is longer
+  // Within these limits, products neither overflow nor become subnormal.
   Lanes::Mask proved = (size > Lanes(0x1p-150)) & (Lanes(paths.extent()) < Lanes(0x1p150));
   const std::array<End<D, M>, 2> end{end_of<false, D, M>(d_at[0], s_at[0]),
                                      end_of<false, D, M>(d_at[1], s_at[1])};
@@ -66,19 +66,19 @@ template <int D, std::size_t M, int K>
   const Lanes rounding = Lanes(margin) * l;
 
   const Simplex<M> simplex = simplex_of<D, M, K>(d, z);
-  Lanes power(1.0);  // size to the (M - 1)-th
+  Lanes power(1.0);  // size to the power M - 1
   for (std::size_t i = 1; i < M; ++i) power = power * size;
   const Lanes volume = simplex.volume * Lanes(1 - 0x1p-30) - Lanes(margin) * power * size;
   proved &= volume > Lanes(0.0);
   const Lanes over = Lanes(up) / volume;
 
-  // x = z' + (what follows from the residuals) + (slope of the radii) * (rho - rho').
+  // Uses x = z' + (term from the residuals) + (slope of the radii) * (rho - rho').
   Lanes stray = (simplex.off_hull + power * size * rounding) * over;
   SlopeBound slope{Lanes(0.0), root(detail::dot(end[0].q, end[0].q)), Lanes(0.0)};
   CurveLanes<0, D> q;
   for (std::size_t axis = 0; axis < D; ++axis) q[axis].scaled = {end[0].q[axis]};
   for (std::size_t i = 0; i < M; ++i) {
-    // 2 r_i = |c_i|^2 - s_i^2 + 2 s_i rho' - 2 c_i.z'
+    // Twice the residual is 2 r_i = |c_i|^2 - s_i^2 + 2 s_i rho' - 2 c_i.z'.
     auto product = dot(d[i], z);
     product -= s[i] * rho;
     product += product;
@@ -93,7 +93,7 @@ template <int D, std::size_t M, int K>
   slope.most = Lanes::min(slope.most, (slope.at_start + slope.wander) * Lanes(up));
   const Lanes nearest = least_length(z) - rounding;
   proved &= nearest > Lanes(0.0);
-  // | |z'| - rho' |: the length of z' sags below its chord.
+  // Bounds the difference of |z'| and rho'. The length of z' sags below its chord.
   Lanes change(0.0), mismatch(0.0);
   for (std::size_t axis = 0; axis < D; ++axis) {
     const Lanes step = end[1].z[axis] - end[0].z[axis];
@@ -107,7 +107,7 @@ template <int D, std::size_t M, int K>
   const Lanes radius_strays = (sag + stray) * (Lanes(up) / lead);
   const Lanes strays = (stray + slope.most * radius_strays) * Lanes(up);
 
-  // How far z' is from sum w_i c_i.
+  // Bounds the distance of z' from sum w_i c_i.
   CurveLanes<K + 1, D> bend;
   for (std::size_t axis = 0; axis < D; ++axis) {
     bend[axis] = elevate<K + 1>(z[axis]);
@@ -133,10 +133,10 @@ template <int D, std::size_t M, int K>
     chords.center[e] = end[e].z;
     chords.limit[e] = end[e].rho - loss;
   }
-  chords.proved = proved & (loss < Lanes(4.0) * l);  // nor where a bound is no number
+  chords.proved = proved & (loss < Lanes(4.0) * l);  // false too if a bound is NaN
 }
 
-/// Of two balls of one radius in linear motion: the midpoint moves linearly, and the two never part.
+/// Handles two balls of equal radius in linear motion: the midpoint moves linearly, and the two never part.
 template <int D>
 [[KDS_LANES_TARGETS]] void find_chords_of_pairs(const BeadPaths<D>& paths, const BeadLanes<2>& beads,
                                                 const PeriodLanes& period, ChordLanes<D>& chords) {
@@ -157,20 +157,20 @@ template <int D>
     change += (d[1] - d[0]) * (d[1] - d[0]);
   }
   const std::array<Lanes, 2> length{root(square[0]), root(square[1])};
-  const Lanes longest = size * Lanes(detail::root_of[3]);  // or more
-  // Half of what bounds the length from below.
+  const Lanes longest = size * Lanes(detail::root_of[3]);  // an upper bound
+  // Half the lower bound of the length.
   const Lanes nearest = Lanes(0.25) * (length[0] + length[1] - root(change)) - Lanes(margin) * longest;
   chords.proved =
       (longest > Lanes(0x1p-150)) & (Lanes(paths.extent()) < Lanes(0x1p150)) & (nearest > Lanes(0.0));
   chords.stays = Lanes::Mask{} + 3;
   chords.dip = Lanes(0.03125) * change / nearest * Lanes(up);
   const Lanes loss = chords.dip + Lanes(margin) * (Lanes(paths.extent()) + longest);
-  // Where they nearly meet a limit is rounded by more than that.
+  // If the balls nearly meet, a limit's rounding exceeds its value.
   chords.proved &= loss < Lanes(4.0) * longest;
   for (std::size_t e = 0; e < 2; ++e) chords.limit[e] = Lanes(0.5) * length[e] - loss;
 }
 
-/// Of a ball that holds the others.
+/// Handles a ball that holds the others.
 template <int D>
 void find_chords_of_one(const BeadPaths<D>& paths, ChordLanes<D>& chords) {
   for (std::size_t e = 0; e < 2; ++e) {
@@ -213,7 +213,7 @@ void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bas
 template <int D, int K>
 void find_chords_of_degree(const BeadPaths<D>& paths, std::span<const Basis> bases, const PeriodLanes& period,
                            ChordLanes<D>& chords) {
-  // A form of its own where it matters.
+  // The most frequent case has a specialization of its own.
   return K == 1 && paths.equal_radii() ? find_chords_of_degree<D, K, K == 1>(paths, bases, period, chords)
                                        : find_chords_of_degree<D, K, false>(paths, bases, period, chords);
 }

@@ -21,7 +21,7 @@ using detail::simplex_of;
 using detail::up;
 using detail::Vec;
 
-/// A bound of the slope.
+/// Returns a bound of the slope.
 template <int N>
 [[gnu::always_inline]] inline Lanes steepest(const PolynomialLanes<N>& p) {
   Lanes most(0.0);
@@ -42,7 +42,7 @@ template <int N, std::size_t Size>
   return Lanes(static_cast<double>(N)) * root(most);
 }
 
-/// What vanishes where a point is in the hull, times the volume: of a linear path z.
+/// Returns, for a linear path z, the polynomials that vanish if z is in the hull, times the volume.
 template <int D, std::size_t M, int N>
 [[gnu::always_inline]] inline auto off_hull(const std::array<CurveLanes<1, D>, M>& d,
                                             const CurveLanes<N, D>& z) {
@@ -80,7 +80,7 @@ void find_motion_in_lanes(const BeadPaths<D>& paths, const BeadLanes<M + 1>& bea
       for (std::size_t e = 0; e < 2; ++e) (axis < D ? d_at[e][i][place] : s_at[e][i]) = control[e];
     }
   }
-  size = size * Lanes(detail::root_of[3]);  // no longer curve
+  size = size * Lanes(detail::root_of[3]);  // no curve is longer
   Lanes::Mask proved = (size > Lanes(0x1p-150)) & (size < Lanes(0x1p150));
   const std::array<End<D, M>, 2> end{end_of<false, D, M>(d_at[0], s_at[0]),
                                      end_of<false, D, M>(d_at[1], s_at[1])};
@@ -91,13 +91,13 @@ void find_motion_in_lanes(const BeadPaths<D>& paths, const BeadLanes<M + 1>& bea
   const Lanes rounding = Lanes(margin) * l;
 
   const Simplex<M> simplex = simplex_of<D, M, 1>(d, z);
-  Lanes power(1.0);  // size to the (M - 1)-th
+  Lanes power(1.0);  // size to the power M - 1
   for (std::size_t i = 1; i < M; ++i) power = power * size;
   const Lanes volume = simplex.volume * Lanes(1 - 0x1p-30) - Lanes(margin) * power * size;
   proved &= volume > Lanes(0.0);
   const Lanes over = Lanes(up) / volume;
 
-  // As in sphere_chord.h, for the whole period and for its ends; the slope of the residuals.
+  // Bounds residuals as in sphere_chord.h, for the whole period and for its ends, and bounds their slopes.
   const Lanes hull_rounding = power * size * rounding;
   Lanes off_at_ends(0.0), off_rate(0.0), off_turn(0.0), q_off(0.0);
   CurveLanes<0, D> q;
@@ -158,7 +158,7 @@ void find_motion_in_lanes(const BeadPaths<D>& paths, const BeadLanes<M + 1>& bea
   const Lanes radius_strays_at_ends = (mismatch + rounding + stray_at_ends) * steadiness;
   const Lanes strays_at_ends = (stray_at_ends + slope * radius_strays_at_ends) * Lanes(up);
 
-  // Their slopes.
+  // Bounds of the slopes.
   Lanes stray_rate = (off_rate + hull_rounding + (off_turn + Lanes(margin) * power * size) * strays) * over;
   for (std::size_t i = 0; i < M; ++i) {
     stray_rate += gain[i] * (residual_rate[i] + (steepest(d[i]) + rounding) * strays +

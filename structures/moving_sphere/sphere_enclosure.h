@@ -1,17 +1,20 @@
 #pragma once
-// Where the sphere of a basis is in four parts of a step, and how fast it moves and grows: balls of unequal
-// radii in linear motion, in the plane and in space.
+// Encloses the sphere of a basis in four parts of a step: its position and how fast it moves and grows. For
+// balls of unequal radii in linear motion, in the plane and in space.
 //
-// With the notation of sphere_chord.h: in a period the centre is z' + xi, the radius rho' + eta, |xi| <= E,
-// |eta| <= H. Differentiated, c_i.xi - s_i eta = r_i says
-//   c_i.xi' - s_i eta' = r_i' - c_i'.xi + s_i' eta,
-// so xi' is bounded as xi was, up to q eta', by residuals |r_i'| + |c_i'| E + |s_i'| H; with m normal to the
-// hull, m.x = 0 bounds what leaves the hull by (|(m.z')'| + |m'| E) / |m|. And |x| = rho gives eta' = n.(z''
-// + xi') - rho'', z'' and rho'' the chord's slopes. There xi' contains q eta', so eta' is bounded by the rest
-// over L <= 1 - n.q. |z'|' is |z'(1)| - |z'(0)| to within |z''|^2 / min |z'|, and x/|x| differs from z'/|z'|
-// by at most 2 E / |z'|. The slope q is known at the start, and from its residuals s_i - c_i.q for all of the
-// period. In double with the margins of sphere_chord.h, of lengths as seen from the basis' first ball alone:
-// 2^-45, since motion is linear (40 units of 2^-53 are rounded).
+// The notation is that of sphere_chord.h. In a period the centre is z' + xi and the radius rho' + eta, with
+// |xi| <= E and |eta| <= H. The derivative of c_i.xi - s_i eta = r_i is
+//
+//   c_i.xi' - s_i eta' = r_i' - c_i'.xi + s_i' eta.
+//
+// So xi' is bounded like xi, up to q eta', with residuals |r_i'| + |c_i'| E + |s_i'| H. With m normal to the
+// hull, m.x = 0 bounds the component outside the hull by (|(m.z')'| + |m'| E) / |m|. And |x| = rho gives
+// eta' = n.(z'' + xi') - rho'', where z'' and rho'' are the chord's slopes. This xi' contains q eta', so eta'
+// is bounded by the remaining terms over L <= 1 - n.q. |z'|' equals |z'(1)| - |z'(0)| to within |z''|^2 / min
+// |z'|, and x/|x| differs from z'/|z'| by at most 2 E / |z'|. The slope q is known at the start, and its
+// residuals s_i - c_i.q bound it for the whole period. Computed in double with the margins of sphere_chord.h
+// for lengths relative to the basis' first ball alone: 2^-45, since motion is linear (40 units of 2^-53 are
+// rounded).
 
 #include <array>
 
@@ -28,16 +31,16 @@ struct SphereEnclosure {
   using Four = std::array<double, periods>;
 
   std::array<Period, periods> period;
-  std::array<std::array<Four, Dimension>, 2> center;  ///< at both ends, from the basis' first bead
+  std::array<std::array<Four, Dimension>, 2> center;  ///< at both ends, relative to the basis' first bead
   std::array<Four, 2> rho;                            ///< less the first bead's radius
-  Four center_strays;                                 ///< E
+  Four center_strays;                                 ///< the bound E
   Four loss, loss_at_ends;                            ///< E + H in the period and at its ends
-  Four rate_loss;                                     ///< |xi'| + |eta'|, in units of the period
-  Four scale;                                         ///< no length that went in is larger
+  Four rate_loss;                                     ///< bounds |xi'| + |eta'|, per period
+  Four scale;                                         ///< bounds all input lengths
   std::array<Four, Dimension> q;                      ///< at the start
-  Four q_error;                                       ///< in all of the period
+  Four q_error;                                       ///< in the whole period
   Four other_root;                                    ///< f of gap_bounds.h
-  unsigned proved;                                    ///< a bit each
+  unsigned proved;                                    ///< one bit per part
 };
 
 /// Encloses the sphere of a basis of two or more balls in four parts of the step. Paths must be of degree 1.

@@ -18,16 +18,16 @@ using detail::margin;
 using detail::up;
 using detail::Vec;
 
-/// Four spheres, and what there is room for: slack is at most `most` and (reach - farthest) / pace,
-/// where no ball but those of the basis reaches farther than `farthest` from the centre.
+/// Four spheres and their room: slack is at most `most` and (reach - farthest) / pace, where no ball outside
+/// the basis reaches farther than `farthest` from the centre.
 template <int D>
 struct Room {
   Vec<D> center;
   Lanes reach, pace, most;
 };
 
-/// Lengths of the gradients of barycentric coordinates, of the longest sum of some of them, and the Frobenius
-/// norm of the matrix of all but the first. Upper bounds; infinite where the simplex may be flat.
+/// Upper bounds of the lengths of the gradients of barycentric coordinates, of the longest sum of some of
+/// them, and of the Frobenius norm of the matrix of all but the first. Infinite if the simplex may be flat.
 template <std::size_t M>
 struct Gradients {
   std::array<Lanes, M> each;  // all but the first
@@ -107,7 +107,7 @@ template <int D, std::size_t M, bool equal>
   const Lanes rounding = Lanes(margin) * l;
 
   const Gradients<M> g = gradients_of<D, M>(d, size);
-  // A fifth of what would make it flat.
+  // A fifth of the movement that could make the simplex flat.
   const Lanes most = Lanes::min(wanted, Lanes(0.1 / root_of_m) / g.norm);
   const Lanes turn = Lanes(1.4143 * 1.25 * 2 * root_of_m) * g.norm * g.norm * most;
 
@@ -118,7 +118,7 @@ template <int D, std::size_t M, bool equal>
     for (std::size_t axis = 0; axis < D; ++axis) bend[axis] -= end.weight[i + 1] * d[i][axis];
   }
   lightest -= Lanes(margin);
-  const Lanes off = root(detail::dot(bend, bend)) * Lanes(up) + rounding;  // z from the sum of w_i d_i
+  const Lanes off = root(detail::dot(bend, bend)) * Lanes(up) + rounding;  // of z from the sum
   Lanes error = abs(root(detail::dot(end.z, end.z)) - end.rho), largest = end.rho, least = end.rho,
         slope(0.0);
   for (std::size_t i = 0; i < M; ++i) {
@@ -131,9 +131,10 @@ template <int D, std::size_t M, bool equal>
   }
   error = (error + off + rounding) * Lanes(up);
 
-  // The centre moves from z' by at most drift * t + drift_at_rest; the radius is known to radius_error.
+  // The centre moves from z' by at most drift * t + drift_at_rest. The radius is known to within
+  // radius_error.
   Lanes drift(0.0), drift_at_rest(0.0);
-  if constexpr (!(equal && M == 1)) {  // else it is the midpoint
+  if constexpr (!(equal && M == 1)) {  // otherwise it is the midpoint
     const Lanes gain = (g.longest_sum * Lanes(2.0) + turn * Lanes(2 * root_of_m)) * (largest + most + error);
     drift = gain * Lanes(2.0) * (Lanes(1.0 + margin) - lightest) * Lanes(up);
     drift_at_rest = gain * error * Lanes(up);
@@ -144,11 +145,11 @@ template <int D, std::size_t M, bool equal>
 
   const Lanes steepest = (g.longest + turn * Lanes(root_of_m)) * Lanes(up);
   const Lanes by_weight =
-      (lightest / steepest - drift_at_rest) / drift;  // infinite where the centre keeps to z'
+      (lightest / steepest - drift_at_rest) / drift;  // infinite if the centre stays at z'
   const Lanes by_radius = Lanes(0.5) * (least - radius_error - rounding);
   const Lanes::Mask proved = (size > Lanes(0x1p-150)) & (Lanes(paths.extent()) < Lanes(0x1p150)) &
                              (slope < Lanes(0.9)) & (lightest > steepest * drift_at_rest) &
-                             (error < l);  // nor where a bound is no number
+                             (error < l);  // false too if a bound is NaN
   room.center = end.z;
   room.reach = end.rho - (off + drift_at_rest + radius_error) * Lanes(up) -
                Lanes(margin) * (Lanes(paths.extent()) + l);
@@ -156,8 +157,8 @@ template <int D, std::size_t M, bool equal>
   room.most = Lanes::choose(proved, Lanes::min(most, Lanes::min(by_weight, by_radius)), Lanes(0.0));
 }
 
-/// How far from `center`, seen from the basis' first ball, any ball of the node reaches but those of the
-/// basis: less the first ball's radius.
+/// Returns the greatest distance from `center`, relative to the basis' first ball, of a point of a ball
+/// outside the basis, less the first ball's radius.
 template <int D, bool equal>
 [[KDS_LANES_TARGETS]] void find_farthest(const BeadPaths<D>& paths, const BeadRange& range,
                                          const Basis& basis, const std::array<double, D>& center,
@@ -220,7 +221,7 @@ void find_slack(const BeadPaths<D>& paths, std::span<const BeadRange> nodes, std
     for (std::size_t axis = 0; axis < D; ++axis) center[axis] = room.center[axis].v[lane];
     double farthest = 0;
     find_farthest<D, equal>(paths, nodes[lane], bases[lane], center, farthest);
-    // Shorter than it is by what is rounded here and where it is used up step by step.
+    // Reduced by the rounding here and by the rounding each time a step uses it up.
     constexpr double down = 1 - 0x1p-20;
     const double by_others = (room.reach.v[lane] - farthest) / room.pace.v[lane];
     slack[lane] = std::min(room.most.v[lane], by_others) * down;

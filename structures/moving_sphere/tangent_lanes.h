@@ -1,5 +1,5 @@
 #pragma once
-// The tangent spheres of four bases side by side, in double, and what bounds of their errors are built from.
+// The tangent spheres of four bases in lanes, in double, and the ingredients of their error bounds.
 
 #include <algorithm>
 #include <array>
@@ -13,9 +13,9 @@
 
 namespace kds::detail {
 
-// Relative to the lengths that went in. Four balls in cubic motion in a part of the step are the worst: a
+// Relative to the input lengths. The worst case is four balls in cubic motion in a part of the step: a
 // control point is rounded by up to 37 units of 2^-53, a product of three by 130, a residual with its sphere
-// by 220, below 2^-45.
+// by 220, which is below 2^-45.
 inline constexpr double margin = 0x1p-42;
 inline constexpr double up = 1 + 0x1p-30;
 
@@ -44,13 +44,13 @@ BeadLanes<Size> beads_of(std::span<const Basis> bases) {
   return Lanes::Vector{column[at[0]], column[at[1]], column[at[2]], column[at[3]]};
 }
 
-/// At one time: the tangent sphere, seen from the first ball.
+/// The tangent sphere at one time, relative to the first ball.
 template <int D, std::size_t M>
 struct End {
   Vec<D> z;
   Lanes rho;
   std::array<Lanes, M + 1> weight;  // barycentric coordinates of z
-  Vec<D> q;                         // unequal radii: how z changes with rho
+  Vec<D> q;                         // unequal radii: derivative of z by rho
 };
 
 template <bool equal, int D, std::size_t M>
@@ -77,13 +77,14 @@ template <bool equal, int D, std::size_t M>
   }
 }
 
-/// What solving for a point by its products with the c_i costs: from residuals r_i the point errs by sum
-/// gain_i |r_i| / volume at most. One by the height of ball i > 0 is gain_i / volume too.
+/// The condition of solving for a point by its dot products with the c_i: with residuals r_i, the point's
+/// error is at most sum gain_i |r_i| / volume. For i > 0, the inverse height of ball i is gain_i / volume
+/// too.
 template <std::size_t M>
 struct Simplex {
   std::array<Lanes, M> gain;
   Lanes gain_of_first;
-  Lanes volume;    // the least
+  Lanes volume;    // the least volume
   Lanes off_hull;  // how far z' leaves the affine hull, times the volume
 };
 
@@ -124,23 +125,24 @@ template <int D, std::size_t M, int K>
   return simplex;
 }
 
-/// Bounds of the slope q (sphere_chord.h): of its length at any time and at the start, and of how far it is
-/// from the part in the hull of the slope at the start.
+/// Bounds of the slope q (sphere_chord.h): its length at any time and at the start, and its distance from the
+/// component in the hull of the slope at the start.
 struct SlopeBound {
   Lanes most, at_start, wander;
 };
 
-/// L of sphere_chord.h: 1 - n.q >= L wherever |rho - rho'| <= (sag + stray) / L. Nothing is known where it is
-/// not positive. `ahead`: z'.q at most, for the q at the start; `nearest`, `longest`: bounds of |z'|.
+/// Returns L of sphere_chord.h: 1 - n.q >= L wherever |rho - rho'| <= (sag + stray) / L. If the result is not
+/// positive, nothing is known. `ahead` is an upper bound of z'.q for the q at the start; `nearest` and
+/// `longest` bound |z'|.
 [[gnu::always_inline]] inline Lanes least_lead(const SlopeBound& slope, const Lanes& ahead,
                                                const Lanes& nearest, const Lanes& longest, const Lanes& stray,
                                                const Lanes& sag) {
   const Lanes along = ahead / Lanes::choose(ahead > Lanes(0.0), nearest, longest);
   const Lanes lead =
       (Lanes(1.0) - along) - slope.wander * Lanes(up) - Lanes(margin) * (Lanes(1.0) + slope.at_start);
-  // For z'/|z'| so far: n, in the hull, is not farther from it than 2 |x - z'| / |z'|. If that takes no more
-  // than a quarter, three quarters may stand for L in how far x strays. Then the margin is enough, too: sag
-  // is below nearest, so longest is not much more than that.
+  // The bound so far is for z'/|z'|. The unit vector n, in the hull, differs from it by at most 2 |x - z'| /
+  // |z'|. If that costs at most a quarter, three quarters may stand for L in the bound of how far x strays.
+  // The margin then suffices too: sag is below nearest, so longest is not much more than nearest.
   const Lanes reach = stray + slope.most * (sag + stray) / (Lanes(0.75) * lead);
   const Lanes turned = Lanes(2 * up) * slope.at_start * reach / nearest;
   const Lanes::Mask known = (nearest > Lanes(0.0)) & (lead > Lanes(0.0)) & (turned < Lanes(0.25 / up) * lead);
@@ -148,7 +150,7 @@ struct SlopeBound {
   return Lanes::max(in_any_direction, Lanes::choose(known, lead - turned, in_any_direction));
 }
 
-/// What is proved only where the lead is more.
+/// Least lead for which results count as proved.
 inline constexpr double little_lead = 0.02;
 
 }  // namespace kds::detail
