@@ -1,6 +1,6 @@
-# Blocks of C++ and CMake in the pages are excerpts of files that the tests compile: the line before a block names its file,
-# <!-- examples/first_run.cpp -->, and the block stands there as it is.
-# cmake -DROOT=<source tree> -P CheckCodeBlocks.cmake
+# Checks that blocks of C++ and CMake in the documentation are excerpts of files that the tests compile. The line before a
+# block names its file, <!-- examples/first_run.cpp -->, and the file must contain the block verbatim.
+# Usage: cmake -DROOT=<source tree> -P CheckCodeBlocks.cmake
 cmake_minimum_required(VERSION 3.25)
 file(GLOB pages RELATIVE "${ROOT}" "${ROOT}/*.md" "${ROOT}/docs/*.md")
 set(blocks 0)

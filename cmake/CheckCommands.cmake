@@ -1,12 +1,12 @@
-# docs/commands.md says what the program's own help says: it shows the help of every command as it is, has a section for each and
-# for no other, and names no option in a section that the command's help does not name.
-# cmake -DPROGRAM=<kds> -DROOT=<source tree> [-DWRITE=ON] -P CheckCommands.cmake; with WRITE it puts the help in that is shown.
+# Checks docs/commands.md against the program's help: it quotes the help of every command verbatim, has exactly one section for
+# each command, and a section names only options that the command's help names.
+# Usage: cmake -DPROGRAM=<kds> -DROOT=<source tree> [-DWRITE=ON] -P CheckCommands.cmake. WRITE updates the quoted help.
 cmake_minimum_required(VERSION 3.25)
 
 set(page "${ROOT}/docs/commands.md")
 file(READ "${page}" text)
 
-# The output of the program with these arguments.
+# Sets the output of the program with these arguments.
 function(output_of variable)
   execute_process(COMMAND "${PROGRAM}" ${ARGN} OUTPUT_VARIABLE output RESULT_VARIABLE failed)
   if(failed)
@@ -15,7 +15,7 @@ function(output_of variable)
   set(${variable} "${output}" PARENT_SCOPE)
 endfunction()
 
-# Puts the help of a command into its block, or says that it is not what is there.
+# Writes the help of a command into its block, or reports that the block differs from it.
 function(check_block arguments output)
   set(begin "```text\n$ kds ${arguments}\n")
   string(FIND "${text}" "${begin}" at)

@@ -1,4 +1,4 @@
-# Every file that docs/glossary.md names is there.
+# Checks that every file named in docs/glossary.md exists.
 file(READ "${ROOT}/docs/glossary.md" glossary)
 string(REGEX MATCHALL "`[a-z]+/[a-z_/]+\\.h`" names "${glossary}")
 if(NOT names)

@@ -1,6 +1,6 @@
-# Folders include one way: a file may include its own folder and those before it in this list. Nothing before structures/
-# knows CGAL.
-# cmake -DROOT=<source tree> -P CheckIncludes.cmake
+# Checks that includes go one way: a file may include its own folder and the folders before it in this list. No folder before
+# structures/ includes CGAL.
+# Usage: cmake -DROOT=<source tree> -P CheckIncludes.cmake
 set(order "")
 macro(room name)
   foreach(part ${ARGN})
@@ -28,7 +28,7 @@ foreach(room motions certificates kds structures experiments)
       continue()
     endif()
     file(STRINGS "${ROOT}/${file}" includes REGEX "^#include")
-    # A source file includes its own header first: so each header is compiled alone somewhere.
+    # A source file includes its own header first, so each header is compiled without other headers before it.
     string(REGEX REPLACE "[.]cpp$" ".h" header "${file}")
     if(file MATCHES "[.]cpp$" AND EXISTS "${ROOT}/${header}")
       list(GET includes 0 first)

@@ -1,4 +1,4 @@
-# The README is a page or two: at most 150 lines. It shows examples/first_run.cpp as it is.
+# Checks that the README has at most 150 lines and shows examples/first_run.cpp verbatim.
 file(READ "${ROOT}/README.md" readme)
 string(REGEX REPLACE "[^\n]" "" newlines "${readme}")
 string(LENGTH "${newlines}" lines)

@@ -1,5 +1,6 @@
-# Finds gemmi: KDS_GEMMI_INCLUDE_DIR, and where it has a library, KDS_GEMMI_LIBRARY and the target kds::gemmi. Some versions are
-# header-only, others are not, and not all packages bring a CMake package. Linking a program that reads a PDB file tells.
+# Finds gemmi: sets KDS_GEMMI_INCLUDE_DIR and, if gemmi has a library, KDS_GEMMI_LIBRARY and the target kds::gemmi. Some versions
+# are header-only, and not all packages include a CMake package. Linking a program that reads a PDB file shows whether the
+# library is needed.
 include(CheckCXXSourceCompiles)
 include(CMakePushCheckState)
 include(FindPackageHandleStandardArgs)

@@ -1,4 +1,4 @@
-# The target kds::mpfr, for the build and for users of the package: MPFR brings no CMake package of its own.
+# Defines the target kds::mpfr for the build and for users of the package, because MPFR has no CMake package.
 include(FindPackageHandleStandardArgs)
 find_path(KDS_MPFR_INCLUDE_DIR mpfr.h)
 find_library(KDS_MPFR_LIBRARY mpfr)

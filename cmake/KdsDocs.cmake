@@ -1,4 +1,4 @@
-# The target `docs`: the API reference, by Doxygen where it is installed, in docs/html of the build tree. A warning is an error.
+# Defines the target `docs` if Doxygen is installed: the API reference in docs/html of the build tree. Warnings are errors.
 find_package(Doxygen 1.9 QUIET)
 if(DOXYGEN_FOUND)
   set(KDS_DOXYGEN_WARNINGS FAIL_ON_WARNINGS)

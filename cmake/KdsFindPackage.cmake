@@ -1,7 +1,7 @@
-# kds_find_package(<package> [<version>]): finds what the project needs; kds_found_all() then says in one line for each what is
-# missing, with the names of packages that scripts/packages has.
+# kds_find_package(<package> [<version>]) finds a required package. kds_found_all() then prints one line for each missing
+# package, with its names on several systems from scripts/packages.
 set(KDS_MISSING "")
-set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)  # CGAL finds Boost by Boost's own package
+set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)  # CGAL finds Boost by Boost's CMake package
 
 macro(kds_find_package package)
   find_package(${package} ${ARGN} QUIET)

@@ -1,14 +1,15 @@
-# The package: what `cmake --install` installs, and find_package(kds) in the build tree. Each library is a component with a file
-# of targets of its own, so that who asks for the engine needs nothing of what only structures need.
+# Defines the package for `cmake --install` and for find_package(kds) in the build tree. Each library is a component with its own
+# file of targets, so a user of the engine needs none of the packages that only structures require.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Headers include each other as "kds/simulator.h", "motions/curves/...": in a folder of their own they meet nobody else's.
+# Headers include each other as "kds/simulator.h", "motions/curves/...". A folder of their own avoids clashes with other
+# projects' headers.
 set(KDS_HEADER_FOLDER "${CMAKE_INSTALL_INCLUDEDIR}/kds")
 set(KDS_PACKAGE_FOLDER "${CMAKE_INSTALL_LIBDIR}/cmake/kds")
 set(KDS_PKGCONFIG_FOLDER "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
 
-# kds_install_component(<component> TARGETS <target>... [REQUIRES <packages of pkg-config>...] [LIBRARIES <files>...])
+# kds_install_component(<component> TARGETS <target>... [REQUIRES <pkg-config packages>...] [LIBRARIES <files>...])
 function(kds_install_component component)
   cmake_parse_arguments(ARG "" "" "TARGETS;REQUIRES;LIBRARIES" ${ARGN})
   set(libraries "")
@@ -28,12 +29,12 @@ function(kds_install_component component)
           COMPONENT ${component})
   export(EXPORT kds_${component} NAMESPACE kds:: FILE "${PROJECT_BINARY_DIR}/kds-${component}.cmake")
 
-  # Libraries that have no package of pkg-config.
+  # Libraries without a pkg-config package.
   foreach(file IN LISTS ARG_LIBRARIES)
     string(APPEND libraries " ${file}")
   endforeach()
 
-  # For pkg-config: kds-engine and so on, and kds for all of them.
+  # pkg-config packages: kds-engine and so on for the components, and kds for all of them.
   set(name kds-${component})
   if(component STREQUAL "kds")
     set(name kds)

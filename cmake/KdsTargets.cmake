@@ -1,4 +1,4 @@
-# What every target of the project shares.
+# Options and functions that all targets of the project share.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -8,23 +8,23 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # Without the two, ccache keeps nothing that uses a precompiled header; none of our sources asks what time it is.
+  # Without these two settings, ccache does not cache files with a precompiled header. No source uses __TIME__.
   set(CMAKE_CXX_COMPILER_LAUNCHER
     "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${CCACHE_PROGRAM}")
 endif()
 
-# What a consumer needs: C++20, the folders' includes, and products that are rounded before they are added, as the error
-# bounds of the filters have it.
+# Requirements of users: C++20, the include folder, and no fused multiply-add (-ffp-contract=off), because the filters' error
+# bounds assume that products are rounded before they are added.
 add_library(kds_requirements INTERFACE)
 target_compile_features(kds_requirements INTERFACE cxx_std_20)
 target_include_directories(kds_requirements INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>")
 target_compile_options(kds_requirements INTERFACE -ffp-contract=off)
-# Vectors of four doubles are passed between inlined functions only (motions/numbers/lanes.h): that other compilers pass them
-# in other ways concerns nobody.
+# Vectors of four doubles are passed between inlined functions only (motions/numbers/lanes.h), so differences between the
+# calling conventions of compilers do not matter.
 target_compile_options(kds_requirements INTERFACE -Wno-psabi)
 
-# Loops over lanes (motions/numbers/lanes.h) are compiled for AVX2, which x86-64 processors have since about 2013. For others they
-# are compiled once more, without vectors: code that takes as long to compile again and that hardly anybody runs.
+# Loops over lanes (motions/numbers/lanes.h) are compiled for AVX2, which x86-64 processors have since about 2013. With
+# KDS_ANY_PROCESSOR they are compiled a second time for processors without AVX2, which doubles their compile time.
 include(CheckCXXSourceRuns)
 if(NOT CMAKE_CROSSCOMPILING)
   check_cxx_source_runs("int main() { return __builtin_cpu_supports(\"avx2\") ? 0 : 1; }" KDS_HERE_IS_AVX2)
@@ -40,36 +40,36 @@ if(NOT KDS_ANY_PROCESSOR)
   set(KDS_PKGCONFIG_DEFINITIONS " -DKDS_NEEDS_AVX2")
 endif()
 
-# What is ours alone.
+# Options of this project only, not of its users.
 add_library(kds_options INTERFACE)
 target_link_libraries(kds_options INTERFACE kds_requirements)
-# g++ collects its garbage from 128 MB on: a tenth of its time. No file of ours has two gigabytes of it.
+# By default g++ collects garbage from 128 MB on, which takes a tenth of its time. None of the files uses two gigabytes.
 target_compile_options(kds_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=2000000>)
 target_compile_options(kds_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wextra-semi)
 if(KDS_TOGETHER)
-  # What a file that is compiled with others declares for itself alone looks as if it were a header's.
+  # In a unity build, g++ takes the local declarations of a source file for declarations of a header.
   target_compile_options(kds_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
 if(KDS_ANY_PROCESSOR)
-  # Lanes are left as they are until they are set (motions/numbers/lanes.h), which g++ 12 does not see where there are no vectors.
+  # Lanes stay uninitialized until they are set (motions/numbers/lanes.h). Without vectors, g++ 12 warns of this wrongly.
   target_compile_options(kds_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endif()
 if(KDS_WERROR)
   target_compile_options(kds_options INTERFACE -Werror)
 endif()
 if(KDS_SANITIZE)
-  # Bad pointers are the address sanitizer's; checking each for null and alignment as well takes a quarter of the time to
-  # compile, and more.
+  # The address sanitizer finds bad pointers. Checking each pointer for null and alignment too would take at least a quarter of
+  # the compile time.
   target_compile_options(kds_options INTERFACE -fsanitize=${KDS_SANITIZE} -fno-sanitize=null,alignment,object-size
                                                -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(kds_options INTERFACE -fsanitize=${KDS_SANITIZE})
 endif()
 
 # kds_add_library(<name> [FOLDER folder] [EXCEPT regex] [PRIVATE_HEADERS regex] [PUBLIC deps ...] [PRIVATE deps ...])
-# One library a folder, of all that is in it. Each header is compiled alone by the target all_verify_interface_header_sets,
-# but for those that only the folder's own files may include and those that their own source file includes first. What such a
-# one forgot to include, because it is precompiled, preset debug shows.
+# Adds one library with all files of a folder. The target all_verify_interface_header_sets compiles each header alone, except
+# PRIVATE_HEADERS, which only the folder's own files may include, and headers that their own source file includes first. The
+# preset debug finds an include that such a header lacks, because it does not precompile headers.
 function(kds_add_library name)
   cmake_parse_arguments(ARG "" "FOLDER;EXCEPT;PRIVATE_HEADERS" "PUBLIC;PRIVATE" ${ARGN})
   if(NOT ARG_FOLDER)
@@ -104,17 +104,17 @@ function(kds_add_library name)
   target_link_libraries(kds_${name} PUBLIC kds_requirements ${ARG_PUBLIC} PRIVATE kds_options ${ARG_PRIVATE})
 endfunction()
 
-# kds_precompile(<target> <header>... | REUSE_FROM <target>): headers of others that most files of the target include, parsed
-# once for all of them. Only a saving: each file includes what it uses, and compiles as well with
-# CMAKE_DISABLE_PRECOMPILE_HEADERS. A target, or a file, that is compiled with other options has headers of its own or none
-# (SKIP_PRECOMPILE_HEADERS): g++ takes them all the same, and with them some of the options that they were compiled with.
+# kds_precompile(<target> <header>... | REUSE_FROM <target>): precompiles headers of other projects that most files of the target
+# include. This only saves time: each file includes the headers it uses, and also compiles with
+# CMAKE_DISABLE_PRECOMPILE_HEADERS. A target or file with other compile options needs its own precompiled headers or none
+# (SKIP_PRECOMPILE_HEADERS), because g++ accepts foreign ones and with them some of their options.
 function(kds_precompile target)
   if(ARGV1 STREQUAL "REUSE_FROM")
     target_precompile_headers(${target} ${ARGN})
   else()
     target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()
-  # ccache asks for these.
+  # ccache requires these options.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -fpch-preprocess)
   elseif(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
@@ -122,9 +122,9 @@ function(kds_precompile target)
   endif()
 endfunction()
 
-# kds_compile_together(<target> <group> <pattern>...): one compiler run for files that use the same library templates. A file that
-# is in no group is compiled alone, and so is each with -DKDS_TOGETHER=OFF, which shows what a file forgot to include. The
-# last group that names a file has it.
+# kds_compile_together(<target> <group> <pattern>...): compiles files that use the same library templates in one compiler run (a
+# unity build). Files without a group are compiled alone. With -DKDS_TOGETHER=OFF all files are compiled alone, which finds
+# missing includes. If several groups name a file, the last one has it.
 function(kds_compile_together target group)
   file(GLOB files CONFIGURE_DEPENDS RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" ${ARGN})
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${KDS_TOGETHER} UNITY_BUILD_MODE GROUP)

@@ -1,4 +1,4 @@
-# The version that results carry: the release and the commit it was built from.
+# Sets the version that results carry: the release and the commit of the build.
 find_package(Git QUIET)
 set(KDS_COMMIT "unknown")
 if(Git_FOUND)

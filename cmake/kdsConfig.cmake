@@ -1,5 +1,6 @@
-# find_package(kds [COMPONENTS motions|certificates|engine|structures|kds ...]), installed or in a build tree of kds: the targets
-# kds::motions ..., each with those before it in this list. Without COMPONENTS all, kds::kds among them.
+# find_package(kds [COMPONENTS motions|certificates|engine|structures|kds ...]) for an installed kds or its build tree. Defines
+# the targets kds::motions and so on. Each component includes the components before it in this list. Without COMPONENTS, defines
+# all targets including kds::kds.
 set(_kds_components motions certificates engine structures kds)
 set(_kds_asked ${kds_FIND_COMPONENTS})
 if(NOT _kds_asked)
@@ -20,7 +21,7 @@ find_dependency(ZLIB)
 find_dependency(fmt)
 list(PREPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")  # FindKdsGmp ...
 find_dependency(KdsGmp)
-if(EXISTS "${CMAKE_CURRENT_LIST_DIR}/FindKdsGemmi.cmake")  # the library that readers were linked with
+if(EXISTS "${CMAKE_CURRENT_LIST_DIR}/FindKdsGemmi.cmake")  # the library that the readers use
   find_dependency(KdsGemmi)
 endif()
 if(_kds_last GREATER 2)
@@ -35,7 +36,7 @@ foreach(_kds_place RANGE ${_kds_last})
   if(_kds_file)
     set(kds_${_kds_component}_FOUND TRUE)
   else()
-    break()  # the next ones need it
+    break()  # later components need it
   endif()
 endforeach()
 foreach(_kds_component IN LISTS _kds_asked)
