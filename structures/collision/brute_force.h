@@ -21,8 +21,8 @@ template <int Dimension>
 [[nodiscard]] std::optional<BeadPair> first_pair_by_force(const Balls<Dimension>& balls,
                                                           const PairsAsked& asked, double distance = 0);
 
-/// Returns the closest of the pairs asked for, or none if no pairs are asked for. Of several equally close
-/// pairs it returns the first.
+/// Returns the closest of the pairs asked for, or none if no pairs are asked for. If several are equally
+/// close, returns the first.
 template <int Dimension>
 [[nodiscard]] std::optional<ClosestPair> closest_pair_by_force(const Balls<Dimension>& balls,
                                                                const PairsAsked& asked);

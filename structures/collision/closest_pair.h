@@ -26,7 +26,7 @@
 //      the point. Each of these balls therefore meets Bi and the next ball. If no edge collides, consecutive
 //      balls are neighbours. Then only Bi and its neighbours can occur, unless DT2 or the bead of the first
 //      cell gives a collision. This holds for Bj too, so the bead of the cell at x is a common neighbour.
-//   2. If none collide, the returned pair is the closest. Of several equally close pairs it is the first by
+//   2. If none collide, the returned pair is the closest. If several are equally close, it is the first by
 //      ids. The proof is in the paper; it uses the property of a neighbour Bk of Bi that is called "connects"
 //      above. If the distance is positive, the edge's empty orthogonal ball is strictly empty, so the edge
 //      exists however ties are broken.

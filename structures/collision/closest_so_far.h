@@ -13,7 +13,7 @@ class ClosestSoFar {
  public:
   explicit ClosestSoFar(const Balls<Dimension>& balls) : balls_(&balls) {}
 
-  /// Offers two beads in any order. Of equally close pairs, the first by ids wins.
+  /// Offers two beads in any order. If pairs are equally close, the first by ids wins.
   void offer(BeadId a, BeadId b);
 
   /// Returns an upper bound of the distance of the closest pair so far, infinite if there is none.

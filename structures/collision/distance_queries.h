@@ -25,8 +25,8 @@ class DistanceQueries {
   explicit DistanceQueries(PairsAsked asked, VectorTarget target = widest_vector_target())
       : tree_(std::move(asked), std::nullopt, target) {}
 
-  /// Returns the closest of the pairs asked about, or none if no pairs are asked about. Of several equally
-  /// close pairs it returns the first.
+  /// Returns the closest of the pairs asked about, or none if no pairs are asked about. If several are
+  /// equally close, returns the first.
   [[nodiscard]] std::optional<ClosestPair> closest_pair(const Balls<Dimension>& balls);
 
   /// Returns all pairs asked about that are at most `distance` apart (finite, not negative), in order. The

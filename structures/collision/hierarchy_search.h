@@ -43,8 +43,8 @@ template <int Dimension>
 [[nodiscard]] std::optional<BeadPair> find_any_pair(const SphereTree<Dimension>& tree,
                                                     const PairsAsked& asked, double distance = 0);
 
-/// Returns the closest of the pairs asked for, or none if no pairs are asked for. Of several equally close
-/// pairs it returns the first. Searches by branch and bound.
+/// Returns the closest of the pairs asked for, or none if no pairs are asked for. If several are equally
+/// close, returns the first. Searches by branch and bound.
 template <int Dimension>
 [[nodiscard]] std::optional<ClosestPair> find_closest_pair(const SphereTree<Dimension>& tree,
                                                            const Balls<Dimension>& balls,

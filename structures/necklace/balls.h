@@ -87,8 +87,7 @@ class Balls : public BallRows<Dimension> {
   using BallRows<Dimension>::rows_;
   using BallRows<Dimension>::equal_radii_;
 
-  bool copy(const Curves<Dimension>& curves, int k,
-            const Balls* start);  ///< true if `start` is right
+  bool copy(const Curves<Dimension>& curves, int k, const Balls* start);  // is `start` right?
   [[noreturn]] static void refuse(const Eigen::Matrix3Xd& centers) {
     Eigen::Index b = 0;
     while (centers.col(b).template head<Dimension>().allFinite()) ++b;
