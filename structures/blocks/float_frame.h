@@ -12,21 +12,21 @@
 // and their f no farther than S + 2 sqrt(3) u (1 + 2^-19) M. This has three consequences:
 //
 //   1. Distances. The sum of squared differences of their f, computed in floats, has a relative error below
-//      (1 + u)^5, so its root is at most (1 + 2.6 u) S + 3.48 u M. The float (R + R')^2 has lost less than (1
-//      - u)^5 by all roundings of the radii, so its root is at least (1 + 13 u) S + 15 u M, which is not
-//      less. (Squares that underflow are below 2^-126, and (R + R')^2 is at least 2^-100.)
+//      (1 + u)^5, so its root is at most (1 + 2.6 u) S + 3.48 u M. The float (R + R')^2 has lost less than a
+//      factor (1 - u)^5 by all roundings of the radii, so its root is at least (1 + 13 u) S + 15 u M, which
+//      is not less. (Squares that underflow are below 2^-126, and (R + R')^2 is at least 2^-100.)
 //   2. Boxes. f - R rounded exceeds f - R by at most u (M + R), and f + R rounded falls below f + R by at
-//      most as much. On each axis the difference f - f' is at most S + 3.48 u M, and R + R' - u (2 M + R +
-//      R') is at least (1 + 13 u) S + 13 u M. So f - R <= f' + R' holds in floats on each axis. The boxes of
-//      the beads, with sides from the minimum of f - R to the maximum of f + R, therefore meet.
+//      most as much. On each axis the difference f - f' is at most S + 3.48 u M, and R + R' - u
+//      (2 M + R + R') is at least (1 + 13 u) S + 13 u M. So f - R <= f' + R' holds in floats on each axis.
+//      The boxes of the beads, with sides from the minimum of f - R to the maximum of f + R, therefore meet.
 //   3. Displacements. Let a bead have f before and f' now, with |f| <= M and |f'| <= M + |f' - f|. Then its X
 //      has moved by at most |f' - f| (1 + 1.8 u) + 3.48 u M, and the computed root of the sum of squares has
 //      lost less than 2.6 u.
 //
 // A frame may have axes of its own. They have length one and are perpendicular, both up to 2^-40. Its X are
 // sums of products with these axes. All roundings of these sums are below 2^-49 M, or below 2^-49 |f' - f| if
-// that is larger. Lengths differ by less than 2^-39 of themselves. Both errors are below 2^-14 u. Room for
-// them remains: 2^-19 u M above, and several u of S and of |f' - f| in 1 to 3.
+// that is larger. Lengths differ by less than 2^-39 of themselves. Both errors are below 2^-14 u. They fit
+// into 2^-19 u M above and into the several u of S and of |f' - f| that 1 to 3 leave.
 //
 // Balls up to a gap g apart are balls that meet once their radii grow by g / 2.
 
@@ -155,7 +155,7 @@ template <int Dimension>
     farthest = std::max({farthest, std::abs(box.low[axis] * frame.scale - frame.shift[axis]),
                          std::abs(box.high[axis] * frame.scale - frame.shift[axis])});
   }
-  // After the rotation, a corner of the box may lie on an axis.
+  // With turned axes, a corner of the box may lie on an axis, so coordinates may be larger.
   frame.bound = axes ? 4 * farthest : 2 * farthest;
   return frame;
 }

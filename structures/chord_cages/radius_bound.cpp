@@ -16,7 +16,7 @@ using detail::dot;
 using detail::minus;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double rounding = 0x1p-42;  // relative, of squares
+constexpr double rounding = 0x1p-42;  // relative rounding error of squares
 
 /// Returns the barycentric coordinates of the centre of the sphere around a basis. Their sum is 1 up to
 /// rounding. They are arbitrary if the basis is degenerate in doubles.
@@ -59,7 +59,7 @@ template <class N>
 template <int D>
 struct Gap {
   std::array<double, 2 * 61 + 1> coefficients;
-  double least_mean, greatest_mean;  // of the radii's mean, over the control points
+  double least_mean, greatest_mean;  // of the mean radius, over all control points
 };
 
 template <int D>

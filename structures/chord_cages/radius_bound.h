@@ -11,8 +11,8 @@
 // So the smallest radius is at least r-bar + sqrt(V - v) for any weights, where V is the weighted variance of
 // the points and v that of the radii. Equality holds at one time if the weights are the barycentric
 // coordinates of the smallest sphere's centre in the basis that spans it. The bound is then tangent to the
-// smallest radius at that time, and better elsewhere, because sqrt(V) is convex in linear motion. Let rho = R
-// - r-bar for the sphere R(u) under test. Then
+// smallest radius at that time, and better elsewhere, because sqrt(V) is convex in linear motion. For the
+// sphere R(u) under test, let rho = R - r-bar. Then
 //
 //   G(u) = rho^2 + v - V
 //

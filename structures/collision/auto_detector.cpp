@@ -138,8 +138,8 @@ bool AutoDetector<Dimension>::repair(const Balls<Dimension>& balls, std::span<co
   return true;
 }
 
-// Widens the skin if almost no pairs are near. Each attempt doubles the skin and stops once it finds more
-// pairs.
+// Widens the skin if almost no pairs are near. Each attempt doubles the skin. An attempt that finds more
+// pairs is the last.
 template <int Dimension>
 void AutoDetector<Dimension>::widen_skin(const Balls<Dimension>& balls, double wanted) {
   constexpr int most_tries = 4;

@@ -200,7 +200,7 @@ void BeadBlocks<Dimension>::fill(const Balls<Dimension>& balls, double gap) {
   equal_ = balls.equal_radii();
   if (order_ == BlockOrder::spatial) {
     morton_order_.sort(balls, sorted_);
-    sorted_.resize(beads_ + beads_in_block);  // lanes without a bead read one too
+    sorted_.resize(beads_ + beads_in_block);  // read by lanes without a bead too
   }
   const auto fits = [this](const BlockExtent& e) {
     return e.coordinate <= frame_.bound && e.radius <= largest_float_radius;

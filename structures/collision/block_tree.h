@@ -73,11 +73,11 @@ class BlockTree {
     return blocks_.strayed_by_block(balls);
   }
 
-  /// May follow near_pairs. Updates the positions of the beads of these blocks (ascending) and of no others.
-  /// Returns all pairs asked about that contain such a bead and are at most the previous gap apart, and some
-  /// pairs slightly farther apart. All other beads count at the positions of the last search. Returns none if
-  /// there are more than `most` pairs or if beads have left the frame; then all must be searched again. Radii
-  /// must be unchanged.
+  /// Call it after near_pairs. Updates the positions of the beads of these blocks (ascending) and of no
+  /// others. Returns all pairs asked about that contain such a bead and are at most the previous gap apart,
+  /// and some pairs slightly farther apart. All other beads count at the positions of the last search.
+  /// Returns none if there are more than `most` pairs or if beads have left the frame; then all must be
+  /// searched again. Radii must be unchanged.
   std::optional<std::span<const BeadPair>> near_pairs_of(const Balls<Dimension>& balls,
                                                          std::span<const std::uint32_t> blocks,
                                                          std::size_t most);

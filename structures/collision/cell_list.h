@@ -69,7 +69,7 @@ class CellList {
   PairsAsked asked_;
   bool one_necklace_;
   std::int64_t least_along_ = 0;                     // least distance in sequence within a necklace
-  std::vector<std::uint64_t> keys_of_beads_, keys_;  // keys_: of entries, then one above all
+  std::vector<std::uint64_t> keys_of_beads_, keys_;  // keys_: of entries, then a sentinel
   std::vector<std::uint32_t> starts_;                // of cells
   std::vector<std::array<std::uint64_t, 2>> keyed_, more_keyed_;
   std::vector<Entry> entries_;

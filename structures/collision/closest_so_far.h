@@ -25,7 +25,7 @@ class ClosestSoFar {
   void take(BeadId a, BeadId b);
 
   const Balls<Dimension>* balls_;
-  std::optional<ClosestPair> best_;  // its sign is computed at the end
+  std::optional<ClosestPair> best_;  // the sign is computed at the end
   double at_most_ = HUGE_VAL;
 };
 

@@ -56,7 +56,7 @@ class ContactSet {
   }
 
  private:
-  static constexpr std::uint64_t nobody = ~std::uint64_t{0};  // the key of no pair, because first < second
+  static constexpr std::uint64_t nobody = ~std::uint64_t{0};  // no pair has this key, because first < second
 
   static std::uint64_t key_of(const BeadPair& pair) {
     return (static_cast<std::uint64_t>(pair.first) << 32U) | pair.second;

@@ -34,7 +34,7 @@ class MovingBoxes {
   void move_to(const Curves<Dimension>& curves, std::span<const BeadBlock> blocks);
   /// Groups the blocks in this order. Consecutive blocks should be near each other.
   void arrange(std::span<const std::uint32_t> order);
-  /// Tells that the beads' previous motion is unknown, so no box counts as at rest in the next step.
+  /// Must be called if the beads' previous motion is unknown. No box then counts as at rest in the next step.
   void forget_rest();
 
   /// Level 0 holds the blocks as arranged. The last level has at most `fan` boxes.
@@ -66,8 +66,8 @@ class MovingBoxes {
  private:
   struct Level {
     std::size_t count = 0;
-    std::vector<double> sides;  // box by box
-    std::vector<double> lanes;  // group by group, with the boxes of a group in lanes
+    std::vector<double> sides;  // stored box by box
+    std::vector<double> lanes;  // stored by groups, a box per lane
     std::vector<Bits> present, rest;
   };
 

@@ -80,8 +80,8 @@ void MovingFamily<Dimension>::sort_blocks(const Extent& all) {
   });
 }
 
-// Splits two boxes of a level, or one box paired with itself, into pairs of their children. Above the top
-// level, one box holds all.
+// Splits two boxes of a level, or one box paired with itself, into pairs of their children. The top level
+// counts as the children of one box.
 template <int Dimension>
 void MovingFamily<Dimension>::split(Resting resting, std::size_t level, std::size_t first,
                                     std::size_t second) {

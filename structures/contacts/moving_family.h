@@ -44,14 +44,14 @@ class MovingFamily {
   /// Pairs at rest: their beads do not move in this step and did not move in the previous one. Their state
   /// does not change.
   enum class Resting : std::uint8_t { left_out, looked_at };
-  /// Tells that the motion is that of a first step, with no step before.
+  /// Must be called before a first step, which has no step before it.
   void forget_rest() { boxes_.forget_rest(); }
   /// Finds the pairs of beads asked about that are not proved apart during the whole step of these curves.
   /// Call it once per step.
   void find_pairs(const Curves<Dimension>& curves, Resting resting, bool list_overlapping,
                   PairsOfBlocks& pairs);
 
-  /// Returns the number of pairs of boxes.
+  /// Returns the number of pairs of boxes proved disjoint.
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
  private:

@@ -30,8 +30,8 @@ template <class N>
 struct Quadratic {
   N q0, q1, q2;
 
-  /// Returns whether the quadratic is positive and has no zero. If both ends are positive, this is equivalent
-  /// to q1 > -sqrt(q0 q2).
+  /// Returns whether the quadratic is positive and has no zero. If both ends are positive, the quadratic is
+  /// positive if and only if q1 > -sqrt(q0 q2).
   [[nodiscard]] bool is_positive() const { return q0 > 0 && q2 > 0 && (q1 >= 0 || q1 * q1 < q0 * q2); }
 };
 

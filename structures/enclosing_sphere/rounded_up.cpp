@@ -6,9 +6,9 @@
 namespace kds {
 
 // Differences have relative errors of u = 2^-53, the sum of their squares 5u, and its root 4u in all, unless
-// squares overflow or underflow. In that case differences are scaled near 1 first. Their loss below 2^-1000
-// is less than the other roundings. The rounding on the way back, if numbers are subnormal, is covered by
-// taking the next larger number.
+// squares overflow or underflow. In that case differences are scaled near 1 first. Underflow below 2^-1000
+// then loses less than the other roundings. The rounding on the way back, if numbers are subnormal, is
+// covered by taking the next larger number.
 template <int Dimension>
 double distance_rounded_up(const Point<Dimension>& a, const Point<Dimension>& b) {
   constexpr double up = 1 + 0x1p-49;

@@ -15,7 +15,7 @@ struct TangentSphere {
   N rho;                        // radius less the base's radius
   Vector center;                // relative to the base
   std::array<N, M + 1> weight;  // barycentric coordinates of the centre, the base's first
-  Vector q;                     // derivative of the centre by rho
+  Vector q;                     // derivative of the centre with respect to rho
 };
 
 /// `s` holds the radii less the base's radius.

@@ -152,7 +152,7 @@ class NodeWrapper {
   }
 
  private:
-  // Complements a node's cage to a BasisSphere.
+  // The members of a BasisSphere that a node's cage lacks.
   struct alignas(32) Bounds {
     double inner, outer, least, certain;  // certain: 1 or 0
   };
@@ -233,7 +233,7 @@ class NodeWrapper {
   template <bool with_bounds = true>
   [[KDS_LANES_TARGETS]] void spheres_of(const NodeId* nodes, std::size_t count, Bounds* bounds) const {
     std::array<std::array<std::uint8_t, nodes_at_a_time>, Basis::max_size> places;
-    std::uint64_t counts_of_sizes = 0;  // 16 bits per size avoid branches and stores to wait for
+    std::uint64_t counts_of_sizes = 0;  // 16 bits per size: no branch, and no store to wait for
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t m = bases[nodes[i]].size - 1U;
       places[m][counts_of_sizes >> 16 * m & 0xffff] = static_cast<std::uint8_t>(i);

@@ -58,8 +58,8 @@ class NodeGuards {
 
   struct Failed {
     NodeId node = 0;
-    BeadId bead = no_bead;  ///< the certificate's subject, unless it
-    bool touches = false;   ///< touches zero without failing
+    BeadId bead = no_bead;  ///< the certificate's subject; none for a touch
+    bool touches = false;   ///< the certificate touches zero without failing
     bool relaxed = false;   ///< the bead is as far outside as allowed, not on the sphere
   };
   /// Takes the certificate that fails now, given by table and slot, and drops all certificates of its node.
@@ -67,13 +67,13 @@ class NodeGuards {
   [[nodiscard]] Failed take_failed(unsigned table, std::uint32_t slot, std::span<const Basis> bases);
   void forget_failure() { signs_.present.reset(); }
 
-  // Forgets beads that enqueued certificates have named since the start of the step or the last failure.
+  // The beads that enqueued certificates have named since the start of the step or the last failure.
 
   template <std::predicate<NodeId> Of>
   void forget_named_if(Of of) {
     std::erase_if(named_, [&](const NamedBead& one) { return of(one.node); });
   }
-  /// Forgets those of the node that enqueued last.
+  /// Forgets the beads of `node`, which must be the last node that enqueued.
   void forget_named_of(NodeId node) {
     while (!named_.empty() && named_.back().node == node) named_.pop_back();
   }
@@ -86,8 +86,8 @@ class NodeGuards {
   using Tables = MembershipTables<Dimension>;
 
   struct HeldBy {
-    std::uint32_t first = none;       // head of its queued certificates, a list in held_
-    std::uint32_t never_failing = 0;  // number of its certificates that never fail
+    std::uint32_t first = none;       // the node's queued certificates, a list in held_
+    std::uint32_t never_failing = 0;  // number of certificates that never fail
   };
   struct HeldCertificate {
     CertificateHandle handle;
@@ -115,7 +115,7 @@ class NodeGuards {
   std::array<std::vector<BeadId>, Tables::count + 1> watched_;  // enqueued subjects, per table
   std::vector<NamedBead> violated_, named_;
   std::vector<std::uint32_t> per_bead_;  // number of certificates per bead while they are counted
-  std::optional<BeadId> failed_again_;   // its certificate just failed and would be watched again
+  std::optional<BeadId> failed_again_;   // bead whose certificate failed and would be watched again
 };
 
 }  // namespace kds

@@ -43,7 +43,7 @@ class NodeProofs {
 
   /// Takes the curves of the next step, or changed curves of this one.
   void take_curves();
-  /// Tells that the node has another basis.
+  /// Must be called when the node's basis changes.
   void forget(NodeId node) { slack_.forget(node); }
 
   // For many nodes, at the start of a step.

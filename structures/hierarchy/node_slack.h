@@ -25,7 +25,7 @@ class NodeSlack {
   /// of all nodes.
   void take_out_resting(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
                         std::vector<NodeId>& nodes);
-  /// Tells that the node has another basis.
+  /// Must be called when the node's basis changes.
   void forget(NodeId node) { slack_[node] = none; }
 
  private:
@@ -68,7 +68,7 @@ class NodeSlack {
   const NecklaceTree& tree_;
   /// Indices in stray_ of the two halves of each node.
   std::vector<std::array<std::uint32_t, 2>> halves_;
-  std::vector<double> stray_;  ///< of each node, the most of any bead; then of each bead
+  std::vector<double> stray_;  ///< maximum over each node's beads; then each bead's
   std::vector<double> slack_;  ///< of each node, or `none`
   std::array<std::vector<double>, Dimension + 1> reference_;  ///< of beads at the reference
   std::array<Waiting, Basis::max_size> waiting_;

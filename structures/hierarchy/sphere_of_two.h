@@ -2,14 +2,14 @@
 // Computes the smallest sphere around two spheres, with the radius rounded up. The stored sphere, whose
 // centre and radius are doubles, holds both stored spheres.
 //
-// The bound. Let u = 2^-53, D the true distance of centres, w = r_b - r_a, |w| < D, and R = (D + r_a + r_b) /
-// 2. If squares neither overflow nor underflow, the distance has a relative error below 4u and the ratio w /
-// D one below 7u, so `share` has an error of 3.5u |w| / D plus u of itself. The centre's error is at most
-// 3.5u |w| + 3u share D, which is at most 6.5u R since |w| and share D are at most R, plus u of its
-// coordinates. Half the sum of distance and radii has an error of 5u R, and the radius is rounded twice more.
-// All this is less than 16u R plus u of the coordinates. One sphere is reported to lie in the other only if
-// this is true in spite of rounding. If it nearly does, the centre is the larger sphere's up to the same
-// error, and the radius is no smaller.
+// The bound. Let u = 2^-53, D the true distance of centres, w = r_b - r_a, |w| < D, and
+// R = (D + r_a + r_b) / 2. If squares neither overflow nor underflow, the distance has a relative error below
+// 4u and the ratio w / D one below 7u, so `share` has an error of 3.5u |w| / D plus u of itself. The centre's
+// error is at most 3.5u |w| + 3u share D, which is at most 6.5u R since |w| and share D are at most R, plus u
+// of its coordinates. Half the sum of distance and radii has an error of 5u R, and the radius is rounded
+// twice more. All this is less than 16u R plus u of the coordinates. One sphere is reported to lie in the
+// other only if this is true in spite of rounding. If it nearly does, the centre is the larger sphere's up to
+// the same error, and the radius is no smaller.
 
 #include "structures/enclosing_sphere/cage.h"
 #include "structures/enclosing_sphere/four_balls.h"

@@ -205,7 +205,7 @@ void WrappedHierarchy<Dimension>::ask_query() {
   sort_kept_nodes();
 }
 
-/// Half of all nodes are pairs.
+/// Pairs have a list of their own because they are half of all nodes.
 template <int Dimension>
 void WrappedHierarchy<Dimension>::sort_kept_nodes() {
   wide_.clear();

@@ -55,8 +55,8 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
 
   /// Maintains the selected nodes. `radii` is a promise for all steps; if it promises equal radii, weights
   /// must be equal too. If `relaxation` is a share of the radius, a bead escapes only when it is out by that
-  /// share: the basis' minimum enclosing sphere, its radius times one plus the share, holds all beads of the
-  /// node, and their own minimum enclosing sphere is no smaller than the basis'. Throws std::invalid_argument
+  /// share. The basis' minimum enclosing sphere, enlarged by the share, then holds all beads of the node, and
+  /// the beads' own minimum enclosing sphere is at least as large as the basis'. Throws std::invalid_argument
   /// if the motion is lifted.
   WrappedHierarchy(Simulator& simulator, const MotionRef<Dimension>& motion,
                    std::span<const BeadRange> necklaces, Radii radii, const NodeSelection& selection = {},

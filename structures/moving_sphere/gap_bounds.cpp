@@ -117,7 +117,7 @@ void find_gaps_at_times(const BeadPaths<D>& paths, const detail::BeadLanes<M + 1
     for (std::size_t i = 0; i < M; ++i) (axis < D ? d[i][place] : s[i]) = at_time(beads[i + 1][0], size);
     (axis < D ? of_bead[place] : radius_of_bead) = at_time(bead, size_with_bead);
   }
-  size = size * Lanes(detail::root_of[3]);  // no curve is longer
+  size = size * Lanes(detail::root_of[3]);  // no coordinate curve is longer
   const detail::End<D, M> end = detail::end_of<false, D, M>(d, s);
   const Lanes distance = length(end.z);
   Lanes l = Lanes::max(size, Lanes::max(distance, abs(end.rho)));

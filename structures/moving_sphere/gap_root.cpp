@@ -74,7 +74,7 @@ struct Crossing {
   [[nodiscard]] static Guess guess_of(const SphereGaps& gaps, std::size_t quarter) {
     const std::array<double, 5> g{gaps.at_end[0][0], gaps.at_end[0][1], gaps.at_end[0][2], gaps.at_end[0][3],
                                   gaps.at_end[1][3]};
-    std::array<double, 5> difference = g;  // of rising order, divided by factorials
+    std::array<double, 5> difference = g;  // divided differences of rising order
     for (std::size_t order = 1; order < 5; ++order) {
       for (std::size_t k = 4; k >= order; --k)
         difference[k] = (difference[k] - difference[k - 1]) / static_cast<double>(order);

@@ -27,7 +27,7 @@ class GapRoots {
   [[nodiscard]] std::optional<Failure> first_failure(const BeadPaths<Dimension>& paths, const Basis& basis,
                                                      BeadId bead, bool inside, double lower, double upper,
                                                      bool holds);
-  /// Tells that the paths are new.
+  /// Must be called when the paths change.
   void forget() { known_ = {}; }
 
  private:

@@ -136,7 +136,7 @@ void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads
       (axis < D ? c[i][place] : sc[i]) = control[1] - control[0];
     }
   }
-  size = size * Lanes(root_of[3]);  // no curve is longer
+  size = size * Lanes(root_of[3]);  // no coordinate curve is longer
   // Within these limits, products neither overflow nor become subnormal.
   Lanes::Mask proved = (size > Lanes(0x1p-150)) & (Lanes(paths.extent()) < Lanes(0x1p150));
   const std::array<End<D, M>, 2> end{end_of<equal, D, M>(a, sa), end_of<equal, D, M>(b, sb)};

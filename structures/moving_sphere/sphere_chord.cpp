@@ -54,7 +54,7 @@ template <int D, std::size_t M, int K>
       for (std::size_t e = 0; e < 2; ++e) (axis < D ? d_at[e][i][place] : s_at[e][i]) = control[i][e * K];
     }
   }
-  size = size * Lanes(detail::root_of[3]);  // no curve is longer
+  size = size * Lanes(detail::root_of[3]);  // no coordinate curve is longer
   // Within these limits, products neither overflow nor become subnormal.
   Lanes::Mask proved = (size > Lanes(0x1p-150)) & (Lanes(paths.extent()) < Lanes(0x1p150));
   const std::array<End<D, M>, 2> end{end_of<false, D, M>(d_at[0], s_at[0]),

@@ -80,7 +80,7 @@ void find_motion_in_lanes(const BeadPaths<D>& paths, const BeadLanes<M + 1>& bea
       for (std::size_t e = 0; e < 2; ++e) (axis < D ? d_at[e][i][place] : s_at[e][i]) = control[e];
     }
   }
-  size = size * Lanes(detail::root_of[3]);  // no curve is longer
+  size = size * Lanes(detail::root_of[3]);  // no coordinate curve is longer
   Lanes::Mask proved = (size > Lanes(0x1p-150)) & (size < Lanes(0x1p150));
   const std::array<End<D, M>, 2> end{end_of<false, D, M>(d_at[0], s_at[0]),
                                      end_of<false, D, M>(d_at[1], s_at[1])};

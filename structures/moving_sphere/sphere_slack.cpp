@@ -118,7 +118,7 @@ template <int D, std::size_t M, bool equal>
     for (std::size_t axis = 0; axis < D; ++axis) bend[axis] -= end.weight[i + 1] * d[i][axis];
   }
   lightest -= Lanes(margin);
-  const Lanes off = root(detail::dot(bend, bend)) * Lanes(up) + rounding;  // of z from the sum
+  const Lanes off = root(detail::dot(bend, bend)) * Lanes(up) + rounding;  // |z - sum w_i d_i|
   Lanes error = abs(root(detail::dot(end.z, end.z)) - end.rho), largest = end.rho, least = end.rho,
         slope(0.0);
   for (std::size_t i = 0; i < M; ++i) {
@@ -221,7 +221,7 @@ void find_slack(const BeadPaths<D>& paths, std::span<const BeadRange> nodes, std
     for (std::size_t axis = 0; axis < D; ++axis) center[axis] = room.center[axis].v[lane];
     double farthest = 0;
     find_farthest<D, equal>(paths, nodes[lane], bases[lane], center, farthest);
-    // Reduced by the rounding here and by the rounding each time a step uses it up.
+    // Reduces slack to cover the rounding here and in each step that uses up a part of it.
     constexpr double down = 1 - 0x1p-20;
     const double by_others = (room.reach.v[lane] - farthest) / room.pace.v[lane];
     slack[lane] = std::min(room.most.v[lane], by_others) * down;

@@ -50,7 +50,7 @@ struct End {
   Vec<D> z;
   Lanes rho;
   std::array<Lanes, M + 1> weight;  // barycentric coordinates of z
-  Vec<D> q;                         // unequal radii: derivative of z by rho
+  Vec<D> q;                         // unequal radii: derivative of z with respect to rho
 };
 
 template <bool equal, int D, std::size_t M>
