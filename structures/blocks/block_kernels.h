@@ -1,8 +1,8 @@
 #pragma once
 // Declares blocks of 16 consecutive beads in float, a tree over these blocks in sequence order (16 children
-// per node, a linear BVH), and the inner loops that work on them. The block tree (block_tree.h) calls these
-// loops. They are compiled once per vector target, and every target gives the same bits. A "box" here is the
-// axis-aligned box of float balls (float_frame.h).
+// per node, a linear BVH), and the inner loops that work on them. The block tree (block_tree.h) calls the
+// loops. These loops are compiled once per vector target, and every target gives the same bits. A "box" here
+// is the axis-aligned box of float balls (float_frame.h).
 
 #include <array>
 #include <cstddef>
@@ -15,8 +15,8 @@ namespace kds {
 
 inline constexpr std::size_t beads_in_block = 16;
 inline constexpr std::size_t children_of_node = 16;
-/// Maximum number of block pairs compared in one call. Their scratch memory then stays in the first-level
-/// cache.
+/// Maximum number of block pairs compared in one call. With this limit the scratch memory stays in the
+/// first-level cache.
 inline constexpr std::size_t block_pairs_at_once = 256;
 /// Number of elements that must be allocated beyond the last number a kernel writes.
 inline constexpr std::size_t kernel_padding = 16;

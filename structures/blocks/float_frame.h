@@ -23,10 +23,10 @@
 //      has moved by at most |f' - f| (1 + 1.8 u) + 3.48 u M, and the computed root of the sum of squares has
 //      lost less than 2.6 u.
 //
-// A frame may have axes of its own. They have length one and are perpendicular, both up to 2^-40. Its X are
-// sums of products with these axes. All roundings of these sums are below 2^-49 M, or below 2^-49 |f' - f| if
-// that is larger. Lengths differ by less than 2^-39 of themselves. Both errors are below 2^-14 u. They fit
-// into 2^-19 u M above and into the several u of S and of |f' - f| that 1 to 3 leave.
+// A frame may have axes of its own. The axes have length one and are perpendicular, both up to 2^-40. X is
+// then a sum of products with the axes. All roundings of these sums are below 2^-49 M, or below 2^-49 |f' -
+// f| if that is larger. Lengths differ by less than 2^-39 of themselves. Both errors are below 2^-14 u and
+// fit into 2^-19 u M above and into the several u of S and of |f' - f| that 1 to 3 leave.
 //
 // Balls up to a gap g apart are balls that meet once their radii grow by g / 2.
 

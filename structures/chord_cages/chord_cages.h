@@ -4,10 +4,10 @@
 // a sphere around its balls there. Centre and radius are the Bezier curves with these spheres as control
 // points; if the motion is linear, they are chords.
 //
-// The cages hold every bead at all times. This is exact for the stored centres and radii, which are doubles.
-// Let x_k, r_k be the control points of a bead and c_k, R_k those of the node. Each sphere satisfies |x_k -
-// c_k| + r_k <= R_k because its radius is rounded up. The Bernstein polynomials B_k(u) are nonnegative and
-// sum to 1, so
+// The cages hold every bead at all times. The statement is exact for the stored centres and radii, which are
+// doubles. Let x_k, r_k be the control points of a bead and c_k, R_k those of the node. Each sphere satisfies
+// |x_k - c_k| + r_k <= R_k because its radius is rounded up. The Bernstein polynomials B_k(u) are nonnegative
+// and sum to 1, so
 //
 //   |x(u) - c(u)| = |sum B_k (x_k - c_k)| <= sum B_k |x_k - c_k| <= sum B_k (R_k - r_k) = R(u) - r(u).
 
@@ -47,8 +47,8 @@ class ChordCages {
     return cages_[static_cast<std::size_t>(k)].outward();
   }
   [[nodiscard]] const BallsAt& balls(int k) const { return balls_[static_cast<std::size_t>(k)]; }
-  /// Returns the hierarchy. Its bases belong to control point last(): the end of the step or, before any
-  /// step, the positions it was built at. Its own cages have been moved into this object.
+  /// Returns the hierarchy. The hierarchy's bases belong to control point last(): the end of the step or,
+  /// before any step, the positions of build(). The hierarchy's own cages have been moved into this object.
   [[nodiscard]] const Hierarchy& hierarchy() const { return hierarchy_; }
   /// Returns the control point of the hierarchy's bases.
   [[nodiscard]] int last() const { return moved_ ? degree() : 0; }

@@ -1,6 +1,6 @@
 #pragma once
-// A hierarchy of chord cages in a run. It shares the clock with the other structures but has no certificates
-// and no events. It cannot say when a basis changes, and it has nothing to log or to replay.
+// A hierarchy of chord cages in a run. The structure shares the clock of the others but has no certificates
+// and no events. Nothing tells when a basis changes, and there is nothing to log or to replay.
 
 #include <array>
 #include <cstdint>
@@ -33,14 +33,14 @@ class ChordHierarchy final : public KineticStructure {
                  std::span<const BeadRange> necklaces, std::optional<double> tightness = {});
 
   [[nodiscard]] std::string_view name() const override;
-  /// Returns the kinds of counts, empty without tightness. They are no events and are not recorded.
+  /// Returns the kinds of counts, empty without tightness. The counts are no events and are not recorded.
   [[nodiscard]] std::span<const EventKind> kinds() const override;
   [[nodiscard]] const ChordCages<Hierarchy>& cages() const { return cages_; }
   /// Null if no tightness is requested.
   [[nodiscard]] const TightCages<dimension>* tight() const { return tight_ ? &*tight_ : nullptr; }
 
-  /// Returns a node's sphere at time u of the present step. Its radius is rounded up, so it encloses the
-  /// exact blended sphere.
+  /// Returns a node's sphere at time u of the present step. The radius is rounded up, so that the result
+  /// encloses the exact blended sphere.
   [[nodiscard]] Sphere sphere_at(NodeId node, double u) const;
 
   void build() override;

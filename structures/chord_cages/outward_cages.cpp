@@ -16,8 +16,9 @@ namespace {
 // - Cages below a proved cage that were settled as a whole lie deeper inside than this error.
 // - Pairs: half the distance of the two beads is computed to 2u of itself. The centre is rounded once more
 //   and lies within u of its coordinates of the point that belongs to this radius.
-// All this is less than 8u of the radius and u of the coordinates. The sum with the common radius of the
-// beads and the products add another 4u. Loose cages are measured instead.
+//
+// The sum of these errors is less than 8u of the radius and u of the coordinates. The sum with the common
+// radius of the beads and the products add another 4u. Loose cages are measured instead.
 constexpr double of_radius = 0x1p-49, of_center = 0x1p-51;
 
 }  // namespace

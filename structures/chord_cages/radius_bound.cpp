@@ -18,8 +18,8 @@ using detail::minus;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 0x1p-42;  // relative rounding error of squares
 
-/// Returns the barycentric coordinates of the centre of the sphere around a basis. Their sum is 1 up to
-/// rounding. They are arbitrary if the basis is degenerate in doubles.
+/// Returns the barycentric coordinates of the centre of the sphere around a basis. The coordinates sum to 1
+/// up to rounding, and are arbitrary if the basis is degenerate in doubles.
 template <bool of_points, class N, int D, std::size_t M>
 [[gnu::always_inline]] inline std::array<N, M + 1> weights_of(const BasisBalls<N, D, M>& balls) {
   const detail::Span<N, D, M> span(balls);
@@ -167,7 +167,7 @@ bool one_is_below(const std::array<GapCoefficients, 2>& of, const std::array<dou
   if (halvings == 0) return false;
   std::array<GapCoefficients, 2> left, right;
   for (std::size_t which = 0; which < 2; ++which) halve(of[which], left[which], right[which]);
-  // Both exceed their limits in the middle.
+  // Both polynomials exceed their limits in the middle.
   if (!(right[0].of[0] <= limit[0]) && !(right[1].of[0] <= limit[1])) return false;
   return one_is_below(left, limit, halvings - 1) && one_is_below(right, limit, halvings - 1);
 }

@@ -19,12 +19,13 @@
 // is a polynomial of twice the motion's degree. Let tau = R / (1 + eps) - r-bar. R <= (1 + eps) R_opt holds
 // wherever tau <= 0 or G <= rho^2 - tau^2, because the latter gives r-bar + sqrt(rho^2 - G) >= R / (1 + eps).
 // With s := rho - tau = eps / (1 + eps) R, the limit is rho^2 - tau^2 = s (s + 2 tau). If tau is positive
-// there, this limit is least for the least R and the greatest r-bar. It is never less than s^2 for the least
-// R. In linear motion G = (1-u) G_0 + u G_2 + u (1-u) Q, which is at most max(G_0, G_2) + max(Q, 0) / 4.
+// there, this limit is least for the least R and the greatest r-bar. The limit is never less than s^2 for the
+// least R. In linear motion G = (1-u) G_0 + u G_2 + u (1-u) Q, which is at most
+// max(G_0, G_2) + max(Q, 0) / 4.
 //
 // Rounding: weights need no accuracy, because any weights give a bound. Positions are taken relative to the
-// sphere's centres, so that all numbers have the size of R. Their errors are far below the 2^-42 R^2 that is
-// allowed for them.
+// sphere's centres, so that all numbers have the size of R. The rounding errors are far below the allowance
+// of 2^-42 R^2.
 
 #include <array>
 #include <span>

@@ -31,8 +31,8 @@ namespace kds {
 template <int Dimension>
 class AutoDetector {
  public:
-  /// `speed` bounds how far a bead moves between two calls. It must be finite and not negative, and it is not
-  /// checked. Throws std::invalid_argument like BlockTree.
+  /// `speed` bounds how far a bead moves between two calls. The speed must be finite and not negative. The
+  /// motion of beads is not checked against it. Throws std::invalid_argument like BlockTree.
   explicit AutoDetector(PairsAsked asked, std::optional<double> speed = std::nullopt,
                         VectorTarget target = widest_vector_target());
 

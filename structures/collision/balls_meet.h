@@ -29,8 +29,8 @@ template <int Dimension>
     const double d = balls.coordinates(axis)[a] - balls.coordinates(axis)[b];
     square += d * d;
   }
-  // Both sides have relative errors below 2^-50. Underflow is below 2^-1000. If a side is tiny or not finite,
-  // the exact test decides.
+  // Both sides of the comparison have relative errors below 2^-50. Underflow is below 2^-1000. If a side is
+  // tiny or not finite, the exact test decides.
   const double limit = reach * reach;
   if (limit >= 0x1p-900 && limit <= 0x1p1000) {
     if (square > limit * (1 + 0x1p-48)) return false;

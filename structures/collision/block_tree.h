@@ -88,8 +88,8 @@ class BlockTree {
   [[nodiscard]] BlockOrder order() const { return blocks_.order(); }
   /// Returns the frame of the last scene.
   [[nodiscard]] const FloatFrame<Dimension>& frame() const { return blocks_.frame(); }
-  /// Sets the axes of the boxes for the next searches, none for the coordinate axes. They hold until the tree
-  /// makes its choices anew.
+  /// Sets the axes of the boxes for the next searches, none for the coordinate axes. The axes hold until the
+  /// tree makes its choices anew.
   void turn(const std::optional<Axes<Dimension>>& axes) { blocks_.turn(axes); }
   /// Announces a new scene: the next search tries sequence order first again, with boxes along the coordinate
   /// axes.

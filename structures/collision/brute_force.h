@@ -1,6 +1,6 @@
 #pragma once
-// Finds collisions by testing all pairs of beads. It serves as the simple reference for the other detectors.
-// Tests eight beads at a time in double, and exactly if doubles do not decide. Takes n^2 time.
+// Finds collisions by testing all pairs of beads. This method is the simple reference for the other
+// detectors. Tests eight beads at a time in double, and exactly if doubles do not decide. Takes n^2 time.
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
 // A cell list, the usual method for near pairs. Beads are sorted into the cells of a uniform grid. A cell is
-// as wide as the greatest reach of two balls, so balls that meet lie in one cell or in adjacent cells. It
-// serves as the baseline for the other detectors.
+// as wide as the greatest reach of two balls, so balls that meet lie in one cell or in adjacent cells. The
+// other detectors are compared with this baseline.
 //
 // The number of cells in the scene's box decides between two forms. Dense grids have at most a few cells per
 // bead: beads are placed by counting sort, with an array of the start of each cell. Sparse grids have more

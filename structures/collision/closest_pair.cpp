@@ -158,7 +158,7 @@ class Search {
   // amount at each use, leave Bk's power at the middle of the orthogonal ball above the pair's power by at
   // least
   //   x^3 / (4 (x + 2R)) - 2^-50 R (x + 3R).
-  // This is positive for x > 2^-14 R, so the pair is an edge.
+  // The bound is positive for x > 2^-14 R, so the pair is an edge.
   [[nodiscard]] bool rounding_matters() const {
     if (!rounded_ || !report_.pair) return false;
     const ClosestPair& p = *report_.pair;

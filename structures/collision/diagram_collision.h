@@ -1,6 +1,6 @@
 #pragma once
-// Collision by a power diagram that is built for the query. It answers Theorem 3.5 (closest_pair.h) and, for
-// equal radii, finds all pairs (neighbor_walk.h).
+// Collision by a power diagram that is built for the query. The diagram answers Theorem 3.5 (closest_pair.h)
+// and, for equal radii, finds all pairs (neighbor_walk.h).
 
 #include <cstdint>
 #include <optional>

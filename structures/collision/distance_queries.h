@@ -2,10 +2,10 @@
 // Answers distance queries with a block tree (block_tree.h): the closest pair, and all pairs within a cutoff.
 //
 // The search for the closest pair starts from a few offered pairs: the pairs that are least apart along their
-// chain and the closest pair of the last call. Their least distance bounds the search. All pairs up to a gap
-// are then found. The gap grows while it contains no pair, and shrinks while it contains too many. If this
-// fails, for huge numbers or for more equally close beads than memory should hold, a layered hierarchy is
-// searched by branch and bound.
+// chain and the closest pair of the last call. The least distance of the offered pairs bounds the search. All
+// pairs up to a gap are then found. The gap grows while it contains no pair, and shrinks while it contains
+// too many. If this fails, for huge numbers or for more equally close beads than memory should hold, a
+// layered hierarchy is searched by branch and bound.
 //
 // The result is exact: all pairs up to the gap are found (float_frame.h), and the closest of them is decided
 // exactly. If its distance is within the gap, no other pair is closer.

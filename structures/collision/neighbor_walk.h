@@ -6,9 +6,11 @@
 // lifted to (x, |x|^2), and the triangulation is the lower hull of the lifted centres. As in the simplex
 // method, an edge leads from each vertex, except the lowest one, c itself, to a lower vertex. So every centre
 // within reach of c is joined to c by edges among centres within reach, and a walk from c along these edges
-// meets all of them. If centres are cospherical, the triangulation may be one of several, but the hull's
-// edges belong to all of them. (Dickerson and Drysdale, Fixed-radius near neighbors search algorithms for
-// points and segments, 1990, for the plane.)
+// meets all of them.
+//
+// If centres are cospherical, the triangulation may be one of several, but the hull's edges belong to all of
+// them. (Dickerson and Drysdale, Fixed-radius near neighbors search algorithms for points and segments, 1990,
+// for the plane.)
 //
 // If radii are unequal, the balls within reach of a ball are not the lifted points of a half-space, so they
 // need not be joined by edges. Unequal radii are therefore refused.

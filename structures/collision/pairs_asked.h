@@ -29,7 +29,7 @@ struct PairsAsked {
     return static_cast<std::size_t>(after - necklaces.begin()) - 1;
   }
 
-  /// Takes log(necklaces) time. It suits single pairs; loops over many pairs should look up the necklaces
+  /// Takes log(necklaces) time, which suits single pairs. Loops over many pairs should look up the necklaces
   /// themselves.
   [[nodiscard]] bool asks(const BeadPair& pair) const {
     if (necklace_of(pair.first) != necklace_of(pair.second)) return between;

@@ -2,7 +2,7 @@
 // The spheres of a hierarchy in the form that a search over pairs of nodes needs. Beads are nodes too, and
 // all nodes lie in one flat array, each with its children.
 //
-// A sphere has the hierarchy's rounded centre. Its radius is measured from this centre to the farthest point
+// A sphere has the hierarchy's rounded centre. The radius is measured from this centre to the farthest point
 // of a bead (wrapped) or of a child's sphere (layered), and rounded up. The sphere therefore holds all beads
 // of its node, however its centre was rounded, and disjoint spheres prove beads disjoint. Up to rounding it
 // is the hierarchy's sphere. If squares overflow, the radius is infinite; if they underflow, it is 2^-500 too

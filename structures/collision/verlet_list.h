@@ -1,7 +1,7 @@
 #pragma once
 // A Verlet list, the method by which molecular dynamics finds near pairs from frame to frame. A cell list
 // finds all pairs that are at most the skin apart. These pairs are tested at every frame until some bead has
-// moved by more than half the skin. It serves as the baseline for slow motion.
+// moved by more than half the skin. This method is the baseline for slow motion.
 //
 // The result is exact: until then, two balls that meet were at most the skin apart when the list was made.
 // The displacement test runs in doubles with room for rounding: squares have relative errors below 2^-50, and

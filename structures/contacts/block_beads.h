@@ -4,9 +4,9 @@
 // polynomial must decide.
 //
 // The first filter uses swept balls. Relative to a drift that all beads share, a bead's control points lie
-// within some distance of a centre, and so does the bead at all times. Its ball therefore lies in a larger
-// ball at rest. The loops of the block tree filter swept balls like balls at rest: first boxes around four
-// balls each, then single balls.
+// within some distance of a centre, and so does the bead at all times. The bead's ball therefore lies in a
+// larger ball at rest. The loops of the block tree filter swept balls like balls at rest: first boxes around
+// four balls each, then single balls.
 //
 // The second filter uses all control points of the remaining pairs. Let d_k be the differences of two beads'
 // control points and R_k the sums of their radii. The beads' distance exceeds R during the whole step if all
@@ -16,11 +16,13 @@
 //
 // Error bound. Coordinates are taken relative to the middle of all boxes and scaled to [-1, 1] by a power of
 // two. Let e = 2^-24. Rounded to float, a coordinate has an error of at most 1.01 e, and a difference of two
-// another 2e: 4e in all, 7e as a vector. n is exact as computed, whatever it approximates. |d| < 3.5, so the
-// rounding of n.d is at most 4e times 3.5 |n|, and n.d - R |n| is known within 21e |n|. Each radius is
-// enlarged (reduced for `inside`) by 2^-19 = 32e, so their sum has 64e to spare, and by a factor of 1 + 2^-20
-// (1 - 2^-20). The factor covers the roundings of products, of sums of radii and of squares, 8e relatively.
-// Squares are compared only if n.d > 2^-40; then |n| > 2^-42, and nothing underflows.
+// another 2e: 4e in all, 7e as a vector.
+//
+// The direction n is exact as computed, whatever it approximates. |d| < 3.5, so the rounding of n.d is at
+// most 4e times 3.5 |n|, and n.d - R |n| is known within 21e |n|. Each radius is enlarged (reduced for
+// `inside`) by 2^-19 = 32e, so their sum has 64e to spare, and by a factor of 1 + 2^-20 (1 - 2^-20). The
+// factor covers the roundings of products, of sums of radii and of squares, 8e relatively. Squares are
+// compared only if n.d > 2^-40; then |n| > 2^-42, and nothing underflows.
 //
 // For swept balls, drift and centre are exact as computed. The computed distance of a control point from its
 // centre has an error of at most 12.3e, for which 16e are added. Another factor of 1 + 2^-20 covers the
@@ -66,7 +68,7 @@ class BlockBeads {
   explicit BlockBeads(std::span<const BeadBlock> blocks, int degree);
 
   /// Takes the positions of the beads in this step. `middle` is the middle of all moving boxes and `half` is
-  /// half their longest side. Both may have any precision, and `half` may be infinite.
+  /// half their longest side. Both arguments may have any precision, and `half` may be infinite.
   void move_to(const Curves<Dimension>& curves, const std::array<double, Dimension>& middle, double half);
 
   /// Tests the pairs of beads of two blocks, or of one block with itself, that are at least `apart` beads

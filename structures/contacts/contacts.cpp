@@ -180,7 +180,7 @@ void Contacts<D>::take_up(std::span<const BeadId> beads) {
   find_of(beads);
 }
 
-// Finds the pairs of these beads. Their previous state is known, but they have no certificates yet.
+// Finds the pairs of these beads. The pairs' previous state is known, but the pairs have no certificates yet.
 template <int D>
 void Contacts<D>::find_of(std::span<const BeadId> beads) {
   const std::vector<char> marks = marked(beads);

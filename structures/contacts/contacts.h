@@ -6,9 +6,10 @@
 // certificate. The failure of "disjoint" is a beginning, or a touch if its function is zero and then positive
 // again. The failure of "overlapping" is an end. A pair that stays exactly in touch for a while is in contact
 // during that time, because balls are closed. Events at a frame follow from the states before and just after
-// the frame: balls that meet exactly then and part at once only touch. Contacts present at the first frame
-// are part of the built structure and cause no events. All results are exact. With the kernel `exact`, every
-// pair is decided on integers and none is left to the family.
+// the frame: balls that meet exactly then and part at once only touch.
+//
+// Contacts present at the first frame are part of the built structure and cause no events. All results are
+// exact. With the kernel `exact`, every pair is decided on integers and none is left to the family.
 //
 // Erasing a bead ends its contacts. Inserting one begins the contacts that it has just after that time.
 // Erasing costs one pass over all certificates; inserting a bead or changing its course costs as much as the

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// A side is computed by one rounded sum. Its error is at most 2^-53 of the side, and zero if the side is
+// A side is computed by one rounded sum. The error is at most 2^-53 of the side, and zero if the side is
 // subnormal.
 double rounded_down(double side) { return side - std::abs(side) * 0x1p-51; }
 double rounded_up(double side) { return side + std::abs(side) * 0x1p-51; }

@@ -1,8 +1,9 @@
 #pragma once
 // A hierarchy of moving boxes that encloses the balls of a step: boxes around blocks of beads, boxes around
-// sixteen of these, and so on. A box moves with its beads. Its sides are Bezier curves whose control points
-// bound the beads' control points, radii included. The box holds its balls at all times, because a curve is a
-// mean of its control points with nonnegative weights, and all curves of a degree share these weights.
+// sixteen of these, and so on. A box moves with its beads. The box's sides are Bezier curves whose control
+// points bound the beads' control points, radii included. The box holds its balls at all times, because a
+// curve is a mean of its control points with nonnegative weights, and all curves of a degree share these
+// weights.
 //
 // Two boxes are disjoint during the whole step if, along one axis, each control point of one lies beyond the
 // matching control point of the other: the difference of their sides is then a curve with positive control

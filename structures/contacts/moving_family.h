@@ -41,8 +41,8 @@ class MovingFamily {
 
   [[nodiscard]] const PairsAsked& asked() const { return asked_; }
 
-  /// Pairs at rest: their beads do not move in this step and did not move in the previous one. Their state
-  /// does not change.
+  /// Pairs at rest: their beads do not move in this step and did not move in the previous one. The state of
+  /// these pairs does not change.
   enum class Resting : std::uint8_t { left_out, looked_at };
   /// Must be called before a first step, which has no step before it.
   void forget_rest() { boxes_.forget_rest(); }

@@ -1,7 +1,7 @@
 #pragma once
 // Counts the contacts that are missed if only frames are examined: every frame, every second, every fourth
-// and so on. A contact lasts from a beginning to an end, or is a touch. It is found if an examined frame lies
-// in it, ends included. Times of contacts are exact, so it is known which of them lie at frames.
+// and so on. A contact lasts from a beginning to an end, or is a touch. A contact is found if an examined
+// frame lies in it, ends included. Times of contacts are exact, so it is known which of them lie at frames.
 
 #include <cstddef>
 #include <cstdint>

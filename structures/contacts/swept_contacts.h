@@ -35,7 +35,7 @@ class SweptContacts {
   /// std::invalid_argument if the motion is not linear.
   void find(const OutwardCages<Dimension>& start, const OutwardCages<Dimension>& end,
             const Curves<Dimension>& curves, FoundPairs& found);
-  /// Finds the pairs that meet at the k-th control points, at rest. It is the static query for comparison.
+  /// Finds the pairs that meet at the k-th control points, at rest. This is the static query for comparison.
   void find_static(const OutwardCages<Dimension>& cages, const Curves<Dimension>& curves, int k,
                    FoundPairs& found);
 

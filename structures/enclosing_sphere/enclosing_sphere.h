@@ -1,8 +1,9 @@
 #pragma once
 // Computes the minimum enclosing sphere of consecutive balls with its basis, in the plane and in space, for
-// equal or unequal radii. It uses the LP-type pivoting of Fischer & Gaertner, from scratch or from a guess
-// (Welzl's move-to-front is wrong for balls). The basis is exact: its sphere holds all balls and no basis
-// ball is superfluous. Centre and radius are rounded; the relative error of the radius is at most 1e-12.
+// equal or unequal radii. The algorithm is the LP-type pivoting of Fischer & Gaertner, from scratch or from a
+// guess (Welzl's move-to-front is wrong for balls). The basis is exact: its sphere holds all balls and no
+// basis ball is superfluous. Centre and radius are rounded; the relative error of the radius is at most
+// 1e-12.
 
 #include <array>
 #include <span>

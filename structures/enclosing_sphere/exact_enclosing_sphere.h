@@ -1,6 +1,6 @@
 #pragma once
-// Computes the minimum enclosing sphere of consecutive beads in exact arithmetic. It is the fallback of the
-// filters.
+// Computes the minimum enclosing sphere of consecutive beads in exact arithmetic. The filters fall back on
+// this function.
 
 #include <span>
 

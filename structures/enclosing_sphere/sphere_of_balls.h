@@ -2,18 +2,19 @@
 // Minimum enclosing spheres of balls of any radii in double, with proved errors: the sphere of a basis, and
 // the basis after a ball has escaped. Allocates no memory. A result that is not proved is marked as such.
 //
-// The sphere that touches the balls from outside is computed first (tangent_sphere.h). Its centre z~ and
-// weights w_i are then verified by their residuals. F(x) = max_i |c_i - x| + r_i is convex, and its minimum,
-// R at z, is the wanted sphere. Let k_i = |c_i - z~| + r_i, K their maximum, S their spread with its
-// rounding, u_i = (c_i - z~) / |c_i - z~| and e = z - z~. By convexity K >= R >= k_i - u_i.e, so u_i.e >= -S
-// for all i. The multipliers m_i ~ w_i |c_i - z~|, with sum 1, nearly balance: v = sum m_i u_i is small. So
-// u_i.e <= (S + |v||e|) / m_i. Let sigma be the least singular value of the matrix of all u_i but the one of
-// greatest m_i. Then |e| <= sqrt(m) (S + |v||e|) / (min m_i sigma) =: E', plus O if z~ may have left the span
-// of the centres (sphere_of_points.h). The rest follows sphere_of_points.h: |p - z~| + r <= K - 2E proves
-// that a ball is inside.
+// The sphere that touches the balls from outside is computed first (tangent_sphere.h). The computed centre z~
+// and weights w_i are then verified by their residuals.
+//
+// F(x) = max_i |c_i - x| + r_i is convex, and its minimum, R at z, is the wanted sphere. Let k_i = |c_i -
+// z~| + r_i, K their maximum, S their spread with its rounding, u_i = (c_i - z~) / |c_i - z~| and e = z - z~.
+// By convexity K >= R >= k_i - u_i.e, so u_i.e >= -S for all i. The multipliers m_i ~ w_i |c_i - z~|, with
+// sum 1, nearly balance: v = sum m_i u_i is small. So u_i.e <= (S + |v||e|) / m_i. Let sigma be the least
+// singular value of the matrix of all u_i but the one of greatest m_i. Then |e| <= sqrt(m) (S + |v||e|) /
+// (min m_i sigma) =: E', plus O if z~ may have left the span of the centres (sphere_of_points.h). The rest
+// follows sphere_of_points.h: |p - z~| + r <= K - 2E proves that a ball is inside.
 //
 // The basis has no superfluous ball. Without ball j the minimum could stay only if the other u_i at z were
-// dependent. Each u_i differs by at most 2E / |c_i - z~| from its value at z~. They are independent if
+// dependent. Each u_i differs by at most 2E / |c_i - z~| from its value at z~. The u_i are independent if
 // sigma_j > 2 sqrt(m) E / min |c_i - z~|, where sigma_j follows from m_j by Cramer's rule.
 
 #include "structures/enclosing_sphere/tangent_sphere.h"

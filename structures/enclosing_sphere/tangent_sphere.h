@@ -1,6 +1,6 @@
 #pragma once
 // The sphere that touches the balls of a basis from outside, in double, for one basis or for four in lanes.
-// It comes without an error bound; the caller verifies it. The equations are those of
+// The result has no error bound; the caller verifies it. The equations are those of
 // certificates/types/ball_in_sphere.h: relative to the base, the centre is p + rho q in the span of the other
 // centres, and rho solves a rho^2 + 2 b rho + c = 0.
 

@@ -1,6 +1,6 @@
 #pragma once
 // Layered hierarchy of a scene at one time: each internal node of the balanced tree over a necklace has the
-// smallest sphere around the spheres of its two children (the paper's section 2.2). It takes a few
+// smallest sphere around the spheres of its two children (the paper's section 2.2). A build takes a few
 // nanoseconds per node, four nodes at a time. Centres are rounded; they are centres of the smallest sphere up
 // to some ulps.
 //

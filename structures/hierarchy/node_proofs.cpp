@@ -162,8 +162,8 @@ unsigned NodeProofs<Dimension>::take_out_staying(const Basis& basis, const BeadR
   return unproved < few ? stays : stays | look_closely(basis, 1, beyond);
 }
 
-/// Like take_out_until, with the sphere's chords in the four quarters of the time until `until`. Their error
-/// is a sixteenth of a single chord's.
+/// Like take_out_until, with the sphere's chords in the four quarters of the time until `until`. The error of
+/// these chords is a sixteenth of a single chord's.
 template <int Dimension>
 unsigned NodeProofs<Dimension>::look_closely(const Basis& basis, double until, std::vector<BeadId>& beyond) {
   constexpr std::size_t parts = Lanes::width;

@@ -7,10 +7,11 @@
 // let r be the largest radius of all balls, and let R' >= R. Suppose least >= r and p' >= r. Then all
 // certificates of unequal balls are relaxed. In their tau, |d|^2 + p^2 - 2 p r_j >= least^2 + p' (p' - 2 r)
 // =: q, since p^2 - 2 p r grows for p >= r. Let h = eps q / 2 / ((2 + eps) R'). As q <= 4 R^2, h <= eps R,
-// and (R - r_j + h)^2 - (R - r_j)^2 <= h (2 R + h) <= tau. A ball that is out by h is therefore allowed. The
-// certificate of equal radii allows it too: there q <= |d|^2 <= 4 R_c^2, and h <= eps R_c. The radius is at
-// most that of the centres' sphere, which is at most sqrt(3/8) times their largest distance (Jung), plus the
-// largest radius: this sum is R'.
+// and (R - r_j + h)^2 - (R - r_j)^2 <= h (2 R + h) <= tau.
+//
+// A ball that is out by h is therefore allowed. The certificate of equal radii allows it too: there q <=
+// |d|^2 <= 4 R_c^2, and h <= eps R_c. The radius is at most that of the centres' sphere, which is at most
+// sqrt(3/8) times their largest distance (Jung), plus the largest radius: this sum is R'.
 
 #include <algorithm>
 #include <array>

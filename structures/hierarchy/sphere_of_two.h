@@ -2,14 +2,15 @@
 // Computes the smallest sphere around two spheres, with the radius rounded up. The stored sphere, whose
 // centre and radius are doubles, holds both stored spheres.
 //
-// The bound. Let u = 2^-53, D the true distance of centres, w = r_b - r_a, |w| < D, and
-// R = (D + r_a + r_b) / 2. If squares neither overflow nor underflow, the distance has a relative error below
-// 4u and the ratio w / D one below 7u, so `share` has an error of 3.5u |w| / D plus u of itself. The centre's
-// error is at most 3.5u |w| + 3u share D, which is at most 6.5u R since |w| and share D are at most R, plus u
-// of its coordinates. Half the sum of distance and radii has an error of 5u R, and the radius is rounded
-// twice more. All this is less than 16u R plus u of the coordinates. One sphere is reported to lie in the
-// other only if this is true in spite of rounding. If it nearly does, the centre is the larger sphere's up to
-// the same error, and the radius is no smaller.
+// The bound. Let u = 2^-53, D the true distance of centres, w = r_b - r_a, |w| < D, and R half the sum D +
+// r_a + r_b. If squares neither overflow nor underflow, the distance has a relative error below 4u and the
+// ratio w/D one below 7u, so `share` has an error of 3.5u |w|/D plus u of itself. The centre's error is at
+// most 3.5u |w| + 3u share D, which is at most 6.5u R since |w| and share D are at most R, plus u of its
+// coordinates. Half the sum of distance and radii has an error of 5u R, and the radius is rounded twice more.
+// The sum of these errors is less than 16u R plus u of the coordinates.
+//
+// One sphere is reported to lie in the other only if this is true in spite of rounding. If it nearly does,
+// the centre is the larger sphere's up to the same error, and the radius is no smaller.
 
 #include "structures/enclosing_sphere/cage.h"
 #include "structures/enclosing_sphere/four_balls.h"
@@ -17,9 +18,9 @@
 
 namespace kds {
 
-/// Computes four spheres at once. It requires sizes whose squares neither overflow nor underflow; lanes that
-/// are false in the result are not valid. If `equal`, radii must be equal; the code then needs no quotient
-/// and gives the same bits.
+/// Computes four spheres at once. Requires sizes whose squares neither overflow nor underflow; lanes that are
+/// false in the result are not valid. If `equal`, radii must be equal; the code then needs no quotient and
+/// gives the same bits.
 template <bool equal, int Dimension>
 [[gnu::always_inline]] inline Lanes::Mask spheres_of_two(const FourBalls<Dimension>& a,
                                                          const FourBalls<Dimension>& b,

@@ -2,6 +2,7 @@
 // Wrapped hierarchy of a scene at one time, updated from one sampled time to the next: each internal node of
 // the balanced tree over a necklace has the minimum enclosing sphere of its beads, given by its basis
 // (the paper's section 2). Works in the plane and in space; equal radii use the cheaper sphere of centres.
+//
 // Bases are exact: each encloses its beads without a superfluous bead, decided in double with proved errors
 // or else in exact arithmetic. Centres and radii are rounded; the relative error of radii is at most 1e-12. A
 // build or an update takes about n log n bead tests at worst, and only a few per node if the children's cages

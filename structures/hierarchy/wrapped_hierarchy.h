@@ -1,12 +1,14 @@
 #pragma once
 // Kinetic wrapped hierarchy, in the plane and in space, for equal or unequal radii. Each internal node of the
 // balanced tree over a necklace has the minimum enclosing sphere of its beads, stored as a basis of at most
-// dimension + 1 beads. A node's certificates state that each other bead stays inside the sphere of the basis
-// and that each basis bead stays outside the sphere of the other basis beads. Certificates that a bound of
-// the sphere's path proves at once are not created. When a certificate fails, the new basis is found among
-// the basis and the bead, either by such a bound on the next sphere or by signs just after the event. The
-// result is exact with any kernel but `fast`. Spheres may be relaxed: beads may then be out by a share of the
-// radius, which causes fewer events.
+// dimension + 1 beads.
+//
+// A node's certificates state that each other bead stays inside the sphere of the basis and that each basis
+// bead stays outside the sphere of the other basis beads. Certificates that a bound of the sphere's path
+// proves at once are not created. When a certificate fails, the new basis is found among the basis and the
+// bead, either by such a bound on the next sphere or by signs just after the event. The result is exact with
+// any kernel but `fast`. Spheres may be relaxed: beads may then be out by a share of the radius, which causes
+// fewer events.
 //
 // Beads can change course while time runs. This costs a pass over all paths and nodes, the certificates of
 // the nodes that hold the beads, and a repair for each basis that is no longer right. Beads cannot be
@@ -96,8 +98,8 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
 
   [[nodiscard]] bool is_fast() const;
   [[nodiscard]] bool move_together(BeadId a, BeadId b) const;
-  /// Returns whether the node consists of two beads of equal radius that are both in the basis. They need no
-  /// guard unless they coincide.
+  /// Returns whether the node consists of two beads of equal radius that are both in the basis. Such beads
+  /// need no guard unless they coincide.
   [[nodiscard]] bool is_lone_pair(NodeId node) const;
   /// Returns whether the basis consists of two beads that coincide all the time.
   [[nodiscard]] bool is_one_bead(NodeId node) const;

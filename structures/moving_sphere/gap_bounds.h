@@ -3,8 +3,8 @@
 // G = rho - s_b - |c_b - x|, positive while the ball is inside.
 //
 // With p = c_b - z', which is linear, the gap equals rho' - s_b - |p|, which is concave, to within E + H, and
-// at the ends of a period to within rounding. Its slope equals rho'' - s_b' - p.p'/|p|, which falls, to
-// within |xi'| + |eta'| + 2 E |p'| / |p|.
+// at the ends of a period to within rounding. The slope of the gap equals rho'' - s_b' - p.p'/|p|, which
+// falls, to within |xi'| + |eta'| + 2 E |p'| / |p|.
 //
 // The roots of the gap are among the roots of the radical's norm (ball_in_sphere.h). At a simple root of G
 // the norm changes sign too, if its other factor A - B sqrt(D) does not vanish there. Let W = c_b.q - s_b
@@ -42,7 +42,7 @@ void find_gaps(const BeadPaths<Dimension>& paths, const SphereEnclosure<Dimensio
                BeadId bead, double side, SphereGaps& gaps);
 
 /// Computes the gaps for a basis of two or more balls, at times when its sphere touches all of them from
-/// outside. It proves n.q < 1 at these times.
+/// outside. The function proves n.q < 1 at these times.
 template <int Dimension>
 void find_gaps_at(const BeadPaths<Dimension>& paths, const Basis& basis, BeadId bead, double side,
                   const std::array<double, 4>& times, GapsAt& gaps);

@@ -1,6 +1,6 @@
 #pragma once
-// Bounds of polynomials and curves on [0,1] by their Bernstein coefficients, four at once. They are computed
-// in double and rounded as written; the caller allows for the rounding.
+// Bounds of polynomials and curves on [0,1] by their Bernstein coefficients, four at once. The bounds are
+// computed in double and rounded as written; the caller allows for the rounding.
 
 #include <array>
 #include <cmath>

@@ -6,10 +6,11 @@
 // roundings, less u (1-u) ((|D c_i|^2 - (D s_i)^2) / 2 + D s_i D rho' - D c_i.D z'). The point sum w_i c_i,
 // in the hull, differs from z' by u (1-u) b, b = sum D w_i D c_i, so z' leaves the hull by the component of
 // this along its normal. And |z'| sags by at most u (1-u) |D z'|^2 / (2 min |z'|). So every bound here has
-// the form R + 4 u (1-u) Q, where R is the rounding and Q is the most at u = 1/2. Consider a quantity that
-// equals a linear function from a to b up to such a bound, with a' = a - R and b' = b - R. It is positive if
-// a' and b' are positive and a' + b' + 2 sqrt(a' b') > 4 Q. It is positive from u = d on if a' + d
-// (b' - a') > 4 d Q and b' - a' > 4 Q, since it then rises there.
+// the form R + 4 u (1-u) Q, where R is the rounding and Q is the most at u = 1/2.
+//
+// Consider a quantity that equals a linear function from a to b up to such a bound, with a' = a - R and b' =
+// b - R. The quantity is positive if a' and b' are positive and a' + b' + 2 sqrt(a' b') > 4 Q. The quantity
+// is positive from u = d on if a' + d (b' - a') > 4 d Q and b' - a' > 4 Q, since it then rises there.
 //
 // Normals and volumes are bounded by their Bernstein coefficients. In a bilinear product, the middle
 // coefficient is half of the sum of both ends' products less the product of the two D. The slope q, the least

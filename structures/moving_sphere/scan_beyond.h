@@ -91,8 +91,8 @@ template <int D, int K, bool equal, class Visit>
       }
       outside.add(~are_within(square, room));
     }
-    // Basis beads never lie inside. They are removed here, because a branch on them during the scan would be
-    // unpredictable.
+    // Basis beads never lie inside. The scan removes their bits here, because a branch on them during the
+    // scan would be unpredictable.
     std::uint64_t bits = outside.bits() & BeadWord::first(last - first + 1);
     for (const BeadId member : basis) {
       const BeadId place = member - first;  // wraps around if the member lies before

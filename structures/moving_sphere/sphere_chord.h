@@ -4,14 +4,16 @@
 // in the plane and in space.
 //
 // All positions are relative to the basis' first ball: centres c_i(u) and radii s_i(u), with those of the
-// first zero. The sphere touches all balls from outside. Its centre x(u), in their affine hull, and its
-// radius rho(u), less the first ball's, solve c_i.x = e_i + s_i rho, e_i = (|c_i|^2 - s_i^2) / 2, for i = 1
-// .. m, and |x| = rho. Let z'(u) and rho'(u) be its *chord*, linear between approximate values at both ends.
-// z' leaves residuals r_i = e_i + s_i rho' - c_i.z', and it may leave the hull. Both effects are of second
-// order in the motion and bounded by their Bernstein coefficients. Split x - z' = A + (rho - rho') q, where A
-// does not come from the radius. A lower bound of the simplex' volume gives |A| <= B and |q| <= sum |s_i| /
-// height_i. As rho grows, |x| - rho falls while n.q < 1, n = x / |x|. Two spheres touch all balls, and this
-// sphere is the one where |x| - rho falls. So if 1 - n.q >= L > 0 wherever
+// first zero. The sphere touches all balls from outside. The sphere's centre x(u), in the affine hull of the
+// centres, and its radius rho(u), less the first ball's, solve c_i.x = e_i + s_i rho, e_i =
+// (|c_i|^2 - s_i^2) / 2, for i = 1 .. m, and |x| = rho. Let z'(u) and rho'(u) be its *chord*, linear between
+// approximate values at both ends. z' leaves residuals r_i = e_i + s_i rho' - c_i.z', and it may leave the
+// hull. Both effects are of second order in the motion and bounded by their Bernstein coefficients.
+//
+// Split x - z' = A + (rho - rho') q, where A does not come from the radius. A lower bound of the simplex'
+// volume gives |A| <= B and |q| <= sum |s_i| / height_i. As rho grows, |x| - rho falls while n.q < 1, n = x /
+// |x|. Two spheres touch all balls, and this sphere is the one where |x| - rho falls. So if 1 - n.q >= L > 0
+// wherever
 //
 //   |rho - rho'| <= (B + max ||z'| - rho'|) / L,   |x - z'| <= B + |q| |rho - rho'| =: E,
 //

@@ -11,10 +11,11 @@
 // hull, m.x = 0 bounds the component outside the hull by (|(m.z')'| + |m'| E) / |m|. And |x| = rho gives
 // eta' = n.(z'' + xi') - rho'', where z'' and rho'' are the chord's slopes. This xi' contains q eta', so eta'
 // is bounded by the remaining terms over L <= 1 - n.q. |z'|' equals |z'(1)| - |z'(0)| to within |z''|^2 / min
-// |z'|, and x/|x| differs from z'/|z'| by at most 2 E / |z'|. The slope q is known at the start, and its
-// residuals s_i - c_i.q bound it for the whole period. Computed in double with the margins of sphere_chord.h
-// for lengths relative to the basis' first ball alone: 2^-45, since motion is linear (40 units of 2^-53 are
-// rounded).
+// |z'|, and x/|x| differs from z'/|z'| by at most 2 E / |z'|.
+//
+// The slope q is known at the start, and its residuals s_i - c_i.q bound it for the whole period. Computed in
+// double with the margins of sphere_chord.h for lengths relative to the basis' first ball alone: 2^-45, since
+// motion is linear (40 units of 2^-53 are rounded).
 
 #include <array>
 

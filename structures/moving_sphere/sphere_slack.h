@@ -6,10 +6,12 @@
 // All positions are relative to the basis' first ball: centres d_i and radii s_i of the others. Let z = sum
 // w_i d_i be the centre and rho the radius, less the first ball's, of the sphere that touches all balls from
 // outside, and T_i = rho - s_i. Let every ball move by at most t <= D. Relative to z' = sum w_i d_i', which
-// keeps its weights, each centre moves by at most 2 (1 - w_i) t. Its distance from z' is therefore T_i to
-// within v = 2 (1 - min w) t. Twice the residuals of z' and rho are differences of two such squared distances
-// less T_i^2, each up to v (2 T + v), where T is the largest T_i. Let g_i be the gradients of the barycentric
-// coordinates, which sum to zero. The touching sphere is at z' + A + (rho' - rho) q, where
+// keeps its weights, each centre moves by at most 2 (1 - w_i) t. The distance of each centre from z' is
+// therefore T_i to within v = 2 (1 - min w) t.
+//
+// Twice the residuals of z' and rho are differences of two such squared distances less T_i^2, each up to v
+// (2 T + v), where T is the largest T_i. Let g_i be the gradients of the barycentric coordinates, which sum
+// to zero. The touching sphere is at z' + A + (rho' - rho) q, where
 //
 //   |A| <= K v (T + D),  K = 2 max |sum of some g_i|,  |q| <= sum |g_i s_i| < 1.
 //

@@ -1,6 +1,6 @@
 #pragma once
 // A symmetric set of pairs of beads as flat adjacency lists: the neighbours of each bead in ascending order.
-// It holds the edges of a diagram or the family of beads that may meet. No bead is its own neighbour.
+// The set holds the edges of a diagram or the family of beads that may meet. No bead is its own neighbour.
 
 #include <algorithm>
 #include <cstddef>

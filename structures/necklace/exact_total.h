@@ -1,8 +1,8 @@
 #pragma once
 // Computes the sign of a sum of squares of doubles and of their differences, exactly and without heap memory.
-// The sum is never rounded. It is stored as an expansion, a sum of nonoverlapping doubles (Shewchuk, Adaptive
-// precision floating-point arithmetic and fast robust geometric predicates, 1997). It takes a tenth of the
-// time of rationals if the differences are exact, which holds for close numbers of equal sign.
+// The sum is never rounded. The total is stored as an expansion, a sum of nonoverlapping doubles (Shewchuk,
+// Adaptive precision floating-point arithmetic and fast robust geometric predicates, 1997). This method takes
+// a tenth of the time of rationals if the differences are exact, which holds for close numbers of equal sign.
 
 #include <array>
 #include <cmath>

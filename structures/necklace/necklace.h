@@ -71,11 +71,12 @@ class Necklace {
 
   struct Extent {
     double least, most;
-    /// Returns the greatest ratio. It is infinite if no constant bounds it.
+    /// Returns the greatest ratio, infinite if no constant bounds it.
     [[nodiscard]] double ratio() const { return least == most ? 1 : most / least; }
   };
   [[nodiscard]] Extent radii() const;
-  /// Returns the range of distances between consecutive centres, rounded. It is 0 to 0 for a single bead.
+  /// Returns the range of distances between consecutive centres, rounded. For a single bead the range is 0 to
+  /// 0.
   [[nodiscard]] Extent bonds() const;
 
   /// Returns all violations within this necklace alone, exactly. Takes n log n time, times the number of

@@ -41,8 +41,8 @@ struct NodeSelection {
   return selected;
 }
 
-/// A callback that runs at the start of each step. It requests the spheres of the nodes it needs, and these
-/// spheres are maintained during the step.
+/// A callback that runs at the start of each step. The callback requests the spheres of the nodes it needs,
+/// and these spheres are maintained during the step.
 using NodeQuery = std::function<void(const std::function<Sphere(NodeId)>&)>;
 
 }  // namespace kds
