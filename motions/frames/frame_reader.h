@@ -26,6 +26,8 @@ struct FrameRead {
   std::optional<Cell> cell;
   /// Why the cell in the file is not used; empty if the cell is used or the file has none.
   std::string cell_doubt = {};
+  /// A warning about how this frame is read; empty if there is none.
+  std::string note = {};
 };
 
 class FrameReader {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "motions/base/edit_distance.h"
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
 
@@ -201,13 +202,18 @@ Eigen::Matrix3d read_lattice(const Value& value) {
   return vectors;
 }
 
+std::optional<bool> logical(const std::string& item) {
+  if (item == "T" || item == "True" || item == "true" || item == "TRUE" || item == "1") return true;
+  if (item == "F" || item == "False" || item == "false" || item == "FALSE" || item == "0") return false;
+  return std::nullopt;
+}
+
 std::array<bool, 3> read_periodic(const Value& value) {
   std::vector<bool> periodic;
   for (const std::string& item : value.items) {
-    const bool yes = item == "T" || item == "True" || item == "true" || item == "TRUE" || item == "1";
-    const bool no = item == "F" || item == "False" || item == "false" || item == "FALSE" || item == "0";
-    if (!yes && !no) refuse(fmt::format("expected T or F in pbc, found {}", in_quotes(item)));
-    periodic.push_back(yes);
+    const std::optional<bool> yes = logical(item);
+    if (!yes) refuse(fmt::format("expected T or F in pbc, found {}", in_quotes(item)));
+    periodic.push_back(*yes);
   }
   if (!value.whole || (periodic.size() != 3 && periodic.size() != 1))
     refuse(fmt::format("expected T or F three times in pbc, found {}", counted(periodic.size(), "value")));
@@ -272,6 +278,38 @@ bool names_a_key(std::string_view rest) {
   return false;
 }
 
+std::string singular(std::string_view word) {
+  if (word.ends_with("ies")) return std::string(word.substr(0, word.size() - 3)) + 'y';
+  return std::string(word.substr(0, word.size() - (word.ends_with('s') ? 1 : 0)));
+}
+
+// `key` is in lower case.
+bool is_near(std::string_view key, std::string_view name) {
+  if (key.size() > name.size() + 1) return false;
+  return edit_distance(key, name) <= 1 || singular(key) == singular(name);
+}
+
+// Names the keys that stand in the place of ours. A word as short as pbc has many neighbours, so the value
+// must suit it as well.
+std::string misspelt_keys(const std::vector<Pair>& pairs) {
+  std::string text;
+  for (const std::string_view name : {"Lattice", "Properties", "pbc"}) {
+    const std::string ours = lower_case(name);
+    const auto is_ours = [&](const Pair& pair) { return lower_case(pair.key) == ours; };
+    if (std::any_of(pairs.begin(), pairs.end(), is_ours)) continue;
+    for (const Pair& pair : pairs) {
+      if (!is_near(lower_case(pair.key), ours)) continue;
+      const std::vector<std::string>& items = pair.value.items;
+      if (name == "pbc" && std::none_of(items.begin(), items.end(),
+                                        [](const std::string& item) { return logical(item).has_value(); }))
+        continue;
+      text += fmt::format("{}the key {} is not read, did you mean {}?", text.empty() ? "" : " ",
+                          in_quotes(pair.key), name);
+    }
+  }
+  return text;
+}
+
 // i-PI names the unit of positions in braces, and writes its cell as CELL(abcABC): or CELL{H}:.
 std::optional<std::string> read_ipi_comment(std::string_view line) {
   const std::string text = lower_case(line);
@@ -325,6 +363,7 @@ XyzComment read_xyz_comment(std::string_view line) {
     (void)read_periodic(*periodic);
   }
   if (properties) comment.columns = read_columns(*properties);
+  comment.misspelt = misspelt_keys(pairs);
   return comment;
 }
 

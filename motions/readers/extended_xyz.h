@@ -7,7 +7,8 @@
 //   array   [a, b, c], [[a, b, c], [d, e, f]], {a b c} or, in the old style, "a b c"; commas or blanks
 //           separate its items
 //
-// Words without '=' are skipped: the comment of a plain XYZ file is any text.
+// Words without '=' are skipped: the comment of a plain XYZ file is any text. Other keys are skipped as well;
+// a key that is one edit away from one of ours, or its singular or plural, is reported if ours is missing.
 
 #include <cstddef>
 #include <optional>
@@ -33,6 +34,8 @@ struct XyzComment {
   XyzColumns columns;
   /// A key that probably means the lattice but is not read, as in cell=.
   std::optional<std::string> near_lattice;
+  /// Keys that are probably misspelt, as in latice=, for a message; empty if there are none.
+  std::string misspelt;
 };
 
 /// Throws InputError, without the name of the file, if Lattice, Properties or pbc cannot be read.

@@ -130,6 +130,7 @@ void NecklaceStream::place_beside_earlier(std::size_t n, const Eigen::Matrix3Xd&
 bool NecklaceStream::next(FrameRead& frame) {
   const FloatingPointGuard to_nearest;
   frame.cell_doubt.clear();
+  frame.note.clear();
   if (!opened_.frames->next(frame)) return false;
   check_finite(opened_.file, frame);
   std::size_t expected = 0;
@@ -142,6 +143,8 @@ bool NecklaceStream::next(FrameRead& frame) {
   if (!frame.cell_doubt.empty() && cells_unused_++ == 0)
     first_doubt_ = fmt::format("{}: frame {}: its periodic cell is not used: {}", opened_.file,
                                frame.stamp.number, frame.cell_doubt);
+  if (!frame.note.empty() && frames_noted_++ == 0)
+    first_note_ = fmt::format("{}: frame {}: {}", opened_.file, frame.stamp.number, frame.note);
   Eigen::Index begin = 0;
   Eigen::Vector3d first_centroid = Eigen::Vector3d::Zero();
   for (std::size_t n = 0; n < heads_.size(); ++n) {
@@ -179,7 +182,7 @@ void NecklaceStream::rewind() {
     notes.frames_moved = notes.frames_doubtful = notes.frames_apart = 0;
     notes.apart_at_first.reset();
   }
-  cells_unused_ = 0;
+  cells_unused_ = frames_noted_ = 0;
 }
 
 std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
@@ -189,6 +192,8 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
     lines = opened_.warnings;
     if (cells_unused_ > 0)
       lines.push_back(fmt::format("{} ({})", first_doubt_, counted(cells_unused_, "frame")));
+    if (frames_noted_ > 0)
+      lines.push_back(fmt::format("{} ({})", first_note_, counted(frames_noted_, "frame")));
   }
   const Trajectory& head = heads_[necklace];
   const Notes& notes = notes_[necklace];

@@ -54,6 +54,8 @@ class NecklaceStream {
   std::vector<Notes> notes_;       ///< likewise
   std::size_t cells_unused_ = 0;   ///< frames
   std::string first_doubt_;        ///< about the first of these
+  std::size_t frames_noted_ = 0;   ///< frames whose reader has a warning
+  std::string first_note_;         ///< about the first of these
 };
 
 }  // namespace kds

@@ -50,6 +50,7 @@ class XyzFile {
     XyzComment comment = comment_of(line_);
     frame.cell = comment.cell.cell;
     frame.cell_doubt = std::move(comment.cell.doubt);
+    frame.note = std::move(comment.misspelt);
     if (comment.near_lattice)
       frame.cell_doubt =
           fmt::format("expected it as Lattice=, found the key {}", in_quotes(*comment.near_lattice));

@@ -215,6 +215,30 @@ TEST(XyzReader, CellsThatAreNotUsedAreToldOf) {
   }
 }
 
+TEST(XyzReader, MisspeltKeysAreToldOf) {
+  using Case = std::pair<std::string_view, std::string_view>;
+  for (const auto& [comment, line] :
+       {Case{"latice=\"10 10 10\"", "'latice' is not read, did you mean Lattice?"},
+        Case{"Lattices = [10, 10, 10]", "'Lattices' is not read, did you mean Lattice?"},
+        Case{"Latitce=\"10 10 10\"", "'Latitce' is not read, did you mean Lattice?"},
+        Case{"Property=species:S:1:pos:R:3", "'Property' is not read, did you mean Properties?"},
+        Case{"propertis=pos:R:3:species:S:1", "'propertis' is not read, did you mean Properties?"},
+        Case{"PCB=\"T T F\"", "'PCB' is not read, did you mean pbc?"},
+        Case{"\"lattic\"=1 propertie=2", "Lattice? the key 'propertie' is not read, did you mean"}}) {
+    const std::string frame = "2\n" + std::string(comment) + "\nC 1 2 3\nC 2 2 3\n";
+    const Trajectory trajectory = read("2\n\nC 1 2 3\nC 2 2 3\n" + frame + frame);
+    ASSERT_EQ(trajectory.warnings.size(), 1U) << comment;
+    EXPECT_NE(trajectory.warnings[0].find("a.xyz: frame 1: the key "), std::string::npos);
+    EXPECT_NE(trajectory.warnings[0].find(line), std::string::npos) << trajectory.warnings[0];
+    EXPECT_TRUE(trajectory.warnings[0].ends_with("(2 frames)")) << trajectory.warnings[0];
+  }
+  // Other keys, words without '=', and keys beside the one that they resemble.
+  for (const std::string_view comment : {"sublattice=1 proper=2", "pbe=-12.5 pc=3.25", "latice of 10", "pbcs",
+                                         "Lattice=\"90 90 90\" lattices=5", "lattice_a=3 property_name=x"}) {
+    EXPECT_TRUE(read("1\n" + std::string(comment) + "\nC 1 2 3\n").warnings.empty()) << comment;
+  }
+}
+
 TEST(XyzReader, AtomNamesAreNoElements) {
   const auto radii = [](std::initializer_list<std::string_view> symbols, bool told) {
     std::string text = std::to_string(symbols.size()) + "\n\n";
