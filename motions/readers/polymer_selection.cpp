@@ -124,13 +124,23 @@ class Parts {
     return residues;
   }
 
-  // "1,024 residues (HOH, NAG)"
+  // "1,024 residues (HOH, NAG)", and how many of them would be a polymer if they were no HETATM records.
   std::string contents() const {
     std::vector<std::string> names;
     for (const StructureResidue& residue : model_.residues)
       if (std::find(names.begin(), names.end(), residue.name) == names.end() && names.size() < 6)
         names.push_back(residue.name);
-    return fmt::format("{} ({})", counted(model_.residues.size(), "residue"), joined(names, 5));
+    const auto is_het_monomer = [](const StructureResidue& residue) {
+      return residue.het && is_tabulated_monomer(residue.name);
+    };
+    const auto het = std::count_if(model_.residues.begin(), model_.residues.end(), is_het_monomer);
+    return fmt::format(
+        "{} ({}){}", counted(model_.residues.size(), "residue"), joined(names, 5),
+        het == 0
+            ? ""
+            : fmt::format(
+                  ", {} of them amino acids or nucleotides in HETATM records, which are taken for free ones",
+                  het));
   }
 
  private:

@@ -471,6 +471,18 @@ TEST(PdbKinds, FilesWithoutPolymer) {
   refuse(File().add({.atoms = {"BB", "SC1"}}).text, {"--select", "--select all reads its 1 residue"});
 }
 
+TEST(PdbKinds, PolymersOfHetatmRecordsAreToldOf) {
+  File file;
+  for (int number = 1; number <= 4; ++number) file.add({.number = std::to_string(number), .het = true});
+  file.add({.number = "5", .name = "HOH", .atoms = {"O"}, .het = true});
+  for (const Selection selection : {Selection::automatic, Selection::backbone, Selection::ca})
+    refuse(file.text,
+           {"5 residues (ALA, HOH), 4 of them amino acids or nucleotides in HETATM records",
+            "--select all reads them"},
+           {.selection = selection});
+  EXPECT_EQ(read(file.text, {.selection = Selection::all}).bead_count(), 13U);
+}
+
 TEST(PdbKinds, ResiduesWithoutTheSelectedAtomsAreCounted) {
   File file;
   for (int number = 1; number <= 10; ++number)
