@@ -90,6 +90,9 @@ class Parts {
     return chain != nullptr ? chain : find(molecules_, label);
   }
 
+  // Whether --chain reads this part by its label; otherwise a chain has the label as its name.
+  bool can_be_named(const Part& part) const { return named(part.label) == &part; }
+
   std::vector<const Part*> molecules_of(const Part& chain) const {
     std::vector<const Part*> parts;
     for (const Part& molecule : molecules_)
@@ -268,6 +271,12 @@ PartRead read_part(const Parts& parts, const Part& part, Selection selection) {
 
 const char* atoms_of(Selection selection) { return selection == Selection::ca ? "CA" : "N, CA and C"; }
 
+// For a molecule whose label is the name of a chain.
+std::string advice_to_rename(const Part& molecule) {
+  return fmt::format("molecule {0} cannot be named by --chain, because a chain has the name {0}: rename it",
+                     molecule.label);
+}
+
 // Lines on the residues of a part that are left out or doubtful.
 void add_notes(const Parts& parts, const Part& part, const PartRead& read, std::vector<std::string>& notes) {
   constexpr std::size_t most = 5;
@@ -287,17 +296,28 @@ void add_notes(const Parts& parts, const Part& part, const PartRead& read, std::
                                 counted(part.free_residues.size(), "amino acid"),
                                 joined(part.free_residues, most)));
   const std::vector<const Part*> molecules = parts.molecules_of(part);
-  if (!part.molecule && molecules.size() > 1)
-    notes.push_back(
-        fmt::format("chain {} has {} molecules and is read as one necklace; --chain {} reads one each", label,
-                    molecules.size(), fmt::join(labels_of(molecules), ",")));
+  if (!part.molecule && molecules.size() > 1) {
+    std::string line =
+        fmt::format("chain {} has {} molecules and is read as one necklace", label, molecules.size());
+    std::vector<std::string> labels, hidden;
+    for (const Part* molecule : molecules) {
+      if (parts.can_be_named(*molecule)) {
+        labels.push_back(molecule->label);
+      } else {
+        hidden.push_back(advice_to_rename(*molecule));
+      }
+    }
+    if (!labels.empty()) line += fmt::format("; --chain {} reads one each", fmt::join(labels, ","));
+    for (const std::string& advice : hidden) line += "; " + advice;
+    notes.push_back(line);
+  }
 }
 
 // A line on the parts that are not read by default.
 std::optional<std::string> describe_unread(const Parts& parts, const Part& read, const PartRead& beads,
                                            Selection selection) {
   constexpr std::size_t most = 10;
-  std::vector<const Part*> unread, readable;
+  std::vector<const Part*> unread, readable, hidden;
   bool chains = !read.molecule;
   std::size_t residues = beads.chain.residues;
   for (const Part* part : parts.default_parts()) {
@@ -306,7 +326,7 @@ std::optional<std::string> describe_unread(const Parts& parts, const Part& read,
     chains = chains || !part->molecule;
     const PartRead other = read_part(parts, *part, selection);
     residues += other.chain.residues;
-    if (!other.atoms.empty()) readable.push_back(part);
+    if (!other.atoms.empty()) (parts.can_be_named(*part) ? readable : hidden).push_back(part);
   }
   if (unread.empty()) return std::nullopt;
   const std::string noun = chains ? "chain" : "molecule", labels = joined(labels_of(unread), most);
@@ -314,9 +334,14 @@ std::optional<std::string> describe_unread(const Parts& parts, const Part& read,
   if (!chains)
     line = fmt::format("no chain has a name: molecule {} is read, {} of {}; {}", read.label,
                        beads.chain.residues_read, counted(residues, "residue"), line);
-  if (!readable.empty())
-    line += fmt::format("; --chain {1} or --chain {0},{1} reads {2}", shown(read.label),
-                        shown(readable.front()->label), readable.size() == 1 ? "it" : "them likewise");
+  if (!readable.empty()) {
+    const std::string label = shown(readable.front()->label);
+    const std::string both =
+        parts.can_be_named(read) ? fmt::format(" or --chain {},{}", shown(read.label), label) : "";
+    line +=
+        fmt::format("; --chain {}{} reads {}", label, both, readable.size() == 1 ? "it" : "them likewise");
+  }
+  for (const Part* part : hidden) line += fmt::format("; {}", advice_to_rename(*part));
   return line;
 }
 
@@ -340,10 +365,11 @@ std::vector<const Part*> parts_asked_for(const std::string& file, const Parts& p
       if (!parts.has_polymer() && selection != Selection::all) throw no_polymer_in(file, parts);
       std::vector<std::string> expected;
       for (const Part* one : parts.default_parts()) {
-        expected.push_back(shown(one->label));
+        if (parts.can_be_named(*one)) expected.push_back(shown(one->label));
         const std::vector<const Part*> molecules = parts.molecules_of(*one);
         if (!one->molecule && molecules.size() > 1)
-          for (const std::string& label : labels_of(molecules)) expected.push_back(label);
+          for (const Part* molecule : molecules)
+            if (parts.can_be_named(*molecule)) expected.push_back(molecule->label);
       }
       throw InputError(fmt::format("--chain: {} has no chain {}; expected {}", file, in_quotes(name),
                                    joined(expected, expected.size())));

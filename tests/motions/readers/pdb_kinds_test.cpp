@@ -229,6 +229,24 @@ TEST(PdbKinds, MoleculesWithoutAChainName) {
     }
 }
 
+// The advice names only what --chain reads.
+TEST(PdbKinds, MoleculesBesideAChainWithTheirNumber) {
+  const std::string molecules = File().add(1, 3, ' ').line("TER").add(4, 3, ' ').line("TER").text;
+  constexpr const char* rename =
+      "molecule 2 cannot be named by --chain, because a chain has the name 2: rename it";
+  const std::string text = molecules + File().add(1, 5, '2').text;
+  EXPECT_THAT(read(text).warnings, ElementsAre(testing::EndsWith(fmt::format(
+                                       "2, 2 not read; --chain 2 or --chain 1,2 reads it; {}", rename))));
+  EXPECT_EQ(read_trajectories(test::write_file("a.pdb", text), {.chain = "1,2"})[1].bead_count(), 15U);
+  EXPECT_THAT(read(text, {.chain = " "}).warnings,
+              ElementsAre(testing::EndsWith(fmt::format("; --chain 1 reads one each; {}", rename))));
+  refuse(text, {"expected 1, 2"}, {.chain = "7"});
+  // The molecule that is read may be the one without a name of its own.
+  const std::string other = molecules + File().add(1, 5, '1').text;
+  EXPECT_THAT(read(other).warnings,
+              ElementsAre(testing::HasSubstr("2, 1 not read; --chain 2 reads them likewise")));
+}
+
 TEST(PdbKinds, LigandsAndWatersBetweenMolecules) {
   // As programs write that end everything with TER and have no HETATM.
   File file;
