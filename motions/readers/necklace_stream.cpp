@@ -16,6 +16,18 @@ namespace kds {
 
 namespace {
 
+// A format that takes a topology names no atoms itself, so it cannot be one.
+void refuse_trajectory_as_topology(const std::filesystem::path& path, const std::filesystem::path& topology,
+                                   bool path_takes_topology) {
+  const ReaderSpec* const reader = reader_registry().find(topology);
+  if (reader == nullptr || !reader->takes_topology) return;
+  throw InputError(fmt::format(
+      "--topology: {} names no atoms; {}", topology.string(),
+      path_takes_topology
+          ? fmt::format("expected the PDB or mmCIF file with the atoms of {}", path.string())
+          : fmt::format("the trajectory comes first: {} --topology {}", topology.string(), path.string())));
+}
+
 FramesOpened open_frames(const std::filesystem::path& path, const ReadOptions& options) {
   const FloatingPointGuard to_nearest;
   if (options.topology) refuse_unread_format(*options.topology);
@@ -24,6 +36,7 @@ FramesOpened open_frames(const std::filesystem::path& path, const ReadOptions& o
   if (reader == nullptr)
     throw InputError(fmt::format("cannot tell the format of {} from its ending; supported: {}", path.string(),
                                  reader_registry().endings()));
+  if (options.topology) refuse_trajectory_as_topology(path, *options.topology, reader->takes_topology);
   FramesOpened opened = reader->open(path, options);
   if (options.topology && !reader->takes_topology)
     opened.warnings.push_back(fmt::format("{}: --topology is left unread, it serves DCD files", opened.file));

@@ -112,6 +112,19 @@ TEST(NecklaceStream, TellsWhereACellDoesNotSuitTheBonds) {
                                                               HasSubstr("(3 frames)"))));
 }
 
+TEST(NecklaceStream, RefusesATrajectoryAsTopology) {
+  const auto structure = test::write_file("a.pdb", test::pdb_residue(1));
+  const auto frames = test::write_file("a.dcd", "");
+  test::expect_refused([&] { NecklaceStream(structure, {.topology = frames}); },
+                       {"--topology:", "a.dcd names no atoms; the trajectory comes first: " +
+                                           frames.string() + " --topology " + structure.string()});
+  test::expect_refused([&] { NecklaceStream(frames, {.topology = frames}); },
+                       {"--topology:", "names no atoms; expected the PDB or mmCIF file"});
+  // A structure as topology of a structure is left unread.
+  const NecklaceStream stream(structure, {.topology = structure});
+  EXPECT_THAT(stream.warnings(0), ElementsAre(HasSubstr("--topology is left unread")));
+}
+
 TEST(NecklaceStream, KnowsFilesOfOneFrame) {
   NecklaceStream one(test::write_file("one.pdb", test::pdb_residue(1)), {});
   EXPECT_TRUE(one.holds_one_frame());
