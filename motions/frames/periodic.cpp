@@ -235,6 +235,27 @@ ImageBeside nearest_image_beside(const Eigen::Matrix3Xd& others, const Eigen::Ma
   return beside;
 }
 
+std::optional<ImageBeside> EarlierNecklaces::nearer_image(const Eigen::Matrix3Xd& chain,
+                                                          const std::optional<Cell>& cell) const {
+  if (!cell) return std::nullopt;
+  const auto found =
+      std::find_if(cells_.begin(), cells_.end(), [&](const InCell& in) { return in.cell == *cell; });
+  if (found == cells_.end()) return std::nullopt;
+  const std::vector<double>& numbers = found->coordinates;
+  const Eigen::Matrix3Xd others =
+      Eigen::Map<const Eigen::Matrix3Xd>(numbers.data(), 3, static_cast<Eigen::Index>(numbers.size() / 3));
+  const ImageBeside beside = nearest_image_beside(others, chain, *cell);
+  if (beside.shift.isZero(0) || !(beside.distance < beside.present)) return std::nullopt;
+  return beside;
+}
+
+void EarlierNecklaces::add(const Eigen::Matrix3Xd& chain, const std::optional<Cell>& cell) {
+  if (!cell) return;
+  auto found = std::find_if(cells_.begin(), cells_.end(), [&](const InCell& in) { return in.cell == *cell; });
+  if (found == cells_.end()) found = cells_.insert(cells_.end(), {*cell, {}});
+  found->coordinates.insert(found->coordinates.end(), chain.data(), chain.data() + chain.size());
+}
+
 WholeChain::Outcome WholeChain::make_whole(Frame frame, const std::optional<Cell>& cell) {
   if (!cell || frame.cols() == 0) {
     last_centroid_.reset();

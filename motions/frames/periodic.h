@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace kds {
 
@@ -65,10 +66,33 @@ struct ImageBeside {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< to the nearest image, in cell vectors
   double distance = 0;                              ///< of the nearest image: least distance of two beads
   double present = 0;                               ///< of the chain as it lies
+
+  /// Chains are moved, or reported across files, only if the image is much nearer.
+  [[nodiscard]] bool is_much_nearer() const {
+    constexpr double much = 1.5;
+    return distance * much < present;
+  }
 };
 /// Finds the image of `chain` nearest to `others`. Looks at every n-th bead if there are very many pairs.
 [[nodiscard]] ImageBeside nearest_image_beside(const Eigen::Matrix3Xd& others, const Eigen::Matrix3Xd& chain,
                                                const Cell& cell);
+
+/// Necklaces of one frame, one after the other, each compared with all that were added before it.
+class EarlierNecklaces {
+ public:
+  /// Returns the image of the chain nearest to the necklaces before it in the same cell, if it is nearer than
+  /// the chain as it lies.
+  [[nodiscard]] std::optional<ImageBeside> nearer_image(const Eigen::Matrix3Xd& chain,
+                                                        const std::optional<Cell>& cell) const;
+  void add(const Eigen::Matrix3Xd& chain, const std::optional<Cell>& cell);
+
+ private:
+  struct InCell {
+    Cell cell;
+    std::vector<double> coordinates;  ///< x, y and z of each bead
+  };
+  std::vector<InCell> cells_;
+};
 
 /// Makes the frames of a chain whole, one after the other: takes for each bead the image nearest to the bead
 /// before it, and for each frame the image of the whole chain whose centroid is nearest to that of the frame

@@ -97,6 +97,7 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
   if (!opened_.frames->next(first))
     throw InputError(fmt::format("{}: the file holds no frame", opened_.file));
   check_finite(opened_.file, first);
+  EarlierNecklaces earlier;
   Eigen::Index begin = 0;
   for (std::size_t n = 0; n < heads_.size(); ++n) {
     const Eigen::Index beads =
@@ -104,11 +105,13 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
     Eigen::Matrix3Xd& frame = heads_[n].frames.emplace_back(first.positions.middleCols(begin, beads));
     WholeChain chain;
     const bool doubtful = chain.make_whole(frame, first.cell) == WholeChain::Outcome::doubtful;
-    if (n > 0 && first.cell && !doubtful) place_beside_earlier(n, frame, first);
+    const auto beside = doubtful ? std::nullopt : earlier.nearer_image(frame, first.cell);
+    if (beside) place_beside_earlier(n, *beside);
     chain.restart();
     frame = first.positions.middleCols(begin, beads);
     chain.start_shifted(notes_[n].start);
     chain.make_whole(frame, first.cell);
+    earlier.add(frame, first.cell);
     whole_.push_back(chain);
     whole_.back().restart();
     if (opened_.chain_like) heads_[n].breaks = find_chain_breaks(frame);
@@ -118,18 +121,9 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
   opened_.frames->rewind();
 }
 
-void NecklaceStream::place_beside_earlier(std::size_t n, const Eigen::Matrix3Xd& chain,
-                                          const FrameRead& frame) {
-  constexpr double much_nearer = 1.5;
-  std::vector<Eigen::Vector3d> places;
-  for (std::size_t other = 0; other < n; ++other)
-    for (const auto& place : heads_[other].frames.front().colwise()) places.emplace_back(place);
-  const Eigen::Matrix3Xd others =
-      Eigen::Map<const Eigen::Matrix3Xd>(places.front().data(), 3, static_cast<Eigen::Index>(places.size()));
-  const ImageBeside beside = nearest_image_beside(others, chain, *frame.cell);
-  if (beside.shift.isZero(0) || !(beside.distance < beside.present)) return;
+void NecklaceStream::place_beside_earlier(std::size_t n, const ImageBeside& beside) {
   const std::string distances = fmt::format("({:.4g} away, not {:.4g})", beside.distance, beside.present);
-  if (beside.distance * much_nearer < beside.present) {
+  if (beside.is_much_nearer()) {
     notes_[n].start = beside.shift;
     notes_[n].placed = fmt::format("{}: moved to its periodic image nearest to the chains before it {}",
                                    heads_[n].file, distances);

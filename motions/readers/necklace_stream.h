@@ -46,7 +46,7 @@ class NecklaceStream {
     std::optional<Eigen::Vector3d> apart_at_first;
     std::size_t frames_apart = 0, first_apart = 0;  ///< frames in which that shift differs
   };
-  void place_beside_earlier(std::size_t n, const Eigen::Matrix3Xd& chain, const FrameRead& frame);
+  void place_beside_earlier(std::size_t n, const ImageBeside& beside);
 
   FramesOpened opened_;
   std::vector<Trajectory> heads_;

@@ -66,16 +66,23 @@ SceneSurvey SceneStream::survey(bool with_bonds, const std::function<void(const 
 }
 
 void SceneStream::tell_of_nearer_images(const std::function<void(const std::string&)>& warn) const {
-  constexpr double much_nearer = 1.5;
-  for (std::size_t f = 1; f < present_.size(); ++f) {
-    const FrameRead &first = present_[0], &other = present_[f];
-    if (!first.cell || !other.cell || *first.cell != *other.cell) continue;
-    const ImageBeside beside = nearest_image_beside(first.positions, other.positions, *first.cell);
-    if (beside.shift.isZero(0) || !(beside.distance * much_nearer < beside.present)) continue;
-    warn(fmt::format(
-        "{}: has a periodic image much nearer to {} ({:.4g} away, not {:.4g}), left where it is; contacts "
-        "across the walls of the cell are not found",
-        files_[f].heads().front().file, files_[0].heads().front().file, beside.distance, beside.present));
+  if (files_.size() == 1) return;
+  EarlierNecklaces earlier;
+  for (std::size_t f = 0; f < files_.size(); ++f) {
+    Eigen::Index begin = 0;
+    for (const Trajectory& head : files_[f].heads()) {
+      const auto beads = static_cast<Eigen::Index>(head.bead_count());
+      const Eigen::Matrix3Xd chain = present_[f].positions.middleCols(begin, beads);
+      begin += beads;
+      // The chains of the first file have been placed beside each other.
+      const auto beside = f == 0 ? std::nullopt : earlier.nearer_image(chain, present_[f].cell);
+      if (beside && beside->is_much_nearer())
+        warn(
+            fmt::format("{}: has a periodic image much nearer to the necklaces before it ({:.4g} away, not "
+                        "{:.4g}), left where it is; contacts across the walls of the cell are not found",
+                        head.file, beside->distance, beside->present));
+      earlier.add(chain, present_[f].cell);
+    }
   }
 }
 

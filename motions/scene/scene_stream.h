@@ -62,7 +62,8 @@ class SceneStream final : public FrameReader {
  private:
   /// The next frame as the files have it.
   [[nodiscard]] bool read(FrameRead& frame);
-  /// Warns of files in one periodic cell that have much nearer images in the first frame.
+  /// Warns of necklaces that have images much nearer to those before them in the same periodic cell, in the
+  /// first frame.
   void tell_of_nearer_images(const std::function<void(const std::string&)>& warn) const;
 
   std::vector<NecklaceStream> files_;

@@ -147,5 +147,59 @@ TEST(SceneStream, TellsOfNearerImagesInOneCell) {
   EXPECT_TRUE(warnings(18, "21 20 20").empty());
 }
 
+// A later necklace is compared with all before it, not with the first file alone.
+TEST(SceneStream, TellsOfNearerImagesOfAnyEarlierNecklace) {
+  const auto file = [](const std::string& name, double y, double box) {
+    const std::string frame = "2\nLattice=\"" + std::to_string(box) + " 40 40\"\nC 1 " + std::to_string(y) +
+                              " 0\nC 2 " + std::to_string(y) + " 0\n";
+    return test::write_file(name, frame + frame);
+  };
+  const auto first = file("first.xyz", 13, 40), low = file("low.xyz", 1, 40), high = file("high.xyz", 38, 40);
+  EXPECT_TRUE(open({first, low}).warnings.empty());
+  EXPECT_TRUE(open({first, high}).warnings.size() == 1U);  // 15 away, not 25
+  const std::vector<std::string> warnings = open({first, low, high}).warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("high.xyz: has a periodic image much nearer to the necklaces before it (3 away, "
+                             "not 25)"),
+            std::string::npos)
+      << warnings[0];
+  // Cells are compared where they are the same, whatever the first file has.
+  const auto other = file("other.xyz", 13, 41);
+  EXPECT_EQ(open({other, low, high}).warnings.size(), 1U);
+  EXPECT_TRUE(open({other, low}).warnings.empty());
+}
+
+// A chain of a later file, though the chain beside it is near as it lies.
+TEST(SceneStream, TellsOfNearerImagesOfEachChain) {
+  const auto models = [](const std::string& name, const std::vector<double>& heights) {
+    std::string text;
+    for (int k = 0; k < 2; ++k) {
+      text += "CRYST1   40.000   40.000   40.000  90.00  90.00  90.00 P 1\nMODEL        1\n";
+      for (std::size_t n = 0; n < heights.size(); ++n)
+        for (int atom = 0; atom < 3; ++atom)
+          text += test::pdb_line({.name = std::array{"N", "CA", "C"}[static_cast<std::size_t>(atom)],
+                                  .chain = static_cast<char>('A' + n),
+                                  .x = 1.4 * atom,
+                                  .y = heights[n]});
+      text += "ENDMDL\n";
+    }
+    return test::write_file(name, text);
+  };
+  const auto first = models("first.pdb", {1}), two = models("two.pdb", {8, 20});
+  EXPECT_TRUE(open({first, two}, {.chain = "A"}).warnings.empty());
+  std::vector<NecklaceStream> files;
+  files.emplace_back(models("a.pdb", {12, 2}), ReadOptions{.chain = "A,B"});
+  files.emplace_back(models("b.pdb", {19, 37}), ReadOptions{.chain = "A,B"});
+  std::vector<std::string> warnings;
+  (void)SceneStream(std::move(files)).survey(false, [&](const std::string& line) {
+    warnings.push_back(line);
+  });
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("b.pdb chain B: has a periodic image much nearer to the necklaces before it (5 "
+                             "away, not 18)"),
+            std::string::npos)
+      << warnings[0];
+}
+
 }  // namespace
 }  // namespace kds::scene_stream_test
