@@ -89,16 +89,21 @@ TEST_F(SimulatorTest, EventsTellOfFramesAsTheyAreSet) {
   EXPECT_EQ(listener.heard[1].event.kind.name, "turn");
 }
 
+constexpr std::chrono::milliseconds nap_time{2};
+
+void nap() {
+  const auto end = std::chrono::steady_clock::now() + nap_time;
+  while (std::chrono::steady_clock::now() < end) {
+  }
+}
+
 /// Takes its time over each event.
 class Sleeper final : public EventListener {
  public:
   void on_event(const Event&) override {
-    const auto end = std::chrono::steady_clock::now() + nap;
-    while (std::chrono::steady_clock::now() < end) {
-    }
+    nap();
     ++naps;
   }
-  static constexpr std::chrono::milliseconds nap{2};
   int naps = 0;
 };
 
@@ -114,14 +119,25 @@ TEST_F(SimulatorTest, ListenersHaveTheirOwnSeconds) {
   b.on_start = [&] {
     b.schedule("1/3", falling(1, 3), 2, [&] {
       b.change(0, 2);
+      nap();  // after a listener, time counts for the structure again
       b.needs_after_batch = true;
     });
   };
-  b.on_batch_end = [&] { b.change(1, 3); };
+  b.on_batch_end = [&] {
+    b.change(1, 3);
+    nap();
+  };
+  using Seconds = std::chrono::duration<double>;
+  const auto start = std::chrono::steady_clock::now();
   run();
+  const double passed = Seconds(std::chrono::steady_clock::now() - start).count();
   ASSERT_EQ(sleeper.naps, 4);
-  EXPECT_GE(simulator.seconds_of_listeners(),
-            sleeper.naps * std::chrono::duration<double>(Sleeper::nap).count());
+  EXPECT_GE(simulator.seconds_of_listeners(), sleeper.naps * Seconds(nap_time).count());
+  EXPECT_GE(simulator.seconds_of(1), 2 * Seconds(nap_time).count());
+  // No moment counts twice.
+  EXPECT_LE(simulator.seconds() + simulator.seconds_of(0) + simulator.seconds_of(1) +
+                simulator.seconds_of_listeners(),
+            passed);
 }
 
 TEST_F(SimulatorTest, TimesAreRoundedForListenersThatPrintThem) {

@@ -65,13 +65,31 @@ TEST(RoundedPositions, OfLiftedMotionHaveItsWeights) {
   expect_within_bounds(motion, Dyadic(0.4));
 }
 
-TEST(RoundedPositions, WithoutABoundWhereNumbersOverflow) {
+TEST(RoundedPositions, HaveBoundsUpToTheLargestNumbers) {
+  constexpr double largest = std::numeric_limits<double>::max();
   BezierMotion<2, 1> motion(1);
-  for (int k = 0; k < 2; ++k) motion.set_coordinate(0, k, 0, std::numeric_limits<double>::max());
+  for (int k = 0; k < 2; ++k) motion.set_coordinate(0, k, 0, largest);
   const RoundedPositions<2> rounded(MotionRef<2>(motion), Dyadic(0.3));
-  EXPECT_FALSE(
-      std::isfinite(rounded.coordinate_error()) &&
-      !is_within(exact_position(motion, 0, Dyadic(0.3))[0], rounded.row(0)[0], rounded.coordinate_error()));
+  EXPECT_LT(rounded.coordinate_error(), largest * 0x1p-48);
+  EXPECT_TRUE(
+      is_within(exact_position(motion, 0, Dyadic(0.3))[0], rounded.row(0)[0], rounded.coordinate_error()));
+}
+
+// A bound that is a NaN would be lost among the finite ones of the other beads.
+TEST(RoundedPositions, WithoutABoundWhereNumbersOverflow) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  for (const BeadId far : {0U, 1U, 2U}) {
+    LiftedMotion<2> motion(3);
+    for (BeadId b = 0; b < 3; ++b)
+      for (int k = 0; k < 2; ++k) motion.set_coordinate(b, k, 0, b + 0.5 * k);
+    motion.set_coordinate(far, 0, 1, -largest / 4);  // the square of this course is beyond all doubles
+    motion.set_coordinate(far, 1, 1, largest / 4);
+    for (const double time : {0.0, 0.3, 1.0}) {
+      const RoundedPositions<2> rounded(MotionRef<2>(motion), Dyadic(time));
+      EXPECT_EQ(rounded.weight_error(), std::numeric_limits<double>::infinity()) << far << " " << time;
+      EXPECT_TRUE(std::isfinite(rounded.coordinate_error())) << far << " " << time;
+    }
+  }
 }
 
 }  // namespace
