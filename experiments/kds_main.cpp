@@ -35,6 +35,7 @@
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
 #include "motions/numbers/processor.h"
+#include "structures/session/structure_spec.h"
 
 namespace kds {
 namespace {
@@ -74,6 +75,14 @@ std::string program_help() {
          "exit codes: 0 done, 1 failed inside (a failed audit too), 2 wrong usage or input\n";
 }
 
+// For a word that is no command but the name of a structure.
+std::string suggested_run(const std::string& name) {
+  std::vector<std::string_view> structures;
+  for (const StructureSpec& structure : structure_registry().all()) structures.push_back(structure.name);
+  const auto nearest = nearest_name(name, structures);
+  return nearest ? fmt::format(", did you mean run INPUT --structures {}?", *nearest) : "";
+}
+
 const Command& command_of(const std::string& name) {
   for (const Command& command : kCommands)
     if (command.name == name) return command;
@@ -82,8 +91,10 @@ const Command& command_of(const std::string& name) {
   if (is_option) names = {"--help", "--version"};
   if (!is_option)
     for (const Command& command : kCommands) names.push_back(command.name);
-  throw InputError(fmt::format("unknown {} '{}'{} (see kds --help)", is_option ? "option" : "command", name,
-                               suggestion(name, names)));
+  std::string advice = suggestion(name, names);
+  if (advice.empty() && !is_option) advice = suggested_run(name);
+  throw InputError(
+      fmt::format("unknown {} '{}'{} (see kds --help)", is_option ? "option" : "command", name, advice));
 }
 
 // kds help, kds help COMMAND

@@ -76,7 +76,7 @@ MissedReport count_missed(const MissedTask& task, const std::function<void(const
                              sampling.contacts, sampling.found});
     const bool none = std::ranges::all_of(report.rows, [](const auto& row) { return row.contacts == 0; });
     if (none && run + 1 == task.factors.size() && task.radius == "auto")
-      if (const auto hint = radius_hint(scene, task.apart)) warn(*hint);
+      if (const auto hint = factor_hint(scene, factor, task.apart)) warn(*hint);
   }
   return report;
 }

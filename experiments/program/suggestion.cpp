@@ -32,9 +32,11 @@ std::optional<std::string_view> nearest_name(std::string_view word, std::span<co
   for (const std::string_view name : names) {
     const std::string known = lower(name);
     const std::size_t distance = edit_distance(typed, known);
+    const std::size_t letters =
+        std::max(bare.size(), known.size() - std::min(known.find_first_not_of('-'), known.size()));
     const bool is_part = bare.size() >= letters_for_a_part &&
                          (known.ends_with(bare) || (bare.size() < known.size() && known.starts_with(typed)));
-    const bool is_near = distance <= std::max<std::size_t>(1, bare.size() / 3) && distance < known.size();
+    const bool is_near = distance <= std::max<std::size_t>(1, letters / 3) && distance < known.size();
     if (!is_part && !is_near) continue;
     const std::size_t rank = is_near ? distance : longest + distance;
     if (nearest && rank >= least) continue;

@@ -48,31 +48,55 @@ std::vector<double> half_distances_known(const Scene& scene, const Balls<Dimensi
   return {};
 }
 
+/// The radius worth trying, with the option that leaves out near beads.
+struct Advice {
+  double radius = 0;
+  std::string apart;
+};
+
 template <int Dimension>
-std::optional<std::string> hint_in(const Scene& scene, BeadId apart) {
+std::optional<Advice> advice_in(const Scene& scene, BeadId apart) {
   constexpr BeadId few = 5;  // beads nearer along the chain are near because of its bonds
   const Balls<Dimension> balls(scene.centers(0), scene.radii());
   const BeadId farther = std::max(apart, few);
   std::vector<double> half = half_distances_known(scene, balls, farther);
-  std::string options = farther > apart ? fmt::format(" --apart {}", farther) : "";
+  std::string option = farther > apart ? fmt::format(" --apart {}", farther) : "";
   if (half.empty() && farther > apart) {
     half = half_distances_known(scene, balls, apart);
-    options.clear();
+    option.clear();
   }
   if (half.empty()) return std::nullopt;
-  return fmt::format(
-      "contacts: there are none, as beads of a chain just touch with --radius auto, {:.3g}; worth trying is "
-      "--radius {:.3g}{}, at which half of the beads touch another in the first frame",
-      scene.radii().front(), to_three_digits(half[(half.size() - 1) / 2]), options);
+  return Advice{half[(half.size() - 1) / 2], option};
 }
+
+std::optional<Advice> advice_for(const Scene& scene, BeadId apart) {
+  if (scene.frame_count() == 0 || !scene.has_radii() || !scene.equal_radii()) return std::nullopt;
+  if (scene.dimension() == 2) return advice_in<2>(scene, apart);
+  if (scene.dimension() == 3) return advice_in<3>(scene, apart);
+  return std::nullopt;
+}
+
+constexpr std::string_view half_touch = "at which half of the beads touch another in the first frame";
 
 }  // namespace
 
 std::optional<std::string> radius_hint(const Scene& scene, BeadId apart) {
-  if (scene.frame_count() == 0 || !scene.has_radii() || !scene.equal_radii()) return std::nullopt;
-  if (scene.dimension() == 2) return hint_in<2>(scene, apart);
-  if (scene.dimension() == 3) return hint_in<3>(scene, apart);
-  return std::nullopt;
+  const std::optional<Advice> advice = advice_for(scene, apart);
+  if (!advice) return std::nullopt;
+  return fmt::format(
+      "contacts: there are none, as beads of a chain just touch with --radius auto, {:.3g}; worth trying is "
+      "--radius {:.3g}{}, {}",
+      scene.radii().front(), to_three_digits(advice->radius), advice->apart, half_touch);
+}
+
+std::optional<std::string> factor_hint(const Scene& scene, double factor, BeadId apart) {
+  const std::optional<Advice> advice = advice_for(scene, apart);
+  if (!advice) return std::nullopt;
+  const double radius = scene.radii().front() / factor;
+  return fmt::format(
+      "contacts: there are none with radii of {:g} times --radius auto, {:.3g}; worth trying is --factors "
+      "{:.3g}{}, {}",
+      factor, radius, to_three_digits(advice->radius / radius), advice->apart, half_touch);
 }
 
 }  // namespace kds

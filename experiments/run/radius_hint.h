@@ -1,5 +1,5 @@
 #pragma once
-// The radius to try where a run has no contacts, since with --radius auto the beads of a chain just touch.
+// The option to try where a run has no contacts, since with --radius auto the beads of a chain just touch.
 
 #include <optional>
 #include <string>
@@ -13,5 +13,9 @@ namespace kds {
 /// Two beads of one chain count if they are at least `apart` apart, and at least 5 if the chain is long
 /// enough. Returns nothing if beads meet in that frame, radii differ or no pair counts.
 [[nodiscard]] std::optional<std::string> radius_hint(const Scene& scene, BeadId apart);
+
+/// Likewise names a factor of --factors, where the radii of the scene are `factor` times those of --radius
+/// auto.
+[[nodiscard]] std::optional<std::string> factor_hint(const Scene& scene, double factor, BeadId apart);
 
 }  // namespace kds

@@ -116,13 +116,35 @@ TEST(ContactsRun, NamesARadiusWhereThereAreNone) {
   ASSERT_NE(from, std::string::npos) << none.err;
   ASSERT_NE(to, std::string::npos) << none.err;
   const std::string radius = none.err.substr(from + before.size(), to - from - before.size());
-  EXPECT_THAT(run({"missed"}).err, HasSubstr(before + radius + after));
   EXPECT_THAT(run({"trade", "--want", "contacts", "--rounds", "1", "--times", "2", "--without-exact"}).err,
               HasSubstr(before + radius + after));
   const ProgramRun some =
       run({"run", "--structures", "contacts", "--radius", radius, "--apart", "5", "--json", "-"});
   EXPECT_EQ(some.err, "");
   EXPECT_GE(Json::parse(some.out)["structures"]["contacts"]["contacts"]["at_start"], 108 / 4);
+}
+
+// The share of missed contacts is asked by factors of a radius, so the advice is a factor.
+TEST(ContactsRun, WithoutContactsMissedNamesAFactor) {
+  const auto run = [](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"missed", kDcd, "--topology", kPdb, "--frames", "0:4", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(arguments);
+  };
+  const std::string before = "worth trying is --factors ", after = " --apart 5, at which";
+  const auto advised = [&](const std::string& err) {
+    const std::size_t from = err.find(before), to = err.find(after);
+    EXPECT_TRUE(from < to && to != std::string::npos) << err;
+    return from < to ? err.substr(from + before.size(), to - from - before.size()) : "";
+  };
+  const std::string message = run({}).err, factor = advised(message);
+  EXPECT_THAT(message, HasSubstr("there are none with radii of 1 times --radius auto, 0.8"));
+  EXPECT_THAT(message, testing::Not(HasSubstr("--radius 2")));
+  // The factor is of the automatic radius, whichever factor found no contacts.
+  EXPECT_EQ(advised(run({"--factors", "0.25,0.5"}).err), factor);
+  const ProgramRun some = run({"--factors", factor, "--apart", "5", "--json", "-"});
+  EXPECT_EQ(some.err, "");
+  EXPECT_GE(Json::parse(some.out)["rows"][0]["contacts"], 108 / 4);
 }
 
 TEST(ContactsRun, PairsNearAlongTheChain) {

@@ -60,6 +60,10 @@ TEST(Program, RefusesWrongUsage) {
 TEST(Program, SuggestsTheNearestName) {
   expect_refused({"rnu"}, {"unknown command 'rnu', did you mean run?"});
   expect_refused({"help", "colide"}, {"did you mean collide?"});
+  expect_refused({"contacts", kSmall},
+                 {"unknown command 'contacts', did you mean run INPUT --structures contacts?"});
+  expect_refused({"Wrapped"}, {"did you mean run INPUT --structures wrapped?"});
+  expect_refused({"run", kSmall, "--radii", "3"}, {"unknown option '--radii', did you mean --radius?"});
   expect_refused({"--versoin"}, {"did you mean --version?"});
   expect_refused({"run", kSmall, "--frame", "0:3"}, {"unknown option '--frame', did you mean --frames?"});
   expect_refused({"run", kSmall, "--frame=0:3"}, {"did you mean --frames?"});
