@@ -81,7 +81,9 @@ constexpr std::array kModelOptions{
 constexpr std::array kFirstOptions{
     OptionSpec{"-o", "FILE",
                "where to write: .xyz (exact) or .pdb, .ent (three decimals); two-spirals: FILE-1 and FILE-2"},
-    OptionSpec{"--beads", "N", "how many, from 2 (must be given)"},
+    OptionSpec{"--beads", "N",
+               "how many, from 2 (must be given); beads of a grill of 3 to 43 meet, except of 40, and those "
+               "of a spline of 7"},
     OptionSpec{"--frames", "F", "how many (default: 50)"},
     OptionSpec{"--seed", "S", "which random numbers (default: 1)"},
 };

@@ -19,7 +19,8 @@ namespace kds::models {
 /// the square root of the number of beads.
 [[nodiscard]] double turns_at_pitch(std::size_t beads, double pitch);
 
-/// Six parallel segments in the plane, connected by parabolic arcs. Proper from about 40 beads on.
+/// Six parallel segments in the plane, connected by parabolic arcs. Proper from 44 beads on, with 40 and
+/// with 2.
 [[nodiscard]] Shape grill(std::size_t beads, double bond = usual_bond);
 
 /// Rows that trace a square (`dimension` 2, in the plane z = 0) or a cube (3) to and fro, the rows 2 (1 +

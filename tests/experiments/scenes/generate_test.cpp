@@ -121,6 +121,20 @@ TEST(GenerateOptions, RefusesWithTheOptionAndWhatItTakes) {
   EXPECT_THAT(refusal("grill", "--turns", "1"), HasSubstr("--turns: has no meaning for the model grill"));
 }
 
+// --help says how many beads are too few for the bends of a grill or a spline.
+TEST(Generate, ShortGrillsAndSplinesMeet) {
+  const ScratchDirectory directory;
+  const auto is_proper = [&](const std::string& model, std::size_t beads) {
+    const ProgramRun run = run_program({"generate", model, "--beads", std::to_string(beads), "--frames", "2",
+                                        "-o", (directory / "g.xyz").string(), "--json", "-", "--quiet"});
+    return Json::parse(run.out)["proper"].get<bool>();
+  };
+  for (std::size_t beads = 2; beads < 90; ++beads) {
+    EXPECT_EQ(is_proper("grill", beads), beads == 2 || beads == 40 || beads >= 44) << beads;
+    EXPECT_EQ(is_proper("spline", beads), beads != 7) << beads;
+  }
+}
+
 TEST(Generate, WritesWhatTheModelIs) {
   const ScratchDirectory directory;
   const std::string file = (directory / "chain.xyz").string(), json = (directory / "chain.json").string();
