@@ -185,8 +185,6 @@ TEST(SceneStream, TellsOfNearerImagesOfEachChain) {
     }
     return test::write_file(name, text);
   };
-  const auto first = models("first.pdb", {1}), two = models("two.pdb", {8, 20});
-  EXPECT_TRUE(open({first, two}, {.chain = "A"}).warnings.empty());
   std::vector<NecklaceStream> files;
   files.emplace_back(models("a.pdb", {12, 2}), ReadOptions{.chain = "A,B"});
   files.emplace_back(models("b.pdb", {19, 37}), ReadOptions{.chain = "A,B"});
