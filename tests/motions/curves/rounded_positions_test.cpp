@@ -84,10 +84,10 @@ TEST(RoundedPositions, WithoutABoundWhereNumbersOverflow) {
       for (int k = 0; k < 2; ++k) motion.set_coordinate(b, k, 0, b + 0.5 * k);
     motion.set_coordinate(far, 0, 1, -largest / 4);  // the square of this course is beyond all doubles
     motion.set_coordinate(far, 1, 1, largest / 4);
-    for (const double time : {0.0, 0.3, 1.0}) {
-      const RoundedPositions<2> rounded(MotionRef<2>(motion), Dyadic(time));
-      EXPECT_EQ(rounded.weight_error(), std::numeric_limits<double>::infinity()) << far << " " << time;
-      EXPECT_TRUE(std::isfinite(rounded.coordinate_error())) << far << " " << time;
+    for (const Dyadic& time : {Dyadic(0.0), Dyadic(0.3), Dyadic(1.0)}) {
+      const RoundedPositions<2> rounded(MotionRef<2>(motion), time);
+      EXPECT_EQ(rounded.weight_error(), std::numeric_limits<double>::infinity()) << far;
+      EXPECT_TRUE(std::isfinite(rounded.coordinate_error())) << far;
     }
   }
 }
