@@ -90,8 +90,9 @@ TEST(Program, RefusesMissingFiles) {
   expect_refused({"run", missing}, {"missing.pdb"});
   expect_refused({"run", kSmall, missing}, {"missing.pdb"});
   expect_refused({"run", directory.file("a.dcd", ""), "--topology", missing}, {"missing.pdb"});
-  expect_refused({"run", kSmall, "--topology", directory.file("a.dcd", "")},
-                 {"a.dcd names no atoms; the trajectory comes first"});
+  expect_refused(
+      {"run", data_file("trajectories/villin_hp36_300K.pdb"), "--topology", directory.file("a.dcd", "")},
+      {"a.dcd names no atoms; the trajectory comes first"});
   expect_refused({"run", directory.path().string()}, {"is a directory"});
   expect_refused({"replay", missing}, {"missing.pdb"});
   expect_refused({"run", missing, "--out", (directory / "report").string()}, {"missing.pdb"});
