@@ -1,12 +1,12 @@
 #pragma once
-// Polynomials on u in [0,1] in *scaled* Bernstein form: scaled[k] = C(Degree,k) * (k-th Bernstein
+// Polynomials on u in [0,1] in *scaled* Bernstein form: scaled[k] = C(degree, k) * (k-th Bernstein
 // coefficient),
-//   p(u) = sum_k scaled[k] u^k (1-u)^(Degree-k).
-// In this form a product is a plain convolution and nothing is ever divided, so every ring will do as Number:
-// double, an error-bound magnitude, integers. Exact where Number is.
+//   p(u) = sum_k scaled[k] u^k (1-u)^(degree-k).
+// In this form a product is a plain convolution without divisions, so any ring can be the number type:
+// doubles, magnitudes with error bounds, integers. Operations are exact if the number type is.
 //
-// The degree is a constant of the type, or, where that is negative, -m, m times a degree known only when the
-// program runs: sums and products of such degrees follow by the same arithmetic.
+// The degree is a constant of the type. A negative constant -m stands for m times a degree known only at run
+// time. Degrees of sums and products follow by the same arithmetic in both cases.
 
 #include <algorithm>
 #include <array>
@@ -20,22 +20,23 @@
 
 namespace kds {
 
-/// Of the functions that can be searched: on the way to a binomial of a higher degree numbers exceed 64 bits.
+/// The highest degree of functions that can be searched. Binomials of a higher degree exceed 64 bits while
+/// they are computed.
 inline constexpr int most_degree_of_function = 61;
 
-/// n over k, n at most that.
+/// Returns n over k, for n <= most_degree_of_function.
 [[nodiscard]] constexpr long long binomial(int n, int k) {
   long long result = 1;
   for (int i = 1; i <= k; ++i) result = result * (n - k + i) / i;
   return result;
 }
 
-/// The degree, as polynomials name it in their type, of a motion whose degree is known only at run time.
+/// The degree constant of a motion whose degree is known only at run time.
 inline constexpr int any_degree = -1;
 
 namespace detail {
 
-// Polynomials whose degrees are known at run time share the code below, whatever degrees their types name.
+// Polynomials with run-time degrees share the code below, whatever multiple their types name.
 
 [[noreturn]] void refuse_unlike_degrees(std::size_t a, std::size_t b);
 
@@ -45,7 +46,7 @@ void require_like_degrees(const Coefficients<Number>& a, const Coefficients<Numb
     refuse_unlike_degrees(a.size(), b.size());
 }
 
-/// Throws std::logic_error, as does the next, where the two have not the same number of coefficients.
+/// Adds in place. Throws std::logic_error if the numbers of coefficients differ; so does subtract_from.
 template <class Number>
 [[gnu::noinline]] void add_to(Coefficients<Number>& a, const Coefficients<Number>& b) {
   require_like_degrees<Number>(a, b);
@@ -61,7 +62,7 @@ template <class Number>
   for (Number& c : a) c = -std::move(c);
 }
 
-/// Coefficient k of a product.
+/// Returns coefficient k of the product a b.
 template <class Number, class A, class B>
 constexpr Number convolved(const A& a, const B& b, std::size_t k) {
   const std::size_t to_a = a.size() - 1, to_b = b.size() - 1;
@@ -78,7 +79,7 @@ template <class Number>
   for (std::size_t k = 0; k < product.size(); ++k) product[k] = convolved<Number>(a, b, k);
 }
 
-/// `p`, written with the degree `to`.
+/// Elevates `p` to the degree `to`.
 template <class Number>
 [[gnu::noinline]] void elevate_to(std::size_t to, const Coefficients<Number>& p,
                                   Coefficients<Number>& result) {
@@ -90,7 +91,7 @@ template <class Number>
   }
 }
 
-/// A whole number of times another number.
+/// Multiplies a number by a whole number.
 template <class Number>
 constexpr void multiply_by(Number& x, std::int64_t factor) {
   if constexpr (std::is_floating_point_v<Number>) {
@@ -115,7 +116,8 @@ struct Bernstein {
                      std::array<Number, static_cast<std::size_t>(std::max(DegreeValue, 0)) + 1>>
       scaled;
 
-  /// Makes room for coefficients of this degree; where the type's degree is a constant, it must be that.
+  /// Makes room for the coefficients of this degree. If the type's degree is a constant, the argument must
+  /// equal it.
   constexpr void set_degree([[maybe_unused]] int of_this_degree) {
     if constexpr (DegreeValue < 0) scaled.resize(static_cast<std::size_t>(of_this_degree) + 1);
   }
@@ -160,7 +162,7 @@ constexpr Bernstein<Number, A + B> operator*(const Bernstein<Number, A>& a, cons
   return product;
 }
 
-/// The same polynomial written with a higher degree: multiplied by (u + (1-u)) again and again.
+/// Returns the same polynomial written with a higher degree: p times a power of (u + (1-u)).
 template <int To, class Number, int From>
 constexpr Bernstein<Number, To> elevate(const Bernstein<Number, From>& p) {
   static_assert(From < 0 ? To <= From && To % From == 0 : To >= From);
@@ -180,14 +182,14 @@ constexpr Bernstein<Number, To> elevate(const Bernstein<Number, From>& p) {
   }
 }
 
-/// A whole number of times a polynomial.
+/// Returns a whole number times a polynomial.
 template <class Number, int Degree>
 [[nodiscard]] constexpr Bernstein<Number, Degree> times(std::int64_t factor, Bernstein<Number, Degree> p) {
   for (Number& c : p.scaled) detail::multiply_by(c, factor);
   return p;
 }
 
-/// A vector of polynomials, one a coordinate axis.
+/// A vector of polynomials, one for each coordinate axis.
 template <class Number, int Degree, int Dimension>
 using BernsteinVector = std::array<Bernstein<Number, Degree>, static_cast<std::size_t>(Dimension)>;
 

@@ -31,13 +31,13 @@ Rational Dyadic::rational() const { return Rational(numerator_, Integer(1) << ex
 
 namespace {
 
-// mpz_get_d_2exp truncates towards zero, and so does a double that is scaled without becoming subnormal.
+// Rounds towards zero: mpz_get_d_2exp truncates, and scaling the result is exact unless it becomes subnormal.
 double truncate(const Integer& numerator, unsigned exponent) {
   long scale = 0;
   const double fraction = mpz_get_d_2exp(&scale, numerator.data());
   const long power = scale - static_cast<long>(exponent);
   if (power > 1024) return std::copysign(std::numeric_limits<double>::max(), fraction);
-  if (power < -1021) {  // subnormal: cut to the last place that remains
+  if (power < -1021) {  // a subnormal result: truncate to multiples of 2^-1074
     const double unit = std::ldexp(fraction, static_cast<int>(power < -2000 ? -2000L : power) + 1074);
     return std::ldexp(std::trunc(unit), -1074);
   }

@@ -1,5 +1,6 @@
 #pragma once
-// Exact numbers: integers without a width, and dyadic rationals, which is what doubles are.
+// Exact numbers: integers of unlimited length and dyadic rationals (whole numbers times powers of two). Every
+// finite double is a dyadic rational.
 
 #include <algorithm>
 #include <bit>
@@ -23,7 +24,7 @@ class SumOfProducts<Integer> {
   Integer sum_;
 };
 
-/// value = mantissa * 2^exponent with an odd mantissa, or 0 * 2^0. `value` must be finite.
+/// A finite double split into mantissa * 2^exponent. The mantissa is odd; zero is 0 * 2^0.
 struct SplitDouble {
   long long mantissa = 0;
   int exponent = 0;
@@ -39,7 +40,7 @@ struct SplitDouble {
   return {value < 0 ? -odd : odd, std::max(power, 1) - 1075 + zeros};
 }
 
-/// numerator / 2^exponent; kept with an odd numerator or exponent 0.
+/// A dyadic rational, numerator / 2^exponent. Normalized: the numerator is odd or the exponent is 0.
 class Dyadic {
  public:
   Dyadic() = default;
@@ -50,7 +51,7 @@ class Dyadic {
   [[nodiscard]] unsigned exponent() const { return exponent_; }
   [[nodiscard]] Rational rational() const;
 
-  /// The largest double not above, the smallest not below.
+  /// Return the largest double that is not above this number, and the smallest double that is not below it.
   [[nodiscard]] double round_down() const;
   [[nodiscard]] double round_up() const;
 

@@ -30,7 +30,7 @@ void FixedDigits<Most>::set(const Integer& number, std::uint64_t error, std::int
   const mp_limb_t* limbs = mpz_limbs_read(whole);
   const auto size = static_cast<std::int64_t>(mpz_size(whole));
   negative_ = mpz_sgn(whole) < 0;
-  // Zeros below are not kept, nor what there is no room for.
+  // Drop the lowest words that are zero, and the lowest words for which there is no room.
   std::int64_t first = std::max<std::int64_t>(0, size - Most);
   const bool exact = std::all_of(limbs, limbs + first, [](mp_limb_t x) { return x == 0; });
   if (error == 0 && exact)
@@ -49,7 +49,7 @@ FixedDigits<Most> FixedDigits<Most>::between(const Integer& low, const Integer& 
   const Integer length = high - low;
   const auto bits = static_cast<std::int64_t>(mpz_sizeinbase(length.data(), 2));
   const std::int64_t words = bits > error_bits - 2 ? (bits - (error_bits - 2) + 63) / 64 : 0;
-  // Down to where the length is a bound of few bits.
+  // Drop words until the length has few enough bits to be an error bound.
   if (all.size_ == 0) all.exponent_ = words;
   all.drop(words - all.exponent_);
   const Integer units = length >> static_cast<std::size_t>(64 * all.exponent_);
@@ -107,12 +107,12 @@ FixedDigits<Most> FixedDigits<Most>::product(const FixedDigits& a, const FixedDi
   result.exponent_ = a.exponent_ + b.exponent_;
   result.negative_ = a.negative_ != b.negative_;
   const int both = a.size_ + b.size_;
-  // So many words are left out: what there is no room for, what errors make meaningless.
+  // The number of words to drop: those without room, and those that errors make meaningless.
   std::int64_t out = std::max(0, both - Most);
   if (b.error_ != 0) out = std::max<std::int64_t>(out, a.size_ - 1);
   if (a.error_ != 0) out = std::max<std::int64_t>(out, b.size_ - 1);
   out = std::max(out, floor - result.exponent_);
-  // |ab - a'b'| <= |a'| db + |b'| da + da db, and 1 for what is left out.
+  // |ab - a'b'| <= |a'| db + |b'| da + da db, plus 1 for the dropped words.
   Wide error;
   while (true) {
     error = times(a, b.error_, out) + times(b, a.error_, out) + over(Wide{a.error_} * b.error_, out) +
@@ -123,7 +123,7 @@ FixedDigits<Most> FixedDigits<Most>::product(const FixedDigits& a, const FixedDi
   result.exponent_ += out;
   result.error_ = static_cast<std::uint64_t>(error);
   if (a.size_ == 0 || b.size_ == 0 || out >= both) return result;
-  // Words of a and b that have no part in the result but for a carry are not multiplied: 1 more at most.
+  // Skip words of a and b that affect the result only through a carry. This adds at most 1 to the error.
   const int kept = both - static_cast<int>(out) + 1;
   const int of_a = std::min(a.size_, kept), of_b = std::min(b.size_, kept);
   const int below = (a.size_ - of_a) + (b.size_ - of_b);
@@ -150,7 +150,7 @@ FixedDigits<Most>& FixedDigits<Most>::operator+=(const FixedDigits& other) {
   std::int64_t last = std::max(std::min(exponent_, other.exponent_), top - Most);
   if (error_ != 0) last = std::max(last, exponent_);
   if (other.error_ != 0) last = std::max(last, other.exponent_);
-  // Both in words from `last` on.
+  // Align both numbers to words from `last` upwards.
   const auto align = [last](FixedDigits& x) {
     x.drop(last - x.exponent_);
     const std::int64_t up = x.exponent_ - last;

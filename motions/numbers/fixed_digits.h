@@ -1,8 +1,8 @@
 #pragma once
-// A number by its leading digits, as in leading_digits.h, of so many words of 64 bits: lengths between those
-// of LeadingDigits and of LongDigits, without an allocation. Exponents count words, so that numbers are
-// aligned by moving whole ones, and of a product that is added to a sum what lies below the sum's last word
-// is not multiplied out. Where all fits numbers are exact. All in integers.
+// Ball arithmetic, as in leading_digits.h, with a fixed number of 64-bit words and no allocation. It fills
+// the gap between LeadingDigits and LongDigits. Exponents count words, so aligning two numbers moves whole
+// words. If a product is added to a sum, the part of the product below the sum's last word is not computed.
+// Numbers are exact while they fit. All operations use integers.
 
 #include <gmp.h>
 
@@ -19,7 +19,7 @@
 
 namespace kds {
 
-/// |value - (+-limbs) 2^(64 exponent)| <= error 2^(64 exponent)
+/// A ball: |value - (+-limbs) 2^(64 exponent)| <= error 2^(64 exponent).
 template <int Most>
 class FixedDigits {
   static_assert(GMP_NUMB_BITS == 64 && sizeof(mp_limb_t) == 8, "GMP's words have 64 bits");
@@ -29,15 +29,15 @@ class FixedDigits {
   [[nodiscard]] static FixedDigits of(long long x);
   explicit FixedDigits(const Integer& x) { set(x, 0, 0); }
   explicit FixedDigits(const LongDigits& x) { set(x.number(), x.error(), x.exponent()); }
-  /// All numbers between two, from 0 on.
+  /// Returns a ball that contains every number between two bounds, 0 <= low <= high.
   [[nodiscard]] static FixedDigits between(const Integer& low, const Integer& high);
   [[nodiscard]] LongDigits long_digits() const;
 
-  /// 1 or -1 if that is the sign for certain, else 0.
+  /// Returns 1 or -1 if that is certainly the sign, else 0.
   [[nodiscard]] int certain_sign() const {
     return size_ > 1 || (size_ == 1 && limbs_[0] > error_) ? (negative_ ? -1 : 1) : 0;
   }
-  /// The number is 0 for certain.
+  /// Returns whether the number is certainly 0.
   [[nodiscard]] bool is_zero() const { return size_ == 0 && error_ == 0; }
 
   FixedDigits& operator+=(const FixedDigits& other);
@@ -57,31 +57,32 @@ class FixedDigits {
   friend void add_product(FixedDigits& a, const FixedDigits& b, const FixedDigits& c) {
     a += product(b, c, a.last_word());
   }
-  /// Of 64 bits, roughly.
+  /// Returns the approximate length of x in 64-bit limbs.
   friend std::size_t limbs_of(const FixedDigits& x) { return static_cast<std::size_t>(x.size_) + 1; }
 
  private:
   static constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min() / 4;
   static constexpr int error_bits = 62;
 
-  /// Of what is left where digits below 2^(64 floor) do not matter.
+  /// Returns a b where digits below 2^(64 floor) do not matter and may be dropped.
   [[nodiscard]] static FixedDigits product(const FixedDigits& a, const FixedDigits& b, std::int64_t floor);
   void set(const Integer& number, std::uint64_t error, std::int64_t exponent);
 
-  /// The exponent below which nothing is kept of what is added.
+  /// Returns the exponent (in words) below which a sum keeps nothing of what is added to it.
   [[nodiscard]] std::int64_t last_word() const {
     return is_zero() ? lowest : error_ != 0 ? exponent_ : exponent_ + size_ - Most;
   }
   void strip() {
     while (size_ > 0 && limbs_[static_cast<std::size_t>(size_) - 1] == 0) --size_;
   }
-  /// Leaves out the lowest words.
+  /// Drops the lowest words.
   void drop(std::int64_t words);
-  /// What a bound of 2^64 units a word and more comes to, rounded up.
+  /// Converts a bound from units of one word to units `words` words larger, rounding up.
   [[nodiscard]] static Wide over(Wide bound, std::int64_t words) {
     return words == 0 || bound == 0 ? bound : words == 1 ? (bound >> 64U) + 1 : 1;
   }
-  /// |x| times an error, in units of 2^(64 words), at least as many words as x has but one.
+  /// Returns an upper bound of |x| * error in units of 2^(64 words), with words >= (number of words of
+  /// x) - 1.
   [[nodiscard]] static Wide times(const FixedDigits& x, std::uint64_t error, std::int64_t words) {
     if (x.size_ == 0 || error == 0) return 0;
     return over((Wide{x.limbs_[static_cast<std::size_t>(x.size_) - 1]} + 1) * error, words - (x.size_ - 1));
@@ -91,7 +92,7 @@ class FixedDigits {
   std::uint64_t error_ = 0;
   int size_ = 0;
   bool negative_ = false;
-  std::array<mp_limb_t, static_cast<std::size_t>(Most)> limbs_;  // lowest first, the last of them not 0
+  std::array<mp_limb_t, static_cast<std::size_t>(Most)> limbs_;  // lowest first; the highest is not 0
 };
 
 template <int Most>

@@ -61,7 +61,7 @@ void FixedInteger::add_product(const FixedInteger& a, const FixedInteger& b) {
     }
   }
   if (!rows.is_negative()) return;
-  // The limbs left out are those of -2^(64 limbs).
+  // The skipped limbs of a negative factor amount to -2^(64 limbs).
   std::uint64_t carry = 1;
   for (std::size_t j = 0; limbs + j < count; ++j) {
     const Wide sum = Wide{limbs_[limbs + j]} + ~other.limbs_[j] + carry;

@@ -1,6 +1,7 @@
 #pragma once
-// Whole numbers modulo 2^384, in place and all of one cost: exact for values below 2^383 in size, whatever
-// was computed on the way to them. Most functions of beads fit, and need no long numbers and no residues.
+// Integers modulo 2^384, stored in place, with operations of constant cost. A result is exact if it is below
+// 2^383 in size, whatever the intermediate values were. Most functions of beads fit, so they need neither
+// integers of unlimited length nor residues.
 
 #include <array>
 #include <cstddef>
@@ -36,17 +37,17 @@ class FixedInteger {
     return product;
   }
 
-  /// Between -2^383 and 2^383.
+  /// Returns the value between -2^383 and 2^383.
   [[nodiscard]] Integer whole_number() const;
 
  private:
   static constexpr std::size_t count = bits / 64;
 
   [[nodiscard]] bool is_negative() const { return limbs_.back() >> 63U != 0; }
-  /// Lowest limbs, above which all are the sign's.
+  /// Returns the number of lowest limbs that matter: all higher limbs repeat the sign.
   [[nodiscard]] std::size_t significant() const;
 
-  std::array<std::uint64_t, count> limbs_{};  // lowest first, of the two's complement
+  std::array<std::uint64_t, count> limbs_{};  // two's complement, lowest first
 };
 
 template <>

@@ -1,16 +1,18 @@
 #pragma once
-// Floats that go through the same operations side by side (lanes.h: four doubles): twice the work in the same
-// time, where 24 binary digits will do for a proof. Eight of them, or four: where a processor has no vectors
-// as long as that, comparing eight would be done one by one.
+// Floats that undergo the same operations side by side. Compared with the four doubles of lanes.h they do
+// twice the work in the same time, where 24 binary digits suffice for a proof. The width is eight or four;
+// four is for processors without vectors of eight floats, which would execute comparisons of eight one by
+// one.
 
 #include <array>
 #include <cstddef>
 
 #include "motions/numbers/lanes.h"
 
-// Functions of four are long ones (long_lanes.h): formulas of many numbers keep more of them in registers.
-// Functions of eight are compiled for the processors that have vectors so long, and only they may call them;
-// each for one kind, by name. The same bits again.
+// Functions on four floats are compiled as long functions (long_lanes.h), because formulas of many numbers
+// then keep more values in registers. Functions on eight floats are compiled by name for each kind of
+// processor with long enough vectors, and only code that has checked for such a processor may call them.
+// Every version gives the same bits.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define KDS_EIGHT_FLOATS_AVX2 KDS_FOR_TARGET("avx2")
 #define KDS_EIGHT_FLOATS_AVX512 KDS_FOR_TARGET("arch=x86-64-v4")
@@ -43,14 +45,14 @@ class FloatLanesIn {
  public:
   static constexpr std::size_t width = Width;
   using Vector = typename detail::FloatVector<Width>::Type;
-  using Mask = decltype(Vector{} < Vector{});  // of whole numbers: -1 where true, else 0
+  using Mask = decltype(Vector{} < Vector{});  // lanes of whole numbers: -1 if true, else 0
   using Row = float __attribute__((vector_size(16)));
 
   Vector v;
 
-  FloatLanesIn() {}  // left as it is: arrays of lanes are filled right away
+  FloatLanesIn() {}  // uninitialized, because arrays of lanes are filled right away
   [[gnu::always_inline]] FloatLanesIn(Vector vector) : v(vector) {}
-  /// By way of four: g++ 12 fills eight one by one in a function compiled for several targets.
+  /// Fills four floats first: in a function compiled for several targets, g++ 12 fills eight one by one.
   [[gnu::always_inline]] explicit FloatLanesIn(float all) {
     const Row four{all, all, all, all};
     if constexpr (width == 4) {
@@ -88,7 +90,7 @@ class FloatLanesIn {
     return a.v >= b.v;
   }
 
-  /// As std::max.
+  /// Returns the larger of a and b, like std::max.
   [[gnu::always_inline]] static FloatLanesIn max(const FloatLanesIn& a, const FloatLanesIn& b) {
     return a.v < b.v ? b.v : a.v;
   }
@@ -97,11 +99,11 @@ class FloatLanesIn {
     return reinterpret_cast<Vector>(reinterpret_cast<Mask>(a.v) & magnitude);
   }
 
-  /// Four doubles rounded to floats.
+  /// Returns four doubles rounded to floats.
   [[gnu::always_inline]] static Row rounded(const Lanes::Vector& four) {
     return __builtin_convertvector(four, Row);
   }
-  /// Lane i of the k-th result is number k of row i.
+  /// Transposes rows: lane i of the k-th result is number k of row i.
   [[gnu::always_inline]] static std::array<FloatLanesIn, 4> transposed(const std::array<Row, width>& row) {
     if constexpr (width == 4) {
       const Row ab01 = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);

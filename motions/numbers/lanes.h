@@ -1,8 +1,9 @@
 #pragma once
-// Four doubles that go through the same operations side by side, rounded each like any double. Functions
-// marked KDS_LANES_TARGETS are compiled for AVX2 where the build says KDS_NEEDS_AVX2; else twice, with and
-// without, and the right one is taken when the program starts. All give the same bits. (With sanitizers once:
-// they are slow enough to compile.)
+// Four doubles that undergo the same operations side by side (SIMD), each rounded like an ordinary double.
+// Functions marked KDS_LANES_TARGETS are compiled for AVX2 if the build defines KDS_NEEDS_AVX2. Otherwise
+// they are compiled twice, with and without AVX2, and the right version is selected when the program starts.
+// Every version gives the same bits. With the address sanitizer they are compiled once, because such builds
+// are slow enough to compile.
 
 #include <array>
 #include <cstddef>
@@ -11,10 +12,10 @@
 
 namespace kds {
 
-// Code compiled for other targets passes vectors in other ways. So everything called from such a function
-// must be inlined into it, and callers hand over lanes by reference. The compiler must not change that: g++
-// 14 makes a clone that takes the vector by value (-fipa-sra), and its callers put it where the clone does
-// not look.
+// Code compiled for another target passes vectors by another calling convention. Everything called from such
+// a function must therefore be inlined into it, and callers must pass lanes by reference. The function must
+// also not be cloned: g++ 14 makes a clone that takes the vector by value (-fipa-sra), and callers store the
+// vector in a place that the clone does not read.
 #define KDS_FOR_TARGET(name) gnu::target(name), gnu::flatten, gnu::noinline, gnu::noclone
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define KDS_LANES_ARE_COMPILED_FOR_TARGETS 1
@@ -28,17 +29,17 @@ namespace kds {
 #define KDS_LANES_TARGETS gnu::noinline
 #endif
 
-// Aligned as AVX wants it, which code compiled for other targets would not know of: g++ loads and stores
-// lanes as aligned ones where it sees through a pointer.
+// Aligned as AVX requires. The alignment is explicit because g++ uses aligned loads and stores if it sees
+// through a pointer, and code compiled for other targets would not align lanes by itself.
 class alignas(32) Lanes {
  public:
   static constexpr std::size_t width = 4;
   using Vector = double __attribute__((vector_size(32)));
-  using Mask = decltype(Vector{} < Vector{});  // of whole numbers: -1 where true, else 0
+  using Mask = decltype(Vector{} < Vector{});  // lanes of whole numbers: -1 if true, else 0
 
   Vector v;
 
-  Lanes() {}  // left as it is: arrays of lanes are filled right away
+  Lanes() {}  // uninitialized, because arrays of lanes are filled right away
   [[gnu::always_inline]] Lanes(Vector vector) : v(vector) {}
   [[gnu::always_inline]] explicit Lanes(double all) : v{all, all, all, all} {}
 
@@ -60,11 +61,11 @@ class alignas(32) Lanes {
   [[gnu::always_inline]] friend Mask operator<=(const Lanes& a, const Lanes& b) { return a.v <= b.v; }
   [[gnu::always_inline]] friend Mask operator>=(const Lanes& a, const Lanes& b) { return a.v >= b.v; }
 
-  /// a where the mask is true, else b.
+  /// Returns a in the lanes where the mask is true, else b.
   [[gnu::always_inline]] static Lanes choose(const Mask& mask, const Lanes& a, const Lanes& b) {
     return mask ? a.v : b.v;
   }
-  /// As std::max: a where it is not below b, a NaN in a too.
+  /// Returns the larger of a and b, like std::max: a unless a < b. A NaN in a is therefore kept.
   [[gnu::always_inline]] static Lanes max(const Lanes& a, const Lanes& b) { return choose(a < b, b, a); }
   [[gnu::always_inline]] static Lanes min(const Lanes& a, const Lanes& b) { return choose(b < a, b, a); }
   [[gnu::always_inline]] static Lanes abs(const Lanes& a) {
@@ -72,7 +73,7 @@ class alignas(32) Lanes {
                          0x7fffffffffffffffLL};
     return reinterpret_cast<Vector>(reinterpret_cast<Mask>(a.v) & magnitude);
   }
-  /// Four rows of four: lane i of the k-th result is number k of row i.
+  /// Transposes four rows of four numbers: lane i of the k-th result is number k of row i.
   [[gnu::always_inline]] static std::array<Lanes, 4> transposed(const double* row0, const double* row1,
                                                                 const double* row2, const double* row3) {
     const Vector a = load(row0), b = load(row1), c = load(row2), d = load(row3);

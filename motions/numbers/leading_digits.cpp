@@ -16,7 +16,7 @@ int width_of(Wide x) {
   return high != 0 ? 64 + std::bit_width(high) : std::bit_width(static_cast<std::uint64_t>(x));
 }
 
-/// high 2^128 + low
+/// An unsigned 256-bit integer: high 2^128 + low.
 struct Widest {
   Wide high = 0, low = 0;
 
@@ -25,7 +25,7 @@ struct Widest {
     low += more_low;
     high += more_high + (low < more_low ? 1 : 0);
   }
-  /// Without what is shifted out; the rest must fit.
+  /// Returns floor(value / 2^shift), which must fit into 128 bits.
   [[nodiscard]] Wide shifted(int shift) const {
     if (shift == 0) return low;
     if (shift >= 256) return 0;
@@ -67,7 +67,7 @@ LeadingDigits LeadingDigits::of(const Integer& x) {
   if (limbs == 0) return result;
   const auto bits = static_cast<std::int64_t>(mpz_sizeinbase(whole, 2));
   const std::int64_t shift = std::max<std::int64_t>(0, bits - most_bits);
-  // The leading bits lie in three limbs at most.
+  // The leading bits lie in at most three limbs.
   const auto first = static_cast<std::size_t>(shift / 64);
   Widest top;
   for (std::size_t i = std::min(limbs, first + 3); i-- > first;) {
@@ -115,7 +115,8 @@ LeadingDigits& LeadingDigits::operator+=(const LeadingDigits& other) {
   if (is_zero()) return *this = other;
   LeadingDigits low = other;
   if (exponent < low.exponent) std::swap(*this, low);
-  // The upper one is moved down as far as it has room, what is below its last bit then is left out.
+  // Move the number with the larger exponent down as far as it has room. The other number's bits below its
+  // last bit are dropped and counted in the error.
   const std::int64_t apart = exponent - low.exponent;
   const int room =
       std::min(most_bits - width_of(magnitude), error_bits - 1 - static_cast<int>(std::bit_width(error)));

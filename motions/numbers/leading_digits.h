@@ -1,8 +1,8 @@
 #pragma once
-// A number by its leading digits: 126 bits at most, an exponent of any size, and a proved bound of what is
-// left out, in units of the last bit. Numbers that are whole to begin with and need no more bits stay exact.
-// All in integers, so that no range and no rounding mode matters. A sign that it does not tell is to be asked
-// of the exact number.
+// Ball arithmetic with at most 126 bits: a number is stored as its leading bits, an exponent without limit,
+// and a proved bound on the truncation error in units of the last bit. Whole numbers stay exact while they
+// fit into 126 bits. All operations use integers, so the results depend neither on a range of exponents nor
+// on a rounding mode. If the sign is uncertain, ask the exact number.
 
 #include <cstdint>
 
@@ -22,13 +22,13 @@ struct LeadingDigits {
   [[nodiscard]] static LeadingDigits of(long long x);
   [[nodiscard]] static LeadingDigits of(const Integer& x);
 
-  /// 1 or -1 if that is the sign for certain, else 0.
+  /// Returns 1 or -1 if that is certainly the sign, else 0.
   [[nodiscard]] int certain_sign() const { return magnitude <= error ? 0 : negative ? -1 : 1; }
-  /// The number is 0 for certain.
+  /// Returns whether the number is certainly 0.
   [[nodiscard]] bool is_zero() const { return magnitude == 0 && error == 0; }
-  /// The size is below 2^top_bit(); of 0 nothing is told.
+  /// Returns an exponent with |value| < 2^top_bit(). Not meaningful for zero.
   [[nodiscard]] std::int64_t top_bit() const;
-  /// Roughly, and the power of two that goes with it.
+  /// Returns an approximate value divided by 2^power, and sets `power`.
   [[nodiscard]] double rough_fraction(std::int64_t& power) const;
 
   LeadingDigits& operator+=(const LeadingDigits& other);

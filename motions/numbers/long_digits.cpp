@@ -19,7 +19,7 @@ std::size_t bit_width_of(const Integer& x) {
                    static_cast<std::size_t>(std::bit_width(std::uint64_t{mpz_limbs_read(whole)[limbs - 1]}));
 }
 
-/// x / 2^bits, less than 2^64, without what is below 1.
+/// Returns floor(|x| / 2^bits), which must be less than 2^64.
 std::uint64_t top_of(const Integer& x, std::size_t bits) {
   mpz_srcptr whole = x.data();
   const auto limb = [&](std::size_t i) {
@@ -35,12 +35,12 @@ std::size_t bit_width_of(Wide x) {
                                             : std::bit_width(static_cast<std::uint64_t>(x)));
 }
 
-/// Not less than x / 2^bits.
+/// Returns x / 2^bits, rounded up.
 std::uint64_t shifted_down(std::uint64_t x, std::size_t bits) {
   return bits >= 64 ? (x == 0 ? 0 : 1) : (x >> bits) + ((x & ((std::uint64_t{1} << bits) - 1)) != 0 ? 1 : 0);
 }
 
-/// A bound of a size in few bits: mantissa 2^shift.
+/// A short upper bound of a size: mantissa 2^shift.
 struct Bound {
   Wide mantissa;
   std::size_t shift;
@@ -52,7 +52,7 @@ struct Bound {
     mantissa = Wide{top_of(x, shift)} + (shift > 0 ? 1 : 0);
   }
   [[nodiscard]] std::size_t width() const { return mantissa == 0 ? 0 : bit_width_of(mantissa) + shift; }
-  /// Not less than the bound / 2^bits, which must fit.
+  /// Returns an upper bound of (this bound) / 2^bits, which must fit into 64 bits.
   [[nodiscard]] std::uint64_t over(std::size_t bits) const {
     if (mantissa == 0) return 0;
     if (bits <= shift) return static_cast<std::uint64_t>(mantissa << (shift - bits));
@@ -62,7 +62,7 @@ struct Bound {
 
 }  // namespace
 
-// No copy of digits that are left out.
+// Truncates while dividing, so that dropped digits are never copied.
 LongDigits::LongDigits(const Integer& value, std::size_t most_bits) : most_bits_(most_bits) {
   const std::size_t width = bit_width_of(value);
   if (width <= most_bits) {
@@ -138,7 +138,8 @@ LongDigits& LongDigits::operator+=(const LongDigits& other) {
     exponent_ = other.exponent_;
     return *this;
   }
-  // The upper one is moved down as far as it has room, and of the lower one what is below that is left out.
+  // Shift the number with the larger exponent up as far as it has room. Bits of the other number that are
+  // still below are dropped.
   if (exponent_ >= other.exponent_) {
     const auto apart = static_cast<std::size_t>(exponent_ - other.exponent_);
     const std::size_t up = room(apart);

@@ -1,6 +1,6 @@
 #pragma once
-// Long functions of lanes (lanes.h), that one file compiles: as KDS_LANES_TARGETS, and once more with twice
-// the registers for processors that have so many. The same bits again.
+// Long functions on lanes (lanes.h), each compiled in one file. They are compiled like KDS_LANES_TARGETS and
+// once more for processors with AVX-512, which have twice the registers. Every version gives the same bits.
 
 #include "motions/numbers/lanes.h"
 #include "motions/numbers/processor.h"
@@ -9,11 +9,12 @@ namespace kds {
 
 namespace detail {
 
-inline const bool here_is_avx512 = processor_has_avx512();  // it takes as long as some of the functions
+inline const bool here_is_avx512 = processor_has_avx512();  // cached: the check takes as long as some of the
+                                                            // functions
 
 template <auto function>
 struct LongLanes;
-/// The function is inlined into each, so that it must not be noinline itself.
+/// `function` is inlined into each version, so it must not be marked noinline itself.
 template <class... P, void (*function)(P...)>
 struct LongLanes<function> {
 #if KDS_LANES_ARE_COMPILED_FOR_TARGETS && defined(KDS_NEEDS_AVX2)
@@ -32,7 +33,7 @@ struct LongLanes<function> {
 
 }  // namespace detail
 
-/// `function`, of parameters that are references, spans or numbers.
+/// Calls `function` in the version for this processor. Its parameters must be references, spans or numbers.
 template <auto function>
 inline constexpr auto in_long_lanes = &detail::LongLanes<function>::call;
 

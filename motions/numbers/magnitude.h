@@ -1,13 +1,17 @@
 #pragma once
-// The number type that derives a certificate's floating-point filter. It stands for a quantity whose exact
-// value is at most bound * M^power in size and whose computation, in numbers of so many binary digits (53:
-// double, 24: float), errs by at most error * M^power, where M is the largest difference (or sum of two
-// radii, which rounds alike) that went in. Evaluating a certificate's function once on magnitudes gives the
-// constants of a semi-static filter, proved operation by operation (Higham, Accuracy and Stability, 2.2:
-// fl(a op b) = (a op b)(1+d), |d| <= 2^-digits; no contraction, round to nearest).
+// The number type that derives the error bound of a certificate's floating-point filter (a semi-static
+// filter). A magnitude bounds a quantity and its rounding error in terms of M, the largest input: the largest
+// difference of two coordinates, or sum of two radii (sums round like differences).
 //
-// The constants are computed in double themselves; error_bound.h inflates them once for that, and for
-// products that underflow.
+// - The exact value is at most bound * M^power in size.
+// - The value computed with Digits binary digits (53: double, 24: float) errs by at most error * M^power.
+//
+// Evaluating a certificate's function once on magnitudes yields the filter's constants, proved operation by
+// operation: fl(a op b) = (a op b)(1+d) with |d| <= 2^-Digits (Higham, Accuracy and Stability, 2.2). The
+// proof assumes round to nearest and no contraction.
+//
+// The constants are themselves computed in double. error_bound.h inflates them once to cover that rounding,
+// and to cover products that underflow.
 
 #include <stdexcept>
 
@@ -22,13 +26,13 @@ struct MagnitudeIn {
   double error = 0;
   int power = 0;
 
-  /// A rounded difference or sum of two inputs, at most M in size once rounded; a float may have been rounded
-  /// to double before.
+  /// Returns the magnitude of a rounded difference or sum of two inputs, at most M in size after rounding. A
+  /// difference of floats may have been rounded to double first.
   static constexpr MagnitudeIn input_difference(int power_of_length) {
     constexpr double and_more = 1 + 8 * unit_roundoff;
     return {and_more, unit_roundoff * and_more, power_of_length};
   }
-  /// A small whole number, exact.
+  /// Returns the magnitude of a small whole number, which is exact.
   static constexpr MagnitudeIn constant(double value) { return {value < 0 ? -value : value, 0, 0}; }
 
   constexpr MagnitudeIn& operator+=(const MagnitudeIn& other) {

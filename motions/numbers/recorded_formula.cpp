@@ -12,7 +12,7 @@ using Kind = FormulaStep::Kind;
 
 bool is_of_beads(Kind kind) { return kind <= Kind::lift_difference; }
 bool has_two(Kind kind) { return kind == Kind::sum || kind == Kind::difference || kind == Kind::product; }
-/// Whether a's value may be changed into the new one where it lies.
+/// Returns whether the result may overwrite the value of `a` in place.
 bool is_in_place(Kind kind) {
   return kind == Kind::sum || kind == Kind::difference || kind == Kind::negative || kind == Kind::multiple;
 }
@@ -54,7 +54,7 @@ void RecordedFormula::finish(std::uint16_t result) {
       if (a_ends) unused.push_back(step.a);
     }
     if (b_ends) unused.push_back(step.b);
-    if (last_use[i] == never) unused.push_back(step.place);  // asked for, and not used
+    if (last_use[i] == never) unused.push_back(step.place);  // computed but never used
   }
   result_ = steps_[result].place;
 }

@@ -1,8 +1,9 @@
 #pragma once
-// A formula over polynomials, written down instead of computed: what the formula of a certificate becomes
-// over a RecordingView (motions/views/recording_view.h). Any kind of number can play it afterwards
-// (certificates/formulas/formula_player.h), so that kinds that are seldom asked for are compiled once and not
-// once a formula. Nothing is rounded, reordered or left out: whoever plays it computes what the formula says.
+// A formula over polynomials, recorded step by step instead of computed. Evaluating the formula of a
+// certificate over a RecordingView (motions/views/recording_view.h) records it. Any number type can later
+// play the recorded formula (certificates/formulas/formula_player.h). Rarely used number types are therefore
+// compiled once, not once per formula. Playing a formula performs exactly the recorded operations: nothing is
+// rounded, reordered or left out.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,11 +14,12 @@
 
 namespace kds {
 
-/// `a` and `b` are beads in the first six kinds. In the others they are where the values lie that it is made
-/// of; while the formula is being written, the steps that have them.
+/// One operation of a recorded formula. In the first six kinds, `a` and `b` are beads. In the other kinds
+/// they are the places of the operands; while the formula is being recorded, they are the numbers of the
+/// steps that compute the operands.
 struct FormulaStep {
   enum class Kind : std::uint8_t {
-    centre_difference,  ///< its first coordinate; the others are the steps after it
+    centre_difference,  ///< its first coordinate; the next steps are the other coordinates
     next_coordinate,
     weight_difference,
     radius_difference,
@@ -27,15 +29,15 @@ struct FormulaStep {
     difference,
     negative,
     product,
-    elevated,  ///< a, to the degree `number`; to -number times its own where that is negative
+    elevated,  ///< a, elevated to the degree `number`; if negative, to -number times a's degree
     multiple   ///< `number` times a
   };
 
   Kind kind;
   std::uint16_t a = 0, b = 0;
   std::int64_t number = 0;
-  /// Where its value is to lie; steps share a place whose value nobody needs any more. In sums, differences,
-  /// negatives and multiples it may be a.
+  /// The place where the result is stored. Steps share a place once its value is no longer needed. In sums,
+  /// differences, negatives and multiples the place may be that of `a`.
   std::uint16_t place = 0;
 };
 
@@ -43,15 +45,15 @@ class RecordedFormula {
  public:
   using Kind = FormulaStep::Kind;
 
-  /// The new step. Throws std::length_error if there are 2^16 already.
+  /// Appends a step and returns its number. Throws std::length_error if there are already 2^16 steps.
   std::uint16_t add(Kind kind, std::uint16_t a, std::uint16_t b = 0, std::int64_t number = 0);
-  /// When all are there, and `result` is the formula's value.
+  /// Ends the recording and assigns places. `result` is the step that computes the formula's value.
   void finish(std::uint16_t result);
 
   [[nodiscard]] std::span<const FormulaStep> steps() const { return steps_; }
-  /// Where the formula's value lies at last.
+  /// Returns the place where the formula's value is finally stored.
   [[nodiscard]] std::size_t result() const { return result_; }
-  /// Of values.
+  /// Returns the number of places.
   [[nodiscard]] std::size_t places() const { return places_; }
 
  private:
@@ -60,13 +62,13 @@ class RecordedFormula {
   std::size_t places_ = 0;
 };
 
-/// In the place of a number type, of polynomials that are written down.
+/// Stands in for the number type of polynomials that are recorded, not computed.
 struct Recorded {};
 
 namespace detail {
 
-/// Throws std::logic_error where one of them was never given a value, std::invalid_argument where a double
-/// does not hold the number.
+/// Appends a step to `formula`. Throws std::logic_error if an operand was never given a value (`formula` is
+/// null), and std::invalid_argument if `number` exceeds 2^53 in size.
 [[nodiscard]] std::uint16_t record(RecordedFormula* formula, FormulaStep::Kind kind, std::uint16_t a,
                                    std::uint16_t b = 0, std::int64_t number = 0);
 
@@ -111,7 +113,7 @@ Bernstein<Recorded, To> elevate(const Bernstein<Recorded, From>& p) {
   }
 }
 
-/// A whole number of times a polynomial: one of at most 2^53 in size, std::invalid_argument.
+/// Returns `factor` times `p`. Throws std::invalid_argument if |factor| > 2^53.
 template <int Degree>
 Bernstein<Recorded, Degree> times(std::int64_t factor, const Bernstein<Recorded, Degree>& p) {
   return {p.formula, detail::record(p.formula, FormulaStep::Kind::multiple, p.step, 0, factor)};

@@ -1,6 +1,6 @@
 #pragma once
-// The sum of products a b + c d + ...: number types that can add a product faster than by forming it first
-// specialize this class.
+// A sum of products a b + c d + ... Number types specialize this class if they can add a product faster than
+// by forming the product first.
 
 #include <utility>
 

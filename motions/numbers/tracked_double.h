@@ -1,12 +1,12 @@
 #pragma once
-// A double, or four side by side, with a bound on its error, followed operation by operation: |value - exact|
-// <= error. Slower than a filter's fixed bound and much sharper where numbers are of unlike size. Needs no
-// assumption on range: overflow makes the bound infinite or a NaN, and what underflow loses is added, also
-// where operands and results that are not normal are flushed to zero. Rounding is to nearest
-// (motions/base/floating_point_guard.h).
+// A double, or four side by side, with a running error bound: |value - exact| <= error. The bound is updated
+// with each operation. This is slower than a filter's fixed bound, but much sharper where numbers differ
+// widely in size. There is no assumption about ranges: overflow makes the bound infinite or NaN, and losses
+// from underflow are added to the bound, also where subnormal operands and results are flushed to zero.
+// Rounding must be to nearest (motions/base/floating_point_guard.h).
 //
-// The bounds are rounded themselves, a relative 2^-53 an operation: whoever uses one inflates it once
-// (`inflation`).
+// The bounds are rounded too, by a relative 2^-53 per operation. The user of a bound must therefore inflate
+// it once (`inflation`).
 
 #include <cmath>
 
@@ -18,7 +18,7 @@ template <class Real>
 struct Tracked {
   static constexpr double unit_roundoff = 0x1p-53;
   static constexpr double lost_to_underflow = 0x1p-1020;
-  static constexpr double inflation = 1 + 0x1p-40;  // for up to 2^10 operations in a row
+  static constexpr double inflation = 1 + 0x1p-40;  // covers up to 2^10 operations in a row
 
   Real value{0.0};
   Real error{0.0};
