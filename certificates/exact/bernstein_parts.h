@@ -1,6 +1,7 @@
 #pragma once
-// Values and parts of polynomials in scaled Bernstein form, in numbers of any kind: whole ones, or leading
-// digits of which a sign may be unknown. For the exact stage's own files.
+// Values of polynomials in scaled Bernstein form and their restrictions to parts of the step, for any number
+// type: whole numbers, or balls (leading digits with an error bound), whose sign may be unknown. Used only by
+// the files of the exact stage.
 
 #include <algorithm>
 #include <array>
@@ -14,7 +15,7 @@
 
 namespace kds::detail {
 
-// Fewest and most changes of sign in a row, given one after the other.
+// Counts the fewest and the most sign changes of a sequence whose signs are given one after the other.
 class VariationCount {
  public:
   void add(int sign) {
@@ -34,7 +35,7 @@ class VariationCount {
 
  private:
   static constexpr int far = std::numeric_limits<int>::max();
-  // Of all rows that end on a negative number, are all 0, or end on a positive number.
+  // Bounds over all sequences that end on a negative number, are all 0, or end on a positive number.
   struct Range {
     int least = far, most = -1;
     void include(const Range& other, int more) {
@@ -45,7 +46,7 @@ class VariationCount {
   };
   using Ranges = std::array<Range, 3>;
 
-  /// One number more, which may be negative, 0 or positive.
+  /// Appends a number that may be negative, 0 or positive, as `may_be` says.
   void add(const std::array<bool, 3>& may_be) {
     Ranges next;
     for (std::size_t before = 0; before < 3; ++before) {
@@ -61,7 +62,7 @@ class VariationCount {
   int first_ = 0;
 };
 
-/// The signs of the first and the last one may be given.
+/// Counts the sign changes of `c`. The caller may supply the signs of the first and the last coefficient.
 template <class Number>
 [[nodiscard]] Variations variations_of(const std::vector<Number>& c, std::optional<int> first,
                                        std::optional<int> last) {
@@ -78,7 +79,7 @@ template <class Number>
   return count.value();
 }
 
-/// Sign changes among the non-zero coefficients.
+/// Returns the number of sign changes among the non-zero coefficients.
 [[nodiscard]] inline int sign_variations_of(const std::vector<Integer>& c) {
   int variations = 0, last = 0;
   for (const Integer& x : c) {
@@ -95,11 +96,11 @@ inline void add_product(Integer& sum, const Integer& a, const Integer& b) {
 }
 inline void add_product(LeadingDigits& sum, const LeadingDigits& a, const LeadingDigits& b) { sum += a * b; }
 
-/// Of 64 bits, roughly.
+/// Returns the approximate length in 64-bit limbs.
 [[nodiscard]] inline std::size_t limbs_of(const Integer& x) { return mpz_size(x.data()) + 1; }
 [[nodiscard]] inline std::size_t limbs_of(const LeadingDigits&) { return 1; }
 
-/// The ends of an interval and what is beyond them up to 1, over a common denominator 2^exponent.
+/// The ends of an interval and their distances from 1, over a common denominator 2^exponent.
 struct Ends {
   unsigned exponent;
   Integer lower, upper, above_lower, above_upper;
@@ -113,12 +114,12 @@ struct Ends {
   }
 };
 
-/// The polynomial as seen on an interval, times a positive number: with u = lower (1-s) + upper s and 1-u =
-/// above_lower (1-s) + above_upper s.
+/// Returns the polynomial restricted to an interval, times a positive number. It substitutes u = lower
+/// (1-s) + upper s and 1-u = above_lower (1-s) + above_upper s.
 template <class Number>
 std::vector<Number> seen_on(const std::vector<Number>& c, const Number& one, const Number& lower,
                             const Number& upper, const Number& above_lower, const Number& above_upper) {
-  // Horner in u with the growing power of (1-u), both linear forms in (1-s, s).
+  // Horner's scheme in u with the growing power of (1-u); both are linear forms in (1-s, s).
   ExactWork::spend(c.size() * c.size() * (limbs_of(c.back()) + limbs_of(above_lower)));
   std::vector<Number> value(c.size());
   std::vector<Number> power(c.size());
@@ -139,7 +140,7 @@ std::vector<Number> seen_on(const std::vector<Number>& c, const Number& one, con
   return value;
 }
 
-/// The value at u = later / (later + earlier), times a power of later + earlier.
+/// Returns the value at u = later / (later + earlier), times a power of (later + earlier).
 template <class Number>
 [[nodiscard]] Number value_of(const std::vector<Number>& c, const Number& one, const Number& later,
                               const Number& earlier) {

@@ -22,8 +22,8 @@ void drop_leading_zeros(Integers& c) {
   while (!c.empty() && c.back() == 0) c.pop_back();
 }
 
-// Divides out all factors 1 + t, that is (1-u) + u = 1: what a polynomial carries whose degree is written
-// higher than it is. They would be repeated roots, and common ones.
+// Divides out all factors 1 + t, that is (1-u) + u = 1. A polynomial written with more than its true degree
+// has such factors. They would count as repeated roots and as common roots.
 void drop_elevation(Integers& c) {
   while (c.size() > 1) {
     Integers quotient(c.size() - 1);
@@ -105,11 +105,11 @@ int ExactPolynomial::sign_variations() const {
 int ExactPolynomial::sign_between(const Dyadic& lower, const Dyadic& upper, bool exactly) const {
   if (wide_) {
     if (const int sign = wide_->sign_on(lower, upper)) return sign;
-    // Fewer digits than a few are no more than the leading ones.
+    // An interval with only a few digits needs no more than the leading digits that sign_on() used.
     const bool closely = exactly || has_digits({lower, upper}, LeadingDigits::most_bits / 2);
     const int sign = closely ? sign_closely(*wide_, lower, upper) : 0;
     if (sign != 0 || !exactly) return sign;
-    // Ends of unlike sign have a root between.
+    // There is a root between ends of opposite sign.
     const int at_upper = sign_at(upper);
     if (at_upper != 0 && at_upper == -sign_at(lower)) return 0;
     const Variations variations = exact_variations(*wide_, lower, upper);
@@ -138,7 +138,8 @@ ExactPolynomial ExactPolynomial::restricted(const Dyadic& lower, const Dyadic& u
 
 ExactPolynomial ExactPolynomial::square_free() const {
   if (!wide_) return ExactPolynomial(square_free_part(scaled_));
-  // One for a function and its negative, so that a look at the place tells that roots are the same.
+  // A function and its negative share one square-free part, so comparing addresses tells that their roots are
+  // the same.
   const std::shared_ptr<const WidePolynomial>& own = wide_->opposite() ? wide_->opposite() : wide_;
   auto& known = own->found().square_free;
   if (!known)
@@ -152,7 +153,7 @@ namespace {
 
 using Shared = std::shared_ptr<const WidePolynomial>;
 
-// Null where it is not known.
+// Returns null if the gcd is not known.
 Shared known_gcd(const Shared& a, const Shared& b) {
   for (const auto& [one, two] : {std::pair(&a, &b), std::pair(&b, &a)})
     for (const auto& common : (*one)->found().common)
@@ -198,8 +199,9 @@ class Isolation {
  public:
   explicit Isolation(const RootVisitor& visit) : visit_(visit) {}
 
-  // `local` is the polynomial on [lower, upper], unscaled, and lost. Roots in the open interval, and at
-  // `lower` if `with_lower`; false if the visitor wants no more.
+  // Visits the roots in the open interval (lower, upper), and at `lower` if `with_lower`. `local` is the
+  // polynomial on [lower, upper], unscaled; it is destroyed. Returns false if the visitor wants no more
+  // roots.
   bool visit(Integers& local, const Dyadic& lower, const Dyadic& upper, bool with_lower,
              std::size_t depth = 0) {
     const bool root_at_lower = local.front() == 0;
@@ -217,7 +219,7 @@ class Isolation {
 
  private:
   const RootVisitor& visit_;
-  std::deque<Integers> left_;  // one a level, used again
+  std::deque<Integers> left_;  // one buffer per level, reused
 };
 
 }  // namespace

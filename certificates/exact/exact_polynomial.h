@@ -1,12 +1,12 @@
 #pragma once
-// Polynomials with whole coefficients on u in [0,1], scaled Bernstein form (motions/numbers/bernstein.h), any
-// degree. Everything here is exact. Setting t = u/(1-u) makes the same coefficients an ordinary polynomial in
-// t >= 0, which is how gcd and square-free part are computed; Descartes' rule of signs on them bounds the
-// roots in (0,1).
+// Polynomials with integer coefficients on u in [0,1], in scaled Bernstein form
+// (motions/numbers/bernstein.h), of any degree. All results are exact. Substituting t = u/(1-u) makes
+// the same coefficients an ordinary polynomial in t >= 0. The gcd and the square-free part are computed in
+// that form, and Descartes' rule of signs on the coefficients bounds the number of roots in (0,1).
 //
-// Whether a polynomial is wide (wide_polynomial.h) is known when it is made. If it is, its coefficients are
-// formed as precisely as an answer takes, and roots are looked for scale by scale; if it is not, as nearly
-// all are, whole numbers and halving are faster.
+// Whether a polynomial is wide (wide_polynomial.h) is decided when it is constructed. The coefficients of a
+// wide polynomial are computed only as precisely as an answer needs, and its roots are isolated scale by
+// scale. Nearly all polynomials are not wide; for them integers and bisection are faster.
 
 #include <memory>
 #include <utility>
@@ -26,54 +26,56 @@ class ExactPolynomial {
   explicit ExactPolynomial(std::vector<Integer> scaled) : scaled_(std::move(scaled)) {}
   template <int Degree>
   explicit ExactPolynomial(const Bernstein<Integer, Degree>& p) : scaled_(p.scaled.begin(), p.scaled.end()) {}
-  /// Copies share what is found out about a wide one.
+  /// Constructs a wide polynomial. Copies share all that is found out about it.
   explicit ExactPolynomial(std::shared_ptr<const WidePolynomial> wide) : wide_(std::move(wide)) {}
 
-  /// Null where it is not wide.
+  /// Returns null if the polynomial is not wide.
   [[nodiscard]] const WidePolynomial* wide() const { return wide_.get(); }
   [[nodiscard]] const std::vector<Integer>& scaled() const { return wide_ ? wide_whole() : scaled_; }
   [[nodiscard]] bool is_zero() const;
-  /// Of the longest coefficient; if it is wide, perhaps one more.
+  /// Returns the bit length of the longest coefficient. For a wide polynomial the result may be one too
+  /// large.
   [[nodiscard]] std::size_t largest_bit_length() const;
 
   [[nodiscard]] int sign_at(const Dyadic& u) const;
-  /// Sign on (u, u+delta); 0 only for the zero polynomial.
+  /// Returns the sign on (u, u+delta); 0 only for the zero polynomial.
   [[nodiscard]] int sign_after(const Dyadic& u) const;
 
-  /// Sign changes among the non-zero coefficients: at least the number of roots in (0,1), with multiplicity,
-  /// and of the same parity; 0 and 1 are the number itself.
+  /// Returns the number of sign changes among the non-zero coefficients. By Descartes' rule of signs it is at
+  /// least the number of roots in (0,1), counted with multiplicity, and has the same parity; 0 and 1 are
+  /// exactly the number of roots.
   [[nodiscard]] int sign_variations() const;
-  /// The sign on (lower, upper) where Descartes' rule tells that there is no root between, else 0. If it is
-  /// wide, as far as digits tell that are as many as the interval has; or `exactly`.
+  /// Returns the sign on (lower, upper) if Descartes' rule proves that there is no root between them, else 0.
+  /// For a wide polynomial the proof uses only as many digits as the interval has, unless `exactly` is set.
   [[nodiscard]] int sign_between(const Dyadic& lower, const Dyadic& upper, bool exactly = false) const;
-  /// Descartes' rule tells that there is one root between at most.
+  /// Returns whether Descartes' rule proves that there is at most one root between the ends.
   [[nodiscard]] bool has_few_roots_between(const Dyadic& lower, const Dyadic& upper) const;
 
-  /// The polynomial as seen on [lower, upper], times a positive number.
+  /// Returns the polynomial restricted to [lower, upper], times a positive number.
   [[nodiscard]] ExactPolynomial restricted(const Dyadic& lower, const Dyadic& upper) const;
 
-  /// A polynomial with the same roots in [0,1), each once; roots at u = 1 are dropped.
+  /// Returns a polynomial with the same roots in [0,1), each once. Roots at u = 1 are dropped.
   [[nodiscard]] ExactPolynomial square_free() const;
-  /// Greatest common divisor as regards roots in [0,1), up to a constant factor.
+  /// Returns the greatest common divisor with respect to roots in [0,1), up to a constant factor.
   [[nodiscard]] static ExactPolynomial gcd(const ExactPolynomial& a, const ExactPolynomial& b);
-  /// Whether there are no roots in [0,1) to speak of: a constant, or zero.
+  /// Returns whether the polynomial is a constant or zero, and thus has no isolated roots in [0,1).
   [[nodiscard]] bool is_constant() const;
 
  private:
   [[nodiscard]] const std::vector<Integer>& wide_whole() const;
-  /// Of these coefficients, and wide if this one is.
+  /// Returns a polynomial with these coefficients, wide if this one is.
   [[nodiscard]] ExactPolynomial alike(std::vector<Integer> scaled) const;
 
-  std::vector<Integer> scaled_;  // none if it is wide
+  std::vector<Integer> scaled_;  // empty if the polynomial is wide
   std::shared_ptr<const WidePolynomial> wide_;
 };
 
-/// Visits the roots of a square-free polynomial in [lower, upper], ascending; their intervals are disjoint
-/// but for touching ends.
+/// Visits the roots of a square-free polynomial in [lower, upper], ascending. The isolating intervals are
+/// disjoint except for common ends.
 void visit_roots(const ExactPolynomial& square_free, const Dyadic& lower, const Dyadic& upper,
                  const RootVisitor& visit);
 
-/// All the roots that visit_roots visits.
+/// Returns all roots that visit_roots visits.
 [[nodiscard]] std::vector<RootInterval> isolate_roots(const ExactPolynomial& square_free, const Dyadic& lower,
                                                       const Dyadic& upper);
 

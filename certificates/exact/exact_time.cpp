@@ -13,10 +13,11 @@ namespace kds {
 
 namespace {
 
-// After so many bisections a gcd is tried: they are cheaper while times differ, wasted where they are equal.
-// A wide polynomial's root, of any scale, is narrowed to so many digits before. A time with so many binary
-// places is narrow enough: of one at which thousands of functions vanish each would ask for a few more, and
-// numbers would grow with how many are asked about.
+// When to try a gcd. Bisection is cheaper while two times differ, but it is wasted if they are equal, so a
+// gcd is tried after a few bisections. The root of a wide polynomial may have any scale; it is first narrowed
+// to `digits_before_gcd` digits. A time with `most_places_before_gcd` binary places is narrow enough: without
+// this limit, a time at which thousands of functions vanish would be narrowed by a few bits for each of them,
+// and the numbers would grow with the number of comparisons.
 constexpr int bisections_before_gcd = 4;
 constexpr unsigned digits_before_gcd = 64, most_places_before_gcd = 256;
 
@@ -27,8 +28,8 @@ bool wants_gcd(const ExactTime& time, int bisections) {
          std::min(time.lower().exponent(), time.upper().exponent()) >= most_places_before_gcd;
 }
 
-// Whether the time is a root of this polynomial, and the only one in its interval, because it was made from
-// it. A look at the place: false proves nothing.
+// Returns true if the time was constructed from this very polynomial, and is thus its only root in the
+// interval. Compares addresses, so false proves nothing.
 bool is_made_from(const ExactTime& time, const ExactPolynomial& square_free) {
   return !time.is_dyadic() && square_free.wide() != nullptr && square_free.wide() == time.polynomial().wide();
 }
@@ -45,19 +46,19 @@ bool changes_sign_between(const ExactPolynomial& p, const Dyadic& lower, const D
   return p.sign_at(lower) * p.sign_at(upper) < 0;
 }
 
-// Whether the time is a root of g, which divides a polynomial that has no other root in the interval.
+// Returns whether the time is a root of g. g must divide a polynomial without other roots in the interval.
 bool is_root(const ExactPolynomial& g, const ExactTime& time) {
   if (g.is_constant()) return false;
   if (time.is_dyadic()) return g.sign_at(time.lower()) == 0;
   return changes_sign_between(g, time.lower(), time.upper());
 }
 
-// The sign of `function` in the time's interval if it is known to have no root there, else 0.
+// Returns the sign of `function` on the time's interval if `function` provably has no root there, else 0.
 int sign_all_over(const ExactPolynomial& function, const ExactTime& time, bool exactly = false) {
   return function.sign_between(time.lower(), time.upper(), exactly);
 }
 
-// Where the time roughly is: bisection in double on the polynomial's coefficients over its interval.
+// Returns an approximate value of the time, by bisection in double on the coefficients over the interval.
 double rough(const ExactTime& time) {
   const ExactPolynomial local = time.polynomial().restricted(time.lower(), time.upper());
   const auto shift = static_cast<long>(local.largest_bit_length());
@@ -96,7 +97,8 @@ ExactTime::ExactTime(ExactPolynomial square_free, RootInterval interval)
 
 void ExactTime::refine() {
   if (is_dyadic()) return;
-  // Halving takes a step a bit: too long for a root of another scale, or for one of thousands of digits.
+  // Halving gains one bit per step, which is too slow for a root of a very different scale or with
+  // thousands of digits.
   constexpr unsigned few_places = 256;
   if (polynomial_.wide() == nullptr && root_.upper.exponent() > few_places)
     polynomial_ = ExactPolynomial(std::make_shared<const WidePolynomial>(polynomial_.scaled()));
@@ -125,7 +127,7 @@ void ExactTime::narrow_for_doubles() {
   constexpr double width = 0x1p-44;
   if (is_dyadic()) return;
   if (polynomial_.wide() != nullptr) {
-    constexpr double least = 0x1p-900;  // doubles have all their digits from here on
+    constexpr double least = 0x1p-900;  // doubles have full precision from here on
     const auto is_wide = [&] {
       const double upper = root_.upper.round_up();
       return upper - root_.lower.round_down() > width * std::max(upper, least);
@@ -152,7 +154,7 @@ void ExactTime::narrow_to_width(double width) {
 
 namespace {
 
-// Binary places down to the length of a time's interval.
+// Returns the number of binary places down to the length of the time's interval.
 std::int64_t places_of(const ExactTime& time) {
   const unsigned exponent = std::max(time.lower().exponent(), time.upper().exponent());
   const Integer length = (time.upper().numerator() << (exponent - time.upper().exponent())) -
@@ -160,7 +162,8 @@ std::int64_t places_of(const ExactTime& time) {
   return std::int64_t{exponent} - static_cast<std::int64_t>(mpz_sizeinbase(length.data(), 2));
 }
 
-// But for one that is far ahead: some times gain a bit a round, others thousands, which nobody asked for.
+// Refines both times, but not one that is far ahead of the other. A step gains one bit for some times and
+// thousands of bits for others, and the surplus would never be used.
 void refine_both(ExactTime& a, ExactTime& b) {
   constexpr std::int64_t far_ahead = 64;
   const std::int64_t ahead = a.is_dyadic() || b.is_dyadic() ? 0 : places_of(a) - places_of(b);
@@ -185,8 +188,8 @@ int ExactTime::compare(ExactTime& a, ExactTime& b) {
     if (a.is_dyadic() || b.is_dyadic()) {
       if (a.is_dyadic() ? is_root(b.polynomial_, a) : is_root(a.polynomial_, b)) return 0;
     } else {
-      // Common roots are the roots of g; the times are equal iff one lies in the overlap, where each has one
-      // root.
+      // The common roots of both polynomials are the roots of g. The times are equal iff g has a root in the
+      // overlap, where each polynomial has one root.
       const ExactPolynomial g = ExactPolynomial::gcd(a.polynomial_, b.polynomial_).square_free();
       if (!g.is_constant() &&
           changes_sign_between(g, later_of(a.lower(), b.lower()), earlier_of(a.upper(), b.upper())))
@@ -212,8 +215,8 @@ int sign_at(const ExactPolynomial& function, ExactTime& time) {
 
 namespace {
 
-// The sign just after a root of the function if it is the only one around, as is known or Descartes' rule
-// tells of `simple`, its square-free part. Else 0.
+// Returns the sign of `function` just after its root `time` if no other root is near, else 0. That no root is
+// near must be known, or Descartes' rule must prove it for `simple`, the square-free part.
 int sign_after_own_root(const ExactPolynomial& function, const ExactPolynomial& simple,
                         const ExactTime& time) {
   if (const WidePolynomial* wide = simple.wide()) {
@@ -221,7 +224,8 @@ int sign_after_own_root(const ExactPolynomial& function, const ExactPolynomial& 
       const auto& [count, root] = *known;
       if (count != 1) return 0;
       if (root.lower == root.upper) return function.sign_after(root.upper);
-      // There is no other root to this end, and mostly it has fewer digits than the time's.
+      // There is no other root up to this end, which usually has fewer digits than the end of the time's
+      // interval.
       if (const int sign = function.sign_at(root.upper)) return sign;
       return function.sign_at(time.upper());
     }
@@ -229,7 +233,7 @@ int sign_after_own_root(const ExactPolynomial& function, const ExactPolynomial& 
   if (!simple.has_few_roots_between(time.lower(), time.upper())) return 0;
   const int sign = function.sign_at(time.upper());
   if (sign != 0 && simple.wide() != nullptr) {
-    // An end may be another root of the function's.
+    // An end of the interval may be another root of the function.
     const int at_lower = simple.sign_at(time.lower());
     if (at_lower != 0 && simple.sign_at(time.upper()) == -at_lower)
       keep_root(*simple.wide(), {time.lower(), time.upper(), 1, at_lower});
@@ -237,8 +241,8 @@ int sign_after_own_root(const ExactPolynomial& function, const ExactPolynomial& 
   return sign;
 }
 
-// The sign at a time where the function is known to have no root in its interval. Else 0, and the time is
-// narrowed, or a known root.
+// Returns the sign at `time` if `function` is known to have no root in its interval. Otherwise returns 0 and
+// narrows the time or a known root.
 int sign_apart_from_known(const ExactPolynomial& function, const ExactPolynomial& simple, ExactTime& time) {
   const auto known = known_roots_around(*simple.wide(), time.lower(), time.upper());
   if (known && known->count > 0) {
@@ -260,7 +264,7 @@ int sign_after(const ExactPolynomial& function, ExactTime& time) {
   if (function.is_zero()) return 0;
   if (time.is_dyadic()) return function.sign_after(time.lower());
   if (function.wide() != nullptr && is_made_from(time, function.square_free())) {
-    // No other root is around but, perhaps, the end of the step.
+    // There is no other root near, except perhaps at the end of the step.
     while (true) {
       if (const int sign = function.sign_at(time.upper())) return sign;
       time.refine();
@@ -274,14 +278,15 @@ int sign_after(const ExactPolynomial& function, ExactTime& time) {
   }
   const ExactPolynomial simple = function.square_free();
   if (is_root(ExactPolynomial::gcd(time.polynomial(), simple), time)) {
-    // Narrow until the time is the only root around.
+    // Narrow until the time is the only root in the interval.
     while (true) {
       if (const int sign = sign_after_own_root(function, simple, time)) return sign;
       time.refine();
       if (time.is_dyadic()) return function.sign_after(time.lower());
     }
   }
-  // Digits of the time are cheaper than a look at the function on its interval, as long as they are few.
+  // While the time has few digits, computing more of them is cheaper than restricting the function to the
+  // interval.
   constexpr unsigned few_digits = 1024;
   while (true) {
     const bool exactly =
@@ -298,7 +303,7 @@ int sign_after(const ExactPolynomial& function, ExactTime& time) {
 
 namespace {
 
-// Descartes' rule tells at a first look that there is no root between 0 and 1.
+// Returns whether Descartes' rule immediately proves that there is no root between 0 and 1.
 bool has_no_changes(const ExactPolynomial& function) {
   const WidePolynomial* wide = function.wide();
   return wide != nullptr ? wide->variations_on(Dyadic(0.0), Dyadic(1.0)).most == 0
@@ -317,9 +322,10 @@ std::optional<ExactFailure> first_failure_after(const ExactPolynomial& function,
   bool present = from_root;  // the first root is the present time
   visit_roots(simple, now.upper(), end, [&](RootInterval root) {
     if (std::exchange(present, false)) return true;
-    if (root.lower == end) return false;  // what happens at u = 1 is judged by the next step
+    if (root.lower == end) return false;  // events at u = 1 belong to the next step
     ExactTime time(simple, std::move(root));
-    // The only root around, so the upper end tells, unless the function is zero at the end of the step.
+    // The interval has no other root, so the sign at the upper end decides, unless the function is zero at
+    // the end of the step.
     const int at_upper = time.is_dyadic() ? 0 : function.sign_at(time.upper());
     const bool touch = (at_upper != 0 ? at_upper : sign_after(function, time)) > 0;
     if (!touch || touches == TouchPolicy::reported) failure = {std::move(time), touch};
@@ -329,7 +335,7 @@ std::optional<ExactFailure> first_failure_after(const ExactPolynomial& function,
 }
 
 Dyadic dyadic_between(ExactTime& a, ExactTime& b) {
-  if (ExactTime::compare(a, b) >= 0) return a.upper();  // caller's error; nothing lies between
+  if (ExactTime::compare(a, b) >= 0) return a.upper();  // the caller's error: nothing lies between
   while (!(a.upper() < b.lower())) {
     if (a.upper() == b.lower() && !a.is_dyadic() && !b.is_dyadic()) return a.upper();
     refine_both(a, b);
@@ -338,7 +344,7 @@ Dyadic dyadic_between(ExactTime& a, ExactTime& b) {
 }
 
 Dyadic next_on_grid(ExactTime& time, unsigned bits) {
-  // floor(x 2^bits) + 1
+  // Computes floor(x 2^bits) + 1.
   const auto after = [bits](const Dyadic& x) -> Integer {
     const Integer scaled = x.numerator() << bits;
     return (scaled >> x.exponent()) + 1;
@@ -346,7 +352,7 @@ Dyadic next_on_grid(ExactTime& time, unsigned bits) {
   while (!time.is_dyadic()) {
     const Dyadic next(after(time.lower()), bits);
     if (time.upper() <= next) return next;
-    if (time.polynomial().sign_at(next) == 0) {  // halving may miss a time on the grid for ever
+    if (time.polynomial().sign_at(next) == 0) {  // halving would never reach a time that lies on the grid
       time = ExactTime(next);
     } else {
       time.refine();

@@ -1,11 +1,12 @@
 #pragma once
-// How much work the exact stage does: counted in *limb operations*, which are the same on every machine. One
-// is a coefficient of a polynomial gone over once, for each 64 bits of its length: evaluating n coefficients
-// of 128 bits takes about 2 n of them, seeing the polynomial on a part of the step or forming it 2 n^2. It is
-// a measure and no more, but no long computation goes by without it: so work can be limited and watched.
+// Counts the work of the exact stage in *limb operations*, which are the same on every machine. One limb
+// operation passes over a polynomial's coefficient once, for each 64 bits of its length. Evaluating n
+// coefficients of 128 bits takes about 2 n operations. Restricting the polynomial to a part of the step, or
+// forming it, takes about 2 n^2. The count is only a measure, but every long computation is counted, so work
+// can be limited and watched.
 //
-// The work of a thread goes to the account that is open in it (ExactWork::Open), to one without a limit if
-// there is none.
+// A thread charges its work to the account that it has open (ExactWork::Open), or to an account without a
+// limit.
 
 #include <array>
 #include <cstdint>
@@ -21,13 +22,13 @@ namespace kds {
 
 class RecentFunctions;
 
-/// The work that was allowed is done, and more is asked for.
+/// Thrown if more work is requested after the limit is reached.
 class WorkLimitReached : public std::runtime_error {
  public:
   explicit WorkLimitReached(const std::optional<Identity>& subject)
       : std::runtime_error("the limit of exact work is reached"), subject_(subject) {}
 
-  /// Of the certificate that was worked on, if one was.
+  /// Returns the certificate that was being worked on, if any.
   [[nodiscard]] const std::optional<Identity>& subject() const { return subject_; }
 
  private:
@@ -43,22 +44,22 @@ class ExactWork {
   ExactWork(const ExactWork&) = delete;
   ExactWork& operator=(const ExactWork&) = delete;
 
-  /// WorkLimitReached is thrown where more than this is asked for in all.
+  /// Sets the limit. Requesting more than `most` operations in total throws WorkLimitReached.
   void set_limit(std::uint64_t most);
-  /// Called again and again while work goes on, each time after so much of it. May throw.
+  /// Sets a function that is called after each `every` operations of work. It may throw.
   void set_watcher(std::function<void()> watcher, std::uint64_t every);
 
   [[nodiscard]] std::uint64_t done() const { return done_; }
-  /// Of the certificate that is worked on, if one is.
+  /// Returns the certificate that is being worked on, if any.
   [[nodiscard]] std::optional<Identity> subject() const;
-  /// Those of this account.
+  /// Returns this account's recent functions.
   [[nodiscard]] RecentFunctions& recent_functions() { return *recent_; }
 
-  /// Of this thread.
+  /// Returns the account of this thread.
   [[nodiscard]] static ExactWork& current();
   static void spend(std::uint64_t operations) { current().add(operations); }
 
-  /// Opens an account in this thread, in place of another one, until it ends.
+  /// Opens an account in this thread, replacing the current one until this object is destroyed.
   class Open {
    public:
     explicit Open(ExactWork& account) : before_(current_) { current_ = &account; }
@@ -70,7 +71,8 @@ class ExactWork {
     ExactWork* before_;
   };
 
-  /// While it lives, work is about this, which must live as long, if it has an identity.
+  /// Attributes work to `subject` during this object's life, if the subject has an identity. The subject must
+  /// live as long.
   class About {
    public:
     template <class Named>
@@ -100,7 +102,7 @@ class ExactWork {
     if (done_ >= next_stop_) [[unlikely]]
       stop();
   }
-  /// The limit is reached, or the watcher is to be called.
+  /// Called when the limit is reached or the watcher is due.
   void stop();
   void set_next_stop();
 

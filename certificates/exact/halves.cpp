@@ -11,7 +11,7 @@ namespace {
 
 using Integers = std::vector<Integer>;
 
-// Degree over k for all k. Products of functions have higher degrees than binomial() takes.
+// Returns C(degree, k) for all k. Products of functions have higher degrees than binomial() supports.
 Integers binomials(std::size_t degree) {
   Integers row(degree + 1, Integer(1));
   for (std::size_t k = 1; k < degree; ++k) row[k] = row[k - 1] * (degree - k + 1) / k;
@@ -71,7 +71,7 @@ std::optional<int> Halves::sign_of(const Integer& x) const {
 }
 
 std::optional<Halves::Cells> Halves::cells_of_cluster(int multiplicity, unsigned digits) const {
-  // Coefficients next to each other are apart by the slope over the degree.
+  // Neighbouring coefficients differ by the slope divided by the degree.
   const auto steps = [&](const Integer& value, const Integer& next) -> std::optional<Integer> {
     const Integer fall = (value - next) * static_cast<long>(c_.size() - 1);
     if (value == 0 || fall.sign() != value.sign()) return std::nullopt;
@@ -93,7 +93,7 @@ Halves Halves::halve() {
   Halves left;
   left.c_.resize(c_.size());
   kds::halve(c_, left.c_);
-  if (error_ != 0) {  // rounded to the unit that they had: each is wrong by less than 1 more
+  if (error_ != 0) {  // round to the previous unit, which adds less than 1 to each error
     const std::size_t degree = c_.size() - 1;
     for (Integers* half : {&c_, &left.c_})
       for (Integer& x : *half) mpz_fdiv_q_2exp(x.data(), x.data(), degree);

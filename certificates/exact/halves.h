@@ -1,5 +1,6 @@
 #pragma once
-// Halving a part of the step: de Casteljau on whole numbers, by additions alone.
+// Bernstein subdivision: halves a part of the step by de Casteljau's algorithm on integers, using only
+// additions.
 
 #include <optional>
 #include <vector>
@@ -9,38 +10,39 @@
 
 namespace kds {
 
-/// Bernstein coefficients proper of a polynomial in scaled form, times a common multiple of the binomials,
-/// which can be halved by additions, and that multiple.
+/// The plain Bernstein coefficients of a polynomial given in scaled form, times `multiple`, a common
+/// multiple of the binomials. Additions alone halve them.
 struct Unscaled {
   std::vector<Integer> coefficients;
   Integer multiple;
 };
 [[nodiscard]] Unscaled unscaled(const std::vector<Integer>& scaled);
 
-/// Both halves, times 2^degree; `local` becomes the right one.
+/// Computes both halves, times 2^degree. `local` becomes the right half.
 void halve(std::vector<Integer>& local, std::vector<Integer>& left);
 
-/// A polynomial as seen on a part of the step: whole numbers with a common bound of what they are wrong by.
+/// A polynomial restricted to a part of the step: integers with a common error bound.
 class Halves {
  public:
-  /// Of scaled coefficients that err by at most `error` each.
+  /// Takes scaled coefficients with an error of at most `error` each.
   Halves(const std::vector<Integer>& scaled, const Integer& error);
 
-  /// The signs at both ends may be given.
+  /// Counts the sign changes, given the signs at both ends (0 stands for a root).
   [[nodiscard]] Variations variations(int sign_at_lower, int sign_at_upper) const;
-  /// The sign at an end, if it is certain.
+  /// Returns the sign at an end if it is certain.
   [[nodiscard]] std::optional<int> sign_at_lower() const { return sign_of(c_.front()); }
   [[nodiscard]] std::optional<int> sign_at_upper() const { return sign_of(c_.back()); }
-  /// Where in 2^digits equal parts a cluster of so many roots would be by the values and slopes at both ends
-  /// (Newton's step for a root of that multiplicity), with a part more on each side; none where these do not
-  /// agree. No proof.
+  /// Divides the part into 2^digits equal cells and returns the cells that would hold a cluster of
+  /// `multiplicity` roots, with one more cell on each side. The cluster is located from the values and slopes
+  /// at both ends, by Newton's step for a root of that multiplicity. Returns nothing if the two ends
+  /// disagree. The result is a guess, not a proof.
   struct Cells {
     Integer first, last;
   };
   [[nodiscard]] std::optional<Cells> cells_of_cluster(int multiplicity, unsigned digits) const;
-  /// Becomes its right half; the left one.
+  /// Becomes the right half and returns the left half.
   [[nodiscard]] Halves halve();
-  /// How many times it has been halved.
+  /// Returns how many times the part has been halved.
   [[nodiscard]] int depth() const { return depth_; }
 
  private:

@@ -24,7 +24,7 @@ Longs cut(const std::vector<Integer>& c, std::size_t bits) {
   return result;
 }
 
-/// Numbers of one kind: of so many words, or of any number of bits.
+/// A number type with a fixed number of words, or with any number of bits.
 template <int Words>
 struct InWords {
   using Number = FixedDigits<Words>;
@@ -52,7 +52,7 @@ struct InBits {
   [[nodiscard]] static LongDigits long_digits(Number x) { return x; }
 };
 
-/// The leading digits.
+/// The number type of the leading digits.
 struct InLeadingDigits {
   using Number = LeadingDigits;
 
@@ -63,7 +63,7 @@ struct InLeadingDigits {
   [[nodiscard]] static LongDigits long_digits(const Number& x) { return LongDigits(x); }
 };
 
-/// Calls `answer` with numbers of at least so many bits, or about.
+/// Calls `answer` with a number type of at least about `bits` bits.
 template <class Answer>
 auto with_bits(std::size_t bits, Answer answer) {
   if (bits <= 256) return answer(InWords<4>{});
@@ -73,7 +73,7 @@ auto with_bits(std::size_t bits, Answer answer) {
   return answer(InBits{bits});
 }
 
-/// Calls `answer` with numbers of more and more bits, until it has one; at last without a limit.
+/// Calls `answer` with more and more bits until it returns a result, finally without a limit.
 template <class Answer>
 auto to_enough_bits(std::size_t bits, std::size_t all, Answer answer) {
   for (; bits < all; bits *= 2) {
@@ -82,7 +82,7 @@ auto to_enough_bits(std::size_t bits, std::size_t all, Answer answer) {
   return std::move(*answer(InBits{LongDigits::unlimited}));
 }
 
-/// The polynomial as seen between two ends, in such numbers.
+/// Returns the polynomial restricted to an interval, in the given number type.
 template <class Numbers>
 auto seen_in(const Numbers& numbers, const WidePolynomial& polynomial, const detail::Ends& ends) {
   return detail::seen_on(numbers.coefficients(polynomial), numbers.of(1), numbers.of(ends.lower),
@@ -115,7 +115,7 @@ LongDigits value_at(const WidePolynomial& polynomial, const Dyadic& u, std::size
 
 namespace {
 
-/// Binary digits that both ends of an interval have in common, as seen from 0 or 1, whichever is nearer.
+/// Returns how many binary digits both ends have in common, measured from 0 or 1, whichever is nearer.
 std::size_t digits_of(const detail::Ends& ends) {
   const auto width_of = [](const Integer& x) { return mpz_sizeinbase(x.data(), 2); };
   const std::size_t places = std::min(width_of(ends.upper), width_of(ends.above_lower));
@@ -126,7 +126,7 @@ std::size_t digits_of(const detail::Ends& ends) {
 
 int sign_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper) {
   const detail::Ends ends(lower, upper);
-  // Bits far below what the interval leaves open tell nothing.
+  // Bits far below the interval's own uncertainty cannot help to decide the sign.
   constexpr std::size_t spare_bits = 128;
   return with_bits(digits_of(ends) + spare_bits, [&](const auto& numbers) {
     return detail::value_of(numbers.coefficients(polynomial), numbers.of(1),
@@ -146,7 +146,7 @@ Halves seen_closely(const WidePolynomial& polynomial, const Dyadic& lower, const
     return longs;
   };
   const Longs seen = bits <= LeadingDigits::most_bits ? look(InLeadingDigits{}) : with_bits(bits, look);
-  // In units of what the worst of them is wrong by, a little less.
+  // Choose a unit slightly smaller than the largest error.
   constexpr std::int64_t spare_bits = 8;
   std::optional<std::int64_t> unit;
   for (const LongDigits& x : seen) {
@@ -195,7 +195,7 @@ Variations variations_closely(const WidePolynomial& polynomial, const Dyadic& lo
 
 Variations exact_variations(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper) {
   if (const Variations rough = polynomial.variations_on(lower, upper); is_enough(rough)) return rough;
-  // Numbers of fewer digits do not tell the ends apart.
+  // Numbers with fewer digits cannot distinguish the ends.
   std::size_t bits = std::bit_ceil(std::max<std::size_t>(256, digits_of(detail::Ends(lower, upper))));
   return variations_closely(polynomial, lower, upper, bits);
 }

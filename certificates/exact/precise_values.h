@@ -1,6 +1,6 @@
 #pragma once
-// Values of wide polynomials, and signs of their coefficients on a part of the step, to as many digits as an
-// answer takes: first by 126 bits, then by twice as many and again, in the end by all. Exact.
+// Values of wide polynomials, and sign changes on parts of the step, computed by ball arithmetic of
+// increasing precision: first 126 bits, then twice as many at each attempt, finally all bits. Exact.
 
 #include "certificates/exact/halves.h"
 #include "certificates/exact/wide_polynomial.h"
@@ -8,22 +8,24 @@
 
 namespace kds {
 
-/// The value at u, to at least so many leading binary digits, or exact.
+/// Returns the value at u, exact or with at least `digits` correct leading binary digits.
 [[nodiscard]] LongDigits value_at(const WidePolynomial& polynomial, const Dyadic& u, std::size_t digits);
 
-/// The sign all over [lower, upper] if as many digits tell as the interval has, else 0.
+/// Returns the sign on [lower, upper] if about as many digits as the interval has decide it, else 0.
 [[nodiscard]] int sign_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper);
 
-/// The polynomial as seen on [lower, upper], ends of one scale, by so many leading digits.
+/// Returns the polynomial restricted to [lower, upper], with numbers of `bits` leading bits. The ends must
+/// have the same scale.
 [[nodiscard]] Halves seen_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper,
                                   std::size_t bits);
 
-/// Sign changes of the polynomial as seen on [lower, upper]: least and most are the same, or both at least
-/// 2, where no more is asked.
+/// Counts the sign changes of the polynomial restricted to [lower, upper]. In the result least == most, or
+/// both are at least 2, since callers need no more.
 [[nodiscard]] Variations exact_variations(const WidePolynomial& polynomial, const Dyadic& lower,
                                           const Dyadic& upper);
 
-/// The same where leading digits do not tell: from so many bits on, which become those that told.
+/// Does the same if leading digits do not decide. Starts with numbers of `bits` bits, and sets `bits` to the
+/// number that decided.
 [[nodiscard]] Variations variations_closely(const WidePolynomial& polynomial, const Dyadic& lower,
                                             const Dyadic& upper, std::size_t& bits);
 

@@ -18,7 +18,7 @@ std::size_t RecentCoefficients::place_of(const Key& key) {
 const std::vector<Integer>* RecentCoefficients::of(const Key& key) const {
   if (known_.empty()) return nullptr;
   const Known& known = known_[place_of(key)];
-  // Bit by bit: 0 and -0 make the same function, but need not share it.
+  // Compare bit by bit: 0 and -0 make the same function, but it is not worth a special case to share it.
   const bool same = known.formula == key.formula && known.numbers.size() == key.numbers.size() &&
                     std::memcmp(known.numbers.data(), key.numbers.data(), key.numbers.size_bytes()) == 0;
   return same ? &known.coefficients : nullptr;

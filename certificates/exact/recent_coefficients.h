@@ -1,8 +1,9 @@
 #pragma once
-// The coefficients of ordinary functions that were formed last. A function is searched, compared with others
-// that fail near it, and its sign looked at after each event beside it, each time from its beads: where much
-// happens at once, four times in five it was formed a moment ago. It is known by all numbers that it is made
-// from, so that nothing ever goes out of date. (Wide functions: recent_functions.h.)
+// A cache of the coefficients of ordinary (not wide) functions. The coefficients are formed from the beads
+// each time that a function is searched, compared with other functions that fail near it, or evaluated after
+// a nearby event. In busy regions, four of five requests find coefficients formed a moment ago. The key
+// consists of all numbers that the function is made from, so entries never become invalid. recent_functions.h
+// caches wide functions.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,13 +16,13 @@ namespace kds {
 
 class RecentCoefficients {
  public:
-  /// Of a function's formula, which has this name, and all numbers that go into it.
+  /// The address that names a function's formula, and all numbers that the formula takes.
   struct Key {
     const void* formula;
     std::span<const double> numbers;
   };
 
-  /// Null where they are not known, or not any more; valid until others are kept.
+  /// Returns null if the coefficients are not cached. The pointer is valid until the next call of keep().
   [[nodiscard]] const std::vector<Integer>* of(const Key& key) const;
   void keep(const Key& key, const std::vector<Integer>& coefficients);
 
@@ -35,7 +36,7 @@ class RecentCoefficients {
   };
   [[nodiscard]] static std::size_t place_of(const Key& key);
 
-  std::vector<Known> known_;  // by their hash, which is that of the numbers: the same in every run
+  std::vector<Known> known_;  // indexed by a hash of the numbers, the same in every run
 };
 
 }  // namespace kds

@@ -8,7 +8,7 @@ namespace kds {
 
 namespace {
 
-// Bit by bit: 0 and -0 make the same function, but need not share it.
+// Compares bit by bit: 0 and -0 make the same function, but it is not worth a special case to share it.
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -1,8 +1,8 @@
 #pragma once
-// The functions that were asked for last, first of all the wide ones. The same few beads' function is asked
-// for again and again where doubles do not decide: searched, compared, its sign looked at after each event.
-// What has been found out about it, digits, square-free part and roots, stays with it. A function is known by
-// all numbers that it is made from, so that nothing ever goes out of date.
+// A cache of the most recently used functions, mainly wide ones. If doubles do not decide, the same few
+// functions are requested again and again: to search them, to compare them, and to find their sign after each
+// event. All that is found out about a function is kept with it: digits, square-free part and roots. The key
+// consists of all numbers that the function is made from, so entries never become invalid.
 
 #include <array>
 #include <cstddef>
@@ -16,14 +16,15 @@ namespace kds {
 
 class RecentFunctions {
  public:
-  /// `formula` names the function's formula, `numbers` are all that go into it. Or the `negative` of what
-  /// these make, which shares what is found out with it.
+  /// Returns the function with this formula and these numbers. `formula` is an address that names the
+  /// formula; `numbers` must be all numbers that the formula takes. If `negative` is set, returns the
+  /// negative of that function, which shares everything that is found out.
   [[nodiscard]] std::shared_ptr<const WidePolynomial> of(const void* formula,
                                                          const std::vector<double>& numbers,
                                                          std::unique_ptr<const CoefficientSource> source,
                                                          bool negative = false);
 
-  /// Of functions that are not wide.
+  /// Returns the cache of functions that are not wide.
   [[nodiscard]] RecentCoefficients& ordinary() { return ordinary_; }
 
  private:
@@ -32,7 +33,8 @@ class RecentFunctions {
     std::vector<double> numbers;
     std::shared_ptr<const WidePolynomial> function, negative;
   };
-  /// Those of one hash, which is that of the numbers: the same in every run. A few formulas share them.
+  /// The entries of one hash value. The hash covers only the numbers, so a few formulas share a shelf. It is
+  /// the same in every run.
   struct Shelf {
     std::array<Known, 8> known;
     std::size_t oldest = 0;

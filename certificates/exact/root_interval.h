@@ -1,5 +1,5 @@
 #pragma once
-// One root of a polynomial among its others.
+// An isolating interval of one root of a polynomial.
 
 #include <functional>
 
@@ -7,11 +7,12 @@
 
 namespace kds {
 
-/// An interval with one root and no root at its ends; or, where lower == upper, the root itself.
+/// An interval that contains exactly one root, with no root at its ends. If lower == upper, it is the root
+/// itself.
 struct RootInterval {
   Dyadic lower, upper;
-  unsigned digits = 1;    ///< what the next step of narrowing it is worth (narrow_root)
-  int sign_at_lower = 0;  ///< of the polynomial, if it is known
+  unsigned digits = 1;    ///< how many binary digits the next narrowing step should gain (narrow_root)
+  int sign_at_lower = 0;  ///< the polynomial's sign at `lower`; 0 if unknown
 };
 
 /// Takes one root; returns whether the next one is wanted.

@@ -9,10 +9,10 @@ namespace kds {
 namespace {
 
 constexpr double unit_roundoff = 0x1p-53;
-constexpr double inflation = 1 + 0x1p-20;  // for u^2 terms and for the comparisons themselves
+constexpr double inflation = 1 + 0x1p-20;  // covers terms in u^2 and the rounding of the comparisons
 constexpr double first_error = 4 * unit_roundoff;
 constexpr double least_size = 0x1p-800;
-constexpr int most_halvings = 52;  // so that ends of parts are doubles
+constexpr int most_halvings = 52;  // so that the ends of parts are doubles
 constexpr int most_parts = 256;
 
 }  // namespace
@@ -38,7 +38,7 @@ RoundedPolynomial::RoundedPolynomial(const ExactPolynomial& exact) {
     const long shift = std::max(exponent[k] - largest, -1000L);
     whole_.c[k] = std::ldexp(whole_.c[k], static_cast<int>(shift)) /
                   static_cast<double>(binomial(static_cast<int>(count) - 1, static_cast<int>(k)));
-    // One that is smaller still errs by less than 4u times this.
+    // A smaller coefficient still has an error of less than 4u times this size.
     whole_.m[k] = std::max(std::abs(whole_.c[k]), least_size);
   }
 }
@@ -76,7 +76,8 @@ auto RoundedPolynomial::shape_of(const Part& part) -> Shape {
   };
   const int first = sign(0), last = sign(count - 1);
   if (first == 0 || last == 0) return Shape::unclear;
-  // Whatever the sign of one uncertain coefficient between two certain ones that differ, they change once.
+  // One uncertain coefficient between two certain ones of opposite sign does not matter: whatever its sign
+  // is, there is one sign change.
   int changes = 0, before = first;
   for (std::size_t k = 1, uncertain = 0; k < count; ++k) {
     const int now = sign(k);
@@ -139,7 +140,7 @@ auto RoundedPolynomial::first_descent(double from) const -> Result {
         if (const auto descent = narrowed(part, from)) return {Verdict::found, *descent};
         return {Verdict::undecided, {}};
       }
-      // An ascent is before `from`, or there would be a descent before it.
+      // The root of an ascent is before `from`, otherwise a descent would come before it.
       const bool done = shape == Shape::positive || (shape == Shape::ascent && part.lower < from);
       if (!done) {
         if (part.halvings == most_halvings) return {Verdict::undecided, {}};
@@ -154,7 +155,8 @@ auto RoundedPolynomial::first_descent(double from) const -> Result {
   return {Verdict::undecided, {}};
 }
 
-/// Newton's steps between what signs have been seen, then the ends as near as their signs are certain.
+/// Narrows by Newton's steps between points with certain signs, then moves the ends as close as their signs
+/// stay certain.
 auto RoundedPolynomial::narrowed(const Part& part, double from) const -> std::optional<Descent> {
   const double width = part.width();
   const double scale = std::ldexp(1.0, part.halvings);
@@ -195,7 +197,7 @@ auto RoundedPolynomial::narrowed(const Part& part, double from) const -> std::op
       }
     }
   }
-  // There the function itself is zero.
+  // The function itself is zero at these ends.
   if ((zero_at_start_ && lower == 0) || (zero_at_end_ && upper == 1)) return std::nullopt;
   return Descent{lower, upper, part.upper() == 1 && !zero_at_end_};
 }

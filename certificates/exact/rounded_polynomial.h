@@ -1,15 +1,22 @@
 #pragma once
-// A polynomial whose coefficients are known exactly, in double: each coefficient rounded by itself, so that a
-// function that is zero but for what its beads' coordinates were rounded by has as many true digits as any
-// other. Its descents are found without the long numbers of its exact roots. Bounded work; what it cannot
-// prove it says so.
+// An exact polynomial rounded to double. Its coefficients are known exactly, and each is rounded by itself. A
+// function that would vanish but for the rounding of its beads' coordinates therefore keeps full relative
+// precision. This class finds the descents of such a function without integers of the length that exact roots
+// have. The work is bounded; if a result cannot be proved, the class says so.
 //
-// Every coefficient c comes with a size m >= |c|, and errs by at most E m: E = 4u at first (u = 2^-53;
-// truncated, and divided by a binomial). A mean v a + t b of two of them, v = 1-t, errs by E (v m_a + t m_b),
-// and by at most 4u times that for v, two products and their sum; its size is the same mean of sizes, rounded
-// alike, which keeps m >= |c|. Halving multiplies by 1/2, exactly, and rounds but the sum. So E grows by 4u a
-// round of de Casteljau, by u where it halves. Sizes are at least 2^-800 of the largest coefficient: nothing
-// underflows that counts. Where a polynomial's values are small near one end, so are the sizes there.
+// The error analysis, with u = 2^-53:
+//
+// - Every coefficient c has a size m >= |c| and an error of at most E m. At first E = 4u (truncation and
+//   division by a binomial).
+// - A mean v a + t b of two coefficients, v = 1-t, inherits an error E (v m_a + t m_b). Its rounding (two
+//   products and a sum) and that of v add at most 4u times that size. Its size is the same mean of sizes,
+//   rounded in the same way, so m >= |c| still holds.
+// - Halving multiplies by 1/2, which is exact, so only the sum is rounded.
+// - E thus grows by 4u per round of de Casteljau, and by u per round if the part is halved.
+// - Sizes are at least 2^-800 of the largest coefficient, so no underflow matters.
+//
+// Near an end where the polynomial's values are small, the sizes are small too, so the error bound is
+// relative to them.
 
 #include <cstdint>
 #include <optional>
@@ -21,15 +28,16 @@ namespace kds {
 
 class RoundedPolynomial {
  public:
-  /// Not of a wide one, whose coefficients are apart by more than doubles are. Roots at 0 and at 1 are
-  /// divided out: signs are those in (0,1), and 0 is where they are just after it.
+  /// Rounds `exact`, which must not be wide: wide coefficients differ by more than the range of doubles.
+  /// Roots at 0 and 1 are divided out. Signs are therefore those in (0,1), and the sign at 0 is the sign just
+  /// after it.
   explicit RoundedPolynomial(const ExactPolynomial& exact);
 
-  /// 1 or -1 if that is the sign all over [lower, upper], for certain, else 0.
+  /// Returns 1 or -1 if that is certainly the sign on all of [lower, upper], else 0.
   [[nodiscard]] int sign_on(double lower, double upper) const;
 
-  /// A root at which it turns negative: the only one in [lower, upper], where it is certainly positive at
-  /// lower and negative at upper. `last`: there is no other after it, and none at 1.
+  /// A root at which the polynomial turns negative. It is the only root in [lower, upper]; the polynomial is
+  /// certainly positive at lower and negative at upper. `last`: there is no later root, and none at 1.
   struct Descent {
     double lower, upper;
     bool last;
@@ -39,11 +47,12 @@ class RoundedPolynomial {
     Verdict verdict;
     Descent descent;
   };
-  /// The first one after `from`, where it is known to be positive, or just after it.
+  /// Returns the first descent after `from`. The polynomial must be known to be positive at `from` or just
+  /// after it.
   [[nodiscard]] Result first_descent(double from) const;
 
  private:
-  /// The polynomial as seen on [lower, lower + 2^-halvings].
+  /// The polynomial restricted to [lower, lower + 2^-halvings].
   struct Part {
     Coefficients<double> c, m;
     double lower = 0;
@@ -52,7 +61,7 @@ class RoundedPolynomial {
     [[nodiscard]] double width() const;
     [[nodiscard]] double upper() const { return lower + width(); }
     [[nodiscard]] double error() const;
-    [[nodiscard]] Part halve();  ///< becomes its left half; the right one
+    [[nodiscard]] Part halve();  ///< becomes the left half and returns the right half
   };
   struct Value {
     double value, slope, error;
@@ -60,7 +69,7 @@ class RoundedPolynomial {
   enum class Shape : std::uint8_t { positive, descent, ascent, unclear };
 
   [[nodiscard]] static Shape shape_of(const Part& part);
-  /// At s of [0,1] in the part.
+  /// Evaluates at the position s in [0,1] of the part.
   [[nodiscard]] static Value value_at(const Part& part, double s);
   [[nodiscard]] std::optional<Descent> narrowed(const Part& part, double from) const;
 

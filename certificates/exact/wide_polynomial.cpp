@@ -12,7 +12,7 @@ namespace kds {
 
 namespace {
 
-/// So many leading bits are right, or it is exact.
+/// Returns whether the number is exact or at least `digits` leading bits are correct.
 bool has_digits(const LeadingDigits& x, std::size_t digits) { return x.magnitude >> digits >= x.error; }
 bool has_digits(const LongDigits& x, std::size_t digits) { return x.has_digits(digits); }
 
@@ -24,14 +24,14 @@ std::int64_t top_bit(const LongDigits& x) {
          1;
 }
 
-/// Whether of each coefficient so many leading bits are right, or others, one before and one after it, have
-/// as many and outweigh it by as many bits, wherever in (0,1) the polynomial is looked at: it lies below
-/// Newton's polygon.
+/// Returns whether `digits` correct leading bits suffice. Each coefficient must either have as many correct
+/// bits itself, or be negligible everywhere in (0,1). It is negligible if it lies `digits` bits below the
+/// Newton polygon: one coefficient before it and one after it have enough correct bits and outweigh it.
 template <class Number>
 bool suffice(const std::vector<Number>& c, std::size_t digits) {
   struct Corner {
     std::int64_t place, top;
-    /// What line from here to another is above at a place, in as many times the distance of both.
+    /// Returns whether this corner is on or below the line through the two others.
     [[nodiscard]] bool is_below(const Corner& from, const Corner& to) const {
       return (top - from.top) * (to.place - from.place) <= (to.top - from.top) * (place - from.place);
     }
@@ -54,7 +54,7 @@ bool suffice(const std::vector<Number>& c, std::size_t digits) {
   });
 }
 
-/// All numbers between two, from 0 on.
+/// Returns a ball that contains every number between two bounds, 0 <= low <= high.
 LeadingDigits between(const Integer& low, const Integer& high) {
   LeadingDigits all = LeadingDigits::of(high);
   const Integer length = high - low;
@@ -87,12 +87,12 @@ const std::vector<Integer>& WidePolynomial::whole() const {
 const std::vector<LeadingDigits>& WidePolynomial::leading_digits() const {
   if (leading_) return *leading_;
   if (opposite_) return leading_.emplace(negatives_of(opposite_->leading_digits()));
-  // Kept only when they are complete: forming them may end in an exception.
+  // Store the digits only when complete: forming them may throw.
   std::vector<LeadingDigits> digits;
   if (!whole_) digits = source_->leading_digits();
   constexpr std::size_t enough = LeadingDigits::most_bits / 2;
   if (whole_ || !suffice(digits, enough)) {
-    // What the coefficients are made from may cancel nearly all.
+    // Nearly all digits of the terms may cancel, so form the coefficients more precisely.
     digits.clear();
     if (const std::vector<LongDigits>* formed = formed_to(enough)) {
       for (const LongDigits& x : *formed) digits.push_back(x.leading_digits());

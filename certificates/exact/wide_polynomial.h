@@ -1,11 +1,11 @@
 #pragma once
-// Polynomials whose coefficients are thousands of bits long because the numbers they are made from are of
-// wildly different size (formula_in_integers.h says from which width on). An answer seldom needs all those
-// bits: it is looked for in the coefficients' leading digits first (motions/numbers/leading_digits.h),
-// whether there are common factors modulo a prime, and only where these do not tell are the whole numbers
-// formed. Every answer is exact, or says that it is none.
+// Polynomials whose coefficients are thousands of bits long because the input numbers differ wildly in size
+// (formula_in_integers.h gives the width at which this class takes over). An answer seldom needs all bits.
+// Signs are first sought with ball arithmetic on the leading digits (motions/numbers/leading_digits.h), and
+// common factors modulo a prime. The whole integers are formed only if these do not decide. Every answer is
+// exact, or says that it is undecided.
 //
-// What has been found out is kept: for one thread.
+// Results are cached. An object must therefore be used by one thread only.
 
 #include <array>
 #include <cstddef>
@@ -25,79 +25,84 @@
 
 namespace kds {
 
-/// Says what a polynomial's coefficients are, as precisely as it is asked.
+/// Computes a polynomial's coefficients to the requested precision.
 class CoefficientSource {
  public:
   virtual ~CoefficientSource() = default;
   [[nodiscard]] virtual std::vector<LeadingDigits> leading_digits() const = 0;
-  /// By numbers of so many words, one of `word_counts`.
+  /// Returns the coefficients in numbers of `words` words, one of `word_counts`.
   [[nodiscard]] virtual std::vector<LongDigits> digits(std::size_t words) const = 0;
   static constexpr std::array<std::size_t, 2> word_counts{8, 16};
-  /// Modulo 2^61 - fold.
+  /// Returns the coefficients modulo 2^61 - fold.
   [[nodiscard]] virtual std::vector<Residue> residues(std::uint64_t fold) const = 0;
   [[nodiscard]] virtual std::vector<Integer> whole() const = 0;
 };
 
-/// How often a polynomial's coefficients change sign, as far as their leading digits tell.
+/// Bounds on the number of sign changes of a polynomial's coefficients, as far as their leading digits
+/// decide.
 struct Variations {
   int least = 0, most = 0;
-  int sign = 0;  ///< of all that are not 0, where none change: known if most is 0
+  int sign = 0;  ///< of the coefficients that are not 0 if there is no change; known if most is 0
 };
 
 class WidePolynomial {
  public:
   explicit WidePolynomial(std::vector<Integer> scaled) : whole_(std::move(scaled)) {}
   explicit WidePolynomial(std::unique_ptr<const CoefficientSource> source) : source_(std::move(source)) {}
-  /// The negative of another, which is nobody's negative. What is found out about the roots is both's.
+  /// Constructs the negative of `opposite`, which must not itself be a negation. Both share what is found out
+  /// about roots.
   explicit WidePolynomial(std::shared_ptr<const WidePolynomial> opposite) : opposite_(std::move(opposite)) {}
 
-  /// Null where it was not made as the negative of another.
+  /// Returns null unless this polynomial was constructed as the negative of another.
   [[nodiscard]] const std::shared_ptr<const WidePolynomial>& opposite() const { return opposite_; }
 
   [[nodiscard]] const std::vector<Integer>& whole() const;
   [[nodiscard]] const std::vector<LeadingDigits>& leading_digits() const;
-  /// By numbers of 4, 8, 16 or 32 words, of which half are right, but for coefficients that others
-  /// outweigh.
+  /// Returns the coefficients as balls of 4, 8, 16 or 32 words. Half of the words are correct, except in
+  /// coefficients that others outweigh.
   template <int Words>
   [[nodiscard]] const std::vector<FixedDigits<Words>>& in_words() const;
-  /// Modulo the first of the primes.
+  /// Returns the coefficients modulo the first of the primes.
   [[nodiscard]] const std::vector<Residue>& residues() const;
-  /// The degree that it is written with, plus 1.
+  /// Returns the formal degree plus 1.
   [[nodiscard]] std::size_t size() const { return leading_digits().size(); }
-  /// Of the longest coefficient: by its leading digits, one more than it is at the most.
+  /// Returns the bit length of the longest coefficient, computed from leading digits; it may be one too
+  /// large.
   [[nodiscard]] std::size_t largest_bit_length() const;
 
   [[nodiscard]] bool is_zero() const;
   [[nodiscard]] int sign_at(const Dyadic& u) const;
-  /// The sign all over [lower, upper] if its leading digits tell, else 0.
+  /// Returns the sign on [lower, upper] if the leading digits decide it, else 0.
   [[nodiscard]] int sign_on(const Dyadic& lower, const Dyadic& upper) const;
   [[nodiscard]] int sign_variations() const;
-  /// Of the polynomial as seen on [lower, upper], whose signs at both ends may be given, by leading digits.
+  /// Counts sign changes of the polynomial restricted to [lower, upper], using leading digits. The caller may
+  /// supply the signs at both ends.
   [[nodiscard]] Variations variations_on(const Dyadic& lower, const Dyadic& upper,
                                          std::optional<int> sign_at_lower = {},
                                          std::optional<int> sign_at_upper = {}) const;
 
-  /// The sign of the first coefficient that is not 0.
+  /// Returns the sign of the first coefficient that is not 0.
   [[nodiscard]] int first_sign() const;
 
-  /// A part of [0,1] in which roots have not been looked for (wide_roots.h).
+  /// A part of [0,1] in which roots have not been isolated yet (wide_roots.h).
   struct Part {
     Dyadic lower, upper;
     int sign_at_lower = 0, sign_at_upper = 0;
-    bool with_lower = false;  ///< a root at its lower end is one of its own
-    int changes = 0;          ///< of sign there, where they are known
-    unsigned digits = 0;      ///< by which it has been narrowed without losing one
+    bool with_lower = false;  ///< a root at the lower end belongs to this part
+    int changes = 0;          ///< the number of sign changes, if known
+    unsigned digits = 0;      ///< by how many digits it was narrowed without losing a sign change
     std::size_t bits =
-        LeadingDigits::most_bits;  ///< with which it, or the part that it is of, was looked at closely
+        LeadingDigits::most_bits;  ///< the precision at which it, or the part around it, was last examined
   };
-  /// What others have found out about it.
+  /// Results found so far.
   struct Found {
-    /// All that there are in [0,1], isolated and narrowed, and where others may be; ascending. None at first.
+    /// All roots in [0,1], isolated and narrowed, and the parts that may contain more roots, ascending. Empty
+    /// at first.
     std::list<std::variant<RootInterval, Part>> roots;
-    std::vector<RootInterval> some_roots;  ///< that were narrowed where others have not been looked for
-    /// Its part without multiple roots; null where it is that itself.
+    std::vector<RootInterval> some_roots;  ///< narrowed roots in parts not yet isolated
+    /// The square-free part, or null if the polynomial itself is square-free.
     std::optional<std::shared_ptr<const WidePolynomial>> square_free;
-    /// What it has in common with others: the last few of those that it has something in common with.
+    /// Common factors with other polynomials. Only the last few non-trivial ones are kept.
     struct Common {
       std::weak_ptr<const WidePolynomial> other;
       std::shared_ptr<const WidePolynomial> factor;
@@ -107,7 +112,8 @@ class WidePolynomial {
   [[nodiscard]] Found& found() const { return opposite_ ? opposite_->found_ : found_; }
 
  private:
-  /// Of which so many leading bits are right, where they matter, or null where that takes the whole ones.
+  /// Returns coefficients with `bits` correct leading bits where they matter, or null if that needs the whole
+  /// integers.
   [[nodiscard]] const std::vector<LongDigits>* formed_to(std::size_t bits) const;
 
   template <int Words>
@@ -117,7 +123,7 @@ class WidePolynomial {
   std::shared_ptr<const WidePolynomial> opposite_;
   mutable std::optional<std::vector<Integer>> whole_;
   mutable std::optional<std::vector<LeadingDigits>> leading_;
-  mutable std::vector<LongDigits> formed_;  // by so many words
+  mutable std::vector<LongDigits> formed_;  // formed with `formed_words_` words
   mutable std::size_t formed_words_ = 0;
   mutable std::tuple<InWords<4>, InWords<8>, InWords<16>, InWords<32>> in_words_;
   mutable std::optional<std::vector<Residue>> residues_;

@@ -18,8 +18,8 @@ using Level = std::int64_t;
 using Part = WidePolynomial::Part;
 using Stretches = decltype(WidePolynomial::Found::roots);
 
-/// Which scale a number between 0 and 1 is of: 0 from 1/2 on, -1 from 1/4 on, and so on towards 0; the same
-/// upwards towards 1.
+/// Returns the scale of a number between 0 and 1: 0 in [1/2, 1), -1 in [1/4, 1/2), and so on towards 0.
+/// Scales towards 1 are positive and mirror this.
 Level level_of(const Dyadic& u) {
   const auto power_of = [](const Integer& numerator, unsigned exponent) {
     return static_cast<Level>(mpz_sizeinbase(numerator.data(), 2)) - 1 - static_cast<Level>(exponent);
@@ -29,14 +29,14 @@ Level level_of(const Dyadic& u) {
   return -(power_of((Integer(1) << u.exponent()) - u.numerator(), u.exponent()) + 1);
 }
 
-/// The simplest number of a scale, its end towards 0 or 1.
+/// Returns the simplest number of a scale: its end towards 0 or 1.
 Dyadic at_level(Level level) {
   if (level <= 0) return {1, static_cast<unsigned>(1 - level)};
   const auto bits = static_cast<unsigned>(level + 1);
   return {(Integer(1) << bits) - 1, bits};
 }
 
-/// An interval in 2^digits equal parts.
+/// An interval divided into 2^digits equal cells.
 struct Cells {
   Integer from, length;
   unsigned exponent;
@@ -51,8 +51,8 @@ struct Cells {
   [[nodiscard]] Dyadic border(const Integer& number) const { return {from + number * length, exponent}; }
 };
 
-/// In which of `cells` equal parts of an interval a function is zero that is straight between its values at
-/// both ends.
+/// Returns the cell, of `cells` equal parts of an interval, in which the linear interpolation between the
+/// values at both ends is zero.
 Integer straight_zero(const LongDigits& at_lower, const LongDigits& at_upper, const Integer& cells) {
   Integer from = abs(at_lower.number()), to = abs(at_upper.number());
   const std::int64_t apart = at_upper.exponent() - at_lower.exponent();
@@ -62,30 +62,30 @@ Integer straight_zero(const LongDigits& at_lower, const LongDigits& at_upper, co
   return cell < cells ? cell : Integer(cells - 1);
 }
 
-/// Splits intervals until they hold one root or none: by scales, then by halves, which take additions alone.
-/// Where halving loses no change of sign for long, roots lie close together, and are approached as one
-/// multiple root (Sagraloff's Descartes with Newton's steps): if all changes of sign are in the part that the
-/// step points to, the rest has no root, and the number of digits doubles.
+/// Subdivides intervals until each holds one root or none: first by scales, then by halving, which takes only
+/// additions. If halving loses no sign change for long, the roots form a cluster and are approached like one
+/// multiple root (Sagraloff's Descartes method with Newton steps). If the cells that the Newton step predicts
+/// contain all sign changes, the rest has no root, and the number of digits doubles.
 class WideIsolation {
  public:
-  /// Looks for roots from `from` to `to`.
+  /// Isolates the roots in [from, to].
   WideIsolation(const WidePolynomial& polynomial, const Dyadic& from, const Dyadic& to)
       : polynomial_(polynomial), from_(from), to_(to) {}
 
-  /// What a part is made of: up to the first root wanted, roots and parts without any; then parts as they
-  /// are.
+  /// Divides `part` into stretches. Up to the first root wanted, these are isolated roots and the gaps
+  /// between them; after it, parts are left as they are.
   [[nodiscard]] Stretches of(Part part) && {
     visit(std::move(part));
     return std::move(stretches_);
   }
 
-  /// Roots may be wanted that are in this part.
+  /// Returns whether this part may contain roots of [from, to].
   [[nodiscard]] static bool is_wanted(const Part& part, const Dyadic& from, const Dyadic& to) {
     return from < part.upper && (part.lower < to || (part.lower == to && has_root_at_lower(part)));
   }
 
  private:
-  // A look at a part takes about as long as so many halvings of what was seen.
+  // Examining a part costs about as much as this number of halvings.
   static constexpr unsigned fewest_digits = 16, most_digits = 2048;
 
   [[nodiscard]] static bool has_root_at_lower(const Part& part) {
@@ -93,7 +93,7 @@ class WideIsolation {
   }
 
   [[nodiscard]] bool is_past(const Part& part) const { return !(from_ < part.upper); }
-  /// Whether the part is left as it is.
+  /// Returns whether the part is left as it is.
   bool puts_off(const Part& part) {
     if (!is_done_ && is_wanted(part, from_, to_)) return false;
     stretches_.emplace_back(part);
@@ -140,9 +140,9 @@ class WideIsolation {
     return {std::move(left), std::move(right)};
   }
 
-  // The same of a part of one scale, roots at `lower` left out: by the polynomial as seen on it, which is
-  // halved; by twice as many bits where they do not tell. What comes later is put off where it takes another
-  // look.
+  // Does the same for a part of one scale, without roots at `lower`. It halves the polynomial restricted to
+  // that part, with twice as many bits if they do not decide. Later parts are put off if they would have to
+  // be examined again.
   void visit_closely(Halves seen, Part part) {
     if (is_past(part) && puts_off(part)) return;
     const Variations variations = seen.variations(part.sign_at_lower, part.sign_at_upper);
@@ -150,7 +150,8 @@ class WideIsolation {
     if (has_one_root(part, variations)) return add({part.lower, part.upper, 1, part.sign_at_lower});
     if (is_unclear(variations)) {
       if (puts_off(part)) return;
-      // Halving has made the part small beside what its numbers are wrong by, or they were too short at once.
+      // The part has become small compared with the error of its numbers, or the numbers were too short from
+      // the start.
       if (seen.depth() == 0) part.bits *= 2;
       return visit_closely(seen_closely(polynomial_, part.lower, part.upper, part.bits), part);
     }
@@ -172,8 +173,8 @@ class WideIsolation {
     visit_closely(std::move(seen), right);
   }
 
-  /// Narrows the part to one that holds all its changes of sign, a cluster, if both ends point there, and
-  /// returns the polynomial as seen on that.
+  /// Narrows the part to a cluster that holds all its sign changes, if both ends predict such a cluster.
+  /// Returns the polynomial restricted to it.
   [[nodiscard]] std::optional<Halves> narrow_to_cluster(const Halves& seen, Part& part) const {
     const unsigned digits = part.digits;
     part.digits /= 2;
@@ -228,24 +229,25 @@ Dyadic split_point(const Dyadic& lower, const Dyadic& upper) {
 
 namespace {
 
-/// The one of a polynomial and its negative with which is kept what is known of both.
+/// Returns the polynomial that stores the results for `polynomial` and its negative.
 const WidePolynomial& own_of(const WidePolynomial& polynomial) {
   return polynomial.opposite() ? *polynomial.opposite() : polynomial;
 }
-/// A root of that one, with the sign that this one has, or the other way round.
+/// Converts a root between the polynomial that stores the results and its negative: the sign is flipped if
+/// this polynomial is a negative.
 RootInterval seen_by(const WidePolynomial& polynomial, RootInterval root) {
   if (polynomial.opposite()) root.sign_at_lower = -root.sign_at_lower;
   return root;
 }
 
-/// What is known of the roots in [0,1], which begins with where they may be.
+/// Returns what is known of the roots in [0,1]. Initially that is one part, which may contain any root.
 Stretches& stretches_of(const WidePolynomial& own) {
   Stretches& known = own.found().roots;
   if (!known.empty()) return known;
   const Dyadic start(0.0), end(1.0);
   const int sign_at_start = own.sign_at(start), sign_at_end = own.sign_at(end);
   known.emplace_back(Part{start, end, sign_at_start, sign_at_end, true});
-  // What is at the end stays, so that this is done once.
+  // The entry for the end stays in the list, so the end is examined only once.
   known.emplace_back(sign_at_end == 0 ? Stretches::value_type(RootInterval{end, end})
                                       : Stretches::value_type(Part{end, end, sign_at_end, sign_at_end}));
   return known;
@@ -255,7 +257,7 @@ bool lies_in(const RootInterval& root, const Dyadic& lower, const Dyadic& upper)
   return lower <= root.lower && root.upper <= upper;
 }
 
-/// Cuts a root's interval at a point, so that it is on one side of it.
+/// Cuts a root's interval at a point, so that the interval lies on one side of it.
 void cut(RootInterval& root, const Dyadic& point, const WidePolynomial& square_free) {
   if (!(root.lower < point && point < root.upper)) return;
   const int sign = square_free.sign_at(point);
@@ -325,7 +327,7 @@ namespace {
 
 void narrow(const WidePolynomial& polynomial, RootInterval& root) {
   unsigned& digits = root.digits;
-  const auto take = [&](Dyadic point) {  // whether the root is after it
+  const auto take = [&](Dyadic point) {  // returns whether the root is after the point
     const int sign = polynomial.sign_at(point);
     if (sign == 0) {
       root.lower = root.upper = std::move(point);
@@ -340,7 +342,7 @@ void narrow(const WidePolynomial& polynomial, RootInterval& root) {
     take(std::move(split));
     return;
   }
-  // One cell of 2^digits, beside the guessed one where the guess is wrong.
+  // Try one cell of 2^digits, or its neighbour if the guess is wrong.
   constexpr unsigned most_digits = 4096;
   const Integer cells = Integer(1) << digits;
   const Integer cell = straight_zero(value_at(polynomial, root.lower, digits + 2),
@@ -354,8 +356,8 @@ void narrow(const WidePolynomial& polynomial, RootInterval& root) {
 
 }  // namespace
 
-// The known root in whose interval this one lies is known as well from now on, wherever it is kept; of those
-// that have not been looked for, the last few.
+// Replaces the known root whose interval contains this one, wherever it is stored. Roots in parts not yet
+// isolated are stored too, but only the last few.
 void keep_root(const WidePolynomial& polynomial, const RootInterval& root) {
   const RootInterval narrowed = seen_by(polynomial, root);
   WidePolynomial::Found& found = polynomial.found();

@@ -1,8 +1,9 @@
 #pragma once
-// The roots of a wide polynomial on [0,1], each in an interval of its own: Descartes' rule of signs on parts
-// of the step, by the polynomial's leading digits where these tell. Roots may lie anywhere between 2^-10000
-// and 1 - 2^-10000, and pairs of them as close together: where halving would take a step for each binary
-// digit, scales are searched by halving exponents, and digits doubled from step to step. Exact.
+// Isolates the roots of a wide polynomial on [0,1], each in its own interval, by Descartes' rule of signs on
+// parts of the step. The polynomial's leading digits are used where they decide. Roots may lie anywhere
+// between 2^-10000 and 1 - 2^-10000, and pairs of roots as close together. Plain halving would take a step
+// for each binary digit. Instead, scales are searched by halving exponents, and the number of digits doubles
+// from step to step. Exact.
 
 #include <optional>
 
@@ -10,14 +11,14 @@
 
 namespace kds {
 
-/// Visits the roots of a square-free polynomial in [lower, upper], lower < upper, ascending; their intervals
-/// are disjoint but for touching ends. Those that the visitor does not want are not looked for.
-/// It may narrow roots, but visits none of the same polynomial.
+/// Visits the roots of a square-free polynomial in [lower, upper], lower < upper, ascending. The isolating
+/// intervals are disjoint except for common ends. Roots that the visitor does not want are not isolated. The
+/// visitor may narrow roots, but must not visit roots of the same polynomial.
 void visit_wide_roots(const WidePolynomial& square_free, const Dyadic& lower, const Dyadic& upper,
                       const RootVisitor& visit);
 
-/// Roots of a square-free polynomial whose intervals reach into (lower, upper), as far as they are narrowed:
-/// how many, 2 standing for more, and the first. Nothing where not all there are known.
+/// The known roots of a square-free polynomial whose intervals overlap (lower, upper): their number (2 stands
+/// for more) and the first one. The query returns nothing unless all roots there are known.
 struct RootsAround {
   int count = 0;
   RootInterval first;
@@ -25,24 +26,25 @@ struct RootsAround {
 [[nodiscard]] std::optional<RootsAround> known_roots_around(const WidePolynomial& square_free,
                                                             const Dyadic& lower, const Dyadic& upper);
 
-/// Notes what was found out otherwise: an interval with one root, at which the polynomial changes its sign.
+/// Records an interval found elsewhere: it has one root, at which the polynomial changes sign.
 void keep_root(const WidePolynomial& polynomial, const RootInterval& root);
 
-/// Narrows the interval of a root at which the polynomial changes its sign, which is known at the lower end.
-/// Its `digits` say how many binary digits a step is worth that is guessed from the values at both ends: 1 at
-/// first, then what the step before has made of it. Who visits the root later finds it narrowed.
+/// Narrows the interval of a root at which the polynomial changes sign; the sign at the lower end must be
+/// known. `digits` says how many binary digits the next step, guessed from the values at both ends, should
+/// gain: 1 at first, then as the previous step left it. Later visits of the root find it narrowed.
 void narrow_root(const WidePolynomial& polynomial, RootInterval& root);
 
-/// The only root in [lower, upper], at which the polynomial changes its sign: as narrow as it is known.
+/// Returns the only root in [lower, upper], at which the polynomial changes sign, as narrow as it is known.
 [[nodiscard]] RootInterval known_root(const WidePolynomial& polynomial, const Dyadic& lower,
                                       const Dyadic& upper);
 
-/// The interval is shorter than 2^-digits times what it is away from 0 or 1, whichever is nearer.
+/// Returns whether the interval is shorter than 2^-digits times its distance from 0 or 1, whichever is
+/// nearer.
 [[nodiscard]] bool has_digits(const RootInterval& root, unsigned digits);
 
-/// A number between two of [0,1], with few digits, that halves the interval where its ends are of one scale
-/// and else comes as near to the end by which the scale is wide as halving their exponents does: towards 0
-/// and 1 scales are without end.
+/// Returns a number with few digits between two numbers of [0,1]. If both have the same scale, it is the
+/// midpoint. Otherwise it halves the exponents, towards the end at which the interval spans many scales,
+/// because scales towards 0 and 1 are endless.
 [[nodiscard]] Dyadic split_point(const Dyadic& lower, const Dyadic& upper);
 
 }  // namespace kds
