@@ -41,7 +41,7 @@ int BoundedPolynomial::certain_sign_on(double lower, double upper) const {
     double steepest = 0;
     for (std::size_t i = 0; i + 1 < bernstein.size(); ++i)
       steepest = std::max(steepest, std::abs(bernstein[i + 1] - bernstein[i]));
-    // |p'| <= degree * steepest; coefficients err by value_error each.
+    // |p'| <= degree * steepest, and coefficients have an error of value_error each.
     reach += degree() * (steepest + 2 * value_error) * (upper - lower) * (1 + 0x1p-40);
   }
   return value > reach ? 1 : value < -reach ? -1 : 0;

@@ -1,6 +1,7 @@
 #pragma once
-// The double stage: a polynomial whose Bernstein coefficients are known up to a proved error, and the first
-// place where it certainly turns negative. Bounded work; what it cannot prove it says so.
+// The double stage: a polynomial whose Bernstein coefficients are known up to a proved error, and the search
+// for the first place where it certainly turns negative. The work is bounded; if a result cannot be proved,
+// the class says so.
 
 #include <cstdint>
 
@@ -11,9 +12,9 @@ namespace kds {
 enum class Verdict : std::uint8_t { never, found, undecided };
 
 struct BoundedPolynomial {
-  Coefficients<double> bernstein;  ///< plain Bernstein coefficients on [0,1], one at least
-  double value_error = 0;          ///< of any value at a double
-  double local_error = 0;          ///< of the coefficients after subdivision; NaN: nothing can be proved
+  Coefficients<double> bernstein;  ///< plain Bernstein coefficients on [0,1], at least one
+  double value_error = 0;          ///< error of any value at a double
+  double local_error = 0;          ///< error of coefficients after subdivision; NaN: nothing can be proved
 
   struct Bracket {
     double lower, upper;
@@ -25,17 +26,18 @@ struct BoundedPolynomial {
 
   [[nodiscard]] int degree() const { return static_cast<int>(bernstein.size()) - 1; }
   [[nodiscard]] double value_at(double u) const;
-  /// 1 or -1 if that is the sign at u for certain, else 0.
+  /// Returns 1 or -1 if that is certainly the sign at u, else 0.
   [[nodiscard]] int certain_sign_at(double u) const;
-  /// 1 or -1 if that is the sign all over [lower, upper] for certain, else 0.
+  /// Returns 1 or -1 if that is certainly the sign on all of [lower, upper], else 0.
   [[nodiscard]] int certain_sign_on(double lower, double upper) const;
 
-  /// The first root after `from` at which the polynomial turns negative, in a bracket that proves it:
-  /// certainly positive on [from, lower], negative at upper, and one root between. `from` must be certainly
-  /// positive, by its value or `known` to be.
+  /// Returns the first root after `from` at which the polynomial turns negative, in a bracket that proves it:
+  /// the polynomial is certainly positive on [from, lower] and negative at upper, with one root between. At
+  /// `from` it must be certainly positive, either by its value or because it is `known` to be.
   [[nodiscard]] Result first_descent(double from, bool known = false) const;
 
-  /// Near the root of its only descent between these, as far as the coefficients themselves tell: no proof.
+  /// Returns a point near the root of the only descent between `lower` and `upper`, computed from the
+  /// coefficients without error bounds. Proves nothing.
   [[nodiscard]] double root_between(double lower, double upper) const;
 };
 

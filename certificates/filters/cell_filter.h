@@ -1,6 +1,7 @@
 #pragma once
-// The float filter of power tests (float_filter.h), cell by cell, behind calls by batches: compiled once a
-// dimension, for motions of degrees 1 and 3 and lifted motion. What is not found positive is not known.
+// The float filter of power tests (float_filter.h) for whole cells, behind virtual calls on batches. It is
+// compiled once per dimension, for motions of degrees 1 and 3 and for lifted motion. Tests not proved
+// positive are undecided.
 
 #include <array>
 #include <cstddef>
@@ -16,15 +17,19 @@ namespace kds {
 
 inline constexpr std::size_t cells_in_batch = 8;
 
-/// The beads of each cell, then beads beyond facets of it.
+/// The beads of each cell, followed by the beads beyond its facets.
 template <int Dimension>
 using CellsInLanes =
     std::array<std::array<BeadId, 2 * (static_cast<std::size_t>(Dimension) + 1)>, cells_in_batch>;
 
-/// Of each cell one bit for each bead beyond, in that order: its power test with the cell is proven positive
-/// all over the step. Two more: the cell is proven positive where the step ends, and all over the step. A
-/// filter of parts tells in the next three bytes the same of the step's first half, quarter and eighth; only
-/// not of cells where these end alone.
+/// The bits of each cell, in this order:
+///
+/// - one bit per bead beyond: its power test with the cell is proved positive on the whole step,
+/// - one bit: the cell is proved positive at the end of the step,
+/// - one bit: the cell is proved positive on the whole step.
+///
+/// With FilterOf::parts, the next three bytes say the same for the step's first half, quarter and eighth,
+/// except that they leave out the bit for the end of the part.
 using PositiveBits = std::array<std::uint32_t, cells_in_batch>;
 inline constexpr int positive_parts = 3, bits_of_part = 8;
 template <int Dimension>
@@ -37,23 +42,24 @@ class CellFilter {
  public:
   virtual ~CellFilter() = default;
 
-  /// Of eight cells the first `beyond` beads beyond each.
+  /// Tests eight cells with the first `beyond` beads beyond each.
   virtual void positive_cells(const CellsInLanes<Dimension>& cells, std::size_t beyond,
                               const LengthUnit& unit, Rounding rounding, PositiveBits& positive) const = 0;
-  /// The first four cells alone, with all beads beyond them.
+  /// Tests only the first four cells, with all beads beyond them.
   virtual void four_positive_cells(const CellsInLanes<Dimension>& cells, const LengthUnit& unit,
                                    Rounding rounding, PositiveBits& positive) const = 0;
 };
 
-/// What is told: of cells with no beads beyond them their sign at the end of the step alone, and nothing of
-/// parts; or, for a motion of degree 1, all.
+/// The answers requested. `step`: nothing about parts, and for cells without beads beyond them only their
+/// sign at the end of the step. `parts`: all bits, for a motion of degree 1.
 enum class FilterOf : std::uint8_t { step, parts };
 
-/// Where nothing is compiled for the motion's degree it finds nothing positive.
+/// Returns the filter for a motion. If nothing is compiled for the motion's degree, the filter proves nothing
+/// positive.
 template <int Dimension>
 [[nodiscard]] std::unique_ptr<CellFilter<Dimension>> cell_filter_over(const MotionRef<Dimension>& motion,
                                                                       FilterOf told = FilterOf::step);
-/// The same as on processors without long vectors, for tests.
+/// Returns the filter for processors without long vectors, for tests.
 template <int Dimension>
 [[nodiscard]] std::unique_ptr<CellFilter<Dimension>> cell_filter_for_any_processor(
     const MotionRef<Dimension>& motion);

@@ -10,7 +10,7 @@ template <class Row>
   if constexpr (requires { row.resize(size); }) row.resize(size);
 }
 
-/// Plain coefficients and the errors that go with them.
+/// Computes the plain Bernstein coefficients and their error bounds.
 template <int Degree>
 [[gnu::always_inline]] inline void bound_lanes(const ScaledLanes<Degree>& given, double uniform_bound,
                                                double charge, LanesDescent<Degree>& lanes) {
@@ -23,18 +23,18 @@ template <int Degree>
   }
   const Lanes uniform = Lanes::choose(largest >= Lanes(0x1p-900), Lanes(uniform_bound) * given.error_scale,
                                       Lanes(__builtin_nan("")));
-  // A hair, so that what is known to be positive seems to be.
+  // Adds a tiny value, so that a function known to be positive also appears positive.
   const Lanes least(charge == 0 ? 0x1p-1000 : 0.0);
   lanes.value_error = uniform + Lanes(charge * value_rounding(degree)) * largest + least;
   lanes.local_error = uniform + Lanes(charge * local_rounding(degree)) * largest + least;
 }
 
-/// How far from its value at the upper end a function may be elsewhere in the present bracket.
+/// Bounds how much a function's value in the present bracket may differ from its value at the upper end.
 template <int Degree>
 [[gnu::always_inline]] inline Lanes change_within(const LanesDescent<Degree>& lanes, double lower,
                                                   double upper) {
   if (!(lower < upper)) return Lanes(0.0);
-  // |p'| <= degree * steepest; coefficients err by value_error each.
+  // |p'| <= degree * steepest, and coefficients have an error of value_error each.
   Lanes steepest(0.0);
   const std::size_t degree = lanes.bernstein.size() - 1;
   for (std::size_t k = 0; k < degree; ++k)
@@ -50,7 +50,7 @@ template <int Degree>
   bound_lanes(functions, uniform, charge, out.descent);
   auto right = out.descent.bernstein;  // the part after now
   if (now.upper > 0) casteljau(right, Lanes(now.upper));
-  // At its own root the bracket holds no other one, and at its upper end the function is positive.
+  // At its own root, the function has no other root in the bracket and is positive at the upper end.
   Lanes::Mask at_own_root{};
   for (unsigned lane = 0; lane < Lanes::width; ++lane)
     at_own_root[lane] = (now.at_own_root >> lane & 1U) != 0 ? -1 : 0;
@@ -66,7 +66,7 @@ template <int Degree>
   out.found = shape.one_descent & starts_positive;
   out.unclear = starts_positive & ~(out.positive | shape.positive | shape.one_descent);
   out.known = known;
-  right[0] = Lanes::choose(out.unclear, start, right[0]);  // those are subdivided: the polynomial as it is
+  right[0] = Lanes::choose(out.unclear, start, right[0]);  // lanes to be subdivided keep the computed value
   out.descent.part = right;
   out.descent.lower = Lanes(now.upper);
   out.descent.upper = Lanes(1.0);

@@ -1,5 +1,5 @@
 #pragma once
-// Definition of CellFilter: included by the files that instantiate it, one a dimension.
+// Defines CellFilter. Included by the files that instantiate it, one for each dimension.
 
 #include <cstdint>
 #include <type_traits>
@@ -13,7 +13,7 @@ namespace kds {
 
 namespace detail {
 
-/// Of how many floats a processor's vectors are, and whether it has twice as many of them.
+/// The number of floats in a processor's vectors, and whether it has twice as many vector registers.
 enum class FloatVectors : std::uint8_t { four, eight, many_of_eight };
 
 inline FloatVectors vectors_of_processor() {

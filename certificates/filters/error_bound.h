@@ -1,22 +1,27 @@
 #pragma once
-// The floating-point filter of a certificate type, derived from its function (motions/numbers/magnitude.h).
+// The error bound of a certificate type's filter in double, derived from its function by evaluating it on
+// magnitudes (motions/numbers/magnitude.h).
 //
-// Let M be the largest difference that went into one evaluation in double (DoubleView::largest_length), and h
-// the function's degree in lengths. Then coefficient k, in scaled Bernstein form, errs by at most
-// coefficient[k] * M^h. Proved for 2^-900 <= M^h <= 2^900: there nothing overflows, and a product that
-// underflows errs by at most 2^-1022, flushed to zero or not, times factors whose product is below M^(h-p)
-// for a power p <= h that it carried itself, at most 2^-69 of the least bound; the constants are inflated by
-// more than that. Outside this range the filter says nothing. Rounding is to nearest
-// (motions/base/floating_point_guard.h).
+// Let M be the largest difference that enters one evaluation in double (DoubleView::largest_length), and h
+// the function's degree in lengths. Then coefficient k, in scaled Bernstein form, has an error of at most
+// coefficient[k] * M^h.
 //
-// From these follow two bounds for the plain Bernstein coefficients c, whose division by binomials rounds
-// once more: any value at a double errs by at most uniform * M^h + value_rounding(n) * max|c|, and the
-// coefficients on any part of [0,1], which two subdivisions lead to, by uniform * M^h +
-// local_rounding(n) * max|c|.
+// This is proved for 2^-900 <= M^h <= 2^900. In this range nothing overflows. A product that underflows has
+// an error of at most 2^-1022, whether it is flushed to zero or not, times factors whose product is below
+// M^(h-p), where p <= h is the power that the product itself carried. That is at most 2^-69 of the smallest
+// bound, and the constants are inflated by more. Outside this range the filter is undecided. Rounding must be
+// to nearest (motions/base/floating_point_guard.h).
 //
-// One subdivision is n rounds of (1-t) a + t b. A round errs by at most 4u max|c| (two products, one sum,
-// 1-t), and t itself, at most a quotient of such numbers, by 4u, which moves a coefficient by at most 2n * 4u
-// max|c|. Together 12 u n max|c|; evaluation at a double is one subdivision.
+// Two bounds for the plain Bernstein coefficients c follow. Their division by binomials rounds once more.
+//
+// - Any value at a double has an error of at most uniform * M^h + value_rounding(n) * max|c|.
+// - The coefficients on any part of [0,1], computed by two subdivisions, have an error of at most uniform *
+//   M^h + local_rounding(n) * max|c|.
+//
+// One subdivision is n rounds of (1-t) a + t b. The rounding of one round is at most 4u max|c| (two products,
+// one sum, 1-t). t itself is at most a quotient of such numbers, so its error is at most 4u, which moves a
+// coefficient by at most 2n * 4u max|c|. Together the error is 12 u n max|c|. Evaluation at a double is one
+// subdivision.
 
 #include <cmath>
 
@@ -25,7 +30,7 @@
 
 namespace kds {
 
-inline constexpr int subdivisions = 2;  // one cuts off what is after the part, one what is before
+inline constexpr int subdivisions = 2;  // one cuts off the polynomial after the part, the other before it
 [[nodiscard]] constexpr double value_rounding(int degree) {
   return 12 * Magnitude::unit_roundoff * (1 + 0x1p-30) * degree;
 }
@@ -38,7 +43,7 @@ struct ErrorBound {
   Coefficients<double> coefficient;
   double uniform = 0;
 
-  /// M^h, or a NaN that fails every comparison where the bound is not proved.
+  /// Returns M^h, or a NaN, which fails every comparison, if the bound is not proved.
   [[nodiscard]] double scale(double largest_length) const {
     double result = 1;
     for (int i = 0; i < power; ++i) result *= largest_length;

@@ -1,26 +1,29 @@
 #pragma once
-// Which power tests of a cell's beads and the beads beyond its facets are positive all over a step, by their
-// Bernstein coefficients in float: eight cells at once (four where the processor has no AVX2), and what the
-// tests of a cell share is worked out once. Part of that is the cell's orientation: whether it is positive
-// where the step ends, and all over it, comes with it. What is not found positive is not known. No
-// allocation.
+// The float filter: finds which power tests of a cell are positive on a whole step, by their Bernstein
+// coefficients in float. A cell is tested against the beads beyond its facets. Eight cells are processed at
+// once (four if the processor has no AVX2), and the part that the tests of a cell share is computed once.
+// That part includes the cell's orientation, so the filter also says whether the orientation is positive at
+// the end of the step and on the whole step. Tests not proved positive are undecided. No allocation.
 //
-// The bound of the errors. Let m be the largest difference in a row of the determinant, rounded to float, M
-// the largest of all rows, and weights differ by no more than m^2. Any number computed on the way has from
-// some rows one factor each, a difference, at most m, or, at most once, a lift, a small multiple of m^2 <= m
-// M. Its size is Q, the product of those m and, with a lift, of M; sums are of numbers of one size. So the
-// magnitudes (motions/numbers/magnitude.h, 24 digits), each times its Q, bound them all, and coefficient k
-// errs by at most coefficient[k] times M times the product of all m. Claimed where M <= 2^10 and that product
-// is at least 2^-40, in the unit of length that the caller chose: then nothing overflows, and Q >= 2^-40 /
-// M^4 >= 2^-80, so that what an operation that underflows errs more, 2^-126 even where that is flushed to
-// zero, is less than 2^-21 of the roundoff 2^-24 Q it is charged with anyway. The constants are inflated by
-// 2^-8, for that and for the comparison. The orientation knows no lifts: the product of its own three (two) m
-// is its Q, and it is claimed where that is at least 2^-60.
+// Error bound. Let m be the largest difference in a row of the determinant, rounded to float, and M the
+// largest m of all rows. The differences of weights in a row must be at most m^2. Every intermediate number
+// takes from some of the rows one factor each. The factor is a difference, at most m, or, at most once, a
+// lift, which is a small multiple of m^2 <= m M. The number's size is Q, the product of the m of its rows
+// and, if it contains a lift, of M. Sums add only numbers of the same size. The magnitudes
+// (motions/numbers/magnitude.h, 24 digits), each times its Q, therefore bound all numbers, and coefficient k
+// has an error of at most coefficient[k] times M times the product of all m.
 //
-// Parts of a step: coefficients unscaled, by a product with a rounded constant, and halved again and again by
-// de Casteljau's means, which are rounded once each. Let e be the most that an unscaled coefficient errs by
-// and s the most that it is in size. Means of numbers err by no more than these, so after j roundings one on
-// each other all err by at most e + 2^-24 j s.
+// Range. The bound is claimed if M <= 2^10 and M times that product is at least 2^-40, in the caller's
+// unit of length. Then nothing overflows, and Q >= 2^-40 / M^4 >= 2^-80. An operation that underflows adds an
+// error of at most 2^-126, even if the result is flushed to zero. That is less than 2^-21 of the roundoff
+// 2^-24 Q already charged for the operation. The constants are inflated by 2^-8 to cover it and the
+// comparison. The orientation contains no lift: its Q is the product of its own three (two) m, and its bound
+// is claimed if Q is at least 2^-60.
+//
+// Parts of a step. The coefficients are unscaled by a product with a rounded constant, then halved repeatedly
+// by de Casteljau's means, each rounded once. Let e be the largest error and s the largest size of an
+// unscaled coefficient. A mean of numbers has neither a larger error nor a larger size. After j successive
+// roundings every error is thus at most e + 2^-24 j s.
 
 #include <algorithm>
 #include <array>
@@ -51,8 +54,9 @@ template <class View, class RowOf>
 template <std::size_t Coefficients, std::size_t OfOrientation>
 struct FloatPowerBound {
   std::array<float, Coefficients> coefficient;
-  std::array<float, OfOrientation> orientation;  ///< the last one is that at the end of the step
-  float of_part, orientation_of_part;            ///< of each coefficient that is not scaled
+  std::array<float, OfOrientation> orientation;  ///< the last one bounds the orientation at the end of the
+                                                 ///< step
+  float of_part, orientation_of_part;            ///< bound of each unscaled coefficient
 };
 
 inline constexpr double float_bound_inflation = 1 + 0x1p-8;
@@ -71,7 +75,7 @@ float float_bound_of_part(const Polynomial& magnitudes) {
   return static_cast<float>((error + 0x1p-24 * roundings * size) * float_bound_inflation);
 }
 
-/// `C`: Curves or LiftedCurves.
+/// Derives the bound for the curves `C`: Curves or LiftedCurves.
 template <class C, std::size_t Coefficients, std::size_t OfOrientation>
 void derive_float_power_bound(int degree, FloatPowerBound<Coefficients, OfOrientation>& bound) {
   using View = MagnitudeViewOf<C, MagnitudeIn<24>>;
@@ -91,7 +95,7 @@ template <Motion M>
   constexpr std::size_t lift_degree = lifted<M> ? 1 : 2 * M::degree;
   constexpr std::size_t centre_degree = M::dimension * M::degree;
   FloatPowerBound<centre_degree + lift_degree + 1, centre_degree + 1> bound{};
-  if constexpr (M::degree == 0) {  // where beads are: the orientation alone
+  if constexpr (M::degree == 0) {  // beads at rest: only the orientation
     derive_float_power_bound<Curves<M::dimension>>(0, bound);
   } else {
     derive_float_power_bound<CurvesOf<M>>(M::degree, bound);
@@ -101,7 +105,7 @@ template <Motion M>
 template <Motion M>
 using FloatPowerBoundOf = decltype(float_power_bound<M>());
 
-/// What the filter knows of the rounding of a motion's power tests, and of orientations where beads are.
+/// The rounding bounds for a motion's power tests, and for orientations of beads at rest.
 template <Motion M>
 struct FloatFilterBounds {
   FloatPowerBoundOf<M> of_step = float_power_bound<M>();
@@ -112,7 +116,7 @@ struct FloatFilterBounds {
 template <class FloatLanes>
 class RowSizes {
  public:
-  /// A row that was made of this view.
+  /// Takes a row computed from this view.
   template <Motion M>
   [[gnu::always_inline]] void take(const FloatLanesView<M, FloatLanes>& view) {
     const FloatLanes& length = view.largest_length();
@@ -120,14 +124,15 @@ class RowSizes {
     largest_ = FloatLanes::max(largest_, length);
     weights_small_ &= view.largest_weight() <= length * length;
   }
-  /// M times the product of all rows' m, or a NaN that fails every comparison where the bound is not proved.
+  /// Returns M times the product of all rows' m, or a NaN, which fails every comparison, if the bound is not
+  /// proved.
   [[nodiscard, gnu::always_inline]] FloatLanes error_scale() const {
     const FloatLanes scale = product_ * largest_;
     const typename FloatLanes::Mask proved =
         weights_small_ & (largest_ <= FloatLanes(0x1p10F)) & (scale >= FloatLanes(0x1p-40F));
     return proved ? scale.v : FloatLanes(__builtin_nanf("")).v;
   }
-  /// The same of what no lift enters: the product alone.
+  /// Returns the same for a function without a lift: the product alone.
   [[nodiscard, gnu::always_inline]] FloatLanes error_scale_without_lift() const {
     const typename FloatLanes::Mask proved =
         (largest_ <= FloatLanes(0x1p10F)) & (product_ >= FloatLanes(0x1p-60F));
@@ -136,14 +141,14 @@ class RowSizes {
 
  private:
   FloatLanes product_{1.0F}, largest_{0.0F};
-  typename FloatLanes::Mask weights_small_ = product_ > largest_;  // so far
+  typename FloatLanes::Mask weights_small_ = product_ > largest_;  // true so far
 };
 
 }  // namespace detail
 
 namespace detail {
 
-/// A determinant's bits: whether it is positive where the motion ends, and all over it.
+/// Returns a determinant's two bits: positive at the end of the motion, and positive on all of it.
 template <int Dimension, class FloatLanes, class Polynomial, std::size_t Coefficients>
 [[gnu::always_inline]] inline typename FloatLanes::Mask orientation_bits(
     const Polynomial& orientation, const std::array<float, Coefficients>& bound, const FloatLanes& scale) {
@@ -159,7 +164,8 @@ template <int Dimension, class FloatLanes, class Polynomial, std::size_t Coeffic
 template <Motion M>
 inline constexpr bool has_parts = M::degree == 1 && !lifted<M>;
 
-/// Adds the bit, a byte further on each, for parts of the step all over which it is certainly positive.
+/// Sets the bits of the parts on which the polynomial is certainly positive, one byte further on for each
+/// part.
 template <class FloatLanes, class Polynomial>
 [[gnu::always_inline]] inline void add_parts(const Polynomial& polynomial, const FloatLanes& error, int bit,
                                              typename FloatLanes::Mask& bits) {
@@ -173,7 +179,8 @@ template <class FloatLanes, class Polynomial>
   for (int part = 1; part <= positive_parts; ++part) {
     bit <<= bits_of_part;
     typename FloatLanes::Mask all = c[0] > error;
-    // Sums in place of means: what is summed up k times is 2^k times too large, which is exact.
+    // Add without halving. A coefficient after k additions is 2^k times too large; dividing by 2^k below is
+    // exact.
     for (std::size_t round = 1; round < count; ++round)
       for (std::size_t k = count - 1; k >= round; --k) c[k] += c[k - 1];
     for (std::size_t k = 1; k < count; ++k) {
@@ -184,7 +191,7 @@ template <class FloatLanes, class Polynomial>
   }
 }
 
-/// Of cells with no beads beyond them. Of a motion of degree 0 only where it ends.
+/// Finds the orientations of cells without beads beyond them. For a motion of degree 0, only at its end.
 template <class FloatLanes, Motion M>
 [[gnu::always_inline]] inline void find_positive_orientations(const M& motion,
                                                               const CellsInLanes<M::dimension>& all_cells,
@@ -209,7 +216,7 @@ template <class FloatLanes, Motion M>
     positive[first + lane] = static_cast<std::uint32_t>(bits[lane]) & told;
 }
 
-/// As many cells from the first on as there are lanes; of each as many beads beyond it.
+/// Tests as many cells as there are lanes, starting at `first`, each with `beyond` beads beyond it.
 template <class FloatLanes, Motion M>
 [[gnu::always_inline]] inline void find_positive_cells(
     const M& motion, const CellsInLanes<M::dimension>& all_cells, std::size_t first, std::size_t beyond,
@@ -266,7 +273,7 @@ template <class FloatLanes, Motion M>
 
 }  // namespace detail
 
-/// Four cells from the first on.
+/// Tests four cells, starting at `first`.
 template <Motion M>
 void find_in_four(const M& motion, const CellsInLanes<M::dimension>& cells, std::size_t first,
                   std::size_t beyond, const LengthUnit& unit, const detail::FloatFilterBounds<M>& bounds,
@@ -274,7 +281,7 @@ void find_in_four(const M& motion, const CellsInLanes<M::dimension>& cells, std:
   detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, first, beyond, unit, bounds, charge, positive);
 }
 
-/// Eight at once: for processors with vectors as long as that.
+/// Tests eight cells at once, on processors with long enough vectors.
 template <Motion M>
 [[KDS_EIGHT_FLOATS_AVX2]] void find_in_eight_avx2(const M& motion, const CellsInLanes<M::dimension>& cells,
                                                   std::size_t beyond, const LengthUnit& unit,

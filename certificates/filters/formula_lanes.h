@@ -1,6 +1,6 @@
 #pragma once
-// The functions of four certificates of one type at once: Bernstein coefficients in double, the scale of
-// their errors, and whether all are certainly positive. What else they tell is found by functions of the
+// Evaluates the functions of four certificates of one type at once: Bernstein coefficients in double, the
+// scale of their errors, and whether all coefficients are certainly positive. Further analysis depends on the
 // degree alone (classify_lanes.h). No allocation.
 
 #include <algorithm>
@@ -30,13 +30,14 @@ struct LanesBound {
 
 namespace detail {
 
-/// For callers that are compiled for lanes themselves.
+/// Inlined into callers that are themselves compiled for lanes.
 template <class Certificate, Motion M, int Degree>
 [[gnu::always_inline]] inline void evaluate_in_line(
     const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
     const Lanes& sides, const LanesBound<Degree>& bound, double charge, ScaledLanes<Degree>& lanes,
     const BeadsOf<Certificate>& like = {}) {
-  const BeadsOf<Certificate> places = in_places<Certificate>(like);  // here: constants for the compiler
+  const BeadsOf<Certificate> places = in_places<Certificate>(like);  // assigned here so that the compiler
+                                                                     // sees constants
   const LanesView<M, bead_places<Certificate>, channels_of<Certificate>> view(motion, tuples);
   const auto function = Certificate::formula(view, places);
 
@@ -56,7 +57,8 @@ template <class Certificate, Motion M, int Degree>
 
 }  // namespace detail
 
-/// `sides`: 1 or -1, by which a lane's formula is multiplied; `like`: beads of any of them.
+/// Evaluates four certificates. `sides` is 1 or -1 per lane and multiplies its formula. `like`: the beads of
+/// any of the certificates.
 template <class Certificate, Motion M, int Degree>
 [[KDS_LANES_TARGETS]] void evaluate_lanes(
     const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,

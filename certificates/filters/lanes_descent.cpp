@@ -3,7 +3,8 @@
 namespace kds {
 namespace {
 
-/// Odd and even powers apart: half as long a chain of operations as Horner's rule.
+/// Evaluates odd and even powers separately, which halves the chain of dependent operations of Horner's
+/// scheme.
 template <class Row>
 [[gnu::always_inline]] inline Lanes value_of_powers(const Row& c, const Lanes& t, const Lanes& square) {
   if (c.size() == 1) return c[0];
@@ -16,7 +17,7 @@ template <class Row>
   return next + t * later;
 }
 
-/// The derivative's coefficients, divided by `divisor`; of a constant a zero.
+/// Returns the derivative's coefficients divided by `divisor`; zero for a constant.
 template <std::size_t N>
 [[gnu::always_inline]] inline std::array<Lanes, (N > 1 ? N - 1 : 1)> derivative(const std::array<Lanes, N>& c,
                                                                                 double divisor) {
@@ -33,12 +34,13 @@ template <std::size_t N>
   return result;
 }
 
-/// Near the descent of the polynomial with these coefficients on [0,1]; `slope` is its derivative there.
+/// Returns a point near the descent of the polynomial with these coefficients on [0,1]. `slope` is set to the
+/// derivative there.
 template <class Row>
 [[gnu::always_inline]] inline Lanes halley(const Row& c, Lanes::Mask moving, Lanes& slope) {
   const std::size_t count = c.size();
   const int degree = static_cast<int>(count) - 1;
-  // Where the control polygon descends through zero.
+  // Find where the control polygon descends through zero.
   Lanes place(0.0), left(0.0), right(-1.0);
   for (std::size_t k = 0; k + 1 < count; ++k) {
     const Lanes::Mask crosses = (c[k] > Lanes(0.0)) & (c[k + 1] <= Lanes(0.0));
@@ -54,7 +56,7 @@ template <class Row>
   for (std::size_t k = 1; k + 1 < count; ++k)
     power[k] = Lanes(static_cast<double>(binomial(degree, static_cast<int>(k)))) * power[k];
   const auto first = derivative(power, 1);
-  const auto second = derivative(first, 2);  // half of it; of a line none
+  const auto second = derivative(first, 2);  // half the second derivative; zero for a line
 
   Lanes low(0.0), high(1.0);
   for (int iteration = 0; iteration < 40 && Lanes::any(moving); ++iteration) {
@@ -71,14 +73,15 @@ template <class Row>
     high = Lanes::choose(before, high, t);
     Lanes next = t - change;
     next = Lanes::choose((next >= low) & (next <= high), next, Lanes(0.5) * (low + high));
-    const Lanes::Mask far = Lanes::abs(next - t) > Lanes(0x1p-16);  // the next step is far shorter
-    t = Lanes::choose(moving, next, t);  // one that has arrived stays: more steps would bisect it away
+    const Lanes::Mask far = Lanes::abs(next - t) > Lanes(0x1p-16);  // if smaller, the next step is negligible
+    t = Lanes::choose(moving, next, t);  // a lane that has converged stays, because more steps would bisect
+                                         // it away
     moving &= far;
   }
   return t;
 }
 
-/// Where the control polygon first falls below zero, in [0,1]; 1 if it does not.
+/// Returns where the control polygon first falls below zero in [0,1], or 1 if it does not.
 template <class Row>
 [[gnu::always_inline]] inline Lanes first_descent_of_polygon(const Row& c) {
   const std::size_t last = c.size() - 1;
@@ -92,8 +95,8 @@ template <class Row>
   return (place + left / (left - right)) * Lanes(1.0 / static_cast<double>(last));
 }
 
-/// Walks along each polynomial by a step that doubles while all coefficients on it are positive and halves
-/// while they show nothing, until one holds a single root.
+/// Walks along each polynomial. The step doubles if all coefficients on it are positive and halves if they
+/// are inconclusive, until a step contains a single root.
 template <int Degree>
 [[KDS_LANES_TARGETS]] void isolate(LanesDescent<Degree>& descent, double from, const Lanes::Mask& wanted,
                                    const Lanes::Mask& known, LanesSearch& result) {
@@ -112,7 +115,7 @@ template <int Degree>
       part = descent.bernstein;
       casteljau_left(part, upper);
       casteljau(part, lower / upper);
-    } else {  // two subdivisions again, one of them made already
+    } else {  // also two subdivisions, one of them already done by the caller
       part = given;
       casteljau_left(part, (upper - lower) / rest);
     }
@@ -133,17 +136,17 @@ template <int Degree>
   }
 }
 
-/// Halley on the local polynomials, guarded by the bracket of signs seen so far, then a bracket around the
-/// result whose ends are proved.
+/// Runs Halley's iteration on the local polynomials, guarded by the bracket of signs seen so far, then finds
+/// a bracket around the result whose ends are proved.
 template <int Degree>
 [[KDS_LANES_TARGETS]] void narrow(LanesDescent<Degree>& descent, const Lanes::Mask& wanted) {
   Lanes slope(-1.0);
-  // In units of the part, hence times its length below.
+  // The slope is in units of the part, so it is divided by the part's length below.
   const Lanes t = halley(descent.part, wanted, slope);
   const Lanes length = descent.upper - descent.lower;
   const Lanes root = descent.lower + length * t;
-  // Far enough on both sides for the signs to be certain, also where a later search starts; the part's own
-  // ends are.
+  // Go far enough to both sides that the signs are certain, also at the start of a later search. At the
+  // part's own ends they are certain.
   const Lanes doubtful = Lanes(4.0) * descent.local_error * length / Lanes::abs(slope);
   Lanes reach = Lanes::max(doubtful, Lanes::max(length * Lanes(0x1p-40), root * Lanes(0x1p-50)));
   Lanes::Mask below = wanted;  // lanes whose lower end is still to be found

@@ -1,6 +1,7 @@
 #pragma once
-// The first descent of four polynomials at once: found in steps from the left, then narrowed to a bracket
-// whose ends are proved. No allocation, bounded work; what it cannot prove it says so.
+// Finds the first descent of four polynomials at once. Steps from the left isolate it, then it is narrowed to
+// a bracket whose ends are proved. No allocation and bounded work; lanes whose result cannot be proved are
+// reported as undecided.
 
 #include <algorithm>
 
@@ -8,8 +9,8 @@
 
 namespace kds {
 
-/// A polynomial on [0,1] as in BoundedPolynomial, and its part on [lower, upper], which is certainly positive
-/// at lower, negative at upper, and has one root.
+/// Polynomials on [0,1] as in BoundedPolynomial, and their restrictions to [lower, upper], where each
+/// polynomial has one root and is certainly positive at lower and negative at upper.
 template <int Degree>
 struct LanesDescent {
   LanesCoefficients<Degree> bernstein, part;
@@ -41,24 +42,24 @@ struct LanesDescent {
 };
 
 struct LanesSearch {
-  Lanes::Mask never{};  ///< positive to the end
+  Lanes::Mask never{};  ///< positive up to the end
   Lanes::Mask found{};  ///< isolated
-  Lanes::Mask last{};   ///< of those, the last root
+  Lanes::Mask last{};   ///< lanes of `found` in which this is the last root
 };
 
-/// Searches the wanted lanes after `from`, where they are certainly positive: by their computed value, or
-/// `known` to be. The part given is that on [from, 1], as computed; it tells how far the first look goes, and
-/// looks that start at `from` subdivide it.
+/// Searches the wanted lanes after `from`, where they must be certainly positive, by the computed value or
+/// because they are `known` to be. `descent.part` must hold the computed polynomial on [from, 1]. It
+/// determines the first step, and steps that start at `from` subdivide it.
 template <int Degree>
 void isolate_lanes(LanesDescent<Degree>& descent, double from, const Lanes::Mask& wanted,
                    const Lanes::Mask& known, LanesSearch& result);
 
-/// Narrows lower and upper of the wanted lanes.
+/// Narrows [lower, upper] in the wanted lanes.
 template <int Degree>
 void narrow_lanes(LanesDescent<Degree>& descent, const Lanes::Mask& wanted);
 
-/// One step of Newton's and more (Halley) from the control polygon on, until it stands: near the only descent
-/// on [0,1], as far as the coefficients themselves tell.
+/// Runs Halley's iteration from the control polygon until it converges, near the only descent on [0,1]. Uses
+/// the coefficients without error bounds.
 [[nodiscard]] double descent_of(const Coefficients<Lanes>& bernstein);
 
 template <int Degree>

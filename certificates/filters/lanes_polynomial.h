@@ -1,5 +1,6 @@
 #pragma once
-// Four polynomials side by side by their Bernstein coefficients: subdivision, and what signs tell of roots.
+// Four polynomials side by side in Bernstein form: subdivision, and what the signs of coefficients tell about
+// roots.
 
 #include <algorithm>
 #include <array>
@@ -10,7 +11,7 @@
 
 namespace kds {
 
-/// Of a degree that is a constant, or (any_degree) known at run time.
+/// The coefficients for a constant degree, or for one known at run time (any_degree).
 template <int Degree>
 using LanesCoefficients = decltype(Bernstein<Lanes, Degree>::scaled);
 
@@ -18,8 +19,8 @@ using LanesCoefficients = decltype(Bernstein<Lanes, Degree>::scaled);
 template <int Degree>
 struct ScaledLanes {
   LanesCoefficients<Degree> scaled;
-  Lanes error_scale;     ///< M^h, or a NaN where the bound is not proved
-  Lanes::Mask positive;  ///< all coefficients certainly
+  Lanes error_scale;     ///< M^h, or a NaN if the bound is not proved
+  Lanes::Mask positive;  ///< all coefficients are certainly positive
 
   ScaledLanes() = default;
   template <int Other>
@@ -30,8 +31,8 @@ struct ScaledLanes {
   }
 };
 
-// Functions of such polynomials are compiled for the degrees that certificates have under motions of degrees
-// 1 to 3, and for any_degree, by which others go.
+// Functions on these polynomials are compiled for the degrees that certificates have under motions of degrees
+// 1 to 3. Other degrees use any_degree.
 #define KDS_FOR_EACH_LANES_DEGREE(compile)                                                         \
   compile(any_degree) compile(1) compile(2) compile(3) compile(4) compile(5) compile(6) compile(8) \
       compile(9) compile(10) compile(12) compile(15) compile(18)
@@ -43,7 +44,8 @@ inline constexpr bool is_compiled = [] {
 #undef KDS_IS_DEGREE
 }();
 
-/// In place: the polynomial on [u, 1] from that on [0, 1]; the first coefficient becomes the value at u.
+/// Replaces the polynomial on [0, 1] by its restriction to [u, 1], in place. The first coefficient becomes
+/// the value at u.
 template <class Row>
 [[gnu::always_inline]] inline Lanes casteljau(Row& c, const Lanes& u) {
   const Lanes v = Lanes(1) - u;
@@ -53,9 +55,9 @@ template <class Row>
   return c[0];
 }
 
-/// What coefficients with errors say of a polynomial on their interval.
+/// The conclusions that coefficients with errors allow about a polynomial on its interval.
 struct LanesShape {
-  Lanes::Mask positive;     ///< all over it
+  Lanes::Mask positive;     ///< positive on all of it
   Lanes::Mask one_descent;  ///< positive at its start, negative at its end, one root between
 };
 
@@ -71,13 +73,13 @@ template <class Row>
     after &= c[count - 1 - k] < -error;
     certain -= before + after;
   }
-  // + ... + ? - ... - with one doubtful coefficient or none has exactly one sign variation whatever that one
-  // is: one root, by Descartes.
+  // The pattern + ... + ? - ... - with at most one uncertain coefficient has exactly one sign variation,
+  // whatever the sign of that coefficient. By Descartes' rule of signs there is one root.
   const long enough = static_cast<long>(count) - 1;
   return {before, descends & (certain >= Lanes::Mask{enough, enough, enough, enough})};
 }
 
-/// In place: the polynomial on [0, u] from that on [0, 1].
+/// Replaces the polynomial on [0, 1] by its restriction to [0, u], in place.
 template <class Row>
 [[gnu::always_inline]] inline void casteljau_left(Row& c, const Lanes& u) {
   const Lanes v = Lanes(1.0) - u;
@@ -87,8 +89,8 @@ template <class Row>
   }
 }
 
-/// The value at the start of a part, made certainly positive where it is known to be, close to a root as it
-/// may lie: the rule of signs asks for signs alone.
+/// Returns the value at the start of a part, raised to be certainly positive if it is known to be positive
+/// but lies too close to a root. Descartes' rule needs only the sign.
 [[gnu::always_inline]] inline Lanes known_positive(const Lanes& value, const Lanes::Mask& known,
                                                    const Lanes& error) {
   return Lanes::choose(known, Lanes::max(value, error + error), value);

@@ -1,14 +1,15 @@
 #pragma once
-// Signs of four functions of beads' centres (orientations, say) at one moment known as a bracket, at once.
+// The signs of four functions of bead centres (such as orientations) at once, at a moment that is known as a
+// bracket.
 //
-// Values are taken at one end u of the bracket. There a difference of two beads' centres, of degree n in time
-// and at most M at all of its control points, is the mean of its control points with weights C(n,k)
-// (1-u)^(n-k) u^k. Computed it errs by less than (4n + 4) 2^-53 M; and within a bracket of length b it
-// changes by at most 2 n b M. Where both together are below 2^-25 M, they are what rounding to float makes at
-// most, and the function of those differences, with operations in double, errs by no more than one in floats
-// of exact differences: by what magnitudes of 24 digits (motions/numbers/magnitude.h) tell. Proved for 2^-900
-// <= M^h
-// <= 2^900 as in error_bound.h. No allocation.
+// Values are computed at the upper end u of the bracket. Consider a difference of two centres of degree n in
+// time, with control points of size at most M. At u it is the mean of its control points with weights C(n,k)
+// (1-u)^(n-k) u^k. The computed value has an error of less than (4n + 4) 2^-53 M, and within a bracket of
+// length b the difference changes by at most 2 n b M. If both together are below 2^-25 M, they are at most
+// the error of rounding to float. The function of these differences, evaluated in double, then has at most
+// the error of an evaluation in float from exact differences, as magnitudes of 24 digits give it
+// (motions/numbers/magnitude.h). This is proved for 2^-900 <= M^h <= 2^900, as in error_bound.h. No
+// allocation.
 
 #include <array>
 #include <cstddef>
@@ -20,7 +21,7 @@
 
 namespace kds {
 
-/// Four tuples of beads at time u.
+/// A view of four tuples of beads at time u.
 template <Motion M, std::size_t Places>
 class LanesMomentView {
  public:
@@ -59,7 +60,7 @@ class LanesMomentView {
 
 namespace detail {
 
-/// Of a function's value: times M^power.
+/// The error of a function's value, as a multiple of M^power.
 struct MomentBound {
   double error;
   int power;
@@ -77,7 +78,8 @@ inline const MomentBound moment_bound = derive_moment_bound<Function, Dimension>
 
 }  // namespace detail
 
-/// Whether all four, each times its side (1 or -1), are certainly positive all over [lower, upper].
+/// Finds whether all four functions, each times its side (1 or -1), are certainly positive on all of [lower,
+/// upper].
 template <class Function, Motion M>
 requires(!channels_of<Function>.weights && !channels_of<Function>.radii)  //
     [[KDS_LANES_TARGETS]] void positive_at_moment(
@@ -87,7 +89,8 @@ requires(!channels_of<Function>.weights && !channels_of<Function>.radii)  //
   constexpr int degree = M::degree;
   all_positive = false;
   if (!((2 * degree) * (upper - lower) + (4 * degree + 4) * 0x1p-53 <= 0x1p-25)) return;
-  const BeadsOf<Function> places = in_places<Function>(like);  // here: constants for the compiler
+  const BeadsOf<Function> places = in_places<Function>(like);  // assigned here so that the compiler sees
+                                                               // constants
   const LanesMomentView<M, bead_places<Function>> view(motion, tuples, upper);
   const Lanes value = sides * Function::formula(view, places).scaled[0];
   const auto& bound = detail::moment_bound<Function, M::dimension>;

@@ -1,6 +1,7 @@
 #pragma once
-// The power tests (power_test.h) of one cell's beads and one more bead each share all rows of their
-// determinant but the last: its cofactors along that row are worked out once. Over any numbers.
+// Cofactors of power tests (power_test.h). The tests of one cell's beads against one more bead each share all
+// rows of their determinant except the last, so the cofactors of the last row are computed once. Works over
+// any number type.
 
 #include <array>
 #include <cstddef>
@@ -10,7 +11,7 @@
 
 namespace kds {
 
-/// A row: what one bead differs by from another.
+/// A row of the determinant: the differences of one bead from another.
 template <class View>
 struct PowerRow {
   static constexpr int lift_degree = LiftedView<View> ? 1 : 2 * View::degree;
@@ -23,7 +24,7 @@ struct PowerRow {
   }
 };
 
-/// Of the last row's places, with their signs.
+/// The cofactors of the last row's entries, including signs.
 template <class View>
 struct PowerCofactors {
   static constexpr int dimension = View::dimension;
@@ -34,13 +35,13 @@ struct PowerCofactors {
   std::array<Bernstein<Number, of_centre>, dimension> centre;
   Bernstein<Number, dimension * View::degree> lift;
 
-  /// Rows of a triangle's second and third bead, less the first.
+  /// Takes the rows of a triangle's second and third bead relative to its first.
   [[gnu::always_inline]] PowerCofactors(const Row& a, const Row& b) requires(dimension == 2) {
     centre[0] = minor(a.centre[1], a.lift, b.centre[1], b.lift);
     centre[1] = minor(b.centre[0], b.lift, a.centre[0], a.lift);
     lift = minor(a.centre[0], a.centre[1], b.centre[0], b.centre[1]);
   }
-  /// Rows of a tetrahedron's other beads, less the first.
+  /// Takes the rows of a tetrahedron's other beads relative to its first.
   [[gnu::always_inline]] PowerCofactors(const Row& a, const Row& b, const Row& c) requires(dimension == 3) {
     const auto xy = minor(a.centre[0], a.centre[1], b.centre[0], b.centre[1]);
     const auto xz = minor(a.centre[0], a.centre[2], b.centre[0], b.centre[2]);
@@ -54,7 +55,7 @@ struct PowerCofactors {
     lift = xy * c.centre[2] - xz * c.centre[1] + yz * c.centre[0];
   }
 
-  /// The power test of the cell's beads, in their order, and the bead with this row.
+  /// Returns the power test of the cell's beads, in their order, with the bead of this row.
   [[nodiscard, gnu::always_inline]] auto with(const Row& row) const {
     auto sum = lift * row.lift;
     for (std::size_t axis = 0; axis < dimension; ++axis) sum += centre[axis] * row.centre[axis];

@@ -1,16 +1,20 @@
 #pragma once
-// The slack of a certificate: how far any coordinate difference of two of its beads may move from what it is
-// at one position before the certificate can fail. A difference moves by no more than both beads stray, so
-// beads may stray half as far. A bound kept for as many steps as they stay near; it needs no polynomial.
+// The slack of a certificate: how far any coordinate difference of two of its beads may move away from its
+// value at one position before the certificate can fail. A difference moves by at most the sum of how far
+// both beads stray, so each bead may stray half the slack. The slack stays valid for as many steps as the
+// beads stay near, and needs no polynomial.
 //
-// The formula is evaluated at the position over numbers with errors (tracked_double.h), each coordinate
-// difference with an error of `reach`. What comes out is a value and a bound E(reach): where no difference
-// moves by more than that, the formula is within E(reach) of the value, rounding included. As the values on
-// the way do not depend on the reach, E is a polynomial in it without negative coefficients, hence convex:
-// E(s reach) <= E(0) + s E(reach) for s from 0 to 1. E(0) is rounding alone: operation by operation it is no
-// more than the magnitudes of the formula say (motions/numbers/magnitude.h), which are used in its place. So
-// the sign holds while no difference moves by more than s reach, s = (value - E(0)) / E(reach), at most 1.
-// Weights and radii must stay as they are. Proved; 0 where nothing can be said.
+// Derivation. The formula is evaluated at the position over numbers with errors (tracked_double.h), where
+// each coordinate difference has an error of `reach`. The result is a value and a bound E(reach): while no
+// difference moves by more than `reach`, the formula is within E(reach) of the value, rounding included.
+// Intermediate values do not depend on the reach, so E is a polynomial in the reach without negative
+// coefficients, and hence convex:
+//   E(s reach) <= E(0) + s E(reach) for s from 0 to 1.
+// E(0) consists of rounding alone. Operation by operation it is at most what the formula's magnitudes give
+// (motions/numbers/magnitude.h), which are used in its place. The sign therefore holds while no difference
+// moves by more than s reach, with s = (value - E(0)) / E(reach), at most 1.
+//
+// Weights and radii must stay constant. The slack is proved; it is 0 if nothing can be proved.
 
 #include <cmath>
 
@@ -19,7 +23,8 @@
 
 namespace kds {
 
-/// Four tuples of beads at the start of a step, each coordinate difference with an error of `reach`.
+/// A view of four tuples of beads at the start of a step, in which each coordinate difference has an error of
+/// `reach`.
 template <Motion M, std::size_t Places, Channels channels>
 class ReachView {
  public:
@@ -36,9 +41,9 @@ class ReachView {
   }
 
   [[gnu::always_inline]] void set_reach(const Lanes& reach) { reach_ = reach; }
-  /// Of the coordinate differences to the first bead.
+  /// Returns the largest coordinate difference to the first bead.
   [[nodiscard, gnu::always_inline]] const Lanes& longest() const { return longest_; }
-  /// M of the error bound (motions/numbers/magnitude.h), at the start or in the step, or a NaN.
+  /// Returns the M of the error bound (motions/numbers/magnitude.h) at the start or in the step, or a NaN.
   [[nodiscard, gnu::always_inline]] Lanes largest_length() const { return view_.largest_length(); }
 
   [[nodiscard, gnu::always_inline]] BernsteinVector<Number, 0, dimension> difference(BeadId i,
@@ -72,18 +77,19 @@ class ReachView {
   Lanes longest_{0.0};
 };
 
-/// What rounding alone may do to the formula at one position: at most error M^power.
+/// The error of the formula at one position from rounding alone: at most error * M^power.
 template <class Certificate, int Dimension>
 inline const Magnitude magnitude_at_rest =
     function_of(Certificate{}, MagnitudeView<Dimension, 0>()).scaled[0];
 
-/// Of four certificates, at the start of the motion's step.
+/// Computes the slacks of four certificates at the start of the motion's step.
 template <class Certificate, Motion M>
 [[KDS_LANES_TARGETS]] void slack_lanes(
     const M& motion,
     const typename LanesView<M, bead_places<Certificate>, channels_of<Certificate>>::Tuples& tuples,
     const Lanes& sides, Lanes& slack) {
-  constexpr double share_of_length = 1.0 / 16;  // long enough for most, short enough to be nearly linear
+  constexpr double share_of_length = 1.0 / 16;  // long enough for most certificates, short enough for E to be
+                                                // nearly linear
   constexpr double inflation = 1 + 0x1p-30;
   decltype(Certificate{}.beads) places{};
   for (std::size_t p = 0; p < places.size(); ++p) places[p] = static_cast<BeadId>(p);

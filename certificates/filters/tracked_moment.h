@@ -1,8 +1,9 @@
 #pragma once
-// Beads during a short time, as a MotionView of constants: numbers that enclose all their values then, in
-// double with errors followed operation by operation (tracked_double.h). A function's value over this view
-// tells its sign for all of that time, without its polynomial; sharper than that at a single time, less sharp
-// the longer it is. At a scale where numbers keep in the middle of double's range, as in TrackedView.
+// Beads during a short time, as a MotionView of constants. Each constant encloses all values of that time: it
+// is a double with a running error bound (tracked_double.h). A function evaluated over this view has a
+// certain sign during all of that time, without forming its polynomial. The result is sharper than evaluating
+// the polynomial at a single time, and less sharp the longer the time is. Numbers are scaled to the middle of
+// double's range, as in TrackedView.
 
 #include <algorithm>
 #include <array>
@@ -15,14 +16,14 @@
 
 namespace kds {
 
-/// 1 or -1 if that is the sign for certain, else 0.
+/// Returns 1 or -1 if that is certainly the sign, else 0.
 [[nodiscard]] inline int certain_sign(const TrackedDouble& number) {
   const double error = number.error * TrackedDouble::inflation;
   return number.value > error ? 1 : number.value < -error ? -1 : 0;
 }
 
-/// A function over this view names beads by their place among those given. Of a lifted motion no weights are
-/// seen: between frames they are no Bezier curves.
+/// A function over this view names beads by their places among those given. Weights of a lifted motion are
+/// not available, because they are not Bezier curves between frames.
 template <Motion M>
 class TrackedMoment {
  public:
@@ -30,11 +31,11 @@ class TrackedMoment {
   static constexpr int dimension = M::dimension;
   static constexpr int degree = 0;
 
-  /// From `lower` to `upper`, within [0,1].
+  /// Constructs the view of the time from `lower` to `upper`, within [0,1].
   TrackedMoment(const M& motion, std::span<const BeadId> beads, double lower, double upper,
                 Channels channels) {
     seen_.resize(beads.size() * columns);
-    if constexpr (M::degree < 0) {  // most motion is linear, and few signs are worth loops for it
+    if constexpr (M::degree < 0) {  // most motion is linear, and few signs are worth a general loop
       if (degree_of(motion) == 1) {
         see(FixedCurves<dimension, 1>(Curves<dimension>(motion)), beads, lower, upper, channels);
         return;
@@ -72,7 +73,7 @@ class TrackedMoment {
     for (std::size_t place = 1; place < beads.size(); ++place) {
       const BeadId bead = beads[place], first = beads[0];
       TrackedDouble* const row = seen_.begin() + place * columns;
-      if (bead == first) {  // zero, without an error: that would be subnormal, and slow
+      if (bead == first) {  // exactly zero: computing it would give a subnormal error, which is slow
         std::fill_n(row, columns, TrackedDouble{});
         continue;
       }
@@ -96,8 +97,8 @@ class TrackedMoment {
   static TrackedDouble rounded(double x) {
     return {x, TrackedDouble::unit_roundoff * std::abs(x) + TrackedDouble::lost_to_underflow};
   }
-  /// The value at the end of the time, with how far it may be from that before as an error: |p'| <=
-  /// degree * the steepest slope of the control polygon.
+  /// Returns the value at the end of the time. Its error includes how much the value may differ during the
+  /// time: |p'| <= degree * the steepest slope of the control polygon.
   template <int curve_degree, std::invocable<int> Control>
   static TrackedDouble value(int own_degree, Control control, const TrackedDouble& earlier,
                              const TrackedDouble& later, double length) {
@@ -126,7 +127,7 @@ class TrackedMoment {
     return seen_[place * columns + column];
   }
 
-  Coefficients<TrackedDouble> seen_;  // rows of the beads, from the first; columns not asked for are not set
+  Coefficients<TrackedDouble> seen_;  // rows of the beads, from the first; columns not requested are not set
   TrackedDouble first_radius_;
 };
 
