@@ -9,7 +9,7 @@ std::optional<Failure> proved_failure(const BoundedFunction& bounded, const Inst
                                       KnownAtStart known) {
   if (bounded.positive) return Failure{};
   const BoundedPolynomial& function = bounded.polynomial;
-  // At its own root the bracket holds no other one, and at its upper end the function is positive.
+  // At its own root, the function has no other root in the bracket and is positive at the upper end.
   const bool positive = known == KnownAtStart::at_own_root && now.isolating();
   if (!positive) {
     const int sign =
@@ -33,11 +33,11 @@ Failure fast_first_failure(BoundedPolynomial function, const Instant& now, Known
                            StageCounts& stages) {
   function.value_error = function.local_error = 0;
   for (const double c : function.bernstein) {
-    if (!std::isfinite(c)) return {};  // nothing can be said; the structure's frame check will see to it
+    if (!std::isfinite(c)) return {};  // undecidable; the structure's check of frames reports the input
   }
   double from = now.upper();
   if (known == KnownAtStart::at_own_root) {
-    // Leave the root behind: the smallest step that makes the value positive, or give the certificate up.
+    // Step past the root: take the smallest step that makes the value positive, or give the certificate up.
     double step = 0x1p-50;
     while (from + step < 1 && !(function.value_at(from + step) > 0) && step < 0x1p-20) step *= 4;
     from += step;

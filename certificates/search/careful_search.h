@@ -1,6 +1,6 @@
 #pragma once
-// The failure-time cascade after its first filter, for one certificate: its function in double with errors,
-// however they were found, and what that says.
+// The stages of the failure-time cascade after its first filter, for one certificate. They work on the
+// certificate's function in double with error bounds, however those were computed.
 
 #include <optional>
 
@@ -12,16 +12,17 @@
 
 namespace kds {
 
-/// Does not hold just after now, as a sign certain all around now tells.
+/// Returns the failure of a certificate that does not hold just after now: its sign is certainly negative on
+/// all of the present bracket.
 [[nodiscard]] inline Failure failed_at_birth(const Instant& now) {
   return {Failure::Kind::at_birth, {now.lower(), now.upper(), 0, false}};
 }
 
-/// What doubles prove of a certificate with this function, or nothing.
+/// Returns the failure that doubles prove for a certificate with this function, or nothing.
 [[nodiscard]] std::optional<Failure> proved_failure(const BoundedFunction& bounded, const Instant& now,
                                                     KnownAtStart known);
 
-/// What doubles say of it where nobody asks for a proof: bounded work.
+/// Returns the failure according to doubles without proof, with bounded work.
 [[nodiscard]] Failure fast_first_failure(BoundedPolynomial function, const Instant& now, KnownAtStart known,
                                          StageCounts& stages);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The search of certificates with constants or positions (certificates/base/constants.h): their beads' curves
-// are gathered beside the anchors, and searched there by the search of AnchoredFunction. Part of
+// The search of certificates with constants or positions (certificates/base/constants.h). The curves of their
+// beads are copied next to the anchors, where the search of AnchoredFunction handles them. Part of
 // define_certificate_search.h.
 
 #include <algorithm>
@@ -22,7 +22,7 @@ template <class Certificate, int Dimension>
 [[nodiscard]] std::unique_ptr<CertificateSearch<Certificate>> filtered_search(
     const MotionRef<Dimension>& motion);
 
-/// A motion of beads whose curves are copied in.
+/// A motion that holds copies of the curves of selected beads.
 template <int DimensionValue>
 class GatheredCurves {
  public:
@@ -41,7 +41,7 @@ class GatheredCurves {
   [[nodiscard]] const double* radii(BeadId bead) const { return radii_.data() + place(bead, 0); }
   [[nodiscard]] double radius(BeadId bead, int k) const { return radii(bead)[k]; }
 
-  /// Keeps the first beads; new ones are zero.
+  /// Resizes. Existing beads are kept; new ones are zero.
   void resize(std::size_t beads) {
     beads_ = beads;
     control_.resize(place(beads, 0) * (dimension + 1));
@@ -53,7 +53,7 @@ class GatheredCurves {
   void set_weight(BeadId bead, int k, double value) { set_coordinate(bead, k, dimension, value); }
   void set_radius(BeadId bead, int k, double value) { radii_[place(bead, k)] = value; }
 
-  /// Of a motion's bead what these channels say; the rest is zero.
+  /// Copies the channels of a bead that `channels` selects; the others are zero.
   template <Channels channels>
   void copy(BeadId to, const Curves<dimension>& from, BeadId bead) {
     const std::size_t row = place(1, 0);
@@ -86,7 +86,8 @@ class Anchors {
 
   explicit Anchors(int degree) : curves_(degree) { curves_.resize(count); }
 
-  /// Throws std::invalid_argument where a constant cannot be one over a motion of so many beads.
+  /// Sets the constants. Throws std::invalid_argument if a value cannot be a constant over a motion of
+  /// `bead_count` beads.
   void set(const ConstantsOf<Certificate>& constants, std::size_t bead_count) {
     Anchors anchors(curves_.own_degree());
     BeadId anchor = 0;
@@ -94,7 +95,8 @@ class Anchors {
                members_of(constants));
     *this = std::move(anchors);
   }
-  /// As the first beads of others, those of constants that are beads as they are now.
+  /// Copies the anchors to the first places of `gathered`. Constants that are beads are copied from their
+  /// present curves.
   void copy_to(GatheredCurves<Dimension>& gathered, const Curves<Dimension>& motion) const {
     constexpr Channels all{true, true};
     const Curves<Dimension> own(curves_);
@@ -136,7 +138,7 @@ class Anchors {
       largest = std::max(largest, std::abs(number));
     });
     if (largest == 0) return;
-    // A length that is not below the root, and has one digit.
+    // Take a length that is at least the square root of the constant and is a power of two.
     const int exponent = std::ilogb(largest) + 1;
     const double length = std::ldexp(1.0, exponent > 0 ? (exponent + 1) / 2 : exponent / 2);
     for (int k = 0; k <= curves_.own_degree(); ++k) curves_.set_radius(anchor, k, length);
@@ -152,7 +154,8 @@ class Anchors {
   }
 
   GatheredCurves<Dimension> curves_;
-  std::vector<std::pair<BeadId, BeadId>> beads_;  // anchors that are beads of the motion, and which
+  std::vector<std::pair<BeadId, BeadId>> beads_;  // pairs of an anchor and the bead of the motion that it
+                                                  // stands for
 };
 
 template <class Certificate, int Dimension>
@@ -233,7 +236,8 @@ class AnchoredSearch final : public CertificateSearch<Certificate> {
     gather(certificates, gathered_, functions_);
     return functions_;
   }
-  /// In room of its own: while a search goes on, it may ask for the exact function of the present failure.
+  /// Uses separate buffers, because a search in progress may ask for the exact function of the present
+  /// failure.
   template <class Ask>
   [[nodiscard]] auto alone(const Certificate& certificate, Ask ask) const {
     GatheredCurves<Dimension> gathered(motion_.degree());
@@ -245,7 +249,7 @@ class AnchoredSearch final : public CertificateSearch<Certificate> {
   MotionRef<Dimension> motion_;
   Anchors<Certificate, Dimension> anchors_;
   bool are_set_ = false;
-  mutable GatheredCurves<Dimension> gathered_;  // room that is used again and again, as the next is
+  mutable GatheredCurves<Dimension> gathered_;  // reused buffers, like the next member
   mutable std::vector<Function> functions_;
   std::unique_ptr<CertificateSearch<Function>> search_;
 };

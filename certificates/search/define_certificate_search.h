@@ -1,8 +1,8 @@
 #pragma once
-// Definition of search_over for polynomial certificates: included by the one file that instantiates it for a
-// certificate type, and by nobody else who wants short compile times. Certificates go in lanes of four where
-// the type wants it (lanes_up_to_degree), each alone elsewhere; what the first filter does not decide is
-// looked at one by one.
+// Defines search_over for polynomial certificates. Only the file that instantiates it for a certificate type
+// should include this header, to keep compile times short. Certificates are processed in lanes of four if the
+// type requests it (lanes_up_to_degree), otherwise one by one. Certificates that the first filter leaves
+// undecided are then searched one by one.
 
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ namespace kds {
 
 namespace detail {
 
-/// The first filter, four certificates at a time. `C`: FixedCurves or LiftedCurves.
+/// The first filter, on four certificates at a time. `C`: FixedCurves or LiftedCurves.
 template <class Certificate, class C>
 class LanesFilter {
   using View = LanesView<C, bead_places<Certificate>, channels_of<Certificate>>;
@@ -40,8 +40,8 @@ class LanesFilter {
 
   explicit LanesFilter(const ErrorBound& bound) : bound_(bound) {}
 
-  /// Up to four certificates that differ in beads alone, named by their places. What it leaves open it asks
-  /// `alone(place)` for.
+  /// Searches up to four certificates, named by their places, that differ only in their beads. Calls
+  /// `alone(place)` for each certificate that it leaves undecided.
   template <class Alone>
   void first_failures(Kernel kernel, const C& curves, std::span<const Certificate> certificates,
                       std::span<const std::size_t> places, const Instant& now,
@@ -80,7 +80,7 @@ class LanesFilter {
         failures[place] = {
             Failure::Kind::later,
             {fast ? middle : lower, fast ? middle : upper, 0, !fast, false, search.last[lane] != 0}};
-      } else if (outcome.violated[lane] != 0 && !fast) {  // a zero may seem to be below
+      } else if (outcome.violated[lane] != 0 && !fast) {  // without proofs, a zero may appear negative
         ++stages.isolation;
         failures[place] = failed_at_birth(now);
       } else {
@@ -89,7 +89,8 @@ class LanesFilter {
     }
   }
 
-  /// Whether certificates differ in beads alone, and not in what else their formulas are about.
+  /// Returns whether two certificates differ only in their beads, and not in other parameters of their
+  /// formulas.
   [[nodiscard]] static bool of_one_formula(const Certificate& a, const Certificate& b) {
     if constexpr (std::is_same_v<BeadsOf<Certificate>, std::array<BeadId, bead_places<Certificate>>>) {
       return true;
@@ -98,7 +99,7 @@ class LanesFilter {
     }
   }
 
-  /// Whether up to four are certainly positive all over [lower, upper].
+  /// Returns whether up to four certificates are certainly positive on all of [lower, upper].
   [[nodiscard]] static bool all_positive(const C& curves, std::span<const Certificate> some, double lower,
                                          double upper) {
     bool positive = false;
@@ -113,10 +114,10 @@ class LanesFilter {
   }
 
  private:
-  /// Named by their places; the last one fills what is left.
+  /// Gathers the certificates at these places; the last one fills the remaining lanes.
   [[nodiscard]] static auto in_lanes(std::span<const Certificate> certificates,
                                      std::span<const std::size_t> places) {
-    constexpr std::array<double, 2> signs{-1, 1};  // no branch: no one foretells a side
+    constexpr std::array<double, 2> signs{-1, 1};  // no branch, because sides are unpredictable
     std::pair<Tuples, Lanes> lanes;
     for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
       const Certificate& certificate = certificates[places[std::min(lane, places.size() - 1)]];
@@ -129,7 +130,7 @@ class LanesFilter {
   LanesBound<degree> bound_;
 };
 
-/// Everything but lanes: certificates one at a time. `C`: Curves or LiftedCurves.
+/// Everything except lanes: certificates one at a time. `C`: Curves or LiftedCurves.
 template <class Certificate, class C>
 class SearchOneByOne : public CertificateSearch<Certificate> {
  protected:
@@ -140,7 +141,7 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
   explicit SearchOneByOne(const MotionRef<dimension>& motion) : motion_(motion) {
     require_searchable(name_of_function<Certificate>(), degree_of_function<Certificate, C>(motion.degree()),
                        motion.degree());
-    static_cast<void>(Values::error_bound(motion.degree()));  // refuses sums of unlike powers of length
+    static_cast<void>(Values::error_bound(motion.degree()));  // throws if unlike powers of length are added
   }
 
   void first_failures(Kernel kernel, std::span<const Certificate> certificates, const Instant& now,
@@ -177,7 +178,8 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
   }
 
  protected:
-  /// All that are born at their own root have one function: the first is searched for all.
+  /// Shares one search among certificates born at their own root: they have one function, so only the first
+  /// is searched.
   class SharedFailure {
    public:
     [[nodiscard]] bool is_to_search(Kernel kernel, std::size_t i, KnownAtStart known, const Instant& now,
@@ -186,7 +188,7 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
       if (first_) return false;
       first_ = i;
       if (kernel == Kernel::exact || !now.last()) return true;
-      failures[i] = {};  // it has no root after that
+      failures[i] = {};  // it has no later root
       ++stages.isolation;
       return false;
     }
@@ -204,7 +206,7 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
 
   [[nodiscard]] const MotionRef<dimension>& motion() const { return motion_; }
 
-  /// The stages after the first filter.
+  /// Runs the stages after the first filter.
   [[nodiscard, gnu::noinline]] static Failure careful_first_failure(Kernel kernel,
                                                                     const Certificate& certificate,
                                                                     const C& curves, const Instant& now,
@@ -216,14 +218,14 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
     if (kernel == Kernel::filtered) {
       const BoundedFunction tracked = Values::tracked(certificate, curves);
       auto failure = proved_failure(tracked, now, known);
-      // Next to a double root the present bracket is wide, and what fails soon after lies in its shadow.
+      // Next to a double root the present bracket is wide and hides failures that follow soon.
       if (!failure && now.narrow()) failure = proved_failure(tracked, now, known);
       if (failure) {
         ++stages.refined;
         return *failure;
       }
     }
-    // Whatever touches zero comes here: doubles prove signs, and a zero has none.
+    // Functions that touch zero reach this point: doubles prove only nonzero signs.
     const ExactPolynomial exact = Values::exact(certificate, curves);
     if (kernel == Kernel::filtered) return rounded_first_failure(exact, now, known, stages, touches);
     return exact_first_failure(exact, now, stages, touches);
@@ -238,7 +240,8 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
     }
   }
 
-  /// A sign that doubles find alike all around now, else the one that `exact_sign` finds in integers.
+  /// Returns the sign if doubles find it constant on the present bracket, else the one that `exact_sign`
+  /// computes with integers.
   [[nodiscard, gnu::noinline]] int sign_around(Kernel kernel, const Certificate& certificate,
                                                const Instant& now, StageCounts& stages,
                                                int (*exact_sign)(const ExactPolynomial&, ExactTime&)) const {
@@ -266,7 +269,7 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
   MotionRef<dimension> motion_;
 };
 
-/// Four at a time through the first filter. `C`: FixedCurves or LiftedCurves.
+/// Searches four certificates at a time through the first filter. `C`: FixedCurves or LiftedCurves.
 template <class Certificate, class C>
 class SearchInLanes final : public SearchOneByOne<Certificate, CurvesOf<C>> {
   using Base = SearchOneByOne<Certificate, CurvesOf<C>>;
@@ -327,7 +330,8 @@ class SearchInLanes final : public SearchOneByOne<Certificate, CurvesOf<C>> {
       return C(this->motion().curves());
     }
   }
-  /// Beads lie anywhere in memory: those of the next certificates are fetched while these are worked on.
+  /// Prefetches the beads of the next certificates during the present ones, since beads lie anywhere in
+  /// memory.
   static void fetch_early(const Certificate& certificate, const C& curves) {
     for (const BeadId bead : certificate.beads) __builtin_prefetch(curves.control_point(bead, 0));
   }
@@ -335,14 +339,14 @@ class SearchInLanes final : public SearchOneByOne<Certificate, CurvesOf<C>> {
   Filter filter_;
 };
 
-/// One certificate at a time, which is shorter to compile: for types that are rare.
+/// Returns a search of one certificate at a time. It is faster to compile, for rare types.
 template <class Certificate, int Dimension>
 [[nodiscard]] std::unique_ptr<CertificateSearch<Certificate>> search_one_by_one(
     const MotionRef<Dimension>& motion) {
   return std::make_unique<SearchOneByOne<Certificate, Curves<Dimension>>>(motion);
 }
 
-/// In lanes for lifted motion and the degrees that the type wants.
+/// Returns a search in lanes, for lifted motion and the degrees that the type requests.
 template <class Certificate, int Dimension>
 std::unique_ptr<CertificateSearch<Certificate>> filtered_search(const MotionRef<Dimension>& motion) {
   constexpr int most = lanes_up_to_degree<Certificate>;
@@ -354,7 +358,7 @@ std::unique_ptr<CertificateSearch<Certificate>> filtered_search(const MotionRef<
   if constexpr (Dimension > 1 && channels_of<Certificate>.weights && !channels_of<Certificate>.radii) {
     if (motion.is_lifted()) return in_lanes(std::type_identity<LiftedCurves<Dimension>>{});
   }
-  const int degree = motion.degree();  // the centres of a lifted motion move linearly
+  const int degree = motion.degree();  // for lifted motion: centres move linearly
   if constexpr (most >= 1) {
     if (degree == 1) return in_lanes(std::type_identity<FixedCurves<Dimension, 1>>{});
   }

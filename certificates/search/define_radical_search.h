@@ -1,6 +1,7 @@
 #pragma once
-// Definition of search_over for radical certificates: included by the one file that instantiates it for a
-// certificate type. The same questions, answers and stages as of polynomial ones, one certificate at a time.
+// Defines search_over for radical certificates. Only the file that instantiates it for a certificate type
+// should include this header. The queries, answers and stages are those of polynomial certificates, one
+// certificate at a time.
 
 #include <algorithm>
 #include <stdexcept>
@@ -84,7 +85,7 @@ class RadicalSearch final : public CertificateSearch<Certificate> {
       }
       const InDouble tracked(Errors::tracked, certificate, curves);
       auto failure = proved_failure(tracked, now, known);
-      // Next to a double root the present bracket is wide, and what fails soon after lies in its shadow.
+      // Next to a double root the present bracket is wide and hides failures that follow soon.
       if (!failure && now.narrow()) failure = proved_failure(tracked, now, known);
       if (failure) {
         ++stages.refined;

@@ -1,6 +1,6 @@
 #pragma once
-// Certificates whose functions have a higher degree than binomials of 64 bits allow are refused when a search
-// is made for them.
+// Rejects certificates when a search is made for them, if their functions have a higher degree than 64-bit
+// binomials allow.
 
 #include <algorithm>
 #include <string_view>
@@ -13,7 +13,7 @@
 
 namespace kds::detail {
 
-/// Of a function of beads over curves of this degree. `C`: Curves or LiftedCurves.
+/// Returns the degree of a function of beads over curves of degree `of_curves`. `C`: Curves or LiftedCurves.
 template <class Function, class C>
 [[nodiscard]] constexpr int degree_of_function(int of_curves) {
   constexpr int degree = decltype(Function::formula(
@@ -22,7 +22,7 @@ template <class Function, class C>
   return degree < 0 ? -degree * of_curves : degree;
 }
 
-/// The highest of the three of a radical.
+/// Returns the highest degree of a radical's three polynomials.
 template <class Radical, class C>
 [[nodiscard]] constexpr int degree_of_radical(int of_curves) {
   return std::max({degree_of_function<typename Radical::Rational, C>(of_curves),
@@ -35,11 +35,11 @@ template <class Function>
   if constexpr (NamedCertificate<Function>) {
     return Function::type.name;
   } else {
-    return Function::name;  // a question about faces of a hull
+    return Function::name;  // a query about faces of a hull
   }
 }
 
-/// Throws std::invalid_argument where the function's degree is above `most_degree_of_function`.
+/// Throws std::invalid_argument if the function's degree is above `most_degree_of_function`.
 void require_searchable(std::string_view name, int degree_of_function, int degree_of_motion);
 
 }  // namespace kds::detail

@@ -58,7 +58,7 @@ Failure exact_first_failure(const ExactRadicalCertificate& certificate, const In
   stages.largest_bits = std::max<std::uint64_t>(stages.largest_bits, certificate.largest_bit_length());
   ExactTime& time = now.exact();
   const int first = certificate.sign(time, sign_after);
-  // Narrows the present time until no candidate is between it and its upper end.
+  // Narrows the present time until there is no candidate between it and its upper end.
   static_cast<void>(sign_after(candidates, time));
   bool zero = first == 0;
   const auto answer = [&](const Failure& failure) {
@@ -71,8 +71,8 @@ Failure exact_first_failure(const ExactRadicalCertificate& certificate, const In
   const ExactPolynomial simple = candidates.square_free();
   if (time.upper() < end) {
     for (RootInterval& root : isolate_roots(simple, time.upper(), end)) {
-      if (root.lower == end) break;  // what happens at u = 1 is judged by the next step
-      if (time.is_dyadic() && root.upper == time.upper()) continue;  // this is the present time
+      if (root.lower == end) break;  // events at u = 1 belong to the next step
+      if (time.is_dyadic() && root.upper == time.upper()) continue;  // the present time itself
       ExactTime candidate(simple, std::move(root));
       const int after = certificate.sign(candidate, sign_after);
       zero &= after == 0;

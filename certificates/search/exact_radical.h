@@ -1,8 +1,8 @@
 #pragma once
-// The exact stage of radical certificates (radical.h): the same answers as of polynomial ones
-// (exact_search.h). Candidates for a failure are all distinct roots of the norm, also where it does not
-// change sign; each is judged by the sign of the function just after it. Where the norm is the zero
-// polynomial, they are those of A and of B.
+// The exact stage of radical certificates (radical.h), with the same answers as that of polynomial
+// certificates (exact_search.h). The candidates for a failure are all distinct roots of the norm, even those
+// at which the norm does not change sign. Each candidate is judged by the function's sign just after it. If
+// the norm is the zero polynomial, the candidates are the roots of A and of B.
 
 #include <optional>
 
@@ -14,29 +14,31 @@
 
 namespace kds {
 
-/// A + B sqrt(D) by its three polynomials, on integers.
+/// A + B sqrt(D), represented by the integer polynomials A, B and the norm.
 struct ExactRadical {
   ExactPolynomial rational, root, norm;
 
-  /// By `sign_of` (sign_at or sign_after) of the polynomials.
+  /// Returns the sign, computed by applying `sign_of` (sign_at or sign_after) to the polynomials.
   [[nodiscard]] int sign(ExactTime& time, int (*sign_of)(const ExactPolynomial&, ExactTime&)) const;
 };
 
-/// A radical certificate on integers.
+/// A radical certificate with integer coefficients.
 struct ExactRadicalCertificate {
   ExactRadical radical;
   std::optional<ExactRadical> condition;
   bool side = true;
 
   [[nodiscard]] int sign(ExactTime& time, int (*sign_of)(const ExactPolynomial&, ExactTime&)) const;
-  /// Zero at a candidate and positive on both sides, where it is positive just after.
+  /// Returns whether a candidate at which the certificate is positive just after is a touch: zero there and
+  /// positive on both sides.
   [[nodiscard]] bool touches(ExactTime& candidate) const;
-  /// Has all roots of the certificate's function: the norm, or, where that is zero, A B.
+  /// Returns a polynomial that has all roots of the certificate's function: the norm, or A B if the norm is
+  /// zero.
   [[nodiscard]] ExactPolynomial candidates() const;
   [[nodiscard]] std::size_t largest_bit_length() const;
 };
 
-/// The exact stage alone.
+/// Runs the exact stage alone.
 [[nodiscard]] Failure exact_first_failure(const ExactRadicalCertificate& certificate, const Instant& now,
                                           StageCounts& stages, TouchPolicy touches = TouchPolicy::ignored);
 

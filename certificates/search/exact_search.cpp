@@ -10,11 +10,12 @@ namespace kds {
 
 namespace {
 
-/// What doubles prove of it, or nothing. No touch is overlooked: a double root is never proved away.
+/// Returns the failure that doubles prove, or nothing. A touch is never missed, because doubles cannot prove
+/// that there is no double root.
 std::optional<Failure> proved_failure(const RoundedPolynomial& function, const Instant& now,
                                       KnownAtStart known) {
   if (known == KnownAtStart::at_own_root) {
-    if (!now.isolating()) return std::nullopt;  // then it is positive at the bracket's upper end
+    if (!now.isolating()) return std::nullopt;  // isolating: positive at the bracket's upper end
   } else {
     const int sign = function.sign_on(now.lower(), now.upper());
     if (sign == 0) return std::nullopt;
@@ -44,7 +45,7 @@ Failure to_failure(const ExactPolynomial& function, ExactFailure& failure) {
   if (before <= from && to <= after && proved())
     return {Failure::Kind::later, {lower, upper, 0, true, touch}};
 
-  // Doubles are too coarse to isolate it: which of the roots in the widened bracket is it?
+  // Doubles are too coarse to isolate the root, so find its ordinal among the roots in the widened bracket.
   const ExactPolynomial simple = function.square_free();
   auto roots = isolate_roots(simple, from, to);
   const bool isolating = roots.size() == 1 && proved();
@@ -86,7 +87,7 @@ Failure rounded_first_failure(const ExactPolynomial& function, const Instant& no
 
 int rounded_sign(const ExactPolynomial& function, const Instant& now,
                  int (*exact_sign)(const ExactPolynomial&, ExactTime&)) {
-  if (function.wide() == nullptr && now.lower() > 0 && now.upper() < 1) {  // roots at 0 and 1 are left out
+  if (function.wide() == nullptr && now.lower() > 0 && now.upper() < 1) {  // roots at 0 and 1 are divided out
     if (const int sign = RoundedPolynomial(function).sign_on(now.lower(), now.upper())) return sign;
   }
   return exact_sign(function, now.exact());

@@ -1,6 +1,6 @@
 #pragma once
-// Radical certificates (radical.h) in double: the norm with its errors, and signs during a short time. What
-// cannot be proved is left to integers (exact_radical.h).
+// Radical certificates (radical.h) in double: the norm with its error bounds, and signs during a short time.
+// Results that cannot be proved are left to integers (exact_radical.h).
 
 #include <cstdint>
 #include <numeric>
@@ -34,9 +34,10 @@ template <class Polynomial, class Certificate>
   return {certificate.beads, sign};
 }
 
-/// What is taken to be known in double: of a norm, a polynomial with errors by the function's own filter or
-/// followed operation by operation; of signs during a short time, without polynomials, what is certain. With
-/// `none` nothing is certain, and everything taken to be.
+/// How errors are bounded in double. `own_filter`: the norm's polynomial has the error bounds of the
+/// function's own filter. `tracked`: the norm's errors are followed operation by operation. In both cases
+/// only certain signs during a short time are used, computed without polynomials. `none`: nothing is proved,
+/// and every sign is taken as computed.
 enum class Errors : std::uint8_t { own_filter, tracked, none };
 
 [[nodiscard]] inline int sign_of(const TrackedDouble& number, Errors errors) {
@@ -44,13 +45,13 @@ enum class Errors : std::uint8_t { own_filter, tracked, none };
   return number.value > 0 ? 1 : number.value < 0 ? -1 : 0;
 }
 
-/// The signs of a radical's polynomials during a short time, each when it is asked for.
+/// The signs of a radical's polynomials during a short time, each computed on demand.
 template <class Radical, MotionView View>
 class RadicalSigns {
   using Beads = decltype(typename Radical::Norm{}.beads);
 
  public:
-  /// Times `sign`, and the root by `root_sign` too.
+  /// Multiplies the radical by `sign`, and its root part also by `root_sign`.
   RadicalSigns(const View& view, const Beads& beads, Errors errors, int sign, int root_sign)
       : view_(view), places_(beads), errors_(errors), sign_(sign), root_sign_(root_sign) {
     std::iota(places_.begin(), places_.end(), 0U);
@@ -60,12 +61,12 @@ class RadicalSigns {
   [[nodiscard]] int root() const { return of<typename Radical::Root>(sign_ * root_sign_); }
   [[nodiscard]] int norm() const { return of<typename Radical::Norm>(1); }
 
-  /// Of the whole, or 0; the norm's sign may be known.
+  /// Returns the sign of the whole radical, or 0 if unknown. The caller may supply the norm's sign.
   [[nodiscard]] int whole(int norm_sign = 0) const {
     const int a = rational(), b = root();
     return a == b ? a : sign_of_radical(a, b, norm_sign != 0 ? norm_sign : norm());
   }
-  /// The same where the norm's sign is known, or 0.
+  /// Returns the sign of the whole radical for a known sign of the norm, or 0.
   [[nodiscard]] int whole_by_norm(int norm_sign) const {
     return sign_of_radical(rational(), root(), norm_sign);
   }
@@ -147,7 +148,7 @@ class CertificateInDouble final : public RadicalInDouble {
     return RadicalSigns<typename Certificate::Radical, View>(view, certificate_.beads, errors_, side_,
                                                              certificate_.root_sign());
   }
-  /// The sign where the radical has this one.
+  /// Returns the certificate's sign, condition included, for a radical with the given sign.
   [[nodiscard]] int with_condition(int radical, const View& view) const {
     if constexpr (ConditionalFor<Certificate, C>) {
       if (conditional_ && radical >= 0) {

@@ -5,8 +5,8 @@
 namespace kds {
 namespace {
 
-/// A narrower bracket around the only root of the norm in this one, where it turns from `sign`: around the
-/// root of the polynomial as it is in double, as far as signs are certain.
+/// Returns a narrower bracket around the only root of the norm in `bracket`, where the norm changes from
+/// `sign`. It surrounds the root of the polynomial as computed in double, as closely as signs are certain.
 [[nodiscard]] BoundedPolynomial::Bracket narrowed(const RadicalInDouble& certificate,
                                                   BoundedPolynomial::Bracket bracket, int sign) {
   const double root =
@@ -25,12 +25,12 @@ namespace {
   return bracket;
 }
 
-/// Walks from candidate to candidate while they prove not to be failures, from `from` on, where the
-/// certificate holds and the norm has the sign `known`, if that is not 0.
+/// Walks from candidate to candidate while they are proved not to be failures. Starts at `from`, where the
+/// certificate must hold. `known` is the norm's sign there, or 0.
 [[nodiscard]] std::optional<Failure> walk_candidates(const RadicalInDouble& certificate, double from,
                                                      int known = 0) {
   constexpr int most_candidates = 8;
-  // So wide a bracket would overlap others, and few signs would be certain all over it.
+  // A wider bracket would overlap others, and few signs would be certain on all of it.
   constexpr double wide = 0x1p-30;
   for (int candidate = 0; candidate < most_candidates; ++candidate, known = 0) {
     const BoundedPolynomial& norm = certificate.norm();
@@ -42,9 +42,9 @@ namespace {
     auto bracket = next.bracket;
     if (bracket.upper - bracket.lower > wide) bracket = narrowed(certificate, bracket, sign);
     const auto [lower, upper] = bracket;
-    // The norm has one zero in the bracket. What A and B are certain to be all over it tells the sign just
-    // after, or the certificate has gone out of use before. Else the bracket's end tells it, unless it goes
-    // out of use in between.
+    // The norm has one zero in the bracket. If the signs of A and B are certain on all of it, they determine
+    // the sign just after the zero, or the certificate has become unusable before. Otherwise the signs at the
+    // bracket's end determine it, unless the certificate may become unusable in between.
     int after = certificate.sign_by_norm(-sign, lower, upper);
     if (after == 0 && certificate.is_usable_on(lower, upper))
       after = certificate.sign_by_norm(-sign, upper, upper);
@@ -64,9 +64,9 @@ std::optional<Failure> proved_failure(const RadicalInDouble& certificate, const 
     const int norm = certificate.norm_while_it_holds(now.lower(), now.upper());
     return norm == 0 ? std::nullopt : walk_candidates(certificate, now.upper(), norm);
   }
-  static_cast<void>(certificate.norm());  // it is wanted soon, and knows signs already
+  static_cast<void>(certificate.norm());  // computed first: it is needed soon, and computing it yields signs
   const int sign = certificate.certain_sign_on(now.lower(), now.upper());
-  // A sign below zero may belong to a sphere that is none, its beads in one place: integers know.
+  // A negative sign may come from beads in one place, which have no sphere. Integers decide that.
   if (sign <= 0) return std::nullopt;
   return walk_candidates(certificate, now.upper());
 }
@@ -74,12 +74,12 @@ std::optional<Failure> proved_failure(const RadicalInDouble& certificate, const 
 Failure fast_first_failure(const RadicalInDouble& certificate, const Instant& now, KnownAtStart known,
                            StageCounts& stages) {
   for (const double c : certificate.norm().bernstein) {
-    if (!std::isfinite(c)) return {};  // nothing can be said
+    if (!std::isfinite(c)) return {};  // undecidable
   }
   const auto sign_at = [&](double u) { return certificate.certain_sign_on(u, u); };
   double from = now.upper();
   if (known == KnownAtStart::at_own_root || sign_at(from) == 0) {
-    // Leave the root behind: the smallest step that makes the sign certain, or give the certificate up.
+    // Step past the root: take the smallest step that makes the sign certain, or give the certificate up.
     double step = 0x1p-50;
     while (from + step < 1 && sign_at(from + step) <= 0 && step < 0x1p-20) step *= 4;
     from += step;

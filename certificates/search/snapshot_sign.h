@@ -1,6 +1,6 @@
 #pragma once
-// Signs of functions of beads where the beads are put (motions/curves/snapshot.h). Exact: in double with
-// proved bounds, four at once or one, then with errors followed, then in whole numbers.
+// The signs of functions of beads at a snapshot (motions/curves/snapshot.h). Exact: first in double with
+// proved bounds (four at once or one), then with running error bounds, then with integers.
 
 #include <cmath>
 
@@ -10,7 +10,7 @@
 
 namespace kds {
 
-/// The sign of a function of beads: 1, 0 or -1.
+/// Returns the sign of a function of beads: 1, 0 or -1.
 template <class Function, int Dimension>
 [[nodiscard]] int snapshot_sign(const Function& function, const Snapshot<Dimension>& snapshot) {
   using Values = FunctionValues<Function, Curves<Dimension>>;
@@ -28,7 +28,7 @@ inline const LanesBound<0> bound_at_rest{FunctionValues<Function, Curves<Dimensi
 
 }  // namespace detail
 
-/// Which of four formulas, each times its side (1 or -1), are certainly positive.
+/// Finds which of four formulas, each times its side (1 or -1), are certainly positive.
 template <class Function, int Dimension>
 [[KDS_LANES_TARGETS]] void snapshot_positive(
     const Snapshot<Dimension>& snapshot,
