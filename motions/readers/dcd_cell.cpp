@@ -14,7 +14,7 @@ namespace {
 
 using Numbers = DcdCellForm::Numbers;
 
-constexpr double least_angle = 20;  // degrees; no program simulates cells with sharper ones
+constexpr double least_angle = 20;  // degrees; no program simulates cells with sharper angles
 
 Eigen::Vector3d lengths_of(const Numbers& v) { return {v[0], v[2], v[5]}; }
 // Returns alpha, beta and gamma.

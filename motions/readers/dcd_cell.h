@@ -6,9 +6,9 @@
 //   cosines       the same with cosines of the angles NAMD, VMD, LAMMPS
 //   shape matrix  xx, xy, yy, xz, yz, zz              CHARMM from 22 on (symmetric, positive definite)
 //
-// No flag tells the forms apart. Each frame looked at rules out the forms in which its numbers are no cell,
-// and degrees outside 20 to 160, which no program simulates. The title and the version of the header decide
-// between the forms that are left:
+// No flag distinguishes the forms. Each frame examined rules out the forms in which its numbers are not a
+// cell. Degrees outside 20 to 160 are ruled out too, because no program simulates such cells. The header's
+// title and version decide between the remaining forms:
 //   1. An angle of exactly 60, 90 or 120 shows degrees.
 //   2. Versions from 25 on, and titles of CHARMM (their lines begin with '*') from 22 on, show a matrix.
 //   3. Versions below 22, and titles of NAMD, VMD, LAMMPS, OpenMM, MDTraj and MDAnalysis, rule out a matrix.
@@ -29,10 +29,10 @@ class DcdCellForm {
 
   DcdCellForm(int version, std::string_view title);
 
-  /// Rules out forms. A cell at right angles is the same in cosines and as a matrix, and rules out degrees
-  /// alone.
+  /// Rules out forms. A rectangular cell has the same numbers as cosines and as a matrix, so it rules out
+  /// only degrees.
   void look_at(const Numbers& numbers);
-  /// The cell in the form that is left.
+  /// Returns the cell in the remaining form.
   [[nodiscard]] CellRead read(const Numbers& numbers) const;
 
  private:

@@ -37,7 +37,7 @@ class HeaderReader {
                                  file_, header_bytes));
   }
 
-  // One record, its markers checked.
+  // Reads one record and checks its markers.
   std::vector<char> record(const char* what, std::uint64_t most) {
     std::vector<char> marker(layout.marker_size);
     read(marker, what);
@@ -86,7 +86,7 @@ class HeaderReader {
   InputFile& input_;
 };
 
-// Atoms are numbered from 1 in the file, in ascending order.
+// Returns the free atoms. In the file they are numbered from 1, in ascending order.
 std::vector<std::uint32_t> free_atoms(const std::string& file, const HeaderReader& reader,
                                       const std::vector<char>& bytes) {
   std::vector<std::uint32_t> atoms;
@@ -104,13 +104,13 @@ std::vector<std::uint32_t> free_atoms(const std::string& file, const HeaderReade
   return atoms;
 }
 
-// Rounds to the digits that a float has: 0.02 and not 0.0199999996.
+// Rounds to the precision of a float: 0.02 instead of 0.0199999996.
 DcdLayout::Times times_of(std::int32_t first, std::int32_t steps, double picoseconds) {
   const double step = *parse_double(fmt::format("{:.6g}", picoseconds));
   return {step * (static_cast<double>(first) / steps), step};
 }
 
-bool is_time(double picoseconds) { return picoseconds >= 1e-6 && picoseconds <= 1e9; }  // NaN is none
+bool is_time(double picoseconds) { return picoseconds >= 1e-6 && picoseconds <= 1e9; }  // false for NaN
 
 // LAMMPS writes the length of a step in the unit of its run and does not say which: femtoseconds (units real,
 // where steps are about 1), picoseconds (metal, about 0.001), reduced units (lj, about 0.005) or another.
@@ -181,13 +181,13 @@ DcdLayout read_dcd_layout(InputFile& input) {
   const std::vector<char> header = reader.record_of("header", HeaderReader::header_bytes);
   layout.frames_claimed = reader.integer(header, 1);
   const std::int64_t fixed = reader.integer(header, 9);
-  if (reader.integer(header, 20) != 0) {  // written by X-PLOR where 0: no flags there
+  if (reader.integer(header, 20) != 0) {  // 0 means X-PLOR wrote the file, which has no flags here
     layout.has_cell = reader.integer(header, 11) != 0;
     layout.has_fourth = reader.integer(header, 12) != 0;
   }
   layout.version = reader.integer(header, 20);
   const std::vector<char> title = reader.record("title", HeaderReader::most_title);
-  if (title.size() > 4) layout.title.assign(title.begin() + 4, title.end());  // behind the number of lines
+  if (title.size() > 4) layout.title.assign(title.begin() + 4, title.end());  // after the number of lines
   read_times(file, reader, header, layout);
 
   const std::int64_t atoms = reader.integer(reader.record_of("number of atoms", 4), 0);

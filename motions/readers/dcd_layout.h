@@ -28,23 +28,24 @@ struct DcdLayout {
   bool has_cell = false;
   bool has_fourth = false;
   std::uint64_t atom_count = 0;
-  std::vector<std::uint32_t> free_atoms;  ///< from 0; empty: none is fixed
-  /// The time of frame 0 and the time between frames, in picoseconds; none if the header cannot be right.
+  std::vector<std::uint32_t> free_atoms;  ///< numbered from 0; empty if no atom is fixed
+  /// The time of frame 0 and the time between frames, in picoseconds. None if the header's values are
+  /// implausible.
   struct Times {
     double first = 0, step = 0;
   };
   std::optional<Times> times;
-  std::string times_note;    ///< a line that the unit of time is guessed or unknown; empty if it is known
-  std::int32_t version = 0;  ///< of CHARMM, as other programs copy it
-  std::string title;         ///< all its lines
-  std::uint64_t frames_begin = 0;  ///< byte of the file
-  std::uint64_t file_size = 0;     ///< unpacked
-  bool cut = false;                ///< a gzipped file that is cut off behind these bytes
+  std::string times_note;    ///< a message that the unit of time is guessed or unknown; empty if it is known
+  std::int32_t version = 0;  ///< CHARMM's version number, which other programs copy
+  std::string title;         ///< all lines of the title
+  std::uint64_t frames_begin = 0;  ///< offset in the file
+  std::uint64_t file_size = 0;     ///< size after unpacking
+  bool cut = false;                ///< the gzipped file is truncated after these bytes
 
   [[nodiscard]] std::uint64_t atoms_in_frame(std::size_t k) const {
     return k == 0 || free_atoms.empty() ? atom_count : free_atoms.size();
   }
-  /// With the markers around it.
+  /// Returns the size of a record including the markers around it.
   [[nodiscard]] std::uint64_t record_size(std::uint64_t bytes) const { return bytes + 2 * marker_size; }
   [[nodiscard]] std::uint64_t frame_size(std::size_t k) const {
     return (has_cell ? record_size(cell_bytes) : 0) +
@@ -55,7 +56,7 @@ struct DcdLayout {
   }
   [[nodiscard]] FramesHeld frames_held() const;
 
-  /// A number as the file holds it; `bytes` need not be aligned.
+  /// Converts a number from the file's byte order. `bytes` need not be aligned.
   template <class Number>
   [[nodiscard]] Number number(const char* bytes) const {
     std::array<char, sizeof(Number)> copy;
@@ -70,10 +71,10 @@ struct DcdLayout {
   static constexpr std::uint64_t cell_bytes = 48;
 };
 
-/// Throws InputError naming the file.
+/// Reads the layout. Throws InputError naming the file.
 [[nodiscard]] DcdLayout read_dcd_layout(InputFile& input);
 
-/// Reads `size` bytes from `place` on; false if the file ends before them.
+/// Reads `size` bytes from offset `place`. Returns false if the file ends before them.
 [[nodiscard]] bool read_at(InputFile& input, std::uint64_t place, char* to, std::size_t size);
 
 }  // namespace kds

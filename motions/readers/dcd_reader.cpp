@@ -26,7 +26,7 @@ class DcdFile {
 
   const DcdLayout& layout() const { return layout_; }
 
-  // Tells the form of the cells from at most 64 of the frames asked for.
+  // Determines the form of the cells from at most 64 of the requested frames.
   void look_at_cells(const FramesAsked& asked) {
     constexpr std::size_t most = 64;
     if (!layout_.has_cell) return;
@@ -39,7 +39,8 @@ class DcdFile {
     }
   }
 
-  // Where records disagree with the header, a file ends where no frame does: tell of the first such record.
+  // Checks the markers of all records. If records disagree with the header, the file does not end at a frame;
+  // the first such record is reported.
   void check_all_markers() {
     for (std::size_t k = 0; layout_.frame_begin(k) < layout_.file_size; ++k) {
       std::uint64_t place = layout_.frame_begin(k);
@@ -53,7 +54,7 @@ class DcdFile {
     }
   }
 
-  // Before memory is asked for as the header says: whether the frame is laid out as it says.
+  // Checks the frame's layout before memory is allocated according to the header.
   void check_markers(std::size_t k) {
     std::uint64_t place = layout_.frame_begin(k);
     for (const std::uint64_t size : record_sizes(k)) {
@@ -79,12 +80,12 @@ class DcdFile {
     }
   }
 
-  // Of the frame loaded: x, y or z of its i-th atom.
+  // Returns the x, y or z coordinate of the i-th atom in the loaded frame.
   float coordinate(std::size_t axis, std::size_t i) const {
     return layout_.number<float>(records_[axis + (layout_.has_cell ? 1 : 0)] + 4 * i);
   }
 
-  // Returns the cell of the frame loaded.
+  // Returns the cell of the loaded frame.
   CellRead cell() const { return layout_.has_cell ? cell_form_.read(cell_numbers(records_[0])) : CellRead(); }
 
  private:
@@ -118,7 +119,7 @@ class DcdFile {
   std::vector<const char*> records_;
 };
 
-// Which of the DCD's atoms are beads, and how large.
+// The atoms of the DCD that are beads, and their radii.
 struct Beads {
   std::vector<std::size_t> atoms;
   std::vector<double> element_radii;
@@ -166,7 +167,7 @@ Beads choose_beads(const std::string& file, const ReadOptions& options, std::uin
   return beads;
 }
 
-// Positions of all atoms, kept up to date where a frame holds the free ones only.
+// The positions of all atoms. They are kept up to date if frames hold only the free atoms.
 class Atoms {
  public:
   explicit Atoms(DcdFile& dcd) : dcd_(dcd) {

@@ -11,7 +11,8 @@
 
 namespace kds {
 
-/// The topology either names all atoms of the DCD, in their order, or its selected beads are the DCD's atoms.
+/// Opens a DCD file. The topology must either name all atoms of the DCD in their order, or its selected beads
+/// must be the DCD's atoms.
 [[nodiscard]] FramesOpened open_dcd(const std::filesystem::path& path, const ReadOptions& options);
 
 }  // namespace kds

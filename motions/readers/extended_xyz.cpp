@@ -22,10 +22,10 @@ std::string lower_case(std::string_view text) {
 
 struct Value {
   std::vector<std::string> items;
-  std::vector<std::size_t> rows;  // items in each row of a matrix; empty: no matrix
-  std::string text;               // of a string
-  std::string_view source;        // as it stands in the line, with its quotes or brackets
-  bool whole = true;              // its closing quote or bracket is there
+  std::vector<std::size_t> rows;  // number of items in each row of a matrix; empty if not a matrix
+  std::string text;               // the content of a string
+  std::string_view source;        // the text in the line, with its quotes or brackets
+  bool whole = true;              // whether the closing quote or bracket is present
 };
 
 struct Pair {
@@ -67,7 +67,7 @@ class PairReader {
 
   // Returns the rest of the line from a quote that is never closed; empty if there is no such quote.
   std::string_view open_rest() const { return open_from_ ? text_.substr(*open_from_) : std::string_view(); }
-  // Words in quotes that are no keys.
+  // Returns the quoted words that are not keys.
   const std::vector<std::string>& quoted_words() const { return quoted_words_; }
 
  private:
@@ -109,7 +109,7 @@ class PairReader {
     if (at_end()) return value;
     if (is_quote(peek())) {
       value.text = quoted(value.whole);
-      // An array of the old style, or one in brackets that was quoted.
+      // An array in the old style, or an array in brackets that was quoted.
       PairReader inner(value.text);
       inner.skip_blanks();
       if (!inner.at_end() && (inner.peek() == '[' || inner.peek() == '{')) {
@@ -170,7 +170,7 @@ class PairReader {
       const std::size_t begin = at_;
       value.items.push_back(is_quote(peek()) && close != '\0' ? quoted(whole) : bare(",[]{}"));
       value.whole = value.whole && whole;
-      if (at_ == begin) ++at_;  // a bracket out of place is an empty item
+      if (at_ == begin) ++at_;  // a misplaced bracket counts as an empty item
     }
   }
 

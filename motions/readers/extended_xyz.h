@@ -24,7 +24,7 @@ namespace kds {
 struct XyzColumns {
   std::optional<std::size_t> species = 0;  ///< a symbol, a name or an atomic number
   std::size_t position = 1;                ///< of x; y and z follow
-  std::optional<std::size_t> id;           ///< a number that the atom keeps
+  std::optional<std::size_t> id;           ///< the column of an id that each atom keeps in all frames
   std::size_t count = 4;
   bool named = false;  ///< Properties is given: a line has exactly `count` columns, otherwise at least
 };

@@ -37,7 +37,7 @@ class InstanceReader {
     const std::size_t points = read_first_line();
     const std::size_t numbers =
         static_cast<std::size_t>(instance_.columns) * static_cast<std::size_t>(instance_.degree + 1);
-    // A number takes two characters at least, so a false count cannot ask for much.
+    // A number takes at least two characters, so a wrong count cannot allocate much memory.
     instance_.control_points.reserve(std::min(points, rest_.size() / (2 * numbers) + 1) * numbers);
     for (std::size_t point = 0; point < points; ++point) read_point(point, points, numbers);
     while (!rest_.empty())
@@ -110,7 +110,7 @@ bool is_instance_file(const std::filesystem::path& path) {
     text = {start.data(), file.read(start.data(), start.size())};
     text.remove_prefix(byte_order_mark(text, file.name()));
   } catch (const InputError&) {
-    return false;  // reading it says why
+    return false;  // reading the file reports the reason
   }
   return parse_first_line(next_line(text)).has_value();
 }

@@ -1,7 +1,7 @@
 #pragma once
 // Moving points of a Bezier instance file: one step u in [0,1], control points exact in double.
 //
-// File: a line `n columns degree`, then one line a point: for each column its degree+1 control points.
+// File: a line `n columns degree`, then one line per point, with degree+1 control points for each column.
 // One to three columns are coordinates; a fourth is the weight (squared radius) of a point in space.
 
 #include <filesystem>
@@ -28,10 +28,11 @@ struct Instance {
   }
 };
 
-/// Throws InputError naming file and line.
+/// Reads an instance. Throws InputError naming file and line.
 [[nodiscard]] Instance read_instance(const std::filesystem::path& path);
 
-/// Whether the file's first line has the shape of an instance file's (three whole numbers, nothing else).
+/// Returns whether the file's first line has the form of an instance file (three whole numbers, nothing
+/// else).
 [[nodiscard]] bool is_instance_file(const std::filesystem::path& path);
 
 }  // namespace kds

@@ -53,7 +53,8 @@ void check_finite(const std::string& file, const FrameRead& frame) {
                                      frame.stamp.number, bead, "xyz"[axis], positions(axis, bead)));
 }
 
-// Those of a chain among those of all beads, where there are any.
+// Returns the elements of `of_beads` that belong to one chain. Returns an empty vector if `of_beads` is
+// empty.
 template <class T>
 std::vector<T> of_chain(const std::vector<T>& of_beads, std::size_t first, std::size_t bead_count) {
   if (of_beads.empty()) return {};
@@ -66,7 +67,7 @@ void count_residues(const ChainRead& chain, Trajectory& head) {
   head.residues_read = chain.residues_read;
 }
 
-// A necklace for each chain, without frames yet.
+// Returns a necklace for each chain, without frames yet.
 std::vector<Trajectory> heads_of(const FramesOpened& opened) {
   std::vector<Trajectory> heads;
   if (opened.chains.size() < 2) {

@@ -1,6 +1,7 @@
 #pragma once
-// The necklaces of one file, frame by frame: with finite coordinates, made whole across a periodic cell, and
-// searched for chain breaks. Two frames are in memory, whatever the file holds.
+// Reads the necklaces of one file frame by frame. Coordinates are checked to be finite, chains are made whole
+// across a periodic cell, and chain breaks are found. Two frames are in memory, whatever the length of the
+// file.
 //
 // Chains of one file are placed beside each other in the first frame: a chain moves to its periodic image
 // nearest to the chains before it if that is much nearer than the chain itself. From then on each chain moves
@@ -23,15 +24,16 @@ class NecklaceStream {
   /// Opens the file and reads its first frame. Throws InputError as read_trajectories does.
   NecklaceStream(const std::filesystem::path& path, const ReadOptions& options);
 
-  /// What is known of each necklace from the start: its name, radii by element and breaks, and its first
+  /// Returns the data of each necklace known from the start: its name, radii by element, breaks and first
   /// frame.
   [[nodiscard]] const std::vector<Trajectory>& heads() const { return heads_; }
-  /// The next frame, all necklaces side by side; false behind the last. Throws InputError likewise.
+  /// Reads the next frame of all necklaces, side by side. Returns false after the last frame. Throws
+  /// InputError as the constructor does.
   [[nodiscard]] bool next(FrameRead& frame);
   void rewind();
-  /// Returns whether the file has one frame only. Begins again with the first frame.
+  /// Returns whether the file has only one frame. Starts again with the first frame.
   [[nodiscard]] bool holds_one_frame();
-  /// About a necklace; complete once all frames have been read.
+  /// Returns the warnings about a necklace. They are complete once all frames have been read.
   [[nodiscard]] std::vector<std::string> warnings(std::size_t necklace) const;
 
  private:
@@ -40,7 +42,7 @@ class NecklaceStream {
     Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< shift of the first frame, in cell vectors
     std::string placed;                               ///< a line about that shift
     std::size_t frames_moved = 0;
-    std::size_t frames_doubtful = 0, first_doubtful = 0;  ///< where the cell does not suit the bonds
+    std::size_t frames_doubtful = 0, first_doubtful = 0;  ///< frames whose cell does not suit the bonds
     /// Shift that takes the centroid to its image nearest to the first necklace's centroid, in the first
     /// frame.
     std::optional<Eigen::Vector3d> apart_at_first;
@@ -50,12 +52,12 @@ class NecklaceStream {
 
   FramesOpened opened_;
   std::vector<Trajectory> heads_;
-  std::vector<WholeChain> whole_;  ///< of each necklace
-  std::vector<Notes> notes_;       ///< likewise
-  std::size_t cells_unused_ = 0;   ///< frames
-  std::string first_doubt_;        ///< about the first of these
-  std::size_t frames_noted_ = 0;   ///< frames whose reader has a warning
-  std::string first_note_;         ///< about the first of these
+  std::vector<WholeChain> whole_;  ///< one per necklace
+  std::vector<Notes> notes_;       ///< one per necklace
+  std::size_t cells_unused_ = 0;   ///< number of frames whose cell is not used
+  std::string first_doubt_;        ///< about the first such frame
+  std::size_t frames_noted_ = 0;   ///< number of frames whose reader has a warning
+  std::string first_note_;         ///< about the first such frame
 };
 
 }  // namespace kds

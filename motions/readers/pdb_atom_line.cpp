@@ -22,8 +22,8 @@ char column(std::string_view line, std::size_t number) {
   return number <= line.size() ? line[number - 1] : ' ';
 }
 
-// A number that is too wide pushes the rest of the line to the right: its last digits run into the next
-// columns, and its decimal point stands behind column `point`.
+// Returns whether a number is too wide for its columns. Such a number pushes the rest of the line to the
+// right: its last digits run into the next columns, and its decimal point is after column `point`.
 bool overflows(std::string_view line, std::size_t first, std::size_t last, std::size_t point) {
   if (!is_digit(column(line, last)) || !is_digit(column(line, last + 1))) return false;
   const std::size_t found = line.substr(0, last).rfind('.');
@@ -56,15 +56,15 @@ void check_occupancy(const std::string& file, std::size_t line_number, std::stri
                                  line_number, in_quotes(line.substr(54, 12))));
 }
 
-// The element of columns 77 and 78, X if they give none.
+// Returns the element in columns 77 and 78, or X if they give none.
 gemmi::Element element_given_in(std::string_view line) {
   if (is_letter(column(line, 77)) || is_letter(column(line, 78)))
     return gemmi::Element(std::string{column(line, 77), column(line, 78)});
   return gemmi::El::X;
 }
 
-// The element that the atom's name gives, right-aligned in columns 13 and 14. A name of four characters that
-// begins with H belongs to a hydrogen.
+// Returns the element given by the atom's name, which is right-aligned in columns 13 and 14. A name of four
+// characters that begins with H is a hydrogen.
 gemmi::Element element_of_name(std::string_view line) {
   const char first = column(line, 13), second = column(line, 14);
   if ((first == 'H' || first == 'h') && column(line, 16) != ' ') return gemmi::El::H;
@@ -73,8 +73,8 @@ gemmi::Element element_of_name(std::string_view line) {
   return gemmi::Element(std::string{first, second});
 }
 
-// Decimal, or hybrid-36 from A000 = 10000 on. Other texts, as hexadecimal 2b5f, are labels and stay as they
-// are.
+// Returns a residue number, which is decimal, or hybrid-36 from A000 = 10000 on. Other texts, such as
+// hexadecimal 2b5f, are labels and stay unchanged.
 std::string residue_number(std::string_view text) {
   if (text.empty()) return "?";
   int value = 0;
@@ -92,7 +92,7 @@ std::string residue_number(std::string_view text) {
 
 std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
   if (line.size() < first) return {};
-  // Simpler and faster than trimmed(): files of trajectories have many columns.
+  // Simpler and faster than trimmed(), because trajectory files have many columns.
   std::size_t begin = first - 1, end = std::min(last, line.size());
   while (begin < end && is_column_blank(line[begin])) ++begin;
   while (begin < end && is_column_blank(line[end - 1])) --end;
@@ -105,7 +105,7 @@ PdbAtom read_atom_line(const std::string& file, std::size_t line_number, std::st
         fmt::format("{}:{}: a tab or another control character stands in this atom's line, expected "
                     "columns filled with blanks, and LF or CR LF at the end",
                     file, line_number));
-  // The charge behind column 78 is not needed, and not every program writes it properly.
+  // The charge after column 78 is not needed, and not every program writes it correctly.
   line = line.substr(0, 78);
   if (line.size() < 54)
     throw InputError(

@@ -11,7 +11,7 @@ namespace kds {
 struct PdbAtom {
   StructureAtom atom;
   std::string residue;   ///< columns 18-20
-  char column_21 = ' ';  ///< belongs to the residue's name or to the chain's, see open_pdb.cpp
+  char column_21 = ' ';  ///< part of the residue's name or of the chain's, see open_pdb.cpp
   char chain = ' ';      ///< column 22
   std::string number;    ///< columns 23-27: residue number and insertion code
   std::string segment;   ///< columns 73-76

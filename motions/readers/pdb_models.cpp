@@ -20,8 +20,8 @@ bool starts_with(std::string_view line, std::string_view name) {
   return true;
 }
 
-// Record names take six columns and are read in either case. Numbers may run into the blanks behind a name,
-// as in "ATOM 100000".
+// Returns whether the line is a record of this name. Names take six columns and may be in either case.
+// Numbers may run into the blanks after a name, as in "ATOM 100000".
 bool is_record(std::string_view line, std::string_view name) {
   if (!starts_with(line, name)) return false;
   for (std::size_t i = name.size(); i < 6 && i < line.size(); ++i)
@@ -43,7 +43,7 @@ CellRead box_cell(std::string_view cryst1) {
   constexpr std::array<std::size_t, 7> starts{7, 16, 25, 34, 41, 48, 55};
   for (std::size_t i = 0; i < 6; ++i) {
     const std::string_view text = columns(cryst1, starts[i], starts[i + 1] - 1);
-    if (text.empty()) return {};  // no cell is told
+    if (text.empty()) return {};  // no cell is given
     const auto value = parse_double(text);
     if (!value) return {std::nullopt, "CRYST1 has a length or an angle that is no number"};
     values[i] = *value;
@@ -53,12 +53,12 @@ CellRead box_cell(std::string_view cryst1) {
 
 }  // namespace
 
-// Consecutive atoms of the file that make a model, or are left out.
+// Consecutive atoms of the file that form a model or are left out.
 struct PdbModelReader::Run {
   PdbModel* model = nullptr;
   bool inside = false;
-  bool with_record = false;     ///< it began with MODEL
-  bool outside_models = false;  ///< so far: neither MODEL at its start nor ENDMDL at its end
+  bool with_record = false;     ///< the run began with MODEL
+  bool outside_models = false;  ///< so far: no MODEL at its start and no ENDMDL at its end
   LinesLeftOut lines;
   std::size_t bytes = 0;
 };
@@ -73,7 +73,7 @@ void PdbModelReader::open(Run& run, bool with_record) {
   if (run.model != nullptr) run.model->cell = cell_;
 }
 
-// Returns whether the run is a model.
+// Ends the run. Returns whether it is a model.
 bool PdbModelReader::close(Run& run, bool is_model) {
   run.inside = false;
   if (is_model || !run.outside_models) {
@@ -108,7 +108,7 @@ bool PdbModelReader::read(PdbModel* model) {
   for (std::string_view line; lines_.next(line);) {
     if (is_record(line, "CRYST1")) {
       cell_ = box_cell(line);
-      if (run.inside && model != nullptr) model->cell = cell_;  // some programs write it behind MODEL
+      if (run.inside && model != nullptr) model->cell = cell_;  // some programs write CRYST1 after MODEL
     } else if (is_record(line, "MODEL")) {
       // Atoms before the first MODEL are outside the models.
       if (run.inside && !run.with_record) run.outside_models = true;

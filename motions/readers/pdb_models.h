@@ -1,5 +1,5 @@
 #pragma once
-// Cuts a PDB file into its models while it is read, each with its atoms, checked.
+// Splits a PDB file into its models while reading it. The atoms of each model are checked.
 
 #include <cstddef>
 #include <filesystem>
@@ -17,11 +17,12 @@ namespace kds {
 
 struct PdbModel {
   std::vector<PdbAtom> atoms;     ///< each with its place in the model, from 0
-  std::vector<std::size_t> ends;  ///< of chains: number of atoms before each TER, ascending
-  CellRead cell;                  ///< of a simulation box: CRYST1 with space group P 1 (or none)
+  std::vector<std::size_t> ends;  ///< chain ends: the number of atoms before each TER, ascending
+  CellRead cell;  ///< the cell of a simulation box: CRYST1 with space group P 1 (or without one)
 };
 
-/// Lines of a file that hold atoms but belong to no model: how many, and the first of them, from 1.
+/// Lines of a file that hold atoms but belong to no model: their number, and the first of them, counted
+/// from 1.
 struct LinesLeftOut {
   std::size_t count = 0, first = 0;
 
@@ -30,25 +31,26 @@ struct LinesLeftOut {
   }
 };
 
-/// A model begins at MODEL and ends at ENDMDL, END or the next MODEL. Atoms without a MODEL make a model too,
-/// up to ENDMDL or END. Behind a model with MODEL they need ENDMDL at their end, otherwise they are left out.
+/// Reads models. A model begins at MODEL and ends at ENDMDL, END or the next MODEL. Atoms without a MODEL
+/// also make a model, up to ENDMDL or END. After a model with MODEL, such atoms need ENDMDL at their end,
+/// otherwise they are left out.
 class PdbModelReader {
  public:
-  /// Throws InputError naming the file.
+  /// Opens the file. Throws InputError naming the file.
   explicit PdbModelReader(const std::filesystem::path& path) : lines_(path) {}
 
-  /// Reads the next model; returns false behind the last one. Throws InputError naming file and line as
+  /// Reads the next model. Returns false after the last model. Throws InputError naming file and line, as
   /// read_atom_line does.
   [[nodiscard]] bool next(PdbModel& model) { return read(&model); }
-  /// Leaves the next model unread, and unchecked.
+  /// Skips the next model without reading or checking it. Returns false after the last model.
   [[nodiscard]] bool skip() { return read(nullptr); }
   void rewind();
-  /// The models read or skipped so far. The file ends inside a model if all but the last are closed by ENDMDL
-  /// or END.
+  /// Returns the models read or skipped so far. They count as truncated if the file ends inside a model
+  /// although all models before it are closed by ENDMDL or END.
   [[nodiscard]] FramesHeld held() const;
-  /// Atoms outside the models, in the part of the file read so far.
+  /// Returns the atoms outside of models in the part of the file read so far.
   [[nodiscard]] const LinesLeftOut& outside() const { return outside_; }
-  /// Lines that look like atoms but are not valid records, likewise.
+  /// Returns the lines read so far that look like atoms but are not valid records.
   [[nodiscard]] const LinesLeftOut& near_misses() const { return near_misses_; }
 
  private:
@@ -59,11 +61,11 @@ class PdbModelReader {
   void add_atom(std::string_view line, Run& run);
 
   LineReader lines_;
-  bool opening_ = false;  ///< MODEL of the next model is read already
+  bool opening_ = false;  ///< the MODEL record of the next model has been read
   CellRead cell_;
   std::size_t models_ = 0, closed_ = 0;
   bool has_model_records_ = false;
-  bool ended_ = false;  ///< with the file, inside a model
+  bool ended_ = false;  ///< the file ended inside a model
   LinesLeftOut outside_, near_misses_;
 };
 

@@ -16,8 +16,8 @@ namespace kds {
 
 namespace {
 
-// The models of a biological assembly (.pdb1, .pdb2) are copies that stand side by side, not frames: the
-// first one alone is read.
+// Reads only the first model. The models of a biological assembly (.pdb1, .pdb2) are copies that stand side
+// by side, not frames.
 class FirstModel : public StructureModels {
  public:
   explicit FirstModel(std::unique_ptr<StructureModels> models) : models_(std::move(models)) {}
@@ -67,7 +67,8 @@ std::vector<std::string> names_of(const std::vector<SelectedAtom>& atoms) {
   return names;
 }
 
-// All frames are frames of one necklace: the same atoms in the same order.
+// Throws unless this frame has the same atoms in the same order as the first frame: all frames belong to one
+// necklace.
 void check_same_atoms(const std::string& file, std::size_t first_frame,
                       const std::vector<std::string>& expected, std::size_t frame,
                       const std::vector<SelectedAtom>& atoms) {
@@ -91,7 +92,7 @@ class StructureFrames final : public FrameReader {
         asked_(asked),
         alone_(models_->held().whole == 1) {}
 
-  // What the first frame tells of all.
+  // Describes what the first frame determines for all frames.
   void describe(FramesOpened& opened) {
     const StructureModel model = models_->model(asked_[0]);
     SelectedChains selected = select_chains(place(asked_[0]), model, selection_, chain_);
@@ -129,7 +130,7 @@ class StructureFrames final : public FrameReader {
   FramesAsked asked_;
   bool alone_;
   std::size_t next_ = 0;
-  std::vector<std::string> names_;  // of the beads in the first frame
+  std::vector<std::string> names_;  // names of the beads in the first frame
 };
 
 }  // namespace

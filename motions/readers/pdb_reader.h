@@ -1,7 +1,7 @@
 #pragma once
-// PDB and mmCIF files, plain or gzipped: their models are the frames. Cells of crystals are no simulation
-// boxes: a cell counts where a file has several models, its space group is P 1 and its lengths are above 1
-// angstrom.
+// PDB and mmCIF files, plain or gzipped; their models are the frames. The cell of a crystal is not a
+// simulation box. A cell is therefore used only if the file has several models, the space group is P 1, and
+// the lengths are above 1 angstrom.
 
 #include <cstddef>
 #include <filesystem>
@@ -20,10 +20,10 @@ namespace kds {
 /// The atoms of a structure's first model, by their place in the file.
 struct Topology {
   std::size_t atom_count = 0;         ///< with all alternate locations, waters and ligands
-  std::vector<std::size_t> selected;  ///< places of the beads, in chain order
-  std::vector<ChainRead> chains;      ///< that they belong to
-  std::vector<std::string> warnings;  ///< on what is left out or guessed, one line each
-  std::vector<double> element_radii;  ///< of the beads; empty where elements are unknown
+  std::vector<std::size_t> selected;  ///< places of the beads, in the order of the chains
+  std::vector<ChainRead> chains;      ///< the chains of the beads
+  std::vector<std::string> warnings;  ///< about parts left out or guessed, one line each
+  std::vector<double> element_radii;  ///< one per bead; empty if elements are unknown
   std::vector<std::string> bead_names;
 };
 

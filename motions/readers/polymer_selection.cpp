@@ -29,7 +29,8 @@ std::string joined(std::vector<std::string> texts, std::size_t most) {
 
 std::string name_of(const StructureResidue& residue) { return residue.name + ' ' + residue.number; }
 
-// Two residues at one position are alternates if all atoms of the second one say so.
+// Returns whether two residues at one position are alternates. They are if all atoms of the second residue
+// say so.
 bool is_alternate_of(const StructureResidue& residue, const StructureResidue& before) {
   return before.number == residue.number && before.sequence == residue.sequence &&
          before.molecule == residue.molecule &&
@@ -37,14 +38,14 @@ bool is_alternate_of(const StructureResidue& residue, const StructureResidue& be
                      [](const StructureAtom& atom) { return atom.alternate != '\0'; });
 }
 
-// A chain or a molecule of it, as --chain can name them.
+// A chain, or a molecule of a chain, as --chain can name it.
 struct Part {
   std::string label;
   std::string chain;
-  std::optional<std::string> molecule;  // of the chain; none: all of them
-  Residues polymer;                     // its residues, without those that are alternates of the one before
-  std::vector<std::string> free_residues;  // amino acids of the chain that are taken for ligands
-  bool protein = false;                    // otherwise nucleotides, if `polymer` is not empty
+  std::optional<std::string> molecule;     // a molecule of the chain; none: all its molecules
+  Residues polymer;                        // its residues, without alternates of a preceding residue
+  std::vector<std::string> free_residues;  // amino acids of the chain that are treated as ligands
+  bool protein = false;                    // true: protein; false: nucleic acid, if `polymer` is not empty
 };
 
 // Returns a label as messages show it.
@@ -71,7 +72,7 @@ class Parts {
       add(chain, residue, kind);
       add(molecule_of(residue), residue, kind);
     }
-    // Caps and ends alone are no polymer.
+    // Caps and chain ends alone are not a polymer.
     for (Part& chain : chains_)
       if (!has_monomers(chain)) chain.polymer.clear();
     std::erase_if(molecules_, [](const Part& molecule) { return !has_monomers(molecule); });
@@ -84,7 +85,7 @@ class Parts {
     }
   }
 
-  // Null if there is none of this name.
+  // Returns the part with this name, or null.
   const Part* named(const std::string& label) const {
     const Part* const chain = find(chains_, label);
     return chain != nullptr ? chain : find(molecules_, label);
@@ -100,7 +101,7 @@ class Parts {
     return parts;
   }
 
-  // Chains with a name, and the molecules without one, that are polymers; all chains if there are no
+  // Returns the named chains and the unnamed molecules that are polymers. Returns all chains if there are no
   // polymers.
   std::vector<const Part*> default_parts() const {
     std::vector<const Part*> parts;
@@ -118,7 +119,7 @@ class Parts {
 
   bool has_polymer() const { return !molecules_.empty(); }
 
-  // The residues to select from.
+  // Returns the residues to select from.
   Residues candidates(const Part& part, Selection selection) const {
     if (!part.polymer.empty() || selection != Selection::all) return part.polymer;
     Residues residues;
@@ -127,7 +128,8 @@ class Parts {
     return residues;
   }
 
-  // "1,024 residues (HOH, NAG)", and how many of them would be a polymer if they were no HETATM records.
+  // Describes the contents, as in "1,024 residues (HOH, NAG)", and says how many residues would be a polymer
+  // if they were no HETATM records.
   std::string contents() const {
     std::vector<std::string> names;
     for (const StructureResidue& residue : model_.residues)
@@ -179,7 +181,7 @@ class Parts {
   std::vector<Part> chains_, molecules_;
 };
 
-// The first with amino acids, otherwise the first with nucleotides, otherwise the first.
+// Returns the first part with amino acids, otherwise the first with nucleotides, otherwise the first part.
 const Part& default_part(const std::vector<const Part*>& parts) {
   for (const Part* part : parts)
     if (part->protein) return *part;
@@ -198,7 +200,7 @@ std::vector<const StructureAtom*> named_atoms(const StructureResidue& residue, S
   return {n, ca, c};
 }
 
-// An atom without alternates, or the first of its name.
+// Returns the atoms without alternates, and the first of each group of alternates.
 std::vector<const StructureAtom*> all_atoms(const StructureResidue& residue) {
   std::vector<const StructureAtom*> atoms;
   std::set<std::string> with_alternates;
@@ -220,9 +222,9 @@ bool holds_copies(const StructureResidue& residue, const std::vector<const Struc
   });
 }
 
-// An element that the file gives counts. If it gives none, a name in the wrong column would make calcium of
-// CA and mercury of HG: an atom of a chain that is none of its usual elements goes by the first letter of its
-// name.
+// Returns the element that the file gives for the atom. If the file gives none, a name in the wrong column
+// would turn CA into calcium and HG into mercury. An atom of a chain whose element would be unusual there
+// therefore gets the element of its name's first letter.
 std::string element_of(const StructureAtom& atom) {
   using gemmi::El;
   if (atom.element_is_given) return atom.element.name();
@@ -238,8 +240,8 @@ struct PartRead {
   std::vector<SelectedAtom> atoms;
   ChainRead chain;
   std::vector<std::string> lacking;   // residues that lack an atom of the selection
-  std::vector<std::string> repeated;  // residues read that have the number of an earlier one
-  std::vector<std::string> copies;    // residues read that hold a selected atom twice
+  std::vector<std::string> repeated;  // residues read whose number repeats an earlier one
+  std::vector<std::string> copies;    // residues read that contain a selected atom twice
   Selection selection = Selection::automatic;
 };
 
@@ -277,7 +279,7 @@ std::string advice_to_rename(const Part& molecule) {
                      molecule.label);
 }
 
-// Lines on the residues of a part that are left out or doubtful.
+// Adds notes about residues of a part that are left out or doubtful.
 void add_notes(const Parts& parts, const Part& part, const PartRead& read, std::vector<std::string>& notes) {
   constexpr std::size_t most = 5;
   const std::string label = shown(part.label);
@@ -313,7 +315,7 @@ void add_notes(const Parts& parts, const Part& part, const PartRead& read, std::
   }
 }
 
-// A line on the parts that are not read by default.
+// Returns a note about the parts that are not read by default.
 std::optional<std::string> describe_unread(const Parts& parts, const Part& read, const PartRead& beads,
                                            Selection selection) {
   constexpr std::size_t most = 10;

@@ -1,10 +1,10 @@
 #pragma once
-// Which atoms of a structure are the beads of a necklace.
+// Selects the atoms of a structure that are the beads of a necklace.
 //
-// A chain consists of molecules, which TER, segments (PDB) or label_asym_id (mmCIF) tell apart. `--chain`
-// names a chain, or a molecule by its number: A.2 is the second molecule of chain A, 2 the second one without
-// a chain name. Only molecules with amino acids or nucleotides have numbers. A chain's own name goes before
-// that of a molecule.
+// A chain consists of molecules, which TER, segments (PDB) or label_asym_id (mmCIF) distinguish. `--chain`
+// names a chain, or a molecule by its number: A.2 is the second molecule of chain A, and 2 is the second
+// molecule without a chain name. Only molecules with amino acids or nucleotides have numbers. The name of a
+// chain takes precedence over that of a molecule.
 
 #include <cstddef>
 #include <optional>
@@ -26,22 +26,22 @@ struct SelectedAtom {
 struct SelectedChains {
   std::vector<SelectedAtom> atoms;
   std::vector<ChainRead> chains;
-  std::vector<std::string> notes;  ///< on residues and chains that are left out or guessed, a line each
+  std::vector<std::string> notes;  ///< about residues and chains that are left out or guessed, one line each
 };
 
-/// Returns the beads of the chains in `list`, a list between commas, in its order. Without a list, returns
-/// those of the first chain with amino acids, or else of the first chain with nucleotides.
+/// Returns the beads of the chains in the comma-separated `list`, in its order. Without a list, returns the
+/// beads of the first chain with amino acids, otherwise of the first chain with nucleotides.
 ///
-/// Residues of a chain count wherever they stand in the file, unless they are waters, ligands or sugars. If
-/// a chain has no other residues, `all` reads these. The first of alternate locations counts, and the first
-/// of two residues that are alternates.
+/// All residues of a chain count, wherever they stand in the file, unless they are waters, ligands or sugars.
+/// If a chain has only those, the selection `all` reads them. If an atom has alternate locations, the first
+/// one is used; if two residues are alternates, the first one is used.
 ///
 /// Throws InputError naming file and option if a name is not in the model or listed twice, or nothing is
 /// selected.
 [[nodiscard]] SelectedChains select_chains(const std::string& file, const StructureModel& model,
                                            Selection selection, const std::optional<std::string>& list);
 
-/// Van der Waals radii; empty where an element is unknown.
+/// Returns the van der Waals radii of the atoms, or an empty vector if an element is unknown.
 [[nodiscard]] std::vector<double> element_radii_of(const std::vector<SelectedAtom>& atoms);
 
 }  // namespace kds

@@ -1,5 +1,5 @@
 #pragma once
-// What of a file is read.
+// Options that select which atoms and frames of a file are read.
 
 #include <array>
 #include <cstddef>
@@ -13,21 +13,22 @@
 namespace kds {
 
 enum class Selection {
-  automatic,  ///< backbone where residues are known (CA where none has N and C), else all
+  automatic,  ///< backbone if residues are known (CA if no residue has N and C), else all
   backbone,   ///< N, CA, C of each residue that has all three
   ca,
   all,
 };
-/// In the order of the enumerators.
+/// Names, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 4> selection_names{"automatic", "backbone", "ca", "all"};
 [[nodiscard]] constexpr std::string_view name_of(Selection selection) {
   return selection_names[static_cast<std::size_t>(selection)];
 }
 
 struct ReadOptions {
-  std::optional<std::filesystem::path> topology = {};  ///< PDB or mmCIF that names the atoms of a DCD
+  std::optional<std::filesystem::path> topology = {};  ///< PDB or mmCIF file that names the atoms of a DCD
   Selection selection = Selection::automatic;
-  std::optional<std::string> chain = {};  ///< or several between commas; none: the first polymer chain
+  std::optional<std::string> chain = {};  ///< one chain or a comma-separated list; none: the first polymer
+                                          ///< chain
   FrameRange frames = {};
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Readers of trajectories by format, told by the file's ending.
+// The readers of trajectory formats. The file's ending selects the reader.
 
 #include <filesystem>
 #include <functional>
@@ -14,25 +14,26 @@ struct ReadOptions;
 
 struct ReaderSpec {
   std::string name;
-  std::vector<std::string> endings;  ///< in lower case, with their dots; ".pdb.gz" is one too
-  bool takes_topology = false;       ///< another file names its atoms
+  std::vector<std::string> endings;  ///< in lower case, each with its dot; ".pdb.gz" is an ending of its own
+  bool takes_topology = false;       ///< another file names the atoms
   std::function<FramesOpened(const std::filesystem::path&, const ReadOptions&)> open;
 };
 
 class ReaderRegistry {
  public:
-  /// Throws std::logic_error where another reader has one of its endings.
+  /// Adds a reader. Throws std::logic_error if another reader has one of its endings.
   void add(ReaderSpec reader);
-  /// Null where no reader knows the ending.
+  /// Returns the reader for the file's ending, or null.
   [[nodiscard]] const ReaderSpec* find(const std::filesystem::path& path) const;
-  /// ".pdb, .ent, ... or .xyz", for messages.
+  /// Returns ".pdb, .ent, ... or .xyz", for messages.
   [[nodiscard]] std::string endings() const;
 
  private:
   std::vector<ReaderSpec> readers_;
 };
 
-/// Of the process: the framework's own readers, and whatever is added before the first file is read.
+/// Returns the registry of the process. It holds the framework's own readers and those added before the first
+/// file is read.
 [[nodiscard]] ReaderRegistry& reader_registry();
 
 }  // namespace kds

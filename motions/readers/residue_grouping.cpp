@@ -31,8 +31,8 @@ bool share_an_atom(const std::vector<StructureAtom>& a, const std::vector<Struct
                      [&](const StructureAtom& atom) { return held.count(location(atom)) > 0; });
 }
 
-// Tells where a residue begins within a block: where its first atom or one of the backbone comes again. Two
-// atoms of one name in a row are copies of one atom, unless the block has no other names (a model of CA
+// Finds where a new residue begins within a block: where its first atom or a backbone atom appears again. Two
+// consecutive atoms of one name are copies of one atom, unless the block has no other names (a model of CA
 // alone).
 class Restarts {
  public:

@@ -35,7 +35,7 @@ ResidueKind kind_of(const StructureResidue& residue) {
   const bool said_to_be = residue.entity == Entity::polymer;
   const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(residue.name);
   if (info.is_water()) return ResidueKind::none;
-  // A standard residue as HETATM is a free one in the buffer, unless the file says otherwise.
+  // A standard residue as HETATM is a free molecule in the buffer, unless the file says otherwise.
   if (!said_to_be && info.found() && info.is_standard() && residue.het) return ResidueKind::none;
   if (info.found() && info.is_amino_acid()) return ResidueKind::protein;
   if (info.found() && info.is_nucleic_acid()) return ResidueKind::nucleic;

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a residue belongs to a polymer, by what the file says and by its name and atoms.
+// Decides whether a residue belongs to a polymer, from what the file says and from its name and atoms.
 
 #include <string_view>
 
@@ -11,18 +11,18 @@ enum class ResidueKind {
   none,  ///< water, ligand, sugar, ion
   protein,
   nucleic,
-  cap,  ///< part of a polymer, neither an amino acid nor a nucleotide
+  cap,  ///< part of a polymer, but neither an amino acid nor a nucleotide
 };
 
 [[nodiscard]] ResidueKind kind_of(const StructureResidue& residue);
 
-/// The first atom of this name, null if there is none.
+/// Returns the first atom of this name, or null.
 [[nodiscard]] const StructureAtom* first_named(const StructureResidue& residue, std::string_view name);
 
-/// Whether the residue has N, CA and C.
+/// Returns whether the residue has N, CA and C.
 [[nodiscard]] bool has_backbone(const StructureResidue& residue);
 
-/// Whether the name is that of an amino acid or a nucleotide in the table of residues.
+/// Returns whether the name is that of an amino acid or a nucleotide in the table of residues.
 [[nodiscard]] bool is_tabulated_monomer(const std::string& name);
 
 }  // namespace kds

@@ -1,7 +1,6 @@
 #pragma once
-// The models of a PDB or mmCIF file, one after the other: of a PDB file only the model asked for is in
-// memory. Both readers hand over every atom of a model; which of them are beads is decided in
-// polymer_selection.h.
+// The models of a PDB or mmCIF file in sequence. For a PDB file, only the requested model is in memory. Both
+// readers return every atom of a model; polymer_selection.h decides which of them are beads.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -21,8 +20,8 @@ struct StructureAtom {
   std::string name;
   char alternate = '\0';  ///< location indicator, 0 if the atom has one location
   gemmi::Element element{gemmi::El::X};
-  bool element_is_given = false;  ///< in a column of its own, not guessed from the name
-  std::size_t place = 0;          ///< among the model's atoms in the file, from 0
+  bool element_is_given = false;  ///< given in its own column, not guessed from the name
+  std::size_t place = 0;          ///< index among the model's atoms in the file, from 0
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
@@ -30,11 +29,12 @@ struct StructureAtom {
 enum class Entity { unknown, polymer, other };
 
 struct StructureResidue {
-  std::string chain, number, name;  ///< the number with its insertion code, as in 52A
+  std::string chain, number, name;  ///< the number includes its insertion code, as in 52A
   std::string sequence;             ///< number in the entity's sequence (mmCIF), empty if the file has none
-  std::string molecule;   ///< tells the molecules of a chain apart: by TER and segment, or label_asym_id
-  bool het = false;       ///< its first atom is a HETATM
-  bool repeated = false;  ///< an earlier residue of the molecule has the number of this one
+  std::string molecule;             ///< identifies the molecule within the chain: by TER and segment, or by
+                                    ///< label_asym_id
+  bool het = false;                 ///< its first atom is a HETATM
+  bool repeated = false;            ///< an earlier residue of the molecule has the same number
   Entity entity = Entity::unknown;
   std::vector<StructureAtom> atoms;
 };
@@ -43,20 +43,20 @@ struct StructureModel {
   std::vector<StructureResidue> residues;  ///< in the order of the file
   std::size_t atom_count = 0;
   CellRead cell;
-  std::vector<std::string> notes;  ///< on how this model is read, one line each without the file's name
+  std::vector<std::string> notes;  ///< about how this model was read, one line each, without the file's name
 };
 
 class StructureModels {
  public:
   virtual ~StructureModels() = default;
   [[nodiscard]] virtual FramesHeld held() const = 0;
-  /// Quick if models are asked for in their order. Throws InputError naming file and model.
+  /// Returns the k-th model. Fast if models are requested in order. Throws InputError naming file and model.
   [[nodiscard]] virtual StructureModel model(std::size_t k) = 0;
-  /// Lines about parts of the file that are not read, without the file's name.
+  /// Returns lines about parts of the file that are not read, without the file's name.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 };
 
-/// Throws InputError if the file cannot be read or holds no atoms.
+/// Open a file. Throw InputError if the file cannot be read or contains no atoms.
 [[nodiscard]] std::unique_ptr<StructureModels> open_pdb(const std::filesystem::path& path);
 [[nodiscard]] std::unique_ptr<StructureModels> open_mmcif(const std::filesystem::path& path);
 

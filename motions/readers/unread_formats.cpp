@@ -16,7 +16,7 @@ namespace {
 
 struct UnreadFormat {
   std::string_view ending;
-  std::string_view program;  // that writes it
+  std::string_view program;  // the program that writes it
   std::string_view advice;
 };
 

@@ -5,8 +5,8 @@
 
 namespace kds {
 
-/// Throws InputError if the ending is that of such a format and no reader has it: the message names the
-/// program that converts it.
+/// Throws InputError if the file's ending belongs to such a format and no reader is registered for it. The
+/// message names the program that converts the format.
 void refuse_unread_format(const std::filesystem::path& path);
 
 }  // namespace kds

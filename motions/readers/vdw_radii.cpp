@@ -10,9 +10,9 @@ namespace kds {
 namespace {
 
 std::optional<double> radius_of(gemmi::Element element) {
-  // From rutherfordium on the table holds placeholders.
+  // The table holds placeholders from rutherfordium on.
   if (element == gemmi::El::X || (element.ordinal() >= 104 && element != gemmi::El::D)) return std::nullopt;
-  // The table is in float: back to the two decimals it was written with.
+  // The table stores floats, so round to the two decimals of its source.
   return std::round(static_cast<double>(element.vdw_r()) * 100) / 100;
 }
 

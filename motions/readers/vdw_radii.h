@@ -7,7 +7,8 @@
 
 namespace kds {
 
-/// None for what is no element symbol (case does not matter) or has no measured radius.
+/// Return the radius, or nothing if the argument is not an element (symbols may be in either case) or if the
+/// element has no measured radius.
 [[nodiscard]] std::optional<double> van_der_waals_radius(std::string_view symbol);
 [[nodiscard]] std::optional<double> van_der_waals_radius(std::size_t atomic_number);
 

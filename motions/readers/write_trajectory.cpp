@@ -13,7 +13,7 @@ namespace kds {
 
 namespace {
 
-constexpr std::size_t kMostNumbered = 9999;  // four columns, for residues and for models
+constexpr std::size_t kMostNumbered = 9999;  // four columns, for the numbers of residues and models
 
 void put(std::ostream& stream, const std::string& text) {
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
@@ -29,7 +29,7 @@ void check_counts(const Trajectory& trajectory, std::string_view file) {
   check(trajectory.frames.size(), "frame");
 }
 
-// To what eight columns with three decimals hold.
+// Rounds to eight columns with three decimals.
 double in_thousandths(double x, std::string_view file, std::size_t frame, Eigen::Index bead, char axis) {
   const double rounded = std::nearbyint(x * 1000);
   if (!(rounded >= -999999 && rounded <= 9999999))
@@ -53,7 +53,7 @@ void write_xyz(std::ostream& stream, const Trajectory& trajectory, std::string_v
 }
 
 void write_pdb(std::ostream& stream, const Trajectory& trajectory, std::string_view about) {
-  constexpr std::size_t width = 70;  // of a title's lines, the second and later ones numbered
+  constexpr std::size_t width = 70;  // of a title line; the second and later lines are numbered
   for (std::size_t line = 0; line * width < about.size(); ++line)
     put(stream, fmt::format("TITLE   {:>2}{}\n", line == 0 ? "" : std::to_string(line + 1),
                             about.substr(line * width, width)));

@@ -1,5 +1,5 @@
 #pragma once
-// Writes a necklace as the readers read it.
+// Writes a necklace in formats that the readers read.
 
 #include <iosfwd>
 #include <string_view>
@@ -8,16 +8,17 @@
 
 namespace kds {
 
-/// XYZ: coordinates read back exactly. Atoms of no element (X); `about` is each frame's comment, without
-/// line ends.
+/// Writes XYZ. Coordinates read back exactly. Atoms have no element (X). `about` is the comment of each frame
+/// and must not contain line ends.
 void write_xyz(std::ostream& stream, const Trajectory& trajectory, std::string_view about);
 
-/// PDB: one model a frame, one residue (UNK) a bead, its atom CA. Coordinates have three decimals.
+/// Writes PDB, with one model per frame and one residue (UNK) with one atom (CA) per bead. Coordinates have
+/// three decimals.
 void write_pdb(std::ostream& stream, const Trajectory& trajectory, std::string_view about);
 
-/// What the reader makes of write_pdb's coordinates: the doubles nearest to them in thousandths. Throws
-/// InputError where the columns of PDB do not hold them, or the numbers of beads and frames; it names the
-/// `file` and the bead.
+/// Returns the trajectory that the reader obtains from write_pdb's output: each coordinate is the double
+/// nearest to its value in thousandths. Throws InputError naming the `file` and the bead if the columns of
+/// PDB cannot hold a coordinate, or the number of beads or frames.
 [[nodiscard]] Trajectory as_in_pdb(const Trajectory& trajectory, std::string_view file);
 
 }  // namespace kds

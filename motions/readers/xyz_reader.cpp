@@ -38,7 +38,8 @@ class XyzFile {
     next_ = 0;
   }
 
-  // Quick if frames are asked for in their order. All frames must have the atoms of the one read first.
+  // Reads the k-th frame. Fast if frames are requested in order. All frames must have the atoms of the frame
+  // read first.
   void read_frame(std::size_t k, FrameRead& frame) {
     if (k < next_) rewind();
     FramesHeld held{next_, false};
@@ -62,7 +63,7 @@ class XyzFile {
     if (!first_frame_) first_frame_ = k;
   }
 
-  // Returns the symbols in the frame that was read first; empty if the file has none.
+  // Returns the symbols in the frame that was read first, or an empty vector if the file has none.
   const std::vector<std::string>& symbols() const { return symbols_; }
 
  private:
@@ -76,7 +77,7 @@ class XyzFile {
     throw InputError(fmt::format("{}: frame {}: is gone since the file was first read", lines_.name(), k));
   }
 
-  // The line of a frame's number of atoms; false where no frame follows.
+  // Reads the line with the number of atoms. Returns false if no frame follows.
   bool read_count() {
     while (read_line())
       if (!trimmed(line_).empty()) return true;
@@ -88,7 +89,7 @@ class XyzFile {
     return fields.size() == 1 ? parse_count(fields.front()) : std::nullopt;
   }
 
-  // Counts lines only: what they hold is looked at in the frames asked for.
+  // Skips a frame by counting lines. Contents are examined only in the requested frames.
   bool skip_frame(FramesHeld& held) {
     if (!read_count()) return false;
     const auto count = atoms_in_frame();
@@ -107,7 +108,8 @@ class XyzFile {
     return true;
   }
 
-  // Whether the frame is all there; the last line of a cut file may be cut itself.
+  // Skips the atoms. Returns whether the frame is complete. The last line of a truncated file may be
+  // truncated itself.
   bool skip_atoms(std::size_t count) {
     if (!read_line()) return false;
     const std::string comment(line_);
@@ -121,7 +123,7 @@ class XyzFile {
     try {
       columns = read_xyz_comment(comment).columns;
     } catch (const InputError&) {
-      return true;  // reading the frame says why
+      return true;  // reading the frame reports the reason
     }
     const auto fields = split_fields(line_);
     if (fields.size() < columns.count) return false;
@@ -159,7 +161,8 @@ class XyzFile {
     return position;
   }
 
-  // Finds the number in C-100.125, where a coordinate fills its column. Types such as C.3 have no number.
+  // Returns whether the symbol contains a number, as in C-100.125, where a coordinate fills its column. Types
+  // such as C.3 contain no number.
   static bool has_number(std::string_view symbol) {
     const auto is_digit = [&](std::size_t i) {
       return i < symbol.size() && symbol[i] >= '0' && symbol[i] <= '9';
@@ -168,7 +171,7 @@ class XyzFile {
     return point != std::string_view::npos && point > 0 && is_digit(point - 1) && is_digit(point + 1);
   }
 
-  // Keeps the fields of the first frame; those of others must be the same, atom by atom.
+  // Keeps the fields of the first frame. Other frames must have the same fields, atom by atom.
   void check_same(std::vector<std::string>& kept, std::string_view field, const char* what, std::size_t frame,
                   std::size_t i) {
     if (!first_frame_) {
@@ -184,9 +187,9 @@ class XyzFile {
   std::string_view line_;
   std::size_t atoms_ = 0;
   FramesHeld held_;
-  std::size_t next_ = 0;  // frame that the next line begins
+  std::size_t next_ = 0;  // the frame at the next line
   std::optional<std::size_t> first_frame_;
-  std::vector<std::string> symbols_, ids_;  // of that frame
+  std::vector<std::string> symbols_, ids_;  // of the first frame
 };
 
 class XyzFrames final : public FrameReader {
@@ -206,7 +209,8 @@ class XyzFrames final : public FrameReader {
   std::size_t next_ = 0;
 };
 
-// Atom names of amino acids, in capitals. Some are symbols of elements as well.
+// Returns the element of an amino acid's atom name in capitals. Some of these names are also symbols of
+// elements.
 std::optional<char> element_of_atom_name(std::string_view name) {
   constexpr std::array<std::string_view, 12> heavy{"CA", "CB", "CG", "CD", "CE", "CZ",
                                                    "NE", "NZ", "OG", "OH", "SD", "SG"};
@@ -214,7 +218,7 @@ std::optional<char> element_of_atom_name(std::string_view name) {
   if (name == "OXT" || std::find(heavy.begin(), heavy.end(), name) != heavy.end() ||
       std::find(hydrogens.begin(), hydrogens.end(), name) != hydrogens.end())
     return name[0];
-  // Names such as CG1, OD2, HB3 or HD11 have an element, a letter of remoteness and digits.
+  // Names such as CG1, OD2, HB3 or HD11 consist of an element, a remoteness letter and digits.
   const std::size_t digits = name.find_first_of("0123456789");
   if (digits != 2 || name.size() > 4 ||
       name.find_first_not_of("0123456789", digits) != std::string_view::npos)
@@ -224,7 +228,8 @@ std::optional<char> element_of_atom_name(std::string_view name) {
   return is_element && is_remote ? std::optional(name[0]) : std::nullopt;
 }
 
-// Names are told from symbols by the whole column: some are no symbols, or CA stands alone or with N.
+// Decides from the whole column whether it holds atom names or element symbols: names if some entries are not
+// symbols, or if CA occurs alone or with N.
 bool holds_atom_names(const std::vector<std::string>& symbols) {
   bool has_alpha = false, has_nitrogen = false, all_alpha = true;
   for (const std::string& symbol : symbols) {

@@ -1,7 +1,7 @@
 #pragma once
-// XYZ files, plain or gzipped: for each frame a line with the number of atoms, a comment, then a line
-// `symbol x y z` for each atom, whose rest is not read. A comment with key=value pairs (extended XYZ) gives
-// the cell (Lattice, pbc) and other columns (Properties). Atoms keep their symbols and ids in all frames.
+// XYZ files, plain or gzipped. Each frame has a line with the number of atoms, a comment, and a line `symbol
+// x y z` for each atom; further columns are ignored. A comment with key=value pairs (extended XYZ) gives the
+// cell (Lattice, pbc) and other columns (Properties). Atoms must keep their symbols and ids in all frames.
 
 #include <filesystem>
 
