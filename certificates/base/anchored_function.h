@@ -1,8 +1,9 @@
 #pragma once
-// A certificate's function with constants (constants.h) as a function of beads alone, so that all views,
-// error bounds and exact stages serve it as they are. Its constants are kept by *anchors*, beads of the
-// search's own that stand beside the certificate's: the first is at the origin and zero all over, then one
-// each constant. A length is an anchor's radius, a squared length its weight, a vector or point its centre.
+// Turns a certificate's function with constants (constants.h) into a function of beads alone, so that all
+// views, error bounds and exact stages work unchanged. The constants are represented by *anchors*, extra
+// beads of the search next to the certificate's beads. The first anchor is at the origin with all channels
+// zero; one anchor per constant follows. A length is an anchor's radius, a squared length its weight, a
+// vector or point its centre.
 
 #include <algorithm>
 #include <array>
@@ -15,7 +16,7 @@
 
 namespace kds {
 
-/// A view that knows a certificate's constants. `anchors`: the first of them.
+/// A view that knows a certificate's constants. `anchors` is the first anchor.
 template <class View, class Certificate>
 class AnchoredView {
   using Constants = ConstantsOf<Certificate>;
@@ -52,7 +53,8 @@ class AnchoredView {
     if constexpr (Power == 1) {
       return view_.radius_difference(anchor, anchors_[0]);
     } else {
-      // Filters whose bound is in powers of the largest length hear of one not below the root.
+      // Also read the radius, a length not below the constant's square root, for filters whose bound is in
+      // powers of the largest length.
       if constexpr (requires { view_.largest_length(); } || std::is_same_v<Number, Recorded>)
         static_cast<void>(view_.radius_difference(anchor, anchors_[0]));
       return view_.weight_difference(anchor, anchors_[0]);
@@ -94,7 +96,7 @@ struct AnchoredFunction {
 
   std::array<BeadId, own_beads + anchors> beads{};
   bool wanted_side = true;
-  const Certificate* certificate = nullptr;  ///< for messages, while it is searched
+  const Certificate* certificate = nullptr;  ///< used in messages during a search
 
   [[nodiscard]] Identity identity() const { return certificate->identity(); }
   [[nodiscard]] bool side() const { return wanted_side; }

@@ -1,13 +1,14 @@
 #pragma once
-// What a certificate type must offer. It names a few beads and has one function of time, written once over a
-// MotionView: positive while the certificate holds. The function must be homogeneous in lengths (weights
-// count as squares). It does not depend on the origin unless it asks for positions or has a constant point;
-// these and constants of the type are in constants.h. Everything else is derived: the floating-point filter
-// and its error bound, four certificates at once, the exact isolation, the order of simultaneous failures.
+// The requirements on a certificate type. A certificate names a few beads and has one function of time, which
+// is positive while the certificate holds. The function is written once, over a MotionView. It must be
+// homogeneous in lengths (weights count as squares). It is independent of the origin unless it uses positions
+// or has a constant point; constants.h describes these and the constants of a type. Everything else is
+// derived from the function: the floating-point filter and its error bound, processing of four certificates
+// at once, exact root isolation, and the order of simultaneous failures.
 //
-// The function is a static `formula(view, beads)`, or its negative where side() is false. One that asks for
-// weights or radii says so: `static constexpr bool uses_weights = true` (`uses_radii`). Where motions are of
-// degree 2 or 3 and speed matters, `static constexpr int lanes_up_to_degree = 3`.
+// The function is a static `formula(view, beads)`, or its negative if side() is false. A type that uses
+// weights or radii declares `static constexpr bool uses_weights = true` (`uses_radii`). If motions have
+// degree 2 or 3 and speed matters, it declares `static constexpr int lanes_up_to_degree = 3`.
 
 #include <concepts>
 #include <cstddef>
@@ -19,7 +20,8 @@
 
 namespace kds {
 
-/// What a function asks of beads besides their centres: it says so by `uses_weights` and `uses_radii`.
+/// The channels that a function uses besides the centres of beads, as declared by `uses_weights` and
+/// `uses_radii`.
 template <class F>
 inline constexpr Channels channels_of = [] {
   Channels channels;
@@ -28,32 +30,33 @@ inline constexpr Channels channels_of = [] {
   return channels;
 }();
 
-/// How many beads a function is of.
+/// The number of beads of a function.
 template <class F>
 inline constexpr std::size_t bead_places = std::tuple_size_v<decltype(F{}.beads)>;
 
-/// What a formula is about: beads and, where that is no plain array, what else is in it.
+/// The argument of a formula: an array of beads, or a type that holds further parameters too.
 template <class F>
 using BeadsOf = decltype(F{}.beads);
 
-/// The same with a bead's place, 0, 1, 2 ..., for each bead: how formulas over lanes name them.
+/// Returns beads numbered by their places 0, 1, 2 ..., as formulas over lanes name them. Further parameters
+/// are kept.
 template <class F>
 [[nodiscard]] constexpr BeadsOf<F> in_places(BeadsOf<F> beads = {}) {
   for (std::size_t place = 0; place < bead_places<F>; ++place) beads[place] = static_cast<BeadId>(place);
   return beads;
 }
 
-/// Searches go four at a time in motions up to this degree, 0 to 3, and one at a time in others. Each takes a
-/// second or more to compile: 1 where the type says nothing. Over lifted motion types that ask for weights
-/// always go so.
+/// The highest degree of motions, 0 to 3, whose certificates are searched four at a time; others are searched
+/// one at a time. Each degree takes a second or more to compile. The default is 1. Over lifted motion, types
+/// that use weights are always searched four at a time.
 template <class F>
 inline constexpr int lanes_up_to_degree = [] {
   if constexpr (requires { F::lanes_up_to_degree; }) return F::lanes_up_to_degree;
   return 1;
 }();
 
-/// A function of a few beads over this motion. Over a lifted motion, whose radii mean nothing, it must not
-/// ask for radii.
+/// A function of a few beads over this motion. Over a lifted motion, which has no meaningful radii, it must
+/// not use radii.
 template <class F, class M>
 concept FunctionOfBeads =
     Motion<M> && !(lifted<M> && channels_of<F>.radii) &&
@@ -64,7 +67,7 @@ concept FunctionOfBeads =
   F::formula(view, f.beads).degree;
 };
 
-/// The function itself, in the view's numbers.
+/// Returns the function itself in the view's number type.
 template <class F, MotionView View>
 [[nodiscard]] auto function_of(const F& f, const View& view) {
   const auto value = F::formula(view, f.beads);

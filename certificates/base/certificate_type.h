@@ -1,5 +1,5 @@
 #pragma once
-// How certificates are named: their types, and the functions they are about.
+// Names of certificates: their types, and the functions they are about.
 
 #include <array>
 #include <compare>
@@ -12,18 +12,18 @@
 
 namespace kds {
 
-/// A certificate type's own name and number: no list holds them. Simultaneous failures are handled in the
-/// order of numbers; those below 1000 are the framework's. Two types of one number in a run are refused when
-/// their tables are made (kds/certificate_table.h).
+/// A certificate type's name and number. There is no central list of types. Simultaneous failures are handled
+/// in the order of numbers; numbers below 1000 are reserved for the framework. If two types in a run have
+/// the same number, creating their tables throws (kds/certificate_table.h).
 struct CertificateType {
   std::uint32_t number = 0;
   std::string_view name;
 };
 
-/// Names the function of a certificate among all of a run, whatever structure holds it. Certificates with the
-/// same identity have, up to a positive or negative factor, the same function; where a type has constants it
-/// is CertificateTable::identity that tells, which knows them. Ties between failure times are
-/// broken by it: type first, then beads.
+/// Names the function of a certificate among all functions of a run, whatever structure holds the
+/// certificate. Certificates with the same identity have the same function up to a positive or negative
+/// factor. For types with constants, CertificateTable::identity provides the identity, because it knows the
+/// constants. Ties between failure times are broken by identity: type first, then beads.
 struct Identity {
   static constexpr std::size_t most_beads = 8;
 
@@ -33,7 +33,7 @@ struct Identity {
   friend constexpr auto operator<=>(const Identity&, const Identity&) = default;
 };
 
-/// The identity of a certificate that keeps its beads in one order.
+/// Returns the identity of a certificate that keeps its beads in one fixed order.
 template <std::size_t N>
 [[nodiscard]] constexpr Identity identity_of(const CertificateType& type,
                                              const std::array<BeadId, N>& beads) {
@@ -52,13 +52,13 @@ template <class C>
 concept HasIdentity = requires(const C& certificate) {
   { certificate.identity() } -> std::same_as<Identity>;
 };
-/// Differs between a function and its negative of one identity.
+/// side() distinguishes a function from its negative, which has the same identity.
 template <class C>
 concept HasSide = requires(const C& certificate) {
   { certificate.side() } -> std::same_as<bool>;
 };
 
-/// What every certificate has, whatever its kind.
+/// The requirements common to all kinds of certificates.
 template <class C>
 concept NamedCertificate = HasCertificateType<C> && HasIdentity<C> && HasSide<C>;
 

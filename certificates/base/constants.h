@@ -1,17 +1,17 @@
 #pragma once
-// What a certificate type may know besides its beads: constants, members of `struct Constants` within the
-// type, one set of them for all certificates of a table (CertificateTable::set_constants). Each has a
-// declared power of length, so that the function stays homogeneous, and may change in a step as beads do: a
-// constant has one control point, or as many as the motion's curves. Its control points, doubles, are the
-// constant; nothing is rounded.
+// Constants of a certificate type: knowledge besides its beads. They are the members of `struct Constants`
+// within the type, and all certificates of a table share one set of them (CertificateTable::set_constants).
+// Each constant has a declared power of length, so that the function stays homogeneous. A constant may change
+// within a step as beads do: it has one control point, or as many as the motion's curves. The control points
+// are doubles that define the constant exactly; nothing is rounded.
 //
 //   Constant<1>, Constant<2>   a length, a squared length: view.constant(&Constants::name), a polynomial
 //   ConstantVector<D>          a vector of lengths, as of a plane's normal: view.constant, D polynomials
 //   ConstantPoint<D>           a point: view.place, used in the formula where a bead is
 //   ConstantBead               a bead that all certificates of the table name: view.place
 //
-// A type may ask for positions of beads, view.position(bead), and says so:
-// `static constexpr bool uses_positions = true`. Of all this types that use none of it pay nothing.
+// A type that uses the positions of beads, view.position(bead), declares `static constexpr bool
+// uses_positions = true`. Types without constants and positions pay nothing for these features.
 
 #include <array>
 #include <concepts>
@@ -29,7 +29,7 @@ namespace kds {
 
 namespace detail {
 
-/// Control points one after the other.
+/// The control points in sequence.
 class ConstantCurve {
  public:
   [[nodiscard]] const std::vector<double>& numbers() const { return numbers_; }
@@ -62,7 +62,10 @@ class Constant : public detail::ConstantCurve {
 
  public:
   Constant() = default;
-  Constant(double value) { numbers_ = {value}; }  // NOLINT: a number is one
+  Constant(double value) {
+    numbers_ = {value};
+  }  // NOLINT: implicit, so that a number can be passed as a
+     // constant
   Constant(std::initializer_list<double> control_points) { numbers_ = control_points; }
   explicit Constant(std::span<const double> control_points) {
     numbers_.assign(control_points.begin(), control_points.end());
@@ -84,7 +87,7 @@ class ConstantPoint : public detail::ConstantVectorCurve<Dimension> {
 class ConstantBead {
  public:
   ConstantBead() = default;
-  ConstantBead(BeadId bead) : bead_(bead) {}  // NOLINT: a bead is one
+  ConstantBead(BeadId bead) : bead_(bead) {}  // NOLINT: implicit, so that a bead can be passed as a constant
   [[nodiscard]] BeadId bead() const { return bead_; }
 
  private:
@@ -100,7 +103,7 @@ inline constexpr bool uses_positions = [] {
   if constexpr (requires { Certificate::uses_positions; }) return Certificate::uses_positions;
   return false;
 }();
-/// Whether its formula asks for more than beads have relative to each other.
+/// Whether the formula uses more than the relative positions of beads.
 template <class Certificate>
 concept NeedsAnchors = HasConstants<Certificate> || uses_positions<Certificate>;
 
@@ -110,7 +113,7 @@ inline constexpr std::size_t most_constants = 6;
 
 struct AnyMember {
   template <class T>
-  operator T() const;  // never called: counts the members of an aggregate
+  operator T() const;  // never called: used to count the members of an aggregate
 };
 template <class Aggregate, class... Members>
 [[nodiscard]] consteval std::size_t member_count() {
@@ -121,7 +124,7 @@ template <class Aggregate, class... Members>
   }
 }
 
-/// References to the members of an aggregate, in their order.
+/// Returns references to the members of an aggregate, in their order.
 template <class Aggregate>
 [[nodiscard]] auto members_of(const Aggregate& of) {
   constexpr std::size_t count = member_count<Aggregate>();
@@ -180,13 +183,13 @@ struct ConstantsOfType<Certificate> {
 
 }  // namespace detail
 
-/// Those of a certificate type; an empty struct where it has none.
+/// The constants of a certificate type; an empty struct if it has none.
 template <class Certificate>
 using ConstantsOf = typename detail::ConstantsOfType<Certificate>::Type;
 template <class Certificate>
 using ConstantMembers = decltype(detail::members_of(std::declval<const ConstantsOf<Certificate>&>()));
 
-/// Whether each of its constants, if it has any, declares a power of length.
+/// Whether every constant of the type declares a power of length.
 template <class Certificate>
 concept DeclaresItsConstants =
     std::is_aggregate_v<ConstantsOf<Certificate>> && detail::all_are_constants<ConstantMembers<Certificate>>;
@@ -198,7 +201,7 @@ inline const Constants sample_of_constants{};
 
 }  // namespace detail
 
-/// Which of the constants a member is, from 0.
+/// Returns the index of a member among the constants, from 0.
 template <class Constants, class Member>
 [[nodiscard, gnu::always_inline]] inline std::size_t place_of_constant(Member Constants::*member) {
   const Constants& sample = detail::sample_of_constants<Constants>;

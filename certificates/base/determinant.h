@@ -1,24 +1,24 @@
 #pragma once
-// Determinants of polynomials, by Laplace expansion over 2x2 minors: exact where the numbers are.
+// Determinants of polynomials by Laplace expansion over 2x2 minors. Exact if the number type is.
 
 #include "motions/numbers/bernstein.h"
 
 namespace kds {
 
-/// a0 b1 - a1 b0
+/// Returns a0 b1 - a1 b0.
 template <class P, class Q>
 [[nodiscard]] constexpr auto minor(const P& a0, const Q& a1, const P& b0, const Q& b1) {
   return a0 * b1 - a1 * b0;
 }
 
-/// Cross product.
+/// Returns the cross product.
 template <class Number, int A, int B>
 [[nodiscard]] constexpr BernsteinVector<Number, A + B, 3> cross(const BernsteinVector<Number, A, 3>& a,
                                                                 const BernsteinVector<Number, B, 3>& b) {
   return {minor(a[1], a[2], b[1], b[2]), minor(a[2], a[0], b[2], b[0]), minor(a[0], a[1], b[0], b[1])};
 }
 
-/// Determinant of the three rows.
+/// Returns the determinant of three rows.
 template <class Number, int Degree>
 [[nodiscard]] constexpr auto determinant(const BernsteinVector<Number, Degree, 3>& a,
                                          const BernsteinVector<Number, Degree, 3>& b,
@@ -27,7 +27,7 @@ template <class Number, int Degree>
          minor(b[0], b[1], c[0], c[1]) * a[2];
 }
 
-/// Determinant of three rows (x, y, l), where l has its own degree.
+/// Returns the determinant of three rows (x, y, l), where l has a degree of its own.
 template <class Number, int Degree, int Last>
 [[nodiscard]] constexpr auto determinant(const std::array<BernsteinVector<Number, Degree, 2>, 3>& row,
                                          const std::array<Bernstein<Number, Last>, 3>& l) {
@@ -35,7 +35,7 @@ template <class Number, int Degree, int Last>
   return xy(0, 1) * l[2] - xy(0, 2) * l[1] + xy(1, 2) * l[0];
 }
 
-/// Determinant of four rows (x, y, z, l), where l has its own degree.
+/// Returns the determinant of four rows (x, y, z, l), where l has a degree of its own.
 template <class Number, int Degree, int Last>
 [[nodiscard]] constexpr auto determinant(const std::array<BernsteinVector<Number, Degree, 3>, 4>& row,
                                          const std::array<Bernstein<Number, Last>, 4>& l) {

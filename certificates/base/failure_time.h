@@ -1,12 +1,13 @@
 #pragma once
-// When a certificate fails: a bracket in doubles, and which root of the certificate's function in it.
+// The time at which a certificate fails: a bracket of two doubles, and which root of the certificate's
+// function in the bracket is meant.
 //
-// Exact: the time is root number `ordinal` (from 0, each root once) of the function in [lower, upper];
-// together with the function this determines it. If lower < upper it lies strictly between. If `isolating`,
-// there is no other root in the bracket and the function's signs at lower and at upper differ, both proved.
-// The function is the certificate's own, which turns negative there, or, for a radical certificate, one that
-// has all its roots (its norm, radical.h) and may change either way. The `fast` kernel gives lower == upper
-// without any proof.
+// The time is root number `ordinal` (from 0, each root counted once) of the function in [lower, upper].
+// Together with the function, this determines the time exactly. If lower < upper, the time lies strictly
+// between them. If `isolating`, there is no other root in the bracket, and the function's signs at lower and
+// upper are proved to differ. The function is the certificate's own, which turns negative at the time. For a
+// radical certificate it is a polynomial that has all roots of the certificate's function (the norm,
+// radical.h) and may change sign in either direction. The `fast` kernel gives lower == upper without proof.
 
 #include <cstdint>
 
@@ -17,20 +18,21 @@ struct FailureTime {
   double upper = 0;
   std::uint16_t ordinal = 0;
   bool isolating = true;
-  bool touch = false;  ///< the function only touches zero there: no failure, see TouchPolicy
+  bool touch = false;  ///< the function only touches zero there, which is no failure, see TouchPolicy
   bool last = false;   ///< known to be the function's last root in the step, and not at its end
 };
 
-/// Whether a structure is told that a function touches zero without changing sign. That is no failure. But
-/// motions in general position have no such moments, so that a structure may have to look at itself then.
+/// Whether a structure is told when a function touches zero without changing sign. A touch is not a failure.
+/// However, motions in general position have no touches, so a structure may have to examine itself at one.
 enum class TouchPolicy : std::uint8_t { ignored, reported };
 
-/// What a search finds out about a new certificate. That it never fails is a value, not a large number.
+/// The result of searching a new certificate. A certificate that never fails has its own kind, not a large
+/// time.
 struct Failure {
   enum class Kind : std::uint8_t {
     never,     ///< holds for the rest of the step
-    zero,      ///< the function is zero for the whole step: never fails either
-    later,     ///< fails at `time`, before the end of the step, or touches zero then
+    zero,      ///< the function is zero on the whole step, so it never fails either
+    later,     ///< fails at `time`, before the end of the step, or only touches zero then
     at_birth,  ///< does not hold just after the present time
   };
   Kind kind = Kind::never;

@@ -1,7 +1,6 @@
 #pragma once
-// The view over which a certificate's formula is looked at first, by the compiler alone, so that what is
-// wrong with it is said in a sentence and at once: the formula's other views come to light deep within
-// searches.
+// The view over which the compiler first checks a certificate's formula. Mistakes are reported immediately in
+// one sentence; the formula's other views would report them deep within the templates of the searches.
 
 #include <algorithm>
 #include <concepts>
@@ -12,14 +11,14 @@
 
 namespace kds {
 
-/// A quantity known by its power of length alone; zero has any.
+/// A quantity known only by its power of length. Zero has any power.
 struct LengthPower {
   static constexpr int any = -1;
 
   int power = any;
-  bool unlike = false;  ///< unlike powers were added on the way
+  bool unlike = false;  ///< unlike powers were added to form it
 
-  /// A whole number.
+  /// Returns a whole number, which has power 0.
   static constexpr LengthPower constant(double) { return {0}; }
 
   constexpr LengthPower& operator+=(const LengthPower& other) {
@@ -130,15 +129,15 @@ template <class Certificate, int Dimension>
 
 }  // namespace detail
 
-/// As far as the compiler can tell: of a formula that is constexpr. Of others it comes to light when their
-/// error bound is derived.
+/// Checks the formula at compile time, if it is constexpr. Otherwise the mistake is reported when the
+/// formula's error bound is derived.
 template <class Certificate, int Dimension>
 concept AddsUnlikePowers = requires {
   requires std::bool_constant < detail::adds_unlike_powers<Certificate, Dimension>()
   > ::value;
 };
 
-/// Terms of unlike degrees: refused in a sentence.
+/// Rejects terms of unlike degrees with a readable message.
 template <int A, int B>
 requires(A != B) constexpr auto operator+(const Bernstein<LengthPower, A>& a,
                                           const Bernstein<LengthPower, B>&) {
@@ -156,7 +155,7 @@ requires(A != B) constexpr auto operator-(const Bernstein<LengthPower, A>& a,
   return a;
 }
 
-/// A bare number added to a polynomial of lengths: refused in a sentence.
+/// Rejects adding a bare number to a polynomial of lengths, with a readable message.
 template <int Degree, class Bare>
 requires(std::is_arithmetic_v<Bare>) constexpr auto operator+(const Bernstein<LengthPower, Degree>& lengths,
                                                               Bare) {

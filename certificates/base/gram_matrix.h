@@ -1,6 +1,6 @@
 #pragma once
-// The Gram matrix G of up to three vectors, its determinant g and its adjugate A: what the sphere that
-// touches balls is made of without a division (certificates/types/ball_in_sphere.h), in whole numbers and in
+// The Gram matrix G of up to three vectors, its determinant g and its adjugate A. They express the sphere
+// that touches a set of balls without divisions (certificates/types/ball_in_sphere.h), in integers and in
 // enclosures.
 
 #include <array>
@@ -11,9 +11,9 @@ namespace kds {
 template <class Number>
 class GramMatrix {
  public:
-  using Row = std::array<Number, 3>;  // places beyond the size are not used
+  using Row = std::array<Number, 3>;  // entries beyond the size are unused
 
-  /// Of the first `size` vectors, 1 to 3.
+  /// Takes the first `size` vectors, 1 to 3.
   template <std::size_t Dimension>
   GramMatrix(const std::array<std::array<Number, Dimension>, 3>& vectors, std::size_t size) : size_(size) {
     for (std::size_t i = 0; i < size; ++i) {
@@ -29,15 +29,15 @@ class GramMatrix {
   [[nodiscard]] const Number& operator()(std::size_t i, std::size_t j) const { return entry_[i][j]; }
   [[nodiscard]] const Number& determinant() const { return determinant_; }
 
-  /// v.w
+  /// Returns v.w.
   [[nodiscard]] Number dot(const Row& v, const Row& w) const { return product(v, w, size_); }
-  /// Av
+  /// Returns A v.
   [[nodiscard]] Row times_adjugate(const Row& v) const {
     Row result;
     for (std::size_t i = 0; i < size_; ++i) result[i] = product(adjugate_[i], v, size_);
     return result;
   }
-  /// (e.Ae s.As - (e.As)^2) / g, by Lagrange's identity.
+  /// Returns (e.Ae s.As - (e.As)^2) / g, by Lagrange's identity.
   [[nodiscard]] Number skew(const Row& e, const Row& s) const {
     const auto x = [&](std::size_t i, std::size_t j) { return e[i] * s[j] - e[j] * s[i]; };
     if (size_ == 1) return Number(0);
@@ -49,7 +49,7 @@ class GramMatrix {
   }
 
  private:
-  /// Of an enclosure its square is sharper than its product with itself.
+  /// Squares a number. For an enclosure, the square is sharper than the product with itself.
   [[nodiscard]] static Number squared(const Number& x) {
     if constexpr (requires { square(x); }) {
       return square(x);

@@ -1,6 +1,7 @@
 #pragma once
-// By how much the certificates of enclosing spheres may be exceeded before they fail: a share of the sphere's
-// radius. A whole number of 2^-20, so that its square is exact in double and a small whole number of 2^-40.
+// The relaxation of enclosing spheres: the share of the sphere's radius by which its certificates may be
+// exceeded before they fail. The share is a multiple of 2^-20, so its square is exact in double and a small
+// multiple of 2^-40.
 
 #include <cmath>
 #include <cstdint>
@@ -11,21 +12,21 @@ class Relaxation {
  public:
   static constexpr int digits = 20;
   static constexpr std::int64_t most = std::int64_t{1} << digits;  ///< a share of 1
-  static constexpr double least_share = 0x1p-20;                   ///< but for none at all
+  static constexpr double least_share = 0x1p-20;                   ///< the smallest share other than zero
 
   constexpr Relaxation() = default;
-  /// The greatest that is no more than this share, which is from 0 to 1.
+  /// Returns the largest relaxation that is at most `share`, a number from 0 to 1.
   [[nodiscard]] static Relaxation of(double share) {
     return Relaxation(static_cast<std::int64_t>(std::floor(std::ldexp(share, digits))));
   }
   [[nodiscard]] static constexpr Relaxation greatest() { return Relaxation(most); }
 
   [[nodiscard]] constexpr bool any() const { return units_ > 0; }
-  /// Exact.
+  /// Returns the share. Exact.
   [[nodiscard]] constexpr double share() const { return static_cast<double>(units_) * 0x1p-20; }
-  /// The share in units of 2^-20.
+  /// Returns the share in units of 2^-20.
   [[nodiscard]] constexpr std::int64_t units() const { return units_; }
-  /// (1 + share)^2 - 1 in units of 2^-40.
+  /// Returns (1 + share)^2 - 1 in units of 2^-40.
   [[nodiscard]] constexpr std::int64_t square_units() const { return units_ * (2 * most + units_); }
   static constexpr std::int64_t one_squared = most * most;  ///< 1 in these units
 

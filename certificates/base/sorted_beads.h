@@ -1,6 +1,7 @@
 #pragma once
-// Certificates whose function only changes sign when two beads trade places keep their beads sorted, with the
-// sign of the permutation: then all certificates over the same beads share one function to the last bit.
+// Sorts the beads of certificates whose function only changes sign when two beads are exchanged. The
+// certificate keeps the sorted beads and the sign of the permutation, so all certificates over the same beads
+// share one function, identical to the last bit.
 
 #include <array>
 #include <cstddef>
@@ -12,8 +13,9 @@ namespace kds {
 
 namespace detail {
 
-// Always the same exchanges, without branches and, as they are not loops, in registers: these run for every
-// certificate. Each counts the exchanges it made; their order matters, so they stand between commas.
+// Sorting networks without branches and loops, so that the beads stay in registers: they run for every
+// certificate. Each function returns the number of exchanges it made. The order of exchanges matters, so they
+// are separated by comma operators.
 
 [[gnu::always_inline]] constexpr unsigned put_in_order(BeadId& a, BeadId& b) {
   const BeadId low = b < a ? b : a, high = b < a ? a : b;
@@ -23,7 +25,7 @@ namespace detail {
   return exchanged;
 }
 
-/// Moves the greatest of the first beads, one more than there are indices, to their end.
+/// Moves the largest of the first sizeof...(I) + 1 beads to their end.
 template <std::size_t N, std::size_t... I>
 [[gnu::always_inline]] constexpr unsigned raise_greatest(std::array<BeadId, N>& beads,
                                                          std::index_sequence<I...>) {
@@ -52,13 +54,14 @@ template <std::size_t N, std::size_t... I>
 
 }  // namespace detail
 
-/// Sorts ascending; 1 if an even number of exchanges did it, else -1.
+/// Sorts ascending. Returns 1 if the permutation is even, else -1.
 template <std::size_t N>
 [[nodiscard, gnu::always_inline]] constexpr int sort_beads(std::array<BeadId, N>& beads) {
   return detail::sign_of_exchanges(detail::raise_all(beads, std::make_index_sequence<N - 1>{}));
 }
 
-/// Sorts ascending where all but the last are so already; 1 or -1 likewise.
+/// Sorts ascending, if all beads but the last are already sorted. Returns 1 if the permutation is even, else
+/// -1.
 template <std::size_t N>
 [[nodiscard, gnu::always_inline]] constexpr int sort_last_bead(std::array<BeadId, N>& beads) {
   return detail::sign_of_exchanges(detail::lower_last(beads, std::make_index_sequence<N - 1>{}));

@@ -1,5 +1,5 @@
 #pragma once
-// How often each stage of the failure-time cascade had the last word, and what the stages are called.
+// Counts how often each stage of the failure-time cascade decided, and names the stages.
 
 #include <algorithm>
 #include <array>
@@ -9,31 +9,31 @@
 namespace kds {
 
 struct StageCounts {
-  // Failure times.
+  // Stages that decided failure times.
   std::uint64_t coefficients = 0;  ///< all Bernstein coefficients certainly positive: never fails
   std::uint64_t isolation = 0;     ///< signs in double: never fails, does not hold now, or one root bracketed
-  std::uint64_t refined = 0;       ///< the same with errors followed operation by operation
+  std::uint64_t refined = 0;       ///< the same with running error bounds
   std::uint64_t exact = 0;         ///< integers
-  std::uint64_t identically_zero = 0;  ///< integers, and the function is the zero polynomial: never fails
-  std::uint64_t shared = 0;            ///< with another one that has the same function
+  std::uint64_t identically_zero = 0;  ///< integers found the zero polynomial: never fails
+  std::uint64_t shared = 0;            ///< shared with a certificate that has the same function
   std::uint64_t slack = 0;             ///< beads strayed less than the slack found at an earlier frame
-  // Signs just after a time.
+  // Stages that decided signs just after a time.
   std::uint64_t signs_double = 0;
   std::uint64_t signs_exact = 0;
-  std::uint64_t largest_bits = 0;  ///< longest coefficient an exact stage met
+  std::uint64_t largest_bits = 0;  ///< longest coefficient in the exact stages
 };
 
-/// One of these counts as results have it: the only list of them.
+/// One of the counts as results show it. The table below is the only list of counts.
 struct Stage {
   enum class Of : std::uint8_t { failure_time, sign, size };
 
-  std::string_view name;  ///< in JSON and CSV
+  std::string_view name;  ///< name in JSON and CSV
   std::uint64_t StageCounts::*count;
   Of of;
-  std::string_view label;  ///< in print
+  std::string_view label;  ///< label in printed text
 };
 
-/// In the order in which they are listed.
+/// The counts in the order in which they are listed.
 inline constexpr std::array<Stage, 10> stage_table{{
     {"coefficients", &StageCounts::coefficients, Stage::Of::failure_time,
      "double, all coefficients positive"},
@@ -50,7 +50,7 @@ inline constexpr std::array<Stage, 10> stage_table{{
 }};
 static_assert(sizeof(StageCounts) == stage_table.size() * sizeof(std::uint64_t));
 
-/// Adds counts up; of sizes the largest is kept.
+/// Adds the counts; of sizes, the largest is kept.
 constexpr StageCounts& operator+=(StageCounts& sum, const StageCounts& more) {
   for (const Stage& stage : stage_table) {
     std::uint64_t& count = sum.*stage.count;

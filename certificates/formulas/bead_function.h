@@ -1,5 +1,6 @@
 #pragma once
-// A function of a few beads together with its recorded formula: what all that plays formulas is asked with.
+// A function of a few beads together with its recorded formula: the argument of everything that plays
+// formulas.
 
 #include <array>
 #include <numeric>
@@ -15,15 +16,15 @@
 namespace kds {
 
 struct BeadFunction {
-  const KnownFormula& known;       ///< bounds are those of all functions of the type
-  const RecordedFormula& formula;  ///< the type's, or one with numbers of this function's own
+  const KnownFormula& known;       ///< its bounds hold for all functions of the type
+  const RecordedFormula& formula;  ///< the type's formula, or one with numbers of this function's own
   std::span<const BeadId> beads;
-  bool negative = false;  ///< the formula's negative
+  bool negative = false;  ///< whether the negative of the formula is meant
 };
 
 namespace detail {
 
-/// `places`: beads that are named by their places. `C`: Curves or LiftedCurves.
+/// Records the formula of a function. `places`: beads named by their places. `C`: Curves or LiftedCurves.
 template <class F, class C>
 [[nodiscard]] RecordedFormula recorded(const decltype(F{}.beads) & places) {
   RecordedFormula formula;
@@ -45,9 +46,9 @@ template <class F, class C>
   return known;
 }
 
-/// Where beads come with numbers that go into the formula, and count when they are compared (RelaxedBeads).
-/// The last is kept: in a run these numbers are mostly the same for all, and the formula is not written
-/// again.
+/// Records the formula of a function whose beads come with numbers that enter the formula and the
+/// comparison of beads (RelaxedBeads). The last formula is cached, because these numbers are usually the same
+/// for all functions of a run.
 template <class F, class C>
 [[nodiscard]] const RecordedFormula& own_formula(const F& function) {
   using Places = decltype(places_of(function));
@@ -68,7 +69,7 @@ template <class F>
 
 }  // namespace detail
 
-/// Calls `ask` with it, and answers what that answers.
+/// Calls `ask` with the function and its formula, and returns the result.
 template <class C, class F, class Ask>
 decltype(auto) with_bead_function(const F& function, Ask ask) {
   const KnownFormula& known = detail::known_formula<F, C>();

@@ -13,17 +13,18 @@ namespace kds {
 
 namespace {
 
-/// Errors that hold for values and after subdivision, from one for all plain coefficients.
+/// Sets the error bounds for values and after subdivision from one bound for all plain coefficients.
 void set_errors(BoundedPolynomial& p, double uniform_error) {
   double largest = 0;
   for (const double c : p.bernstein) largest = std::max(largest, std::abs(c));
-  // Roundings are relative down to here only.
+  // Rounding errors are relative only down to this size.
   if (largest < 0x1p-900) uniform_error = std::nan("");
   p.value_error = uniform_error + value_rounding(p.degree()) * largest;
   p.local_error = uniform_error + local_rounding(p.degree()) * largest;
 }
 
-/// A formula's value where all is of degree 0: `play` in plain numbers, as each event asks for a few.
+/// Evaluates a formula with all degrees 0 in plain numbers. It replaces `play` there, because each event
+/// evaluates a few.
 template <class View>
 TrackedDouble value_at_moment(const RecordedFormula& formula, const View& view) {
   using Kind = FormulaStep::Kind;
@@ -113,7 +114,7 @@ BoundedFunction tracked_function(const BeadFunction& function, const C& curves) 
   for (std::size_t k = 0; k < scaled.size(); ++k) {
     const auto choose = static_cast<double>(binomial(degree, static_cast<int>(k)));
     const TrackedDouble& c = scaled[k];
-    // One more rounding for the division; a NaN is kept, and proves nothing.
+    // The division rounds once more. A NaN stays NaN and proves nothing.
     const double error =
         (c.error + TrackedDouble::unit_roundoff * std::abs(c.value)) * TrackedDouble::inflation +
         TrackedDouble::lost_to_underflow;

@@ -21,12 +21,12 @@ namespace kds {
 
 namespace {
 
-/// What forming so many coefficients of so many bits takes.
+/// Charges the work of forming `count` coefficients of `bits` bits.
 void spend_on_forming(std::size_t count, int bits) {
   ExactWork::spend(count * count * (static_cast<std::size_t>(bits) / 64 + 1));
 }
 
-/// A value that was played, before the account is told of it: who watches that may ask for others.
+/// Copies a played value before its work is charged, because the watcher of the work may play other formulas.
 template <class Number>
 std::vector<Number> taken(const Coefficients<Number>& played, int bits) {
   std::vector<Number> coefficients(played.begin(), played.end());
@@ -34,7 +34,8 @@ std::vector<Number> taken(const Coefficients<Number>& played, int bits) {
   return coefficients;
 }
 
-/// The formula's coefficients, `size` bounding them, of curves whose lengths are whole at this scale.
+/// Returns the formula's coefficients for curves whose lengths are whole numbers at `scale`. `size` bounds
+/// the coefficients.
 template <class C>
 std::vector<Integer> whole_coefficients(const RecordedFormula& formula, std::span<const BeadId> beads,
                                         const C& curves, const CoefficientBits& size,
@@ -58,7 +59,7 @@ std::vector<Integer> whole_coefficients(const RecordedFormula& formula, std::spa
   }
 
   using Residual = std::array<std::uint64_t, residue_folds.size()>;
-  std::vector<Residual> residues;  // of each coefficient
+  std::vector<Residual> residues;  // for each coefficient
   for (std::size_t i = 0; i < count; ++i) {
     const ResidueView<C> view(curves, scale, {residue_folds[i]});
     const auto& p = play(formula, ViewedBeads<ResidueView<C>>(view, beads));
@@ -72,7 +73,7 @@ std::vector<Integer> whole_coefficients(const RecordedFormula& formula, std::spa
   return scaled;
 }
 
-/// The coefficients of a wide function's formula, from its beads' curves as they were when it was made.
+/// The coefficients of a wide function's formula, computed from copies of its beads' curves.
 template <class C>
 class WideFunction final : public CoefficientSource {
  public:
@@ -86,7 +87,7 @@ class WideFunction final : public CoefficientSource {
     std::iota(beads_.begin(), beads_.end(), BeadId{0});
   }
 
-  /// All that the formula is of: the beads' curves and its own numbers.
+  /// Returns all numbers that the formula depends on: the beads' curves and its own numbers.
   [[nodiscard]] std::vector<double> numbers() const {
     std::vector<double> numbers = curves_.numbers();
     for (const FormulaStep& step : formula_.steps())
@@ -132,7 +133,7 @@ class WideFunction final : public CoefficientSource {
   WholeScale scale_;
 };
 
-/// All numbers that go into a function; first of what kind its curves are.
+/// Returns all numbers that a function depends on. The first number tells the kind of its curves.
 template <class C>
 std::vector<double> numbers_of(const BeadFunction& function, const C& curves) {
   std::vector<double> numbers;
@@ -147,7 +148,7 @@ std::vector<double> numbers_of(const BeadFunction& function, const C& curves) {
   return numbers;
 }
 
-/// The coefficients, formed or kept from when they were.
+/// Returns the coefficients, newly formed or from the cache.
 template <class C>
 std::vector<Integer> ordinary_coefficients(const BeadFunction& function, const C& curves,
                                            const CoefficientBits& size, const WholeScale& scale) {

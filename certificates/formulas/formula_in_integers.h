@@ -1,12 +1,12 @@
 #pragma once
-// A function of beads on whole numbers. The bound of its coefficients in lengths tells how long they are at
-// the width of these beads' control points: most fit into numbers of a fixed width. Longer ones are evaluated
-// modulo as many primes as they ask for; where they are longer than the primes reach, on whole numbers
-// outright. Exact. Compiled once for Curves in 1 to 3 dimensions and LiftedCurves in 2 and 3, which `C`
-// stands for.
+// A function of beads in integers. A bound of the coefficients in lengths, and the width of the beads'
+// control points, determine how long the coefficients are. Most fit into integers of fixed width. Longer ones
+// are evaluated modulo as many primes as needed, and those longer than the primes allow are evaluated in
+// integers of unlimited length. Exact. Compiled once for Curves in 1 to 3 dimensions and LiftedCurves in 2
+// and 3 dimensions; `C` stands for these.
 //
-// Where the control points themselves are of wildly different size, the function is wide (wide_polynomial.h):
-// its coefficients are formed when they are asked for, and as precisely.
+// If the control points differ wildly in size, the function is wide (wide_polynomial.h): its coefficients are
+// formed on demand, to the requested precision.
 
 #include "certificates/exact/exact_polynomial.h"
 #include "certificates/formulas/bead_function.h"
@@ -16,14 +16,15 @@ namespace kds {
 
 class Dyadic;
 
-/// Lengths of so many bits make a function wide: two doubles and 2^54 between them. Those of ordinary input,
-/// decimal numbers or rounded ones with what is nearly zero among them, are shorter.
+/// The number of bits in a length from which a function is wide: two doubles with 2^54 between them.
+/// Lengths of ordinary input are shorter, including decimal numbers and rounded numbers with nearly zero
+/// values among them.
 inline constexpr int wide_length_bits = 160;
 
-/// Times a positive number.
+/// Returns the function, times a positive number.
 template <class C>
 [[nodiscard]] ExactPolynomial exact_function(const BeadFunction& function, const C& curves);
-/// 1, 0 or -1 at a time of [0,1].
+/// Returns the sign at a time in [0,1]: 1, 0 or -1.
 template <class C>
 [[nodiscard]] int exact_sign_at(const BeadFunction& function, const C& curves, const Dyadic& time);
 

@@ -1,7 +1,8 @@
 #pragma once
-// Plays a recorded formula in one kind of number, step by step: what the formula computes over a view of that
-// kind, operation by operation. For the few files of this folder that do so. Values lie in room that a thread
-// uses again and again: who plays a formula takes what it needs of its value, before anything else is asked.
+// Plays a recorded formula in one number type: performs the operations that the formula performs over a
+// view of that type, step by step. Only the few files of this folder that play formulas include this header.
+// Values are stored in buffers that a thread reuses, so the caller must copy the result before it plays
+// another formula.
 
 #include <algorithm>
 #include <cstddef>
@@ -17,11 +18,12 @@
 
 namespace kds {
 
-/// What a formula asks of beads. Of a number type each formula is played by the same code, whatever the view.
+/// Provides the beads' values to a formula. Each formula is played by the same code for a number type,
+/// whatever the view.
 template <class Number>
 class BeadSource {
  public:
-  /// Puts the step's value, and those of the steps after it that are its other coordinates, in their places.
+  /// Stores the value of a step, and of the following steps that are its other coordinates, at their places.
   virtual void read(const FormulaStep* step, std::span<Coefficients<Number>> values) const = 0;
 
  protected:
@@ -34,7 +36,7 @@ class ViewedBeads final : public BeadSource<typename View::Number> {
   using Kind = FormulaStep::Kind;
 
  public:
-  /// `beads`: those that the formula names by their places; none, where the view tells no beads apart.
+  /// `beads`: the beads that the formula names by their places; empty if the view does not distinguish beads.
   explicit ViewedBeads(const View& view, std::span<const BeadId> beads = {}) : view_(view), beads_(beads) {}
 
   void read(const FormulaStep* step, std::span<Coefficients<Number>> values) const override {
@@ -74,8 +76,8 @@ class ViewedBeads final : public BeadSource<typename View::Number> {
   std::span<const BeadId> beads_;
 };
 
-/// The scaled coefficients of the formula's value, there until the thread plays the next in this kind of
-/// number.
+/// Returns the scaled coefficients of the formula's value. They are valid until the thread plays another
+/// formula in this number type.
 template <class Number>
 [[gnu::noinline]] Coefficients<Number>& play(const RecordedFormula& formula,
                                              const BeadSource<Number>& beads) {
@@ -97,7 +99,7 @@ template <class Number>
         beads.read(&step, values);
         break;
       case Kind::next_coordinate:
-        break;  // read with the first
+        break;  // read together with the first coordinate
       case Kind::sum:
         start_from_a();
         detail::add_to<Number>(value, values[step.b]);
@@ -115,7 +117,7 @@ template <class Number>
         break;
       case Kind::elevated: {
         const std::size_t own = values[step.a].size() - 1;
-        const bool is_multiple = step.number < 0 || own == 0;  // at a moment all degrees are 0
+        const bool is_multiple = step.number < 0 || own == 0;  // at a single moment all degrees are 0
         const auto number = static_cast<std::size_t>(std::abs(step.number));
         detail::elevate_to<Number>(is_multiple ? own * number : number, values[step.a], value);
         break;
@@ -131,6 +133,6 @@ template <class Number>
 
 }  // namespace kds
 
-// What formulas are played over.
+// The motions that formulas are played over.
 #define KDS_FOR_EACH_PLAYED_MOTION(compile) \
   compile(Curves<1>) compile(Curves<2>) compile(Curves<3>) compile(LiftedCurves<2>) compile(LiftedCurves<3>)

@@ -38,7 +38,7 @@ ErrorBound error_bound_of(const Coefficients<Magnitude>& magnitudes) {
 CoefficientBits bits_of(const Coefficients<Magnitude>& magnitudes) {
   CoefficientBits bits;
   for (const Magnitude& m : magnitudes) {
-    // Rounded on the way: by far less than one bit.
+    // The bound is rounded, but by far less than one bit.
     bits = {std::max(bits.bits, std::ilogb(m.bound) + 2), m.power};
   }
   return bits;

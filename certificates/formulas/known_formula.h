@@ -1,6 +1,6 @@
 #pragma once
-// The formula of a type of functions as it is played (motions/numbers/recorded_formula.h), and what follows
-// from it for motions of a degree: derived once, by whoever asks first, and kept.
+// The recorded formula of a type of functions (motions/numbers/recorded_formula.h), and the bounds that
+// follow from it for motions of a degree. These are derived on first use and cached.
 
 #include <map>
 #include <memory>
@@ -12,8 +12,8 @@
 
 namespace kds {
 
-/// All coefficients are below 2^(bits + power * length_bits) in size where differences and sums of two
-/// lengths are below 2^length_bits and those of their squares below 2^(2 length_bits).
+/// All coefficients are below 2^(bits + power * length_bits) in size if differences and sums of two lengths
+/// are below 2^length_bits, and those of their squares below 2^(2 length_bits).
 struct CoefficientBits {
   int bits = 0;
   int power = 0;
@@ -27,8 +27,8 @@ class KnownFormula {
   [[nodiscard]] const RecordedFormula& formula() const { return formula_; }
   [[nodiscard]] Channels channels() const { return channels_; }
 
-  /// Of the formula in double under a motion of this degree. Throws std::logic_error where the formula adds
-  /// unlike powers of length.
+  /// Returns the error bound of the formula in double under a motion of this degree. Throws std::logic_error
+  /// if the formula adds unlike powers of length.
   [[nodiscard]] const ErrorBound& error_bound(int degree) const { return of(degree).error; }
   [[nodiscard]] const CoefficientBits& coefficient_bits(int degree) const { return of(degree).bits; }
 

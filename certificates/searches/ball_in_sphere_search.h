@@ -1,7 +1,7 @@
 #pragma once
-// search_over for the certificates of balls in spheres: declared for whoever makes tables of them, since a
-// specialization must be declared before it is used. Defined in one file a dimension and more where a file
-// would be long to compile.
+// Declares search_over for the certificates of balls in spheres. Code that makes tables of them includes this
+// header, because a specialization must be declared before it is used. The definitions are split into one or
+// more files per dimension to keep compile times short.
 
 #include "certificates/search/certificate_search.h"
 #include "certificates/types/ball_in_sphere.h"

@@ -3,7 +3,7 @@
 
 namespace kds {
 
-// Of one bead: beads that coincide, which is rare.
+// A basis of one bead: the beads coincide, which is rare.
 template <>
 std::unique_ptr<CertificateSearch<BeadInSphere<1>>> search_over(const MotionRef<2>& motion) {
   return detail::search_one_by_one<BeadInSphere<1>>(motion);

@@ -1,6 +1,6 @@
 #pragma once
-// Searches for the questions about faces of a hull (certificates/types/coplanar.h): signs at one moment, each
-// alone. Of a lifted motion its centres are asked.
+// Searches for the queries about faces of a hull (certificates/types/coplanar.h): signs at one moment, one at
+// a time. For a lifted motion they use its centres.
 
 #include "certificates/search/certificate_search.h"
 #include "certificates/types/coplanar.h"

@@ -1,5 +1,5 @@
-// The order of two beads along an axis. In lanes where points have one coordinate, whose one structure is the
-// sorted list.
+// The order of two beads along an axis. It is compiled in lanes for points with one coordinate, whose only
+// structure is the sorted list.
 #include "certificates/search/define_certificate_search.h"
 #include "certificates/types/precedes.h"
 

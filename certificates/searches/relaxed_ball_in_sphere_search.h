@@ -1,5 +1,5 @@
 #pragma once
-// search_over for the certificates of balls in relaxed spheres: declared for whoever makes tables of them.
+// Declares search_over for the certificates of balls in relaxed spheres, for code that makes tables of them.
 
 #include "certificates/search/certificate_search.h"
 #include "certificates/types/ball_in_sphere.h"
