@@ -1,13 +1,14 @@
 #pragma once
-// Ball in the minimum enclosing sphere of a basis of balls of any radii, bases of 1 to 3 in the plane and of
-// 1 to 4 in space. Fischer & Gaertner, The smallest enclosing ball of balls (2004), 3: with the basis' first
-// ball as base, d_i = c_i - c_0, s_i = r_i - r_0, E_i = |d_i|^2 - s_i^2 (twice e_i), Q = [d_1 .. d_m], G =
-// Q^T Q, g = det G, A = adj G, the sphere of radius R touches the basis from outside where rho = R - r_0
-// solves a rho^2 + 2 b rho + c = 0, a = s.As - g, b = e.As, c = e.Ae; the smallest is rho = c / (sqrt(b^2 -
-// ac) - b). With F = d_j.QAe - g e_j and W = d_j.QAs - g s_j, ball j is inside iff F + W rho >= 0 and rho >=
-// s_j, that is iff F sqrt(b^2 - ac) + (W c - F b) >= 0 and so on.
+// A ball in the minimum enclosing sphere of a basis of balls of any radii, for bases of 1 to 3 balls in the
+// plane and of 1 to 4 in space. The formula is that of Fischer & Gaertner, The smallest enclosing ball of
+// balls (2004), section 3. With the basis' first ball as base, let d_i = c_i - c_0, s_i = r_i - r_0, E_i =
+// |d_i|^2 - s_i^2 (twice e_i), Q = [d_1 .. d_m], G = Q^T Q, g = det G, A = adj G. A sphere of radius R
+// touches the basis from outside iff rho = R - r_0 solves a rho^2 + 2 b rho + c = 0 with a = s.As - g, b =
+// e.As, c = e.Ae. The smallest solution is rho = c / (sqrt(b^2 - ac) - b). With F = d_j.QAe - g e_j and W =
+// d_j.QAs - g s_j, ball j is inside iff F + W rho >= 0 and rho >= s_j, that is iff F sqrt(b^2 - ac) + (W c -
+// F b) >= 0 and so on.
 //
-// Common factors, squares and positive numbers left out, that is A + B sqrt(D) with
+// Without common factors, squares and positive numbers, this is A + B sqrt(D) with
 //
 //   basis    A                                       B                D                degrees of A, B, norm
 //   1        -|d|^2                                  -s_j             |d|^2            2k   k   2k
@@ -16,38 +17,40 @@
 //   3, plane x (eps x d_j) - s_j c + e_j b           sgn(q) F / q     c - x^2          7k  4k   8k
 //   4        -d_j.(eps x Qx) - s_j c + e_j b         sgn(q) F / q     c - |Qx|^2       9k  5k  10k
 //
-// where p_i = d_i.d_j, q = det Q, x = e x s (in the plane of indices, too), and for a full basis b and c are
-// taken as eps.sig, |eps|^2 with eps = q Q^-T e, sig = q Q^-T s. b^2 - ac = g (c - x.Gx) by Lagrange's
-// identity, which is what takes the factors out.
+// where p_i = d_i.d_j, q = det Q, x = e x s (also in the plane of indices). For a full basis, b and c are
+// taken as eps.sig and |eps|^2 with eps = q Q^-T e, sig = q Q^-T s. The factors are taken out by Lagrange's
+// identity, b^2 - ac = g (c - x.Gx).
 //
-// The norm A^2 - B^2 D is c times what Cramer's rule gives for the tangency of all: d_i.z - s_i rho = e_i for
-// i = 1 .. m, j is linear in z = Qy and rho, (y, rho) = (Y, R) / W, and |z|^2 = rho^2 where Y.GY = R^2. For a
-// full basis z is unknown instead of y: |Z|^2 - R^2. For a basis of two a factor e is taken out, and the
-// factor left is e, not c; for a basis of one it is |d|^2.
+// The norm A^2 - B^2 D is c times the result of Cramer's rule for the tangency of all balls: d_i.z - s_i
+// rho = e_i for i = 1 .. m, j is linear in z = Qy and rho, (y, rho) = (Y, R) / W, and |z|^2 = rho^2 where
+// Y.GY = R^2. For a full basis z is the unknown instead of y: |Z|^2 - R^2. For a basis of two, a factor e is
+// taken out, and the remaining factor is e, not c. For a basis of one the remaining factor is |d|^2.
 //
-// The radius condition rho >= s_j is the sign of (c + s_j b) - s_j sqrt(b^2 - ac), norm c + 2 b s_j + a
-// s_j^2. It is implied while any ball of the basis is no smaller than ball j. Where the function is positive
-// it can change only where ball j and the sphere coincide, and there the function vanishes.
+// The radius condition rho >= s_j is the sign of (c + s_j b) - s_j sqrt(b^2 - ac), with norm c + 2 b s_j + a
+// s_j^2. It is implied while any ball of the basis is at least as large as ball j. Where the function is
+// positive, the condition can change only where ball j and the sphere coincide, and there the function
+// vanishes.
 //
-// Asked of the basis, all the while: its centres span a simplex (that of a full one keeps its orientation),
-// none of its balls holds another, and some sphere touches them all from outside. So it is for a basis that
-// has no ball to spare, and for its balls but one. Then g and c are positive; with y = A (e + s rho) / g at
-// that sphere's rho, a rho^2 + 2 b rho + c = g (|Qy|^2 - rho^2) <= 0, since Qy is its centre seen in the
-// basis' span; hence b^2 - ac >= 0 and sqrt(b^2 - ac) - b > 0. That is why no sign of D is ever asked for.
+// Requirements on the basis at all times: its centres span a simplex (and a full basis keeps its
+// orientation), none of its balls contains another, and some sphere touches all of them from outside. A basis
+// without a redundant ball meets them, and so do its balls except one. Then g and c are positive. With y = A
+// (e + s rho) / g at that sphere's rho, a rho^2 + 2 b rho + c = g (|Qy|^2 - rho^2) <= 0, since Qy is the
+// sphere's centre projected to the span of the basis. Hence b^2 - ac >= 0 and sqrt(b^2 - ac) - b > 0. The
+// sign of D is therefore never needed.
 //
-// A relaxed certificate takes e_j - tau / 2 for e_j: it holds while |d_j - z|^2 <= (rho - s_j)^2 + tau, since
-// |z| = rho, and all above is linear in (d_j, s_j, e_j). With eps the relaxation, d = c_1 - c_0 and p = r_0 +
-// r_1 of the basis' first two balls, those farthest apart,
+// A relaxed certificate uses e_j - tau / 2 instead of e_j. It holds while |d_j - z|^2 <= (rho - s_j)^2 + tau,
+// since |z| = rho and all of the above is linear in (d_j, s_j, e_j). With eps the relaxation, and d = c_1 -
+// c_0 and p = r_0 + r_1 of the basis' first two balls, which are those farthest apart,
 //   tau = eps / 2 (|d|^2 + p^2 - 2 p r_j).
-// Asked of them all the while: p >= r_j and |d| >= r_j. So tau >= 0: who is inside the sphere is inside the
-// relaxed one. And R, the sphere's radius, is at least L = (|d| + p) / 2 >= r_j, hence
+// Further requirements at all times: p >= r_j and |d| >= r_j. They imply tau >= 0, so a ball inside the
+// sphere is inside the relaxed sphere. The sphere's radius R is at least L = (|d| + p) / 2 >= r_j, hence
 //   2 R (R - r_j) >= 2 L (L - r_j) = (|d|^2 + 2 |d| (p - r_j) + p^2 - 2 p r_j) / 2 >= tau / eps,
 // so that (rho - s_j)^2 + tau = (R - r_j)^2 + tau <= (R - r_j + eps R)^2: ball j is inside the sphere of
-// radius (1 + eps) R. The radius condition holds. A relaxed basis of one takes s_j - eps r_0 for s_j. All is
-// in units of 2^-21, as relaxation.h has whole numbers.
+// radius (1 + eps) R. The radius condition holds too. A relaxed basis of one uses s_j - eps r_0 instead of
+// s_j. All quantities are in units of 2^-21, for which relaxation.h provides whole numbers.
 //
-// `inside` certificates guard a ball that must stay in, others a basis ball that must stay out of the sphere
-// of its fellows: it leaves the basis when it gets in. Exact.
+// `inside` certificates guard a ball that must stay inside. The others guard a basis ball that must stay
+// outside of the sphere of the other basis balls; if it enters, it leaves the basis. Exact.
 
 #include <array>
 #include <tuple>
@@ -62,15 +65,15 @@ namespace kds {
 
 namespace detail {
 
-/// The balls as seen from the first.
+/// The balls relative to the first ball.
 template <int Size, MotionView View>
 struct BallsFromBase {
   using Number = typename View::Number;
   static constexpr int k = View::degree;
 
-  std::array<BernsteinVector<Number, k, View::dimension>, Size> d;  ///< last: ball j
+  std::array<BernsteinVector<Number, k, View::dimension>, Size> d;  ///< the last one belongs to ball j
   std::array<Bernstein<Number, k>, Size> s;
-  std::array<Bernstein<Number, 2 * k>, Size> e;  ///< twice e_i; all below is with these
+  std::array<Bernstein<Number, 2 * k>, Size> e;  ///< twice e_i; all formulas below use these
 
   template <class Beads>
   BallsFromBase(const View& view, const Beads& beads) {
@@ -83,7 +86,7 @@ struct BallsFromBase {
   }
 
  private:
-  /// Ball j's d, s and e times 2^21, and of that e less what it may be less by.
+  /// Scales ball j's d, s and e by 2^21 and subtracts the relaxation from e.
   template <class Beads>
   void relax(const View& view, const Beads& beads) {
     constexpr std::int64_t one = 2 * Relaxation::most;
@@ -106,7 +109,7 @@ struct BallsFromBase {
   }
 };
 
-/// The sum of v_i w_i.
+/// Returns the sum of v_i w_i.
 template <class P, class Q, std::size_t N, std::size_t M>
 [[nodiscard]] constexpr auto combination(const std::array<P, N>& p, const std::array<Q, M>& vectors) {
   auto scaled = [&](std::size_t i) {
@@ -122,7 +125,7 @@ template <class P, class Q, std::size_t N, std::size_t M>
   return sum;
 }
 
-/// G, A e and what follows from them, for a basis of three in space.
+/// G, A e and quantities derived from them, for a basis of three in space.
 template <MotionView View>
 struct TriangleSphere : BallsFromBase<3, View> {
   using Base = BallsFromBase<3, View>;
@@ -204,11 +207,12 @@ struct BallInSphere {
 
   using Beads = std::conditional_t<relaxed, RelaxedBeads<Size + 1>, std::array<BeadId, Size + 1>>;
 
-  Beads beads{};  ///< the basis, ascending (but see below where it is relaxed); then the ball
+  Beads beads{};  ///< the basis, ascending (see below for relaxed bases), then the ball
   bool inside = true;
-  int orientation = 1;  ///< of a full basis (orientation.h): the sign of q
+  int orientation = 1;  ///< orientation of a full basis (orientation.h): the sign of q
 
-  /// A full basis that has turned over has another function: its name begins with the first two exchanged.
+  /// Returns the identity. A full basis of negative orientation has a different function, so its name begins
+  /// with the first two beads exchanged.
   [[nodiscard]] Identity identity() const {
     Beads named = beads;
     if (full && orientation < 0) std::swap(named[0], named[1]);
@@ -220,10 +224,10 @@ struct BallInSphere {
   [[nodiscard]] bool side() const { return inside; }
   [[nodiscard]] int root_sign() const { return full ? orientation : 1; }
 
-  /// Whether rho >= s_j has to be looked at.
+  /// Returns whether the condition rho >= s_j must be checked.
   template <Motion M>
   [[nodiscard]] bool conditional(const M& motion) const {
-    if constexpr (Size == 1 || relaxed) return false;  // A and B say so themselves, or it is known
+    if constexpr (Size == 1 || relaxed) return false;  // A and B imply the condition, or it is known to hold
     for (std::size_t i = 0; i < Size; ++i) {
       bool smaller = false;
       for (int k = 0; k <= degree_of(motion); ++k)
@@ -233,8 +237,9 @@ struct BallInSphere {
     return true;
   }
 
-  /// Whether what is left out of A, B, D and the norm is positive, and D: by certain signs of numbers, 0
-  /// where they are not known. Where a < 0, so that some sphere touches any such balls, b^2 - ac > 0.
+  /// Returns whether D and all factors omitted from A, B, D and the norm are certainly positive. `sign_of`
+  /// returns the certain sign of a number, or 0 if unknown. If a < 0, some sphere touches any such balls, so
+  /// b^2 - ac > 0.
   template <MotionView View, class SignOf>
   [[nodiscard]] static bool is_usable(const View& view, const Beads& beads, SignOf sign_of) {
     const auto positive = [&](const auto& moment) { return sign_of(moment.scaled[0]) > 0; };
@@ -254,7 +259,7 @@ struct BallInSphere {
     }
   }
 
-  /// One polynomial.
+  /// One polynomial of the radical.
   struct Part {
     static constexpr bool uses_radii = true;
     Beads beads{};
@@ -343,7 +348,7 @@ struct BallInSphere {
           const auto r = sphere.excess();
           return dot(z, z) - r * r;
         } else {
-          // Determinants of all but one of the columns d, s, next to e.
+          // Squared determinant of the columns d, s except one, with the column e.
           const auto without = [&](int column) {
             std::array<BernsteinVector<typename View::Number, View::degree, Dimension>, Size> rows;
             for (std::size_t i = 0; i < Size; ++i) {
@@ -363,7 +368,7 @@ struct BallInSphere {
       }
 
      private:
-      /// det [a s e] of columns of three.
+      /// Returns det [a s e] of three columns of length three.
       template <class A, class S, class E>
       static auto tangency(const A& a, const S& s, const E& e) {
         return minor(a[0], s[0], a[1], s[1]) * e[2] - minor(a[0], s[0], a[2], s[2]) * e[1] +
@@ -372,14 +377,14 @@ struct BallInSphere {
     };
   };
 
-  /// rho > s_j. A and B of a basis of one say so themselves.
+  /// The condition rho > s_j. For a basis of one, A and B imply it.
   struct RadiusCondition {
     struct Rational : Part {
       template <MotionView View>
       [[nodiscard]] static auto formula(const View& view, const Beads& beads) {
         const Sphere<View> balls(view, beads);
         const auto& sj = balls.s[Size - 1];
-        if constexpr (Size == 2) {  // a = -2e, b = es, c = e^2; without the factor e
+        if constexpr (Size == 2) {  // a = -2e, b = es, c = e^2, without the factor e
           const auto bs = balls.s[0] * sj;
           return balls.e[0] + bs + bs;
         } else {

@@ -1,16 +1,17 @@
 #pragma once
-// Bead in the minimum enclosing sphere of a basis of beads of equal radii, bases of 1, 2 and 3 beads. Equal
-// radii make the centre rational: with d_i = c_i - c_0, Q = [d_1..d_m], G = Q^T Q, g = det G, A = adj G, e_i
-// = |d_i|^2 / 2 the centre is c_0 + Q A e / g, and bead j is inside iff F = d_j . (Q A e) - g e_j >= 0.
-// Below, 2F.
+// A bead in the minimum enclosing sphere of a basis of beads of equal radii, for bases of 1, 2 and 3 beads.
+// Equal radii make the centre rational. With d_i = c_i - c_0, Q = [d_1..d_m], G = Q^T Q, g = det G, A = adj
+// G, e_i = |d_i|^2 / 2, the centre is c_0 + Q A e / g, and bead j is inside iff F = d_j . (Q A e) - g e_j
+// >= 0. The table gives 2F.
 //
 //   1 bead    -|d_j|^2                      inside only where it coincides
 //   2 beads   -(p - a).(p - b)              degree 2k
 //   3 beads   2F                            degree 6k
 //   4 beads   a power test times the orientation of the basis (power_test.h), degree 5k
 //
-// `inside` certificates guard a bead that must stay in, others a basis bead that must stay out of the sphere
-// of its fellows: it leaves the basis when it gets in (its barycentric coordinate vanishes then). Exact.
+// `inside` certificates guard a bead that must stay inside. The others guard a basis bead that must stay
+// outside of the sphere of the other basis beads; if it enters, it leaves the basis (its barycentric
+// coordinate vanishes then). Exact.
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/determinant.h"
@@ -23,7 +24,7 @@ struct BeadInSphere {
   static constexpr CertificateType type{3, "bead_in_sphere"};
   static constexpr int lanes_up_to_degree = 3;
 
-  std::array<BeadId, Size + 1> beads{};  ///< the basis, ascending; then the bead
+  std::array<BeadId, Size + 1> beads{};  ///< the basis, ascending, then the bead
   bool inside = true;
 
   [[nodiscard]] Identity identity() const { return identity_of(type, beads); }

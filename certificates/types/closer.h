@@ -1,6 +1,6 @@
 #pragma once
-// Two pairs of beads: the first is closer together than the second, |c - d|^2 - |a - b|^2 > 0. Of centres.
-// Exact; degree 2k for centres of degree k.
+// Compares two pairs of beads: the centres of the first pair are closer together than those of the second,
+// |c - d|^2 - |a - b|^2 > 0. Exact; degree 2k for centres of degree k.
 
 #include <algorithm>
 
@@ -12,11 +12,11 @@ struct Closer {
   static constexpr CertificateType type{12, "closer"};
   static constexpr int lanes_up_to_degree = 3;
 
-  std::array<BeadId, 4> beads{};  ///< of the lesser pair, ascending, then of the other; pairs may share one
+  std::array<BeadId, 4> beads{};  ///< the lesser pair, ascending, then the other; the pairs may share a bead
   int sign = 1;
 
   Closer() = default;
-  /// Holds while the first pair is closer. Both ascending.
+  /// Holds while the first pair is closer. Both pairs must be ascending.
   Closer(std::array<BeadId, 2> near, std::array<BeadId, 2> far) : sign(near < far ? 1 : -1) {
     const auto& [lesser, greater] = std::minmax(near, far);
     beads = {lesser[0], lesser[1], greater[0], greater[1]};

@@ -1,7 +1,7 @@
 #pragma once
-// Contact of two balls: |c_i - c_j|^2 - (r_i + r_j)^2, positive while they are disjoint, zero while they
-// touch, negative while they overlap. Radii may change, and must not be negative together. Exact; degree 2k
-// for centres and radii of degree k.
+// Contact of two balls: |c_i - c_j|^2 - (r_i + r_j)^2 is positive while they are disjoint, zero while they
+// touch, and negative while they overlap. Radii may change, but the sum of both must not be negative. Exact;
+// degree 2k for centres and radii of degree k.
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/sorted_beads.h"
@@ -17,7 +17,7 @@ struct Contact {
   int sign = 1;
 
   Contact() = default;
-  /// Holds while the balls are disjoint, or, `sign_wanted` = -1, while they overlap.
+  /// Holds while the balls are disjoint, or, if `sign_wanted` is -1, while they overlap.
   Contact(std::array<BeadId, 2> in_any_order, int sign_wanted) : beads(in_any_order), sign(sign_wanted) {
     static_cast<void>(sort_beads(beads));
   }

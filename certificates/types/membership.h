@@ -1,14 +1,15 @@
 #pragma once
-// Which certificate says that a ball lies in the sphere of a basis: the one for equal radii where they are
-// equal for the whole step, also among beads of an unequal necklace, else the radical one. In the plane and
-// in space. Exact either way; the types of their identities tell these certificates apart.
+// Selects the certificate that a ball lies in the sphere of a basis. If the radii involved are equal during
+// the whole step, it is the certificate for equal radii, also for beads of an unequal necklace. Otherwise it
+// is the radical certificate. In the plane and in space. Both are exact; the types in their identities
+// distinguish them.
 //
 //   equal radii    bases of 1, 2 and (in space) 3 beads: bead_in_sphere.h; full bases: a power test times the
 //                  basis' orientation, where the weights are equal too
 //   others         ball_in_sphere.h
 //
-// Of a relaxed sphere those of equal radii know (relaxed_bead_in_sphere.h), bases of two beads or more;
-// others are not relaxed.
+// Relaxed spheres are supported for equal radii and bases of two or more beads (relaxed_bead_in_sphere.h);
+// other certificates here are not relaxed.
 
 #include <algorithm>
 #include <array>
@@ -24,7 +25,7 @@ namespace kds {
 
 namespace detail {
 
-/// Whether `value(bead, k)` is the same for all of these beads, for every control point k.
+/// Returns whether `value(bead, k)` is the same for all of these beads, for every control point k.
 template <std::invocable<BeadId, int> Value>
 [[nodiscard]] bool all_equal(std::span<const BeadId> beads, int degree, Value value) {
   return std::all_of(beads.begin(), beads.end(), [&](BeadId bead) {
@@ -43,7 +44,7 @@ template <std::size_t N>
   return beads;
 }
 
-/// Whether the certificate for equal radii will do for these beads.
+/// Returns whether the certificate for equal radii applies to these beads.
 template <Motion M>
 [[nodiscard]] bool of_equal_radii(Radii radii, const M& motion, std::span<const BeadId> beads, bool is_full) {
   return radii == Radii::equal ||
@@ -54,8 +55,9 @@ template <Motion M>
 
 }  // namespace detail
 
-/// Calls `visit` with the certificate that `bead` lies inside (or, not `inside`, outside) the sphere of
-/// `basis`: 1 to dimension + 1 beads, ascending. `orientation` is a full basis' own (orientation.h).
+/// Calls `visit` with the certificate that `bead` lies inside (or, if not `inside`, outside) the sphere of
+/// `basis`. The basis has 1 to dimension + 1 beads, ascending. `orientation` is the orientation of a full
+/// basis (orientation.h).
 template <Motion M, class Visit>
 decltype(auto) visit_membership(Radii radii, const M& motion, std::span<const BeadId> basis, BeadId bead,
                                 bool inside, int orientation, Visit&& visit) {

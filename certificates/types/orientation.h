@@ -1,8 +1,8 @@
 #pragma once
-// Orientation. In the plane: for beads p, q, r the sign of det[q-p, r-p], positive if they turn
-// counterclockwise. In space: for p, q, r, s the sign of det[q-p, r-p, s-p], positive if s is on the side of
-// the plane p, q, r from which they turn counterclockwise (CGAL's conventions). Antisymmetric in its beads;
-// zero iff they lie on one line (plane). Exact; degree 2k (3k) for centres of degree k.
+// Orientation (CGAL's conventions). In the plane, for beads p, q, r: the sign of det[q-p, r-p], positive if
+// they turn counterclockwise. In space, for p, q, r, s: the sign of det[q-p, r-p, s-p], positive if p, q, r
+// turn counterclockwise seen from s. Antisymmetric in its beads; zero iff the beads are collinear (coplanar).
+// Exact; degree 2k (3k) for centres of degree k.
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/determinant.h"

@@ -1,10 +1,11 @@
 #pragma once
-// Power test: for beads p, q, r (and s in space) of positive orientation and a bead t, positive if t is
-// outside their power circle (sphere), the one orthogonal to all of them: the sign of the determinant with
-// rows
+// Power test. For beads p, q, r (and s in space) of positive orientation and a bead t, it is positive if t is
+// outside their power circle (sphere), which is orthogonal to all of them. It is the sign of the determinant
+// with rows
 //   (x-p, |x-p|^2 - w_x + w_p)   for x = q, r, (s,) t.
-// Antisymmetric in its beads; zero iff one circle (sphere) is orthogonal to all. Exact; for centres of degree
-// k and weights of degree at most 2k of degree 4k in the plane and 5k in space, in lifted motion 3 and 4.
+// Antisymmetric in its beads; zero iff one circle (sphere) is orthogonal to all. Exact. For centres of degree
+// k and weights of degree at most 2k, the degree is 4k in the plane and 5k in space; in lifted motion it is 3
+// and 4.
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/determinant.h"
@@ -12,7 +13,7 @@
 
 namespace kds {
 
-/// The last number of a row of the determinant: of beads x and p, whose centres differ by `centre`.
+/// Returns the last entry of a row of the determinant, for beads x and p whose centres differ by `centre`.
 template <MotionView View>
 [[nodiscard, gnu::always_inline]] inline auto power_lift(
     const View& view, BeadId x, BeadId p,

@@ -1,6 +1,6 @@
 #pragma once
-// "Bead left lies before bead right along an axis", the first if none is named. Exact; degree k for centres
-// of degree k.
+// "Bead left lies before bead right along an axis", by default the first axis. Exact; degree k for centres of
+// degree k.
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/sorted_beads.h"

@@ -4,9 +4,9 @@
 
 namespace kds {
 
-/// What is promised of the radii of a necklace.
+/// The guarantee about the radii of a necklace.
 enum class Radii : std::uint8_t {
-  equal,  ///< the same for all beads, and so are weights: no certificate is radical
+  equal,  ///< equal radii and weights for all beads, so no certificate is radical
   any
 };
 

@@ -1,17 +1,17 @@
 #pragma once
-// Bead in the minimum enclosing sphere of a basis of beads of equal radii, the sphere made larger by a share
-// eps of its radius: bases of 2 and 3 beads, in space of 4. With sigma = (1 + eps)^2 - 1, c and R the sphere
-// of the centres, the certificate holds while |x - c|^2 <= (1 + sigma) R^2. With d_i = c_i - c_0 and g as in
-// bead_in_sphere.h, that is sigma R^2 + (R^2 - |x - c|^2) >= 0 times something positive:
+// A bead in the relaxed minimum enclosing sphere of a basis of beads of equal radii: the sphere is enlarged
+// by a share eps of its radius. For bases of 2 and 3 beads, and of 4 in space. With sigma = (1 + eps)^2 - 1,
+// and c and R the sphere of the centres, the certificate holds while |x - c|^2 <= (1 + sigma) R^2. With d_i =
+// c_i - c_0 and g as in bead_in_sphere.h, this is sigma R^2 + (R^2 - |x - c|^2) >= 0 times a positive number:
 //
 //   2 beads   sigma |d|^2 - 4 (x - a).(x - b)                                degree 2k
 //   3 beads   sigma |d_1|^2 |d_2|^2 |d_1 - d_2|^2 + 4 times F there          6k; times 4 g
 //   4 beads   sigma |E|^2 + 4 q (d_x.E - q |d_x|^2)                          8k; times 4 q^2
 //
-// where q = d_1.(d_2 x d_3) and E = |d_1|^2 d_2 x d_3 + ... = 2 q (c - c_0): no orientation is asked for.
+// where q = d_1.(d_2 x d_3) and E = |d_1|^2 d_2 x d_3 + ... = 2 q (c - c_0). No orientation is needed.
 //
-// A bead of radius r that it holds for is inside the sphere of the balls of radius R + r, made larger by eps:
-// |x - c| + r <= (1 + eps) R + r. Exact; all is in units of 2^-40 (relaxation.h).
+// A bead of radius r whose certificate holds is inside the sphere of the balls, of radius R + r, enlarged by
+// eps: |x - c| + r <= (1 + eps) R + r. Exact; all quantities are in units of 2^-40 (relaxation.h).
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/determinant.h"
@@ -26,13 +26,13 @@ struct RelaxedBeadInSphere {
 
   using Beads = RelaxedBeads<Size + 1>;
 
-  Beads beads{};  ///< the basis, ascending; then the bead
+  Beads beads{};  ///< the basis, ascending, then the bead
 
   RelaxedBeadInSphere() = default;
   RelaxedBeadInSphere(const std::array<BeadId, Size + 1>& of, const Relaxation& relaxation)
       : beads{of, relaxation} {}
 
-  /// Its last place tells relaxations apart.
+  /// Returns the identity. Its last place distinguishes relaxations.
   [[nodiscard]] Identity identity() const {
     Identity identity = identity_of(type, beads);
     identity.beads.back() = static_cast<BeadId>(beads.relaxation.units());

@@ -1,5 +1,5 @@
 #pragma once
-// What the formulas of relaxed spheres are about: beads and a relaxation.
+// The arguments of the formulas of relaxed spheres: beads and a relaxation.
 
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace kds {
 
-/// By default the greatest relaxation there is, so that bounds derived from the formula hold for all.
+/// The default is the greatest relaxation, so that bounds derived from the formula hold for all.
 template <std::size_t N>
 struct RelaxedBeads : std::array<BeadId, N> {
   Relaxation relaxation = Relaxation::greatest();

@@ -1,11 +1,12 @@
 #pragma once
-// Which certificate says that a ball lies in the relaxed sphere of a basis: like membership.h, by the same
-// radii. A ball of another radius than some of the basis' is relaxed where what is asked of the basis is
-// certain for the whole step (ball_in_sphere.h); else its certificate is the one of the sphere itself. That
-// choice is made in doubles, of control points alone: whatever the kernel, it is the same.
+// Selects the certificate that a ball lies in the relaxed sphere of a basis, by the same comparison of
+// radii as membership.h. A ball whose radius differs from some of the basis' is relaxed if the requirements
+// on the basis certainly hold on the whole step (ball_in_sphere.h). Otherwise its certificate is that of the
+// sphere itself. The choice uses only control points in double, so it is the same for every kernel.
 //
 //   equal radii    bases of two or more: relaxed_bead_in_sphere.h
-//   others         ball_in_sphere.h, relaxed; of a basis of two or more, its two balls farthest apart first
+//   others         ball_in_sphere.h, relaxed; in a basis of two or more, its two balls farthest apart come
+//   first
 
 #include <algorithm>
 #include <array>
@@ -20,7 +21,7 @@ namespace kds {
 
 namespace detail {
 
-/// The difference of two centres' control points.
+/// Returns the difference of two centres' control points.
 template <Motion M>
 [[nodiscard]] std::array<double, M::dimension> control_difference(const M& motion, BeadId a, BeadId b,
                                                                   int k) {
@@ -37,8 +38,8 @@ template <std::size_t N>
   return sum;
 }
 
-/// No more than the distance of two centres at any time of the step: their difference along the sum of those
-/// at both ends, less what is rounded; minus infinity where doubles do not tell.
+/// Returns a lower bound of the distance of two centres during the step: their difference along the sum of
+/// the differences at both ends, minus a bound on rounding. Returns minus infinity if doubles cannot decide.
 template <Motion M>
 [[nodiscard]] double least_distance(const M& motion, BeadId a, BeadId b) {
   const int degree = degree_of(motion);
@@ -50,13 +51,15 @@ template <Motion M>
   for (int k = 0; k <= degree; ++k) {
     const auto d = control_difference(motion, a, b, k);
     const double distance = product(d, along) / length - 0x1p-40 * std::sqrt(product(d, d));
-    if (!std::isfinite(distance)) return -HUGE_VAL;  // they trade places, or are too near or far for squares
+    if (!std::isfinite(distance))
+      return -HUGE_VAL;  // the difference reverses, or squares overflow or
+                         // underflow
     least = std::min(least, distance);
   }
   return least;
 }
 
-/// The basis with its two balls that are farthest apart at both ends of the step first.
+/// Moves the two balls of the basis that are farthest apart at both ends of the step to the front.
 template <Motion M>
 void put_farthest_first(const M& motion, std::span<BeadId> basis) {
   std::size_t first = 0, second = 1;
@@ -75,14 +78,15 @@ void put_farthest_first(const M& motion, std::span<BeadId> basis) {
       }
     }
   }
-  // `first` is before `second`: each is moved to the front in turn.
+  // `first` is before `second`, so move one after the other to the front.
   std::rotate(basis.begin(), basis.begin() + static_cast<std::ptrdiff_t>(first),
               basis.begin() + static_cast<std::ptrdiff_t>(first) + 1);
   std::rotate(basis.begin() + 1, basis.begin() + static_cast<std::ptrdiff_t>(second),
               basis.begin() + static_cast<std::ptrdiff_t>(second) + 1);
 }
 
-/// Whether what ball_in_sphere.h asks of the first two balls of a relaxed basis and of the ball is certain.
+/// Returns whether the requirements of ball_in_sphere.h on the first two balls of a relaxed basis and on the
+/// ball certainly hold.
 template <Motion M>
 [[nodiscard]] bool may_be_relaxed(const M& motion, std::span<const BeadId> basis, BeadId ball) {
   double largest = 0;
@@ -94,7 +98,7 @@ template <Motion M>
   return least_distance(motion, basis[0], basis[1]) >= largest;
 }
 
-/// 1 if it takes an even number of exchanges to sort them, else -1.
+/// Returns 1 if sorting takes an even number of exchanges, else -1.
 [[nodiscard]] inline int sign_of_order(std::span<const BeadId> beads) {
   int sign = 1;
   for (std::size_t i = 0; i < beads.size(); ++i)
@@ -105,7 +109,7 @@ template <Motion M>
 
 }  // namespace detail
 
-/// Calls `visit` with the certificate that `bead` lies inside the sphere of `basis`, relaxed; the other
+/// Calls `visit` with the certificate that `bead` lies inside the sphere of `basis`, relaxed. The other
 /// arguments are those of visit_membership.
 template <Motion M, class Visit>
 decltype(auto) visit_relaxed_membership(Radii radii, const M& motion, std::span<const BeadId> basis,

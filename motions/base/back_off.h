@@ -1,6 +1,6 @@
 #pragma once
-// What is tried in vain is tried less and less often: motion that is too fast for something is so for a
-// while.
+// Back-off: after failed attempts at an optimization, it is tried less and less often, because motion that is
+// too fast for it usually stays so for a while.
 
 #include <algorithm>
 
@@ -8,21 +8,21 @@ namespace kds {
 
 class BackOff {
  public:
-  /// After the first attempt in vain `first` occasions go by, then more and more, at most `most`.
+  /// After the first failed attempt, `first` occasions are skipped, then more and more, at most `most`.
   constexpr BackOff(unsigned first, unsigned most) : first_(first), most_(most), next_(first) {}
 
-  /// Whether this occasion goes by.
+  /// Returns whether to skip this occasion.
   [[nodiscard]] constexpr bool skips() {
     if (left_ == 0) return false;
     --left_;
     return true;
   }
-  /// An attempt was in vain.
+  /// Records a failed attempt.
   constexpr void lengthen() {
     left_ = next_;
     next_ = std::min(2 * next_ + 1, most_);
   }
-  /// An attempt was worth while.
+  /// Records a successful attempt.
   constexpr void reset() {
     left_ = 0;
     next_ = first_;

@@ -1,5 +1,6 @@
 #pragma once
-// Beads are numbered along the scene: necklace after necklace, in sequence order, from 0.
+// Identifiers of beads. Beads are numbered along the scene from 0: necklace after necklace, in sequence
+// order.
 
 #include <cstdint>
 
@@ -7,7 +8,7 @@ namespace kds {
 
 using BeadId = std::uint32_t;
 
-/// No bead of any scene: after all others in every order.
+/// An id that belongs to no bead of any scene. It sorts after all others.
 inline constexpr BeadId no_bead = 0xffffffffU;
 
 }  // namespace kds

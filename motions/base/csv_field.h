@@ -1,12 +1,12 @@
 #pragma once
-// Texts in files of comma separated values.
+// Text fields in CSV files (comma-separated values).
 
 #include <string>
 #include <string_view>
 
 namespace kds {
 
-/// A field of CSV, between quotation marks where it must be.
+/// Returns the text as a CSV field, in quotation marks if necessary.
 [[nodiscard]] inline std::string csv_field(std::string_view text) {
   if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";

@@ -1,12 +1,12 @@
 #pragma once
-// A file's format is told by its ending, in either case.
+// A file's ending, which determines its format; upper and lower case are equivalent.
 
 #include <filesystem>
 #include <string>
 
 namespace kds {
 
-/// In lower case, with its dot: ".pdb".
+/// Returns the ending in lower case with its dot: ".pdb".
 [[nodiscard]] inline std::string file_ending(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
   for (char& c : ending)
@@ -14,7 +14,7 @@ namespace kds {
   return ending;
 }
 
-/// Whether PDB files with this ending hold a biological assembly: .pdb and a number, as .pdb1.
+/// Returns whether PDB files with this ending hold a biological assembly: .pdb and a number, as in .pdb1.
 [[nodiscard]] inline bool is_assembly_ending(const std::string& ending) {
   return ending.size() > 4 && ending.compare(0, 4, ".pdb") == 0 &&
          ending.find_first_not_of("0123456789", 4) == std::string::npos;

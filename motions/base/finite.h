@@ -1,6 +1,6 @@
 #pragma once
-// Control points must be finite: NaN and infinity have no exact value, and certificates over them would have
-// no function.
+// Checks that control points are finite. NaN and infinity have no exact value, so certificates over them
+// would have no function.
 
 #include <cmath>
 #include <stdexcept>

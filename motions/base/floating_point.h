@@ -1,6 +1,6 @@
 #pragma once
-// What all filters and proofs here take for granted of the compiler: each operation on doubles is rounded,
-// and none is exchanged for another that is equal in real numbers only.
+// The properties of the compiler that all filters and proofs rely on: each operation on doubles is rounded,
+// and no operation is replaced by one that is equal only for real numbers.
 
 #if defined(__FAST_MATH__)
 #error "kds: compiled with -ffast-math; its error bounds hold only without"

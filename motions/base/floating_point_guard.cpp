@@ -7,7 +7,7 @@
 namespace kds {
 namespace {
 
-// Setting it takes half a microsecond, and nearly always there is nothing to set.
+// Setting the environment takes half a microsecond and is nearly always unnecessary, so check first.
 bool is_default() {
 #ifdef __SSE2__
   constexpr unsigned raised = 0x3f, at_start = 0x1f80;
@@ -19,7 +19,8 @@ bool is_default() {
 
 }  // namespace
 
-// The default environment is that of the start of a program: to nearest, nothing flushed, nothing trapped.
+// The default environment is that at the start of a program: rounding to nearest, no flushing to zero, no
+// traps.
 FloatingPointGuard::FloatingPointGuard() : changed_(!is_default()) {
   if (!changed_) return;
   std::fegetenv(&of_host_);

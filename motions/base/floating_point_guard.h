@@ -1,16 +1,16 @@
 #pragma once
-// The floating-point environment that filters and proofs need: rounding to nearest, underflow that is
-// gradual, no traps. A host may have set another: some libraries are linked such that all that loads them
-// flushes what is tiny to zero.
+// The floating-point environment that filters and proofs need: rounding to nearest, gradual underflow, no
+// traps. A host program may have changed it; for example, some libraries are linked so that every program
+// which loads them flushes subnormal numbers to zero.
 //
-// Whatever computes behind a public function of the library runs under a guard, worker threads too. Who calls
-// a search of failure times or a filter without a simulator sets up one for itself.
+// All computations behind public functions of the library run under a guard, including worker threads. Code
+// that calls a failure-time search or a filter without a simulator must create a guard itself.
 
 #include <cfenv>
 
 namespace kds {
 
-/// Sets the environment, and puts the host's back at the end of its life.
+/// Sets the environment, and restores the host's environment on destruction.
 class FloatingPointGuard {
  public:
   FloatingPointGuard();

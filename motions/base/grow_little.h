@@ -1,5 +1,5 @@
 #pragma once
-// Arrays that grow by an eighth instead of to twice their size, so that hardly any of their memory is unused.
+// Functions for arrays that grow by an eighth instead of doubling, so that little memory is unused.
 
 #include <cstddef>
 #include <vector>

@@ -31,7 +31,7 @@ struct Opened {
 Opened open_regular(const std::string& name) {
   struct stat status {};
   if (::stat(name.c_str(), &status) == 0) check_kind(name, status.st_mode);
-  // Whatever takes its place meanwhile: a pipe without a writer is not waited for.
+  // Do not block if the path has meanwhile become a pipe without a writer.
   const int descriptor = ::open(name.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) throw InputError(fmt::format("{}: cannot open this file", name));
   if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
@@ -39,7 +39,7 @@ Opened open_regular(const std::string& name) {
     check_kind(name, status.st_mode);
     throw InputError(fmt::format("{}: cannot open this file", name));
   }
-  const gzFile file = ::gzdopen(descriptor, "rb");  // hands through what is not compressed
+  const gzFile file = ::gzdopen(descriptor, "rb");  // passes uncompressed data through
   if (file == nullptr) {
     ::close(descriptor);
     throw InputError(fmt::format("{}: cannot open this file", name));

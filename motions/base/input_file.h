@@ -1,6 +1,6 @@
 #pragma once
-// A regular file, unpacked while it is read if it is gzipped. The amount read is bounded: by the size that a
-// plain file has when it is opened, and by a limit for the unpacked size of a gzipped one.
+// A regular file, decompressed while it is read if it is gzipped. The amount read is bounded: for a plain
+// file by its size when it is opened, for a gzipped file by a limit on its unpacked size.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,10 +15,11 @@ struct gzFile_s;
 
 namespace kds {
 
-/// Throws InputError where the path is no regular file: pipes and devices need not end.
+/// Throws InputError if the path is not a regular file. Pipes and devices are rejected because they may never
+/// end.
 void require_regular_file(const std::filesystem::path& path);
 
-/// A gzipped file ends before its last byte: the download or the copy was cut off.
+/// Thrown if a gzipped file ends prematurely, for example after an interrupted download or copy.
 class CutFile : public InputError {
  public:
   using InputError::InputError;
@@ -30,25 +31,25 @@ class CutFile : public InputError {
 
 class InputFile {
  public:
-  /// Throws InputError naming the file; never waits for a pipe's other end.
+  /// Opens the file. Throws InputError naming the file. Never blocks on a pipe.
   explicit InputFile(const std::filesystem::path& path);
 
-  /// Reads at most `size` bytes; returns 0 only at the end. Throws CutFile at the end of a gzipped file that
-  /// is cut off, and InputError if the file cannot be read or unpacks to more than both `most_unpacked` and
-  /// `most_ratio` times its size.
+  /// Reads at most `size` bytes. Returns 0 only at the end. Throws CutFile at the end of a truncated gzipped
+  /// file. Throws InputError if the file cannot be read, or if its unpacked size exceeds both `most_unpacked`
+  /// and `most_ratio` times its packed size.
   [[nodiscard]] std::size_t read(char* to, std::size_t size);
-  /// Continues at this byte of the unpacked file, or at its end. Quick in plain files. A gzipped file is
-  /// unpacked up to that byte, from the start if the byte lies before the present place.
+  /// Continues at this byte of the unpacked file, or at its end. Fast for plain files. A gzipped file is
+  /// unpacked up to that byte, from the start if the byte is before the present position.
   void seek(std::uint64_t place);
-  /// The byte that is read next.
+  /// Returns the position of the next byte.
   [[nodiscard]] std::uint64_t place() const { return read_; }
   struct Length {
-    std::uint64_t bytes = 0;  ///< of the unpacked file
-    bool cut = false;         ///< the gzipped file is cut off behind them
+    std::uint64_t bytes = 0;  ///< length of the unpacked file
+    bool cut = false;         ///< the gzipped file is truncated after these bytes
   };
-  /// Returns the length, and continues at the first byte. A gzipped file is unpacked once for it.
+  /// Returns the length, and continues at the first byte. A gzipped file is unpacked once to determine it.
   [[nodiscard]] Length length();
-  /// Begins again with the first byte.
+  /// Starts again at the first byte.
   void rewind();
   [[nodiscard]] const std::string& name() const { return name_; }
 
@@ -58,7 +59,7 @@ class InputFile {
  private:
   std::string name_;
   std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
-  std::uint64_t size_ = 0;  ///< as it lies on the disk
+  std::uint64_t size_ = 0;  ///< size on disk
   std::uint64_t read_ = 0;
 };
 

@@ -35,7 +35,7 @@ bool LineReader::next(std::string_view& line) {
   return true;
 }
 
-// Makes room behind what is left and reads on; false at the end of the file.
+// Moves the unread text to the front of the buffer and reads more. Returns false at the end of the file.
 bool LineReader::fill() {
   constexpr std::size_t piece = std::size_t{1} << 16U;
   std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),

@@ -1,5 +1,5 @@
 #pragma once
-// The lines of a file, one after the other, however long the file is. A byte order mark is left out.
+// Reads the lines of a file of any length, one after the other. A byte order mark is skipped.
 
 #include <cstddef>
 #include <filesystem>
@@ -12,17 +12,17 @@ namespace kds {
 
 class LineReader {
  public:
-  /// Throws InputError naming the file.
+  /// Opens the file. Throws InputError naming the file.
   explicit LineReader(const std::filesystem::path& path) : file_(path) {}
 
-  /// The next line, without its end, LF or CR LF; false at the end of the file. It lasts until the next call.
-  /// Throws InputError naming file and line where one is longer than `longest`.
+  /// Reads the next line without its line end (LF or CR LF). Returns false at the end of the file. `line` is
+  /// valid until the next call. Throws InputError naming file and line if a line is longer than `longest`.
   [[nodiscard]] bool next(std::string_view& line);
-  /// Of the line read last, from 1.
+  /// Returns the number of the line read last, from 1.
   [[nodiscard]] std::size_t number() const { return number_; }
-  /// Whether the line read last ended with the file, not with a line end.
+  /// Returns whether the line read last ended at the end of the file, without a line end.
   [[nodiscard]] bool cut() const { return cut_; }
-  /// Begins again with the first line.
+  /// Starts again at the first line.
   void rewind();
   [[nodiscard]] const std::string& name() const { return file_.name(); }
 
@@ -33,7 +33,7 @@ class LineReader {
 
   InputFile file_;
   std::string buffer_;
-  std::size_t begin_ = 0, end_ = 0;  ///< of what is in the buffer and not yet handed out
+  std::size_t begin_ = 0, end_ = 0;  ///< the unread part of the buffer
   std::size_t number_ = 0;
   bool at_start_ = true;
   bool cut_ = false;

@@ -1,5 +1,5 @@
 #pragma once
-// Refuses an index that is too large, with a message that gives the index and how many there are.
+// Rejects an index that is too large, with a message that names the index and the number of elements.
 
 #include <cstddef>
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace kds {
 
-/// "there is no bead 12: there are 10, numbered 0 to 9". `what` is the noun, in the singular.
+/// Returns a message such as "there is no bead 12: there are 10, numbered 0 to 9". `what` is the singular
+/// noun.
 [[nodiscard]] std::string no_such_index(std::string_view what, std::size_t index, std::size_t count);
 
 namespace detail {
@@ -16,7 +17,7 @@ namespace detail {
 
 }  // namespace detail
 
-/// Throws std::invalid_argument with this text unless `index` is below `count`.
+/// Throws std::invalid_argument with this message unless `index` is below `count`.
 inline void require_index(std::string_view what, std::size_t index, std::size_t count) {
   if (index >= count) [[unlikely]]
     detail::refuse_index(what, index, count);

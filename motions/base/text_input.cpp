@@ -19,7 +19,7 @@ std::string read_whole_file(const std::filesystem::path& path) {
   InputFile file(path);
   std::string text;
   std::array<char, 1 << 16> piece;
-  std::size_t line = 0;  // characters since the last line end
+  std::size_t line = 0;  // number of characters since the last line end
   while (const std::size_t got = file.read(piece.data(), piece.size())) {
     const std::string_view now(piece.data(), got);
     const std::size_t last = now.rfind('\n');
@@ -69,8 +69,8 @@ std::optional<double> parse_double(std::string_view field) {
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error == std::errc::result_out_of_range && end == field.data() + field.size()) {
-    // Too small is zero, or nearly: a stream tells which, whatever locale the host program has chosen. Too
-    // large stays an error.
+    // If a number is too small, let a stream round it to zero or a subnormal, independently of the host
+    // program's locale. A number that is too large remains an error.
     std::istringstream text{std::string(field)};
     text.imbue(std::locale::classic());
     if (text >> value && std::isfinite(value)) return value;

@@ -1,6 +1,6 @@
 #pragma once
-// A motion of a degree that is known only when the program runs: for users' polynomials beyond the degrees
-// whose filters are compiled. Control points are kept as given.
+// A motion whose degree is known only at run time, for users' polynomials of degrees for which no filters are
+// compiled. Control points are kept as given.
 
 #include <cstddef>
 #include <stdexcept>
@@ -21,7 +21,7 @@ class AnyDegreeMotion {
   static constexpr int dimension = DimensionValue;
   static constexpr int degree = any_degree;
 
-  /// Throws std::invalid_argument where the degree is negative.
+  /// Throws std::invalid_argument if the degree is negative.
   AnyDegreeMotion(std::size_t beads, int own_degree)
       : own_degree_(accepted(own_degree)),
         beads_(beads),

@@ -1,6 +1,6 @@
 #pragma once
-// A motion (motion.h) whose degree is a compile-time constant: filters of certificates are compiled for these
-// degrees.
+// A motion (motion.h) whose degree is a compile-time constant. The certificates' filters are compiled for
+// such degrees.
 
 #include <cstddef>
 #include <limits>
@@ -27,14 +27,14 @@ class BezierMotion {
     return records_[bead].control[k][axis];
   }
   [[nodiscard]] double weight(BeadId bead, int k) const { return records_[bead].control[k][dimension]; }
-  /// The k-th control point with the weight last, dimension + 1 numbers in a row.
+  /// Returns the k-th control point: dimension + 1 numbers in a row, the weight last.
   [[nodiscard]] const double* control_point(BeadId bead, int k) const { return records_[bead].control[k]; }
   void set_coordinate(BeadId bead, int k, int axis, double value) {
     records_[bead].control[k][axis] = finite(value);
   }
   void set_weight(BeadId bead, int k, double value) { records_[bead].control[k][dimension] = finite(value); }
-  /// All beads from one frame to the next (linear_ends.h). Throws as finite() does; then its control points
-  /// mean nothing.
+  /// Sets the motion of all beads from one frame to the next (linear_ends.h). Throws like finite(); the
+  /// control points are undefined then.
   void set_ends(const double* start, const double* end, const double* radii) requires(degree == 1) {
     static_assert(sizeof(Record) == 2 * (dimension + 1) * sizeof(double));
     if (records_.empty()) return;
@@ -47,12 +47,12 @@ class BezierMotion {
   void set_radius(BeadId bead, int k, double value) { radii_[bead].control[k] = finite(value); }
 
  private:
-  // A bead's control points lie together: those of linear motion in space fill one cache line.
+  // Stores the control points of a bead together. For linear motion in space they fill one cache line.
   struct alignas(DimensionValue == 3 && DegreeValue == 1 ? 64 : 8) Record {
     double control[degree + 1][dimension + 1] = {};
   };
   std::vector<Record> records_;
-  // Radii have an array of their own, since few certificates ask for them.
+  // Stores radii in a separate array, since few certificates use them.
   struct Radius {
     double control[degree + 1] = {};
   };

@@ -1,5 +1,5 @@
 #pragma once
-// The curves of a few beads by themselves, numbered from 0: for what outlasts the motion's step.
+// Copies of the curves of a few beads, numbered from 0, which remain valid after the motion's step.
 
 #include <array>
 #include <cstddef>
@@ -31,9 +31,9 @@ class CopiedCurves {
     numbers_.push_back(degree_);
   }
 
-  /// All that they are made of.
+  /// Returns all numbers that define the curves.
   [[nodiscard]] const std::vector<double>& numbers() const { return numbers_; }
-  /// Valid while this lives.
+  /// Returns the curves. They are valid during the life of this object.
   [[nodiscard]] C curves() const {
     const Curves<C::dimension> curves(Points{*this});
     if constexpr (lifted<C>) {
@@ -47,7 +47,7 @@ class CopiedCurves {
   }
 
  private:
-  /// As Curves ask for it.
+  /// The layout that Curves expect.
   struct Points {
     static constexpr int dimension = C::dimension;
     static constexpr int degree = any_degree;

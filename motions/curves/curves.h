@@ -1,10 +1,10 @@
 #pragma once
-// The control points of a motion where they lie, whatever the motion's type: what structures and searches see
-// of it. Exact: nothing is copied. Curves hold pointers, valid until the motion gets room for other beads.
+// Views of the control points of a motion of any type, as structures and searches use them. Nothing is copied
+// or rounded. Curves hold pointers, which stay valid until the motion allocates memory for other beads.
 //
-//   Curves           of a degree known at run time
-//   FixedCurves      of one that is a constant: what is compiled for vectors of beads
-//   LiftedCurves     of a lifted motion (lifted_motion.h), whose degree is 1
+//   Curves           degree known at run time
+//   FixedCurves      constant degree: used by code compiled for vectors of beads
+//   LiftedCurves     a lifted motion (lifted_motion.h), whose degree is 1
 
 #include <array>
 #include <cstddef>
@@ -24,7 +24,7 @@ class Curves {
   static constexpr int degree = any_degree;
 
   Curves() = default;
-  /// Throws std::invalid_argument where control points do not lie as the concept asks.
+  /// Throws std::invalid_argument if the control points are not laid out as the concept requires.
   template <Motion M>
   requires(M::dimension == DimensionValue) explicit Curves(const M& motion)
       : degree_(degree_of(motion)), beads_(motion.bead_count()) {
@@ -46,7 +46,7 @@ class Curves {
       throw std::invalid_argument("radii do not lie equally spaced from bead to bead");
   }
 
-  /// Where the beads are at the end of the step, as curves of degree 0.
+  /// Returns the beads at the end of the step, as curves of degree 0.
   [[nodiscard]] Curves at_end() const {
     Curves end = *this;
     if (beads_ > 0) end.points_ += (dimension + 1) * degree_;
@@ -83,7 +83,7 @@ template <int DimensionValue, int DegreeValue>
 class FixedCurves : public Curves<DimensionValue> {
  public:
   static constexpr int degree = DegreeValue;
-  /// Sees curves of this degree; with degree 0, their first control points alone.
+  /// Views curves of this degree. For degree 0, views only their first control points.
   explicit FixedCurves(const Curves<DimensionValue>& curves) : Curves<DimensionValue>(curves) {}
 };
 

@@ -1,11 +1,11 @@
 #pragma once
-// The lifted motion: centre x and l = |x|^2 - w of each bead move linearly, so that each sphere moves on a
-// straight line in lifted space. Power diagrams at both ends are those of the frames; in between weights are
-// fictitious,
+// The lifted motion: each bead's centre x and its lift l = |x|^2 - w move linearly, so that each sphere moves
+// on a straight line in lifted space. At both ends of the step, power diagrams are those of the frames. In
+// between the weights are fictitious,
 //   w(u) = (1-u) w(0) + u w(1) - u(1-u) |D|^2,   D the bead's displacement less the drift,
-// beads may become hidden on the way, and spheres mean nothing: it serves power diagrams alone. A power test
-// has degree 4 (5 in linear motion). A drift common to all beads would enter through cross terms, so it is
-// left out: |x|^2 is taken in a frame that moves with it.
+// beads may become hidden, and spheres are meaningless, so the motion serves only power diagrams. A power
+// test has degree 4 (5 in linear motion). A drift common to all beads would enter through cross terms, so it
+// is removed: |x|^2 is taken in a frame of reference that moves with it.
 //
 // Exact: the motion is given by its control points and the drift, all doubles.
 
@@ -33,8 +33,8 @@ class LiftedMotion : public BezierMotion<DimensionValue, 1> {
   Vector drift_{};
 };
 
-/// l of bead i minus l of bead j, with all lengths taken from where j starts. Adding a multiple of the
-/// centres to l changes no power test, so this is the lift to all purposes:
+/// Returns l of bead i minus l of bead j, with all lengths relative to the start of j. Adding a multiple of
+/// the centres to l changes no power test, so this is equivalent to the lift:
 ///   u = 0:  |d(0)|^2 - w                        d = centre of i minus centre of j
 ///   u = 1:  |d(1)|^2 + 2 D.d(1) - w             w = weight of i minus weight of j, D of j
 template <class View>

@@ -6,7 +6,7 @@ namespace kds {
 
 namespace {
 
-/// Zero times what is not finite is NaN.
+/// Sets one control point. Returns a NaN if a number is not finite: zero times such a number is NaN.
 template <int Dimension>
 double set_one_by_one(const double* center, double weight, double* point) {
   double none = 0 * weight;
@@ -18,17 +18,20 @@ double set_one_by_one(const double* center, double weight, double* point) {
   return none;
 }
 
-/// `wrong`: its sign bits are set where a number is not finite. No sum to wait for.
+/// Sets one control point. Sets sign bits of `wrong` if a number is not finite, which avoids the latency of a
+/// sum.
 [[gnu::always_inline]] inline void set_row(const double* center, double weight, double* point,
                                            Lanes::Mask& wrong) {
   constexpr long long exponent = 0x7ffLL << 52, one = 1LL << 52;
-  Lanes::Vector row = Lanes::load(center);  // and the next bead's first number, in the weight's place
+  Lanes::Vector row = Lanes::load(center);  // the fourth number belongs to the next bead and is replaced by
+                                            // the weight
   row[3] = weight;
   wrong |= (reinterpret_cast<Lanes::Mask>(row) & exponent) + one;
   __builtin_memcpy(point, &row, sizeof row);
 }
 
-/// In space, all beads but the last: behind each there is one more number. Whether all is finite.
+/// Sets rows in space for all beads except the last, because a row reads one number more. Returns whether all
+/// numbers are finite.
 [[KDS_LANES_TARGETS]] bool set_rows(const double* start, const double* end, const double* radii,
                                     std::size_t beads, double* points, double* own_radii) {
   Lanes::Mask wrong{};

@@ -1,6 +1,7 @@
 #pragma once
-// A motion as structures hold it: any motion of the dimension, whatever its type and degree. The motion
-// behind it may be set to another step at any time, and must outlive the structures; its degree stays.
+// A reference to a motion, as structures hold it: any motion of the dimension, of any type and degree. The
+// motion may be set to another step at any time, but its degree must not change. It must outlive the
+// structures.
 
 #include <array>
 #include <cstddef>
@@ -22,7 +23,8 @@ class MotionRef {
   using Vector = std::array<double, static_cast<std::size_t>(DimensionValue)>;
 
   template <Motion M>
-  requires(M::dimension == DimensionValue) MotionRef(const M& motion)  // NOLINT: every motion is one
+  requires(M::dimension == DimensionValue) MotionRef(const M& motion)  // NOLINT: implicit, since every motion
+                                                                       // is one
       : motion_(&motion),
         degree_(degree_of(motion)),
         curves_([](const void* of) { return Curves<DimensionValue>(*static_cast<const M*>(of)); }) {
@@ -36,13 +38,13 @@ class MotionRef {
     }
   }
 
-  /// A motion that ends with the expression is none to refer to.
+  /// Deleted, because a temporary motion cannot be referred to.
   template <Motion M>
   requires(M::dimension == DimensionValue) MotionRef(const M&& motion)
   = delete;
 
-  /// Throws std::logic_error where the motion's degree is another than when this was made: what was made for
-  /// it with this, a search or a filter, would be wrong.
+  /// Returns the motion's curves. Throws std::logic_error if the motion's degree has changed since this
+  /// reference was made. Searches and filters made for the old degree would be wrong.
   [[nodiscard]] Curves<DimensionValue> curves() const {
     const Curves<DimensionValue> now = curves_(motion_);
     if (now.own_degree() != degree_) [[unlikely]]
@@ -52,10 +54,10 @@ class MotionRef {
   [[nodiscard]] int degree() const { return degree_; }
   [[nodiscard]] std::size_t bead_count() const { return curves().bead_count(); }
   [[nodiscard]] bool is_lifted() const { return drift_ != nullptr; }
-  /// The curves with their drift; the motion must be lifted.
+  /// Returns the curves with their drift. The motion must be lifted.
   [[nodiscard]] LiftedCurves<DimensionValue> lifted_curves() const { return {curves(), drift_(motion_)}; }
 
-  /// Calls `use` with the curves in their own type: LiftedCurves where the motion is lifted, else Curves.
+  /// Calls `use` with the curves in their own type: LiftedCurves if the motion is lifted, else Curves.
   template <class Use>
   decltype(auto) visit(Use use) const {
     if constexpr (DimensionValue > 1) {

@@ -3,7 +3,7 @@
 namespace kds::detail {
 namespace {
 
-/// A Bezier curve at u, by de Casteljau.
+/// Evaluates a Bezier curve at u by de Casteljau's algorithm.
 template <class Number, class Control>
 Number curve_at(int degree, const Number& u, Control control) {
   std::vector<Number> p;

@@ -1,5 +1,5 @@
 #pragma once
-// Where the beads are at one time of a step.
+// The positions of the beads at one time of a step.
 
 #include <Eigen/Core>
 #include <array>
@@ -22,14 +22,14 @@ struct PositionsOf {
   static std::array<Rational, static_cast<std::size_t>(Dimension) + 1> exact_position(
       const Curves<Dimension>& curves, BeadId bead, const Dyadic& time);
   static Rational exact_radius(const Curves<Dimension>& curves, BeadId bead, const Dyadic& time);
-  /// u (1-u) |D|^2, by which lifted motion makes a bead's weight less than linear (lifted_motion.h).
+  /// Returns u (1-u) |D|^2, by which a bead's weight in lifted motion is less than linear (lifted_motion.h).
   static Rational exact_dip(const LiftedCurves<Dimension>& curves, BeadId bead,
                             const Dyadic& time) requires(Dimension > 1);
 };
 
 }  // namespace detail
 
-/// The k-th control points; k = 0 and k = degree are the positions at the ends of the step, exactly.
+/// Returns the k-th control points. k = 0 and k = degree give the exact positions at the ends of the step.
 template <Motion M>
 [[nodiscard]] Eigen::Matrix3Xd control_points(const M& motion, int k) {
   return detail::PositionsOf<M::dimension>::control_points(CurvesOf<M>(motion), k);
@@ -43,7 +43,7 @@ template <Motion M>
   return detail::PositionsOf<M::dimension>::control_radii(CurvesOf<M>(motion), k);
 }
 
-/// The positions at u in [0,1], each rounded a few times.
+/// Returns the positions at u in [0,1], each with a few roundings.
 template <Motion M>
 [[nodiscard]] Eigen::Matrix3Xd approximate_positions(const M& motion, double u) {
   return detail::PositionsOf<M::dimension>::approximate_positions(CurvesOf<M>(motion), u);
@@ -53,7 +53,8 @@ template <Motion M>
   return detail::PositionsOf<M::dimension>::approximate_radii(CurvesOf<M>(motion), u);
 }
 
-/// Coordinates and, last, the weight of a bead at `time`, exactly; in lifted motion its fictitious weight.
+/// Returns the exact coordinates of a bead at `time`, followed by its weight; in lifted motion its fictitious
+/// weight.
 template <Motion M>
 [[nodiscard]] auto exact_position(const M& motion, BeadId bead, const Dyadic& time) {
   using Positions = detail::PositionsOf<M::dimension>;
@@ -63,7 +64,7 @@ template <Motion M>
   return position;
 }
 
-/// The radius of a bead at `time`. Exact.
+/// Returns the exact radius of a bead at `time`.
 template <Motion M>
 [[nodiscard]] Rational exact_radius(const M& motion, BeadId bead, const Dyadic& time) {
   return detail::PositionsOf<M::dimension>::exact_radius(CurvesOf<M>(motion), bead, time);

@@ -9,7 +9,7 @@ namespace kds {
 
 namespace {
 
-/// A time u with its distance 1 - u to the end.
+/// A time u and its distance 1 - u from the end.
 struct RoundedTime {
   explicit RoundedTime(const Dyadic& time)
       : later{time.round_down(), time.round_up() - time.round_down()},
@@ -17,7 +17,8 @@ struct RoundedTime {
   TrackedDouble later, earlier;
 };
 
-/// Evaluates a Bezier curve at a time by de Casteljau's algorithm. `row` has room for its control points.
+/// Evaluates a Bezier curve at a time by de Casteljau's algorithm. `row` provides room for its control
+/// points.
 template <class Control>
 TrackedDouble curve_at(const RoundedTime& time, std::vector<TrackedDouble>& row, Control control) {
   for (std::size_t k = 0; k < row.size(); ++k) row[k] = {control(static_cast<int>(k)), 0.0};
@@ -49,7 +50,7 @@ RoundedPositions<D>::RoundedPositions(const MotionRef<D>& motion, const Dyadic& 
         raise(coordinate_error_, x);
       }
       TrackedDouble weight = curve_at(at, room, [&](int k) { return curves.weight(b, k); });
-      if constexpr (lifted<Some>) {  // less u (1-u) |D|^2 (lifted_motion.h)
+      if constexpr (lifted<Some>) {  // subtract u (1-u) |D|^2 (lifted_motion.h)
         for (int axis = 0; axis < D; ++axis) {
           const TrackedDouble moved = TrackedDouble{curves.coordinate(b, 1, axis), 0.0} -
                                       TrackedDouble{curves.coordinate(b, 0, axis), 0.0} -

@@ -1,7 +1,6 @@
 #pragma once
-// Positions of the beads at one time of a step, in doubles with error bounds (ball arithmetic). They decide
-// nearly every sign that an audit asks for; whole numbers decide the rest. Computed from the control points
-// alone.
+// Positions of the beads at one time of a step, in doubles with error bounds (ball arithmetic), computed from
+// the control points. They decide nearly every sign that an audit needs; integers decide the others.
 
 #include <array>
 #include <cstddef>
@@ -16,7 +15,7 @@ namespace kds {
 template <int Dimension>
 class RoundedPositions {
  public:
-  /// Coordinates, then the weight; padded to four numbers.
+  /// The coordinates, then the weight, padded to four numbers.
   using Row = std::array<double, 4>;
 
   /// Rounding must be to nearest.
@@ -24,7 +23,8 @@ class RoundedPositions {
 
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] const Row& row(BeadId bead) const { return rows_[bead]; }
-  /// Bounds on the error of every coordinate and of every weight; infinite if a number overflows.
+  /// Return bounds on the error of every coordinate and of every weight. They are infinite if a number
+  /// overflows.
   [[nodiscard]] double coordinate_error() const { return coordinate_error_; }
   [[nodiscard]] double weight_error() const { return weight_error_; }
 

@@ -1,6 +1,7 @@
 #pragma once
-// Where beads are at one moment: a motion of degree 0. Functions of beads have one coefficient over it, their
-// value. Centres and weights are doubles, exact by definition; there are no radii.
+// The positions of beads at one moment, as a motion of degree 0. Over it, functions of beads have one
+// coefficient, their value. Centres and weights are doubles and define the snapshot exactly; there are no
+// radii.
 
 #include <Eigen/Core>
 #include <span>
@@ -19,7 +20,7 @@ class Snapshot {
   static constexpr int degree = 0;
 
   Snapshot() = default;
-  /// Centres have three rows; in the plane the third is not looked at.
+  /// `centers` has three rows; in the plane the third is ignored.
   Snapshot(const Eigen::Matrix3Xd& centers, std::span<const double> weights) : records_(weights.size()) {
     for (BeadId b = 0; b < records_.size(); ++b) {
       for (int axis = 0; axis < dimension; ++axis) records_[b].control[axis] = centers(axis, b);
@@ -27,7 +28,7 @@ class Snapshot {
     }
   }
 
-  /// The beads at a motion's k-th control points: k = 0 and k = degree are the ends of its step.
+  /// Takes the beads' k-th control points. k = 0 and k = degree are the ends of the motion's step.
   template <Motion M>
   requires(M::dimension == dimension) void set(const M& motion, int k) {
     records_.resize(motion.bead_count());
@@ -42,7 +43,7 @@ class Snapshot {
   [[nodiscard]] double weight(BeadId bead, int) const { return records_[bead].control[dimension]; }
   [[nodiscard]] double radius(BeadId, int) const { return 0; }
   [[nodiscard]] const double* radii(BeadId) const { return &no_radius; }
-  /// The coordinates, then the weight.
+  /// Returns the coordinates, then the weight.
   [[nodiscard]] const double* control_point(BeadId bead, int) const { return records_[bead].control; }
 
  private:

@@ -30,7 +30,7 @@ std::vector<std::size_t> find_chain_breaks(const Eigen::Matrix3Xd& frame) {
   if (frame.cols() < 3) return breaks;
   const std::vector<double> lengths = bond_lengths(frame);
   const double longest_bond = 1.5 * median(lengths);
-  if (longest_bond == 0) return breaks;  // most beads in one place: no bond to measure by
+  if (longest_bond == 0) return breaks;  // most beads coincide, so there is no typical bond length
   for (std::size_t i = 0; i < lengths.size(); ++i)
     if (lengths[i] > longest_bond) breaks.push_back(i);
   return breaks;

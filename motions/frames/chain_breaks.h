@@ -1,5 +1,5 @@
 #pragma once
-// Places where residues are missing, so that two consecutive beads lie far apart.
+// Detects chain breaks: places where residues are missing, so that two consecutive beads are far apart.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -8,10 +8,11 @@
 
 namespace kds {
 
-/// b for each bond b to b+1 of this frame that is longer than 1.5 times the median bond; needs three beads.
+/// Returns b for each bond between beads b and b+1 in this frame that is longer than 1.5 times the median
+/// bond. Needs at least three beads.
 [[nodiscard]] std::vector<std::size_t> find_chain_breaks(const Eigen::Matrix3Xd& frame);
 
-/// One line that names the first ten places.
+/// Returns one line that names the first ten places.
 [[nodiscard]] std::string describe_chain_breaks(const std::string& file,
                                                 const std::vector<std::size_t>& breaks);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A trajectory with fewer frames.
+// Reduces a trajectory to every n-th frame.
 
 #include <cstddef>
 
@@ -7,8 +7,8 @@
 
 namespace kds {
 
-/// Its frames 0, n, 2n ..., with their numbers in the file and, for n above 1, without their times; one at
-/// rest stays as it is.
+/// Returns the frames 0, n, 2n ... with their numbers in the file. For n above 1 the times are dropped. A
+/// trajectory at rest is returned unchanged.
 [[nodiscard]] Trajectory every_nth(const Trajectory& trajectory, std::size_t n);
 
 }  // namespace kds

@@ -1,6 +1,6 @@
 #pragma once
-// What the reader of one format hands over: its frames one after the other, before the chain is made whole
-// and searched for breaks. Only the frame asked for is in memory.
+// The interface of a reader for one file format. It returns the frames in sequence, before the chain is made
+// whole and chain breaks are detected. Only the requested frame is in memory.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -17,12 +17,13 @@ namespace kds {
 struct ChainRead {
   std::string name;
   std::size_t bead_count = 0;
-  std::size_t residues = 0, residues_read = 0;  ///< of the chain in the file; 0 if it has no residues
+  std::size_t residues = 0, residues_read = 0;  ///< residues of the chain in the file, and those read; 0 if
+                                                ///< it has no residues
 };
 
 struct FrameRead {
   FrameStamp stamp;
-  Eigen::Matrix3Xd positions;  ///< one column a bead, in the file's length unit (angstrom)
+  Eigen::Matrix3Xd positions;  ///< one column per bead, in the file's length unit (angstrom)
   std::optional<Cell> cell;
   /// Why the cell in the file is not used; empty if the cell is used or the file has none.
   std::string cell_doubt = {};
@@ -33,21 +34,21 @@ struct FrameRead {
 class FrameReader {
  public:
   virtual ~FrameReader() = default;
-  /// The next of the frames asked for; false behind the last one, which nobody need know before. Throws
-  /// InputError naming file and frame.
+  /// Reads the next requested frame. Returns false after the last frame; the number of frames need not be
+  /// known before. Throws InputError naming file and frame.
   [[nodiscard]] virtual bool next(FrameRead& frame) = 0;
-  /// Begins again with the first.
+  /// Starts again at the first frame.
   virtual void rewind() = 0;
 };
 
-/// A file of frames, open.
+/// An open file of frames.
 struct FramesOpened {
-  std::string file;                   ///< for messages
-  std::vector<ChainRead> chains;      ///< that the beads belong to, in order; empty: one without a name
-  std::vector<double> element_radii;  ///< van der Waals radius of each bead; empty where elements are unknown
-  std::vector<std::string> bead_names;  ///< "CA of ALA 12 in chain A"; empty where the file has no residues
+  std::string file;                   ///< name, for messages
+  std::vector<ChainRead> chains;      ///< the chains of the beads, in order; empty: one chain without a name
+  std::vector<double> element_radii;  ///< van der Waals radius of each bead; empty if elements are unknown
+  std::vector<std::string> bead_names;  ///< "CA of ALA 12 in chain A"; empty if the file has no residues
   std::vector<std::string> warnings;    ///< one line each
-  bool chain_like = true;               ///< beads that follow each other are meant to be bonded
+  bool chain_like = true;               ///< consecutive beads are meant to be bonded
   std::unique_ptr<FrameReader> frames;
 };
 

@@ -1,15 +1,15 @@
 #pragma once
-// Which frame of a file, and when.
+// The number and the time of a frame in a file.
 
 #include <cstddef>
 #include <optional>
 
 namespace kds {
 
-/// A frame's place in its file and its time.
+/// A frame's position in its file, and its time.
 struct FrameStamp {
-  std::size_t number = 0;             ///< 0-based place in the file
-  std::optional<double> picoseconds;  ///< none where the file has no times
+  std::size_t number = 0;             ///< position in the file, from 0
+  std::optional<double> picoseconds;  ///< none if the file has no times
 };
 
 }  // namespace kds

@@ -16,9 +16,9 @@ namespace kds {
 
 namespace {
 
-// A basis of at most three vectors, Minkowski-reduced: sorted by length, none is shortened by whole multiples
-// of those before it. Columns beyond `rank` are zero. (Semaev 2001: for three vectors this greedy reduction
-// ends in a Minkowski-reduced basis.)
+// A Minkowski-reduced basis of at most three vectors. They are sorted by length, and adding whole
+// multiples of the vectors before it shortens none of them. Columns beyond `rank` are zero. (Semaev 2001: for
+// three vectors this greedy reduction ends in a Minkowski-reduced basis.)
 struct ReducedBasis {
   Eigen::Matrix3d steps = Eigen::Matrix3d::Zero();  // whole multiples of the cell's vectors
   Eigen::Matrix3d vectors = Eigen::Matrix3d::Zero();
@@ -34,7 +34,7 @@ class LatticeReduction {
   }
 
   ReducedBasis reduce() {
-    constexpr int most_rounds = 1000;  // a few are enough for any cell whose numbers keep their digits
+    constexpr int most_rounds = 1000;  // a few suffice for any cell with enough precision
     for (int round = 0; round < most_rounds; ++round) {
       sort();
       bool shorter = basis_.rank > 1 && shorten(1);
@@ -55,7 +55,7 @@ class LatticeReduction {
 
   double length(Eigen::Index i) const { return basis_.vectors.col(i).squaredNorm(); }
 
-  // Replaces vector `last` by the shortest of its sums with multiples of those before it.
+  // Replaces vector `last` by the shortest of its sums with multiples of the vectors before it.
   bool shorten(Eigen::Index last) {
     const auto before = basis_.vectors.leftCols(last);
     const Eigen::MatrixXd gram = before.transpose() * before;
@@ -99,12 +99,12 @@ std::string doubt_of(const Eigen::Vector3d& lengths, std::string_view expected) 
                      lengths[1], lengths[2]);
 }
 
-// Files without a cell write zeros or ones.
+// Returns whether the lengths mean that there is no cell: files without one write zeros or ones.
 bool tells_no_cell(const Eigen::Vector3d& lengths) {
   return lengths.minCoeff() >= 0 && lengths.maxCoeff() <= 1;
 }
 
-// The sum of the deviations of logarithms of bond lengths from their median.
+// Returns the sum of the deviations of the logarithms of bond lengths from their median.
 double unlikeness(const Eigen::Matrix3Xd& chain) {
   std::vector<double> logs;
   for (Eigen::Index i = 0; i + 1 < chain.cols(); ++i)
@@ -139,7 +139,7 @@ Images::Images(const Cell& cell) : cell_(cell) {
 
 Eigen::Vector3d Images::nearest(const Eigen::Vector3d& difference) const {
   const Eigen::Vector3d guess = -(inverse_ * difference).array().round().matrix();
-  // Farther off than any real file, and where the sums below would lose their digits.
+  // Not in any real file, and the sums below would lose precision.
   if (!(guess.cwiseAbs().maxCoeff() < 1e6)) return Eigen::Vector3d::Zero();
   Eigen::Vector3d best = Eigen::Vector3d::Zero();
   double shortest = difference.squaredNorm();
@@ -196,7 +196,7 @@ CellRead read_cell_from_lengths(const Eigen::Vector3d& lengths, const Eigen::Vec
   const double sin_gamma = std::sqrt(1 - cos_gamma * cos_gamma);
   const double y = (cos_alpha - cos_beta * cos_gamma) / sin_gamma;
   const double z = std::sqrt(1 - cos_beta * cos_beta - y * y);
-  if (!cosines.allFinite() || !(sin_gamma > 1e-3 && z > 1e-3))  // NaN too
+  if (!cosines.allFinite() || !(sin_gamma > 1e-3 && z > 1e-3))  // also false for NaN
     return {std::nullopt,
             doubt_of(lengths, fmt::format("angles that span a volume, not of cosines {:.6g}, {:.6g}, {:.6g}",
                                           cos_alpha, cos_beta, cos_gamma))};

@@ -1,5 +1,5 @@
 #pragma once
-// Periodic images: a chain that was cut at the walls of a simulation box is put together again.
+// Periodic images: reassembles a chain that was cut at the walls of a simulation box.
 
 #include <Eigen/Core>
 #include <array>
@@ -13,10 +13,10 @@ namespace kds {
 /// along that vector.
 using Cell = Eigen::Matrix3d;
 
-/// The cell of a frame, as far as its file tells one.
+/// The cell of a frame, if its file gives one.
 struct CellRead {
   std::optional<Cell> cell;
-  std::string doubt;  ///< why the cell in the file is not used, for messages; empty if there is none
+  std::string doubt;  ///< why the file's cell is not used, for messages; empty if there is no doubt
 };
 
 /// Reads a cell from its three vectors (columns) and the axes that are periodic. A cell is used if its
@@ -30,7 +30,7 @@ struct CellRead {
 /// Reads a cell from the lengths of its vectors and the angles in degrees.
 [[nodiscard]] CellRead read_cell_from_angles(const Eigen::Vector3d& lengths, const Eigen::Vector3d& degrees);
 
-/// These two return the cell without the doubt.
+/// Both functions return the cell without the doubt.
 [[nodiscard]] inline std::optional<Cell> cell_from_lengths(const Eigen::Vector3d& lengths,
                                                            const Eigen::Vector3d& cosines) {
   return read_cell_from_lengths(lengths, cosines).cell;
@@ -40,32 +40,33 @@ struct CellRead {
   return read_cell_from_angles(lengths, degrees).cell;
 }
 
-/// The nearest periodic image of a point. The lattice is Minkowski-reduced first, so the image is the nearest
-/// one in cells of any shape: with a reduced basis b1, b2, b3 every face of the Voronoi cell belongs to a
-/// vector i b1 + j b2 + k b3 with i, j, k in {-1, 0, 1}, and a point that none of the 26 shortens is in the
-/// Voronoi cell.
+/// Finds the nearest periodic image of a point. The lattice is Minkowski-reduced first, so the result is
+/// correct for cells of any shape. With a reduced basis b1, b2, b3, every face of the Voronoi cell belongs to
+/// a vector i b1 + j b2 + k b3 with i, j, k in {-1, 0, 1}. A point that none of these 26 vectors shortens is
+/// therefore in the Voronoi cell.
 class Images {
  public:
   explicit Images(const Cell& cell);
 
-  /// The shift, in whole cell vectors, that makes `difference` shortest; zero if it is shortest already.
+  /// Returns the shift, in whole cell vectors, that makes `difference` shortest; zero if it is shortest
+  /// already.
   [[nodiscard]] Eigen::Vector3d nearest(const Eigen::Vector3d& difference) const;
-  /// The point moved by a shift, with its bits kept if the shift is zero.
+  /// Returns the point moved by a shift. If the shift is zero, the point keeps its bits.
   [[nodiscard]] Eigen::Vector3d shifted(const Eigen::Vector3d& point, const Eigen::Vector3d& shift) const;
 
  private:
   Cell cell_;
   Eigen::Matrix3d reduced_;  ///< the reduced basis, cell_ * steps_
-  Eigen::Matrix3d steps_;    ///< whole numbers
+  Eigen::Matrix3d steps_;    ///< whole multiples of the cell's vectors
   Eigen::Matrix3d inverse_;  ///< coordinates in the reduced basis
   bool upright_;             ///< the cell lies along the axes, so rounding finds the nearest image
 };
 
-/// A chain and its periodic image nearest to other chains.
+/// The periodic image of a chain that is nearest to other chains.
 struct ImageBeside {
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< to the nearest image, in cell vectors
-  double distance = 0;                              ///< of the nearest image: least distance of two beads
-  double present = 0;                               ///< of the chain as it lies
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< shift to the nearest image, in cell vectors
+  double distance = 0;                              ///< least distance of two beads, for the nearest image
+  double present = 0;  ///< least distance of two beads, for the chain in its present place
 
   /// Chains are moved, or reported across files, only if the image is much nearer.
   [[nodiscard]] bool is_much_nearer() const {
@@ -73,7 +74,8 @@ struct ImageBeside {
     return distance * much < present;
   }
 };
-/// Finds the image of `chain` nearest to `others`. Looks at every n-th bead if there are very many pairs.
+/// Finds the image of `chain` nearest to `others`. If there are very many pairs, only every n-th bead is
+/// considered.
 [[nodiscard]] ImageBeside nearest_image_beside(const Eigen::Matrix3Xd& others, const Eigen::Matrix3Xd& chain,
                                                const Cell& cell);
 
@@ -94,27 +96,29 @@ class EarlierNecklaces {
   std::vector<InCell> cells_;
 };
 
-/// Makes the frames of a chain whole, one after the other: takes for each bead the image nearest to the bead
-/// before it, and for each frame the image of the whole chain whose centroid is nearest to that of the frame
-/// before. Each bead moves by whole cell vectors, in one rounding; what need not move keeps its bits.
+/// Makes the frames of a chain whole, one after the other. Each bead is moved to its image nearest to the
+/// bead before it. Then the whole chain is moved to the image whose centroid is nearest to that of the frame
+/// before. Each bead moves by whole cell vectors, with one rounding; beads that need not move keep their
+/// bits.
 ///
-/// A cell that is not that of the coordinates makes bonds shorter, but not more alike. Such a frame stays as
-/// it is: the deviations of the logarithms of bond lengths from their median must add up to less than before.
-/// Chains of two beads have one bond, which tells nothing, and are made whole.
+/// A cell that does not belong to the coordinates makes bonds shorter but not more alike. A frame is
+/// therefore left unchanged unless making it whole reduces the sum of the deviations of the logarithms of
+/// bond lengths from their median. A chain of two beads has only one bond, which allows no such test, so it
+/// is always made whole.
 class WholeChain {
  public:
   using Frame = Eigen::Ref<Eigen::Matrix3Xd, 0, Eigen::OuterStride<>>;
   enum class Outcome {
     unmoved,
     moved,
-    doubtful,  ///< left as it is, because bonds would not be more alike
+    doubtful,  ///< left unchanged, because bonds would not become more alike
   };
 
-  /// A frame without a cell stays as it is.
+  /// Makes a frame whole. A frame without a cell is left unchanged.
   Outcome make_whole(Frame frame, const std::optional<Cell>& cell);
-  /// Moves the first frame by this shift, in cell vectors.
+  /// Shifts the first frame by `shift`, in cell vectors.
   void start_shifted(const Eigen::Vector3d& shift) { start_ = shift; }
-  /// The next frame is the first.
+  /// Starts again: the next frame is the first.
   void restart() { last_centroid_.reset(); }
 
  private:
