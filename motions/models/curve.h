@@ -1,5 +1,5 @@
 #pragma once
-// Beads at equal distances along a curve, as in the paper's splines, grills and spirals.
+// Places beads at equal distances along a curve, for the paper's splines, grills and spirals.
 
 #include <cstddef>
 #include <functional>
@@ -8,11 +8,12 @@
 
 namespace kds::models {
 
-using Curve = std::function<Eigen::Vector3d(double)>;  ///< of t in [0, 1]
+using Curve = std::function<Eigen::Vector3d(double)>;  ///< maps t in [0, 1] to a point
 
-/// `beads` (at least 2) at equal lengths along the curve, ends included, after scaling it so that consecutive
-/// beads are `bond` diameters apart along it, and hence in space at most. The curve is taken as a polyline of
-/// `pieces` equal parts of [0, 1]; its corners should be among them.
+/// Returns `beads` (at least 2) beads at equal arc lengths along the curve, ends included. The curve is
+/// scaled so that consecutive beads are `bond` diameters apart along it, so their distance in space is at
+/// most that. The curve is approximated by a polyline of `pieces` equal parts of [0, 1]; its corners should
+/// be among the ends of the parts.
 [[nodiscard]] Shape beads_along(const Curve& curve, std::size_t beads, double bond, std::size_t pieces);
 
 }  // namespace kds::models

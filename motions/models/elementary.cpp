@@ -6,12 +6,12 @@
 namespace kds::models {
 
 SineCosine sine_cosine(double turns) {
-  const double part = turns - std::nearbyint(turns);  // exact, and so is what follows
+  const double part = turns - std::nearbyint(turns);  // exact, like the next two lines
   const double quarters = std::nearbyint(4 * part);
   const double x = 2 * std::numbers::pi * (part - quarters / 4);  // at most pi/4
   const double square = x * x;
   double sine = 0, cosine = 0;
-  for (int n = 18; n >= 2; n -= 2) {  // Taylor's series from their ends
+  for (int n = 18; n >= 2; n -= 2) {  // Taylor series, summed from the last term
     cosine = (1 - cosine) * square / (n * (n - 1));
     sine = (1 - sine) * square / (n * (n + 1));
   }
@@ -47,7 +47,7 @@ double cube_root(double x) {
   int power = 0;
   static_cast<void>(std::frexp(x, &power));
   double root = std::ldexp(1.0, power / 3);
-  for (int round = 0; round < 12; ++round) root = (2 * root + x / root / root) / 3;  // Newton
+  for (int round = 0; round < 12; ++round) root = (2 * root + x / root / root) / 3;  // Newton's iteration
   return root;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-// Sine, cosine, logarithm and cube root from +, -, *, / and square roots alone, which IEEE 754 rounds alike
-// everywhere: a model has the same bits on every platform, which the functions of C do not promise. Errors
-// are a few units in the last place.
+// Sine, cosine, logarithm and cube root computed only from +, -, *, / and square roots, which IEEE 754 rounds
+// identically everywhere. A model therefore has the same bits on every platform, which the C library's
+// functions do not guarantee. Errors are a few units in the last place.
 
 namespace kds::models {
 
@@ -9,13 +9,13 @@ struct SineCosine {
   double sine, cosine;
 };
 
-/// Of an angle in full turns.
+/// Returns sine and cosine of an angle in full turns.
 [[nodiscard]] SineCosine sine_cosine(double turns);
 
-/// Natural; x > 0 and finite.
+/// Returns the natural logarithm of x > 0, which must be finite.
 [[nodiscard]] double logarithm(double x);
 
-/// x >= 0 and finite.
+/// Returns the cube root of x >= 0, which must be finite.
 [[nodiscard]] double cube_root(double x);
 
 }  // namespace kds::models

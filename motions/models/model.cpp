@@ -108,7 +108,8 @@ std::vector<Trajectory> make_two_spirals(const Settings& s) {
   return {trajectory("two-spirals 1", std::move(first)), trajectory("two-spirals 2", std::move(second))};
 }
 
-// Returns the turns of a curve that needs this many bonds for its turns squared, rounded down to tenths.
+// Returns the turns of a curve that needs `bonds_a_squared_turn` bonds per squared turn, rounded down to
+// tenths.
 double root_of_share(std::size_t beads, double bonds_a_squared_turn) {
   return std::floor(10 * std::sqrt(static_cast<double>(beads - 1) / bonds_a_squared_turn)) / 10;
 }

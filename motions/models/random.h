@@ -1,6 +1,6 @@
 #pragma once
-// Random numbers that are the same for the same seed on every platform: the engine is prescribed by the
-// standard, its distributions are not.
+// Random numbers that are the same for the same seed on every platform. The C++ standard prescribes the
+// engine but not its distributions, so the distributions are implemented here.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -13,11 +13,11 @@ class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-  /// In [0, 1), a multiple of 2^-53.
+  /// Returns a number in [0, 1), a multiple of 2^-53.
   [[nodiscard]] double uniform() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
 
-  /// A unit vector whose coordinates from `dimension` on are zero, by rejection from the cube around the
-  /// ball.
+  /// Returns a random unit vector whose coordinates from index `dimension` on are zero, by rejection from the
+  /// cube around the ball.
   [[nodiscard]] Eigen::Vector3d direction(int dimension = 3) {
     for (;;) {
       Eigen::Vector3d d = Eigen::Vector3d::Zero();

@@ -15,8 +15,8 @@ namespace kds::models {
 
 namespace {
 
-// Beads by cells of the side that nonadjacent beads keep between them. Used for looking up only: its order
-// does not matter.
+// A hash map of beads by grid cells, whose side is the distance that nonadjacent beads keep. It is used only
+// for look-up, so its order does not matter.
 class Occupied {
  public:
   void add(const Eigen::Vector3d& place) { cells_[key(place, 0, 0, 0)].push_back(place); }
@@ -36,7 +36,7 @@ class Occupied {
 
  private:
   [[nodiscard]] static std::int64_t key(const Eigen::Vector3d& place, int x, int y, int z) {
-    const auto number = [](double at, int shift) {  // from 0 on
+    const auto number = [](double at, int shift) {  // numbers from 0 on
       return static_cast<std::int64_t>(at / clear_distance) + shift + 1;
     };
     return (number(place[0], x) << 42U) + (number(place[1], y) << 21U) + number(place[2], z);
@@ -52,7 +52,7 @@ Shape random_chain(std::size_t beads, double fill, Random& random, double bond) 
   const double volume = 4 * std::numbers::pi / 3 * static_cast<double>(beads) / fill;
   const double side = cube_root(volume);
   std::vector<Eigen::Vector3d> chain{Eigen::Vector3d::Constant(side / 2)};
-  Occupied occupied;  // all beads but the last
+  Occupied occupied;  // all beads except the last
   std::size_t dead_ends = 0;
   while (chain.size() < beads) {
     int tries = tries_a_bead;

@@ -1,5 +1,5 @@
 #pragma once
-// A random chain that avoids itself.
+// A self-avoiding random chain.
 
 #include <cstddef>
 
@@ -8,13 +8,13 @@
 
 namespace kds::models {
 
-/// Each bead in a random direction from the one before, nonadjacent beads at least `clear_distance` apart,
-/// all centres in a cube of whose volume the beads fill the part `fill`. Dead ends are taken back. Throws
-/// InputError where no room is found.
+/// Returns a chain in which each bead lies in a random direction from the bead before. Nonadjacent beads are
+/// at least `clear_distance` apart, and all centres lie in a cube of whose volume the beads fill the share
+/// `fill`. Dead ends are backtracked. Throws InputError if no room is found.
 [[nodiscard]] Shape random_chain(std::size_t beads, double fill, Random& random, double bond = usual_bond);
 
-/// Every bead moved in a random direction, of `dimension` 2 in its plane z = 0, by up to `distance`
-/// radii. No condition is kept.
+/// Moves every bead in a random direction by up to `distance` radii; for `dimension` 2 within its plane
+/// z = 0. No other condition is maintained.
 [[nodiscard]] Shape jittered(Shape shape, double distance, Random& random, int dimension = 3);
 
 }  // namespace kds::models

@@ -1,5 +1,5 @@
 #pragma once
-// What all models share: beads of radius 1, one column each.
+// Definitions common to all models. A shape has beads of radius 1, one column each.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -10,14 +10,15 @@ using Shape = Eigen::Matrix3Xd;
 
 inline constexpr double radius = 1;
 
-/// Distance of consecutive beads over their diameter: they overlap by a thousandth, so that coordinates
+/// The distance of consecutive beads divided by their diameter. They overlap by a thousandth, so coordinates
 /// rounded to three decimals (PDB) still give a connected necklace.
 inline constexpr double usual_bond = 0.999;
 
-/// Models keep nonadjacent beads this far apart, for the same reason.
+/// The distance that models keep between nonadjacent beads, with a margin for the same rounding.
 inline constexpr double clear_distance = 2.002;
 
-/// Summed axis by axis in order, so that the result does not depend on how Eigen vectorises.
+/// Returns the squared distance, summed axis by axis in order, so that the result does not depend on how
+/// Eigen vectorizes.
 [[nodiscard]] inline double squared_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
   return x * x + y * y + z * z;

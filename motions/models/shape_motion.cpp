@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 double dot(const Vector3d& a, const Vector3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Of the square of the distance while the difference goes from `start` to `end`.
+// Returns the least squared distance while the difference goes from `start` to `end`.
 double least_square(const Vector3d& start, const Vector3d& end) {
   const Vector3d way = end - start;
   const double at_start = dot(start, way);
@@ -25,7 +25,7 @@ double least_square(const Vector3d& start, const Vector3d& end) {
   return dot(start, start) - at_start * at_start / dot(way, way);
 }
 
-// The nonadjacent beads that each bead might come near in one frame.
+// Lists the nonadjacent beads that each bead might approach within one frame.
 class Neighbours {
  public:
   Neighbours(const Shape& shape, double step) : lists_(static_cast<std::size_t>(shape.cols())) {
@@ -44,7 +44,8 @@ class Neighbours {
   std::vector<std::vector<BeadId>> lists_;
 };
 
-// Beads before this one have moved, those after it have not.
+// Returns whether the bead's bonds stay short enough. Beads before this one have already moved, beads after
+// it have not.
 bool keeps_bonds(const Shape& before, const Shape& now, Index bead, const Vector3d& place) {
   constexpr double longest = 2 * radius * usual_bond;
   for (const Index other : {bead - 1, bead + 1}) {

@@ -17,8 +17,8 @@ std::size_t pieces_for(std::size_t beads, std::size_t parts) {
   return parts * std::max<std::size_t>(1000, 4 * beads);
 }
 
-// Six segments and five arcs, each on its eleventh of [0, 1]; the segments 4 apart for a distance of 1
-// between them, the arcs as deep as they are wide.
+// Returns a point of the grill: six segments and five arcs, each on an eleventh of [0, 1]. Segments are 4
+// long for a distance of 1 between them, and arcs are as deep as they are wide.
 Eigen::Vector3d grill_at(double t) {
   constexpr double length = 4;
   const double part = std::min(std::floor(11 * t), 10.0);
@@ -68,7 +68,7 @@ Shape helix(std::size_t beads, double turns, double bond) {
 }
 
 double turns_at_pitch(std::size_t beads, double pitch) {
-  // A turn is pi sides long, so a bond about pi turns / beads sides, and turns are 1 / turns sides apart.
+  // A turn is pi sides long, so a bond is about pi turns / beads sides, and turns are 1 / turns sides apart.
   return std::sqrt(static_cast<double>(beads) / (std::numbers::pi * pitch));
 }
 

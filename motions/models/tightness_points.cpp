@@ -7,8 +7,8 @@
 namespace kds::models {
 
 Eigen::Matrix3Xd tightness_points(int h) {
-  // By angles: every point and every centre lies on a ray from the origin, and to mirror is to mirror an
-  // angle.
+  // Works with angles: every point and every centre lies on a ray from the origin, so mirroring a point
+  // mirrors its angle.
   std::vector<long double> angles{0};
   long double ray = 0, distance = 1;  // of the centre O_l of the first 2^l points
   const long double leg = 1 / std::sqrt(static_cast<long double>(h));

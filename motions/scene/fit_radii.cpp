@@ -14,10 +14,10 @@ struct Ball {
   Eigen::Vector3d centre;
   double radius;
   std::size_t necklace;
-  std::size_t bead;  // within its necklace
+  std::size_t bead;  // index within its necklace
 };
 
-// Balls of the first frames, from left to right.
+// Returns the balls of the first frames, from left to right.
 std::vector<Ball> sorted_balls(const std::vector<double>& radii, std::span<const Trajectory> necklaces) {
   std::vector<Ball> balls;
   for (std::size_t n = 0; n < necklaces.size(); ++n)
@@ -48,7 +48,7 @@ bool adjacent(const Ball& a, const Ball& b) {
 std::vector<double> fit_radii(std::vector<double> radii, std::span<const Trajectory> necklaces) {
   const std::vector<Ball> balls = sorted_balls(radii, necklaces);
   const double largest = radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end());
-  double factor = 2;  // distance over sum of radii, the least of all pairs that touch
+  double factor = 2;  // least ratio of distance to sum of radii, over all pairs that touch
   for (std::size_t i = 0; i < balls.size(); ++i)
     for (std::size_t j = i + 1; j < balls.size(); ++j) {
       if (balls[j].centre.x() - balls[i].centre.x() > 2 * largest) break;
@@ -60,7 +60,7 @@ std::vector<double> fit_radii(std::vector<double> radii, std::span<const Traject
       factor = std::min(factor, distance / reach);
     }
   if (factor > 1) return radii;
-  // Touching is contact: a trifle smaller, well above the rounding of the distances.
+  // Touching counts as contact, so shrink slightly more, well above the rounding of the distances.
   factor *= 1 - 1e-12;
   for (double& radius : radii) radius *= factor;
   return radii;

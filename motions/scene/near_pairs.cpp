@@ -29,14 +29,15 @@ struct Entry {
   BeadId bead = 0;
 };
 
-// Cells of side 2^power. Scaling by a power of two and rounding down are exact, so that two points within
-// 2^power of each other lie in the same cell or in neighbours. None where a number needs more than 52 bits.
+// Returns the grid cell, of side 2^power, that contains a centre. Scaling by a power of two and rounding down
+// are exact, so two points within 2^power of each other lie in the same cell or in neighbouring cells.
+// Returns nothing if a number needs more than 52 bits.
 std::optional<GridCell> cell_of(const Eigen::Matrix3Xd& centers, BeadId bead, int power) {
   std::array<std::int64_t, 3> place{};
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const double x = centers(axis, static_cast<Eigen::Index>(bead));
     double number = std::floor(std::ldexp(x, -power));
-    if (x < 0 && number == 0) number = -1;  // scaled to nothing
+    if (x < 0 && number == 0) number = -1;  // underflow in scaling
     if (!(std::abs(number) < 0x1p52)) return std::nullopt;
     place[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(number);
   }
@@ -56,8 +57,9 @@ std::optional<std::vector<Entry>> sorted_entries(const Eigen::Matrix3Xd& centers
   return entries;
 }
 
-// Both are sorted, and so are the starts of each of the nine rows of three cells that a query looks at: nine
-// places in `others` move on together. `once`: the lists are one, and each pair is met twice.
+// Visits the pairs of entries in neighbouring cells. Both lists are sorted, and so are the starts of the nine
+// rows of three cells that a query examines: nine positions in `others` advance together. `once`: both lists
+// are the same, so each pair occurs twice and is visited once.
 void visit_neighbours(const std::vector<Entry>& queries, const std::vector<Entry>& others, bool once,
                       const Visit& visit) {
   std::array<std::size_t, 9> starts{};
@@ -77,14 +79,15 @@ void visit_neighbours(const std::vector<Entry>& queries, const std::vector<Entry
   }
 }
 
-// The smallest power of two not below the diameter.
+// Returns the exponent of the smallest power of two that is at least the diameter.
 int power_of(double radius) {
   int power = 0;
   const double fraction = std::frexp(radius, &power);
   return fraction == 0.5 ? power : power + 1;
 }
 
-// Balls by the size of their cells, the smallest first. Points meet only where they coincide: any cells do.
+// Groups balls by the size of their cells, smallest first. Points (radius 0) meet only if they coincide, so
+// any cells serve them.
 std::map<int, std::vector<BeadId>> by_size(std::span<const double> radii) {
   std::map<int, std::vector<BeadId>> levels;
   std::vector<BeadId> points;
@@ -102,7 +105,7 @@ std::map<int, std::vector<BeadId>> by_size(std::span<const double> radii) {
 
 bool visit_by_grids(const Eigen::Matrix3Xd& centers, const std::map<int, std::vector<BeadId>>& levels,
                     const Visit& visit) {
-  for (const auto& [power, beads] : levels)  // all of it before the first visit
+  for (const auto& [power, beads] : levels)  // sort everything before the first visit
     for (auto finer = levels.begin(); finer != levels.upper_bound(power); ++finer)
       for (const BeadId bead : finer->second)
         if (!cell_of(centers, bead, power)) return false;

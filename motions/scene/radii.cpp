@@ -25,7 +25,7 @@ std::size_t bead_count(std::span<const Trajectory> necklaces) {
 
 using Ends = std::array<Eigen::Vector3d, 2>;
 
-// Whether two balls of this radius meet, decided exactly.
+// Returns whether two balls of this radius meet, decided exactly.
 bool balls_meet(const Ends& centers, double radius) {
   Rational rest = 4 * Dyadic(radius).rational() * Dyadic(radius).rational();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {

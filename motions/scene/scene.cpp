@@ -14,8 +14,8 @@ namespace kds {
 
 namespace {
 
-// Readers refuse these too, naming the line; here is the gate that all motions pass: an exact number cannot
-// stand for them.
+// Throws if a coordinate is not finite, since exact numbers cannot represent it. Readers also reject such
+// coordinates, naming the line; this check covers all motions.
 void check_frame(const Trajectory& necklace, std::size_t frame) {
   const Eigen::Matrix3Xd& centers = necklace.frames[frame];
   if (centers.allFinite()) return;
@@ -167,7 +167,7 @@ void Scene::push(std::span<const double> coordinates, std::optional<double> pico
                                  i / columns, coordinates[i]));
   }
   FrameRead frame;
-  if (held_.size() == most_held_) {  // its memory is used again
+  if (held_.size() == most_held_) {  // reuse the memory of the oldest frame
     frame = std::move(held_.front());
     held_.erase(held_.begin());
     ++first_held_;
@@ -221,7 +221,7 @@ void Scene::hold(std::size_t first, std::size_t last) const {
   }
   while (first_held_ + held_.size() <= last) {
     FrameRead next;
-    if (held_.size() == most_held_) {  // its memory is used again
+    if (held_.size() == most_held_) {  // reuse the memory of the oldest frame
       next = std::move(held_.front());
       held_.erase(held_.begin());
       ++first_held_;

@@ -1,6 +1,6 @@
 #pragma once
-// All beads of a run on one clock: sampled frames become motion steps (the discrete-step adapter), or an
-// instance file gives one step by itself. Beads are numbered necklace after necklace.
+// All beads of a run on one clock. Sampled frames are turned into motion steps (the discrete-step adapter),
+// or an instance file gives a single step. Beads are numbered necklace after necklace.
 
 #include <Eigen/Core>
 #include <array>
@@ -26,71 +26,74 @@ namespace kds {
 /// How beads move between sampled frames.
 enum class FrameMotion {
   linear,
-  /// Cubic, with velocities by central differences over frames, one-sided at the first and last: continuously
-  /// differentiable over frames up to rounding.
+  /// Cubic Hermite curves. Velocities are central differences over frames, one-sided at the first and last
+  /// frame, so the motion is continuously differentiable up to rounding.
   hermite,
   /// Linear, with weights such that each sphere moves on a straight line in lifted space (lifted_motion.h).
   lifted,
 };
-/// In the order of the enumerators.
+/// Names, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 3> frame_motion_names{"linear", "hermite", "lifted"};
 [[nodiscard]] constexpr std::string_view name_of(FrameMotion motion) {
   return frame_motion_names[static_cast<std::size_t>(motion)];
 }
 
-/// What is known of a scene before its first frame comes.
+/// The properties of a scene that are known before its first frame is pushed.
 struct PushedFrames {
   int dimension = 3;                        ///< 1 to 3
-  std::vector<std::size_t> necklaces = {};  ///< how many beads each has
-  std::vector<double> radii = {};           ///< one a bead, or one for all; none: points
+  std::vector<std::size_t> necklaces = {};  ///< number of beads in each necklace
+  std::vector<double> radii = {};           ///< one per bead, or one for all; empty: points
   FrameMotion motion = FrameMotion::linear;
 };
 
 class Scene {
  public:
-  /// Necklaces of equal frame counts; one of a single frame is at rest. `radii`: one a bead in scene order.
-  /// Throws InputError where the counts differ, and where a number has no exact value (NaN, infinities).
-  /// Where all beads keep to one plane x, y or z = constant in all frames, the scene is planar:
-  /// two-dimensional, in that plane's coordinates (from four beads on, as fewer always keep to some plane).
+  /// Makes a scene of necklaces with equal numbers of frames; a necklace with a single frame is at rest.
+  /// `radii`: one per bead in scene order. Throws InputError if the numbers of frames differ, or if a number
+  /// is not finite. If all beads stay in one plane x, y or z = constant in all frames, the scene is planar:
+  /// two-dimensional, in that plane's coordinates. This requires at least four beads, because fewer beads
+  /// always lie in some plane.
   Scene(std::span<const Trajectory> necklaces, std::vector<double> radii,
         FrameMotion motion = FrameMotion::linear);
-  /// The same of files, read frame by frame: in memory are those that the motion of one step needs, two, or
-  /// four for Hermite curves. Steps are quick to load, and frames to look at, in their order; going back
-  /// begins again with the first. `survey` is the stream's.
+  /// Makes a scene of files that are read frame by frame. Only the frames needed for the motion of one step
+  /// are in memory: two, or four for Hermite curves. Loading steps and accessing frames is fast in ascending
+  /// order; going back reads the files again from the start. `survey` must be that of the stream.
   Scene(std::unique_ptr<SceneStream> frames, const SceneSurvey& survey, std::vector<double> radii,
         FrameMotion motion = FrameMotion::linear);
-  /// Points, or balls of these radii where they are given, one a point. Throws InputError likewise.
+  /// Makes a scene of points, or of balls if `radii` has one radius per point. Throws InputError like the
+  /// first constructor.
   explicit Scene(Instance instance, std::vector<double> radii = {});
-  /// Frames are pushed one by one, and in memory are those of the last of the steps that they make. Throws
-  /// InputError where there are no beads, or a radius or the dimension is none.
+  /// Makes a scene whose frames are pushed one by one. Only the frames of the last steps are in memory.
+  /// Throws InputError if there are no beads, or if a radius or the dimension is invalid.
   explicit Scene(PushedFrames frames);
 
-  /// The next frame: the coordinates of bead 0, then those of bead 1, `dimension` numbers each. Throws
-  /// InputError, and the frame is not taken, where they are not so many, or not finite; std::logic_error
-  /// where the scene has frames of its own or has ended.
+  /// Appends a frame: the coordinates of bead 0, then those of bead 1 and so on, `dimension` numbers each.
+  /// Throws InputError, and ignores the frame, if the number of coordinates is wrong or one is not finite.
+  /// Throws std::logic_error if the scene has frames of its own or has ended.
   void push(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt);
-  /// No frame follows.
+  /// Declares that no further frame follows.
   void end_frames() { ended_ = true; }
-  /// Steps whose motion is known: all, but of frames that are pushed. Between these Hermite curves are known
-  /// one frame later, or when they end.
+  /// Returns the number of steps whose motion is known. These are all steps, except in a scene of pushed
+  /// frames. There, Hermite curves are known one frame later, or when the frames end.
   [[nodiscard]] std::size_t known_steps() const;
 
   [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] int degree() const { return degree_; }
   [[nodiscard]] bool is_lifted() const { return is_lifted_; }
   [[nodiscard]] std::size_t bead_count() const { return radii_.size(); }
-  /// An instance has two: u = 0 and u = 1. Of frames that are pushed, those that came.
+  /// Returns the number of frames. An instance has two, u = 0 and u = 1. For pushed frames, returns how many
+  /// have been pushed.
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
   [[nodiscard]] std::size_t step_count() const { return frame_count_ == 0 ? 0 : frame_count_ - 1; }
 
-  // An index of a frame, step or bead that is too large throws std::invalid_argument, which says how many
-  // there are.
+  // Functions with an index of a frame, step or bead throw std::invalid_argument if it is too large. The
+  // message gives the number of elements.
 
-  /// A frame's number in the file and its time, for messages and results.
+  /// Returns a frame's number in the file and its time, for messages and results.
   [[nodiscard]] FrameStamp stamp(std::size_t frame) const;
   [[nodiscard]] std::size_t frame_number(std::size_t frame) const { return stamp(frame).number; }
   [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
-  /// As files name beads, "CA of ALA 12 in chain A"; empty where they do not.
+  /// Returns the bead's name in the file, as in "CA of ALA 12 in chain A", or an empty text if it has none.
   [[nodiscard]] const std::string& bead_name(BeadId bead) const {
     static const std::string unnamed;
     require_index("bead", bead, bead_count());
@@ -98,16 +101,16 @@ class Scene {
   }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   [[nodiscard]] bool equal_radii() const;
-  /// Whether any bead has a name.
+  /// Returns whether any bead has a name.
   [[nodiscard]] bool names_beads() const { return !bead_names_.empty(); }
-  /// Those of an instance file have weights at most.
+  /// Returns whether beads have radii. Beads of an instance file have at most weights.
   [[nodiscard]] bool has_radii() const { return has_radii_; }
-  /// For what compares weights: throws InputError where a weight, a radius squared, is too small a number to
-  /// be right, unless all are the same.
+  /// Checks weights for code that compares them. Throws InputError if a weight, a radius squared, is too
+  /// small to be accurate, unless all weights are equal.
   void require_weights() const;
 
-  /// Sets the motion of step k, between frames k and k+1. Both frames are met exactly, whatever the kind of
-  /// motion. Radii do not change during a step; the points of an instance have none, only weights.
+  /// Sets the motion of step k, between frames k and k+1. Every kind of motion matches both frames exactly.
+  /// Radii are constant during a step; points of an instance have only weights.
   template <Motion M>
   void load(std::size_t step, M& motion) const {
     require_index("step", step, step_count());
@@ -121,10 +124,11 @@ class Scene {
     }
     if constexpr (lifted<M>) motion.set_drift(drift<M>(step));
   }
-  /// Centres and weights at a frame; from the dimension on coordinates are zero.
+  /// Returns centres and weights at a frame. Coordinates beyond the dimension are zero.
   [[nodiscard]] Eigen::Matrix3Xd centers(std::size_t frame) const;
   [[nodiscard]] std::vector<double> weights(std::size_t frame) const;
-  /// Where a point of a planar scene is in the input's coordinates; others are there.
+  /// Converts a point of a planar scene to the input's coordinates. In other scenes the point is returned
+  /// unchanged.
   [[nodiscard]] Eigen::Vector3d in_input(const Eigen::Vector3d& point) const;
 
  private:
@@ -134,15 +138,15 @@ class Scene {
   void name_beads(std::span<const Trajectory> necklaces);
   void lay_in_plane(const std::optional<AxisPlane>& plane);
   void lay_in_plane(Eigen::Matrix3Xd& frame) const;
-  /// Reads on, or from the start again, until these frames are in memory.
+  /// Reads on, or again from the start, until these frames are in memory.
   void hold(std::size_t first, std::size_t last) const;
   void hold_for_step(std::size_t step) const;
-  /// Of a frame in memory.
+  /// Returns a frame that is in memory.
   [[nodiscard]] const Eigen::Matrix3Xd& frame(std::size_t k) const {
     return held_[k - first_held_].positions;
   }
   [[nodiscard]] double coordinate(std::size_t step, BeadId bead, int k, int axis) const;
-  /// A third of a bead's velocity at a frame, per step.
+  /// Returns a third of a bead's velocity at a frame, per step.
   [[nodiscard]] double third_of_velocity(std::size_t frame, BeadId bead, int axis) const;
   [[nodiscard]] double weight(BeadId bead, int k) const;
   template <Motion M>
@@ -152,7 +156,8 @@ class Scene {
     motion.set_weight(b, k, weight(b, k));
     motion.set_radius(b, k, has_radii_ ? radii_[b] : 0);
   }
-  /// The mean displacement; any vector makes a motion, this one dips weights the least on average.
+  /// Returns the drift: the mean displacement. Any vector gives a valid motion; this one lowers weights the
+  /// least on average.
   template <Motion M>
   [[nodiscard]] typename M::Vector drift(std::size_t step) const {
     const Eigen::Vector3d mean = (frame(step + 1) - frame(step)).rowwise().mean();
@@ -170,15 +175,15 @@ class Scene {
   bool has_radii_ = true;
   std::size_t frame_count_ = 0;
   std::vector<BeadRange> necklaces_;
-  std::vector<std::string> bead_names_;  // none, or of all beads
+  std::vector<std::string> bead_names_;  // empty, or one per bead
   std::vector<double> radii_;
-  std::optional<AxisPlane> plane_;       // none: in space
+  std::optional<AxisPlane> plane_;       // none: the scene is in space
   std::optional<Instance> instance_;     // none: sampled frames
-  FrameStamp first_, last_;              // of sampled frames
-  std::unique_ptr<SceneStream> stream_;  // null where all frames are held
-  bool pushed_ = false, ended_ = false;  // frames that come from outside
-  std::size_t most_held_ = 0;            // frames of a stream, or pushed, in memory at once
-  mutable std::vector<FrameRead> held_;  // frames that follow each other, those in memory
+  FrameStamp first_, last_;              // of the sampled frames
+  std::unique_ptr<SceneStream> stream_;  // null if all frames are in memory
+  bool pushed_ = false, ended_ = false;  // frames are pushed by the caller
+  std::size_t most_held_ = 0;            // most frames of a stream, or pushed, that are in memory at once
+  mutable std::vector<FrameRead> held_;  // the consecutive frames in memory
   mutable std::size_t first_held_ = 0;
 };
 

@@ -15,7 +15,8 @@ constexpr double smallest = std::numeric_limits<double>::denorm_min();
 }  // namespace
 
 StraightenedFrames::StraightenedFrames(double tolerance) : tolerance_(tolerance), most_square_(0) {
-  // Differences, squares and sums are rounded by less than 2^-49 in all, where none is among the smallest.
+  // Differences, squares and sums are rounded by less than 2^-49 in total, unless a number is close to
+  // underflow.
   if (tolerance > 0x1p-400 && tolerance < 0x1p400) most_square_ = tolerance * tolerance * (1 - 0x1p-45);
 }
 
@@ -58,14 +59,14 @@ void StraightenedFrames::straighten_block() {
   }
 }
 
-/// The bead's frames behind `first`, which is done, as many as there are up to that length, a power of two.
+/// Straightens the bead's frames after `first`, which is done, over at most `length` frames, a power of two.
 void StraightenedFrames::straighten_bead(Eigen::Index bead, std::size_t first, std::size_t length) {
   const std::size_t last = first + length;
   if (last < ready_.size()) {
     const Eigen::Vector3d from = ready_[first].positions.col(bead), to = knot(begin_ + last, bead);
     const auto point_at = [&](std::size_t k) -> Eigen::Vector3d {
       const double share = static_cast<double>(k - first) / static_cast<double>(length);
-      return from + share * (to - from);  // at rest where it is
+      return from + share * (to - from);  // unchanged if at rest
     };
     bool within = true;
     for (std::size_t k = first + 1; k < last && within; ++k)
@@ -85,8 +86,8 @@ bool StraightenedFrames::is_within(const Eigen::Vector3d& point, const Eigen::Ve
   const Eigen::Vector3d apart = point - sample;
   if (most_square_ > 0) return apart.squaredNorm() <= most_square_;
   if (!apart.allFinite()) return false;
-  // A difference is rounded by 2^-53 of itself in each coordinate, its length by little more, and near the
-  // smallest doubles by one of these.
+  // The relative rounding of each coordinate's difference is 2^-53, that of the length little more. Near the
+  // smallest doubles, the rounding is one of these.
   const double length = apart.stableNorm();
   return length == 0 || length * (1 + 0x1p-45) + smallest <= tolerance_;
 }
@@ -96,7 +97,7 @@ Eigen::Vector3d StraightenedFrames::on_grid(const Eigen::Vector3d& point) const 
   for (double& x : rounded) {
     const double steps = x / grid_;
     if (std::abs(steps) < 0x1p52)
-      x = std::nearbyint(steps) * grid_;  // else, as where there is none, it stays
+      x = std::nearbyint(steps) * grid_;  // otherwise, or if there is no grid, it stays
   }
   return rounded;
 }
@@ -112,7 +113,7 @@ Eigen::Vector3d StraightenedFrames::knot(std::size_t sample, Eigen::Index bead) 
   const auto settled = [&](const Eigen::Vector3d& point) -> Eigen::Vector3d {
     return stays.select(here.array(), on_grid(point).array());
   };
-  // Nearer samples count for more, by even steps.
+  // Nearer samples have larger weights, which decrease linearly.
   const std::size_t around = std::min(before, after);
   const auto all = static_cast<double>((around + 1) * (around + 1));
   Eigen::Vector3d mean = static_cast<double>(around + 1) / all * here;

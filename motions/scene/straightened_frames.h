@@ -1,6 +1,20 @@
 #pragma once
-// Frames with fewer turns: each bead goes on along one straight line, over as many frames as that stays
-// within a tolerance of where the frames have it.
+// Frames with fewer turns: each bead moves along one straight line for as many frames as it stays within a
+// tolerance of its sampled positions.
+//
+// Frames are processed in blocks of 16 steps. A bead moves along a chord from one end of a block to the other
+// if at every frame in between it is within the tolerance of its sample. Otherwise the block is halved for
+// this bead, and so on, so many beads turn at the same frames. The ends of a chord are not samples but
+// means of the samples around them, as far as the means are within the tolerance. Such a chord stays closer
+// to vibrating beads and can be longer. At the first and last frame the means are the samples themselves; so
+// are the means of a coordinate at rest.
+//
+// Between frames, both the files' motion and this one are linear, so a bead is never farther from its sampled
+// motion than at a frame. This is exact for the resulting doubles: a chord that is not certainly within the
+// tolerance is rejected. Ends of chords lie on a grid, 2^-20 of the tolerance or finer, so all steps of a
+// chord are the same double. A structure can therefore see from two consecutive steps that a bead goes
+// straight on. (Coordinates at rest, and those too large for the grid, are unchanged; steps of a chord that
+// begins or ends there may differ by rounding.)
 //
 // Frames are taken in blocks of 16 steps. A bead moves along a chord from one end of a block to the other if
 // at none of the frames there it is farther from where it was than the tolerance; else the block is halved
@@ -28,12 +42,13 @@ namespace kds {
 class StraightenedFrames {
  public:
   static constexpr std::size_t block = 16;
-  /// Means are of so many frames before and after.
+  /// The number of frames before and after a sample over which means are taken.
   static constexpr std::size_t reach = 5;
 
   explicit StraightenedFrames(double tolerance);
 
-  /// The next frame of those that `read(frame)` reads, false behind the last.
+  /// Returns the next straightened frame; `read(frame)` reads the samples. Returns false after the last
+  /// frame.
   template <class Read>
   [[nodiscard]] bool next(FrameRead& frame, Read read) {
     if (place_ == ready_.size()) fill(read);
@@ -56,22 +71,23 @@ class StraightenedFrames {
   void go_to_next_block();
   void straighten_block();
   void straighten_bead(Eigen::Index bead, std::size_t first, std::size_t length);
-  /// Certainly, with all that is rounded.
+  /// Returns whether the point is certainly within the tolerance of the sample, rounding included.
   [[nodiscard]] bool is_within(const Eigen::Vector3d& point, const Eigen::Vector3d& sample) const;
   [[nodiscard]] Eigen::Vector3d on_grid(const Eigen::Vector3d& point) const;
-  /// Where a chord may end: near the mean of the samples around this one, and within the tolerance of it.
+  /// Returns a possible end of a chord: near the mean of the samples around this one, and within the
+  /// tolerance of it.
   [[nodiscard]] Eigen::Vector3d knot(std::size_t sample, Eigen::Index bead) const;
 
   double tolerance_;
-  double most_square_;              ///< of a distance within the tolerance; 0: squares may not be doubles
-  double grid_ = 0;                 ///< 0: none yet
-  std::vector<FrameRead> samples_;  ///< of the present block and around it
-  std::size_t begin_ = 0;           ///< the block's first
-  std::vector<FrameRead> ready_;    ///< of the present block
-  std::size_t place_ = 0;           ///< of the next in it
+  double most_square_;  ///< largest squared distance within the tolerance; 0: squares may not be doubles
+  double grid_ = 0;     ///< 0: not yet known
+  std::vector<FrameRead> samples_;  ///< samples of the present block and around it
+  std::size_t begin_ = 0;           ///< first sample of the block
+  std::vector<FrameRead> ready_;    ///< straightened frames of the present block
+  std::size_t place_ = 0;           ///< index of the next frame in `ready_`
 };
 
-/// All frames at once.
+/// Straightens all frames at once.
 [[nodiscard]] std::vector<Eigen::Matrix3Xd> straightened(std::vector<Eigen::Matrix3Xd> frames,
                                                          double tolerance);
 

@@ -33,7 +33,7 @@ void load_control_points(const Scene& scene, std::size_t step, ControlPoints& po
   }
 }
 
-/// Of a step of the scene, where the files have the beads.
+/// Computes the control points of the files' beads for a step of the scene.
 void control_points_of(const Scene& scene, std::size_t step, ControlPoints& points) {
   if (scene.dimension() == 2) {
     return scene.degree() == 1 ? load_control_points<BezierMotion<2, 1>>(scene, step, points)
@@ -43,13 +43,13 @@ void control_points_of(const Scene& scene, std::size_t step, ControlPoints& poin
                              : load_control_points<BezierMotion<3, 3>>(scene, step, points);
 }
 
-/// The part of a curve between two times.
+/// Restricts a curve to the part between two times.
 void cut(std::array<Eigen::Vector3d, most_degree + 1>& curve, int degree, double from, double to) {
   const auto size = static_cast<std::size_t>(degree);
-  for (std::size_t round = 0; round < size; ++round)  // what is before `to`
+  for (std::size_t round = 0; round < size; ++round)  // cut off the part after `to`
     for (std::size_t k = size; k > round; --k) curve[k] = (1 - to) * curve[k - 1] + to * curve[k];
   const double share = from / to;
-  for (std::size_t round = size; round > 0; --round)  // and behind `from`
+  for (std::size_t round = size; round > 0; --round)  // and the part before `from`
     for (std::size_t k = 0; k < round; ++k) curve[k] = (1 - share) * curve[k] + share * curve[k + 1];
 }
 
@@ -60,7 +60,7 @@ class DeviationSearch {
     found_.of_bead.assign(scene.bead_count(), 0);
   }
 
-  /// Of the part of a step between two frames that follow each other in the files.
+  /// Adds the part of a step between two consecutive frames of the files.
   void add(const ControlPoints& points, std::size_t part, const FrameRead& before, const FrameRead& after) {
     const int degree = scene_.degree();
     const double from = static_cast<double>(part) / static_cast<double>(stride_);
@@ -79,10 +79,10 @@ class DeviationSearch {
         const double share = static_cast<double>(k) / degree;
         const Eigen::Vector3d apart =
             curve[static_cast<std::size_t>(k)] - ((1 - share) * first + share * last);
-        // A dozen roundings of lengths up to the extent in each coordinate, and those of the norm; near the
-        // smallest doubles each is by up to one of these.
+        // Covers a dozen roundings of lengths up to `extent` in each coordinate, and the rounding of the
+        // norm. Near the smallest doubles, each rounding is at most one of these.
         const double rounded = apart.stableNorm() * (1 + 0x1p-45) + 0x1p-45 * extent + 64 * denormal;
-        const double bound = rounded < most_ ? rounded : most_;  // most_ where it is NaN, too
+        const double bound = rounded < most_ ? rounded : most_;  // also most_ for NaN
         if (bound <= found_.of_bead[b]) continue;
         found_.of_bead[b] = bound;
         if (bound <= found_.largest) continue;

@@ -1,12 +1,12 @@
 #pragma once
-// How far beads are, in frames that a scene leaves out, from where the scene has them: the scene takes every
-// so-manieth frame of its files, and moves beads over the others.
+// Deviation of a strided scene: how far beads in the skipped frames are from their positions in the scene.
+// The scene takes every n-th frame of its files and interpolates the beads in between.
 //
-// Taken for the truth is linear motion between the files' frames. In one of their steps a bead of the scene
-// moves on a part of its Bezier curve, and the difference of the two is a Bezier curve again: it is no longer
-// than its longest control point. So what is found here bounds the deviation at all times, and in linear
-// motion it is the largest there is, reached at a frame, but for being rounded up by up to 2^-44 of the
-// coordinates; infinity where doubles overflow. Frames behind the scene's last one are not looked at.
+// The reference is linear motion between the files' frames. During one step of the files, a bead of the scene
+// moves on a part of its Bezier curve. The difference of both motions is again a Bezier curve, so it is at
+// most as long as its longest control point. The result therefore bounds the deviation at all times. For
+// linear motion it is the exact maximum, which occurs at a frame, rounded up by at most 2^-44 of the
+// coordinates. It is infinite if doubles overflow. Frames after the scene's last frame are ignored.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,29 +21,30 @@
 namespace kds {
 
 struct StrideDeviation {
-  std::size_t skipped = 0;      ///< frames between those of the scene
-  double largest = 0;           ///< of any bead
-  BeadId bead = 0;              ///< whose that is
-  std::size_t frame = 0;        ///< at which frame of the file, or in a curved motion next to it
-  std::vector<double> of_bead;  ///< the largest of each
+  std::size_t skipped = 0;      ///< number of skipped frames
+  double largest = 0;           ///< largest deviation of any bead
+  BeadId bead = 0;              ///< the bead with the largest deviation
+  std::size_t frame = 0;        ///< the file's frame where it occurs; for a curved motion, the nearest frame
+  std::vector<double> of_bead;  ///< largest deviation of each bead
 };
 
-/// `every`: all frames of the files from the scene's first on, of which it has each `stride`-th. Throws
-/// InputError where these are not the frames that the scene has.
+/// Computes the deviation. `every` must read all frames of the files from the scene's first frame on; the
+/// scene has each `stride`-th of them. Throws InputError if they are not the scene's frames.
 ///
-/// `most`: how far a bead is proved to be off at the most, where that is known, as of frames straightened
-/// within a tolerance of which none is left out (straightened_frames.h). No bound is above it: near beads are
-/// told apart better by it far from the origin, where what is found here is rounded by more.
+/// `most` is a proved bound on the deviation of any bead, if one is known, for example for frames
+/// straightened within a tolerance of which none is skipped (straightened_frames.h). No result exceeds it. It
+/// is sharper than the computed bound for beads far from the origin, where rounding is larger.
 [[nodiscard]] StrideDeviation deviation_of_stride(const Scene& scene, FrameReader& every, std::size_t stride,
                                                   std::optional<double> most = {});
 
-/// Radii by which contacts are bounded: with the larger ones balls meet whenever they do in truth, with the
-/// smaller ones only when they do. Rounded outward.
+/// Radii that bound contacts: the larger radii give a contact whenever the balls truly meet, the smaller ones
+/// only if they do. Rounded outward.
 struct RadiiWithin {
   std::vector<double> larger, smaller;
-  std::vector<std::uint8_t> has_a_ball;  ///< 0: nothing is left of it, and no contact of it is sure
+  std::vector<std::uint8_t> has_a_ball;  ///< 0: the smaller ball is empty, so no contact of the bead is sure
 };
-/// Throws InputError naming the bead where one is too far off for its square to be a number.
+/// Computes the radii. Throws InputError naming the bead if a deviation is too large for its square to be a
+/// number.
 [[nodiscard]] RadiiWithin radii_within(const StrideDeviation& deviation, std::span<const double> radii);
 
 }  // namespace kds

@@ -1,9 +1,9 @@
 #pragma once
-// Which numbers of a bead's curves a function looks at.
+// The numbers of a bead's curves that a function uses.
 
 namespace kds {
 
-/// What a function asks of beads besides their centres.
+/// The channels that a function uses besides the centres of beads.
 struct Channels {
   bool weights = false;
   bool radii = false;

@@ -1,7 +1,8 @@
 #pragma once
-// How far beads stray in a step from where they were at some earlier frame, the drift common to all left out:
-// no coordinate difference of two beads moves by more than the sum of what both stray. Upper bounds, proved,
-// rounding included; infinite where a weight or radius changes.
+// The displacement of beads in a step: how far they stray from their positions at an earlier reference frame,
+// without the drift common to all. A coordinate difference of two beads changes by at most the sum of both
+// displacements. Displacements are proved upper bounds, including rounding. They are infinite for a bead
+// whose weight or radius changes.
 
 #include <algorithm>
 #include <array>
@@ -16,13 +17,14 @@
 
 namespace kds {
 
-/// `channels` tells which of weights and radii matter: a bead's displacement is infinite where one changes.
+/// `channels` selects whether weights and radii matter: if a selected one changes, the bead's displacement is
+/// infinite.
 template <int Dimension, Channels channels = all_channels>
 class Displacements {
  public:
   [[nodiscard]] bool has_reference() const { return !reference_.empty(); }
   void forget_reference() { reference_.clear(); }
-  /// From now on beads stray from where they are at the start of the motion's step.
+  /// Sets the reference frame: the start of the motion's step.
   void set_reference(const Curves<Dimension>& motion) {
     reference_.resize(motion.bead_count());
     for (BeadId b = 0; b < reference_.size(); ++b) {
@@ -36,8 +38,8 @@ class Displacements {
     }
   }
 
-  /// Measures the step of the motion: for each bead the largest displacement of its control points, which
-  /// bounds that of the whole step.
+  /// Measures a step of the motion. For each bead, takes the largest displacement of its control points,
+  /// which bounds that of the whole step.
   void look_at(const Curves<Dimension>& motion) {
     strays_.resize(reference_.size());
     measure(motion, drift_of(motion));
@@ -48,7 +50,7 @@ class Displacements {
   static_assert(Dimension < Lanes::width);
   using Drift = Coefficients<Lanes>;  // of each control point
 
-  /// A control point in lanes: coordinates, then the weight, then zeros.
+  /// Returns a control point in lanes: coordinates, then the weight, then zeros.
   [[nodiscard, gnu::always_inline]] static Lanes point(const Curves<Dimension>& motion, BeadId b, int k) {
     const double* p = motion.control_point(b, k);
     if constexpr (Dimension == 3) return Lanes::load(p);
@@ -61,8 +63,8 @@ class Displacements {
     return point(motion, b, k) - Lanes(Lanes::load(reference_[b].data()));
   }
 
-  /// The drift: bounds hold with any vector, and the mean displacement of a sample of beads keeps them small.
-  /// Weights do not drift.
+  /// Returns the drift. The bounds hold for any vector; the mean displacement of a sample of beads keeps them
+  /// small. Weights do not drift.
   [[nodiscard]] Drift drift_of(const Curves<Dimension>& motion) const {
     constexpr std::size_t most = 512;
     const auto stride = static_cast<BeadId>(1 + reference_.size() / most);
@@ -84,7 +86,7 @@ class Displacements {
   }
 
   [[KDS_LANES_TARGETS]] void measure(const Curves<Dimension>& motion, const Drift& drift) {
-    const Lanes rounding(0x1p-51);  // of two differences, and to spare
+    const Lanes rounding(0x1p-51);  // more than enough for two differences
     const int degree = motion.own_degree();
     for (BeadId b = 0; b < reference_.size(); ++b) {
       Lanes most(0.0);
@@ -97,7 +99,7 @@ class Displacements {
       }
       double stray = most.v[0];
       for (int axis = 1; axis < Dimension; ++axis) stray = std::max(stray, most.v[axis]);
-      const bool same = same_radius && most.v[Dimension] == 0;  // no difference rounds to zero
+      const bool same = same_radius && most.v[Dimension] == 0;  // no nonzero difference rounds to zero
       strays_[b] = same ? stray : std::numeric_limits<double>::infinity();
     }
   }

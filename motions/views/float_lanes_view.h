@@ -1,8 +1,8 @@
 #pragma once
-// Eight or four pairs of beads of one motion, seen at once in floats (motion_view.h): the difference of bead
-// 1 of each pair to its bead 0. Differences are taken in double and rounded to float once, so that the
-// distance from the origin does not matter. On the way lengths are brought to a unit that the caller chooses,
-// a power of two, so that the narrow range of floats does not matter.
+// A view (motion_view.h) of eight or four pairs of beads of one motion at once, in floats: bead 1 of each
+// pair minus its bead 0. Differences are computed in double and rounded to float once, so the distance from
+// the origin does not matter. Lengths are first converted to a unit chosen by the caller, a power of two, so
+// the narrow range of floats does not matter either.
 
 #include <array>
 #include <cassert>
@@ -22,7 +22,7 @@ class FloatLanesView {
   using Number = LanesOfFloats;
   static constexpr int dimension = M::dimension;
   static constexpr int degree = M::degree;
-  /// The pairs are the first bead of each tuple and the one in this place, one pair for each lane.
+  /// Takes one pair per lane: the first bead of each tuple and the bead at this place.
   template <std::size_t Places>
   [[gnu::always_inline]] FloatLanesView(const M& motion, const std::array<BeadId, Places>* tuples,
                                         std::size_t place, const LengthUnit& unit) {
@@ -45,7 +45,7 @@ class FloatLanesView {
     }
   }
 
-  /// Bead 1 minus bead 0: nothing else may be asked for.
+  /// Returns bead 1 minus bead 0. No other difference is available.
   [[nodiscard, gnu::always_inline]] BernsteinVector<Number, degree, dimension> difference(
       [[maybe_unused]] BeadId i, [[maybe_unused]] BeadId j) const {
     assert(i == 1 && j == 0);
@@ -75,12 +75,12 @@ class FloatLanesView {
     return result;
   }
 
-  /// No length answered so far is larger.
+  /// Returns a bound of all lengths returned so far.
   [[nodiscard, gnu::always_inline]] const Number& largest_length() const { return length_; }
   [[nodiscard, gnu::always_inline]] const Number& largest_weight() const { return weight_; }
 
  private:
-  /// A control point in double, the weight last.
+  /// Returns a control point in double, the weight last.
   [[gnu::always_inline]] static Lanes::Vector point(const M& motion, BeadId bead, int k) {
     const double* p = motion.control_point(bead, k);
     if constexpr (dimension == 3) {
@@ -99,7 +99,7 @@ class FloatLanesView {
     }
   }
 
-  std::array<std::array<Number, 4>, degree + 1> numbers_;  // the weight after the coordinates
+  std::array<std::array<Number, 4>, degree + 1> numbers_;  // the coordinates, then the weight
   std::array<Number, lifted<M> ? 4 : 0> moved_;
   std::array<Number, lifted<M> ? dimension : 0> drift_;
   mutable Number length_{0.0F};

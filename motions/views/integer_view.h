@@ -1,13 +1,13 @@
 #pragma once
-// A motion in whole numbers: all coordinates and radii times one power of two, weights times its square.
-// Functions of certificates are homogeneous in lengths, so the common factor changes no sign. Exact.
+// A motion in whole numbers: all coordinates and radii are multiplied by one power of two, weights by its
+// square. Functions of certificates are homogeneous in lengths, so the common factor changes no sign. Exact.
 //
-//   FixedView      whole numbers of a fixed width (fixed_integer.h)
-//   ResidueView    the same modulo a prime (modular.h)
-//   DigitsView     their leading digits (leading_digits.h)
-//   WordsView      so many words of them (fixed_digits.h)
-//   IntegerView    whole numbers of any width
-//   MomentView     whole numbers, at one dyadic time: polynomials of degree 0
+//   FixedView      integers of fixed width (fixed_integer.h)
+//   ResidueView    integers modulo a prime (modular.h)
+//   DigitsView     leading digits of the integers, as balls (leading_digits.h)
+//   WordsView      the same with a fixed number of words (fixed_digits.h)
+//   IntegerView    integers of unlimited length
+//   MomentView     integers, at one dyadic time: polynomials of degree 0
 //   KeptMoment     a MomentView that computes each bead's position once, for many functions of the same time
 
 #include <algorithm>
@@ -31,7 +31,7 @@
 
 namespace kds {
 
-/// Calls `visit` with each number of some beads' control points, in these channels, and with its power of
+/// Calls `visit` with each number of the beads' control points in these channels, and with its power of
 /// length, 1 or 2.
 template <Motion M, std::invocable<double, int> Visit>
 void each_control(const M& motion, std::span<const BeadId> beads, Channels channels, Visit visit) {
@@ -49,8 +49,8 @@ void each_control(const M& motion, std::span<const BeadId> beads, Channels chann
 
 /// The power of two that makes all control points of some beads whole numbers.
 struct WholeScale {
-  int exponent = -4096;  ///< lengths times 2^exponent, squares of them times 2^(2 exponent)
-  int bits = 0;          ///< lengths are below 2^bits in size then, squares of them below 2^(2 bits)
+  int exponent = -4096;  ///< lengths are multiplied by 2^exponent, squares by 2^(2 exponent)
+  int bits = 0;          ///< scaled lengths are below 2^bits in size, scaled squares below 2^(2 bits)
 };
 template <Motion M>
 [[nodiscard]] WholeScale whole_scale(const M& motion, std::span<const BeadId> beads,
@@ -68,32 +68,32 @@ template <Motion M>
   return scale;
 }
 
-/// The whole numbers.
+/// The ring of integers.
 struct Integers {
   using Number = Integer;
   [[nodiscard]] static Integer of(long long x) { return x; }
 };
 
-/// Those of a fixed width.
+/// Integers of fixed width.
 struct FixedIntegers {
   using Number = FixedInteger;
   [[nodiscard]] static FixedInteger of(long long x) { return FixedInteger(x); }
 };
 
-/// The whole numbers modulo the prime 2^61 - fold.
+/// Integers modulo the prime 2^61 - fold.
 struct Residues {
   using Number = Residue;
   std::uint64_t fold;
   [[nodiscard]] Residue of(long long x) const { return Residue::of(x, fold); }
 };
 
-/// The leading digits of whole numbers.
+/// Leading digits of integers, as balls.
 struct RoundedIntegers {
   using Number = LeadingDigits;
   [[nodiscard]] static LeadingDigits of(long long x) { return LeadingDigits::of(x); }
 };
 
-/// So many words of whole numbers.
+/// Balls with a fixed number of words.
 template <int Words>
 struct IntegersInWords {
   using Number = FixedDigits<Words>;
@@ -107,7 +107,7 @@ class ExactView {
   static constexpr int dimension = M::dimension;
   static constexpr int degree = M::degree;
 
-  /// Knows only the beads, and the channels, that the scale was made for.
+  /// Views only the beads and channels for which `scale` was made.
   ExactView(const M& motion, const WholeScale& scale, Ring ring = {})
       : motion_(motion), exponent_(scale.exponent), ring_(ring) {}
   ExactView(const M& motion, std::span<const BeadId> beads, Channels channels = all_channels)
@@ -193,7 +193,7 @@ class MomentView {
   static constexpr int dimension = M::dimension;
   static constexpr int degree = 0;
 
-  /// The motion at `time` in [0,1]; knows only these beads, and these channels of theirs.
+  /// Views the motion at `time` in [0,1], only for these beads and channels.
   MomentView(const M& motion, std::span<const BeadId> beads, const Dyadic& time,
              Channels channels = all_channels)
       : moving_(motion, beads, channels),
@@ -223,14 +223,15 @@ class MomentView {
   }
 
  private:
-  /// Coordinates carry the time's denominator to the degree's power, squares must carry its square.
+  /// Coordinates contain the time's denominator to the power of the degree. Squares must contain the
+  /// square of that.
   [[nodiscard]] Bernstein<Integer, 0> squares(const Bernstein<Integer, M::degree>& p) const {
     return {{at_moment(p) << (time_exponent_ * static_cast<unsigned>(degree_))}};
   }
   [[nodiscard]] Integer at_moment(const Bernstein<Integer, M::degree>& p) const {
     Integer value = p.scaled[static_cast<std::size_t>(degree_)];
     Integer power = 1;
-    for (int k = degree_ - 1; k >= 0; --k) {  // Horner in u, one more factor (1-u) a step
+    for (int k = degree_ - 1; k >= 0; --k) {  // Horner's scheme in u, with one more factor (1-u) per step
       power *= earlier_;
       value = value * later_ + p.scaled[static_cast<std::size_t>(k)] * power;
     }
@@ -244,7 +245,7 @@ class MomentView {
   unsigned time_exponent_;
 };
 
-/// Positions relative to those of bead 0, which functions of differences do not see. Exact.
+/// Positions relative to bead 0, which does not matter for functions of differences. Exact.
 template <Motion M>
 class KeptMoment {
  public:
@@ -252,7 +253,7 @@ class KeptMoment {
   static constexpr int dimension = M::dimension;
   static constexpr int degree = 0;
 
-  /// The motion of all beads, coordinates and weights, at `time` in [0,1]. The motion must outlive this.
+  /// Views the coordinates and weights of all beads at `time` in [0,1]. The motion must outlive this object.
   KeptMoment(const M& motion, const Dyadic& time)
       : rows_(motion.bead_count()), view_(motion, all(rows_.size()), time, {.weights = true}) {}
 

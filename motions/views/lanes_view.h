@@ -1,6 +1,6 @@
 #pragma once
-// Four tuples of beads of one motion, seen at once (motion_view.h). A formula over this view names beads by
-// their place in the tuple: 0, 1, 2 ... Radii are loaded only if they will be asked for.
+// A view (motion_view.h) of four tuples of beads of one motion at once. A formula over this view names beads
+// by their places in the tuple: 0, 1, 2 ... Radii are loaded only if `channels` selects them.
 
 #include <array>
 
@@ -88,7 +88,7 @@ class LanesView {
     return result;
   }
 
-  /// M of the error bound (motion_view.h); a NaN where some weight difference exceeds its square.
+  /// Returns the M of the error bound (motion_view.h), or a NaN if some weight difference exceeds its square.
   [[nodiscard, gnu::always_inline]] Lanes largest_length() const {
     return Lanes::choose(weight_ <= length_ * length_, length_, Lanes(__builtin_nan("")));
   }

@@ -9,7 +9,7 @@ namespace {
 
 using Vector = Lanes::Vector;
 
-// A control point in lanes: coordinates, then the weight, then zeros.
+// Loads a control point into lanes: coordinates, then the weight, then zeros.
 
 template <int Dimension>
 Vector point(const double* p) {
@@ -21,7 +21,7 @@ void store(const Vector& v, double* p) {
   for (int i = 0; i <= Dimension; ++i) p[i] = v[i];
 }
 
-/// What rounding leaves of a sum: exact unless something overflows, then it is no number.
+/// Returns the rounding error of a sum. It is exact unless something overflows; then it is NaN.
 Vector left_of_sum(const Vector& a, const Vector& b, const Vector& sum) {
   const Vector of_b = sum - a;
   return (a - (sum - of_b)) + (b - of_b);
@@ -55,13 +55,13 @@ void MotionAhead<Dimension>::look_at(const Curves<Dimension>& curves, std::size_
     const bool known = step[Dimension] == 0 && all_of((left_of_sum(to, -from, step) == zero) &
                                                       (left_of_sum(from, all_steps, ahead) == zero));
     const bool goes_on = known & (course.known_in == step_ - 1) &
-                         all_of((course.end == from) & (course.step == step));  // no branch
+                         all_of((course.end == from) & (course.step == step));  // avoids a branch
     course = {to, step, known ? step_ : 0};
     straight_ += goes_on ? 1 : 0;
     all_known_ = all_known_ & known;
     if (every > 1) continue;
     if (!known) {
-      // Far from the others, and from all such: no difference of theirs is a length that a filter looks at.
+      // Place the bead far from all others, so far that no filter accepts its differences as lengths.
       ahead = zero;
       ahead[0] = std::ldexp(static_cast<double>(bead) + 1, 960);
       ahead[Dimension] = from[Dimension];

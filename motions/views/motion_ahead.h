@@ -1,8 +1,9 @@
 #pragma once
-// A linear motion some steps ahead, each bead taken to go straight on: what is proved of it holds step after
-// step for as long as the beads do. That a bead goes on is seen where the next step begins, exactly: it
-// starts where the step before ended, and moves by the very same double in each coordinate. Motions within a
-// tolerance (straightened_frames.h) are made so, and beads at rest go on, too.
+// Extrapolates a linear motion several steps ahead, assuming that each bead goes straight on. Facts proved
+// about the extrapolation hold step after step while the beads do go straight on. Whether a bead does is
+// decided exactly at the start of the next step: it must start where it ended the step before and move by the
+// very same double in each coordinate. Motions within a tolerance (straightened_frames.h) are made that way,
+// and beads at rest also go straight on.
 
 #include <array>
 #include <cstddef>
@@ -14,34 +15,36 @@
 
 namespace kds {
 
-/// Itself a motion: of the step looked at last and those behind it in one. Exact for the beads that are
-/// known.
+/// Is itself a motion, which covers the step examined last and the following steps as one. It is exact for
+/// the beads that are known.
 template <int DimensionValue>
 class MotionAhead {
  public:
   static constexpr int dimension = DimensionValue;
   static constexpr int degree = 1;
-  /// As many as that: a power of two, so that products are exact.
+  /// The number of steps covered: a power of two, so that products are exact.
   static constexpr unsigned steps = 8;
 
-  /// At the start of a step of a linear motion. Beads that were not looked at in the step before have turned,
-  /// and all of them where there are more or fewer.
+  /// Examines the start of a step of a linear motion. Beads that were not examined in the step before
+  /// count as turned. If the number of beads has changed, all of them count as turned.
   void look_at(const Curves<DimensionValue>& curves) { look_at(curves, 1); }
-  /// The same of a few beads alone, for those who want to know the share of those that went straight on:
-  /// nothing else may be asked then, and little memory is taken.
+  /// Does the same for a few beads, to estimate the share that went straight on. Takes little memory, but
+  /// other queries are not allowed afterwards.
   void look_at_some(const Curves<DimensionValue>& curves) { look_at(curves, 1 + curves.bead_count() / 16); }
 
-  /// Of those looked at last.
+  /// Returns the share of beads that went straight on, among those examined last.
   [[nodiscard]] double share_straight() const {
     return static_cast<double>(straight_) / static_cast<double>(courses_.size());
   }
-  /// -1 where the bead did not go straight on into the step looked at last, else 0; of the infinite bead 0.
+  /// Returns -1 if the bead did not go straight on into the step examined last, else 0; for the infinite
+  /// bead 0.
   [[nodiscard, gnu::always_inline]] std::int32_t turned(BeadId bead) const {
     return turned_.data()[std::ptrdiff_t{static_cast<std::int32_t>(bead)} + 1];
   }
-  /// Whether that is so of all beads.
+  /// Returns whether is_known() holds for all beads.
   [[nodiscard]] bool all_known() const { return all_known_; }
-  /// Whether all that the bead does ahead is exact. If not, it is far away from all others.
+  /// Returns whether the extrapolation of the bead is exact. If not, the bead is placed far away from all
+  /// others.
   [[nodiscard]] bool is_known(BeadId bead) const { return courses_[bead].known_in == step_; }
 
   [[nodiscard]] std::size_t bead_count() const { return records_.size(); }
@@ -52,20 +55,20 @@ class MotionAhead {
   [[nodiscard]] const double* radii(BeadId) const { return none_.data(); }
 
  private:
-  // As in BezierMotion: those of a bead in space fill one cache line.
+  // Stores a bead's control points together, as in BezierMotion; in space they fill one cache line.
   struct alignas(dimension == 3 ? 64 : 8) Record {
     double control[2][dimension + 1] = {};
   };
   struct Course {
     Lanes::Vector end{}, step{};
-    std::uint32_t known_in = 0;  ///< which step
+    std::uint32_t known_in = 0;  ///< the step in which the bead was known
   };
   void look_at(const Curves<DimensionValue>& curves, std::size_t every);
 
   std::vector<Record> records_;
   std::uint32_t step_ = 2;
-  std::size_t every_ = 0;        // which beads were looked at last
-  std::vector<Course> courses_;  // theirs
+  std::size_t every_ = 0;        // the stride of the beads examined last
+  std::vector<Course> courses_;  // the courses of those beads
   std::vector<std::int32_t> turned_;
   std::size_t straight_ = 0;
   bool all_known_ = false;

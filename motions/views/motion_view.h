@@ -1,17 +1,19 @@
 #pragma once
-// A motion seen in a number type. A certificate's function is written once over a view:
+// The concept of a view: a motion seen in one number type. A certificate's function is written once, over any
+// view:
 //
-//   DoubleView     rounded; remembers the size of what it was asked for, which scales the error bound
-//   TrackedView    rounded, with an error bound of its own (tracked_double.h), at a scale where numbers keep
-//                  in the middle of double's range: all lengths times one power of two, weights times its
-//                  square
-//   MagnitudeView  the error bound's constants (magnitude.h); sees no motion at all
+//   DoubleView     rounded; records the largest length returned, which scales the error bound
+//   TrackedView    rounded, with a running error bound (tracked_double.h). Numbers are scaled to the middle
+//   of
+//                  double's range: all lengths by one power of two, weights by its square
+//   MagnitudeView  the constants of the error bound (magnitude.h); independent of any motion
 //   IntegerView, ResidueView, MomentView   exact (integer_view.h)
-//   RecordingView  writes the formula down, to be played over any of these (recording_view.h)
+//   RecordingView  records the formula, which can be played over any of these views (recording_view.h)
 //
 // Functions of certificates are homogeneous in lengths, so a common factor changes no sign. Every view
-// answers with differences to a bead: certificates do not depend on the origin, or have it as a bead, and the
-// filter is much sharper for it. Views that pay for what might be asked are told which channels will be.
+// returns differences of beads. Certificates are independent of the origin, or have the origin as a bead, and
+// differences make the filter much sharper. Views that must prepare channels are told which ones will be
+// used.
 
 #include <algorithm>
 #include <array>
@@ -29,10 +31,10 @@
 
 namespace kds {
 
-/// Besides difference(i, j) a view has weight_difference(i, j), radius_difference(i, j) and radius_sum(i, j),
-/// polynomials of the same degree, if it was told that they will be asked for. Of a lifted motion it has
-/// lift_difference(i, j), the difference of |x|^2 less the weight (lifted_motion.h); weight_difference knows
-/// the ends of the step only there.
+/// Besides difference(i, j), a view has weight_difference(i, j), radius_difference(i, j) and radius_sum(i,
+/// j), polynomials of the same degree, if the channels were requested. Over a lifted motion it has
+/// lift_difference(i, j), the difference of |x|^2 minus the weight (lifted_motion.h); weight_difference is
+/// available only at the ends of the step there.
 template <class V>
 concept MotionView = requires(const V& view, BeadId i, BeadId j) {
   typename V::Number;
@@ -55,7 +57,7 @@ class DoubleView {
 
   explicit DoubleView(const M& motion) : motion_(motion) {}
 
-  /// centre of i minus centre of j
+  /// Returns the centre of i minus the centre of j.
   [[nodiscard]] BernsteinVector<double, degree, dimension> difference(BeadId i, BeadId j) const {
     BernsteinVector<double, degree, dimension> result;
     const int own = degree_of(motion_);
@@ -70,7 +72,7 @@ class DoubleView {
     }
     return result;
   }
-  /// weight of i minus weight of j
+  /// Returns the weight of i minus the weight of j.
   [[nodiscard]] Bernstein<double, degree> weight_difference(BeadId i, BeadId j) const {
     Bernstein<double, degree> result;
     const int own = degree_of(motion_);
@@ -83,7 +85,7 @@ class DoubleView {
     return result;
   }
 
-  /// radius of i minus radius of j
+  /// Returns the radius of i minus the radius of j.
   [[nodiscard]] Bernstein<double, degree> radius_difference(BeadId i, BeadId j) const {
     return radii([&](int k) { return motion_.radius(i, k) - motion_.radius(j, k); });
   }
@@ -94,7 +96,7 @@ class DoubleView {
   [[nodiscard]] Bernstein<double, 1> lift_difference(BeadId i, BeadId j) const requires(lifted<M>) {
     return lift_of(*this, i, j);
   }
-  /// How far a bead moves in the step, less the drift.
+  /// Returns a bead's displacement in the step, without the drift.
   [[nodiscard]] std::array<double, dimension> displacement(BeadId bead) const requires(lifted<M>) {
     std::array<double, dimension> result;
     for (int axis = 0; axis < dimension; ++axis) {
@@ -105,8 +107,8 @@ class DoubleView {
     return result;
   }
 
-  /// M of the error bound: no difference or sum answered so far is larger, and no weight difference is larger
-  /// than its square.
+  /// Returns the M of the error bound: no difference or sum returned so far is larger, and no weight
+  /// difference is larger than its square.
   [[nodiscard]] double largest_length() const {
     return weight_ <= length_ * length_ ? length_ : std::max(length_, std::sqrt(weight_));
   }
@@ -130,8 +132,8 @@ class DoubleView {
   mutable double weight_ = 0;
 };
 
-/// A power of two that brings the largest difference of some beads near 1, as far as a double goes; 1 where
-/// differences overflow or are zero. Channels that are not asked for do not count.
+/// Returns a power of two that scales the largest difference of some beads to about 1, as far as a double
+/// allows. Returns 1 if differences overflow or are zero. Channels not selected are ignored.
 template <Motion M>
 [[nodiscard]] double scale_to_unit(const M& motion, std::span<const BeadId> beads,
                                    Channels channels = all_channels) {
@@ -159,7 +161,7 @@ class TrackedView {
   static constexpr int dimension = M::dimension;
   static constexpr int degree = M::degree;
 
-  /// Knows only these beads, and these channels of theirs.
+  /// Views only these beads and channels.
   TrackedView(const M& motion, std::span<const BeadId> beads, Channels channels = all_channels)
       : motion_(motion), scale_(scale_to_unit(motion, beads, channels)) {}
 
@@ -207,10 +209,10 @@ class TrackedView {
     return result;
   }
 
-  /// A rounded difference or sum of two inputs, times the scale. Sums are exact where they are subnormal,
-  /// and scaling is but for what underflows.
+  /// Returns a rounded difference or sum of two inputs, times the scale. Sums are exact if they are
+  /// subnormal, and scaling is exact except for underflow.
   [[nodiscard]] TrackedDouble scaled(double rounded) const { return from_rounded(rounded * scale_); }
-  /// The same times the scale's square, which may be no double itself.
+  /// Returns the same times the square of the scale, which may not be representable as a double.
   [[nodiscard]] TrackedDouble scaled_twice(double rounded) const {
     return from_rounded(rounded * scale_ * scale_);
   }
@@ -230,7 +232,7 @@ class MagnitudeView {
   static constexpr int degree = DegreeValue;
 
   MagnitudeView() requires(DegreeValue >= 0) : own_degree_(DegreeValue) {}
-  /// For motions of this degree; where the view's degree is a constant, it must be that.
+  /// For motions of this degree. If the view's degree is a constant, the argument must equal it.
   explicit MagnitudeView(int own_degree) : own_degree_(own_degree) {}
 
   [[nodiscard]] BernsteinVector<Number, degree, dimension> difference(BeadId, BeadId) const {

@@ -1,6 +1,6 @@
 #pragma once
-// A view that sees no motion: a formula over it is written down, for whoever plays it
-// (motions/numbers/recorded_formula.h). Beads are named by their places among those that the formula is of.
+// A view without a motion: it records a formula, which can be played later
+// (motions/numbers/recorded_formula.h). The formula names beads by their places among its own beads.
 
 #include <cstdint>
 
