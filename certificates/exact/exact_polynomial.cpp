@@ -138,7 +138,7 @@ ExactPolynomial ExactPolynomial::restricted(const Dyadic& lower, const Dyadic& u
 
 ExactPolynomial ExactPolynomial::square_free() const {
   if (!wide_) return ExactPolynomial(square_free_part(scaled_));
-  // A function and its negative share one square-free part, so comparing addresses tells that their roots are
+  // A function and its negative share one square-free part, so equal addresses show that their roots are
   // the same.
   const std::shared_ptr<const WidePolynomial>& own = wide_->opposite() ? wide_->opposite() : wide_;
   auto& known = own->found().square_free;

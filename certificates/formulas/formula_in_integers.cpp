@@ -133,7 +133,7 @@ class WideFunction final : public CoefficientSource {
   WholeScale scale_;
 };
 
-/// Returns all numbers that a function depends on. The first number tells the kind of its curves.
+/// Returns all numbers that a function depends on. The first number encodes the kind of its curves.
 template <class C>
 std::vector<double> numbers_of(const BeadFunction& function, const C& curves) {
   std::vector<double> numbers;

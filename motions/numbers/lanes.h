@@ -2,8 +2,8 @@
 // Four doubles that undergo the same operations side by side (SIMD), each rounded like an ordinary double.
 // Functions marked KDS_LANES_TARGETS are compiled for AVX2 if the build defines KDS_NEEDS_AVX2. Otherwise
 // they are compiled twice, with and without AVX2, and the right version is selected when the program starts.
-// Every version gives the same bits. With the address sanitizer they are compiled once, because such builds
-// are slow enough to compile.
+// Every version gives the same bits. Builds with the address sanitizer compile them only once, to keep
+// compile times bearable.
 
 #include <array>
 #include <cstddef>

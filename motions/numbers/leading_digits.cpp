@@ -115,8 +115,8 @@ LeadingDigits& LeadingDigits::operator+=(const LeadingDigits& other) {
   if (is_zero()) return *this = other;
   LeadingDigits low = other;
   if (exponent < low.exponent) std::swap(*this, low);
-  // Move the number with the larger exponent down as far as it has room. The other number's bits below its
-  // last bit are dropped and counted in the error.
+  // Lower the larger exponent as far as the number has room. The other number's bits below its last bit are
+  // dropped and counted in the error.
   const std::int64_t apart = exponent - low.exponent;
   const int room =
       std::min(most_bits - width_of(magnitude), error_bits - 1 - static_cast<int>(std::bit_width(error)));

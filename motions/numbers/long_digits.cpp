@@ -138,8 +138,8 @@ LongDigits& LongDigits::operator+=(const LongDigits& other) {
     exponent_ = other.exponent_;
     return *this;
   }
-  // Shift the number with the larger exponent up as far as it has room. Bits of the other number that are
-  // still below are dropped.
+  // Lower the larger exponent as far as the number has room. Bits of the other number that are still below
+  // are dropped.
   if (exponent_ >= other.exponent_) {
     const auto apart = static_cast<std::size_t>(exponent_ - other.exponent_);
     const std::size_t up = room(apart);

@@ -73,7 +73,7 @@ class HeaderReader {
 
   DcdLayout layout;
   static constexpr std::uint64_t header_bytes = 84;
-  static constexpr std::uint64_t most_title = std::uint64_t{1} << 20U;  // lines of 80 characters
+  static constexpr std::uint64_t most_title = std::uint64_t{1} << 20U;  // lines have 80 characters
 
  private:
   void read(std::vector<char>& bytes, const char* what) {
@@ -112,8 +112,9 @@ DcdLayout::Times times_of(std::int32_t first, std::int32_t steps, double picosec
 
 bool is_time(double picoseconds) { return picoseconds >= 1e-6 && picoseconds <= 1e9; }  // false for NaN
 
-// LAMMPS writes the length of a step in the unit of its run and does not say which: femtoseconds (units real,
-// where steps are about 1), picoseconds (metal, about 0.001), reduced units (lj, about 0.005) or another.
+// Reads the times of a LAMMPS file. LAMMPS writes the length of a step in the unit of its run without naming
+// the unit: femtoseconds (units real, steps of about 1), picoseconds (metal, about 0.001), reduced units (lj,
+// about 0.005) or another.
 void read_lammps_times(const std::string& file, std::int32_t first, std::int32_t steps, double length,
                        DcdLayout& layout) {
   if (first < 0 || steps < 1 || !(length > 0)) return;
@@ -132,8 +133,8 @@ void read_lammps_times(const std::string& file, std::int32_t first, std::int32_t
   }
 }
 
-// The header holds the number of frame 0's step, the steps between frames and the length of a step in the
-// unit of CHARMM (AKMA). Programs that do not know the times leave zeros or ones there.
+// Reads the times from the header, which holds the number of frame 0's step, the steps between frames and the
+// length of a step in CHARMM's unit (AKMA). Programs that do not know the times write zeros or ones.
 void read_times(const std::string& file, const HeaderReader& reader, const std::vector<char>& header,
                 DcdLayout& layout) {
   constexpr double akma = 0.04888821;  // picoseconds
@@ -177,7 +178,7 @@ DcdLayout read_dcd_layout(InputFile& input) {
   DcdLayout& layout = reader.layout;
   reader.tell_byte_order_and_markers();
 
-  // The 20 numbers behind CORD, counted from 1 with CORD as 0.
+  // The 20 numbers after CORD, counted from 1 with CORD as 0.
   const std::vector<char> header = reader.record_of("header", HeaderReader::header_bytes);
   layout.frames_claimed = reader.integer(header, 1);
   const std::int64_t fixed = reader.integer(header, 9);

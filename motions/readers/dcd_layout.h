@@ -1,10 +1,11 @@
 #pragma once
-// The layout of a DCD file (CHARMM, NAMD, LAMMPS): its header and where each frame lies.
+// The layout of a DCD file (CHARMM, NAMD, LAMMPS): its header and the position of each frame.
 //
-// Every record stands between two markers that give its size: 4 bytes, in the byte order of the machine that
-// wrote it (8 bytes from some compilers). Header, title, number of atoms, list of free atoms if some are
-// fixed; then for each frame the unit cell if there is one, x, y and z, and a fourth coordinate if there is
-// one. With fixed atoms only frame 0 holds all atoms, the others the free ones.
+// Every record stands between two markers that give its size. A marker has 4 bytes (8 bytes from some
+// compilers), in the byte order of the machine that wrote it. The file holds a header, a title, the number of
+// atoms, and a list of the free atoms if some are fixed. Each frame then holds the unit cell (optional), x,
+// y, z, and a fourth coordinate (optional). If atoms are fixed, frame 0 holds all atoms and the other frames
+// only the free ones.
 
 #include <algorithm>
 #include <array>
@@ -22,8 +23,8 @@
 namespace kds {
 
 struct DcdLayout {
-  bool swapped = false;         ///< not this machine's byte order
-  std::size_t marker_size = 4;  ///< or 8
+  bool swapped = false;         ///< the byte order is not that of this machine
+  std::size_t marker_size = 4;  ///< 4 or 8
   std::int64_t frames_claimed = 0;
   bool has_cell = false;
   bool has_fourth = false;

@@ -1,8 +1,8 @@
 #pragma once
 // DCD files (CHARMM, NAMD, LAMMPS), plain or gzipped: both byte orders, 32- or 64-bit markers, with or
-// without unit cell, fourth coordinate and fixed atoms. Only the frames asked for are read; in a gzipped
-// file the frames before them are unpacked too. The number of frames follows from the file's size. The
-// header's count is often wrong, and a warning then says so.
+// without unit cell, fourth coordinate and fixed atoms. Only the requested frames are read; in a gzipped file
+// the frames before them are unpacked too. The number of frames is computed from the file's size. The count
+// in the header is often wrong; then a warning says so.
 
 #include <filesystem>
 

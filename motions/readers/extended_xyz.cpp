@@ -65,7 +65,8 @@ class PairReader {
     return pairs;
   }
 
-  // Returns the rest of the line from a quote that is never closed; empty if there is no such quote.
+  // Returns the rest of the line from a quote that is never closed, or an empty text if there is no such
+  // quote.
   std::string_view open_rest() const { return open_from_ ? text_.substr(*open_from_) : std::string_view(); }
   // Returns the quoted words that are not keys.
   const std::vector<std::string>& quoted_words() const { return quoted_words_; }
@@ -266,7 +267,7 @@ XyzColumns read_columns(const Value& value) {
   return columns;
 }
 
-// Returns whether a part of the line that could not be read has one of our keys.
+// Returns whether a part of the line that could not be parsed contains one of the supported keys.
 bool names_a_key(std::string_view rest) {
   const std::string text = lower_case(rest);
   for (const std::string_view key : {"lattice", "properties", "pbc"}) {
@@ -310,7 +311,8 @@ std::string misspelt_keys(const std::vector<Pair>& pairs) {
   return text;
 }
 
-// i-PI names the unit of positions in braces, and writes its cell as CELL(abcABC): or CELL{H}:.
+// Reads the comment of i-PI, which names the unit of positions in braces and writes its cell as CELL(abcABC):
+// or CELL{H}:.
 std::optional<std::string> read_ipi_comment(std::string_view line) {
   const std::string text = lower_case(line);
   constexpr std::string_view positions = "positions{";

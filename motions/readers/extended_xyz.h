@@ -1,5 +1,5 @@
 #pragma once
-// The comment line of an extended XYZ file: key=value pairs as the specification of libAtoms/extxyz has them.
+// The comment line of an extended XYZ file: key=value pairs as specified by libAtoms/extxyz.
 //
 //   pair    key = value, with blanks around '=' or without
 //   key     a bare or quoted string; Lattice, Properties and pbc in any case
@@ -20,25 +20,27 @@
 
 namespace kds {
 
-/// The columns of an atom's line, from 0.
+/// The columns of an atom's line, counted from 0.
 struct XyzColumns {
   std::optional<std::size_t> species = 0;  ///< a symbol, a name or an atomic number
-  std::size_t position = 1;                ///< of x; y and z follow
+  std::size_t position = 1;                ///< the column of x; y and z follow
   std::optional<std::size_t> id;           ///< the column of an id that each atom keeps in all frames
   std::size_t count = 4;
-  bool named = false;  ///< Properties is given: a line has exactly `count` columns, otherwise at least
+  bool named = false;  ///< Properties is given: lines have exactly `count` columns, otherwise at least
+                       ///< `count`
 };
 
 struct XyzComment {
   CellRead cell;
   XyzColumns columns;
-  /// A key that probably means the lattice but is not read, as in cell=.
+  /// A key that probably means the lattice but is not supported, such as cell=.
   std::optional<std::string> near_lattice;
   /// Keys that are probably misspelt, as in latice=, for a message; empty if there are none.
   std::string misspelt;
 };
 
-/// Throws InputError, without the name of the file, if Lattice, Properties or pbc cannot be read.
+/// Parses the comment line. Throws InputError, without the name of the file, if Lattice, Properties or pbc
+/// cannot be parsed.
 [[nodiscard]] XyzComment read_xyz_comment(std::string_view line);
 
 /// Parses a number whose exponent may begin with e, E, d or D.

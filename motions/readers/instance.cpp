@@ -16,7 +16,7 @@ namespace kds {
 
 namespace {
 
-// The three numbers of the first line: points, columns, degree.
+// Parses the three numbers of the first line: points, columns, degree.
 std::optional<std::array<std::size_t, 3>> parse_first_line(std::string_view line) {
   const auto fields = split_fields(line);
   if (fields.size() != 3) return std::nullopt;

@@ -13,7 +13,7 @@ namespace kds {
 struct Instance {
   std::string file;
   int columns = 0;                     ///< 1..4
-  int degree = 0;                      ///< of every column, at least 1
+  int degree = 0;                      ///< degree of every column, at least 1
   std::vector<double> control_points;  ///< [point][column][0..degree]
 
   [[nodiscard]] int dimension() const { return columns < 3 ? columns : 3; }

@@ -194,7 +194,7 @@ void NecklaceStream::rewind() {
 }
 
 std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
-  // Warnings about the whole file go with the first necklace.
+  // Report warnings about the whole file with the first necklace.
   std::vector<std::string> lines;
   if (necklace == 0) {
     lines = opened_.warnings;

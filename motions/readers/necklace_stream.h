@@ -3,9 +3,9 @@
 // across a periodic cell, and chain breaks are found. Two frames are in memory, whatever the length of the
 // file.
 //
-// Chains of one file are placed beside each other in the first frame: a chain moves to its periodic image
-// nearest to the chains before it if that is much nearer than the chain itself. From then on each chain moves
-// continuously. A warning tells of other chains with a nearer image.
+// In the first frame, chains of one file are placed beside each other: a chain moves to the periodic image
+// nearest to the chains before it if that image is much nearer than the chain itself. After the first frame,
+// each chain moves continuously. A warning is given if another chain has a nearer image.
 
 #include <cstddef>
 #include <filesystem>
@@ -40,11 +40,11 @@ class NecklaceStream {
   /// Findings about one necklace, for its warnings.
   struct Notes {
     Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< shift of the first frame, in cell vectors
-    std::string placed;                               ///< a line about that shift
+    std::string placed;                               ///< a message about that shift
     std::size_t frames_moved = 0;
     std::size_t frames_doubtful = 0, first_doubtful = 0;  ///< frames whose cell does not suit the bonds
-    /// Shift that takes the centroid to its image nearest to the first necklace's centroid, in the first
-    /// frame.
+    /// The shift, in the first frame, from the centroid to its image nearest to the first necklace's
+    /// centroid.
     std::optional<Eigen::Vector3d> apart_at_first;
     std::size_t frames_apart = 0, first_apart = 0;  ///< frames in which that shift differs
   };

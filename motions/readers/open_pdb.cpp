@@ -1,4 +1,4 @@
-// One model is in memory at a time, so a long file costs no more than the frames asked for.
+// One model is in memory at a time, so a long file needs memory only for the requested frames.
 
 #include <fmt/format.h>
 
@@ -18,10 +18,11 @@ namespace kds {
 
 namespace {
 
-// Column 21 holds the fourth letter of a residue's name (LYSH) in files of simulations, or the first one of a
-// chain's name in files of large structures. Along a chain, names change from residue to residue and chains
-// do not, so neighbours vote: those of amino acids or nucleotides that share a letter there, or have
-// different ones. Without any vote the letters are part of residue names that no table knows (TIP3, DPPC).
+// The use of column 21. It holds the fourth letter of a residue's name (LYSH) in simulation files, or the
+// first letter of a chain's name in files of large structures. Along a chain, names of residues change but
+// names of chains do not, so consecutive amino acids or nucleotides vote: equal letters are votes for a chain
+// name, different letters for a residue name. If no amino acid or nucleotide uses the column, the letters
+// belong to residue names that are in no table (TIP3, DPPC).
 enum class Column21 { residue_name, guessed_residue_name, chain_name };
 
 Column21 use_of_column_21(const PdbModel& model) {
@@ -57,9 +58,9 @@ std::string chain_of(const PdbAtom& atom, bool named_by_column_21) {
   return name;
 }
 
-// TER ends a polymer. All residues of a chain up to its first TER belong to the polymer. Ligands and waters
-// follow, or further pieces of the polymer. A piece belongs to the polymer if it holds amino acids or
-// nucleotides. Residues that are HETATM count only if TER ends their piece.
+// The polymers ended by TER. All residues of a chain up to its first TER belong to the polymer. Ligands,
+// waters or further pieces of the polymer follow. A piece belongs to the polymer if it contains amino acids
+// or nucleotides. HETATM residues count only if TER ends their piece.
 class Terminations {
  public:
   std::string before(const std::string& chain) { return std::to_string(ended_[chain]); }
@@ -84,7 +85,7 @@ class Terminations {
   }
 
  private:
-  std::map<std::string, std::size_t> ended_;  // by chain: how many TER it has
+  std::map<std::string, std::size_t> ended_;  // number of TER records, by chain
 };
 
 StructureModel structure_of(PdbModel&& read) {

@@ -1,5 +1,5 @@
 #pragma once
-// The columns of an ATOM or HETATM line of a PDB file, checked.
+// Parses and checks the columns of an ATOM or HETATM line of a PDB file.
 
 #include <string>
 #include <string_view>
@@ -18,11 +18,11 @@ struct PdbAtom {
   bool het = false;
 };
 
-/// The text in columns `first` to `last`, counted from 1, without blanks around it.
+/// Returns the text in columns `first` to `last`, counted from 1, without surrounding blanks.
 [[nodiscard]] std::string_view columns(std::string_view line, std::size_t first, std::size_t last);
 
-/// Reads an ATOM or HETATM line. Throws InputError naming file and line if the line is too short or holds a
-/// tab. Throws it also if a coordinate or the occupancy is no number, or overflows its columns.
+/// Parses an ATOM or HETATM line. Throws InputError naming file and line if the line is too short or contains
+/// a tab, or if a coordinate or the occupancy is not a number or overflows its columns.
 [[nodiscard]] PdbAtom read_atom_line(const std::string& file, std::size_t line_number, std::string_view line);
 
 }  // namespace kds

@@ -20,7 +20,7 @@ namespace kds {
 struct SelectedAtom {
   const StructureAtom* atom;
   std::string element;
-  std::string name;  ///< "CA of ALA 12 in chain A": tells models with other atoms apart
+  std::string name;  ///< "CA of ALA 12 in chain A": detects models with different atoms
 };
 
 struct SelectedChains {
@@ -36,8 +36,8 @@ struct SelectedChains {
 /// If a chain has only those, the selection `all` reads them. If an atom has alternate locations, the first
 /// one is used; if two residues are alternates, the first one is used.
 ///
-/// Throws InputError naming file and option if a name is not in the model or listed twice, or nothing is
-/// selected.
+/// Throws InputError naming file and option if a name is not in the model or is listed twice, or if nothing
+/// is selected.
 [[nodiscard]] SelectedChains select_chains(const std::string& file, const StructureModel& model,
                                            Selection selection, const std::optional<std::string>& list);
 

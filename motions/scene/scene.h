@@ -63,7 +63,7 @@ class Scene {
   /// Makes a scene of points, or of balls if `radii` has one radius per point. Throws InputError like the
   /// first constructor.
   explicit Scene(Instance instance, std::vector<double> radii = {});
-  /// Makes a scene whose frames are pushed one by one. Only the frames of the last steps are in memory.
+  /// Makes a scene whose frames are pushed one by one. Only the frames of the latest step are in memory.
   /// Throws InputError if there are no beads, or if a radius or the dimension is invalid.
   explicit Scene(PushedFrames frames);
 

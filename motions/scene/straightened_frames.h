@@ -4,10 +4,10 @@
 //
 // Frames are processed in blocks of 16 steps. A bead moves along a chord from one end of a block to the other
 // if at every frame in between it is within the tolerance of its sample. Otherwise the block is halved for
-// this bead, and so on, so many beads turn at the same frames. The ends of a chord are not samples but
-// means of the samples around them, as far as the means are within the tolerance. Such a chord stays closer
-// to vibrating beads and can be longer. At the first and last frame the means are the samples themselves; so
-// are the means of a coordinate at rest.
+// this bead, and so on. Because blocks are halved, many beads turn at the same frames. The ends of a chord
+// are not samples but means of the samples around them, as far as the means are within the tolerance. Such a
+// chord stays closer to vibrating beads and can be longer. At the first and last frame the means are the
+// samples themselves, and so are the means of a coordinate at rest.
 //
 // Between frames, both the files' motion and this one are linear, so a bead is never farther from its sampled
 // motion than at a frame. This is exact for the resulting doubles: a chord that is not certainly within the
@@ -15,20 +15,6 @@
 // chord are the same double. A structure can therefore see from two consecutive steps that a bead goes
 // straight on. (Coordinates at rest, and those too large for the grid, are unchanged; steps of a chord that
 // begins or ends there may differ by rounding.)
-//
-// Frames are taken in blocks of 16 steps. A bead moves along a chord from one end of a block to the other if
-// at none of the frames there it is farther from where it was than the tolerance; else the block is halved
-// for this bead, and so on: where beads turn are frames that many have in common. A chord does not lead from
-// sample to sample but from mean to mean of the samples around its ends, as far as these are within the
-// tolerance: what vibrates is nearer to such a chord, which so goes on for longer. At the first frame and the
-// last means are the samples, and so they are of a coordinate that stays.
-//
-// Between frames the files' motion and this one are both linear, so that a bead is never farther from where
-// it was than at a frame. Exact for the doubles that are handed on: what is not certainly within the
-// tolerance is not taken. Ends of chords are on a grid, 2^-20 of the tolerance or finer, so that a chord's
-// steps are all the same double: a structure sees without a look at other frames that the bead goes straight
-// on. (Coordinates at rest, and those too large for the grid, stay as they are: a chord that begins or ends
-// there may have steps that differ by what is rounded.)
 
 #include <Eigen/Core>
 #include <cstddef>
