@@ -62,10 +62,7 @@ class Constant : public detail::ConstantCurve {
 
  public:
   Constant() = default;
-  Constant(double value) {
-    numbers_ = {value};
-  }  // NOLINT: implicit, so that a number can be passed as a
-     // constant
+  Constant(double value) { numbers_ = {value}; }  // NOLINT: implicit by intention
   Constant(std::initializer_list<double> control_points) { numbers_ = control_points; }
   explicit Constant(std::span<const double> control_points) {
     numbers_.assign(control_points.begin(), control_points.end());
@@ -87,7 +84,7 @@ class ConstantPoint : public detail::ConstantVectorCurve<Dimension> {
 class ConstantBead {
  public:
   ConstantBead() = default;
-  ConstantBead(BeadId bead) : bead_(bead) {}  // NOLINT: implicit, so that a bead can be passed as a constant
+  ConstantBead(BeadId bead) : bead_(bead) {}  // NOLINT: implicit by intention
   [[nodiscard]] BeadId bead() const { return bead_; }
 
  private:

@@ -58,7 +58,7 @@ class Instant {
   [[nodiscard]] std::optional<ExactTime> exact_apart() const;
 
  private:
-  struct Delete {  // so that users include exact numbers only if they use them
+  struct Delete {  // so that this header need not include exact numbers
     void operator()(ExactTime* time) const;
   };
 

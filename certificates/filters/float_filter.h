@@ -54,8 +54,7 @@ template <class View, class RowOf>
 template <std::size_t Coefficients, std::size_t OfOrientation>
 struct FloatPowerBound {
   std::array<float, Coefficients> coefficient;
-  std::array<float, OfOrientation> orientation;  ///< the last one bounds the orientation at the end of the
-                                                 ///< step
+  std::array<float, OfOrientation> orientation;  ///< the last one: at the end of the step
   float of_part, orientation_of_part;            ///< bound of each unscaled coefficient
 };
 

@@ -36,8 +36,7 @@ template <class Certificate, Motion M, int Degree>
     const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
     const Lanes& sides, const LanesBound<Degree>& bound, double charge, ScaledLanes<Degree>& lanes,
     const BeadsOf<Certificate>& like = {}) {
-  const BeadsOf<Certificate> places = in_places<Certificate>(like);  // assigned here so that the compiler
-                                                                     // sees constants
+  const BeadsOf<Certificate> places = in_places<Certificate>(like);  // constants for the compiler
   const LanesView<M, bead_places<Certificate>, channels_of<Certificate>> view(motion, tuples);
   const auto function = Certificate::formula(view, places);
 

@@ -74,8 +74,7 @@ template <class Row>
     Lanes next = t - change;
     next = Lanes::choose((next >= low) & (next <= high), next, Lanes(0.5) * (low + high));
     const Lanes::Mask far = Lanes::abs(next - t) > Lanes(0x1p-16);  // if smaller, the next step is negligible
-    t = Lanes::choose(moving, next, t);  // a lane that has converged stays, because more steps would bisect
-                                         // it away
+    t = Lanes::choose(moving, next, t);  // a converged lane stays, or bisection would move it
     moving &= far;
   }
   return t;

@@ -55,7 +55,7 @@ template <class Row>
   return c[0];
 }
 
-/// The conclusions that coefficients with errors allow about a polynomial on its interval.
+/// The shape of a polynomial on its interval, as far as its coefficients and their errors prove it.
 struct LanesShape {
   Lanes::Mask positive;     ///< positive on all of it
   Lanes::Mask one_descent;  ///< positive at its start, negative at its end, one root between

@@ -89,8 +89,7 @@ requires(!channels_of<Function>.weights && !channels_of<Function>.radii)  //
   constexpr int degree = M::degree;
   all_positive = false;
   if (!((2 * degree) * (upper - lower) + (4 * degree + 4) * 0x1p-53 <= 0x1p-25)) return;
-  const BeadsOf<Function> places = in_places<Function>(like);  // assigned here so that the compiler sees
-                                                               // constants
+  const BeadsOf<Function> places = in_places<Function>(like);  // constants for the compiler
   const LanesMomentView<M, bead_places<Function>> view(motion, tuples, upper);
   const Lanes value = sides * Function::formula(view, places).scaled[0];
   const auto& bound = detail::moment_bound<Function, M::dimension>;

@@ -88,8 +88,7 @@ template <class Certificate, Motion M>
     const M& motion,
     const typename LanesView<M, bead_places<Certificate>, channels_of<Certificate>>::Tuples& tuples,
     const Lanes& sides, Lanes& slack) {
-  constexpr double share_of_length = 1.0 / 16;  // long enough for most certificates, short enough for E to be
-                                                // nearly linear
+  constexpr double share_of_length = 1.0 / 16;  // long enough for most, and E is nearly linear
   constexpr double inflation = 1 + 0x1p-30;
   decltype(Certificate{}.beads) places{};
   for (std::size_t p = 0; p < places.size(); ++p) places[p] = static_cast<BeadId>(p);

@@ -22,7 +22,7 @@ namespace kds {
 [[nodiscard]] std::optional<Failure> proved_failure(const BoundedFunction& bounded, const Instant& now,
                                                     KnownAtStart known);
 
-/// Returns the failure according to doubles without proof, with bounded work.
+/// Returns the failure as computed in double, without proof. The work is bounded.
 [[nodiscard]] Failure fast_first_failure(BoundedPolynomial function, const Instant& now, KnownAtStart known,
                                          StageCounts& stages);
 

@@ -138,7 +138,7 @@ class Anchors {
       largest = std::max(largest, std::abs(number));
     });
     if (largest == 0) return;
-    // Take a length that is at least the square root of the constant and is a power of two.
+    // Take a power of two that is at least the square root of the constant.
     const int exponent = std::ilogb(largest) + 1;
     const double length = std::ldexp(1.0, exponent > 0 ? (exponent + 1) / 2 : exponent / 2);
     for (int k = 0; k <= curves_.own_degree(); ++k) curves_.set_radius(anchor, k, length);
@@ -154,8 +154,7 @@ class Anchors {
   }
 
   GatheredCurves<Dimension> curves_;
-  std::vector<std::pair<BeadId, BeadId>> beads_;  // pairs of an anchor and the bead of the motion that it
-                                                  // stands for
+  std::vector<std::pair<BeadId, BeadId>> beads_;  // anchors that stand for beads, with these
 };
 
 template <class Certificate, int Dimension>

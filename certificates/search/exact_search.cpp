@@ -10,8 +10,8 @@ namespace kds {
 
 namespace {
 
-/// Returns the failure that doubles prove, or nothing. A touch is never missed, because doubles cannot prove
-/// that there is no double root.
+/// Returns the failure that doubles prove, or nothing. Never misses a touch: doubles cannot prove a double
+/// root away.
 std::optional<Failure> proved_failure(const RoundedPolynomial& function, const Instant& now,
                                       KnownAtStart known) {
   if (known == KnownAtStart::at_own_root) {

@@ -19,7 +19,7 @@ namespace kds {
 [[nodiscard]] Failure rounded_first_failure(const ExactPolynomial& function, const Instant& now,
                                             KnownAtStart known, StageCounts& stages, TouchPolicy touches);
 
-/// Returns the sign at `now` or just after it, as `exact_sign` defines it, trying doubles first.
+/// Returns the sign that `exact_sign` computes, at `now` or just after it. Tries doubles first.
 [[nodiscard]] int rounded_sign(const ExactPolynomial& function, const Instant& now,
                                int (*exact_sign)(const ExactPolynomial&, ExactTime&));
 

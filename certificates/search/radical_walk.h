@@ -32,7 +32,7 @@ class RadicalInDouble {
 [[nodiscard]] std::optional<Failure> proved_failure(const RadicalInDouble& certificate, const Instant& now,
                                                     KnownAtStart known);
 
-/// Returns the failure according to doubles without proof: every sign is taken as computed.
+/// Returns the failure as computed in double, without proof: every sign is taken as computed.
 [[nodiscard]] Failure fast_first_failure(const RadicalInDouble& certificate, const Instant& now,
                                          KnownAtStart known, StageCounts& stages);
 

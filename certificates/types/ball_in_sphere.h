@@ -27,16 +27,16 @@
 // taken out, and the remaining factor is e, not c. For a basis of one the remaining factor is |d|^2.
 //
 // The radius condition rho >= s_j is the sign of (c + s_j b) - s_j sqrt(b^2 - ac), with norm c + 2 b s_j + a
-// s_j^2. It is implied while any ball of the basis is at least as large as ball j. Where the function is
-// positive, the condition can change only where ball j and the sphere coincide, and there the function
+// s_j^2. It is implied while any ball of the basis is at least as large as ball j. At times when the function
+// is positive, the condition can change only where ball j and the sphere coincide, and there the function
 // vanishes.
 //
 // Requirements on the basis at all times: its centres span a simplex (and a full basis keeps its
 // orientation), none of its balls contains another, and some sphere touches all of them from outside. A basis
-// without a redundant ball meets them, and so do its balls except one. Then g and c are positive. With y = A
-// (e + s rho) / g at that sphere's rho, a rho^2 + 2 b rho + c = g (|Qy|^2 - rho^2) <= 0, since Qy is the
-// sphere's centre projected to the span of the basis. Hence b^2 - ac >= 0 and sqrt(b^2 - ac) - b > 0. The
-// sign of D is therefore never needed.
+// without a redundant ball meets them, and so does such a basis without one of its balls. Then g and c are
+// positive. With y = A (e + s rho) / g at that sphere's rho, a rho^2 + 2 b rho + c = g (|Qy|^2 - rho^2) <= 0,
+// since Qy is the sphere's centre projected to the span of the basis. Hence b^2 - ac >= 0 and sqrt(b^2 - ac)
+// - b > 0. The sign of D is therefore never needed.
 //
 // A relaxed certificate uses e_j - tau / 2 instead of e_j. It holds while |d_j - z|^2 <= (rho - s_j)^2 + tau,
 // since |z| = rho and all of the above is linear in (d_j, s_j, e_j). With eps the relaxation, and d = c_1 -

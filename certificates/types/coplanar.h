@@ -43,8 +43,7 @@ template <int Dimension>
 struct CentroidInside {
   static constexpr std::string_view name = "centroid_inside";
   static constexpr std::size_t face = Dimension;
-  std::array<BeadId, 2 * face - 1> beads{};  ///< the face's beads in their order, then those of the line (the
-                                             ///< bead)
+  std::array<BeadId, 2 * face - 1> beads{};  ///< the face's in their order, then the line's (the bead)
 
   template <MotionView View>
   [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 2 * face - 1>& b) {

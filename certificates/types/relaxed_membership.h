@@ -51,9 +51,7 @@ template <Motion M>
   for (int k = 0; k <= degree; ++k) {
     const auto d = control_difference(motion, a, b, k);
     const double distance = product(d, along) / length - 0x1p-40 * std::sqrt(product(d, d));
-    if (!std::isfinite(distance))
-      return -HUGE_VAL;  // the difference reverses, or squares overflow or
-                         // underflow
+    if (!std::isfinite(distance)) return -HUGE_VAL;  // reversed, or squares over- or underflow
     least = std::min(least, distance);
   }
   return least;

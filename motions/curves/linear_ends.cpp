@@ -23,8 +23,7 @@ double set_one_by_one(const double* center, double weight, double* point) {
 [[gnu::always_inline]] inline void set_row(const double* center, double weight, double* point,
                                            Lanes::Mask& wrong) {
   constexpr long long exponent = 0x7ffLL << 52, one = 1LL << 52;
-  Lanes::Vector row = Lanes::load(center);  // the fourth number belongs to the next bead and is replaced by
-                                            // the weight
+  Lanes::Vector row = Lanes::load(center);  // the fourth number is the next bead's; replaced below
   row[3] = weight;
   wrong |= (reinterpret_cast<Lanes::Mask>(row) & exponent) + one;
   __builtin_memcpy(point, &row, sizeof row);

@@ -23,8 +23,7 @@ class MotionRef {
   using Vector = std::array<double, static_cast<std::size_t>(DimensionValue)>;
 
   template <Motion M>
-  requires(M::dimension == DimensionValue) MotionRef(const M& motion)  // NOLINT: implicit, since every motion
-                                                                       // is one
+  requires(M::dimension == DimensionValue) MotionRef(const M& motion)  // NOLINT: implicit by intention
       : motion_(&motion),
         degree_(degree_of(motion)),
         curves_([](const void* of) { return Curves<DimensionValue>(*static_cast<const M*>(of)); }) {

@@ -17,8 +17,7 @@ namespace kds {
 struct ChainRead {
   std::string name;
   std::size_t bead_count = 0;
-  std::size_t residues = 0, residues_read = 0;  ///< residues of the chain in the file, and those read; 0 if
-                                                ///< it has no residues
+  std::size_t residues = 0, residues_read = 0;  ///< of the chain in the file; 0 if none
 };
 
 struct FrameRead {

@@ -139,7 +139,7 @@ Images::Images(const Cell& cell) : cell_(cell) {
 
 Eigen::Vector3d Images::nearest(const Eigen::Vector3d& difference) const {
   const Eigen::Vector3d guess = -(inverse_ * difference).array().round().matrix();
-  // Not in any real file, and the sums below would lose precision.
+  // No real file has beads that far off, and the sums below would lose precision.
   if (!(guess.cwiseAbs().maxCoeff() < 1e6)) return Eigen::Vector3d::Zero();
   Eigen::Vector3d best = Eigen::Vector3d::Zero();
   double shortest = difference.squaredNorm();

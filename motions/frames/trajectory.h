@@ -15,11 +15,10 @@ struct Trajectory {
   std::vector<double> times;               ///< times of the frames in picoseconds; empty if the file has none
   std::vector<double> element_radii;    ///< van der Waals radius of each bead; empty if elements are unknown
   std::vector<std::string> bead_names;  ///< "CA of ALA 12 in chain A"; empty if residues are unknown
-  std::size_t residues = 0;  ///< number of residues in the file's chain, without waters and ligands; 0 if
-                             ///< unknown
-  std::size_t residues_read = 0;      ///< residues with beads
-  std::vector<std::size_t> breaks;    ///< b if a chain break lies between beads b and b+1
-  std::vector<std::string> warnings;  ///< one line each, without trailing newline
+  std::size_t residues = 0;             ///< of the file's chain, without waters and ligands; 0 if unknown
+  std::size_t residues_read = 0;        ///< residues with beads
+  std::vector<std::size_t> breaks;      ///< b if a chain break lies between beads b and b+1
+  std::vector<std::string> warnings;    ///< one line each, without trailing newline
 
   [[nodiscard]] std::size_t bead_count() const {
     return frames.empty() ? 0 : static_cast<std::size_t>(frames.front().cols());

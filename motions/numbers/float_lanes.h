@@ -1,8 +1,7 @@
 #pragma once
-// Floats that undergo the same operations side by side. Compared with the four doubles of lanes.h they do
-// twice the work in the same time, where 24 binary digits suffice for a proof. The width is eight or four;
-// four is for processors without vectors of eight floats, which would execute comparisons of eight one by
-// one.
+// Floats that undergo the same operations side by side. They serve proofs for which 24 binary digits suffice,
+// and do twice the work of the four doubles of lanes.h in the same time. The width is eight or four. Four is
+// for processors without vectors of eight floats, which would execute comparisons of eight one by one.
 
 #include <array>
 #include <cstddef>
@@ -10,9 +9,9 @@
 #include "motions/numbers/lanes.h"
 
 // Functions on four floats are compiled as long functions (long_lanes.h), because formulas of many numbers
-// then keep more values in registers. Functions on eight floats are compiled by name for each kind of
-// processor with long enough vectors, and only code that has checked for such a processor may call them.
-// Every version gives the same bits.
+// then keep more values in registers. Functions on eight floats are compiled under a name of their own for
+// each kind of processor with long enough vectors. Only code that has checked for such a processor may call
+// them. Every version gives the same bits.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define KDS_EIGHT_FLOATS_AVX2 KDS_FOR_TARGET("avx2")
 #define KDS_EIGHT_FLOATS_AVX512 KDS_FOR_TARGET("arch=x86-64-v4")

@@ -29,8 +29,8 @@ namespace kds {
 #define KDS_LANES_TARGETS gnu::noinline
 #endif
 
-// Aligned as AVX requires. The alignment is explicit because g++ uses aligned loads and stores if it sees
-// through a pointer, and code compiled for other targets would not align lanes by itself.
+// The alignment must be explicit: g++ may access lanes by aligned loads and stores, but code compiled for a
+// target without AVX would not align them.
 class alignas(32) Lanes {
  public:
   static constexpr std::size_t width = 4;

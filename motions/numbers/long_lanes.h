@@ -9,8 +9,7 @@ namespace kds {
 
 namespace detail {
 
-inline const bool here_is_avx512 = processor_has_avx512();  // cached: the check takes as long as some of the
-                                                            // functions
+inline const bool here_is_avx512 = processor_has_avx512();  // cached, since the check is slow
 
 template <auto function>
 struct LongLanes;

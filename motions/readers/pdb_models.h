@@ -45,8 +45,8 @@ class PdbModelReader {
   /// Skips the next model without reading or checking it. Returns false after the last model.
   [[nodiscard]] bool skip() { return read(nullptr); }
   void rewind();
-  /// Returns the models read or skipped so far. They count as truncated if the file ends inside a model
-  /// although all models before it are closed by ENDMDL or END.
+  /// Returns the models read or skipped so far. The last model counts as truncated if the file ends inside it
+  /// and all models before it are closed by ENDMDL or END.
   [[nodiscard]] FramesHeld held() const;
   /// Returns the atoms outside of models in the part of the file read so far.
   [[nodiscard]] const LinesLeftOut& outside() const { return outside_; }

@@ -27,8 +27,7 @@ inline constexpr std::array<std::string_view, 4> selection_names{"automatic", "b
 struct ReadOptions {
   std::optional<std::filesystem::path> topology = {};  ///< PDB or mmCIF file that names the atoms of a DCD
   Selection selection = Selection::automatic;
-  std::optional<std::string> chain = {};  ///< one chain or a comma-separated list; none: the first polymer
-                                          ///< chain
+  std::optional<std::string> chain = {};  ///< comma-separated; none: the first polymer chain
   FrameRange frames = {};
 };
 

@@ -31,8 +31,7 @@ enum class Entity { unknown, polymer, other };
 struct StructureResidue {
   std::string chain, number, name;  ///< the number includes its insertion code, as in 52A
   std::string sequence;             ///< number in the entity's sequence (mmCIF), empty if the file has none
-  std::string molecule;             ///< identifies the molecule within the chain: by TER and segment, or by
-                                    ///< label_asym_id
+  std::string molecule;             ///< within the chain, by TER and segment, or label_asym_id
   bool het = false;                 ///< its first atom is a HETATM
   bool repeated = false;            ///< an earlier residue of the molecule has the same number
   Entity entity = Entity::unknown;

@@ -86,8 +86,8 @@ bool StraightenedFrames::is_within(const Eigen::Vector3d& point, const Eigen::Ve
   const Eigen::Vector3d apart = point - sample;
   if (most_square_ > 0) return apart.squaredNorm() <= most_square_;
   if (!apart.allFinite()) return false;
-  // The relative rounding of each coordinate's difference is 2^-53, that of the length little more. Near the
-  // smallest doubles, the rounding is one of these.
+  // The relative rounding of each coordinate's difference is 2^-53, that of the length little more. Near
+  // underflow, the rounding error is at most the smallest double.
   const double length = apart.stableNorm();
   return length == 0 || length * (1 + 0x1p-45) + smallest <= tolerance_;
 }
@@ -97,7 +97,7 @@ Eigen::Vector3d StraightenedFrames::on_grid(const Eigen::Vector3d& point) const 
   for (double& x : rounded) {
     const double steps = x / grid_;
     if (std::abs(steps) < 0x1p52)
-      x = std::nearbyint(steps) * grid_;  // otherwise, or if there is no grid, it stays
+      x = std::nearbyint(steps) * grid_;  // otherwise, or without a grid, x is unchanged
   }
   return rounded;
 }

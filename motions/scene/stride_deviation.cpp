@@ -80,7 +80,7 @@ class DeviationSearch {
         const Eigen::Vector3d apart =
             curve[static_cast<std::size_t>(k)] - ((1 - share) * first + share * last);
         // Covers a dozen roundings of lengths up to `extent` in each coordinate, and the rounding of the
-        // norm. Near the smallest doubles, each rounding is at most one of these.
+        // norm. Near underflow, each rounding error is at most the smallest double.
         const double rounded = apart.stableNorm() * (1 + 0x1p-45) + 0x1p-45 * extent + 64 * denormal;
         const double bound = rounded < most_ ? rounded : most_;  // also most_ for NaN
         if (bound <= found_.of_bead[b]) continue;

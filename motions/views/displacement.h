@@ -48,7 +48,7 @@ class Displacements {
 
  private:
   static_assert(Dimension < Lanes::width);
-  using Drift = Coefficients<Lanes>;  // of each control point
+  using Drift = Coefficients<Lanes>;  // the drift of each control point
 
   /// Returns a control point in lanes: coordinates, then the weight, then zeros.
   [[nodiscard, gnu::always_inline]] static Lanes point(const Curves<Dimension>& motion, BeadId b, int k) {
