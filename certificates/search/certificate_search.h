@@ -67,8 +67,8 @@ class CertificateSearch : public detail::TakesConstants<Certificate> {
   [[nodiscard]] virtual bool all_positive_now(Kernel kernel, std::span<const Certificate> certificates,
                                               const Instant& now, StageCounts& stages) const = 0;
 
-  /// Returns the certificate's sign just after `failed`, another certificate with the same roots, has
-  /// failed, as far as doubles decide it, else 0.
+  /// Returns the certificate's sign just after the failure of `failed`, another certificate with the same
+  /// roots. Returns 0 if doubles do not decide it.
   [[nodiscard]] virtual int sign_after_failure(const Certificate& certificate, const Certificate& failed,
                                                const Instant& now, StageCounts& stages) const {
     static_cast<void>(certificate);

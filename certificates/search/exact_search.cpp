@@ -15,7 +15,7 @@ namespace {
 std::optional<Failure> proved_failure(const RoundedPolynomial& function, const Instant& now,
                                       KnownAtStart known) {
   if (known == KnownAtStart::at_own_root) {
-    if (!now.isolating()) return std::nullopt;  // isolating: positive at the bracket's upper end
+    if (!now.isolating()) return std::nullopt;  // if isolating, it is positive at the upper end
   } else {
     const int sign = function.sign_on(now.lower(), now.upper());
     if (sign == 0) return std::nullopt;

@@ -17,8 +17,8 @@ std::size_t pieces_for(std::size_t beads, std::size_t parts) {
   return parts * std::max<std::size_t>(1000, 4 * beads);
 }
 
-// Returns a point of the grill: six segments and five arcs, each on an eleventh of [0, 1]. Segments are 4
-// long for a distance of 1 between them, and arcs are as deep as they are wide.
+// Returns a point of the grill: six segments and five arcs, each on an eleventh of [0, 1]. Segments have
+// length 4 and are 1 apart, and arcs are as deep as they are wide.
 Eigen::Vector3d grill_at(double t) {
   constexpr double length = 4;
   const double part = std::min(std::floor(11 * t), 10.0);

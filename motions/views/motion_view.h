@@ -4,8 +4,7 @@
 //
 //   DoubleView     rounded; records the largest length returned, which scales the error bound
 //   TrackedView    rounded, with a running error bound (tracked_double.h). Numbers are scaled to the middle
-//   of
-//                  double's range: all lengths by one power of two, weights by its square
+//                  of double's range: all lengths by one power of two, weights by its square
 //   MagnitudeView  the constants of the error bound (magnitude.h); independent of any motion
 //   IntegerView, ResidueView, MomentView   exact (integer_view.h)
 //   RecordingView  records the formula, which can be played over any of these views (recording_view.h)
