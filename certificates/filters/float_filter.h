@@ -7,11 +7,13 @@
 //
 // Error bound. Let m be the largest difference in a row of the determinant, rounded to float, and M the
 // largest m of all rows. The differences of weights in a row must be at most m^2. Every intermediate number
-// takes from some of the rows one factor each. The factor is a difference, at most m, or, at most once, a
-// lift, which is a small multiple of m^2 <= m M. The number's size is Q, the product of the m of its rows
-// and, if it contains a lift, of M. Sums add only numbers of the same size. The magnitudes
-// (motions/numbers/magnitude.h, 24 digits), each times its Q, therefore bound all numbers, and coefficient k
-// has an error of at most coefficient[k] times M times the product of all m.
+// takes one factor each from some of the rows. The factor is a difference, at most m, or, at most once, a
+// lift, which is a small multiple of m^2 <= m M.
+//
+// The number's size is Q, the product of the m of its rows and, if it contains a lift, of M. Sums add only
+// numbers of the same size. The magnitudes (motions/numbers/magnitude.h, 24 digits), each times its Q,
+// therefore bound all numbers, and coefficient k has an error of at most coefficient[k] times M times the
+// product of all m.
 //
 // Range. The bound is claimed if M <= 2^10 and M times that product is at least 2^-40, in the caller's
 // unit of length. Then nothing overflows, and Q >= 2^-40 / M^4 >= 2^-80. An operation that underflows adds an

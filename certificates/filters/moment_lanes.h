@@ -5,11 +5,12 @@
 // Values are computed at the upper end u of the bracket. Consider a difference of two centres of degree n in
 // time, with control points of size at most M. At u it is the mean of its control points with weights C(n,k)
 // (1-u)^(n-k) u^k. The computed value has an error of less than (4n + 4) 2^-53 M, and within a bracket of
-// length b the difference changes by at most 2 n b M. If both together are below 2^-25 M, they are at most
-// the error of rounding to float. The function of these differences, evaluated in double, then has at most
-// the error of an evaluation in float from exact differences, as magnitudes of 24 digits give it
-// (motions/numbers/magnitude.h). This is proved for 2^-900 <= M^h <= 2^900, as in error_bound.h. No
-// allocation.
+// length b the difference changes by at most 2 n b M.
+//
+// If both together are below 2^-25 M, they are at most the error of rounding to float. The function of these
+// differences, evaluated in double, then has at most the error of an evaluation in float from exact
+// differences, as magnitudes of 24 digits give it (motions/numbers/magnitude.h). This is proved for 2^-900 <=
+// M^h <= 2^900, as in error_bound.h. No allocation.
 
 #include <array>
 #include <cstddef>

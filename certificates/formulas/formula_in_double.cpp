@@ -23,8 +23,8 @@ void set_errors(BoundedPolynomial& p, double uniform_error) {
   p.local_error = uniform_error + local_rounding(p.degree()) * largest;
 }
 
-/// Evaluates a formula with all degrees 0 in plain numbers. It replaces `play` there, because each event
-/// evaluates a few.
+/// Evaluates a formula with all degrees 0 in plain numbers. Does the work of `play`, because each event
+/// evaluates a few such formulas.
 template <class View>
 TrackedDouble value_at_moment(const RecordedFormula& formula, const View& view) {
   using Kind = FormulaStep::Kind;

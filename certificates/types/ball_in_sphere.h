@@ -1,12 +1,15 @@
 #pragma once
 // A ball in the minimum enclosing sphere of a basis of balls of any radii, for bases of 1 to 3 balls in the
 // plane and of 1 to 4 in space. The formula is that of Fischer & Gaertner, The smallest enclosing ball of
-// balls (2004), section 3. With the basis' first ball as base, let d_i = c_i - c_0, s_i = r_i - r_0, E_i =
-// |d_i|^2 - s_i^2 (twice e_i), Q = [d_1 .. d_m], G = Q^T Q, g = det G, A = adj G. A sphere of radius R
-// touches the basis from outside iff rho = R - r_0 solves a rho^2 + 2 b rho + c = 0 with a = s.As - g, b =
-// e.As, c = e.Ae. The smallest solution is rho = c / (sqrt(b^2 - ac) - b). With F = d_j.QAe - g e_j and W =
-// d_j.QAs - g s_j, ball j is inside iff F + W rho >= 0 and rho >= s_j, that is iff F sqrt(b^2 - ac) + (W c -
-// F b) >= 0 and so on.
+// balls (2004), section 3. With the basis' first ball as base, let
+//
+//   d_i = c_i - c_0, s_i = r_i - r_0, E_i = |d_i|^2 - s_i^2 (twice e_i),
+//   Q = [d_1 .. d_m], G = Q^T Q, g = det G, A = adj G.
+//
+// A sphere of radius R touches the basis from outside iff rho = R - r_0 solves a rho^2 + 2 b rho + c = 0 with
+// a = s.As - g, b = e.As, c = e.Ae. The smallest solution is rho = c / (sqrt(b^2 - ac) - b). With F =
+// d_j.QAe - g e_j and W = d_j.QAs - g s_j, ball j is inside iff F + W rho >= 0 and rho >= s_j, that is iff F
+// sqrt(b^2 - ac) + (W c - F b) >= 0 and so on.
 //
 // Without common factors, squares and positive numbers, this is A + B sqrt(D) with
 //

@@ -16,9 +16,9 @@ namespace kds {
 
 namespace {
 
-// A Minkowski-reduced basis of at most three vectors. They are sorted by length, and adding whole
-// multiples of the vectors before it shortens none of them. Columns beyond `rank` are zero. (Semaev 2001: for
-// three vectors this greedy reduction ends in a Minkowski-reduced basis.)
+// A Minkowski-reduced basis of at most three vectors. They are sorted by length, and no vector becomes
+// shorter by adding whole multiples of the vectors before it. Columns beyond `rank` are zero. (Semaev 2001:
+// for three vectors this greedy reduction ends in a Minkowski-reduced basis.)
 struct ReducedBasis {
   Eigen::Matrix3d steps = Eigen::Matrix3d::Zero();  // whole multiples of the cell's vectors
   Eigen::Matrix3d vectors = Eigen::Matrix3d::Zero();

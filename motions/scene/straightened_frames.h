@@ -61,7 +61,7 @@ class StraightenedFrames {
   [[nodiscard]] bool is_within(const Eigen::Vector3d& point, const Eigen::Vector3d& sample) const;
   [[nodiscard]] Eigen::Vector3d on_grid(const Eigen::Vector3d& point) const;
   /// Returns a possible end of a chord: near the mean of the samples around this one, and within the
-  /// tolerance of it.
+  /// tolerance of the sample.
   [[nodiscard]] Eigen::Vector3d knot(std::size_t sample, Eigen::Index bead) const;
 
   double tolerance_;
