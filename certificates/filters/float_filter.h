@@ -15,12 +15,12 @@
 // therefore bound all numbers, and coefficient k has an error of at most coefficient[k] times M times the
 // product of all m.
 //
-// Range. The bound is claimed if M <= 2^10 and M times that product is at least 2^-40, in the caller's
-// unit of length. Then nothing overflows, and Q >= 2^-40 / M^4 >= 2^-80. An operation that underflows adds an
-// error of at most 2^-126, even if the result is flushed to zero. That is less than 2^-21 of the roundoff
-// 2^-24 Q already charged for the operation. The constants are inflated by 2^-8 to cover it and the
-// comparison. The orientation contains no lift: its Q is the product of its own three (two) m, and its bound
-// is claimed if Q is at least 2^-60.
+// Range. The bound is claimed if M <= 2^10 and M times the product of all m is at least 2^-40, in the
+// caller's unit of length. Then nothing overflows, and Q >= 2^-40 / M^4 >= 2^-80. An operation that
+// underflows adds an error of at most 2^-126, even if the result is flushed to zero. That is less than 2^-21
+// of the roundoff 2^-24 Q already charged for the operation. The constants are inflated by 2^-8 to cover it
+// and the comparison. The orientation contains no lift: its Q is the product of its own three (two) m, and
+// its bound is claimed if Q is at least 2^-60.
 //
 // Parts of a step. The coefficients are unscaled by a product with a rounded constant, then halved repeatedly
 // by de Casteljau's means, each rounded once. Let e be the largest error and s the largest size of an
