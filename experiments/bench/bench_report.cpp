@@ -9,6 +9,7 @@
 #include "experiments/output/page/html_text.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
+#include "motions/base/csv_field.h"
 
 namespace kds {
 
@@ -105,10 +106,11 @@ std::string bench_csv(std::span<const BenchRow> rows) {
   std::string text = "name,input,n,value,unit,peer,peer_value,ratio,goal,holds,value_least,value_most\n";
   for (const BenchRow& row : rows) {
     const auto holds = row.holds();
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", row.name, row.input, row.n, row.value,
-                        row.unit, row.peer, number_or_empty(row.peer_value), number_or_empty(row.ratio()),
-                        number_or_empty(row.goal), holds ? (*holds ? "true" : "false") : "",
-                        number_or_empty(least_of(row)), number_or_empty(most_of(row)));
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(row.name), csv_field(row.input),
+                        row.n, row.value, row.unit, csv_field(row.peer), number_or_empty(row.peer_value),
+                        number_or_empty(row.ratio()), number_or_empty(row.goal),
+                        holds ? (*holds ? "true" : "false") : "", number_or_empty(least_of(row)),
+                        number_or_empty(most_of(row)));
   }
   return text;
 }

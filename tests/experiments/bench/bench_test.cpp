@@ -63,6 +63,8 @@ TEST(BenchReport, RatioGoalAndWhatHolds) {
   EXPECT_EQ(json["rows"][3]["goal"], nullptr);
   EXPECT_EQ(json["rows"][3]["holds"], nullptr);
   EXPECT_THAT(bench_csv(std::array{held}), testing::HasSubstr("a,x,3,2,ns,peer,10,0.2,0.25,true,,\n"));
+  const BenchRow comma{"a, an event", "x", 3, 2, "ns", "", std::nullopt, std::nullopt};
+  EXPECT_THAT(bench_csv(std::array{comma}), testing::HasSubstr("\n\"a, an event\",x,3,2,ns,,,,,,,\n"));
 }
 
 TEST(BenchReport, TimesHaveTheirSpread) {
