@@ -8,7 +8,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <limits>
+#include <system_error>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace kds {
 
@@ -23,12 +28,8 @@ void check_kind(const std::string& name, mode_t mode) {
                                                 : "device"));
 }
 
-struct Opened {
-  gzFile file;
-  std::uint64_t size;
-};
-
-Opened open_regular(const std::string& name) {
+// Returns a descriptor and the size of the file.
+std::pair<int, std::uint64_t> open_regular(const std::string& name) {
   struct stat status {};
   if (::stat(name.c_str(), &status) == 0) check_kind(name, status.st_mode);
   // Do not block if the path has meanwhile become a pipe without a writer.
@@ -39,15 +40,141 @@ Opened open_regular(const std::string& name) {
     check_kind(name, status.st_mode);
     throw InputError(fmt::format("{}: cannot open this file", name));
   }
-  const gzFile file = ::gzdopen(descriptor, "rb");  // passes uncompressed data through
-  if (file == nullptr) {
-    ::close(descriptor);
-    throw InputError(fmt::format("{}: cannot open this file", name));
-  }
-  return {file, static_cast<std::uint64_t>(status.st_size)};
+  return {descriptor, static_cast<std::uint64_t>(status.st_size)};
 }
 
+bool begins_gzip(std::string_view bytes) { return bytes.starts_with("\x1F\x8B"); }
+
 }  // namespace
+
+// The bytes as they lie on the disk, up to the size at opening.
+class InputFile::OnDisk {
+ public:
+  explicit OnDisk(const std::string& name) : name_(name) {
+    std::tie(descriptor_, size_) = open_regular(name);
+  }
+  ~OnDisk() { ::close(descriptor_); }
+  OnDisk(const OnDisk&) = delete;
+  OnDisk& operator=(const OnDisk&) = delete;
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
+  // Fills `to` from `place` on, except at the end of the file.
+  std::size_t read(std::uint64_t place, char* to, std::size_t size) const {
+    size = static_cast<std::size_t>(std::min<std::uint64_t>(size, size_ - std::min(place, size_)));
+    std::size_t done = 0;
+    while (done < size) {
+      const ssize_t got = ::pread(descriptor_, to + done, std::min<std::size_t>(size - done, 1U << 30U),
+                                  static_cast<off_t>(place + done));
+      if (got == 0) break;
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0)
+        throw InputError(
+            fmt::format("{}: cannot read this file ({})", name_, std::generic_category().message(errno)));
+      done += static_cast<std::size_t>(got);
+    }
+    return done;
+  }
+
+ private:
+  std::string name_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+// The members of a gzipped file, unpacked.
+class InputFile::Members {
+ public:
+  explicit Members(const OnDisk& disk) : disk_(disk), bytes_(std::size_t{1} << 16U) {
+    constexpr int gzip_only = 16;
+    if (inflateInit2(&stream_, MAX_WBITS + gzip_only) != Z_OK)
+      throw InputError(fmt::format("{}: cannot unpack this file: memory is short", disk_.name()));
+  }
+  ~Members() { inflateEnd(&stream_); }
+  Members(const Members&) = delete;
+  Members& operator=(const Members&) = delete;
+
+  // Fills `to`, except at the end of the file or before its cut.
+  std::size_t read(char* to, std::size_t size) {
+    std::size_t done = 0;
+    while (done < size && !ended_) {
+      if (!inside_) begin_member();
+      if (ended_) break;
+      if (!inside_ || (left() == 0 && !fill())) {  // cut off
+        if (done > 0) break;
+        fail_cut();
+      }
+      stream_.next_in = reinterpret_cast<Bytef*>(bytes_.data() + begin_);
+      stream_.avail_in = static_cast<uInt>(left());
+      stream_.next_out = reinterpret_cast<Bytef*>(to + done);
+      stream_.avail_out = static_cast<uInt>(size - done);
+      const int code = inflate(&stream_, Z_NO_FLUSH);
+      begin_ = end_ - stream_.avail_in;
+      done = size - stream_.avail_out;
+      if (code == Z_STREAM_END)
+        inside_ = false;
+      else if (code != Z_OK && code != Z_BUF_ERROR)
+        throw InputError(fmt::format("{}: the gzipped data are damaged at byte {} ({})", disk_.name(),
+                                     place(), stream_.msg == nullptr ? zError(code) : stream_.msg));
+    }
+    return done;
+  }
+
+  void rewind() {
+    filled_ = begin_ = end_ = 0;
+    inside_ = ended_ = false;
+  }
+
+ private:
+  [[nodiscard]] std::size_t left() const { return end_ - begin_; }
+  // The byte of the file that is unpacked next.
+  [[nodiscard]] std::uint64_t place() const { return filled_ - left(); }
+
+  // Reads on behind what is left; returns false at the end of the file.
+  bool fill() {
+    std::copy(bytes_.begin() + static_cast<std::ptrdiff_t>(begin_),
+              bytes_.begin() + static_cast<std::ptrdiff_t>(end_), bytes_.begin());
+    end_ -= begin_;
+    begin_ = 0;
+    const std::size_t got = disk_.read(filled_, bytes_.data() + end_, bytes_.size() - end_);
+    end_ += got;
+    filled_ += got;
+    return got > 0;
+  }
+
+  [[noreturn]] void fail_cut() const {
+    throw CutFile(fmt::format("{}: cannot read this file to its end: the gzipped file is cut off at byte {}",
+                              disk_.name(), place()));
+  }
+
+  // Finds the next member, or the end of the file; finds neither in a file that is cut off.
+  void begin_member() {
+    while (left() < 2 && fill()) {
+    }
+    if (begins_gzip({bytes_.data() + begin_, left()})) {
+      inflateReset(&stream_);
+      inside_ = true;
+      return;
+    }
+    if (left() == 1 && bytes_[begin_] == '\x1F') return;
+    const std::uint64_t behind = place();
+    for (; left() > 0 || fill(); ++begin_)
+      if (bytes_[begin_] != '\0')
+        throw InputError(fmt::format(
+            "{}: expected the end of the file or another gzip member at byte {}, found {} at byte {}",
+            disk_.name(), behind, place() == behind ? "other data" : "zeros and then other data", place()));
+    ended_ = true;
+  }
+
+  const OnDisk& disk_;
+  z_stream stream_{};
+  std::vector<char> bytes_;
+  std::size_t begin_ = 0, end_ = 0;  // of those in `bytes_` that are not yet unpacked
+  std::uint64_t filled_ = 0;         // bytes of the file read so far
+  bool inside_ = false;              // a member
+  bool ended_ = false;
+};
 
 std::size_t byte_order_mark(std::string_view start, const std::string& file) {
   if (start.starts_with("\xEF\xBB\xBF")) return 3;
@@ -63,38 +190,31 @@ void require_regular_file(const std::filesystem::path& path) {
   check_kind(path.string(), status.st_mode);
 }
 
-InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()), file_(nullptr, gzclose) {
-  const Opened opened = open_regular(name_);
-  file_.reset(opened.file);
-  size_ = opened.size;
+InputFile::InputFile(const std::filesystem::path& path)
+    : name_(path.string()),
+      disk_(new OnDisk(name_), [](OnDisk* disk) { delete disk; }),
+      packed_(nullptr, [](Members* members) { delete members; }) {
+  std::array<char, 2> start{};
+  if (begins_gzip({start.data(), disk_->read(0, start.data(), start.size())}))
+    packed_.reset(new Members(*disk_));
 }
 
 std::size_t InputFile::read(char* to, std::size_t size) {
   size = std::min<std::size_t>(size, 1U << 30U);
-  const bool plain = gzdirect(file_.get()) != 0;
-  if (plain) size = static_cast<std::size_t>(std::min<std::uint64_t>(size, size_ - std::min(read_, size_)));
-  if (size == 0) return 0;
-  const int got = gzread(file_.get(), to, static_cast<unsigned>(size));
-  int code = Z_OK;
-  const char* const why = got < static_cast<int>(size) ? gzerror(file_.get(), &code) : "";
-  if (got <= 0 && code == Z_BUF_ERROR)
-    throw CutFile(fmt::format("{}: cannot read this file to its end: the gzipped file is cut off", name_));
-  if (got < 0 || (code != Z_OK && code != Z_STREAM_END && code != Z_BUF_ERROR))
-    throw InputError(fmt::format("{}: cannot read this file ({})", name_, why));
-  read_ += static_cast<std::uint64_t>(got);
-  if (!plain && read_ > most_unpacked && read_ / most_ratio > size_)
+  const std::size_t got = packed_ ? packed_->read(to, size) : disk_->read(read_, to, size);
+  if (packed_ && read_ == 0 && begins_gzip({to, got}))
+    throw InputError(fmt::format("{}: this file is compressed twice; unpack it once with gunzip", name_));
+  read_ += got;
+  if (packed_ && read_ > most_unpacked && read_ / most_ratio > disk_->size())
     throw InputError(fmt::format("{}: unpacks to more than {} times its size, which no coordinates do", name_,
                                  most_ratio));
-  return static_cast<std::size_t>(got);
+  return got;
 }
 
 void InputFile::seek(std::uint64_t place) {
   if (place == read_) return;
-  if (gzdirect(file_.get()) != 0) {
-    place = std::min(place, size_);
-    if (gzseek(file_.get(), static_cast<z_off_t>(place), SEEK_SET) < 0)
-      throw InputError(fmt::format("{}: cannot read this file", name_));
-    read_ = place;
+  if (!packed_) {
+    read_ = std::min(place, disk_->size());
     return;
   }
   if (place < read_) rewind();
@@ -106,9 +226,9 @@ void InputFile::seek(std::uint64_t place) {
 }
 
 InputFile::Length InputFile::length() {
-  if (gzdirect(file_.get()) != 0) {
-    seek(0);
-    return {size_, false};
+  if (!packed_) {
+    rewind();
+    return {disk_->size(), false};
   }
   Length length;
   try {
@@ -122,7 +242,7 @@ InputFile::Length InputFile::length() {
 }
 
 void InputFile::rewind() {
-  if (gzrewind(file_.get()) != 0) throw InputError(fmt::format("{}: cannot read this file again", name_));
+  if (packed_) packed_->rewind();
   read_ = 0;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
-// A regular file, decompressed while it is read if it is gzipped. The amount read is bounded: for a plain
-// file by its size when it is opened, for a gzipped file by a limit on its unpacked size.
+// A regular file, unpacked while it is read if it is gzipped. The amount read is bounded by the size that the
+// file has when it is opened, and by a limit for the unpacked size of a gzipped one.
+//
+// A gzipped file is a sequence of members, which are unpacked one after the other. Zeros may pad the file
+// behind the last member. Anything else there is an error, because members that cannot be told would be lost.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,8 +13,6 @@
 #include <string_view>
 
 #include "motions/base/input_error.h"
-
-struct gzFile_s;
 
 namespace kds {
 
@@ -34,9 +35,10 @@ class InputFile {
   /// Opens the file. Throws InputError naming the file. Never blocks on a pipe.
   explicit InputFile(const std::filesystem::path& path);
 
-  /// Reads at most `size` bytes. Returns 0 only at the end. Throws CutFile at the end of a truncated gzipped
-  /// file. Throws InputError if the file cannot be read, or if its unpacked size exceeds both `most_unpacked`
-  /// and `most_ratio` times its packed size.
+  /// Reads at most `size` bytes; returns 0 only at the end. Throws CutFile at the end of a gzipped file that
+  /// is cut off, and InputError if the file cannot be read, if its gzipped data are damaged, compressed twice
+  /// or followed by other data, or if it unpacks to more than both `most_unpacked` and `most_ratio` times its
+  /// size.
   [[nodiscard]] std::size_t read(char* to, std::size_t size);
   /// Continues at this byte of the unpacked file, or at its end. Fast for plain files. A gzipped file is
   /// unpacked up to that byte, from the start if the byte is before the present position.
@@ -57,9 +59,12 @@ class InputFile {
   static constexpr std::uint64_t most_ratio = 100;
 
  private:
+  class OnDisk;
+  class Members;
+
   std::string name_;
-  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
-  std::uint64_t size_ = 0;  ///< size on disk
+  std::unique_ptr<OnDisk, void (*)(OnDisk*)> disk_;
+  std::unique_ptr<Members, void (*)(Members*)> packed_;  ///< null for a plain file
   std::uint64_t read_ = 0;
 };
 
