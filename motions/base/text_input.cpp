@@ -22,7 +22,7 @@ std::string read_whole_file(const std::filesystem::path& path) {
   std::size_t line = 0;  // number of characters since the last line end
   while (const std::size_t got = file.read(piece.data(), piece.size())) {
     const std::string_view now(piece.data(), got);
-    const std::size_t last = now.rfind('\n');
+    const std::size_t last = now.find_last_of("\r\n");
     line = last == std::string_view::npos ? line + got : got - last - 1;
     if (line > LineReader::longest)
       throw InputError(fmt::format("{}: a line is longer than {} characters, which none of this format is",
@@ -34,6 +34,15 @@ std::string read_whole_file(const std::filesystem::path& path) {
   }
   text.erase(0, byte_order_mark(text, path.string()));
   return text;
+}
+
+void unify_line_ends(std::string& text) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool before_lf = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
+    if (!before_lf) text[kept++] = text[i] == '\r' ? '\n' : text[i];
+  }
+  text.resize(kept);
 }
 
 std::string_view next_line(std::string_view& rest) {

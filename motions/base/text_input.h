@@ -17,7 +17,10 @@ inline constexpr std::size_t most_whole = std::size_t{1} << 30U;
 /// file if it cannot be read or holds more than `most_whole` bytes.
 [[nodiscard]] std::string read_whole_file(const std::filesystem::path& path);
 
-/// Removes the next line from `rest` and returns it without its line end (LF or CR LF).
+/// Makes every line end LF: CR LF, and CR by itself.
+void unify_line_ends(std::string& text);
+
+/// Cuts the next line off `rest` and returns it without its line end, LF or CR LF.
 [[nodiscard]] std::string_view next_line(std::string_view& rest);
 
 /// Returns the fields of a line, separated by blanks and tabs.

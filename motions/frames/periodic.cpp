@@ -167,6 +167,13 @@ Eigen::Vector3d Images::shifted(const Eigen::Vector3d& point, const Eigen::Vecto
   return point + cell_ * shift;
 }
 
+bool is_space_group_p1(std::string_view group) {
+  std::string letters;
+  for (const char c : group)
+    if (c != ' ' && c != '\t') letters += c;
+  return letters == "P1" || letters == "p1";
+}
+
 CellRead read_cell(const Eigen::Matrix3d& vectors, const std::array<bool, 3>& periodic) {
   Cell cell = Cell::Zero();
   Eigen::Vector3d lengths;
@@ -208,6 +215,10 @@ CellRead read_cell_from_lengths(const Eigen::Vector3d& lengths, const Eigen::Vec
 }
 
 CellRead read_cell_from_angles(const Eigen::Vector3d& lengths, const Eigen::Vector3d& degrees) {
+  const bool possible = degrees.minCoeff() > 0 && degrees.maxCoeff() < 180;  // false for NaN
+  if (!possible && !(lengths.allFinite() && tells_no_cell(lengths)))
+    return {std::nullopt, fmt::format("expected angles from 0 to 180 degrees, found {:.6g}, {:.6g}, {:.6g}",
+                                      degrees[0], degrees[1], degrees[2])};
   const auto cosine = [](double angle) {
     return angle == 90 ? 0.0 : std::cos(angle * std::numbers::pi / 180);
   };

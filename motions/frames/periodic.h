@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include <string_view>
 
 namespace kds {
 
@@ -19,6 +20,9 @@ struct CellRead {
   std::string doubt;  ///< why the file's cell is not used, for messages; empty if there is no doubt
 };
 
+/// Whether a space group is P 1, as simulation boxes have it; case and blanks do not count.
+[[nodiscard]] bool is_space_group_p1(std::string_view group);
+
 /// Reads a cell from its three vectors (columns) and the axes that are periodic. A cell is used if its
 /// periodic vectors are finite and linearly independent, and no lattice vector is shorter than 1. Files
 /// without a cell write lengths from 0 to 1: these give no cell and no doubt.
@@ -27,7 +31,7 @@ struct CellRead {
 /// Reads a cell from the lengths of its vectors and the cosines of the angles between b and c, a and c, a
 /// and b.
 [[nodiscard]] CellRead read_cell_from_lengths(const Eigen::Vector3d& lengths, const Eigen::Vector3d& cosines);
-/// Reads a cell from the lengths of its vectors and the angles in degrees.
+/// Reads a cell from the lengths of its vectors and the angles in degrees, each between 0 and 180.
 [[nodiscard]] CellRead read_cell_from_angles(const Eigen::Vector3d& lengths, const Eigen::Vector3d& degrees);
 
 /// Both functions return the cell without the doubt.

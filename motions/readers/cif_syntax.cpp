@@ -138,11 +138,14 @@ class CifReader {
     const Token value = tokens_.take();
     if (value.kind != Kind::value)
       tokens_.fail(tag.line, fmt::format("{} has no value", in_quotes(tag.text)));
-    if (wanted(tag.text)) block.items.emplace_back(std::string(tag.text), std::string(value.text));
+    if (!wanted(tag.text)) return;
+    block.items.emplace_back(std::string(tag.text), std::string(value.text));
+    block.items.back().line_number = static_cast<int>(tag.line);
   }
 
   void read_loop(gemmi::cif::Block& block, const Token& start) {
     gemmi::cif::Item item{gemmi::cif::LoopArg{}};
+    item.line_number = static_cast<int>(start.line);
     gemmi::cif::Loop& loop = item.loop;
     while (tokens_.peek().kind == Kind::tag) loop.tags.emplace_back(tokens_.take().text);
     if (loop.tags.empty()) tokens_.fail(start.line, "expected tags after loop_");

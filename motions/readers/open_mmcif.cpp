@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <gemmi/cifdoc.hpp>
 #include <gemmi/numb.hpp>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "motions/base/input_error.h"
@@ -27,28 +29,92 @@ bool begins_with(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
+// A file and its text, for messages.
+struct Source {
+  std::string file, text;
+};
+
+// Returns the line of a value, or of its tag where it is one of a pair: the `index`-th value of the loop that
+// begins with this tag, at this line or behind it.
+std::size_t line_of_value(std::string_view text, std::size_t line, const std::string& first_tag,
+                          std::size_t columns, std::size_t index) {
+  constexpr std::string_view blanks = " \t\n";
+  std::size_t place = 0;
+  for (std::size_t left = line; left > 1 && place < text.size(); --left)
+    place = std::min(text.find('\n', place), text.size() - 1) + 1;
+  bool found = false;
+  std::size_t to_skip = columns - 1 + index;
+  for (;;) {
+    const std::size_t next = std::min(text.find_first_not_of(blanks, place), text.size());
+    line += static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(place),
+                                                text.begin() + static_cast<std::ptrdiff_t>(next), '\n'));
+    place = next;
+    if (place == text.size()) return line;
+    if (text[place] == '#') {
+      place = std::min(text.find('\n', place), text.size());
+      continue;
+    }
+    std::size_t end = text.find_first_of(blanks, place);
+    if (text[place] == ';' && (place == 0 || text[place - 1] == '\n')) {
+      end = text.find("\n;", place);
+      if (end != std::string_view::npos) end += 2;
+    } else if (text[place] == '\'' || text[place] == '"') {
+      end = place;
+      do end = text.find(text[place], end + 1);
+      while (end != std::string_view::npos && end + 1 < text.size() &&
+             blanks.find(text[end + 1]) == std::string_view::npos);
+      if (end != std::string_view::npos) ++end;
+    }
+    const std::string_view token = text.substr(place, end - place);
+    if (found && to_skip-- == 0) return line;
+    found = found || token == first_tag;
+    line += static_cast<std::size_t>(std::count(token.begin(), token.end(), '\n'));
+    place += token.size();
+  }
+}
+
+// A number as CIF writes it, perhaps with its standard uncertainty: 1.25, -3e2, 1.25(3).
+std::optional<double> parse_cif_number(std::string_view text) {
+  if (const std::size_t open = text.find('('); open != std::string_view::npos) {
+    const std::string_view digits = text.substr(open + 1, text.size() - open - 2);
+    if (text.back() != ')' || digits.empty() ||
+        digits.find_first_not_of("0123456789") != std::string_view::npos)
+      return std::nullopt;
+    text = text.substr(0, open);
+  }
+  const std::optional<double> value = parse_double(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
 // The rows of one category of a data block, as a loop or a row of pairs.
 class Table {
  public:
-  // Throws InputError if the block has the category twice.
-  Table(const std::string& file, const gemmi::cif::Block& block, const std::string& category) {
+  // Throws InputError if the block has the category twice, or a tag of it.
+  Table(const Source& source, const gemmi::cif::Block& block, const std::string& category)
+      : source_(source), category_(category) {
     for (const gemmi::cif::Item& item : block.items) {
       if (item.type == gemmi::cif::ItemType::Pair && begins_with(lower_case(item.pair[0]), category)) {
         pairs_ = true;
         tags_.push_back(lower_case(item.pair[0]));
         values_.push_back(item.pair[1]);
+        items_.push_back(&item);
       } else if (item.type == gemmi::cif::ItemType::Loop && !item.loop.tags.empty() &&
                  begins_with(lower_case(item.loop.tags.front()), category)) {
         loops_ += 1;
         tags_.clear();
         for (const std::string& tag : item.loop.tags) tags_.push_back(lower_case(tag));
-        loop_ = &item.loop.values;
+        loop_ = &item;
       }
     }
     if (loops_ + (pairs_ ? 1 : 0) > 1)
-      throw InputError(fmt::format("{}: data block {} has more than one table {}, expected one", file,
+      throw InputError(fmt::format("{}: data block {} has more than one table {}, expected one", source.file,
                                    in_quotes(block.name), category.substr(0, category.size() - 1)));
-    category_ = category;
+    std::vector<std::string> sorted = tags_;
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice != sorted.end())
+      throw InputError(fmt::format("{}: data block {} has the tag {} twice, expected it once", source.file,
+                                   in_quotes(block.name), in_quotes(*twice)));
   }
 
   std::size_t rows() const { return tags_.empty() ? 0 : values().size() / tags_.size(); }
@@ -63,8 +129,21 @@ class Table {
     }
     return "";
   }
+  std::optional<double> find_number(std::size_t row, std::size_t column) const {
+    return parse_cif_number(values()[row * tags_.size() + column]);
+  }
+  // Throws InputError naming the line if there is no number.
   double number(std::size_t row, std::size_t column) const {
-    return gemmi::cif::as_number(values()[row * tags_.size() + column]);
+    if (const auto number = find_number(row, column)) return *number;
+    const std::size_t index = row * tags_.size() + column;
+    const gemmi::cif::Item& item = loop_ != nullptr ? *loop_ : *items_[column];
+    const auto begin = static_cast<std::size_t>(std::max(item.line_number, 1));
+    const std::size_t line = loop_ != nullptr ? line_of_value(source_.text, begin, item.loop.tags.front(),
+                                                              item.loop.tags.size(), index)
+                                              : line_of_value(source_.text, begin, item.pair[0], 1, 0);
+    throw InputError(fmt::format("{}:{}: expected a number for {}, found {}", source_.file, line,
+                                 loop_ != nullptr ? item.loop.tags[column] : item.pair[0],
+                                 in_quotes(values()[index])));
   }
   // The place of a column in a row, behind the last one if there is none.
   std::size_t place_of(const std::string& column) const {
@@ -73,18 +152,20 @@ class Table {
   }
 
  private:
-  const std::vector<std::string>& values() const { return loop_ != nullptr ? *loop_ : values_; }
+  const std::vector<std::string>& values() const { return loop_ != nullptr ? loop_->loop.values : values_; }
 
+  const Source& source_;
   std::string category_;
   int loops_ = 0;
   bool pairs_ = false;
   std::vector<std::string> tags_, values_;
-  const std::vector<std::string>* loop_ = nullptr;
+  std::vector<const gemmi::cif::Item*> items_;  // pairs
+  const gemmi::cif::Item* loop_ = nullptr;
 };
 
-std::map<std::string, Entity> entities_of(const std::string& file, const gemmi::cif::Block& block) {
+std::map<std::string, Entity> entities_of(const Source& source, const gemmi::cif::Block& block) {
   std::map<std::string, Entity> entities;
-  const Table table(file, block, "_entity.");
+  const Table table(source, block, "_entity.");
   const std::size_t id = table.place_of("id"), type = table.place_of("type");
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string said = lower_case(table.text(row, {type}));
@@ -115,10 +196,10 @@ struct ModelRead {
 };
 
 // Rows of several models may be mixed. Chains, numbers and names are the authors', as in PDB files.
-std::vector<StructureModel> models_of(const std::string& file, const gemmi::cif::Block& block) {
-  const Table atoms(file, block, "_atom_site.");
-  check_columns(file, atoms);
-  const std::map<std::string, Entity> entities = entities_of(file, block);
+std::vector<StructureModel> models_of(const Source& source, const gemmi::cif::Block& block) {
+  const Table atoms(source, block, "_atom_site.");
+  check_columns(source.file, atoms);
+  const std::map<std::string, Entity> entities = entities_of(source, block);
   const auto column = [&](const char* name) { return atoms.place_of(name); };
   const std::size_t x = column("Cartn_x"), y = column("Cartn_y"), z = column("Cartn_z"),
                     model = column("pdbx_PDB_model_num"), group = column("group_PDB"),
@@ -166,23 +247,25 @@ std::vector<StructureModel> models_of(const std::string& file, const gemmi::cif:
   return models;
 }
 
-CellRead cell_of(const std::string& file, const gemmi::cif::Block& block) {
+CellRead cell_of(const Source& source, const gemmi::cif::Block& block) {
   using Names = std::pair<const char*, const char*>;
   for (const auto& [category, tag] :
        {Names("_symmetry.", "space_group_name_H-M"), Names("_space_group.", "name_H-M_alt")}) {
-    const Table table(file, block, category);
+    const Table table(source, block, category);
     if (table.rows() == 0 || !table.has(tag)) continue;
     const std::string group = table.text(0, {table.place_of(tag)});
-    if (!group.empty() && group != "P 1" && group != "P1") return {};
+    if (!group.empty() && !is_space_group_p1(group)) return {};
   }
-  const Table table(file, block, "_cell.");
+  const Table table(source, block, "_cell.");
   if (table.rows() == 0) return {};
   std::array<double, 6> numbers{};
   constexpr std::array tags{"length_a", "length_b", "length_c", "angle_alpha", "angle_beta", "angle_gamma"};
   for (std::size_t i = 0; i < tags.size(); ++i) {
     // A value that is not known means that there is no cell.
     if (!table.has(tags[i]) || table.text(0, {table.place_of(tags[i])}).empty()) return {};
-    numbers[i] = table.number(0, table.place_of(tags[i]));
+    const auto number = table.find_number(0, table.place_of(tags[i]));
+    if (!number) return {std::nullopt, "_cell has a length or an angle that is no number"};
+    numbers[i] = *number;
   }
   return read_cell_from_angles({numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]});
 }
@@ -190,13 +273,15 @@ CellRead cell_of(const std::string& file, const gemmi::cif::Block& block) {
 class MmcifModels : public StructureModels {
  public:
   explicit MmcifModels(const std::filesystem::path& path) {
-    const std::string file = path.string();
-    const gemmi::cif::Document document = read_cif(
-        file, read_whole_file(path), {"_atom_site.", "_entity.", "_cell.", "_symmetry.", "_space_group."});
+    Source source{path.string(), read_whole_file(path)};
+    unify_line_ends(source.text);
+    const std::string& file = source.file;
+    const gemmi::cif::Document document =
+        read_cif(file, source.text, {"_atom_site.", "_entity.", "_cell.", "_symmetry.", "_space_group."});
     const gemmi::cif::Block* chosen = nullptr;
     std::string others;
     for (const gemmi::cif::Block& block : document.blocks) {
-      if (Table(file, block, "_atom_site.").rows() == 0) continue;
+      if (Table(source, block, "_atom_site.").rows() == 0) continue;
       if (chosen == nullptr)
         chosen = &block;
       else
@@ -206,8 +291,8 @@ class MmcifModels : public StructureModels {
     if (!others.empty())
       notes_.push_back(
           fmt::format("data block {} is read; the atoms of {} are not", in_quotes(chosen->name), others));
-    models_ = models_of(file, *chosen);
-    cell_ = cell_of(file, *chosen);
+    models_ = models_of(source, *chosen);
+    cell_ = cell_of(source, *chosen);
   }
 
   FramesHeld held() const override { return {models_.size(), false}; }

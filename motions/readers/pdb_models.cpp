@@ -38,7 +38,7 @@ bool looks_like_atom(std::string_view line) {
 
 CellRead box_cell(std::string_view cryst1) {
   const std::string_view group = columns(cryst1, 56, 66);
-  if (!group.empty() && group != "P 1" && group != "P1") return {};
+  if (!group.empty() && !is_space_group_p1(group)) return {};
   std::array<double, 6> values{};
   constexpr std::array<std::size_t, 7> starts{7, 16, 25, 34, 41, 48, 55};
   for (std::size_t i = 0; i < 6; ++i) {
@@ -106,6 +106,9 @@ bool PdbModelReader::read(PdbModel* model) {
   if (opening_) open(run, true);
   opening_ = false;
   for (std::string_view line; lines_.next(line);) {
+    if (const std::size_t end = line.find('\r'); line.find_first_not_of('\r', end) != std::string_view::npos)
+      throw InputError(fmt::format("{}:{}: a carriage return inside the line, expected line ends LF or CR LF",
+                                   lines_.name(), lines_.number()));
     if (is_record(line, "CRYST1")) {
       cell_ = box_cell(line);
       if (run.inside && model != nullptr) model->cell = cell_;  // some programs write CRYST1 after MODEL

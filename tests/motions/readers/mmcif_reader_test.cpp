@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "motions/base/text_input.h"
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
 #include "tests/support/rounds.h"
@@ -215,8 +216,82 @@ TEST(MmcifReader, AsTopology) {
 }
 
 TEST(MmcifReader, NumbersThatAreNone) {
-  refuse(file(atom("N", "1") + atom("CA", "?") + atom("C", "1")), {"a.cif: frame 0: bead 1 has x = nan"});
-  refuse(file(atom("N", "1") + atom("CA", "1x") + atom("C", "1")), {"a.cif: frame 0: bead 1 has x = nan"});
+  const std::string lines = std::to_string(std::count(head.begin(), head.end(), '\n') + 2);
+  for (const std::string text : {"?", ".", "1x", "+-1", "++1", "1.5()", "1.5(", "1.5(x)", "1.5(2)3", "(2)",
+                                 "nan", "inf", "1e999", "'1.5'"})
+    refuse(file(atom("N", "1") + atom("CA", text) + atom("C", "1")),
+           {"a.cif:" + lines + ": expected a number for _atom_site.Cartn_x, found " + in_quotes(text)});
+  // Rows may take several lines, and values text fields; comments and other items stand between.
+  refuse(
+      "data_X\nloop_\n_atom_site.label_atom_id _atom_site.label_comp_id\n# a comment\n_atom_site.Cartn_x\n"
+      "_atom_site.Cartn_y _atom_site.Cartn_z\nCA ALA 1 2 3 # more\n'C\"' \"A 'B\"\n4 5\n6\nN\n;ALA\n;\n7\n8 "
+      "y9\n",
+      {"a.cif:15: expected a number for _atom_site.Cartn_z, found 'y9'"});
+  refuse(
+      "data_X\n_atom_site.Label_Atom_ID CA\n_atom_site.label_comp_id ALA\n_atom_site.cartn_x 1\n"
+      "_atom_site.CARTN_Y 2x\n_atom_site.Cartn_z 3\n",
+      {"a.cif:5: expected a number for _atom_site.CARTN_Y, found '2x'"});
+  for (const auto& [text, value] :
+       {std::pair("+1.5", 1.5), {"1.5(3)", 1.5}, {"-15e-1", -1.5}, {".5", 0.5}, {"2.", 2}})
+    EXPECT_EQ(read(file(residue(1, 1, text))).frames[0](0, 0), value) << text;
+}
+
+TEST(MmcifReader, TagsGivenTwice) {
+  const std::string text = file(residue(1));
+  std::string twice = text;
+  twice.replace(twice.find("_atom_site.occupancy"), 20, "_atom_site.CARTN_X");
+  refuse(twice, {"a.cif: data block 'X' has the tag '_atom_site.cartn_x' twice"});
+  refuse(
+      "data_X\n_atom_site.Label_Atom_ID CA\n_atom_site.label_comp_id ALA\n_atom_site.cartn_x 1\n"
+      "_atom_site.CARTN_Y 2\n_atom_site.Cartn_z 3\n_atom_site.Cartn_x 7\n",
+      {"a.cif: data block 'X' has the tag '_atom_site.cartn_x' twice"});
+}
+
+// Every line end reads as the same file, whatever stands in comments and text fields.
+TEST(MmcifReader, LineEndsOfEveryKind) {
+  const std::string comment = "# 1 2 3\n", field = "_a.b\n;one\n# ;two\n;\n";
+  std::string text = file(residue(1) + comment + residue(2) + comment);
+  text.insert(text.find("loop_"), field);
+  const Trajectory expected = read(text);
+  EXPECT_EQ(expected.bead_count(), 6U);
+  for (const std::string_view end : {"\r", "\r\n"}) {
+    for (const std::size_t every : {1U, 2U, 3U, 7U}) {
+      std::string other;
+      std::size_t line = 0;
+      for (const char c : text)
+        if (c == '\n' && line++ % every == 0)
+          other += end;
+        else
+          other += c;
+      EXPECT_EQ(read(other).frames[0], expected.frames[0]) << every;
+    }
+  }
+  std::string bad = file(residue(1) + atom("N", "x", 2));
+  std::replace(bad.begin(), bad.end(), '\n', '\r');
+  refuse(bad, {"a.cif:" + std::to_string(std::count(head.begin(), head.end(), '\n') + 4) + ":", "'x'"});
+}
+
+// A chain across the wall of a cell of 10, in two models.
+TEST(MmcifReader, CellsOfSimulationBoxes) {
+  const auto moved = [](const std::string& gamma, const std::string& group) {
+    std::string text = "data_X\n";
+    for (const char* axis : {"a", "b", "c"}) text += std::string("_cell.length_") + axis + " 10\n";
+    text += "_cell.angle_alpha 90\n_cell.angle_beta 90\n_cell.angle_gamma " + gamma + "\n";
+    text += "_symmetry.space_group_name_H-M " + group + "\n";
+    text += std::string(head).substr(head.find("loop_"));
+    for (const int model : {1, 2})
+      text += atom("N", "8", 1, model) + atom("CA", "9.5", 1, model) + atom("C", "1", 1, model);
+    const Trajectory trajectory = read(text);
+    const bool doubt =
+        testing::Matches(testing::Contains(testing::HasSubstr("cell is not used")))(trajectory.warnings);
+    return std::pair(trajectory.frames[0](0, 2) == 11, doubt);
+  };
+  for (const char* group : {"'P 1'", "P1", "'p 1'", "'P 1 '", "' P  1'", "p1", "?"})
+    EXPECT_EQ(moved("90", group), std::pair(true, false)) << group;
+  for (const char* group : {"'P 21'", "'P -1'", "'P 1 21 1'", "'C 1'"})
+    EXPECT_EQ(moved("90", group), std::pair(false, false)) << group;
+  for (const char* gamma : {"270", "-90", "450", "180", "0", "90x"})
+    EXPECT_EQ(moved(gamma, "'P 1'"), std::pair(false, true)) << gamma;
 }
 
 TEST(MmcifReader, SyntaxOfCif) {

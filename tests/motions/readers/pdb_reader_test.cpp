@@ -256,6 +256,24 @@ TEST(PdbReader, CellsOfCrystalsAreNoBoxes) {
   EXPECT_EQ(read(box + frame(1), ca).frames[0](0, 1), 1);
   EXPECT_EQ(read(crystal + models({frame(1), frame(1)}), ca).frames[1](0, 1), 1);
   EXPECT_EQ(read(dummy + models({frame(1), frame(1)}), ca).frames[1](0, 1), 1);
+  for (const std::string group : {"p 1", "P1 ", "p1 ", " P1"}) {
+    std::string same = box;
+    same.replace(same.find("P 1"), 3, group);
+    EXPECT_EQ(read(same + models({frame(1), frame(1)}), ca).frames[1](0, 1), 11) << group;
+  }
+}
+
+// An atom behind a carriage return would be lost without a word.
+TEST(PdbReader, CarriageReturnsInsideALine) {
+  const std::string text = pdb_residue(1);
+  std::string one = text, all = text, doubled = text;
+  one[one.find('\n')] = '\r';
+  std::replace(all.begin(), all.end(), '\n', '\r');
+  for (const std::string& bad : {one, all})
+    test::expect_refused([&] { (void)read(bad); }, {"a.pdb:1: a carriage return inside the line"});
+  for (std::size_t end = 0; (end = doubled.find('\n', end)) != std::string::npos; end += 3)
+    doubled.insert(end, "\r\r");
+  EXPECT_EQ(read(doubled).frames[0], read(text).frames[0]);
 }
 
 TEST(PdbReader, TopologyIsForDcdFiles) {
