@@ -145,7 +145,7 @@ class InputFile::Members {
 
   [[noreturn]] void fail_cut() const {
     throw CutFile(fmt::format("{}: cannot read this file to its end: the gzipped file is cut off at byte {}",
-                              disk_.name(), place()));
+                              disk_.name(), filled_));
   }
 
   // Finds the next member, or the end of the file; finds neither in a file that is cut off.

@@ -9,7 +9,7 @@ namespace kds {
 
 namespace {
 
-std::vector<double> bond_lengths(const Eigen::Matrix3Xd& frame) {
+std::vector<double> bond_lengths(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) {
   std::vector<double> lengths;
   for (Eigen::Index i = 0; i + 1 < frame.cols(); ++i)
     lengths.push_back((frame.col(i + 1) - frame.col(i)).stableNorm());
@@ -25,7 +25,7 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-std::vector<std::size_t> find_chain_breaks(const Eigen::Matrix3Xd& frame) {
+std::vector<std::size_t> find_chain_breaks(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) {
   std::vector<std::size_t> breaks;
   if (frame.cols() < 3) return breaks;
   const std::vector<double> lengths = bond_lengths(frame);

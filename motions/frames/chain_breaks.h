@@ -8,9 +8,8 @@
 
 namespace kds {
 
-/// Returns b for each bond between beads b and b+1 in this frame that is longer than 1.5 times the median
-/// bond. Needs at least three beads.
-[[nodiscard]] std::vector<std::size_t> find_chain_breaks(const Eigen::Matrix3Xd& frame);
+/// b for each bond b to b+1 of this frame that is longer than 1.5 times the median bond; needs three beads.
+[[nodiscard]] std::vector<std::size_t> find_chain_breaks(const Eigen::Ref<const Eigen::Matrix3Xd>& frame);
 
 /// Returns one line that names the first ten places.
 [[nodiscard]] std::string describe_chain_breaks(const std::string& file,

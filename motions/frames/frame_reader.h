@@ -28,13 +28,17 @@ struct FrameRead {
   std::string cell_doubt = {};
   /// A warning about how this frame is read; empty if there is none.
   std::string note = {};
+  /// Whether the run asks for this frame. Images of chains follow through the frames between those asked for,
+  /// too; such a frame needs no positions if it has no cell.
+  bool asked = true;
 };
 
 class FrameReader {
  public:
   virtual ~FrameReader() = default;
-  /// Reads the next requested frame. Returns false after the last frame; the number of frames need not be
-  /// known before. Throws InputError naming file and frame.
+  /// Reads the next of the frames asked for; returns false behind the last one. In files with periodic cells
+  /// the frames between come as well. `frame.asked` is true before the call, and the reader sets it to false
+  /// for a frame between. Throws InputError naming file and frame.
   [[nodiscard]] virtual bool next(FrameRead& frame) = 0;
   /// Starts again at the first frame.
   virtual void rewind() = 0;

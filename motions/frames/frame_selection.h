@@ -33,10 +33,34 @@ struct FramesAsked {
   [[nodiscard]] std::size_t operator[](std::size_t i) const { return first + i * stride; }
 };
 
-/// Returns the requested frames. Throws InputError if some are missing. A file that ends inside a frame is an
-/// error, unless the range gives the last frame; then it only causes a warning. Another warning tells of
-/// frames after the last one that the stride reaches. If a file has a single frame, it is used for any range:
-/// such a necklace is at rest.
+/// Walks through a file from the first frame asked for to the last: through those asked for, or all.
+class FrameWalk {
+ public:
+  FrameWalk(const FramesAsked& asked, bool all) : asked_(asked), step_(all ? 1 : asked.stride) {}
+
+  /// Goes to the next frame; returns false behind the last one asked for.
+  [[nodiscard]] bool next() {
+    const std::size_t frame = begun_ ? frame_ + step_ : asked_.first;
+    if (asked_.count == 0 || frame > asked_[asked_.count - 1]) return false;
+    begun_ = true;
+    frame_ = frame;
+    return true;
+  }
+  void rewind() { begun_ = false; }
+  [[nodiscard]] std::size_t frame() const { return frame_; }
+  [[nodiscard]] bool is_asked() const { return (frame_ - asked_.first) % asked_.stride == 0; }
+
+ private:
+  FramesAsked asked_;
+  std::size_t step_;
+  std::size_t frame_ = 0;
+  bool begun_ = false;
+};
+
+/// The frames asked for. Throws InputError if they are not all there; a file that
+/// ends inside a frame is an error unless the range names its last frame, and is warned of then. Frames
+/// behind the last one that a stride meets are told of likewise. The one frame of a file of one is taken
+/// whatever the range: such a necklace is at rest.
 [[nodiscard]] FramesAsked select_frames(const std::string& file, const FrameRange& range,
                                         const FramesHeld& held, std::vector<std::string>& warnings);
 

@@ -267,6 +267,27 @@ void EarlierNecklaces::add(const Eigen::Matrix3Xd& chain, const std::optional<Ce
   found->coordinates.insert(found->coordinates.end(), chain.data(), chain.data() + chain.size());
 }
 
+std::optional<LongerThanCell> longer_than_cell(const Eigen::Ref<const Eigen::Matrix3Xd>& chain,
+                                               const Cell& cell) {
+  constexpr double rounding = 1.01;  // coordinates in files are rounded, and the cell may be of another step
+  const Images images(cell);
+  std::optional<LongerThanCell> longer;
+  for (Eigen::Index i = 0; i < 3 && !longer; ++i) {
+    if (images.reduced().col(i).isZero(0)) continue;
+    const Eigen::Vector3d along = images.reduced().col(i).normalized();
+    const Eigen::RowVectorXd places = along.transpose() * chain;
+    const double length = places.maxCoeff() - places.minCoeff();
+    // Beads may be put into the cell of either basis, so take the longer one.
+    const double most = std::max((along.transpose() * images.reduced()).cwiseAbs().sum(),
+                                 (along.transpose() * cell).cwiseAbs().sum());
+    if (length > rounding * most) longer = LongerThanCell{length, most};
+  }
+  if (!longer) return std::nullopt;
+  for (Eigen::Index i = 0; i + 1 < chain.cols(); ++i)
+    if (!images.nearest(chain.col(i + 1) - chain.col(i)).isZero(0)) return std::nullopt;
+  return longer;
+}
+
 WholeChain::Outcome WholeChain::make_whole(Frame frame, const std::optional<Cell>& cell) {
   if (!cell || frame.cols() == 0) {
     last_centroid_.reset();
@@ -296,7 +317,7 @@ WholeChain::Outcome WholeChain::make_whole(Frame frame, const std::optional<Cell
   }
   frame = whole;
   last_centroid_ = frame.rowwise().mean();
-  return shifts.isZero(0) ? Outcome::unmoved : Outcome::moved;
+  return joined ? Outcome::joined : all == start_ ? Outcome::unmoved : Outcome::shifted;
 }
 
 }  // namespace kds

@@ -5,8 +5,8 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <vector>
 #include <string_view>
+#include <vector>
 
 namespace kds {
 
@@ -57,6 +57,8 @@ class Images {
   [[nodiscard]] Eigen::Vector3d nearest(const Eigen::Vector3d& difference) const;
   /// Returns the point moved by a shift. If the shift is zero, the point keeps its bits.
   [[nodiscard]] Eigen::Vector3d shifted(const Eigen::Vector3d& point, const Eigen::Vector3d& shift) const;
+  /// The Minkowski-reduced basis; columns beyond its rank are zero.
+  [[nodiscard]] const Eigen::Matrix3d& reduced() const { return reduced_; }
 
  private:
   Cell cell_;
@@ -100,10 +102,18 @@ class EarlierNecklaces {
   std::vector<InCell> cells_;
 };
 
-/// Makes the frames of a chain whole, one after the other. Each bead is moved to its image nearest to the
-/// bead before it. Then the whole chain is moved to the image whose centroid is nearest to that of the frame
-/// before. Each bead moves by whole cell vectors, with one rounding; beads that need not move keep their
-/// bits.
+/// A chain that is longer than its cell along one of the lattice's shortest vectors.
+struct LongerThanCell {
+  double chain = 0, cell = 0;  ///< lengths along that vector
+};
+/// Returns whether the chain, as it lies, is longer than its cell by more than a hundredth though no bond is
+/// nearer across the walls. Such a chain was not put into this cell, or the cell is in another unit.
+[[nodiscard]] std::optional<LongerThanCell> longer_than_cell(const Eigen::Ref<const Eigen::Matrix3Xd>& chain,
+                                                             const Cell& cell);
+
+/// Makes the frames of a chain whole, one after the other: takes for each bead the image nearest to the bead
+/// before it, and for each frame the image of the whole chain whose centroid is nearest to that of the frame
+/// before. Each bead moves by whole cell vectors, in one rounding; what need not move keeps its bits.
 ///
 /// A cell that does not belong to the coordinates makes bonds shorter but not more alike. A frame is
 /// therefore left unchanged unless making it whole reduces the sum of the deviations of the logarithms of
@@ -113,9 +123,10 @@ class WholeChain {
  public:
   using Frame = Eigen::Ref<Eigen::Matrix3Xd, 0, Eigen::OuterStride<>>;
   enum class Outcome {
-    unmoved,
-    moved,
-    doubtful,  ///< left unchanged, because bonds would not become more alike
+    unmoved,   ///< but by the shift of the first frame
+    joined,    ///< bonds across the walls of the cell were joined
+    shifted,   ///< moved as a whole, to the image nearest to the frame before
+    doubtful,  ///< left as it is, because bonds would not be more alike
   };
 
   /// Makes a frame whole. A frame without a cell is left unchanged.

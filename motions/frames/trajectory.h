@@ -8,17 +8,25 @@
 
 namespace kds {
 
+/// Frames that have chain breaks which the first frame has not.
+struct LaterBreaks {
+  std::size_t frames = 0;       ///< how many
+  std::size_t first_frame = 0;  ///< of these, by its number in the file
+};
+
 struct Trajectory {
-  std::string file;                        ///< file of origin, for messages
-  std::vector<Eigen::Matrix3Xd> frames;    ///< one column per bead, in the file's length unit (angstrom)
-  std::vector<std::size_t> frame_numbers;  ///< position of each frame in the file, from 0
-  std::vector<double> times;               ///< times of the frames in picoseconds; empty if the file has none
-  std::vector<double> element_radii;    ///< van der Waals radius of each bead; empty if elements are unknown
-  std::vector<std::string> bead_names;  ///< "CA of ALA 12 in chain A"; empty if residues are unknown
-  std::size_t residues = 0;             ///< of the file's chain, without waters and ligands; 0 if unknown
-  std::size_t residues_read = 0;        ///< residues with beads
-  std::vector<std::size_t> breaks;      ///< b if a chain break lies between beads b and b+1
-  std::vector<std::string> warnings;    ///< one line each, without trailing newline
+  std::string file;                        ///< where it was read, for messages
+  std::vector<Eigen::Matrix3Xd> frames;    ///< one column a bead, in the file's length unit (angstrom)
+  std::vector<std::size_t> frame_numbers;  ///< 0-based place of each frame in the file
+  std::vector<double> times;               ///< of the frames, in picoseconds; empty where the file has none
+  std::vector<double> element_radii;  ///< van der Waals radius of each bead; empty where elements are unknown
+  std::vector<std::string> bead_names;  ///< "CA of ALA 12 in chain A"; empty where residues are unknown
+  std::size_t residues = 0;       ///< of the chain in the file, without waters and ligands; 0 if unknown
+  std::size_t residues_read = 0;  ///< those with beads
+  std::vector<std::size_t>
+      breaks;                ///< b: beads b and b+1 are joined across a chain break, in the first frame
+  LaterBreaks later_breaks;  ///< complete once all frames have been read
+  std::vector<std::string> warnings;  ///< one line each, without trailing newline
 
   [[nodiscard]] std::size_t bead_count() const {
     return frames.empty() ? 0 : static_cast<std::size_t>(frames.front().cols());

@@ -26,21 +26,25 @@ class DcdFile {
 
   const DcdLayout& layout() const { return layout_; }
 
-  // Determines the form of the cells from at most 64 of the requested frames.
-  void look_at_cells(const FramesAsked& asked) {
+  // Tells the form of the cells from at most 64 of these frames.
+  void look_at_cells(const FramesAsked& frames) {
     constexpr std::size_t most = 64;
     if (!layout_.has_cell) return;
-    const std::size_t every = (asked.count + most - 1) / most;
-    for (std::size_t i = 0; i < asked.count; i += every) {
-      std::array<char, DcdLayout::cell_bytes> bytes;
-      if (!read_at(input_, layout_.frame_begin(asked[i]) + layout_.marker_size, bytes.data(), bytes.size()))
-        return;
-      cell_form_.look_at(cell_numbers(bytes.data()));
+    const std::size_t every = (frames.count + most - 1) / most;
+    for (std::size_t i = 0; i < frames.count; i += every) {
+      const auto numbers = numbers_at(frames[i]);
+      if (!numbers) return;
+      cell_form_.look_at(*numbers);
     }
   }
 
-  // Checks the markers of all records. If records disagree with the header, the file does not end at a frame;
-  // the first such record is reported.
+  // Whether the frame has a cell that is used; reads nothing else of the frame.
+  bool has_cell(std::size_t k) {
+    const auto numbers = numbers_at(k);
+    return numbers && cell_form_.read(*numbers).cell;
+  }
+
+  // Where records disagree with the header, a file ends where no frame does: tell of the first such record.
   void check_all_markers() {
     for (std::size_t k = 0; layout_.frame_begin(k) < layout_.file_size; ++k) {
       std::uint64_t place = layout_.frame_begin(k);
@@ -89,6 +93,13 @@ class DcdFile {
   CellRead cell() const { return layout_.has_cell ? cell_form_.read(cell_numbers(records_[0])) : CellRead(); }
 
  private:
+  std::optional<DcdCellForm::Numbers> numbers_at(std::size_t k) {
+    std::array<char, DcdLayout::cell_bytes> bytes;
+    if (!read_at(input_, layout_.frame_begin(k) + layout_.marker_size, bytes.data(), bytes.size()))
+      return std::nullopt;
+    return cell_numbers(bytes.data());
+  }
+
   DcdCellForm::Numbers cell_numbers(const char* bytes) const {
     DcdCellForm::Numbers numbers;
     for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = layout_.number<double>(bytes + 8 * i);
@@ -208,11 +219,19 @@ class Atoms {
 class DcdFrames final : public FrameReader {
  public:
   DcdFrames(std::unique_ptr<DcdFile> dcd, std::vector<std::size_t> beads, const FramesAsked& asked)
-      : dcd_(std::move(dcd)), atoms_(*dcd_), beads_(std::move(beads)), asked_(asked) {}
+      : dcd_(std::move(dcd)),
+        atoms_(*dcd_),
+        beads_(std::move(beads)),
+        walk_(asked, dcd_->layout().has_cell) {}
 
   bool next(FrameRead& frame) override {
-    if (next_ == asked_.count) return false;
-    const std::size_t k = asked_[next_++];
+    if (!walk_.next()) return false;
+    const std::size_t k = walk_.frame();
+    frame.asked = walk_.is_asked();
+    if (!frame.asked && !dcd_->has_cell(k)) {
+      frame.cell.reset();
+      return true;
+    }
     frame.stamp = {k, std::nullopt};
     if (const auto& times = dcd_->layout().times)
       frame.stamp.picoseconds = times->first + static_cast<double>(k) * times->step;
@@ -223,14 +242,13 @@ class DcdFrames final : public FrameReader {
     return true;
   }
 
-  void rewind() override { next_ = 0; }
+  void rewind() override { walk_.rewind(); }
 
  private:
   std::unique_ptr<DcdFile> dcd_;
   Atoms atoms_;
   std::vector<std::size_t> beads_;
-  FramesAsked asked_;
-  std::size_t next_ = 0;
+  FrameWalk walk_;
 };
 
 void warn_of_false_count(const DcdLayout& layout, const FramesHeld& held, FramesOpened& opened) {
@@ -252,7 +270,7 @@ FramesOpened open_dcd(const std::filesystem::path& path, const ReadOptions& opti
   const FramesAsked asked = select_frames(opened.file, options.frames, held, opened.warnings);
   warn_of_false_count(layout, held, opened);
   dcd->check_markers(asked[0]);
-  dcd->look_at_cells(asked);
+  dcd->look_at_cells({0, 1, held.whole});
   if (!layout.times_note.empty()) opened.warnings.push_back(layout.times_note);
 
   Beads beads = choose_beads(opened.file, options, layout.atom_count);

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "motions/base/floating_point_guard.h"
@@ -98,11 +101,14 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
   if (!opened_.frames->next(first))
     throw InputError(fmt::format("{}: the file holds no frame", opened_.file));
   check_finite(opened_.file, first);
+  for (std::size_t n = 0; n < heads_.size(); ++n)
+    bead_counts_.push_back(heads_.size() == 1 ? first.positions.cols()
+                                              : static_cast<Eigen::Index>(opened_.chains[n].bead_count));
+  judge_cell(first);
   EarlierNecklaces earlier;
   Eigen::Index begin = 0;
   for (std::size_t n = 0; n < heads_.size(); ++n) {
-    const Eigen::Index beads =
-        heads_.size() == 1 ? first.positions.cols() : static_cast<Eigen::Index>(opened_.chains[n].bead_count);
+    const Eigen::Index beads = bead_counts_[n];
     Eigen::Matrix3Xd& frame = heads_[n].frames.emplace_back(first.positions.middleCols(begin, beads));
     WholeChain chain;
     const bool doubtful = chain.make_whole(frame, first.cell) == WholeChain::Outcome::doubtful;
@@ -119,7 +125,7 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
     heads_[n].frame_numbers.push_back(first.stamp.number);
     begin += beads;
   }
-  opened_.frames->rewind();
+  rewind();
 }
 
 void NecklaceStream::place_beside_earlier(std::size_t n, const ImageBeside& beside) {
@@ -128,41 +134,94 @@ void NecklaceStream::place_beside_earlier(std::size_t n, const ImageBeside& besi
     notes_[n].start = beside.shift;
     notes_[n].placed = fmt::format("{}: moved to its periodic image nearest to the chains before it {}",
                                    heads_[n].file, distances);
-  } else {
+  } else if (beside.distance < (1 - 1e-3) * beside.present) {  // otherwise the two are printed alike
     notes_[n].placed =
         fmt::format("{}: has a periodic image nearer to the chains before it {}, left where it is",
                     heads_[n].file, distances);
   }
 }
 
-bool NecklaceStream::next(FrameRead& frame) {
-  const FloatingPointGuard to_nearest;
-  frame.cell_doubt.clear();
-  frame.note.clear();
-  if (!opened_.frames->next(frame)) return false;
-  check_finite(opened_.file, frame);
-  std::size_t expected = 0;
-  for (const Trajectory& head : heads_) expected += head.bead_count();
-  if (static_cast<std::size_t>(frame.positions.cols()) != expected)
-    throw InputError(fmt::format("{}: frame {}: {}, expected {} as in frame {}", opened_.file,
-                                 frame.stamp.number,
-                                 counted(static_cast<std::size_t>(frame.positions.cols()), "bead"), expected,
-                                 heads_.front().frame_number(0)));
-  if (!frame.cell_doubt.empty() && cells_unused_++ == 0)
-    first_doubt_ = fmt::format("{}: frame {}: its periodic cell is not used: {}", opened_.file,
-                               frame.stamp.number, frame.cell_doubt);
-  if (!frame.note.empty() && frames_noted_++ == 0)
-    first_note_ = fmt::format("{}: frame {}: {}", opened_.file, frame.stamp.number, frame.note);
+void NecklaceStream::judge_cell(FrameRead& frame) {
+  if (!frame.cell || bonds_joined_) return;
+  std::optional<LongerThanCell> longer;
+  const auto any_chain = [&](const auto& holds) {
+    Eigen::Index begin = 0;
+    for (const Eigen::Index beads : bead_counts_) {
+      if (holds(frame.positions.middleCols(begin, beads))) return true;
+      begin += beads;
+    }
+    return false;
+  };
+  const auto is_longer = [&](const auto& chain) {
+    longer = longer_than_cell(chain, *frame.cell);
+    return longer.has_value();
+  };
+  const auto is_joined = [&](Eigen::Matrix3Xd chain) {
+    return WholeChain().make_whole(chain, frame.cell) == WholeChain::Outcome::joined;
+  };
+  if (cell_unsuited_.empty() && any_chain(is_longer) && !any_chain(is_joined))
+    cell_unsuited_ = fmt::format(
+        "a chain is {:.4g} long where the cell is {:.4g}, and no bond crosses the walls; is the cell in "
+        "another "
+        "unit?",
+        longer->chain, longer->cell);
+  if (cell_unsuited_.empty()) return;
+  frame.cell.reset();
+  frame.cell_doubt = cell_unsuited_;
+}
+
+void NecklaceStream::check_bead_count(const FrameRead& frame) const {
+  Eigen::Index expected = 0;
+  for (const Eigen::Index beads : bead_counts_) expected += beads;
+  if (frame.positions.cols() == expected) return;
+  throw InputError(fmt::format("{}: frame {}: {}, expected {} as in frame {}", opened_.file,
+                               frame.stamp.number,
+                               counted(static_cast<std::size_t>(frame.positions.cols()), "bead"), expected,
+                               heads_.front().frame_number(0)));
+}
+
+void NecklaceStream::note_cell(const FrameRead& frame) {
+  if (!frame.cell_doubt.empty()) {
+    if (cells_unused_++ == 0)
+      first_doubt_ = fmt::format("{}: frame {}: its periodic cell is not used: {}", opened_.file,
+                                 frame.stamp.number, frame.cell_doubt);
+  } else if (frame.cell) {
+    if (frames_with_cell_++ == 0) first_with_cell_ = frame.stamp.number;
+  } else if (frames_without_cell_++ == 0) {
+    first_without_cell_ = frame.stamp.number;
+  }
+}
+
+void NecklaceStream::note_breaks(std::size_t n, const Eigen::Ref<const Eigen::Matrix3Xd>& chain,
+                                 std::size_t frame) {
+  const std::vector<std::size_t> breaks = find_chain_breaks(chain);
+  const std::vector<std::size_t>& known = heads_[n].breaks;
+  if (std::includes(known.begin(), known.end(), breaks.begin(), breaks.end())) return;
+  LaterBreaks& later = heads_[n].later_breaks;
+  if (later.frames++ > 0) return;
+  later.first_frame = frame;
+  notes_[n].later_breaks.clear();
+  std::set_difference(breaks.begin(), breaks.end(), known.begin(), known.end(),
+                      std::back_inserter(notes_[n].later_breaks));
+}
+
+void NecklaceStream::follow(FrameRead& frame) {
   Eigen::Index begin = 0;
   Eigen::Vector3d first_centroid = Eigen::Vector3d::Zero();
   for (std::size_t n = 0; n < heads_.size(); ++n) {
-    const auto beads = static_cast<Eigen::Index>(heads_[n].bead_count());
+    const Eigen::Index beads = bead_counts_[n];
     auto chain = frame.positions.middleCols(begin, beads);
+    begin += beads;
     const WholeChain::Outcome outcome = whole_[n].make_whole(chain, frame.cell);
+    if (outcome == WholeChain::Outcome::joined) bonds_joined_ = true;
+    if (!frame.asked) continue;
     Notes& notes = notes_[n];
-    if (outcome == WholeChain::Outcome::moved) ++notes.frames_moved;
+    if (outcome == WholeChain::Outcome::joined) ++notes.frames_joined;
+    if (outcome == WholeChain::Outcome::shifted && notes.frames_shifted++ == 0)
+      notes.first_shifted = frame.stamp.number;
     if (outcome == WholeChain::Outcome::doubtful && notes.frames_doubtful++ == 0)
       notes.first_doubtful = frame.stamp.number;
+    if (opened_.chain_like && !surveyed_) note_breaks(n, chain, frame.stamp.number);
     if (frame.cell && heads_.size() > 1) {
       const Eigen::Vector3d centroid = chain.rowwise().mean();
       if (n == 0) first_centroid = centroid;
@@ -170,8 +229,32 @@ bool NecklaceStream::next(FrameRead& frame) {
       if (!notes.apart_at_first) notes.apart_at_first = apart;
       if (apart != *notes.apart_at_first && notes.frames_apart++ == 0) notes.first_apart = frame.stamp.number;
     }
-    begin += beads;
   }
+}
+
+bool NecklaceStream::next(FrameRead& frame) {
+  const FloatingPointGuard to_nearest;
+  for (;;) {
+    frame.cell_doubt.clear();
+    frame.note.clear();
+    frame.asked = true;
+    if (!opened_.frames->next(frame)) {
+      surveyed_ = true;
+      return false;
+    }
+    if (!frame.asked && !frame.cell) {
+      for (WholeChain& chain : whole_) chain.restart();
+      continue;
+    }
+    check_finite(opened_.file, frame);
+    check_bead_count(frame);
+    judge_cell(frame);
+    follow(frame);
+    if (frame.asked) break;
+  }
+  note_cell(frame);
+  if (!frame.note.empty() && frames_noted_++ == 0)
+    first_note_ = fmt::format("{}: frame {}: {}", opened_.file, frame.stamp.number, frame.note);
   return true;
 }
 
@@ -187,10 +270,14 @@ void NecklaceStream::rewind() {
   opened_.frames->rewind();
   for (WholeChain& chain : whole_) chain.restart();
   for (Notes& notes : notes_) {
-    notes.frames_moved = notes.frames_doubtful = notes.frames_apart = 0;
+    notes.frames_joined = notes.frames_shifted = notes.frames_doubtful = notes.frames_apart = 0;
     notes.apart_at_first.reset();
   }
-  cells_unused_ = frames_noted_ = 0;
+  if (!surveyed_)
+    for (Trajectory& head : heads_) head.later_breaks = {};
+  bonds_joined_ = false;
+  cell_unsuited_.clear();
+  cells_unused_ = frames_noted_ = frames_with_cell_ = frames_without_cell_ = 0;
 }
 
 std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
@@ -200,15 +287,26 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
     lines = opened_.warnings;
     if (cells_unused_ > 0)
       lines.push_back(fmt::format("{} ({})", first_doubt_, counted(cells_unused_, "frame")));
+    if (frames_with_cell_ > 0 && frames_without_cell_ > 0)
+      lines.push_back(fmt::format(
+          "{}: frame {} has a periodic cell, frame {} has none and stays as it is ({} with and {} "
+          "without a cell)",
+          opened_.file, first_with_cell_, first_without_cell_, counted(frames_with_cell_, "frame"),
+          frames_without_cell_));
     if (frames_noted_ > 0)
       lines.push_back(fmt::format("{} ({})", first_note_, counted(frames_noted_, "frame")));
   }
   const Trajectory& head = heads_[necklace];
   const Notes& notes = notes_[necklace];
   if (!notes.placed.empty()) lines.push_back(notes.placed);
-  if (notes.frames_moved > 0)
+  if (notes.frames_joined > 0)
     lines.push_back(fmt::format("{}: made whole across the periodic cell in {}", head.file,
-                                counted(notes.frames_moved, "frame")));
+                                counted(notes.frames_joined, "frame")));
+  if (notes.frames_shifted > 0)
+    lines.push_back(fmt::format(
+        "{}: frame {}: moved as a whole to its periodic image nearest to the frame before, no bond "
+        "crosses the walls ({})",
+        head.file, notes.first_shifted, counted(notes.frames_shifted, "frame")));
   if (notes.frames_doubtful > 0)
     lines.push_back(fmt::format(
         "{}: frame {}: not made whole, because across the periodic cell bonds would be shorter but "
@@ -220,6 +318,12 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
                     "contacts across the walls of the cell are not found ({})",
                     head.file, notes.first_apart, heads_.front().file, counted(notes.frames_apart, "frame")));
   if (!head.breaks.empty()) lines.push_back(describe_chain_breaks(head.file, head.breaks));
+  if (head.later_breaks.frames > 0)
+    lines.push_back(fmt::format(
+        "{}, not in frame {} ({})",
+        describe_chain_breaks(fmt::format("{}: frame {}", head.file, head.later_breaks.first_frame),
+                              notes.later_breaks),
+        head.frame_number(0), counted(head.later_breaks.frames, "frame")));
   return lines;
 }
 

@@ -3,9 +3,13 @@
 // across a periodic cell, and chain breaks are found. Two frames are in memory, whatever the length of the
 // file.
 //
-// In the first frame, chains of one file are placed beside each other: a chain moves to the periodic image
-// nearest to the chains before it if that image is much nearer than the chain itself. After the first frame,
-// each chain moves continuously. A warning is given if another chain has a nearer image.
+// Chains of one file are placed beside each other in the first frame: a chain moves to its periodic image
+// nearest to the chains before it if that is much nearer than the chain itself. From then on each chain moves
+// continuously: its image follows through all frames from the first one asked for, so that a stride finds the
+// images that the whole file has. A warning tells of other chains with a nearer image.
+//
+// A cell is used no more from the frame on in which a chain is longer than the cell, unless bonds were joined
+// across its walls before: such a cell is not that of the coordinates.
 
 #include <cstddef>
 #include <filesystem>
@@ -39,25 +43,40 @@ class NecklaceStream {
  private:
   /// Findings about one necklace, for its warnings.
   struct Notes {
-    Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< shift of the first frame, in cell vectors
-    std::string placed;                               ///< a message about that shift
-    std::size_t frames_moved = 0;
-    std::size_t frames_doubtful = 0, first_doubtful = 0;  ///< frames whose cell does not suit the bonds
-    /// The shift, in the first frame, from the centroid to its image nearest to the first necklace's
-    /// centroid.
+    Eigen::Vector3d start = Eigen::Vector3d::Zero();      ///< shift of the first frame, in cell vectors
+    std::string placed;                                   ///< a line about that shift
+    std::size_t frames_joined = 0;                        ///< bonds were joined across the walls
+    std::size_t frames_shifted = 0, first_shifted = 0;    ///< the chain moved as a whole
+    std::vector<std::size_t> later_breaks;                ///< in the first frame with breaks of its own
+    std::size_t frames_doubtful = 0, first_doubtful = 0;  ///< where the cell does not suit the bonds
+    /// Shift that takes the centroid to its image nearest to the first necklace's centroid, in the first
+    /// frame.
     std::optional<Eigen::Vector3d> apart_at_first;
     std::size_t frames_apart = 0, first_apart = 0;  ///< frames in which that shift differs
   };
   void place_beside_earlier(std::size_t n, const ImageBeside& beside);
+  /// Removes a cell that is not that of the coordinates.
+  void judge_cell(FrameRead& frame);
+  void check_bead_count(const FrameRead& frame) const;
+  /// Makes the chains whole. Notes what happens only in frames asked for.
+  void follow(FrameRead& frame);
+  void note_cell(const FrameRead& frame);
+  void note_breaks(std::size_t n, const Eigen::Ref<const Eigen::Matrix3Xd>& chain, std::size_t frame);
 
   FramesOpened opened_;
   std::vector<Trajectory> heads_;
-  std::vector<WholeChain> whole_;  ///< one per necklace
-  std::vector<Notes> notes_;       ///< one per necklace
-  std::size_t cells_unused_ = 0;   ///< number of frames whose cell is not used
-  std::string first_doubt_;        ///< about the first such frame
-  std::size_t frames_noted_ = 0;   ///< number of frames whose reader has a warning
-  std::string first_note_;         ///< about the first such frame
+  std::vector<WholeChain> whole_;          ///< of each necklace
+  std::vector<Notes> notes_;               ///< likewise
+  std::vector<Eigen::Index> bead_counts_;  ///< likewise
+  bool bonds_joined_ = false;              ///< across the walls of a cell, in a frame so far
+  std::string cell_unsuited_;              ///< why cells are used no more
+  bool surveyed_ = false;                  ///< all frames have been searched for chain breaks
+  std::size_t frames_with_cell_ = 0, frames_without_cell_ = 0;
+  std::size_t first_with_cell_ = 0, first_without_cell_ = 0;
+  std::size_t cells_unused_ = 0;  ///< frames
+  std::string first_doubt_;       ///< about the first of these
+  std::size_t frames_noted_ = 0;  ///< frames whose reader has a warning
+  std::string first_note_;        ///< about the first of these
 };
 
 }  // namespace kds

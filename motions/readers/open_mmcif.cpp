@@ -296,6 +296,7 @@ class MmcifModels : public StructureModels {
   }
 
   FramesHeld held() const override { return {models_.size(), false}; }
+  bool may_have_cell() const override { return cell_.cell.has_value(); }
   std::vector<std::string> notes() const override { return notes_; }
   StructureModel model(std::size_t k) override {
     StructureModel model = models_[k];

@@ -145,6 +145,7 @@ class PdbModels : public StructureModels {
   }
 
   FramesHeld held() const override { return held_; }
+  bool may_have_cell() const override { return reader_.has_met_cell(); }
   std::vector<std::string> notes() const override { return notes_; }
 
   StructureModel model(std::size_t k) override {

@@ -52,6 +52,8 @@ class PdbModelReader {
   [[nodiscard]] const LinesLeftOut& outside() const { return outside_; }
   /// Returns the lines read so far that look like atoms but are not valid records.
   [[nodiscard]] const LinesLeftOut& near_misses() const { return near_misses_; }
+  /// Whether a cell that is used was read so far, also before a rewind.
+  [[nodiscard]] bool has_met_cell() const { return has_met_cell_; }
 
  private:
   struct Run;
@@ -63,6 +65,7 @@ class PdbModelReader {
   LineReader lines_;
   bool opening_ = false;  ///< the MODEL record of the next model has been read
   CellRead cell_;
+  bool has_met_cell_ = false;
   std::size_t models_ = 0, closed_ = 0;
   bool has_model_records_ = false;
   bool ended_ = false;  ///< the file ended inside a model

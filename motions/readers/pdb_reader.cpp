@@ -90,7 +90,8 @@ class StructureFrames final : public FrameReader {
         selection_(options.selection),
         chain_(options.chain),
         asked_(asked),
-        alone_(models_->held().whole == 1) {}
+        alone_(models_->held().whole == 1),
+        walk_(asked, !alone_ && models_->may_have_cell()) {}
 
   // Describes what the first frame determines for all frames.
   void describe(FramesOpened& opened) {
@@ -106,8 +107,9 @@ class StructureFrames final : public FrameReader {
   }
 
   bool next(FrameRead& frame) override {
-    if (next_ == asked_.count) return false;
-    const std::size_t k = asked_[next_++];
+    if (!walk_.next()) return false;
+    const std::size_t k = walk_.frame();
+    frame.asked = walk_.is_asked();
     const StructureModel read = models_->model(k);
     const SelectedChains selected = select_chains(place(k), read, selection_, chain_);
     check_same_atoms(file_, asked_[0], names_, k, selected.atoms);
@@ -118,7 +120,7 @@ class StructureFrames final : public FrameReader {
     return true;
   }
 
-  void rewind() override { next_ = 0; }
+  void rewind() override { walk_.rewind(); }
 
  private:
   std::string place(std::size_t k) const { return alone_ ? file_ : fmt::format("{}: frame {}", file_, k); }
@@ -129,8 +131,8 @@ class StructureFrames final : public FrameReader {
   std::optional<std::string> chain_;
   FramesAsked asked_;
   bool alone_;
-  std::size_t next_ = 0;
-  std::vector<std::string> names_;  // names of the beads in the first frame
+  FrameWalk walk_;
+  std::vector<std::string> names_;  // of the beads in the first frame
 };
 
 }  // namespace

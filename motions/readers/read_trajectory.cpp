@@ -25,7 +25,10 @@ std::vector<Trajectory> read_trajectories(const std::filesystem::path& path, con
       begin += beads;
     }
   }
-  for (std::size_t n = 0; n < necklaces.size(); ++n) necklaces[n].warnings = stream.warnings(n);
+  for (std::size_t n = 0; n < necklaces.size(); ++n) {
+    necklaces[n].later_breaks = stream.heads()[n].later_breaks;
+    necklaces[n].warnings = stream.warnings(n);
+  }
   return necklaces;
 }
 

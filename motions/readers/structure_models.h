@@ -51,7 +51,9 @@ class StructureModels {
   [[nodiscard]] virtual FramesHeld held() const = 0;
   /// Returns the k-th model. Fast if models are requested in order. Throws InputError naming file and model.
   [[nodiscard]] virtual StructureModel model(std::size_t k) = 0;
-  /// Returns lines about parts of the file that are not read, without the file's name.
+  /// Whether a model may have a cell.
+  [[nodiscard]] virtual bool may_have_cell() const { return false; }
+  /// Lines about parts of the file that are not read, without the file's name.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 };
 

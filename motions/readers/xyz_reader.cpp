@@ -38,8 +38,11 @@ class XyzFile {
     next_ = 0;
   }
 
-  // Reads the k-th frame. Fast if frames are requested in order. All frames must have the atoms of the frame
-  // read first.
+  // Whether a frame may have a cell: its comment names a lattice.
+  bool may_have_cell() const { return may_have_cell_; }
+
+  // Quick if frames are asked for in their order. All frames must have the atoms of the one read first.
+  // Leaves out the positions of a frame that has no cell and was not asked for.
   void read_frame(std::size_t k, FrameRead& frame) {
     if (k < next_) rewind();
     FramesHeld held{next_, false};
@@ -55,6 +58,10 @@ class XyzFile {
     if (comment.near_lattice)
       frame.cell_doubt =
           fmt::format("expected it as Lattice=, found the key {}", in_quotes(*comment.near_lattice));
+    const bool skipped = !frame.asked && !frame.cell;
+    for (std::size_t i = 0; skipped && i < atoms_; ++i)
+      if (!read_line()) fail_gone(k);
+    if (skipped) return;
     frame.positions.resize(3, static_cast<Eigen::Index>(atoms_));
     for (Eigen::Index i = 0; i < frame.positions.cols(); ++i) {
       if (!read_line()) fail_gone(k);
@@ -113,9 +120,16 @@ class XyzFile {
   bool skip_atoms(std::size_t count) {
     if (!read_line()) return false;
     const std::string comment(line_);
+    may_have_cell_ = may_have_cell_ || names_lattice(comment);
     for (std::size_t i = 0; i < count; ++i)
       if (!read_line()) return false;
     return !lines_.cut() || is_atom_line(comment);
+  }
+
+  static bool names_lattice(std::string_view comment) {
+    constexpr std::string_view key = "lattice";
+    const auto same = [](char c, char small) { return c == small || c == small - 'a' + 'A'; };
+    return std::search(comment.begin(), comment.end(), key.begin(), key.end(), same) != comment.end();
   }
 
   bool is_atom_line(const std::string& comment) const {
@@ -187,26 +201,28 @@ class XyzFile {
   std::string_view line_;
   std::size_t atoms_ = 0;
   FramesHeld held_;
-  std::size_t next_ = 0;  // the frame at the next line
+  bool may_have_cell_ = false;
+  std::size_t next_ = 0;  // frame that the next line begins
   std::optional<std::size_t> first_frame_;
   std::vector<std::string> symbols_, ids_;  // of the first frame
 };
 
 class XyzFrames final : public FrameReader {
  public:
-  XyzFrames(XyzFile file, const FramesAsked& asked) : file_(std::move(file)), asked_(asked) {}
+  XyzFrames(XyzFile file, const FramesAsked& asked)
+      : file_(std::move(file)), walk_(asked, file_.may_have_cell()) {}
 
   bool next(FrameRead& frame) override {
-    if (next_ == asked_.count) return false;
-    file_.read_frame(asked_[next_++], frame);
+    if (!walk_.next()) return false;
+    frame.asked = walk_.is_asked();
+    file_.read_frame(walk_.frame(), frame);
     return true;
   }
-  void rewind() override { next_ = 0; }
+  void rewind() override { walk_.rewind(); }
 
  private:
   XyzFile file_;
-  FramesAsked asked_;
-  std::size_t next_ = 0;
+  FrameWalk walk_;
 };
 
 // Returns the element of an amino acid's atom name in capitals. Some of these names are also symbols of

@@ -47,6 +47,8 @@ SceneSurvey SceneStream::survey(bool with_bonds, const std::function<void(const 
       begin += beads;
     }
   }
+  for (std::size_t f = 0, n = 0; f < files_.size(); ++f)
+    for (const Trajectory& head : files_[f].heads()) survey.necklaces[n++].later_breaks = head.later_breaks;
   survey.plane = planes.plane();
   const auto longest = std::max_element(frames_.begin(), frames_.end()) - frames_.begin();
   for (std::size_t n = 0; n < file_of.size(); ++n) {

@@ -17,9 +17,10 @@ using Cells = std::vector<std::optional<Cell>>;
 std::size_t make_whole(Frames& frames, const Cells& cells) {
   WholeChain chain;
   std::size_t moved = 0;
-  for (std::size_t k = 0; k < frames.size(); ++k)
-    if (chain.make_whole(frames[k], k < cells.size() ? cells[k] : std::nullopt) == WholeChain::Outcome::moved)
-      ++moved;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const auto outcome = chain.make_whole(frames[k], k < cells.size() ? cells[k] : std::nullopt);
+    if (outcome == WholeChain::Outcome::joined || outcome == WholeChain::Outcome::shifted) ++moved;
+  }
   return moved;
 }
 
@@ -214,6 +215,53 @@ TEST(Periodic, BondsThatWouldNotBeMoreAlikeStay) {
       EXPECT_EQ(frame, truth);
     }
   }
+}
+
+TEST(Periodic, ChainsThatAreMovedAsAWhole) {
+  const Cell cell = *cell_from_lengths({10, 10, 10}, {0, 0, 0});
+  Eigen::Matrix3Xd chain(3, 3);
+  chain << 0, 1.5, 3, 0, 0, 0, 0, 0, 0;
+  WholeChain whole;
+  Eigen::Matrix3Xd frame = chain;
+  EXPECT_EQ(whole.make_whole(frame, cell), WholeChain::Outcome::unmoved);
+  frame = chain.array() + 8;
+  EXPECT_EQ(whole.make_whole(frame, cell), WholeChain::Outcome::shifted);
+  EXPECT_LT((frame - (chain.array() - 2).matrix()).norm(), 1e-9);
+  frame(0, 0) += 10;
+  EXPECT_EQ(whole.make_whole(frame, cell), WholeChain::Outcome::joined);
+}
+
+// Chains put into their cell, in whatever shape, are never longer than it; unbroken longer chains are.
+TEST(Periodic, ChainsLongerThanTheirCell) {
+  std::mt19937 random(9);
+  for (const Eigen::Vector3d& angles : {Eigen::Vector3d(90, 90, 90), Eigen::Vector3d(60, 70, 60),
+                                        Eigen::Vector3d(109.4712206, 109.4712206, 109.4712206)}) {
+    const Cell cell = *cell_from_angles({12, 11, 13}, angles);
+    Cell leaning = cell;
+    leaning.col(1) += 3 * cell.col(0);
+    for (const Cell& of_lattice : {cell, leaning}) {
+      for (int round = 0; round < 50; ++round) {
+        for (const Eigen::Matrix3Xd& frame : wrapped(walk(random, 40, 3, {1.3, -0.7, 2.1}), of_lattice))
+          EXPECT_FALSE(longer_than_cell(frame, of_lattice));
+      }
+    }
+    Eigen::Matrix3Xd straight = Eigen::Matrix3Xd::Zero(3, 60);
+    for (Eigen::Index i = 0; i < straight.cols(); ++i) straight.col(i) = 0.3 * i * Eigen::Vector3d(1, 2, 3);
+    const auto longer = longer_than_cell(straight, cell);
+    ASSERT_TRUE(longer);
+    EXPECT_GT(longer->chain, longer->cell);
+    straight.rightCols(30).colwise() += cell.col(0);  // one bond crosses the wall
+    EXPECT_FALSE(longer_than_cell(straight, cell));
+  }
+}
+
+TEST(Periodic, AnglesOfACell) {
+  for (const double angle : {0.0, 180.0, 270.0, -90.0, 450.0, std::numeric_limits<double>::quiet_NaN()})
+    for (int axis = 0; axis < 3; ++axis) {
+      Eigen::Vector3d angles(90, 90, 90);
+      angles[axis] = angle;
+      EXPECT_NE(read_cell_from_angles({20, 20, 20}, angles).doubt, "") << angle;
+    }
 }
 
 TEST(Periodic, CellsThatAreNone) {

@@ -125,6 +125,97 @@ TEST(NecklaceStream, RefusesATrajectoryAsTopology) {
   EXPECT_THAT(stream.warnings(0), ElementsAre(HasSubstr("--topology is left unread")));
 }
 
+// A chain along x, with its bead 0 at x = `begin`, in a cell of this length; 0: without a cell.
+std::string xyz_frame(double begin, int beads, double cell, double gap_after_1 = 0) {
+  std::string text = std::to_string(beads) + '\n';
+  const std::string length = std::to_string(cell);
+  if (cell > 0) text += "Lattice=\"" + length + " 0 0 0 " + length + " 0 0 0 " + length + '"';
+  text += '\n';
+  for (int i = 0; i < beads; ++i)
+    text += "C " + std::to_string(begin + 1.5 * i + (i > 1 ? gap_after_1 : 0)) + " 0 0\n";
+  return text;
+}
+
+Trajectory read_xyz(const std::string& text, const ReadOptions& options = {}) {
+  return read_trajectory(test::write_file("a.xyz", text), options);
+}
+
+// The cell is in nanometres, the chain moves by 3 angstrom a frame.
+TEST(NecklaceStream, DoesNotUseACellThatIsShorterThanTheChain) {
+  std::string text;
+  for (int k = 0; k < 4; ++k) text += xyz_frame(3 * k, 8, 5);
+  const Trajectory trajectory = read_xyz(text);
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(trajectory.frames[static_cast<std::size_t>(k)](0, 0), 3 * k);
+  EXPECT_THAT(trajectory.warnings,
+              ElementsAre(testing::AllOf(
+                  HasSubstr("a.xyz: frame 0: its periodic cell is not used: a chain is 10.5 long where the "
+                            "cell is 5, and no bond crosses the walls"),
+                  HasSubstr("(4 frames)"))));
+}
+
+// A long chain whose bonds were joined before keeps its cell.
+TEST(NecklaceStream, UsesACellAcrossWhichBondsWereJoined) {
+  const std::string joined =
+      "8\nLattice=\"5 0 0 0 5 0 0 0 5\"\nC 0 0 0\nC 1.5 0 0\nC 3 0 0\nC 4.5 0 0\nC 1 0 0\nC 2.5 0 0\nC 4 0 "
+      "0\nC 0.5 0 0\n";
+  const Trajectory trajectory = read_xyz(joined + xyz_frame(4, 8, 5));
+  EXPECT_NEAR(trajectory.frames[0](0, 7), 10.5, 1e-9);
+  EXPECT_NEAR(trajectory.frames[1](0, 0), -1, 1e-9);
+  EXPECT_THAT(trajectory.warnings,
+              ElementsAre(HasSubstr("made whole across the periodic cell in 1 frame"),
+                          HasSubstr("a.xyz: frame 1: moved as a whole to its periodic image nearest to the "
+                                    "frame before, no bond crosses the walls (1 frame)")));
+}
+
+TEST(NecklaceStream, TellsOfChainsThatMoveAsAWhole) {
+  const Trajectory trajectory = read_xyz(xyz_frame(0, 3, 10) + xyz_frame(8, 3, 10) + xyz_frame(7, 3, 10));
+  EXPECT_NEAR(trajectory.frames[2](0, 0), -3, 1e-9);
+  EXPECT_THAT(trajectory.warnings, ElementsAre(testing::AllOf(HasSubstr("a.xyz: frame 1: moved as a whole"),
+                                                              HasSubstr("(2 frames)"))));
+}
+
+TEST(NecklaceStream, TellsOfBreaksInLaterFrames) {
+  const std::string whole = xyz_frame(0, 6, 0), broken = xyz_frame(0, 6, 0, 5);
+  const Trajectory later = read_xyz(whole + broken + whole + broken);
+  EXPECT_TRUE(later.breaks.empty());
+  EXPECT_EQ(later.later_breaks.frames, 2U);
+  EXPECT_EQ(later.later_breaks.first_frame, 1U);
+  EXPECT_THAT(later.warnings,
+              ElementsAre("" + test::temporary("a.xyz").string() +
+                          ": frame 1: chain break after bead 1 (joined), not in frame 0 (2 frames)"));
+  // Breaks of the first frame are no news.
+  const Trajectory first = read_xyz(broken + whole + broken);
+  EXPECT_EQ(first.breaks, std::vector<std::size_t>{1});
+  EXPECT_EQ(first.later_breaks.frames, 0U);
+  EXPECT_EQ(first.warnings.size(), 1U);
+  // Frames that are not read do not count, and reading again tells the same.
+  EXPECT_EQ(read_xyz(whole + broken + whole, {.frames = {0, {}, 2}}).later_breaks.frames, 0U);
+  NecklaceStream stream(test::write_file("b.xyz", whole + broken), {});
+  for (int pass = 0; pass < 2; ++pass) {
+    for (FrameRead frame; stream.next(frame);) {
+    }
+    EXPECT_EQ(stream.heads()[0].later_breaks.frames, 1U);
+    EXPECT_EQ(stream.warnings(0).size(), 1U);
+    stream.rewind();
+  }
+}
+
+TEST(NecklaceStream, TellsOfFramesWithoutTheCellOfOthers) {
+  const std::string with = xyz_frame(0, 3, 10), without = xyz_frame(0, 3, 0);
+  EXPECT_THAT(
+      read_xyz(with + with + without).warnings,
+      ElementsAre(HasSubstr("a.xyz: frame 0 has a periodic cell, frame 2 has none and stays as it is (2 "
+                            "frames with and 1 without a cell)")));
+  EXPECT_TRUE(read_xyz(with + with).warnings.empty());
+  EXPECT_TRUE(read_xyz(without + without).warnings.empty());
+}
+
+// Two distances that are printed alike are no news.
+TEST(NecklaceStream, TellsOfNoImageThatIsNearerByRoundingOnly) {
+  EXPECT_TRUE(read(models({10.001}, 2, false), "A,B")[1].warnings.empty());
+  EXPECT_FALSE(read(models({10.1}, 2, false), "A,B")[1].warnings.empty());
+}
+
 TEST(NecklaceStream, KnowsFilesOfOneFrame) {
   NecklaceStream one(test::write_file("one.pdb", test::pdb_residue(1)), {});
   EXPECT_TRUE(one.holds_one_frame());
