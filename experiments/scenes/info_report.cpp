@@ -43,6 +43,10 @@ std::string necklace_line(const NecklaceInfo& info) {
   if (info.frames == 1) line += ", one frame";
   if (!info.breaks.empty())
     line += fmt::format(", {} chain break{}", info.breaks.size(), info.breaks.size() == 1 ? "" : "s");
+  if (const auto [frames, first_frame] = info.later_breaks; frames > 0)
+    line +=
+        fmt::format(", {}breaks from frame {} on in {} frame{}", info.breaks.empty() ? "chain " : "other ",
+                    first_frame, frames, frames == 1 ? "" : "s");
   return line;
 }
 
@@ -62,6 +66,7 @@ void add_scene(Json& json, const SceneInfo& info) {
   for (const NecklaceInfo& necklace : info.necklaces) {
     files.push_back(necklace.file);
     const bool known = necklace.residues > 0;
+    const LaterBreaks& later = necklace.later_breaks;
     necklaces.push_back({{"file", necklace.file},
                          {"first", necklace.beads.first},
                          {"last", necklace.beads.last},
@@ -73,6 +78,9 @@ void add_scene(Json& json, const SceneInfo& info) {
                          {"bond_max", number_or_null(necklace.bonds.most)},
                          {"bond_ratio", number_or_null(necklace.bonds.ratio())},
                          {"breaks", necklace.breaks},
+                         {"later_breaks",
+                          {{"frames", later.frames},
+                           {"first_frame", later.frames > 0 ? Json(later.first_frame) : Json(nullptr)}}},
                          {"residues", known ? Json(necklace.residues) : Json(nullptr)},
                          {"residues_read", known ? Json(necklace.residues_read) : Json(nullptr)}});
   }

@@ -56,6 +56,7 @@ class Description {
                                  {},
                                  {},
                                  necklace.breaks,
+                                 necklace.later_breaks,
                                  necklace.residues,
                                  necklace.residues_read});
     }

@@ -21,6 +21,7 @@ struct NecklaceInfo {
   std::size_t frames = 0;
   Necklace::Extent radii{}, bonds{};  ///< the bonds over all frames, rounded
   std::vector<std::size_t> breaks;    ///< b: beads b and b+1 of the necklace are joined across a chain break
+  LaterBreaks later_breaks{};         ///< as in Trajectory
   std::size_t residues = 0, residues_read = 0;  ///< as in Trajectory
 };
 

@@ -155,6 +155,8 @@ TEST(Info, OfAFile) {
   const Json info = Json::parse(content_of(json));
   EXPECT_EQ(info["input"]["beads"], 1173);
   EXPECT_EQ(info["necklaces"][0]["breaks"], Json::array({761}));
+  EXPECT_EQ(info["necklaces"][0]["later_breaks"]["frames"], 0);
+  EXPECT_TRUE(info["necklaces"][0]["later_breaks"]["first_frame"].is_null());
   EXPECT_EQ(info["warnings"].size(), 1U);
   EXPECT_EQ(info["settings"]["radius"], "element");
   EXPECT_EQ(info["rows"].size(), 5U);
