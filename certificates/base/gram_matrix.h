@@ -17,10 +17,7 @@ class GramMatrix {
   template <std::size_t Dimension>
   GramMatrix(const std::array<std::array<Number, Dimension>, 3>& vectors, std::size_t size) : size_(size) {
     for (std::size_t i = 0; i < size; ++i) {
-      entry_[i][i] = squared(vectors[i][0]);
-      for (std::size_t axis = 1; axis < Dimension; ++axis)
-        entry_[i][i] = entry_[i][i] + squared(vectors[i][axis]);
-      for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t j = 0; j <= i; ++j)
         entry_[i][j] = entry_[j][i] = product(vectors[i], vectors[j], Dimension);
     }
     adjoin();
@@ -37,26 +34,8 @@ class GramMatrix {
     for (std::size_t i = 0; i < size_; ++i) result[i] = product(adjugate_[i], v, size_);
     return result;
   }
-  /// Returns (e.Ae s.As - (e.As)^2) / g, by Lagrange's identity.
-  [[nodiscard]] Number skew(const Row& e, const Row& s) const {
-    const auto x = [&](std::size_t i, std::size_t j) { return e[i] * s[j] - e[j] * s[i]; };
-    if (size_ == 1) return Number(0);
-    if (size_ == 2) return squared(x(0, 1));
-    const Row cross{x(1, 2), x(2, 0), x(0, 1)};
-    Row g;
-    for (std::size_t i = 0; i < 3; ++i) g[i] = product(entry_[i], cross, 3);
-    return product(g, cross, 3);
-  }
 
  private:
-  /// Squares a number. For an enclosure, the square is sharper than the product with itself.
-  [[nodiscard]] static Number squared(const Number& x) {
-    if constexpr (requires { square(x); }) {
-      return square(x);
-    } else {
-      return x * x;
-    }
-  }
   template <std::size_t N>
   [[nodiscard]] static Number product(const std::array<Number, N>& a, const std::array<Number, N>& b,
                                       std::size_t count) {
@@ -74,7 +53,7 @@ class GramMatrix {
       adjugate_[0][0] = g[1][1];
       adjugate_[0][1] = adjugate_[1][0] = Number(0) - g[0][1];
       adjugate_[1][1] = g[0][0];
-      determinant_ = g[0][0] * g[1][1] - squared(g[0][1]);
+      determinant_ = g[0][0] * g[1][1] - g[0][1] * g[0][1];
     } else {
       for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = i; j < 3; ++j) {

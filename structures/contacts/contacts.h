@@ -40,8 +40,6 @@ class Contacts final : public KineticStructure, public BeadEdits {
   [[nodiscard]] std::span<const EventKind> kinds() const override;
   /// Returns the pairs in contact just after the present time, ascending.
   [[nodiscard]] std::vector<BeadPair> pairs() const { return contacts_.pairs(); }
-  /// Returns the number of pairs of boxes proved apart in the present step.
-  [[nodiscard]] std::uint64_t family_size() const { return family_.size(); }
 
   void build() override;
   void start_step() override;
