@@ -6,7 +6,7 @@
 
 #include "certificates/exact/bernstein_parts.h"
 #include "certificates/exact/halves.h"
-#include "certificates/exact/modular_gcd.h"
+#include "certificates/exact/polynomial_gcd.h"
 #include "certificates/exact/precise_values.h"
 #include "certificates/exact/wide_roots.h"
 
@@ -41,12 +41,7 @@ Integers square_free_part(Integers c) {
   drop_leading_zeros(c);
   if (c.size() <= 2 || certainly_square_free(c)) return c;
   drop_elevation(c);
-  if (c.size() <= 2 || certainly_square_free(c)) return c;
-  Integers derivative(c.size() - 1);
-  for (std::size_t k = 1; k < c.size(); ++k) derivative[k - 1] = c[k] * k;
-  make_primitive(c);
-  const Integers repeated = polynomial_gcd(c, std::move(derivative));
-  return repeated.size() > 1 ? quotient(std::move(c), repeated).value() : c;
+  return c.size() <= 2 || certainly_square_free(c) ? c : without_repeated_factors(c);
 }
 
 int sign_of(const Integer& x) { return x.sign(); }
@@ -188,7 +183,7 @@ ExactPolynomial ExactPolynomial::gcd(const ExactPolynomial& a, const ExactPolyno
   Integers of_a = coefficients(a), of_b = coefficients(b);
   drop_elevation(of_a);
   drop_elevation(of_b);
-  const ExactPolynomial common = (a.wide_ ? a : b).alike(polynomial_gcd(std::move(of_a), std::move(of_b)));
+  const ExactPolynomial common = (a.wide_ ? a : b).alike(polynomial_gcd(of_a, of_b));
   if (both_wide) keep_gcd(a.wide_, b.wide_, common.wide_);
   return common;
 }

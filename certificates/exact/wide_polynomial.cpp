@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "certificates/exact/bernstein_parts.h"
-#include "certificates/exact/modular_gcd.h"
+#include "certificates/exact/polynomial_gcd.h"
 #include "certificates/exact/precise_values.h"
 
 namespace kds {

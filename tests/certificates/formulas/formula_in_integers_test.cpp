@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "certificates/exact/exact_work.h"
-#include "certificates/exact/modular_gcd.h"
+#include "certificates/exact/polynomial_gcd.h"
 #include "certificates/exact/recent_coefficients.h"
 #include "certificates/exact/wide_polynomial.h"
 #include "certificates/formulas/function_values.h"
