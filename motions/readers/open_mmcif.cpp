@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <gemmi/cifdoc.hpp>
+#include <cstdlib>
+#include <gemmi/cif.hpp>
 #include <gemmi/numb.hpp>
 #include <map>
 #include <optional>
@@ -11,7 +12,6 @@
 
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
-#include "motions/readers/cif_syntax.h"
 #include "motions/readers/residue_grouping.h"
 #include "motions/readers/structure_models.h"
 
@@ -84,6 +84,49 @@ std::optional<double> parse_cif_number(std::string_view text) {
   }
   const std::optional<double> value = parse_double(text);
   return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+// Says what gemmi complains of, "file:line:column: what is wrong", and shows the line as far as it is short.
+std::string explained(const std::string& file, std::string_view text, std::string complaint) {
+  std::size_t line =
+      std::strtoul(complaint.c_str() + std::min(complaint.size(), file.size() + 1), nullptr, 10);
+  const std::size_t unsaid = complaint.rfind("parse error");
+  if (unsaid != std::string::npos)
+    complaint.replace(unsaid, std::string::npos,
+                      "expected data_, a tag with its value, or loop_ with tags and values");
+  for (; line > 1 && !text.empty(); --line)
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  const std::string_view shown = text.substr(0, std::min<std::size_t>(text.find_first_of("\r\n"), 40));
+  return fmt::format("{}, found {}", complaint, shown.empty() ? "the end of the file" : in_quotes(shown));
+}
+
+// Throws InputError naming file and line.
+gemmi::cif::Document read_cif(const std::string& file, std::string_view text) {
+  gemmi::cif::Document document;
+  const auto refuse = [&](const gemmi::cif::Item& item, const std::string& message) {
+    throw InputError(fmt::format("{}:{}: {}", file, item.line_number, message));
+  };
+  try {
+    gemmi::cif::parse_input(document, tao::pegtl::memory_input<>(text.data(), text.size(), file));
+  } catch (const tao::pegtl::parse_error& error) {
+    const std::string complaint = error.what();
+    if (complaint.find("Wrong number of values") != std::string::npos) {
+      const gemmi::cif::Item& item = document.items_->back();
+      const std::size_t columns = item.loop.tags.size();
+      refuse(item,
+             fmt::format("the loop of {} ends inside a row ({}, {} a row)", in_quotes(item.loop.tags.front()),
+                         counted(item.loop.values.size(), "value"), columns));
+    }
+    throw InputError(explained(file, text, complaint));
+  }
+  if (document.blocks.empty())
+    throw InputError(
+        fmt::format("{}:1: expected data_ at the start of an mmCIF file, found the end of the file", file));
+  for (const gemmi::cif::Block& block : document.blocks)
+    for (const gemmi::cif::Item& item : block.items)
+      if (item.type == gemmi::cif::ItemType::Pair && item.pair[1].empty())
+        refuse(item, fmt::format("{} has no value", in_quotes(item.pair[0])));
+  return document;
 }
 
 // The rows of one category of a data block, as a loop or a row of pairs.
@@ -276,8 +319,7 @@ class MmcifModels : public StructureModels {
     Source source{path.string(), read_whole_file(path)};
     unify_line_ends(source.text);
     const std::string& file = source.file;
-    const gemmi::cif::Document document =
-        read_cif(file, source.text, {"_atom_site.", "_entity.", "_cell.", "_symmetry.", "_space_group."});
+    const gemmi::cif::Document document = read_cif(file, source.text);
     const gemmi::cif::Block* chosen = nullptr;
     std::string others;
     for (const gemmi::cif::Block& block : document.blocks) {

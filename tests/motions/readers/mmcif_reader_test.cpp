@@ -300,12 +300,12 @@ TEST(MmcifReader, SyntaxOfCif) {
   refuse("", {"a.cif:1:", "data_"});
   refuse("HEADER\n", {"a.cif:1:", "data_", "HEADER"});
   refuse("data_X\n_a.b\n", {"a.cif:2:", "'_a.b' has no value"});
-  refuse("data_X\n_a.b 'open\n'", {"a.cif:2:", "quoted string"});
-  refuse("data_X\n_a.b\n;open\n", {"a.cif:3:", "text field"});
-  refuse("data_X\nvalue\n", {"a.cif:2:", "'value'"});
-  refuse("data_X\nloop_\n1 2\n", {"a.cif:2:", "tags"});
-  refuse("data_X\nloop_ _a.b _a.c\n1 2 3\n", {"a.cif", "inside a row"});
-  refuse("data_X\nsave_frame\n", {"a.cif:2:"});
+  refuse("data_X\n_a.b 'open\n'", {"a.cif:2:", "unterminated 'string'", "_a.b 'open"});
+  refuse("data_X\n_a.b\n;open\n", {"a.cif:4:", "unterminated text field"});
+  refuse("data_X\nvalue\n", {"a.cif:2:", "expected", "'value'"});
+  refuse("data_X\nloop_\n1 2\n", {"a.cif:3:", "tags"});
+  refuse("data_X\nloop_ _a.b _a.c\n1 2 3\n", {"a.cif:2:", "the loop of '_a.b' ends inside a row (3 values, 2 a row)"});
+  refuse("data_X\nsave_frame\n", {"a.cif:3:"});
 }
 
 TEST(MmcifReader, CutFileOfTheRealWorld) {
