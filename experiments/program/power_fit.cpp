@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 namespace kds {
@@ -12,11 +11,7 @@ namespace {
 
 // Student's t: an interval this many standard errors to either side holds 95 percent, by degrees of freedom.
 double student_95(std::size_t freedom) {
-  constexpr std::array<double, 30> table{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306,
-                                         2.262,  2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120,
-                                         2.110,  2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064,
-                                         2.060,  2.056, 2.052, 2.048, 2.045, 2.042};
-  return table[std::min(freedom, table.size()) - 1];
+  return quantile(boost::math::students_t(static_cast<double>(freedom)), 0.975);
 }
 
 }  // namespace
