@@ -304,7 +304,8 @@ TEST(MmcifReader, SyntaxOfCif) {
   refuse("data_X\n_a.b\n;open\n", {"a.cif:4:", "unterminated text field"});
   refuse("data_X\nvalue\n", {"a.cif:2:", "expected", "'value'"});
   refuse("data_X\nloop_\n1 2\n", {"a.cif:3:", "tags"});
-  refuse("data_X\nloop_ _a.b _a.c\n1 2 3\n", {"a.cif:2:", "the loop of '_a.b' ends inside a row (3 values, 2 a row)"});
+  refuse("data_X\nloop_ _a.b _a.c\n1 2 3\n",
+         {"a.cif:2:", "the loop of '_a.b' ends inside a row (3 values, 2 a row)"});
   refuse("data_X\nsave_frame\n", {"a.cif:3:"});
 }
 
