@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,12 +28,13 @@ TEST(PowerFit, FindsThePowerThatPointsFollow) {
   EXPECT_GT(fit_power(points)->upper - fit_power(points)->lower, 0.3);
 }
 
-// y = 1, 2, 2, 4 over x = 1, 2, 4, 8: by hand, slope 0.6, residuals -0.1, 0.3, -0.3, 0.1, t 4.303.
+// y = 1, 2, 2, 4 over x = 1, 2, 4, 8: by hand, slope 0.6, residuals -0.1, 0.3, -0.3, 0.1; t with two degrees
+// of freedom is (2p - 1) / sqrt(2p (1 - p)).
 TEST(PowerFit, IntervalAsByHand) {
   const auto fit = fit_power(Points{{1, 1}, {2, 2}, {4, 2}, {8, 4}});
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->exponent, 0.6, 1e-12);
-  EXPECT_NEAR(fit->upper - fit->exponent, 4.303 * std::sqrt(0.2 / 2 / 5), 1e-9);
+  EXPECT_NEAR(fit->upper - fit->exponent, 0.95 / std::sqrt(2 * 0.975 * 0.025) * std::sqrt(0.2 / 2 / 5), 1e-9);
 }
 
 TEST(PowerFit, WhatHasNoLogarithmIsLeftOut) {
@@ -47,15 +49,16 @@ TEST(PowerFit, WhatHasNoLogarithmIsLeftOut) {
             std::string::npos);
 }
 
-// Exponents 1 and 2 without one share or the other: their jackknife error is half their difference, t 12.706.
+// Exponents 1 and 2 without one share or the other: their jackknife error is half their difference; t
+// with one degree of freedom is tan(pi (p - 1/2)).
 TEST(PowerFit, IntervalOfSharesAsByHand) {
   const Points points{{1, 1}, {2, 3}, {4, 8}};
   const std::vector<Points> without{{{1, 1}, {2, 2}, {4, 4}}, {{1, 1}, {2, 4}, {4, 16}}};
   const auto fit = fit_power(points, without);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->exponent, 1.5, 1e-12);
-  EXPECT_NEAR(fit->upper - fit->exponent, 12.706 * 0.5, 1e-9);
-  EXPECT_NEAR(fit->exponent - fit->lower, 12.706 * 0.5, 1e-9);
+  EXPECT_NEAR(fit->upper - fit->exponent, std::tan(std::numbers::pi * 0.475) * 0.5, 1e-9);
+  EXPECT_NEAR(fit->exponent - fit->lower, std::tan(std::numbers::pi * 0.475) * 0.5, 1e-9);
   EXPECT_FALSE(fit_power(points, std::vector<Points>{without[0]}));
   EXPECT_FALSE(fit_power(points, std::vector<Points>{without[0], {{1, 1}, {2, 0}, {4, 16}}}));
 }
