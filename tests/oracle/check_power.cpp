@@ -1,7 +1,6 @@
 #include "check_power.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Exact_rational.h>
 #include <CGAL/Regular_triangulation_2.h>
 #include <CGAL/Regular_triangulation_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
@@ -12,9 +11,9 @@
 #include <optional>
 #include <utility>
 
-namespace oracle {
+#include "rational.h"
 
-using Rational = CGAL::Exact_rational;
+namespace oracle {
 
 namespace {
 

@@ -1,19 +1,16 @@
 #pragma once
 // Smallest enclosing spheres in exact numbers, two ways: a proof for beads of equal radii, CGAL for all.
 
-#include <CGAL/Exact_rational.h>
-
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "dump.h"
+#include "rational.h"
 #include "scene.h"
 
 namespace oracle {
-
-using Rational = CGAL::Exact_rational;
 
 /// a + b sqrt(d), d >= 0.
 struct RootNumber {
